@@ -1,0 +1,23 @@
+# The installed package: find_package(Courant) gives Courant::courant, which is everything, and one
+# target a folder (Courant::core, ...) for those who want less.
+
+include(CMakePackageConfigHelpers)
+
+add_library(courant_all INTERFACE)
+add_library(Courant::courant ALIAS courant_all)
+target_link_libraries(courant_all INTERFACE courant_systems)
+set_target_properties(courant_all PROPERTIES EXPORT_NAME courant)
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Courant)
+install(TARGETS courant_all EXPORT CourantTargets)
+install(EXPORT CourantTargets NAMESPACE Courant:: DESTINATION ${package_dir})
+
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/CourantConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/CourantConfig.cmake INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/CourantConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES
+  ${PROJECT_BINARY_DIR}/CourantConfig.cmake
+  ${PROJECT_BINARY_DIR}/CourantConfigVersion.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/FindSPQR.cmake
+  DESTINATION ${package_dir})

@@ -1,0 +1,43 @@
+# How everything of this project is compiled, and where the build puts it.
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  if(COURANT_SANITIZE)
+    set(default_build_type Debug) # keeps the assertions of Eigen and of the standard library
+  else()
+    set(default_build_type Release) # -O3
+  endif()
+  set(CMAKE_BUILD_TYPE ${default_build_type} CACHE STRING "Build type" FORCE)
+endif()
+
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_CXX_SCAN_FOR_MODULES OFF)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
+set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
+set(CMAKE_INSTALL_RPATH $ORIGIN/../${CMAKE_INSTALL_LIBDIR})
+
+# Headers are included by the names that they are installed under: "courant/core/expr.hpp".
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/include)
+file(CREATE_LINK ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/include/courant SYMBOLIC)
+
+if(COURANT_SANITIZE)
+  set(sanitizers -fsanitize=address,undefined)
+  add_compile_options(${sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer -O1)
+  add_compile_definitions(_GLIBCXX_ASSERTIONS)
+  add_link_options(${sanitizers})
+endif()
+
+# courant_settings(<target>): language, warnings and floating point of a target of this project.
+function(courant_settings target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Werror)
+  # GCC 12 sees overlaps and overflows in "literal" + std::string that are not there (GCC bug 105651).
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    target_compile_options(${target} PRIVATE -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow
+      -Wno-stringop-overread)
+  endif()
+  # The interpreter and the native code that is compiled at run time must give the same bits. A compiler
+  # that contracts a*b+c into one rounding does so where it likes, differently in the two: so never.
+  target_compile_options(${target} PUBLIC -ffp-contract=off)
+endfunction()

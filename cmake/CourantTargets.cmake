@@ -1,0 +1,73 @@
+# One library a folder, one test executable a folder.
+
+# What nearly every file includes, parsed once a target rather than once a file.
+set(courant_precompiled <Eigen/Dense> <Eigen/SparseCore> <algorithm> <cmath> <functional> <memory> <random> <stdexcept>
+    <string> <vector>)
+
+# courant_library(<folder> PUBLIC <links>... [PRIVATE <links>...])
+#
+# The library courant_<folder> of all sources of this folder, its headers installed to
+# include/courant/<folder>/ and the target exported as Courant::<folder>.
+function(courant_library folder)
+  set(target courant_${folder})
+  file(GLOB sources CONFIGURE_DEPENDS *.cpp)
+  file(GLOB headers CONFIGURE_DEPENDS *.hpp)
+  if(NOT sources) # a folder may consist of headers alone
+    set(sources ${CMAKE_CURRENT_BINARY_DIR}/headers_only.cpp)
+    file(WRITE ${sources} "")
+  endif()
+  add_library(${target} ${sources} ${headers})
+  add_library(Courant::${folder} ALIAS ${target})
+  courant_settings(${target})
+  target_precompile_headers(${target} PRIVATE ${courant_precompiled})
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(${target} ${ARGN})
+  set_target_properties(${target} PROPERTIES
+    EXPORT_NAME ${folder}
+    VERSION ${PROJECT_VERSION}
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  install(TARGETS ${target} EXPORT CourantTargets)
+  install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/courant/${folder})
+endfunction()
+
+# courant_tests(<folder>)
+#
+# The executable courant_<folder>_tests of all *_test.cpp in tests/<folder>. Each Boost.Test suite in it,
+# that is each file, becomes one ctest entry <folder>.<suite>, labelled "long" when its name ends in
+# _long_test or _long, and "quick" otherwise. The suites are asked of the executable itself once it is built, so
+# none can be forgotten.
+function(courant_tests folder)
+  file(GLOB sources CONFIGURE_DEPENDS ${folder}/*_test.cpp)
+  if(NOT sources)
+    return()
+  endif()
+  file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp) # with what several tests share
+  set(target courant_${folder}_tests)
+  add_executable(${target} ${sources})
+  courant_settings(${target})
+  target_precompile_headers(${target} PRIVATE ${courant_precompiled} <boost/test/unit_test.hpp>)
+  # The one file that defines BOOST_TEST_MODULE before it includes Boost.Test.
+  set_source_files_properties(${folder}/main.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+  # Tests run for seconds and compile for minutes.
+  target_compile_options(${target} PRIVATE -O1 -Wno-maybe-uninitialized) # at -O1 GCC sees it in Eigen
+  target_compile_definitions(${target} PRIVATE BOOST_TEST_DYN_LINK)
+  target_link_libraries(${target} PRIVATE courant_${folder} Boost::unit_test_framework)
+
+  set(discover ${PROJECT_SOURCE_DIR}/cmake/DiscoverTests.cmake)
+  set(suites ${CMAKE_CURRENT_BINARY_DIR}/${target}.cmake)
+  set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${discover})
+  add_custom_command(TARGET ${target} POST_BUILD VERBATIM
+    COMMAND ${CMAKE_COMMAND} -D EXECUTABLE=$<TARGET_FILE:${target}> -D FOLDER=${folder}
+            -D WORKING_DIRECTORY=${PROJECT_SOURCE_DIR} -D OUTPUT=${suites} -P ${discover})
+  file(CONFIGURE OUTPUT ${target}_include.cmake @ONLY CONTENT [[
+if(EXISTS "@suites@")
+  include("@suites@")
+else()
+  add_test("@folder@.not_built" "@target@-is-not-built")
+endif()
+]])
+  set_property(DIRECTORY APPEND PROPERTY
+    TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/${target}_include.cmake)
+endfunction()
