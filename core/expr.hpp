@@ -1,0 +1,253 @@
+// Expr: the symbolic scalar in which every formula of the project is written once.
+#pragma once
+
+#include <Eigen/Core>
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <iosfwd>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace courant {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// The operations that a node of an expression graph can stand for.
+// clang-format off
+enum class Op : std::uint8_t {
+  constant, variable,
+  negate, add, subtract, multiply, divide,
+  sqrt, exp, log, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, abs, sign,
+  power,  // aᵏ for an integer k, by repeated multiplication: every derivative is right at a = 0
+  pow, atan2, min, max,
+  less, less_equal, equal, logical_and, logical_or, logical_not,  // 1.0 or 0.0
+  select,         // a != 0 ? b : c; the branch that is not taken may be anything, not a number included
+  stumpff,        // c_k(a), see special_functions.hpp
+  arccos_factor,  // g_k(a), see special_functions.hpp
+};
+// clang-format on
+
+// One operation: operands are earlier nodes of the same graph, `k` the integer parameter of power,
+// stumpff, arccos_factor.
+struct Node {
+  Op op;
+  std::int32_t k;
+  std::uint32_t a, b, c;
+};
+
+constexpr std::size_t kOpCount = static_cast<std::size_t>(Op::arccos_factor) + 1;
+
+// Number of operands of an operation (0 to 3).
+int arity(Op op);
+
+class Graph;
+
+// A real number known now (a constant), or a node of a Graph.
+//
+// Expr is a small value with the arithmetic of a scalar, and works as the scalar of an Eigen
+// matrix. Operations on constants are carried out at once, in double; so a formula written on Expr
+// and given constants *is* its numeric version. Operations that involve a node make a node of the
+// same graph; equal subexpressions are one node (hash-consing), and x+0, 1·x, 0·x, x-x, -(-x) and
+// the like are simplified as they are made.
+//
+// There is no conversion to bool: `if (a < b)` does not compile, and a == b asks whether two
+// expressions are the same one. Use select(a < b, x, y), smooth where x and y are and both agree.
+// An Expr is valid while its Graph lives. Operands from two graphs throw std::invalid_argument.
+class Expr {
+ public:
+  Expr() : constant_(0.0) {}
+  Expr(double value) : constant_(value) {}               // NOLINT: a number is an expression
+  Expr(int value) : Expr(static_cast<double>(value)) {}  // NOLINT: and Eigen writes Scalar(0)
+
+  bool is_constant() const { return graph_ == nullptr; }
+  bool is_constant(double value) const { return graph_ == nullptr && constant_ == value; }
+  // The number, if constant; throws std::logic_error otherwise.
+  double value() const;
+
+  Graph* graph() const { return graph_; }       // null for a constant
+  std::uint32_t node() const { return node_; }  // meaningful only with a graph
+
+  Expr& operator+=(const Expr& other);
+  Expr& operator-=(const Expr& other);
+  Expr& operator*=(const Expr& other);
+  Expr& operator/=(const Expr& other);
+
+ private:
+  friend class Graph;
+  Expr(Graph* graph, std::uint32_t node) : graph_(graph), node_(node) {}
+
+  Graph* graph_ = nullptr;
+  union {
+    double constant_;
+    std::uint32_t node_;
+  };
+};
+
+using ExprVector = Eigen::Matrix<Expr, Eigen::Dynamic, 1>;
+using ExprMatrix = Eigen::Matrix<Expr, Eigen::Dynamic, Eigen::Dynamic>;
+
+Expr operator-(const Expr& a);
+Expr operator+(const Expr& a, const Expr& b);
+Expr operator-(const Expr& a, const Expr& b);
+Expr operator*(const Expr& a, const Expr& b);
+Expr operator/(const Expr& a, const Expr& b);
+
+Expr sqrt(const Expr& a);
+Expr exp(const Expr& a);
+Expr log(const Expr& a);
+Expr sin(const Expr& a);
+Expr cos(const Expr& a);
+Expr tan(const Expr& a);
+Expr asin(const Expr& a);
+Expr acos(const Expr& a);
+Expr atan(const Expr& a);
+Expr sinh(const Expr& a);
+Expr cosh(const Expr& a);
+Expr tanh(const Expr& a);
+Expr abs(const Expr& a);
+Expr sign(const Expr& a);  // -1, 0 or 1
+Expr pow(const Expr& a, const Expr& b);
+Expr pow(const Expr& a, int k);
+Expr square(const Expr& a);
+Expr atan2(const Expr& y, const Expr& x);
+Expr min(const Expr& a, const Expr& b);
+Expr max(const Expr& a, const Expr& b);
+Expr stumpff(int k, const Expr& s);
+Expr arccos_factor(int k, const Expr& c);
+
+// Conditions, as numbers 1 and 0.
+Expr operator<(const Expr& a, const Expr& b);
+Expr operator<=(const Expr& a, const Expr& b);
+Expr operator>(const Expr& a, const Expr& b);
+Expr operator>=(const Expr& a, const Expr& b);
+Expr equal(const Expr& a, const Expr& b);
+Expr logical_and(const Expr& a, const Expr& b);
+Expr logical_or(const Expr& a, const Expr& b);
+Expr logical_not(const Expr& a);
+Expr select(const Expr& condition, const Expr& then, const Expr& otherwise);
+
+// The function named by op, with the simplifications above: how an expression is rebuilt from its
+// nodes.
+Expr apply(Op op, std::int32_t k, const Expr& a, const Expr& b, const Expr& c);
+
+// Whether a and b are the same expression (the same constant, or after hash-consing the same node),
+// not whether their values agree: that is equal(a, b).
+bool operator==(const Expr& a, const Expr& b);
+
+// Constants from numbers, and numbers from constants (throws std::logic_error where an entry is not
+// constant).
+template <class Derived>
+auto constants(const Eigen::MatrixBase<Derived>& values) {
+  return values.template cast<Expr>().eval();
+}
+template <class Derived>
+auto values(const Eigen::MatrixBase<Derived>& x) {
+  return x.unaryExpr([](const Expr& entry) { return entry.value(); }).eval();
+}
+
+// Infix form, for people and error messages; shared subexpressions are written out, cut off after
+// `max_length` characters.
+std::string to_string(const Expr& a, std::size_t max_length = 2000);
+std::ostream& operator<<(std::ostream& out, const Expr& a);
+
+// Owner of the nodes of some expressions; nodes are in topological order (operands before results).
+//
+// Neither copied nor moved: expressions point to it. Graphs are independent of each other, and one
+// graph may be extended from several threads: making a node takes a lock, reading one does not.
+// Room for 2³² - 256 nodes.
+class Graph {
+ public:
+  Graph();
+  ~Graph();
+  Graph(const Graph&) = delete;
+  Graph& operator=(const Graph&) = delete;
+
+  // A new variable; two variables of the same name are different.
+  Expr variable(std::string name);
+  // name[0] … name[size-1]
+  ExprVector variables(const std::string& name, Index size);
+
+  // The node that applies op to operands of this graph, without simplification.
+  Expr make(Op op, std::int32_t k, const Expr& a, const Expr& b = {}, const Expr& c = {});
+
+  // Reading, by node number < size().
+  std::uint32_t size() const { return size_.load(std::memory_order_acquire); }
+  const Node& node(std::uint32_t index) const;
+  double constant(std::uint32_t index) const;          // of a node with Op::constant
+  const std::string& name(std::uint32_t index) const;  // of a node with Op::variable
+  Expr expression(std::uint32_t index);                // the handle; constants come back as numbers
+
+ private:
+  static constexpr int kFirstBits = 8;  // chunk i holds 2^(8+i) nodes, so that nodes never move
+
+  struct Entry {
+    std::uint32_t tag = 0;   // upper half of the hash; its upper bits are the slot to look at first
+    std::uint32_t node = 0;  // number + 1; 0: empty
+  };
+
+  std::uint32_t intern(const Node& node);
+  std::uint32_t append(const Node& node);
+  std::uint32_t operand(const Expr& a);
+  void grow_table();
+  std::size_t first_slot(std::uint32_t tag) const { return tag >> (32 - table_bits_); }
+
+  mutable std::mutex mutex_;
+  std::atomic<std::uint32_t> size_ = 0;
+  std::unique_ptr<Node[]> chunks_[32 - kFirstBits];
+  int table_bits_ = 8;
+  std::vector<Entry> table_;  // 2^table_bits_ slots, open addressing
+  std::deque<std::string> names_;
+};
+
+}  // namespace courant
+
+namespace Eigen {
+template <>
+struct NumTraits<courant::Expr> : GenericNumTraits<courant::Expr> {
+  using Real = courant::Expr;
+  using NonInteger = courant::Expr;
+  using Nested = courant::Expr;
+  using Literal = double;
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 1,
+    ReadCost = 2,
+    AddCost = 8,
+    MulCost = 8
+  };
+  static Real epsilon() { return std::numeric_limits<double>::epsilon(); }
+  static Real dummy_precision() { return 1e-12; }
+  static int digits10() { return std::numeric_limits<double>::digits10; }
+};
+}  // namespace Eigen
+
+namespace courant {
+
+// Products of matrices of expressions, compiled once rather than instantiated from Eigen's in every
+// file that multiplies; zeros are skipped. They are evaluated at once, so that A * x may be
+// assigned to x.
+ExprMatrix product(const ExprMatrix& A, const ExprMatrix& B);
+ExprVector product(const ExprMatrix& A, const ExprVector& x);
+
+template <class A>
+concept ExprMatrixLike =
+    std::is_base_of_v<Eigen::MatrixBase<A>, A> && std::is_same_v<typename A::Scalar, Expr>;
+
+template <ExprMatrixLike A, ExprMatrixLike B>
+auto operator*(const A& left, const B& right) {
+  if constexpr (B::ColsAtCompileTime == 1)
+    return product(ExprMatrix(left), ExprVector(right));
+  else
+    return product(ExprMatrix(left), ExprMatrix(right));
+}
+
+}  // namespace courant

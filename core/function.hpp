@@ -1,0 +1,111 @@
+// Function: a smooth map, traced once, compiled, with its exact derivatives.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "courant/core/expr.hpp"
+#include "courant/core/native.hpp"
+#include "courant/core/program.hpp"
+
+namespace courant {
+
+// How the instructions are carried out; the results are the same to the last bit.
+enum class Backend {
+  interpreter,  // always there
+  native,  // printed as C, compiled by the machine's C compiler; throws std::runtime_error without
+           // one
+  automatic,  // native where a compiler works and the program is neither trivial nor huge, else
+              // interpreter
+};
+
+// A map f: R^{n_0} × … × R^{n_g} → Rᵐ of named input groups, with its Jacobian by some of them and
+// its truncated Taylor series.
+//
+//   f(in_0, …, in_g) = outputs;   J = ∂f/∂(the groups named in `differentiate`, side by side)   (m
+//   × Σ n_i, sparse pattern known)
+//
+// Immutable and cheap to copy. It keeps no Expr: the graph it was traced in may be dropped.
+class Function {
+ public:
+  struct Input {
+    std::string name;
+    ExprVector variables;
+  };
+  struct Options {
+    std::vector<std::string> differentiate = {};  // names of input groups; empty: no Jacobian
+    Backend backend = Backend::interpreter;
+  };
+
+  Function() = default;
+  // Throws std::invalid_argument if an output depends on a variable that is in no group, or
+  // `differentiate` names no group.
+  Function(const std::string& name, const std::vector<Input>& inputs, const ExprVector& outputs,
+           const Options& options);
+  Function(const std::string& name, const std::vector<Input>& inputs, const ExprVector& outputs)
+      : Function(name, inputs, outputs, Options()) {}
+
+  const std::string& name() const { return name_; }
+  Index input_count() const { return static_cast<Index>(sizes_.size()); }
+  Index input_size(Index group) const { return sizes_[static_cast<std::size_t>(group)]; }
+  Index output_size() const { return rows_; }
+
+  // The pattern of the Jacobian, sorted by row, then column.
+  Index jacobian_cols() const { return cols_; }
+  Index nonzeros() const { return static_cast<Index>(pattern_row_.size()); }
+  const std::vector<Index>& pattern_row() const { return pattern_row_; }
+  const std::vector<Index>& pattern_col() const { return pattern_col_; }
+
+  bool is_native() const { return native_ != nullptr; }
+  Index instruction_count() const { return value_->instruction_count(); }
+
+  // The inner loop: in[g] points to the n_g numbers of group g; nothing is checked, nothing
+  // allocated.
+  void value(const double* const* in, double* out) const {  // out: m
+    native_ ? native_value_(in, out) : value_->run(in, out);
+  }
+  void value_and_jacobian(const double* const* in,
+                          double* out) const {  // out: m values, then nonzeros() entries of J
+    native_ ? native_all_(in, out) : all_->run(in, out);
+  }
+  // Series of order K: in[g] and out hold K+1 coefficients for each number, see taylor.hpp.
+  void taylor(const double* const* in, Index order, double* out) const {
+    value_->run_taylor(in, order, out);
+  }
+  void taylor_with_jacobian(const double* const* in, Index order, double* out) const {
+    all_->run_taylor(in, order, out);
+  }
+
+  // The same with sizes checked (std::invalid_argument).
+  VectorXd operator()(std::span<const VectorXd> in) const;
+  VectorXd operator()(std::initializer_list<VectorXd> in) const {
+    return (*this)(std::span(in.begin(), in.size()));
+  }
+  MatrixXd jacobian(std::span<const VectorXd> in) const;
+  MatrixXd jacobian(std::initializer_list<VectorXd> in) const {
+    return jacobian(std::span(in.begin(), in.size()));
+  }
+  Eigen::SparseMatrix<double> sparse_jacobian(std::span<const VectorXd> in) const;
+  // Row i of in[g] and of the result: coefficients 0 … K of that number.
+  MatrixXd taylor(std::span<const MatrixXd> in) const;
+
+ private:
+  std::vector<const double*> pointers(std::span<const VectorXd> in) const;
+
+  std::string name_;
+  std::vector<Index> sizes_;
+  Index rows_ = 0;
+  Index cols_ = 0;
+  std::vector<Index> pattern_row_;
+  std::vector<Index> pattern_col_;
+  std::shared_ptr<const Program> value_ = std::make_shared<const Program>();
+  std::shared_ptr<const Program> all_ = value_;  // value and Jacobian
+  std::shared_ptr<const NativeLibrary> native_;
+  NativeLibrary::Evaluate native_value_ = nullptr;
+  NativeLibrary::Evaluate native_all_ = nullptr;
+};
+
+}  // namespace courant

@@ -1,0 +1,143 @@
+#include "courant/core/newton.hpp"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+namespace courant {
+namespace {
+
+// Below this ratio of pivots (after scaling the rows) a square matrix is taken as singular.
+// Round-off alone gives about 1e-16 n; a step whose matrix is that near to singular has no
+// meaningful digits to lose.
+constexpr double kSingular = 1e-13;
+
+// Iterates that stop contracting while they move less than this, relative to the scale, move by
+// round-off. Larger than n·eps·condition for every matrix that kSingular lets through in practice,
+// far below any tolerance a user would set.
+constexpr double kRoundOff = 1e-9;
+
+}  // namespace
+
+Newton::Newton(Function function, std::vector<Index> groups, const Options& options)
+    : function_(std::move(function)), groups_(std::move(groups)), options_(options) {
+  const Index size = function_.input_size(0);
+  if (groups_.empty()) groups_.push_back(size);
+  if (std::accumulate(groups_.begin(), groups_.end(), Index{0}) != size ||
+      function_.jacobian_cols() != size)
+    throw std::invalid_argument("Newton: the groups and the Jacobian of " + function_.name() +
+                                " do not fit its " + std::to_string(size) + " unknowns.");
+  inverse_.resize(size, function_.output_size());
+  all_.resize(function_.output_size() + function_.nonzeros());
+  step_.resize(size);
+}
+
+bool Newton::factorize(const double* const* in) {
+  function_.value_and_jacobian(in, all_.data());
+  const Index rows = function_.output_size();
+  MatrixXd J = MatrixXd::Zero(rows, function_.jacobian_cols());
+  for (std::size_t k = 0; k < function_.pattern_row().size(); ++k)
+    J(function_.pattern_row()[k], function_.pattern_col()[k]) = all_[rows + static_cast<Index>(k)];
+  if (!J.allFinite()) return false;
+  if (J.size() == 0) return factorized_ = true;
+
+  VectorXd scale = J.rowwise().lpNorm<Eigen::Infinity>();
+  scale = scale.unaryExpr([](double s) { return s > 0 ? 1.0 / s : 1.0; });
+  J = scale.asDiagonal() * J;
+  bool regular = false;
+  if (J.rows() == J.cols()) {
+    const Eigen::PartialPivLU<MatrixXd> lu(J);
+    const VectorXd pivots = lu.matrixLU().diagonal().cwiseAbs();
+    regular = pivots.minCoeff() > kSingular * pivots.maxCoeff();
+    if (regular) inverse_ = lu.inverse();
+  }
+  if (!regular) {
+    Eigen::CompleteOrthogonalDecomposition<MatrixXd> cod;
+    cod.setThreshold(1e-11);
+    cod.compute(J);
+    inverse_ = cod.pseudoInverse();
+  }
+  inverse_ = inverse_ * scale.asDiagonal();
+  return factorized_ = inverse_.allFinite();
+}
+
+// The largest change of a block relative to its scale.
+double Newton::change(const double* y, const double* scales) const {
+  double result = 0.0;
+  Index offset = 0;
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    double moved = 0.0;
+    double size = scales[g];
+    for (Index i = offset; i < offset + groups_[g]; ++i) {
+      moved = std::max(moved, std::fabs(step_[i]));
+      size = std::max(size, std::fabs(y[i]));
+      if (!(std::fabs(step_[i]) <= std::numeric_limits<double>::max()))
+        return std::numeric_limits<double>::infinity();
+    }
+    if (moved > 0.0) result = std::max(result, moved / size);
+    offset += groups_[g];
+  }
+  return result;
+}
+
+Newton::Result Newton::solve(double* y, const double* const* in, const double* scales) {
+  Result result;
+  Eigen::Map<VectorXd> unknown(y, step_.size());
+  const auto residual = all_.head(function_.output_size());
+  double previous = std::numeric_limits<double>::infinity();
+  double contraction = 0.0;
+  bool fresh = false;     // A belongs to a point of this solve
+  bool compared = false;  // `previous` was made with the same A
+  const auto refactorize = [&] {
+    ++result.factorizations;
+    fresh = true;
+    compared = false;
+    return factorize(in);
+  };
+  if (!factorized_ && !refactorize()) {
+    result.status = Status::singular;
+    return result;
+  }
+  while (result.iterations < options_.max_iterations) {
+    ++result.iterations;
+    function_.value(in, all_.data());
+    step_.noalias() = inverse_ * residual;
+    unknown -= step_;
+    const double moved = change(y, scales);
+    if (!std::isfinite(moved)) {
+      result.residuals.push_back(residual.size() == 0 ? 0.0 : residual.lpNorm<Eigen::Infinity>());
+      return result;
+    }
+    if (moved <= options_.tolerance) {
+      result.status = Status::converged;
+      return result;
+    }
+    if (compared) {
+      contraction = moved / previous;
+      if (contraction < 0.5 && contraction / (1.0 - contraction) * moved <= options_.tolerance) {
+        result.status = Status::converged;
+        return result;
+      }
+      const bool slow = contraction > options_.slow && moved > 1e3 * options_.tolerance;
+      if (slow && (!fresh || (contraction > 0.5 && moved > kRoundOff))) {
+        if (!refactorize()) {
+          result.status = Status::singular;
+          return result;
+        }
+        continue;
+      }
+      if (contraction > 0.5 && moved <= kRoundOff) {
+        result.status = Status::converged;
+        return result;
+      }
+    }
+    previous = moved;
+    compared = true;
+  }
+  result.residuals.push_back(residual.size() == 0 ? 0.0 : residual.lpNorm<Eigen::Infinity>());
+  return result;
+}
+
+}  // namespace courant

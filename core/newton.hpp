@@ -1,0 +1,63 @@
+// Newton's method with kept factorisations, for the equations of a step.
+#pragma once
+
+#include <vector>
+
+#include "courant/core/function.hpp"
+
+namespace courant {
+
+// Solves F(y; parameters) = 0 again and again along a trajectory, for a Function F whose group 0 is
+// y and whose Jacobian is by y.
+//
+// Simplified Newton: y ← y - A F(y) with A the inverse (for a matrix that is singular or not
+// square, the pseudo-inverse: least squares of redundant equations, least change of undetermined
+// unknowns) of an earlier Jacobian, kept as long as it contracts well. Convergence is relative to
+// the scale of the unknowns: the error left is estimated from the last change and the contraction,
+// and iterates that only move by round-off are accepted too (an absolute test goes on for ever once
+// the state is large). Holds workspace: one object a trajectory, not shared between threads. No
+// allocation after the first solve.
+class Newton {
+ public:
+  struct Options {
+    // Relative error of the unknowns that is accepted. At 1e-15, what remains is round-off; energy
+    // then shows no drift from the solver.
+    double tolerance = 1e-15;
+    int max_iterations = 60;
+    // Contraction above which a new factorisation is worth its price (about ten evaluations for n =
+    // 8).
+    double slow = 0.2;
+  };
+  enum class Status { converged, diverged, singular };
+  struct Result {
+    Status status = Status::diverged;
+    int iterations = 0;
+    int factorizations = 0;
+    std::vector<double> residuals;  // ‖F‖_∞ of the iterates, filled only if not converged
+  };
+
+  // `groups`: sizes of consecutive blocks of y that are measured by their own scale (empty: one
+  // block). Throws std::invalid_argument if they don't add up or F has no Jacobian by its group 0.
+  Newton(Function function, std::vector<Index> groups, const Options& options);
+
+  // in[0] is where y is read and written; in[1] … are the parameters. scales[g]: a typical size of
+  // block g (its current values count too). On failure y holds the last iterate.
+  Result solve(double* y, const double* const* in, const double* scales);
+
+  // Forgets the kept factorisation.
+  void reset() { factorized_ = false; }
+
+ private:
+  bool factorize(const double* const* in);
+  double change(const double* y, const double* scales) const;
+
+  Function function_;
+  std::vector<Index> groups_;
+  Options options_;
+  bool factorized_ = false;
+  MatrixXd inverse_;  // A, n × r
+  VectorXd all_;      // F and the entries of its Jacobian
+  VectorXd step_;
+};
+
+}  // namespace courant

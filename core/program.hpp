@@ -1,0 +1,67 @@
+// Program: expressions as a straight-line sequence of instructions, the bytecode of the
+// interpreter.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "courant/core/expr.hpp"
+
+namespace courant {
+
+// The map (in_0, …, in_g) ↦ out of some expressions, for numbers and for truncated Taylor series.
+//
+// Immutable; evaluation may run in several threads at once and allocates nothing after the first
+// call of a thread.
+class Program {
+ public:
+  Program() = default;
+
+  // The order to carry out instructions in: equal operations together, which the interpreter likes,
+  // or as the expressions were made, which leaves compilers fewer values to keep at a time.
+  enum class Order { grouped, as_made };
+
+  // Throws std::invalid_argument if the outputs contain a variable that is in no input group.
+  Program(std::span<const ExprVector> inputs, const ExprVector& outputs,
+          Order order = Order::grouped);
+
+  Index output_size() const { return static_cast<Index>(outputs_.size()); }
+  Index instruction_count() const { return static_cast<Index>(instructions_.size()); }
+
+  // out[i] = i-th output; in[g][j] = j-th number of group g.
+  void run(const double* const* in, double* out) const;
+
+  // The same on series: in[g] + j (order+1) holds the coefficients of the j-th number of group g,
+  // out + i (order+1) receives those of output i.
+  void run_taylor(const double* const* in, Index order, double* out) const;
+
+  // `void <symbol>(const double *const *in, double *out)` in C, which gives the same bits as run().
+  std::string c_source(const std::string& symbol) const;
+
+ private:
+  struct Instruction {
+    std::uint32_t target, a, b, c;  // slots of the workspace
+  };
+  // Instructions that carry out the same operation: from the end of the run before to `end`.
+  struct Run {
+    Op op;
+    std::int32_t k;
+    std::size_t end;
+  };
+  struct Load {
+    std::uint32_t slot, group, index;
+  };
+
+  // Workspace: constants first, then the inputs that are used, then results (slots are reused when
+  // their value is dead).
+  std::vector<double> constants_;
+  std::vector<Load> loads_;
+  std::vector<Instruction> instructions_;
+  std::vector<Run> runs_;
+  std::vector<std::uint32_t> outputs_;
+  std::size_t slots_ = 0;
+};
+
+}  // namespace courant

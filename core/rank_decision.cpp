@@ -1,0 +1,143 @@
+#include "courant/core/rank_decision.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <ostream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "courant/core/rank_cut.hpp"
+#include "courant/core/singular_value_decomposition.hpp"
+
+namespace courant {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+RankDecision decide(Index rows, Index columns, const VectorXd& values, const RankOptions& options) {
+  RankDecision decision;
+  decision.rows = rows;
+  decision.columns = columns;
+  decision.singular_values = values;
+  const auto value = [&](Index k) { return k < values.size() ? values[k] : 0.0; };
+  const NoiseLevel noise = noise_level(rows, columns, value(0), options);
+  const Index rank = count_above_cut(values, noise);
+  conclude(decision, rank, rank > 0 ? value(rank - 1) : 0.0, value(rank), noise);
+  return decision;
+}
+
+// A with its rows and columns equilibrated unless the options say that its magnitude is known.
+Equilibration<MatrixXd> comparable(const Eigen::Ref<const MatrixXd>& A,
+                                   const RankOptions& options) {
+  if (options.magnitude == 0.0) return equilibrate(A, entry_noise(options));
+  if (!A.allFinite()) {
+    throw std::domain_error("decide_rank: the matrix has entries that are not finite numbers.");
+  }
+  return {A, VectorXd::Ones(A.rows()), VectorXd::Ones(A.cols())};
+}
+
+// The orthogonal matrix [W^⊥ W], W the span of diag(scale)·X, X with orthonormal columns.
+//
+// Householder QR with pivoted columns and the rows in decreasing order is backward stable in each
+// row (Cox & Higham, Stability of Householder QR factorization for weighted least squares problems,
+// 1998). In any other order a row with a scale of 1e-6 among others of 1e6 keeps 4 digits instead
+// of 15.
+MatrixXd complement_and_span(const VectorXd& scale, const MatrixXd& X) {
+  const Index n = X.rows(), k = X.cols();
+  Eigen::PermutationMatrix<Eigen::Dynamic> order(n);
+  order.setIdentity();
+  std::sort(order.indices().begin(), order.indices().end(),
+            [&](int i, int j) { return scale[i] > scale[j]; });
+  const MatrixXd sorted = order.transpose() * (scale.asDiagonal() * X);
+  MatrixXd Q = MatrixXd::Identity(n, n);
+  if (k > 0) Q.applyOnTheLeft(Eigen::ColPivHouseholderQR<MatrixXd>(sorted).householderQ());
+  MatrixXd result(n, n);
+  result << order * Q.rightCols(n - k), order * Q.leftCols(k);
+  return result;
+}
+
+}  // namespace
+
+double entry_noise(const RankOptions& options) { return std::max(64.0 * eps, options.data_error); }
+
+NoiseLevel noise_level(Index m, Index n, double largest, const RankOptions& options) {
+  const auto rows = static_cast<double>(m), columns = static_cast<double>(n);
+  const double top = options.magnitude > 0.0 ? options.magnitude : 1.0;
+  const double rounding = std::max({rows, columns, 1.0}) * eps * std::max(top, largest);
+  const double error = (std::sqrt(rows) + std::sqrt(columns)) * options.data_error * top;
+  return {.floor = rounding + error, .top = top};
+}
+
+Index count_above_cut(const VectorXd& values, const NoiseLevel& noise) {
+  const auto gap = [&](Index r) {
+    const double above = r > 0 ? values[r - 1] : noise.top;
+    return above / (r < values.size() ? std::max(values[r], noise.floor) : noise.floor);
+  };
+  const Index numbers = (values.array() > grey_zone * noise.floor).count();
+  const Index not_zero = (values.array() > noise.floor).count();
+  Index best = numbers;
+  for (Index r = numbers + 1; r <= not_zero; ++r) {
+    if (gap(r) > gap(best)) best = r;
+  }
+  return best;
+}
+
+void conclude(RankDecision& decision, Index rank, double above, double below,
+              const NoiseLevel& noise) {
+  decision.rank = rank;
+  decision.above = above;
+  decision.below = below;
+  const double top = rank > 0 ? above : noise.top;
+  decision.gap = top / std::max(below, noise.floor);
+  decision.threshold = top / std::sqrt(decision.gap);
+}
+
+std::ostream& operator<<(std::ostream& out, const RankDecision& decision) {
+  std::ostringstream line;
+  line << "rank " << decision.rank << " of " << decision.rows << " × " << decision.columns
+       << ", gap " << std::setprecision(2) << decision.gap << " (" << decision.above << " | "
+       << decision.below << ", threshold " << decision.threshold << ")"
+       << (decision.ambiguous() ? ", ambiguous" : "");
+  return out << line.str();
+}
+
+RankDecision decide_rank(const Eigen::Ref<const MatrixXd>& A, const RankOptions& options) {
+  const MatrixXd scaled = comparable(A, options).scaled;
+  return decide(A.rows(), A.cols(), singular_values(scaled), options);
+}
+
+FundamentalSubspaces::FundamentalSubspaces(const Eigen::Ref<const MatrixXd>& A,
+                                           const RankOptions& options) {
+  const auto [scaled, row_scale, column_scale] = comparable(A, options);
+  const auto [values, U, V] = singular_value_decomposition(scaled);
+  decision_ = decide(A.rows(), A.cols(), values, options);
+  // S = diag(r) A diag(c): Sz = 0 means A(cz) = 0, and wᵀS = 0 means (rw)ᵀA = 0.
+  rows_ = complement_and_span(column_scale, V.rightCols(A.cols() - rank()));
+  columns_ = complement_and_span(row_scale, U.rightCols(A.rows() - rank()));
+  core_ = range().transpose() * A * row_space();
+}
+
+MatrixXd FundamentalSubspaces::pseudo_solve(const Eigen::Ref<const MatrixXd>& B) const {
+  if (B.rows() != decision_.rows) {
+    throw std::invalid_argument("FundamentalSubspaces::pseudo_solve: B has " +
+                                std::to_string(B.rows()) + " rows; expected those of A, " +
+                                std::to_string(decision_.rows) + ".");
+  }
+  if (rank() == 0) return MatrixXd::Zero(decision_.columns, B.cols());
+  return row_space() * core_.partialPivLu().solve(range().transpose() * B);
+}
+
+MatrixXd kernel(const Eigen::Ref<const MatrixXd>& A, const RankOptions& options) {
+  return FundamentalSubspaces(A, options).kernel();
+}
+
+MatrixXd range(const Eigen::Ref<const MatrixXd>& A, const RankOptions& options) {
+  return FundamentalSubspaces(A, options).range();
+}
+
+}  // namespace courant

@@ -1,0 +1,28 @@
+// The singular value decomposition of a dense matrix.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace courant {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// A = U diag(σ) Vᵀ, A of size m × n: σ₁ ≥ σ₂ ≥ … ≥ 0, min(m, n) values; U (m × m) and V (n × n)
+// orthogonal. Sizes may be 0.
+//
+// By LAPACK, which SuiteSparse needs anyway: the divide-and-conquer of Eigen 3.4.0 is as fast, but
+// goes wrong, even out of bounds, on clusters of equal singular values, as blocks of orthogonal
+// matrices have them.
+struct SingularValueDecomposition {
+  VectorXd values;
+  MatrixXd U, V;
+};
+
+// Entries have to be finite. Throws std::runtime_error if LAPACK does not converge.
+SingularValueDecomposition singular_value_decomposition(const Eigen::Ref<const MatrixXd>& A);
+
+// σ alone.
+VectorXd singular_values(const Eigen::Ref<const MatrixXd>& A);
+
+}  // namespace courant

@@ -1,0 +1,182 @@
+#include <Eigen/QR>
+#include <Eigen/SparseCore>
+#include <SuiteSparseQR.hpp>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <random>
+#include <stdexcept>
+#include <string>
+
+#include "courant/core/rank_cut.hpp"
+#include "courant/core/rank_decision.hpp"
+#include "courant/core/singular_value_decomposition.hpp"
+
+namespace courant {
+namespace {
+
+using LongSparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, SuiteSparse_long>;
+
+// S E = Q [R W; 0 δ]: the upper trapezoidal factor, and the Frobenius norm of what was dropped.
+struct TrapezoidalFactor {
+  LongSparseMatrix R, W;
+  double dropped = 0.0;
+};
+
+TrapezoidalFactor factor(const SparseMatrixXd& S, double tolerance) {
+  struct Workspace {
+    cholmod_common common;
+    cholmod_sparse* R = nullptr;
+    SuiteSparse_long* permutation = nullptr;
+    std::size_t columns;
+
+    explicit Workspace(std::size_t n) : columns(n) { cholmod_l_start(&common); }
+    ~Workspace() {
+      cholmod_l_free_sparse(&R, &common);
+      cholmod_l_free(columns, sizeof(SuiteSparse_long), permutation, &common);
+      cholmod_l_finish(&common);
+    }
+    Workspace(const Workspace&) = delete;
+    Workspace& operator=(const Workspace&) = delete;
+  };
+
+  LongSparseMatrix matrix = S;
+  matrix.makeCompressed();
+  cholmod_sparse view{};
+  view.nrow = static_cast<std::size_t>(matrix.rows());
+  view.ncol = static_cast<std::size_t>(matrix.cols());
+  view.nzmax = static_cast<std::size_t>(matrix.nonZeros());
+  view.p = matrix.outerIndexPtr();
+  view.i = matrix.innerIndexPtr();
+  view.x = matrix.valuePtr();
+  view.itype = CHOLMOD_LONG;
+  view.xtype = CHOLMOD_REAL;
+  view.dtype = CHOLMOD_DOUBLE;
+  view.sorted = 1;
+  view.packed = 1;
+
+  Workspace workspace(view.ncol);
+  const SuiteSparse_long rank =
+      SuiteSparseQR<double>(SPQR_ORDERING_DEFAULT, tolerance, 0, &view, &workspace.R,
+                            &workspace.permutation, &workspace.common);
+  if (rank < 0 || workspace.R == nullptr) {
+    throw std::runtime_error("decide_rank: SuiteSparseQR failed on a " + std::to_string(S.rows()) +
+                             " × " + std::to_string(S.cols()) + " matrix, status " +
+                             std::to_string(workspace.common.status) + ".");
+  }
+  const auto* offsets = static_cast<const SuiteSparse_long*>(workspace.R->p);
+  const Eigen::Map<const LongSparseMatrix> trapezoid(
+      static_cast<Index>(workspace.R->nrow), S.cols(), offsets[S.cols()], offsets,
+      static_cast<const SuiteSparse_long*>(workspace.R->i),
+      static_cast<const double*>(workspace.R->x));
+  return {trapezoid.topLeftCorner(rank, rank), trapezoid.topRightCorner(rank, S.cols() - rank),
+          workspace.common.SPQR_norm_E_fro};
+}
+
+MatrixXd random_block(Index rows, Index columns) {
+  std::mt19937 generator(20250612);
+  std::normal_distribution<double> normal;
+  return MatrixXd::NullaryExpr(rows, columns, [&] { return normal(generator); });
+}
+
+MatrixXd orthonormal(const MatrixXd& X) {
+  return Eigen::HouseholderQR<MatrixXd>(X).householderQ() * MatrixXd::Identity(X.rows(), X.cols());
+}
+
+// ‖S‖ by the power method; from a random start twelve steps are within a few per cent.
+double norm(const SparseMatrixXd& S) {
+  VectorXd x = random_block(S.cols(), 1);
+  for (int step = 0; step < 12; ++step) x = (S.transpose() * (S * x.normalized())).eval();
+  return std::sqrt(x.norm());
+}
+
+// The b smallest singular values of R, decreasing, and their left singular vectors.
+struct SmallestSingular {
+  VectorXd values;
+  MatrixXd left;
+};
+
+// Inverse iteration with a block of b vectors, a half step with R⁻ᵀ and one with R⁻¹ in turn so
+// that nothing is squared, until the smallest value moves by less than 5 % a step. Values are
+// approached from above. Nothing if R is so close to singular that R⁻¹ overflows.
+std::optional<SmallestSingular> smallest_singular(const LongSparseMatrix& R, Index b) {
+  const auto upper = R.triangularView<Eigen::Upper>();
+  const LongSparseMatrix transposed = R.transpose();
+  const auto lower = transposed.triangularView<Eigen::Lower>();
+  MatrixXd right = orthonormal(random_block(R.cols(), b));
+  SmallestSingular result;
+  double previous = 0.0;
+  for (int step = 0; step < 30; ++step) {
+    MatrixXd left = lower.solve(right);
+    if (!left.allFinite()) return std::nullopt;
+    left = orthonormal(left);
+    right = upper.solve(left);
+    if (!right.allFinite()) return std::nullopt;
+    right = orthonormal(right);
+
+    // Of Rᵀ·left, tall, through its triangular factor.
+    const Eigen::HouseholderQR<MatrixXd> qr(transposed * left);
+    const auto [values, U, V] = singular_value_decomposition(
+        qr.matrixQR().topRows(b).triangularView<Eigen::Upper>().toDenseMatrix());
+    result = {values, left * V};
+    const double smallest = result.values[b - 1];
+    if (std::abs(smallest - previous) <= 0.05 * smallest) break;
+    previous = smallest;
+  }
+  return result;
+}
+
+}  // namespace
+
+RankDecision decide_rank(const SparseMatrixXd& A, const RankOptions& options) {
+  if (options.magnitude > 0.0) {
+    throw std::invalid_argument(
+        "decide_rank: options.magnitude is set; expected 0, a sparse matrix is always "
+        "equilibrated.");
+  }
+  const SparseMatrixXd S = equilibrate(A, entry_noise(options)).scaled;
+  RankDecision decision;
+  decision.rows = A.rows();
+  decision.columns = A.cols();
+  const double largest = S.nonZeros() > 0 ? norm(S) : 0.0;
+  const NoiseLevel noise = noise_level(A.rows(), A.cols(), largest, options);
+  const double number = grey_zone * noise.floor;
+  if (S.nonZeros() == 0) {
+    conclude(decision, 0, 0.0, 0.0, noise);
+    return decision;
+  }
+
+  // A column that is left with a few roundings is dependent; with ten of them QR has to keep it.
+  const auto [R, W, dropped] = factor(S, 10.0 * noise.floor);
+  const Index r = R.rows();
+  Index block = std::min<Index>(8, r);
+  std::optional<SmallestSingular> smallest = smallest_singular(R, block);
+  while (smallest && block < r && smallest->values[0] <= number) {
+    block = std::min(2 * block, r);
+    smallest = smallest_singular(R, block);
+  }
+  if (!smallest) {  // QR saw r, R says less: ambiguous
+    conclude(decision, r, 0.0, dropped, noise);
+    return decision;
+  }
+
+  // The other directions u of [R W], those with uᵀR ≈ 0: uᵀW may be a number where uᵀR is not.
+  const Index regular = (smallest->values.array() > number).count();
+  const Index rest = block - regular;
+  MatrixXd remainder(rest + W.cols(), rest);  // its transpose is [diag(σ) uᵀW]
+  remainder << MatrixXd(smallest->values.tail(rest).asDiagonal()),
+      W.transpose() * smallest->left.rightCols(rest);
+  VectorXd values(block);
+  values << smallest->values.head(regular), singular_values(remainder);
+  std::sort(values.begin(), values.end(), std::greater<>());
+
+  const Index kept = count_above_cut(values, noise);
+  const double below = std::hypot(values.tail(block - kept).norm(), dropped);
+  conclude(decision, r - block + kept, kept > 0 ? values[kept - 1] : 0.0, below, noise);
+  decision.singular_values.resize(kept + 2);
+  decision.singular_values << largest, values.head(kept), below;
+  return decision;
+}
+
+}  // namespace courant

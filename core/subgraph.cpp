@@ -1,0 +1,65 @@
+#include "courant/core/subgraph.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <stdexcept>
+
+namespace courant {
+namespace {
+
+constexpr std::uint64_t bit(std::uint32_t node) { return std::uint64_t{1} << (node % 64); }
+
+}  // namespace
+
+Subgraph::Subgraph(const ExprVector& roots) {
+  std::uint32_t last = 0;
+  for (const Expr& root : roots) {
+    if (root.is_constant()) continue;
+    if (graph_ == nullptr) graph_ = root.graph();
+    if (root.graph() != graph_)
+      throw std::invalid_argument(
+          "Subgraph: the expressions are of two graphs; expected one. Use substitute.");
+    last = std::max(last, root.node());
+  }
+  if (graph_ == nullptr) return;
+
+  members_.assign(last / 64 + 1, 0);
+  for (const Expr& root : roots)
+    if (!root.is_constant()) members_[root.node() / 64] |= bit(root.node());
+
+  // Downward through the numbers: operands have smaller ones, so a node is complete when it is met.
+  std::size_t count = 0;
+  for (std::size_t word = members_.size(); word-- > 0;) {
+    std::uint64_t unseen = ~std::uint64_t{0};
+    while (const std::uint64_t left = members_[word] & unseen) {
+      const auto top = static_cast<std::uint32_t>(std::bit_width(left)) - 1;
+      unseen = (std::uint64_t{1} << top) - 1;
+      const Node& node = graph_->node(static_cast<std::uint32_t>(64 * word) + top);
+      const std::uint32_t operand[] = {node.a, node.b, node.c};
+      for (int i = 0; i < arity(node.op); ++i) members_[operand[i] / 64] |= bit(operand[i]);
+      ++count;
+    }
+  }
+
+  nodes_.reserve(count);
+  before_.reserve(members_.size());
+  for (std::size_t word = 0; word < members_.size(); ++word) {
+    before_.push_back(static_cast<std::uint32_t>(nodes_.size()));
+    for (std::uint64_t left = members_[word]; left != 0; left &= left - 1)
+      nodes_.push_back(static_cast<std::uint32_t>(64 * word) +
+                       static_cast<std::uint32_t>(std::countr_zero(left)));
+  }
+}
+
+bool Subgraph::contains(const Expr& a) const {
+  if (a.is_constant() || a.graph() != graph_) return false;
+  const std::size_t word = a.node() / 64;
+  return word < members_.size() && (members_[word] & bit(a.node())) != 0;
+}
+
+std::size_t Subgraph::position(std::uint32_t node) const {
+  const std::size_t word = node / 64;
+  return before_[word] + static_cast<std::size_t>(std::popcount(members_[word] & (bit(node) - 1)));
+}
+
+}  // namespace courant

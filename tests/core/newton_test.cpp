@@ -1,0 +1,88 @@
+#include "courant/core/newton.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+BOOST_AUTO_TEST_SUITE(newton)
+
+using namespace courant;
+
+namespace {
+
+struct Problem {
+  Function function;
+  VectorXd y;
+  double parameter = 0.0;
+  Newton::Result solve(Newton& newton, double scale = 0.0) {
+    const double* in[] = {y.data(), &parameter};
+    return newton.solve(y.data(), in, &scale);
+  }
+};
+
+template <class Formula>
+Problem make(Index size, const Formula& formula) {
+  Graph graph;
+  const ExprVector y = graph.variables("y", size);
+  const ExprVector a = graph.variables("a", 1);
+  return {Function("problem", {{"y", y}, {"a", a}}, formula(y, a[0]), {.differentiate = {"y"}}),
+          VectorXd::Zero(size)};
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(kept_factorisation_follows_a_slow_parameter) {
+  Problem problem = make(2, [](const ExprVector& y, const Expr& a) {
+    ExprVector F(2);
+    F << y[0] + 0.1 * sin(y[1]) - a, y[1] - 0.2 * cos(y[0]);
+    return F;
+  });
+  Newton newton(problem.function, {}, {});
+  int factorizations = 0;
+  for (int k = 0; k < 100; ++k) {
+    problem.parameter = 0.01 * k;
+    const auto result = problem.solve(newton);
+    BOOST_TEST_REQUIRE((result.status == Newton::Status::converged));
+    factorizations += result.factorizations;
+    const VectorXd& y = problem.y;
+    BOOST_TEST(std::abs(y[0] + 0.1 * std::sin(y[1]) - problem.parameter) < 1e-14);
+    BOOST_TEST(std::abs(y[1] - 0.2 * std::cos(y[0])) < 1e-14);
+  }
+  BOOST_TEST(factorizations < 10);
+}
+
+BOOST_AUTO_TEST_CASE(large_states_stop_at_round_off) {
+  // y ≈ 10⁹: the residual cannot be smaller than 10⁻⁷, and the iteration has to see that.
+  Problem problem = make(1, [](const ExprVector& y, const Expr& a) {
+    return ExprVector(ExprVector::Constant(1, y[0] + 0.3 * sin(y[0] * 1e-9) - 1e9 + a));
+  });
+  problem.y[0] = 1e9;
+  Newton newton(problem.function, {}, {});
+  const auto result = problem.solve(newton, 1e9);
+  BOOST_TEST((result.status == Newton::Status::converged));
+  BOOST_TEST(result.iterations <= 6);
+}
+
+BOOST_AUTO_TEST_CASE(redundant_and_undetermined_systems_by_least_squares) {
+  // The equation y₀ = 2 twice, y₁ + y₂ = 1: the change of least norm from zero is y₁ = y₂.
+  Problem problem = make(3, [](const ExprVector& y, const Expr&) {
+    ExprVector F(3);
+    F << y[0] - 2.0, 5.0 * y[0] - 10.0, y[1] + y[2] - 1.0;
+    return F;
+  });
+  Newton newton(problem.function, {}, {});
+  BOOST_TEST((problem.solve(newton, 1.0).status == Newton::Status::converged));
+  BOOST_TEST((problem.y - VectorXd((VectorXd(3) << 2.0, 0.5, 0.5).finished())).norm() < 1e-14);
+}
+
+BOOST_AUTO_TEST_CASE(no_solution_is_reported) {
+  Problem problem = make(1, [](const ExprVector& y, const Expr&) {
+    return ExprVector(ExprVector::Constant(1, square(y[0]) + 1.0));
+  });
+  problem.y[0] = 0.7;
+  Newton newton(problem.function, {}, {});
+  const auto result = problem.solve(newton, 1.0);
+  BOOST_TEST((result.status != Newton::Status::converged));
+  BOOST_TEST(!result.residuals.empty());
+}
+
+BOOST_AUTO_TEST_SUITE_END()
