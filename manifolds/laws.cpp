@@ -1,0 +1,299 @@
+#include "courant/manifolds/laws.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "courant/core/derivative.hpp"
+#include "courant/manifolds/measurement.hpp"
+
+namespace courant {
+namespace {
+
+class ManifoldLaws {
+ public:
+  ManifoldLaws(const Manifold& M, const LawOptions& options)
+      : M_(M),
+        generator_(options.seed),
+        samples_(draw_samples(M, options.points, 2.0, generator_)) {}
+
+  std::vector<LawResult> run() {
+    return {retracts_zero(),
+            rigid_to_first_order(),
+            remainder_is_quadratic(),
+            stays_on(),
+            left_inverse(),
+            right_inverse(),
+            frames(),
+            frame_spans_tangents(),
+            derivatives_of_retraction(),
+            derivatives_of_inverse(),
+            geodesics(),
+            points_and_vectors()};
+  }
+
+ private:
+  LawMeasurement law(const std::string& text, double bound) const {
+    return LawMeasurement(M_.name(), text, bound);
+  }
+
+  LawResult retracts_zero() const {
+    auto measured = law("M1 R(x, 0) = x", 1e-13);
+    for (const LawSample& s : samples_)
+      measured.add(
+          [&] {
+            const VectorXd zero = VectorXd::Zero(M_.tangent_dimension());
+            return M_.separation(M_.retract(s.x, zero), s.x) / (1.0 + s.x.norm());
+          },
+          describe("x", s.x));
+    return measured.result();
+  }
+
+  LawResult rigid_to_first_order() const {
+    auto measured = law("M2 d/ds R(x, s v) = E(x) v at s = 0", 1e-12);
+    for (const LawSample& s : samples_)
+      measured.add(
+          [&] {
+            Graph graph;
+            const ExprVector length = graph.variables("s", 1);
+            const ExprVector curve =
+                M_.retract(constants(s.x), ExprVector(length[0] * constants(s.w)));
+            const ExprVector velocity = tangent(curve, length, ExprVector::Ones(1));
+            const VectorXd expected = M_.frame(s.x) * s.w;
+            return relative(values(substitute(velocity, length, ExprVector::Zero(1))) - expected,
+                            expected);
+          },
+          describe(s, s.w));
+    return measured.result();
+  }
+
+  LawResult remainder_is_quadratic() const {
+    auto measured = law("M2 slope of R(x, s v) - x - s E(x) v is 2 (shortfall)", 0.15);
+    for (const LawSample& s : samples_)
+      measured.add(
+          [&] {
+            const VectorXd velocity = M_.frame(s.x) * s.w;
+            std::vector<double> steps, errors;
+            for (double step = 0.05 * std::min(1.0, s.radius); steps.size() < 5; step /= 2) {
+              const VectorXd v = step * s.w;
+              steps.push_back(step);
+              errors.push_back((M_.retract(s.x, v) - s.x - step * velocity).norm());
+            }
+            const double floor = 1e-13 * (1.0 + s.x.norm());
+            return std::max(0.0, 2.0 - log_log_slope(steps, errors, floor));
+          },
+          describe(s, s.w));
+    return measured.result();
+  }
+
+  LawResult stays_on() const {
+    auto measured = law("M3 R(x, v) lies on M", 1e-12);
+    for_vectors([&](const LawSample& s, const VectorXd& v) {
+      measured.add(
+          [&] {
+            const VectorXd y = M_.retract(s.x, v);
+            return M_.point_defect(y) / (1.0 + y.squaredNorm());
+          },
+          describe(s, v));
+    });
+    return measured.result();
+  }
+
+  LawResult left_inverse() const {
+    auto measured = law("M4 R⁻¹(x, R(x, v)) = v", 1e-10);
+    for_vectors([&](const LawSample& s, const VectorXd& v) {
+      measured.add([&] { return relative(M_.inverse_retract(s.x, M_.retract(s.x, v)) - v, v); },
+                   describe(s, v));
+    });
+    return measured.result();
+  }
+
+  // At points y that were not made by the retraction.
+  LawResult right_inverse() {
+    auto measured = law("M4 R(x, R⁻¹(x, y)) = y, R⁻¹(x, y) tangent at x", 1e-10);
+    for (const LawSample& s : samples_)
+      for (const double distance : {1e-8, 1e-4, 0.1 * std::min(1.0, s.radius)}) {
+        measured.add(
+            [&] {
+              const VectorXd y = point_near(M_, s.x, distance, generator_);
+              const VectorXd v = M_.inverse_retract(s.x, y);
+              return M_.separation(M_.retract(s.x, v), y) / (1.0 + y.norm()) +
+                     M_.tangent_defect(s.x, v);
+            },
+            describe("x", s.x) + ", y at distance " + std::to_string(distance));
+      }
+    return measured.result();
+  }
+
+  LawResult frames() const {
+    auto measured = law("M5 C E C = C, E C E = E", 1e-12);
+    for (const LawSample& s : samples_)
+      measured.add(
+          [&] {
+            const MatrixXd E = M_.frame(s.x);
+            const MatrixXd C = M_.coframe(s.x);
+            return (C * E * C - C).norm() / (1.0 + C.norm()) +
+                   (E * C * E - E).norm() / (1.0 + E.norm()) +
+                   (C * E - M_.tangent_projector(s.x)).norm();
+          },
+          describe("x", s.x));
+    return measured.result();
+  }
+
+  LawResult frame_spans_tangents() const {
+    auto measured = law("M5 E(x) has range ker dc(x) of dimension n", 1e-11);
+    for (const LawSample& s : samples_)
+      measured.add(
+          [&] {
+            Graph graph;
+            const ExprVector x = graph.variables("x", M_.ambient_dimension());
+            const ExprVector c = M_.constraint(x);
+            const Function constraint("constraint", {{"x", x}}, c, {.differentiate = {"x"}});
+            const MatrixXd d_constraint = constraint.jacobian({s.x});
+            const MatrixXd E = M_.frame(s.x);
+            if (rank(E) != M_.dimension() ||
+                rank(d_constraint) != M_.ambient_dimension() - M_.dimension())
+              return std::numeric_limits<double>::infinity();
+            return (d_constraint * E).norm() / (1.0 + d_constraint.norm() * E.norm());
+          },
+          describe("x", s.x));
+    return measured.result();
+  }
+
+  static Index rank(const MatrixXd& A) {
+    if (A.size() == 0) return 0;
+    // Frames and constraints are well conditioned at random points: 1e-8 is far from both sides.
+    Eigen::JacobiSVD<MatrixXd> svd(A);
+    return (svd.singularValues().array() > 1e-8 * svd.singularValues()[0]).count();
+  }
+
+  // x(t) = R_x(t w), v(t) = Π(x(t)) (v + t u)
+  struct Motion {
+    ExprVector x, v;
+  };
+  Motion motion(const Expr& t, const ExprVector& x, const ExprVector& w, const ExprVector& v,
+                const ExprVector& u) const {
+    const ExprVector moved = M_.retract(x, ExprVector(t * w));
+    return {moved, M_.tangent_projector(moved) * (v + t * u)};
+  }
+
+  template <class Curve>
+  LawResult derivatives(const std::string& text, const Curve& curve) const {
+    auto measured = law(text, 1e-8);
+    const Index N = M_.ambient_dimension();
+    const Index size = M_.tangent_dimension();
+    try {
+      const CurveFamily family(
+          [&](const Expr& t, const ExprVector& data) {
+            return curve(t, data.head(N), data.segment(N, size), data.segment(N + size, size),
+                         data.tail(size));
+          },
+          N + 3 * size);
+      for_vectors([&](const LawSample& s, const VectorXd& v) {
+        VectorXd data(N + 3 * size);
+        data << s.x, s.w, v, s.u;
+        // Small against the distance to where the maps may end.
+        const double step = 1e-2 * std::min(1.0, s.radius - v.norm());
+        measured.add([&] { return family.derivative_defect(data, step); }, describe(s, v));
+      });
+    } catch (const std::exception& error) {
+      measured.add(std::numeric_limits<double>::infinity(), error.what());
+    }
+    return measured.result();
+  }
+
+  LawResult derivatives_of_retraction() const {
+    return derivatives("M6 derivatives of R, E, C, c are finite and right",
+                       [&](const Expr& t, const ExprVector& x, const ExprVector& w,
+                           const ExprVector& v, const ExprVector& u) {
+                         const Motion moved = motion(t, x, w, v, u);
+                         const ExprVector y = M_.retract(moved.x, moved.v);
+                         const ExprMatrix E = M_.frame(moved.x);
+                         const ExprMatrix C = M_.coframe(moved.x);
+                         const ExprVector c = M_.constraint(moved.x);
+                         ExprVector result(y.size() + E.size() + C.size() + c.size());
+                         result << y, E.reshaped(), C.reshaped(), c;
+                         return result;
+                       });
+  }
+
+  // x and y = R(x, v) move independently, across each other where v is small.
+  LawResult derivatives_of_inverse() const {
+    const std::string text = "M6 derivatives of R⁻¹ are finite and right";
+    if (!M_.has_inverse()) {
+      auto measured = law(text + " (no closed formula: nothing to differentiate)", 0.0);
+      measured.add(0.0, "");
+      return measured.result();
+    }
+    return derivatives(text, [&](const Expr& t, const ExprVector& x, const ExprVector& w,
+                                 const ExprVector& v, const ExprVector& u) {
+      const ExprVector moved_x = M_.retract(x, ExprVector(t * w));
+      const ExprVector y = M_.retract(x, v);
+      const ExprVector velocity = M_.tangent_projector(y) * u;
+      return M_.inverse_retract(moved_x, M_.retract(y, ExprVector(t * velocity)));
+    });
+  }
+
+  LawResult geodesics() const {
+    if (!M_.is_geodesic()) {
+      auto measured = law("M7 is_geodesic() is not claimed", 0.0);
+      measured.add(0.0, "");
+      return measured.result();
+    }
+    auto measured =
+        law("M7 is_geodesic(): seen from R(x, s v), x and R(x, v) lie along one vector", 1e-10);
+    for_vectors([&](const LawSample& s, const VectorXd& v) {
+      for (const double along : {0.25, 0.5, 0.8})
+        measured.add(
+            [&] {
+              const VectorXd m = M_.retract(s.x, VectorXd(along * v));
+              const VectorXd back = M_.inverse_retract(m, s.x);
+              const VectorXd ahead = M_.inverse_retract(m, M_.retract(s.x, v));
+              return relative((1.0 - along) * back + along * ahead, ahead);
+            },
+            describe(s, v));
+    });
+    return measured.result();
+  }
+
+  LawResult points_and_vectors() const {
+    auto measured = law("M8 random points are on M, project keeps them, bases are tangent", 1e-12);
+    for (const LawSample& s : samples_)
+      measured.add(
+          [&] {
+            const MatrixXd B = M_.tangent_basis(s.x);
+            const MatrixXd one = MatrixXd::Identity(M_.dimension(), M_.dimension());
+            return M_.point_defect(s.x) / (1.0 + s.x.squaredNorm()) +
+                   (M_.project(s.x) - s.x).norm() / (1.0 + s.x.norm()) +
+                   (B.transpose() * B - one).norm() + (M_.tangent_projector(s.x) * B - B).norm() +
+                   M_.separation(s.x, s.x) + M_.tangent_defect(s.x, s.w);
+          },
+          describe("x", s.x));
+    return measured.result();
+  }
+
+  template <class Visit>
+  void for_vectors(const Visit& visit) const {
+    for (const LawSample& s : samples_)
+      for (const VectorXd& v : s.vectors) visit(s, v);
+  }
+
+  const Manifold& M_;
+  std::mt19937 generator_;
+  std::vector<LawSample> samples_;
+};
+
+}  // namespace
+
+std::vector<LawResult> check_manifold(const Manifold& manifold, const LawOptions& options) {
+  try {
+    return ManifoldLaws(manifold, options).run();
+  } catch (const std::exception& error) {
+    LawMeasurement measured(manifold.name(), "random points and vectors exist", 0.0);
+    measured.add(std::numeric_limits<double>::infinity(), error.what());
+    return {measured.result()};
+  }
+}
+
+}  // namespace courant

@@ -1,0 +1,165 @@
+// Manifold: what a space has to supply so that integrators can be built on it.
+#pragma once
+
+#include <memory>
+#include <random>
+#include <string>
+
+#include "courant/core/expr.hpp"
+
+namespace courant {
+
+// A smooth manifold M of dimension n with a retraction R: TM → M.
+//
+// Points x are ambient vectors, x ∈ R^N. Tangent vectors v ∈ R^Ñ and covectors α ∈ (R^Ñ)* use the
+// representation that the textbooks use for that manifold: Rⁿ itself, ambient vectors orthogonal to
+// x on a sphere, left-trivialised Lie algebra components on a Lie group, pairs on bundles and
+// products. n ≤ Ñ; where n < Ñ (spheres) the vectors that are tangent at x are the range of the
+// projector Π(x) = C(x) E(x), and covectors satisfy α = Π(x)ᵀ α. Covectors are their own kind:
+// nothing identifies T*M with TM.
+//
+//   E(x) = frame(x): R^Ñ → R^N,  v ↦ ẋ          C(x) = coframe(x): R^N → R^Ñ,  ẋ ↦ v
+//
+// Laws, measured by check_manifold:
+//   M1  retract(x, 0) = x                                                for x ∈ M
+//   M2  d/ds retract(x, s v) = frame(x) v at s = 0                       for v ∈ T_xM
+//   M3  constraint(retract(x, v)) = 0                                    for ‖v‖ <
+//   injectivity_radius(x) M4  inverse_retract(x, retract(x, v)) = v, retract(x, inverse_retract(x,
+//   y)) = y   within the injectivity radius M5  C E C = C and E C E = E on M, rank n;  E(x) R^Ñ =
+//   ker d constraint(x) M6  every map is smooth at and near v = 0: derivatives are finite and right
+//
+// Every formula is written once, on Expr; given numbers, the same functions return numbers
+// (constants fold). Reference: Absil, Mahony, Sepulchre, Optimization Algorithms on Matrix
+// Manifolds (2008), Definition 4.1 of the paper (R1, R2).
+//
+// To subclass: pass the sizes to the constructor, override the pure functions; about 25 lines. See
+// docs/tutorial-new-manifold.md.
+class Manifold {
+ public:
+  virtual ~Manifold() = default;
+
+  const std::string& name() const { return name_; }  // with its parameters: "Sphere(2)"
+  Index dimension() const { return dimension_; }     // n
+  Index ambient_dimension() const { return ambient_dimension_; }  // N
+  Index tangent_dimension() const { return tangent_dimension_; }  // Ñ
+
+  // The maps above, on expressions or on numbers. Wrong sizes throw std::invalid_argument. Points
+  // and vectors are not checked for being on the manifold or tangent to it (point_defect and
+  // tangent_defect measure that).
+  template <class X, class V>
+  auto retract(const Eigen::MatrixBase<X>& x, const Eigen::MatrixBase<V>& v) const {
+    return on<X>([&] { return checked_retract(x.template cast<Expr>(), v.template cast<Expr>()); });
+  }
+  // Throws std::logic_error on expressions if !has_inverse(); numbers are then inverted by Newton's
+  // method (std::domain_error where that does not converge).
+  template <class X, class Y>
+  auto inverse_retract(const Eigen::MatrixBase<X>& x, const Eigen::MatrixBase<Y>& y) const {
+    if constexpr (!std::is_same_v<typename X::Scalar, Expr>) {
+      if (!has_inverse()) return newton_inverse(x, y);
+    }
+    return on<X>(
+        [&] { return checked_inverse_retract(x.template cast<Expr>(), y.template cast<Expr>()); });
+  }
+  template <class X>
+  auto frame(const Eigen::MatrixBase<X>& x) const {  // N × Ñ
+    return on<X>([&] { return checked_frame(x.template cast<Expr>()); });
+  }
+  template <class X>
+  auto coframe(const Eigen::MatrixBase<X>& x) const {  // Ñ × N
+    return on<X>([&] { return checked_coframe(x.template cast<Expr>()); });
+  }
+  template <class X>
+  auto constraint(const Eigen::MatrixBase<X>& x)
+      const {  // equations of the embedding, at least N - n; zero on M
+    return on<X>([&] { return checked_constraint(x.template cast<Expr>()); });
+  }
+
+  // Π(x) = C(x) E(x), Ñ × Ñ: the identity where n = Ñ, since no vector needs projecting there.
+  template <class X>
+  auto tangent_projector(const Eigen::MatrixBase<X>& x) const {
+    return on<X>([&] { return checked_projector(x.template cast<Expr>()); });
+  }
+  // The chart at x₀: R_{x₀}(B ξ) for ξ ∈ Rⁿ and a basis B (Ñ × n) of T_{x₀}M.
+  template <class X, class B, class Xi>
+  auto chart(const Eigen::MatrixBase<X>& x0, const Eigen::MatrixBase<B>& basis,
+             const Eigen::MatrixBase<Xi>& xi) const {
+    return retract(x0, (basis * xi).eval());
+  }
+
+  // Whether inverse_retract is a closed formula, so that it works on expressions.
+  virtual bool has_inverse() const { return true; }
+  // Whether s ↦ retract(x, s v) are the geodesics of a connection, so that with m = retract(x, s v)
+  // and y = retract(x, v) inverse_retract(m, x) = -s w and inverse_retract(m, y) = (1-s) w for one
+  // w ∈ T_mM (exponential maps). A claim that check_manifold measures.
+  virtual bool is_geodesic() const { return false; }
+
+  // An orthonormal basis of T_xM in the tangent representation, Ñ × n; the identity where n = Ñ.
+  // Constant where that holds.
+  MatrixXd tangent_basis(const VectorXd& x) const;
+
+  // ‖constraint(x)‖_∞, +∞ outside an open domain: 0 on M.
+  double point_defect(const VectorXd& x) const;
+  // ‖v - Π(x) v‖_∞: 0 for a tangent vector.
+  double tangent_defect(const VectorXd& x, const VectorXd& v) const;
+  // A distance between points that can be compared with zero; the ambient distance by default.
+  double separation(const VectorXd& x, const VectorXd& y) const;
+  // A length (Euclidean norm in the tangent representation) below which retract at x is a
+  // diffeomorphism onto its image.
+  double injectivity_radius(const VectorXd& x) const;
+  // The point of M near x: x itself up to round-off if x ∈ M. Throws std::domain_error if there is
+  // none.
+  VectorXd project(const VectorXd& x) const;
+  VectorXd random_point(std::mt19937& generator) const;
+  // A tangent vector at x of length `length`, in a random direction (0 if n = 0).
+  VectorXd random_tangent(const VectorXd& x, double length, std::mt19937& generator) const;
+
+ protected:
+  // Throws std::invalid_argument unless 0 ≤ n ≤ Ñ and n ≤ N.
+  Manifold(std::string name, Index dimension, Index ambient_dimension, Index tangent_dimension);
+
+ private:
+  // To subclass, override:
+  virtual ExprVector do_retract(const ExprVector& x, const ExprVector& v) const = 0;
+  virtual ExprMatrix do_frame(const ExprVector& x) const = 0;
+  virtual ExprMatrix do_coframe(const ExprVector& x) const = 0;
+
+  // May override:
+  virtual ExprVector do_inverse_retract(const ExprVector& x,
+                                        const ExprVector& y) const;  // or has_inverse() → false
+  virtual ExprVector do_constraint(
+      const ExprVector& x) const;  // must, unless n = N (an open subset of R^N)
+  virtual double do_point_defect(
+      const VectorXd& x) const;  // must, for an open subset that isn't all of R^N
+  virtual double do_separation(
+      const VectorXd& x, const VectorXd& y) const;  // where points have several representatives
+  virtual double do_injectivity_radius(
+      const VectorXd& x) const;  // +∞ by default: must, unless R_x is injective on T_xM
+  virtual VectorXd do_project(const VectorXd& x) const;  // default: Gauss–Newton on the constraint
+  virtual VectorXd do_random_point(
+      std::mt19937& generator) const;  // default: a projected normal vector
+
+  // The value on expressions, or its numbers if the argument X was numbers.
+  template <class X, class Formula>
+  static auto on(const Formula& formula) {
+    if constexpr (std::is_same_v<typename X::Scalar, Expr>)
+      return formula();
+    else
+      return values(formula());
+  }
+  ExprVector checked_retract(const ExprVector& x, const ExprVector& v) const;
+  ExprVector checked_inverse_retract(const ExprVector& x, const ExprVector& y) const;
+  ExprMatrix checked_frame(const ExprVector& x) const;
+  ExprMatrix checked_coframe(const ExprVector& x) const;
+  ExprMatrix checked_projector(const ExprVector& x) const;
+  ExprVector checked_constraint(const ExprVector& x) const;
+  VectorXd newton_inverse(const VectorXd& x, const VectorXd& y) const;
+  void check_size(const char* function, const char* argument, Index size, Index expected,
+                  const char* meaning) const;
+
+  std::string name_;
+  Index dimension_;
+  Index ambient_dimension_;
+  Index tangent_dimension_;
+};
+
+}  // namespace courant

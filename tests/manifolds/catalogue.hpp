@@ -1,0 +1,145 @@
+// Every manifold that the laws are measured on, and how a class that is missing is found.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <regex>
+#include <set>
+#include <string>
+#include <typeinfo>
+#include <vector>
+
+#include "courant/manifolds/cotangent_bundle.hpp"
+#include "courant/manifolds/euclidean.hpp"
+#include "courant/manifolds/hyperbolic.hpp"
+#include "courant/manifolds/implicit_submanifold.hpp"
+#include "courant/manifolds/product.hpp"
+#include "courant/manifolds/special_euclidean3.hpp"
+#include "courant/manifolds/special_orthogonal3.hpp"
+#include "courant/manifolds/sphere.hpp"
+#include "courant/manifolds/stiefel.hpp"
+#include "courant/manifolds/symmetric_positive_definite.hpp"
+#include "courant/manifolds/tangent_bundle.hpp"
+#include "courant/manifolds/torus.hpp"
+
+namespace courant::test {
+
+using ManifoldPointer = std::shared_ptr<const Manifold>;
+
+template <class M, class... Arguments>
+std::shared_ptr<const M> make(Arguments&&... arguments) {
+  return std::make_shared<const M>(std::forward<Arguments>(arguments)...);
+}
+
+inline ManifoldPointer product(std::vector<ManifoldPointer> factors) {
+  return make<Product>(std::move(factors));
+}
+
+// x² + y²/2 + z²/4 = 1
+inline ManifoldPointer ellipsoid() {
+  return make<ImplicitSubmanifold>(
+      "Ellipsoid", make<Euclidean>(3),
+      [](const ExprVector& x) {
+        return ExprVector(
+            ExprVector::Constant(1, square(x[0]) + square(x[1]) / 2.0 + square(x[2]) / 4.0 - 1.0));
+      },
+      1);
+}
+
+// The circle of the sphere that a plane cuts out.
+inline ManifoldPointer spherical_circle() {
+  return make<ImplicitSubmanifold>(
+      "SphericalCircle", make<Sphere>(2),
+      [](const ExprVector& x) {
+        return ExprVector(ExprVector::Constant(1, x[0] - 0.3 * x[1] - 0.2));
+      },
+      1);
+}
+
+// Every class of manifolds/, with each of its retractions, in dimension 0, 1 and more, alone and as
+// first and last factor of a product.
+inline std::vector<ManifoldPointer> manifold_catalogue() {
+  const auto sphere = make<Sphere>(2);
+  const auto rotations = make<SpecialOrthogonal3>();
+  const auto motions = make<SpecialEuclidean3>();
+  const auto torus = make<Torus>(2);
+  const auto plane = make<Hyperbolic>(2);
+  const auto frames = make<Stiefel>(3, 2);
+  return {make<Euclidean>(0),
+          make<Euclidean>(1),
+          make<Euclidean>(3),
+          make<Sphere>(0),
+          make<Sphere>(1),
+          sphere,
+          make<Sphere>(0, Sphere::projective()),
+          make<Sphere>(1, Sphere::projective()),
+          make<Sphere>(3, Sphere::projective()),
+          rotations,
+          make<SpecialOrthogonal3>(SpecialOrthogonal3::cayley()),
+          motions,
+          make<SpecialEuclidean3>(SpecialEuclidean3::cayley()),
+          make<Torus>(0),
+          make<Torus>(1),
+          torus,
+          make<Hyperbolic>(0),
+          make<Hyperbolic>(1),
+          plane,
+          make<Stiefel>(1, 1),
+          make<Stiefel>(2, 1),
+          frames,
+          make<Stiefel>(3, 3),
+          make<Stiefel>(4, 2),
+          make<SymmetricPositiveDefinite>(0),
+          make<SymmetricPositiveDefinite>(1),
+          make<SymmetricPositiveDefinite>(3),
+          product({}),
+          product({sphere, make<Euclidean>(1)}),
+          product({make<Euclidean>(0), torus, rotations}),
+          product({rotations, frames}),
+          product({make<Euclidean>(2), sphere}),
+          make<TangentBundle>(torus),
+          make<TangentBundle>(sphere),
+          make<TangentBundle>(plane),
+          make<TangentBundle>(make<TangentBundle>(make<Sphere>(1))),
+          make<CotangentBundle>(make<Euclidean>(0)),
+          make<CotangentBundle>(make<Euclidean>(1)),
+          make<CotangentBundle>(make<Sphere>(0)),
+          make<CotangentBundle>(make<Sphere>(1)),
+          make<CotangentBundle>(sphere),
+          make<CotangentBundle>(rotations),
+          make<CotangentBundle>(motions),
+          make<CotangentBundle>(plane),
+          make<CotangentBundle>(frames),
+          make<CotangentBundle>(product({sphere, rotations})),
+          product({make<CotangentBundle>(sphere), make<CotangentBundle>(torus)}),
+          ellipsoid(),
+          spherical_circle(),
+          product({ellipsoid(), torus}),
+          make<CotangentBundle>(spherical_circle())};
+}
+
+// The final classes that derive from one of `bases` in the headers of a folder of the sources.
+inline std::set<std::string> final_classes(const std::string& folder, const std::string& bases) {
+  const auto sources = std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
+  const std::regex declaration("class (\\w+) final\\s*:\\s*public (?:" + bases + ")\\b");
+  std::set<std::string> result;
+  for (const auto& entry : std::filesystem::directory_iterator(sources / folder)) {
+    if (entry.path().extension() != ".hpp") continue;
+    std::ifstream file(entry.path());
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    for (std::sregex_iterator it(text.begin(), text.end(), declaration), end; it != end; ++it)
+      result.insert((*it)[1]);
+  }
+  return result;
+}
+
+// Whether the class courant::`name` is that of the object: its mangled name is
+// N7courant<length><name>E.
+template <class T>
+bool is_of_class(const T& object, const std::string& name) {
+  return typeid(object).name() == "N7courant" + std::to_string(name.size()) + name + "E";
+}
+
+}  // namespace courant::test

@@ -1,0 +1,198 @@
+// Each law has a manifold planted that breaks it, and only what depends on it.
+#include "courant/manifolds/laws.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <functional>
+
+#include "courant/manifolds/sphere.hpp"
+
+using namespace courant;
+
+namespace {
+
+// S² with the exponential retraction, parts of which can be replaced.
+class Planted final : public Manifold {
+ public:
+  using VectorMap = std::function<ExprVector(const ExprVector&, const ExprVector&)>;
+  using MatrixMap = std::function<ExprMatrix(const ExprVector&)>;
+  struct Parts {
+    VectorMap retract = Sphere::exponential().map;
+    VectorMap inverse = Sphere::exponential().inverse;
+    MatrixMap frame = projector;
+    MatrixMap coframe = projector;
+    std::function<ExprVector(const ExprVector&)> constraint = [](const ExprVector& x) {
+      return ExprVector(ExprVector::Constant(1, x.squaredNorm() - 1.0));
+    };
+    double radius = Sphere::exponential().injectivity_radius;
+    bool geodesic = false;
+    VectorXd project_offset = VectorXd::Zero(3);
+    Index dimension = 2;
+  };
+  explicit Planted(Parts parts)
+      : Manifold("Planted", parts.dimension, 3, 3), parts_(std::move(parts)) {}
+  bool is_geodesic() const override { return parts_.geodesic; }
+
+  static ExprMatrix projector(const ExprVector& x) {
+    return ExprMatrix::Identity(3, 3) - x * x.transpose();
+  }
+
+ private:
+  ExprVector do_retract(const ExprVector& x, const ExprVector& v) const override {
+    return parts_.retract(x, v);
+  }
+  ExprVector do_inverse_retract(const ExprVector& x, const ExprVector& y) const override {
+    return parts_.inverse(x, y);
+  }
+  ExprMatrix do_frame(const ExprVector& x) const override { return parts_.frame(x); }
+  ExprMatrix do_coframe(const ExprVector& x) const override { return parts_.coframe(x); }
+  ExprVector do_constraint(const ExprVector& x) const override { return parts_.constraint(x); }
+  double do_injectivity_radius(const VectorXd&) const override { return parts_.radius; }
+  VectorXd do_project(const VectorXd& x) const override {
+    return x.normalized() + parts_.project_offset;
+  }
+
+  Parts parts_;
+};
+
+ExprVector normalised(const ExprVector& x) { return x / sqrt(x.squaredNorm()); }
+
+bool fails(const Planted::Parts& parts, const std::string& law) {
+  for (const LawResult& result : check_manifold(Planted(parts)))
+    if (!result.passed() && result.law.starts_with(law)) return true;
+  return false;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(manifold_laws)
+
+BOOST_AUTO_TEST_CASE(the_manifold_that_nothing_is_planted_in_passes) {
+  Planted::Parts parts;
+  BOOST_TEST(all_passed(check_manifold(Planted(parts))));
+  parts.geodesic = true;
+  BOOST_TEST(all_passed(check_manifold(Planted(parts))));
+}
+
+BOOST_AUTO_TEST_CASE(m1_a_retraction_that_moves_points) {
+  Planted::Parts parts;
+  parts.retract = [](const ExprVector& x, const ExprVector& v) {
+    ExprVector y = x + v;
+    y[0] += 1e-9;
+    return normalised(y);
+  };
+  BOOST_TEST(fails(parts, "M1"));
+}
+
+BOOST_AUTO_TEST_CASE(m2_a_retraction_that_is_not_rigid) {
+  Planted::Parts parts;
+  parts.retract = [](const ExprVector& x, const ExprVector& v) {
+    return normalised(x + Expr(1.001) * v);
+  };
+  BOOST_TEST(fails(parts, "M2 d/ds"));
+}
+
+BOOST_AUTO_TEST_CASE(m3_a_retraction_that_leaves_the_manifold) {
+  Planted::Parts parts;
+  parts.retract = [](const ExprVector& x, const ExprVector& v) { return ExprVector(x + v); };
+  BOOST_TEST(fails(parts, "M3"));
+}
+
+BOOST_AUTO_TEST_CASE(m4_an_inverse_of_another_retraction) {
+  Planted::Parts parts;
+  parts.inverse = Sphere::projective().inverse;
+  BOOST_TEST(fails(parts, "M4 R⁻¹(x, R"));
+}
+
+BOOST_AUTO_TEST_CASE(m4_an_inverse_that_is_not_tangent) {
+  Planted::Parts parts;
+  parts.inverse = [](const ExprVector& x, const ExprVector& y) {
+    return ExprVector(Sphere::exponential().inverse(x, y) + Expr(1e-3) * x);
+  };
+  parts.retract = [](const ExprVector& x, const ExprVector& v) {  // which that leaves alone
+    return Sphere::exponential().map(x, Planted::projector(x) * v);
+  };
+  BOOST_TEST(fails(parts, "M4 R(x, R⁻¹"));
+}
+
+// One round trip still closes: the short way round leads to the same point.
+BOOST_AUTO_TEST_CASE(m4_a_radius_that_is_too_large) {
+  Planted::Parts parts;
+  parts.radius = 4.0;
+  BOOST_TEST(fails(parts, "M4 R⁻¹(x, R"));
+  BOOST_TEST(!fails(parts, "M4 R(x, R⁻¹"));
+}
+
+BOOST_AUTO_TEST_CASE(m4_an_inverse_that_throws) {
+  Planted::Parts parts;
+  parts.inverse = [](const ExprVector&, const ExprVector&) -> ExprVector {
+    throw std::logic_error("forgotten");
+  };
+  BOOST_TEST(fails(parts, "M4"));
+  BOOST_TEST(fails(parts, "M6"));
+}
+
+BOOST_AUTO_TEST_CASE(m5_frames_that_do_not_fit_each_other) {
+  Planted::Parts parts;
+  parts.coframe = [](const ExprVector& x) {
+    return ExprMatrix(Expr(1.0 + 1e-9) * Planted::projector(x));
+  };
+  BOOST_TEST(fails(parts, "M5 C E C"));
+}
+
+BOOST_AUTO_TEST_CASE(m5_a_frame_that_is_not_tangent) {
+  Planted::Parts parts;
+  parts.frame = parts.coframe = [](const ExprVector&) {
+    ExprMatrix E = ExprMatrix::Identity(3, 3);
+    E(2, 2) = 0.0;
+    return E;
+  };
+  BOOST_TEST(fails(parts, "M5 E(x) has range"));
+}
+
+BOOST_AUTO_TEST_CASE(m5_a_dimension_that_is_wrong) {
+  Planted::Parts parts;
+  parts.dimension = 1;
+  BOOST_TEST(fails(parts, "M5 E(x) has range"));
+}
+
+BOOST_AUTO_TEST_CASE(m5_a_constraint_with_a_vanishing_derivative) {
+  Planted::Parts parts;
+  parts.constraint = [](const ExprVector& x) {
+    return ExprVector(ExprVector::Constant(1, square(x.squaredNorm() - 1.0)));
+  };
+  BOOST_TEST(fails(parts, "M5 E(x) has range"));
+}
+
+// The textbook formula with ‖v‖: every value is right except at v = 0, and there so is the guard.
+BOOST_AUTO_TEST_CASE(m6_an_exponential_that_is_not_smooth_at_zero) {
+  Planted::Parts parts;
+  parts.retract = [](const ExprVector& x, const ExprVector& v) {
+    const Expr s = v.squaredNorm();
+    const Expr norm = sqrt(select(equal(s, 0.0), 1.0, s));
+    const ExprVector moved = cos(norm) * x + sin(norm) / norm * v;
+    return ExprVector(moved.binaryExpr(
+        x, [&](const Expr& m, const Expr& e) { return select(equal(s, 0.0), e, m); }));
+  };
+  BOOST_TEST(!fails(parts, "M1"));
+  BOOST_TEST(!fails(parts, "M3"));
+  BOOST_TEST(!fails(parts, "M4"));
+  BOOST_TEST(fails(parts, "M6 derivatives of R, E"));
+}
+
+BOOST_AUTO_TEST_CASE(m7_a_retraction_that_is_not_geodesic) {
+  Planted::Parts parts;
+  parts.retract = Sphere::projective().map;
+  parts.inverse = Sphere::projective().inverse;
+  parts.radius = 1.0;
+  BOOST_TEST(all_passed(check_manifold(Planted(parts))));
+  parts.geodesic = true;
+  BOOST_TEST(fails(parts, "M7"));
+}
+
+BOOST_AUTO_TEST_CASE(m8_a_projection_that_moves_points_of_the_manifold) {
+  Planted::Parts parts;
+  parts.project_offset[1] = 1e-9;
+  BOOST_TEST(fails(parts, "M8"));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,73 @@
+#include "courant/manifolds/vector_bundle.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "courant/manifolds/cotangent_bundle.hpp"
+#include "courant/manifolds/hyperbolic.hpp"
+#include "courant/manifolds/special_orthogonal3.hpp"
+#include "courant/manifolds/sphere.hpp"
+#include "courant/manifolds/tangent_bundle.hpp"
+
+using namespace courant;
+using Eigen::Vector3d;
+
+BOOST_AUTO_TEST_SUITE(vector_bundle)
+
+// On a group nothing turns: the fibre is simply added to.
+BOOST_AUTO_TEST_CASE(trivialised_bundles_add) {
+  const auto rotations = std::make_shared<SpecialOrthogonal3>();
+  const TangentBundle TG(rotations);
+  std::mt19937 generator(1);
+  const VectorXd x = TG.random_point(generator);
+  const VectorXd v = TG.random_tangent(x, 1.0, generator);
+  BOOST_TEST(TG.is_geodesic());
+  BOOST_TEST((TG.fibre_part(TG.retract(x, v)) - TG.fibre_part(x) - TG.vertical(v)).norm() == 0.0);
+  BOOST_TEST(TG.injectivity_radius(x) == rotations->injectivity_radius(TG.position(x)));
+}
+
+// On the sphere the fibre turns: u̇ = r - ⟨v, u⟩ x.
+BOOST_AUTO_TEST_CASE(frame_of_the_tangent_bundle_of_the_sphere) {
+  const TangentBundle TS(std::make_shared<Sphere>(2));
+  std::mt19937 generator(2);
+  const VectorXd x = TS.random_point(generator);
+  const VectorXd v = TS.random_tangent(x, 1.0, generator);
+  const VectorXd rate = TS.frame(x) * v;
+  const VectorXd expected = TS.vertical(v) - TS.horizontal(v).dot(TS.fibre_part(x)) * x.head(3);
+  BOOST_TEST((TS.fibre_part(rate) - expected).norm() < 1e-15);
+}
+
+// ‖Π⁺ - Π‖ = sin of the distance on the sphere: invertible up to π/2, and 1/κ = 1/√2 is inside.
+BOOST_AUTO_TEST_CASE(the_radius_keeps_projectors_comparable) {
+  const TangentBundle TS(std::make_shared<Sphere>(2));
+  VectorXd x = VectorXd::Zero(6);
+  x[2] = 1.0;
+  x[3] = 2.0;
+  BOOST_TEST(TS.injectivity_radius(x) == std::sqrt(0.5), boost::test_tools::tolerance(1e-14));
+  VectorXd v = VectorXd::Zero(6);
+  v[0] = 1.5;
+  v[4] = 0.7;
+  BOOST_TEST((TS.inverse_retract(x, TS.retract(x, v)) - v).norm() < 1e-13);  // 1.5 < π/2
+}
+
+// Covectors of hyperbolic space are not its vectors: the projectors are transposes.
+BOOST_AUTO_TEST_CASE(tangent_and_cotangent_differ_where_the_projector_is_not_symmetric) {
+  const auto plane = std::make_shared<Hyperbolic>(2);
+  const Vector3d q = plane->project(Vector3d(0.0, 1.0, 0.5));
+  const TangentBundle T(plane);
+  const CotangentBundle dual(plane);
+  VectorXd x(6);
+  x << q, plane->tangent_projector(q) * Vector3d(1.0, 2.0, 3.0);
+  BOOST_TEST(T.point_defect(x) < 1e-14);
+  BOOST_TEST(dual.point_defect(x) > 0.1);
+  x.tail(3) = plane->tangent_projector(q).transpose() * Vector3d(1.0, 2.0, 3.0);
+  BOOST_TEST(T.point_defect(x) > 0.1);
+  BOOST_TEST(dual.point_defect(x) < 1e-14);
+}
+
+BOOST_AUTO_TEST_CASE(a_null_base_is_an_error) {
+  BOOST_CHECK_THROW(TangentBundle(nullptr), std::invalid_argument);
+  BOOST_CHECK_THROW(CotangentBundle(nullptr), std::invalid_argument);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
