@@ -1,0 +1,34 @@
+// DiracSystem: a Dirac structure and a generating family.
+#pragma once
+
+#include "courant/structures/dirac_structure.hpp"
+#include "courant/structures/generating_family.hpp"
+#include "courant/structures/implicit_system.hpp"
+
+namespace courant {
+
+// S = {v ∈ TM : (v, α) ∈ D, α ∈ 𝓛} (Section 2.3 of the paper; the general form (D, 𝓛)), as
+// equations
+//
+//   membership(x, v, E(x)ᵀ∂_xE(x, λ), u) = 0,   ∂_λE(x, λ) = 0;       auxiliary unknowns z = (λ, u)
+class DiracSystem final : public ImplicitSystem {
+ public:
+  // Both on the same manifold object; throws std::invalid_argument otherwise. `names` as in
+  // ImplicitSystem.
+  DiracSystem(std::shared_ptr<const DiracStructure> structure,
+              std::shared_ptr<const GeneratingFamily> family, Names names = {});
+
+  const std::shared_ptr<const DiracStructure>& structure() const { return structure_; }
+  const std::shared_ptr<const GeneratingFamily>& family() const { return family_; }
+
+ private:
+  ExprVector do_residual(const ExprVector& x, const ExprVector& v, const ExprVector& z,
+                         const Expr& t) const override;
+  std::optional<Expr> do_energy(const ExprVector& x, const ExprVector& z,
+                                const Expr& t) const override;
+
+  std::shared_ptr<const DiracStructure> structure_;
+  std::shared_ptr<const GeneratingFamily> family_;
+};
+
+}  // namespace courant

@@ -1,0 +1,84 @@
+#include "courant/structures/generating_family.hpp"
+
+#include <stdexcept>
+
+#include "courant/core/derivative.hpp"
+
+namespace courant {
+
+GeneratingFamily::GeneratingFamily(std::shared_ptr<const Manifold> manifold, Index parameter_size)
+    : manifold_(std::move(manifold)), parameter_size_(parameter_size) {
+  if (!manifold_)
+    throw std::invalid_argument("GeneratingFamily::GeneratingFamily: manifold is null.");
+}
+
+Expr GeneratingFamily::value(const ExprVector& x, const ExprVector& lambda, const Expr& t) const {
+  if (x.size() != manifold_->ambient_dimension() || lambda.size() != parameter_size_)
+    throw std::invalid_argument("GeneratingFamily::value: x and lambda have " +
+                                std::to_string(x.size()) + " and " + std::to_string(lambda.size()) +
+                                " entries, expected " +
+                                std::to_string(manifold_->ambient_dimension()) + " and " +
+                                std::to_string(parameter_size_) + ".");
+  return do_value(x, lambda, t);
+}
+
+// Differentiated at fresh variables, then brought to (x, λ, t), which may be constants or any
+// expressions.
+ExprVector GeneratingFamily::derivative(const ExprVector& x, const ExprVector& lambda,
+                                        const Expr& t, bool by_lambda) const {
+  Graph graph;
+  ExprVector from(x.size() + lambda.size() + 1);
+  from << graph.variables("x", x.size()), graph.variables("lambda", lambda.size()),
+      graph.variable("t");
+  const ExprVector at = from.head(x.size());
+  const ExprVector parameters = from.segment(x.size(), lambda.size());
+  const ExprVector d =
+      gradient(value(at, parameters, from[from.size() - 1]), by_lambda ? parameters : at);
+  ExprVector to(from.size());
+  to << x, lambda, t;
+  return substitute(d, from, to);
+}
+
+ExprVector GeneratingFamily::differential(const ExprVector& x, const ExprVector& lambda,
+                                          const Expr& t) const {
+  return manifold_->frame(x).transpose() * derivative(x, lambda, t, false);
+}
+
+ExprVector GeneratingFamily::stationarity(const ExprVector& x, const ExprVector& lambda,
+                                          const Expr& t) const {
+  return derivative(x, lambda, t, true);
+}
+
+Hamiltonian::Hamiltonian(std::shared_ptr<const Manifold> manifold, Formula hamiltonian)
+    : GeneratingFamily(std::move(manifold), 0), hamiltonian_(std::move(hamiltonian)) {}
+
+Expr Hamiltonian::do_value(const ExprVector& x, const ExprVector&, const Expr& t) const {
+  return hamiltonian_(x, t);
+}
+
+Lagrangian::Lagrangian(std::shared_ptr<const CotangentBundle> phase_space, Formula lagrangian)
+    : GeneratingFamily(phase_space, phase_space ? phase_space->base()->tangent_dimension() : 0),
+      phase_space_(phase_space),
+      lagrangian_(std::move(lagrangian)) {}
+
+Expr Lagrangian::do_value(const ExprVector& x, const ExprVector& w, const Expr& t) const {
+  const ExprVector q = phase_space_->position(x);
+  const ExprVector p = phase_space_->momentum(x);
+  const ExprVector tangent = phase_space_->base()->tangent_projector(q) * w;
+  return p.dot(w) - lagrangian_(q, tangent, t);
+}
+
+Expr Lagrangian::do_energy(const ExprVector& x, const ExprVector& w, const Expr& t) const {
+  Graph graph;
+  ExprVector from(x.size() + w.size() + 1);
+  from << graph.variables("x", x.size()), graph.variables("w", w.size()), graph.variable("t");
+  const ExprVector q = phase_space_->position(from.head(x.size()));
+  const ExprVector velocity = from.segment(x.size(), w.size());
+  const Expr lagrangian =
+      lagrangian_(q, phase_space_->base()->tangent_projector(q) * velocity, from[from.size() - 1]);
+  ExprVector to(from.size());
+  to << x, w, t;
+  return substitute(gradient(lagrangian, velocity).dot(velocity) - lagrangian, from, to);
+}
+
+}  // namespace courant

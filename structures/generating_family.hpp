@@ -1,0 +1,83 @@
+// GeneratingFamily: the submanifold 𝓛 ⊂ T*M of a Dirac system, as a Morse family.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "courant/manifolds/cotangent_bundle.hpp"
+
+namespace courant {
+
+// E: M × R^k → R, (x, λ) ↦ E(x, λ, t), which generates
+//
+//   𝓛 = {∂_x E(x, λ) : ∂_λ E(x, λ) = 0} ⊂ T*M            (Section 2.3 of the paper; Morse families:
+//   its reference [4])
+//
+//   Hamiltonian                       E = H(x), k = 0
+//   Lagrangian, singular or not       E(q, p, w) = ⟨p, w⟩ - L(q, w) on M = T*Q (Section 5.1.1)
+//   holonomic constraints             E(x, λ) = H(x) + ⟨λ, φ(x)⟩
+//   optimal control (Pontryagin)      E(q, p, u) = ⟨p, f(q, u)⟩ - ℓ(q, u)
+//
+// 𝓛 is Lagrangian where the rank of ∂_λ(∂_x E, ∂_λ E) is k; nothing here needs that. Immutable.
+// To subclass: override do_value.
+class GeneratingFamily {
+ public:
+  virtual ~GeneratingFamily() = default;
+
+  const std::shared_ptr<const Manifold>& manifold() const { return manifold_; }
+  Index parameter_size() const { return parameter_size_; }  // k
+
+  // E(x, λ, t); x: N, λ: k.
+  Expr value(const ExprVector& x, const ExprVector& lambda, const Expr& t) const;
+  // E(x)ᵀ ∂_x E: the covector in the representation of M (size Ñ), for x and λ that are any
+  // expressions or constants.
+  ExprVector differential(const ExprVector& x, const ExprVector& lambda, const Expr& t) const;
+  // ∂_λ E (size k).
+  ExprVector stationarity(const ExprVector& x, const ExprVector& lambda, const Expr& t) const;
+  // What is conserved along the flow if nothing depends on time: E itself by default.
+  Expr energy(const ExprVector& x, const ExprVector& lambda, const Expr& t) const {
+    return do_energy(x, lambda, t);
+  }
+
+ protected:
+  GeneratingFamily(std::shared_ptr<const Manifold> manifold, Index parameter_size);
+
+ private:
+  virtual Expr do_value(const ExprVector& x, const ExprVector& lambda, const Expr& t) const = 0;
+  virtual Expr do_energy(const ExprVector& x, const ExprVector& lambda, const Expr& t) const {
+    return value(x, lambda, t);
+  }
+  ExprVector derivative(const ExprVector& x, const ExprVector& lambda, const Expr& t,
+                        bool by_lambda) const;
+
+  std::shared_ptr<const Manifold> manifold_;
+  Index parameter_size_;
+};
+
+// Im dH for a Hamiltonian H: M → R.
+class Hamiltonian final : public GeneratingFamily {
+ public:
+  using Formula = std::function<Expr(const ExprVector& x, const Expr& t)>;
+  Hamiltonian(std::shared_ptr<const Manifold> manifold, Formula hamiltonian);
+
+ private:
+  Expr do_value(const ExprVector& x, const ExprVector& lambda, const Expr& t) const override;
+  Formula hamiltonian_;
+};
+
+// 𝓛 = 𝓘_{TQ}⁻¹(Im dL) for a Lagrangian L: TQ → R, regular or singular, by E(q, p, w) = ⟨p, w⟩ -
+// L(q, w); k = Ñ_Q. Its energy is ⟨∂_w L, w⟩ - L, which doesn't contain p: for L = ⟨α(q), w⟩ - H(q)
+// it is H(q) on and off M_0.
+class Lagrangian final : public GeneratingFamily {
+ public:
+  using Formula = std::function<Expr(const ExprVector& q, const ExprVector& w, const Expr& t)>;
+  Lagrangian(std::shared_ptr<const CotangentBundle> phase_space, Formula lagrangian);
+
+ private:
+  Expr do_value(const ExprVector& x, const ExprVector& w, const Expr& t) const override;
+  Expr do_energy(const ExprVector& x, const ExprVector& w, const Expr& t) const override;
+  std::shared_ptr<const CotangentBundle> phase_space_;
+  Formula lagrangian_;
+};
+
+}  // namespace courant

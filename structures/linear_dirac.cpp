@@ -1,0 +1,307 @@
+#include "courant/structures/linear_dirac.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <iterator>
+#include <ostream>
+#include <ranges>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+#include "courant/structures/blocks.hpp"
+
+namespace courant {
+namespace {
+
+std::string size(const Eigen::Ref<const MatrixXd>& matrix) {
+  return std::to_string(matrix.rows()) + " × " + std::to_string(matrix.cols());
+}
+
+std::string number(double value) {
+  std::ostringstream text;
+  text.precision(3);
+  text << value;
+  return text.str();
+}
+
+void require_size(const std::string& name, const Eigen::Ref<const MatrixXd>& matrix, Index rows,
+                  Index columns) {
+  if (matrix.rows() == rows && matrix.cols() == columns) return;
+  throw std::invalid_argument("LinearDirac: " + name + " is " + size(matrix) + "; expected " +
+                              std::to_string(rows) + " × " + std::to_string(columns) + ".");
+}
+
+MatrixXd skew_part(const MatrixXd& matrix) { return 0.5 * (matrix - matrix.transpose()); }
+
+// The skew part, if it is all of the matrix up to rounding.
+MatrixXd skew(const std::string& name, const Eigen::Ref<const MatrixXd>& matrix) {
+  require_size(name, matrix, matrix.rows(), matrix.rows());
+  const double defect = (matrix + matrix.transpose()).norm();
+  if (defect > 1e-10 * matrix.norm()) {
+    throw std::domain_error("LinearDirac: " + name + " has a symmetric part, |" + name + " + " +
+                            name + "ᵀ| = " + number(defect) + "; expected a skew matrix.");
+  }
+  return skew_part(matrix);
+}
+
+// Generators (columns) of {(u, α) : u ∈ im F, α(f_j) = ω(u, f_j)}, f_j the columns of F: (f_i, α)
+// with the least α that has α(f_j) = ω_ij, and (0, α) with α ∈ F°.
+struct Generators {
+  MatrixXd range, other;
+};
+
+Generators generators(const Eigen::Ref<const MatrixXd>& F, const std::string& name,
+                      const Eigen::Ref<const MatrixXd>& omega) {
+  require_size(name, omega, F.cols(), F.cols());
+  const FundamentalSubspaces evaluation(F.transpose());  // α ↦ α(f_j)
+  if (evaluation.rank() < F.cols()) {
+    throw std::domain_error("LinearDirac: F has " + std::to_string(F.cols()) + " columns of rank " +
+                            std::to_string(evaluation.rank()) + "; expected a basis.");
+  }
+  const MatrixXd annihilator = evaluation.kernel();
+  return {beside(F, MatrixXd::Zero(F.rows(), annihilator.cols())),
+          beside(evaluation.pseudo_solve(skew(name, omega).transpose()), annihilator)};
+}
+
+PairedSubspace subspace(const FormOnSubspace& pair) {
+  const auto [vectors, covectors] = generators(pair.F, "omega", pair.omega);
+  return PairedSubspace::image(vectors, covectors);
+}
+
+// β(v) = Λ(β, α) is v(β) = (-Λ)(α, β): the form -Λ on the subspace F of V*, with the parts of V and
+// V* exchanged.
+PairedSubspace subspace(const BivectorOnSubspace& pair) {
+  const auto [covectors, vectors] = generators(pair.F, "lambda", -pair.lambda);
+  return PairedSubspace::image(vectors, covectors);
+}
+
+PairedSubspace subspace(const ConstrainedRepresentation<MatrixXd>& representation) {
+  const auto& [J, G] = representation;
+  require_size("J", J, G.rows(), G.rows());
+  const MatrixXd efforts = FundamentalSubspaces(G.transpose()).kernel();
+  return PairedSubspace::image(beside(skew("J", J) * efforts, G),
+                               beside(efforts, MatrixXd::Zero(G.rows(), G.cols())));
+}
+
+PairedSubspace subspace(const HybridRepresentation<MatrixXd>& representation) {
+  const auto& [effort_driven, flow_driven, M] = representation;
+  std::vector<Index> order(effort_driven);
+  order.insert(order.end(), flow_driven.begin(), flow_driven.end());
+  const auto n = static_cast<Index>(order.size());
+  require_size("M", M, n, n);
+  if (!std::ranges::is_permutation(order, std::views::iota(Index{0}, n))) {
+    throw std::invalid_argument("LinearDirac: effort_driven and flow_driven together are not 0 … " +
+                                std::to_string(n - 1) + "; expected each coordinate once.");
+  }
+  const MatrixXd outputs = skew("M", M), inputs = MatrixXd::Identity(n, n);
+  const auto effort_count = static_cast<Index>(effort_driven.size());
+  MatrixXd vectors(n, n), covectors(n, n);
+  for (Index k = 0; k < n; ++k) {
+    const bool effort_is_given = k < effort_count;
+    const Index coordinate = order[static_cast<std::size_t>(k)];
+    vectors.row(coordinate) = (effort_is_given ? outputs : inputs).row(k);
+    covectors.row(coordinate) = (effort_is_given ? inputs : outputs).row(k);
+  }
+  return PairedSubspace::image(vectors, covectors);
+}
+
+MatrixXd random_matrix(Index rows, Index columns, std::mt19937& generator) {
+  std::normal_distribution<double> normal;
+  return MatrixXd::NullaryExpr(rows, columns, [&] { return normal(generator); });
+}
+
+// The first `count` columns that Gram-Schmidt with pivoting takes, in increasing order.
+std::vector<Index> independent_columns(const MatrixXd& matrix, Index count) {
+  if (count == 0) return {};
+  const Eigen::ColPivHouseholderQR<MatrixXd> qr(matrix);
+  const auto& indices = qr.colsPermutation().indices();
+  std::vector<Index> columns(indices.begin(), indices.begin() + count);
+  std::ranges::sort(columns);
+  return columns;
+}
+
+std::vector<Index> others(const std::vector<Index>& columns, Index n) {
+  std::vector<Index> rest;
+  std::ranges::set_difference(std::views::iota(Index{0}, n), columns, std::back_inserter(rest));
+  return rest;
+}
+
+// "3 α[1] - 2 α[2]": the terms of a linear form, those of rounding size left out.
+std::string linear_form(const Eigen::Ref<const Eigen::RowVectorXd>& coefficients,
+                        const std::vector<std::string>& names) {
+  std::ostringstream text;
+  for (Index k = 0; k < coefficients.size(); ++k) {
+    const double c = coefficients[k];
+    if (std::abs(c) <= 1e-12 * std::max(1.0, coefficients.cwiseAbs().maxCoeff())) continue;
+    const bool first = text.tellp() == std::streampos(0);
+    text << (first ? (c < 0.0 ? "-" : "") : (c < 0.0 ? " - " : " + "));
+    const std::string size = number(std::abs(c));
+    if (size != "1") text << size << ' ';
+    text << names[static_cast<std::size_t>(k)];
+  }
+  return text.str().empty() ? "0" : text.str();
+}
+
+}  // namespace
+
+LinearDirac::LinearDirac(const PairedSubspace& subspace) : PairedSubspace(subspace) {
+  if (is_dirac(1e-8)) return;
+  throw std::domain_error("LinearDirac: the subspace has dimension " + std::to_string(dimension()) +
+                          ", isotropy defect " + number(isotropy_defect()) +
+                          " and coisotropy defect " + number(coisotropy_defect()) +
+                          "; expected dimension " + std::to_string(space_dimension()) +
+                          " = dim V and defects of at most 1e-08.");
+}
+
+LinearDirac::LinearDirac(const KernelRepresentation<MatrixXd>& representation)
+    : LinearDirac(PairedSubspace::kernel(representation.F, representation.E)) {}
+
+LinearDirac::LinearDirac(const ImageRepresentation<MatrixXd>& representation)
+    : LinearDirac(PairedSubspace::image(representation.F, representation.E)) {}
+
+LinearDirac::LinearDirac(const ConstrainedRepresentation<MatrixXd>& representation)
+    : LinearDirac(subspace(representation)) {}
+
+LinearDirac::LinearDirac(const HybridRepresentation<MatrixXd>& representation)
+    : LinearDirac(subspace(representation)) {}
+
+LinearDirac::LinearDirac(const FormOnSubspace& pair) : LinearDirac(subspace(pair)) {}
+
+LinearDirac::LinearDirac(const BivectorOnSubspace& pair) : LinearDirac(subspace(pair)) {}
+
+LinearDirac LinearDirac::annihilator_sum(const Eigen::Ref<const MatrixXd>& F) {
+  const FundamentalSubspaces of_transpose(F.transpose());
+  const MatrixXd span = of_transpose.row_space(), annihilator = of_transpose.kernel();
+  return LinearDirac(
+      PairedSubspace::image(beside(span, MatrixXd::Zero(F.rows(), annihilator.cols())),
+                            beside(MatrixXd::Zero(F.rows(), span.cols()), annihilator)));
+}
+
+LinearDirac LinearDirac::graph_of_form(const Eigen::Ref<const MatrixXd>& omega) {
+  const MatrixXd identity = MatrixXd::Identity(omega.rows(), omega.rows());
+  return LinearDirac(PairedSubspace::image(identity, skew("omega", omega).transpose()));
+}
+
+LinearDirac LinearDirac::graph_of_bivector(const Eigen::Ref<const MatrixXd>& lambda) {
+  const MatrixXd identity = MatrixXd::Identity(lambda.rows(), lambda.rows());
+  return LinearDirac(PairedSubspace::image(skew("lambda", lambda), identity));
+}
+
+LinearDirac LinearDirac::from_scattering(const Eigen::Ref<const MatrixXd>& O) {
+  require_size("O", O, O.rows(), O.rows());
+  const MatrixXd identity = MatrixXd::Identity(O.rows(), O.rows());
+  return LinearDirac(PairedSubspace::image(0.5 * (identity + O), 0.5 * (identity - O)));
+}
+
+LinearDirac LinearDirac::random(Index n, std::mt19937& generator) {
+  const auto below = [&](Index count) {
+    return std::uniform_int_distribution<Index>(0, count - 1)(generator);
+  };
+  const Index r = below(n + 1);
+  const Index half_rank = below(r / 2 + 1);
+  const MatrixXd A = random_matrix(r, half_rank, generator);
+  const MatrixXd B = random_matrix(r, half_rank, generator);
+  return LinearDirac(FormOnSubspace{.F = random_matrix(n, r, generator),
+                                    .omega = A * B.transpose() - B * A.transpose()});
+}
+
+// For f_j in F_D there is λ with (f_j, Yλ) ∈ D, Xλ = f_j, where [X; Y] is the basis.
+FormOnSubspace LinearDirac::form() const {
+  const FundamentalSubspaces of_vectors(vectors(), block_options());
+  const MatrixXd F = of_vectors.range();
+  return {F, skew_part((covectors() * of_vectors.pseudo_solve(F)).transpose() * F)};
+}
+
+BivectorOnSubspace LinearDirac::bivector() const {
+  const FundamentalSubspaces of_covectors(covectors(), block_options());
+  const MatrixXd F = of_covectors.range();
+  return {F, skew_part(F.transpose() * (vectors() * of_covectors.pseudo_solve(F)))};
+}
+
+// XᵀX + YᵀY = 1 and XᵀY + YᵀX = 0 make X ± Y orthogonal, for the orthonormal basis [X; Y].
+MatrixXd LinearDirac::scattering() const {
+  return (vectors() - covectors()) * (vectors() + covectors()).transpose();
+}
+
+KernelRepresentation<MatrixXd> LinearDirac::kernel_representation() const {
+  return {covectors().transpose(), vectors().transpose()};
+}
+
+ImageRepresentation<MatrixXd> LinearDirac::image_representation() const {
+  return {vectors(), covectors()};
+}
+
+ConstrainedRepresentation<MatrixXd> LinearDirac::constrained_representation() const {
+  const auto [F, lambda] = bivector();
+  return {F * lambda * F.transpose(), vector_kernel()};
+}
+
+// If F₁ is a maximal set of independent columns of F in Fv + Eα = 0, then [F₁ E₂] is regular.
+HybridRepresentation<MatrixXd> LinearDirac::hybrid_representation() const {
+  const Index n = space_dimension();
+  const auto [F, E] = kernel_representation();
+  const Index rank_F = decide_rank(F, block_options()).rank;
+  const Index rank_E = decide_rank(E, block_options()).rank;
+  HybridRepresentation<MatrixXd> result;
+  if (rank_F >= rank_E) {
+    result.effort_driven = independent_columns(F, rank_F);
+    result.flow_driven = others(result.effort_driven, n);
+  } else {
+    result.flow_driven = independent_columns(E, rank_E);
+    result.effort_driven = others(result.flow_driven, n);
+  }
+  const MatrixXd outputs =
+      beside(F(Eigen::all, result.effort_driven), E(Eigen::all, result.flow_driven));
+  const MatrixXd inputs =
+      beside(E(Eigen::all, result.effort_driven), F(Eigen::all, result.flow_driven));
+  result.M = skew_part(-outputs.partialPivLu().solve(inputs));
+  return result;
+}
+
+LinearDirac LinearDirac::gauge_transformed(const Eigen::Ref<const MatrixXd>& B) const {
+  require_size("B", B, space_dimension(), space_dimension());
+  return LinearDirac(
+      PairedSubspace::image(vectors(), covectors() + skew("B", B).transpose() * vectors()));
+}
+
+std::string LinearDirac::kind() const {
+  const Index n = space_dimension(), r = vector_range().cols(), s = covector_range().cols();
+  const Index rank_of_form = r + s - n;  // the kernel of ω_D is D ∩ V, of dimension n - s
+  if (r == n && s == n) return "graph of a symplectic form";
+  if (r == n && s == 0) return "V ⊕ 0";
+  if (r == 0 && s == n) return "0 ⊕ V*";
+  if (rank_of_form == 0) return "F ⊕ F°";
+  if (r == n) return "graph of a presymplectic form";
+  if (s == n) return "graph of a bivector";
+  return "a form on a subspace";
+}
+
+std::ostream& operator<<(std::ostream& out, const LinearDirac& D) {
+  const Index n = D.space_dimension();
+  const Index r = D.vector_range().cols(), s = D.covector_range().cols();
+  std::ostringstream text;
+  text << "Dirac structure on V, dim V = " << n << ": " << D.kind() << "\n  dim F_D = " << r
+       << ", rank ω_D = " << r + s - n << ", dim D ∩ V = " << n - s << ", dim D ∩ V* = " << n - r
+       << '\n';
+  if (D.decision().ambiguous()) text << "  the dimension is doubtful: " << D.decision() << '\n';
+
+  const auto [effort_driven, flow_driven, M] = D.hybrid_representation();
+  std::vector<std::string> inputs, outputs;
+  for (const Index k : effort_driven) {
+    inputs.push_back("α[" + std::to_string(k) + "]");
+    outputs.push_back("v[" + std::to_string(k) + "]");
+  }
+  for (const Index k : flow_driven) {
+    inputs.push_back("v[" + std::to_string(k) + "]");
+    outputs.push_back("α[" + std::to_string(k) + "]");
+  }
+  for (Index k = 0; k < n; ++k) {
+    text << "  " << outputs[static_cast<std::size_t>(k)] << " = " << linear_form(M.row(k), inputs)
+         << '\n';
+  }
+  return out << text.str();
+}
+
+}  // namespace courant
