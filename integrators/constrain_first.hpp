@@ -1,0 +1,66 @@
+// Method 2: the continuous constraint algorithm first, then a discretization on M_f.
+#pragma once
+
+#include "courant/core/function.hpp"
+#include "courant/integrators/constraint_ladder.hpp"
+#include "courant/integrators/discretization_map.hpp"
+#include "courant/integrators/integrator.hpp"
+#include "courant/integrators/projector.hpp"
+#include "courant/structures/implicit_system.hpp"
+
+namespace courant {
+
+// S_f over M_f discretized with R_d^{M_f} = (P × P) ∘ R_d ∘ Ti (Option 2 of Section 5.2,
+// Proposition 7.3, Sections 6.2, 7.2 and 8.2):
+//
+//   R_d⁻(x̄, h v) = R_{x_k}(B W(x_k) μ),   (x̄, v) ∈ S_f,      then   x_{k+1} = P(R_d⁺(x̄, h v))
+//
+// in one solve for (x̄, v, z, jets, μ). (x̄, v) ∈ S_f means: the equations of the system and those of
+// their time derivatives that the ladder needed. All of it is written in the chart at x_k. The
+// points x_k are on M_f to round-off, hidden constraints included.
+class ConstrainFirst final : public Integrator {
+ public:
+  struct Options {
+    Backend backend = Backend::automatic;
+  };
+
+  // `ladder` of `system` (regular, or gauge: then the step of least change is taken); `map` on its
+  // manifold object. Throws std::invalid_argument otherwise.
+  ConstrainFirst(std::shared_ptr<const ImplicitSystem> system, const ConstraintLadder& ladder,
+                 std::shared_ptr<const DiscretizationMap> map,
+                 std::shared_ptr<const Projector> projector, const Options& options);
+  ConstrainFirst(std::shared_ptr<const ImplicitSystem> system, const ConstraintLadder& ladder,
+                 std::shared_ptr<const DiscretizationMap> map,
+                 std::shared_ptr<const Projector> projector)
+      : ConstrainFirst(std::move(system), ladder, std::move(map), std::move(projector), Options()) {
+  }
+
+  std::string name() const override { return "constrain-first"; }
+  int order() const override { return map_->order(); }
+  bool is_symmetric() const override { return map_->is_symmetric(); }
+  // M_f with the pulled-back form is in general not preserved (Proposition 6.3): known only where
+  // there is nothing to constrain.
+  std::optional<bool> is_symplectic() const override {
+    return codimension_ == 0 ? map_->is_symplectic() : std::nullopt;
+  }
+  bool is_native() const override { return equations_.is_native(); }
+  std::unique_ptr<Stepper> start(const State& initial, double h) const override;
+
+ private:
+  class Trajectory;
+
+  std::shared_ptr<const ImplicitSystem> system_;
+  std::shared_ptr<const DiscretizationMap> map_;
+  std::shared_ptr<const Projector> projector_;
+  Index codimension_;   // d = dim M - dim M_f
+  Index blocks_;        // tangent blocks of the unknowns: ξ, ξ', …
+  Index auxiliaries_;   // z, z', …
+  Function equations_;  // (ξ, ξ', …, z, …, μ); x₀, basis, W, h, t  ↦ residual of the step
+  Function advance_;    // the same ↦ R_d⁺(x̄, h v)
+  Function projection_;  // (ξ, ξ', …, z, …, μ); x_guess, basis, W, x_near, t ↦ residual of x ∈ M_f,
+                         // R_x(W μ) = x_near
+  Function projected_;  // the same ↦ x, v, z
+  Function constraints_;  // (ξ, ξ', …, z, …); x₀, basis, t ↦ equations of S_f, with Jacobian
+};
+
+}  // namespace courant

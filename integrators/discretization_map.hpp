@@ -1,0 +1,73 @@
+// DiscretizationMap: R_d: TM → M × M.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "courant/manifolds/manifold.hpp"
+
+namespace courant {
+
+// A smooth map R_d = (R⁻, R⁺): TM → M × M (Definition 4.5). With it one step of S ⊂ TM is (1/h)
+// R_d⁻¹(x₀, x₁) ∈ S.
+//
+// Laws, measured by check_discretization_map:
+//   D1  R_d(0_x) = (x, x)
+//   D2  d/ds (R⁺ - R⁻)(s v) = v at s = 0, in the frame of M
+//   D3  inverse(forward(x, v)) = (x, v) and forward(inverse(x₀, x₁)) = (x₀, x₁), near the diagonal
+//   (Proposition 4.6) D4  the claims order(), is_symmetric() and is_symplectic() hold
+//
+// x, x₀, x₁: points (N); v: tangent vector (Ñ). Immutable. To subclass: override do_forward and the
+// claims.
+class DiscretizationMap {
+ public:
+  template <class Scalar>
+  struct PointPair {
+    Eigen::Matrix<Scalar, Eigen::Dynamic, 1> first, second;  // x⁻, x⁺
+  };
+  template <class Scalar>
+  struct TangentVector {
+    Eigen::Matrix<Scalar, Eigen::Dynamic, 1> x, v;
+  };
+
+  virtual ~DiscretizationMap() = default;
+
+  const std::string& name() const { return name_; }
+  const std::shared_ptr<const Manifold>& manifold() const { return manifold_; }
+
+  // (x⁻, x⁺). Throws std::invalid_argument on wrong sizes.
+  PointPair<Expr> forward(const ExprVector& x, const ExprVector& v) const;
+  PointPair<double> forward(const VectorXd& x, const VectorXd& v) const;
+
+  // (x, v). On expressions throws std::logic_error if !has_inverse(); numbers are then inverted by
+  // Newton's method, std::domain_error where that does not converge.
+  TangentVector<Expr> inverse(const ExprVector& x0, const ExprVector& x1) const;
+  TangentVector<double> inverse(const VectorXd& x0, const VectorXd& x1) const;
+
+  // Whether inverse is a closed formula.
+  virtual bool has_inverse() const { return true; }
+  // The order of the one-step method that the map gives on an ordinary differential equation.
+  virtual int order() const = 0;
+  // Where between t and t + h the system is evaluated if it depends on time: t + stage_time() h.
+  virtual double stage_time() const { return 0.5; }
+  // R⁺(v) = R⁻(-v): the method is its own adjoint.
+  virtual bool is_symmetric() const = 0;
+  // On T*Q: whether R_d pulls pr₂*ω_Q - pr₁*ω_Q back to d_Tω_Q (Corollary 4.12). No value: unknown,
+  // or M isn't a cotangent bundle.
+  virtual std::optional<bool> is_symplectic() const { return std::nullopt; }
+
+ protected:
+  DiscretizationMap(std::string name, std::shared_ptr<const Manifold> manifold);
+
+ private:
+  // To subclass, override:
+  virtual PointPair<Expr> do_forward(const ExprVector& x, const ExprVector& v) const = 0;
+  // May override (or has_inverse() → false, and numbers are inverted by Newton's method):
+  virtual TangentVector<Expr> do_inverse(const ExprVector& x0, const ExprVector& x1) const;
+
+  std::string name_;
+  std::shared_ptr<const Manifold> manifold_;
+};
+
+}  // namespace courant

@@ -1,0 +1,55 @@
+// Method 1: discretize first.
+#pragma once
+
+#include "courant/core/function.hpp"
+#include "courant/integrators/discretization_map.hpp"
+#include "courant/integrators/integrator.hpp"
+#include "courant/structures/implicit_system.hpp"
+
+namespace courant {
+
+// The discrete system (S₀)_d^h = {(x₀, x₁) ∈ M × M : (1/h) R_d⁻¹(x₀, x₁) ∈ S} of an implicit system
+// as a one-step method (Option 1 of Section 5.2, equations (3), (12), (28), (30), (36)-(38)).
+//
+// With a map that has a closed inverse the unknowns of a step are the chart coordinates of x₁ at x₀
+// and z:
+//   F(x̄, v / h, z, t̄) = 0,   (x̄, v) = R_d⁻¹(x₀, x₁);
+// otherwise (x̄, v, z), with R_d⁻(x̄, h v) = x₀ and then x₁ = R_d⁺(x̄, h v).
+// Where redundant equations or undetermined z make the matrix singular or oblong, steps are solved
+// by least squares.
+class DiscretizeFirst final : public Integrator {
+ public:
+  struct Options {
+    Backend backend = Backend::automatic;
+  };
+
+  // `map` on the manifold object of `system`; throws std::invalid_argument otherwise.
+  DiscretizeFirst(std::shared_ptr<const ImplicitSystem> system,
+                  std::shared_ptr<const DiscretizationMap> map, const Options& options);
+  DiscretizeFirst(std::shared_ptr<const ImplicitSystem> system,
+                  std::shared_ptr<const DiscretizationMap> map)
+      : DiscretizeFirst(std::move(system), std::move(map), Options()) {}
+
+  std::string name() const override { return "discretize-first"; }
+  int order() const override { return map_->order(); }
+  bool is_symmetric() const override { return map_->is_symmetric(); }
+  std::optional<bool> is_symplectic() const override { return map_->is_symplectic(); }
+  bool is_native() const override { return equations_.is_native(); }
+  std::unique_ptr<Stepper> start(const State& initial, double h) const override;
+
+ private:
+  class Trajectory;
+
+  std::shared_ptr<const ImplicitSystem> system_;
+  std::shared_ptr<const DiscretizationMap> map_;
+  Function equations_;        // y; x₀, basis, h, t ↦ residual
+  Function advance_;          // the same ↦ x₁, v, z
+  Index tangent_blocks_ = 1;  // leading blocks of y that are coordinates of tangent vectors at x₀
+};
+
+// Throws std::invalid_argument unless the state fits the system and h is finite and not zero.
+// `method` is named in the message.
+void check_start(const std::string& method, const ImplicitSystem& system, const State& initial,
+                 double h);
+
+}  // namespace courant

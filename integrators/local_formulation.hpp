@@ -1,0 +1,36 @@
+// An implicit system and its time derivatives in the chart at a point.
+#pragma once
+
+#include <vector>
+
+#include "courant/structures/implicit_system.hpp"
+
+namespace courant {
+
+// The symbols of F^[k] in the chart ξ ↦ R_{x₀}(B ξ): what a step is composed from.
+//
+//   x(ξ) = R_{x₀}(B ξ),   v(ξ, ξ') = C(x) d/dt x(ξ),   F(x, v, z, t) and its total derivatives by t
+//   along (ξ', ξ'', …; z', z'', …)
+//
+// Where n = Ñ the basis B is the identity, and no parameter.
+struct LocalFormulation {
+  // Traces in `graph` with chart origin `x0` (N) and basis `basis` (Ñ × n). Equation i is
+  // differentiated differentiations[i] times; jets up to the order that they contain are made.
+  LocalFormulation(Graph& graph, const ImplicitSystem& system, const ExprVector& x0,
+                   const ExprMatrix& basis, const Expr& t,
+                   const std::vector<int>& differentiations);
+
+  std::vector<ExprVector> xi;  // ξ, ξ', ξ'', …
+  std::vector<ExprVector> z;   // z, z', …
+  ExprVector x, v;
+  ExprVector equations;       // F_i, then the derivatives asked for, by order
+  std::vector<Index> source;  // equations[j] comes from F_{source[j]}
+};
+
+// The basis of a chart as an argument of a traced function: the identity where that holds for every
+// point, else fresh variables.
+ExprMatrix basis_variables(Graph& graph, const Manifold& manifold);
+// The variables of the above (none if it is the identity), column by column.
+ExprVector basis_parameters(const Manifold& manifold, const ExprMatrix& basis);
+
+}  // namespace courant

@@ -1,0 +1,55 @@
+#include "courant/integrators/projector.hpp"
+
+#include <Eigen/Dense>
+#include <stdexcept>
+
+namespace courant {
+namespace {
+
+// The sine of the angle between the directions and T_xM_f below which they count as no complement:
+// projecting would lose more than half of the digits.
+constexpr double kTransversality = 1e-8;
+
+}  // namespace
+
+MatrixXd Projector::directions(const VectorXd& x, const MatrixXd& basis,
+                               const MatrixXd& conormals) const {
+  if (conormals.cols() == 0) return conormals;
+  const MatrixXd W = do_directions(x, basis, conormals);
+  Eigen::ColPivHouseholderQR<MatrixXd> qr;
+  qr.setThreshold(kTransversality);
+  qr.compute(W);
+  const MatrixXd orthonormal = qr.householderQ() * MatrixXd::Identity(W.rows(), conormals.cols());
+  const Eigen::ColPivHouseholderQR<MatrixXd> across(conormals.transpose() * orthonormal);
+  const double sine = qr.rank() < conormals.cols()
+                          ? 0.0
+                          : std::abs(across.matrixR()(conormals.cols() - 1, conormals.cols() - 1));
+  if (!(sine > kTransversality))
+    throw std::domain_error(
+        "Projector(" + name_ + ")::directions: the directions meet T_xM_f, sine of the angle " +
+        std::to_string(sine) + "; expected a complement of it. Use the orthogonal projector.");
+  return orthonormal;
+}
+
+MatrixXd OrthogonalProjector::do_directions(const VectorXd&, const MatrixXd&,
+                                            const MatrixXd& conormals) const {
+  return conormals;
+}
+
+MomentumProjector::MomentumProjector(std::shared_ptr<const CotangentBundle> phase_space,
+                                     Metric metric)
+    : Projector("momentum"), phase_space_(std::move(phase_space)), metric_(std::move(metric)) {
+  if (!phase_space_)
+    throw std::invalid_argument("MomentumProjector::MomentumProjector: phase_space is null.");
+}
+
+MatrixXd MomentumProjector::do_directions(const VectorXd& x, const MatrixXd& basis,
+                                          const MatrixXd& conormals) const {
+  const Index n = phase_space_->base()->tangent_dimension();
+  const MatrixXd momentum_part = basis.bottomRows(n) * conormals;  // β: vectors at q
+  MatrixXd covectors = momentum_part;
+  if (metric_) covectors = values(metric_(constants(phase_space_->position(x)))) * momentum_part;
+  return basis.bottomRows(n).transpose() * covectors;
+}
+
+}  // namespace courant

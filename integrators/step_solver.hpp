@@ -1,0 +1,66 @@
+// The iteration that a stepper runs in every step: prediction, Newton's method, a second try, a
+// clear failure.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "courant/core/newton.hpp"
+#include "courant/integrators/integrator.hpp"
+#include "courant/manifolds/manifold.hpp"
+
+namespace courant {
+
+// The next unknown of a sequence of steps, by polynomial extrapolation of the last ones (up to a
+// parabola).
+//
+// The first `blocks` · n entries of an unknown are coordinates of tangent vectors with respect to
+// the basis of its step; they are kept in the tangent representation (Ñ each), which outlives the
+// basis.
+class Predictor {
+ public:
+  Predictor(const Manifold& manifold, Index blocks, Index size);
+
+  void predict(const MatrixXd& basis, VectorXd& y);
+  void record(const MatrixXd& basis, const VectorXd& y);
+  bool is_empty() const { return count_ == 0; }
+
+ private:
+  bool constant_basis_;
+  Index coordinates_, tangents_, blocks_;
+  VectorXd history_[3];
+  VectorXd extrapolated_;
+  int newest_ = 0;
+  int count_ = 0;
+};
+
+// Solves the equations of one step after the other, or throws SolveError. Holds workspace; one
+// object a trajectory.
+class StepSolver {
+ public:
+  // `equations`: group 0 the unknown y, further groups the parameters. `groups` as in Newton.
+  StepSolver(const Function& equations, std::vector<Index> groups, std::string method);
+
+  VectorXd& unknown() { return y_; }
+  const VectorXd& unknown() const { return y_; }
+
+  // On return unknown() solves the equations; in[0] is its place. `start` is where a second try
+  // begins if the first fails.
+  void solve(const double* const* in, const double* scales, const VectorXd& start,
+             const State& last, SolverStatistics& statistics);
+
+ private:
+  Newton newton_;
+  VectorXd y_;
+  std::string method_;
+};
+
+// The scale that Newton measures multipliers, port variables and jets by: they converge together
+// with the state, so eight digits are asked for, and none of a value that is zero but for
+// round-off.
+double auxiliary_scale(double auxiliary, double state);
+
+// ‖x‖_∞, 0 for an empty vector.
+double largest(const VectorXd& x);
+
+}  // namespace courant

@@ -1,0 +1,96 @@
+#include "courant/integrators/vector_field.hpp"
+
+#include <Eigen/Dense>
+#include <stdexcept>
+
+#include "courant/core/derivative.hpp"
+#include "courant/integrators/local_formulation.hpp"
+#include "courant/integrators/step_solver.hpp"
+
+namespace courant {
+
+VectorField::VectorField(std::shared_ptr<const ImplicitSystem> system,
+                         const ConstraintLadder& ladder, Backend backend)
+    : system_(std::move(system)) {
+  if (ladder.verdict != Verdict::regular)
+    throw std::invalid_argument(
+        "VectorField::VectorField: the ladder's verdict is " + to_string(ladder.verdict) +
+        "; expected regular: S_f is not the graph of a vector field. " + ladder.reason);
+  const Manifold& M = *system_->manifold();
+  const Index n = M.dimension();
+  Graph graph;
+  const ExprVector x = graph.variables("x", M.ambient_dimension());
+  const ExprMatrix basis = basis_variables(graph, M);
+  const ExprVector t = graph.variables("t", 1);
+  const LocalFormulation local(graph, *system_, x, basis, t[0], ladder.differentiations);
+  // At ξ = 0 the chart is at x itself.
+  const auto at_origin = [&](const ExprVector& y) {
+    return substitute(y, local.xi[0], ExprVector::Zero(n));
+  };
+
+  std::vector<Expr> unknowns;
+  for (std::size_t j = 1; j < local.xi.size(); ++j)
+    unknowns.insert(unknowns.end(), local.xi[j].begin(), local.xi[j].end());
+  for (const ExprVector& z : local.z) unknowns.insert(unknowns.end(), z.begin(), z.end());
+  const ExprVector y = Eigen::Map<ExprVector>(unknowns.data(), static_cast<Index>(unknowns.size()));
+  const std::vector<Function::Input> inputs = {
+      {"y", y}, {"x", x}, {"basis", basis_parameters(M, basis)}, {"t", t}};
+
+  // Values at the ladder's point, by the jet's leading coefficients; the other jets start at zero.
+  const MatrixXd B = M.tangent_basis(ladder.point.x);
+  start_ = VectorXd::Zero(y.size());
+  start_.head(n) = B.transpose() * ladder.point.v;
+  start_.segment(static_cast<Index>(local.xi.size() - 1) * n, system_->auxiliary_size()) =
+      ladder.point.z;
+
+  const ExprVector all = at_origin(local.equations);
+  const Function full("vector field", inputs, all, {.differentiate = {"y"}});
+  VectorXd entries = VectorXd::Zero(0);
+  if (n < M.tangent_dimension()) entries = Eigen::Map<const VectorXd>(B.data(), B.size());
+  const MatrixXd J =
+      full.jacobian({start_, ladder.point.x, entries, VectorXd::Constant(1, ladder.point.t)});
+  VectorXd scale = J.rowwise().norm();
+  scale = scale.unaryExpr([](double s) { return s > 0 ? 1.0 / s : 0.0; });
+  Eigen::ColPivHouseholderQR<MatrixXd> rows;
+  rows.setThreshold(
+      1e-9);  // the ladder decided this rank with a gap; here it only has to be found again
+  rows.compute((scale.asDiagonal() * J).transpose());
+  ExprVector kept(rows.rank());
+  for (Index i = 0; i < kept.size(); ++i) kept[i] = all[rows.colsPermutation().indices()[i]];
+
+  equations_ = Function("vector field", inputs, kept, {.differentiate = {"y"}, .backend = backend});
+  const ExprVector v = at_origin(local.v);
+  ExprVector rate(x.size() + v.size() + local.z[0].size());
+  rate << M.frame(x) * v, v, local.z[0];
+  rate_ = Function("rate", inputs, rate, {.backend = backend});
+}
+
+VectorField::Evaluation::Evaluation(const VectorField& field)
+    : field_(field),
+      newton_(field.equations_, {}, {}),
+      y_(field.start_),
+      out_(field.rate_.output_size()),
+      v_(VectorXd::Zero(field.system_->manifold()->tangent_dimension())),
+      z_(VectorXd::Zero(field.system_->auxiliary_size())) {}
+
+void VectorField::Evaluation::operator()(const VectorXd& x, VectorXd& rate, double t) {
+  const Manifold& M = *field_.system_->manifold();
+  if (M.dimension() < M.tangent_dimension()) basis_ = M.tangent_basis(x);
+  const double* in[] = {y_.data(), x.data(), basis_.data(), &t};
+  const double scale = largest(y_);
+  auto result = newton_.solve(y_.data(), in, &scale);
+  if (result.status != Newton::Status::converged) {
+    newton_.reset();
+    y_ = field_.start_;
+    result = newton_.solve(y_.data(), in, &scale);
+  }
+  if (result.status != Newton::Status::converged || !y_.allFinite())
+    throw std::domain_error("VectorField::operator(): no velocity found at t = " +
+                            std::to_string(t) + "; the state is at or near a singular point.");
+  field_.rate_.value(in, out_.data());
+  rate = out_.head(x.size());
+  v_ = out_.segment(x.size(), v_.size());
+  z_ = out_.tail(z_.size());
+}
+
+}  // namespace courant
