@@ -1,0 +1,65 @@
+#include "courant/cli/command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <ostream>
+
+#include "courant/core/spelling.hpp"
+#include "courant/systems/run_files.hpp"
+#include "courant/systems/run_folder.hpp"
+
+namespace courant::cli {
+namespace {
+
+int refuse(const Console& console, const std::string& what, Status status) {
+  console.err << "courant: " << what << '\n';
+  return status;
+}
+
+// What is wrong with a first argument that is neither an option nor a command; nothing if it is
+// one.
+std::string unknown_command(const std::string& word, const CLI::App& app) {
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    commands.push_back(command->get_name());
+  if (word.rfind('-', 0) == 0 ||
+      std::find(commands.begin(), commands.end(), word) != commands.end())
+    return "";
+  return "unknown command \"" + word + "\"" + did_you_mean(word, commands) +
+         "; `courant --help` lists the commands";
+}
+
+}  // namespace
+
+int command(const std::vector<std::string>& arguments, const Console& console) {
+  Session session{console};
+  CLI::App app("Geometric integrators from Dirac structures and the constraint algorithm.",
+               "courant");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "courant " COURANT_VERSION);
+  add_run(app, session);
+  add_constraints(app, session);
+  add_list(app, session);
+  add_schema(app, session);
+  add_report(app, session);
+  try {
+    if (!arguments.empty())
+      if (const std::string what = unknown_command(arguments[0], app); !what.empty())
+        return refuse(console, what, wrong);
+    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+    return session.action(console);
+  } catch (const CLI::Success& help) {
+    app.exit(help, console.out, console.err);
+    return done;
+  } catch (const CLI::ParseError& error) {
+    return refuse(console, std::string(error.what()) + "; see `courant --help`", wrong);
+  } catch (const UnusableFolder& error) {
+    return refuse(console, error.what(), wrong);
+  } catch (const RunFileError& error) {
+    return refuse(console, error.what(), wrong);
+  } catch (const std::exception& error) {
+    return refuse(console, error.what(), failed);
+  }
+}
+
+}  // namespace courant::cli

@@ -1,0 +1,47 @@
+// What the subcommands of `courant` share.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace courant::cli {
+
+// The exit status of the command.
+enum Status { done = 0, wrong = 2, failed = 3, interrupted = 130 };
+
+// Where the command reads and writes.
+struct Console {
+  std::istream& in;
+  std::ostream& out;
+  std::ostream& err;
+  bool is_terminal = false;                 // of err: progress is shown
+  bool colour = false;                      // of out
+  bool unicode = true;                      // of out
+  const std::atomic<bool>* stop = nullptr;  // set by an interrupt
+};
+
+// A subcommand adds itself to the application, and `action` when it was chosen: what to do, and the
+// exit status of that.
+struct Session {
+  Console console;
+  std::function<int(const Console&)> action = {};
+};
+
+void add_run(CLI::App& app, Session& session);
+void add_constraints(CLI::App& app, Session& session);
+void add_list(CLI::App& app, Session& session);
+void add_schema(CLI::App& app, Session& session);
+void add_report(CLI::App& app, Session& session);
+
+// The command: `arguments` without the name of the program. Errors go to console.err, one line
+// each, `courant: …`.
+int command(const std::vector<std::string>& arguments, const Console& console);
+
+}  // namespace courant::cli

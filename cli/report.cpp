@@ -1,0 +1,92 @@
+#include "courant/systems/report.hpp"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <ostream>
+
+#include "courant/cli/command.hpp"
+#include "courant/cli/text.hpp"
+#include "courant/systems/report_figures.hpp"
+#include "courant/systems/terminal_plot.hpp"
+
+namespace courant::cli {
+namespace {
+
+struct Arguments {
+  std::vector<std::filesystem::path> folders;
+  std::filesystem::path output;
+};
+
+// Beside the files of one run; above the folders of several.
+std::filesystem::path page_of(const Arguments& arguments) {
+  if (!arguments.output.empty()) return arguments.output;
+  const std::filesystem::path& first = arguments.folders.front();
+  if (arguments.folders.size() == 1) return first / "report.html";
+  const auto whole = std::filesystem::absolute(first).lexically_normal();
+  return (whole.has_filename() ? whole : whole.parent_path())
+             .parent_path()
+             .lexically_proximate(std::filesystem::current_path()) /
+         "report.html";
+}
+
+void print_comparison(const Console& console, const std::vector<Run>& runs) {
+  TextTable table({"run", "method", "max |H - H(0)|", "steps", "steps/s", "expected"});
+  for (const Run& run : runs) {
+    const Json& summary = run.summary;
+    const Json observables = summary.value("observables", Json::object());
+    const Json H = observables.value("H", Json::object());
+    std::size_t passed = 0;
+    const Json expectations = summary.value("expectations", Json::array());
+    for (const Json& expectation : expectations)
+      if (expectation.at("passed").get<bool>()) ++passed;
+    table.add({run.name, summary.at("method"), shown(H.value("max_drift", Json()), 4),
+               shown(summary.at("steps")), shown(summary.value("steps_per_second", Json()), 3),
+               std::to_string(passed) + " of " + std::to_string(expectations.size())});
+  }
+  table.print(console.out, "");
+}
+
+// |H - H(0)| of the runs that have an energy.
+void print_energies(const Console& console, const std::vector<Run>& runs) {
+  const std::vector<std::string> labels = run_labels(runs);
+  std::vector<plot::Series> series;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const TrajectoryTable& table = runs[i].trajectory;
+    if (!table.contains("H") || table.rows() < 2) continue;
+    const auto t = table.column("t"), H = table.column("H");
+    series.push_back({labels[i], {t.begin(), t.end()}, {H.begin(), H.end()}, i});
+    for (double& value : series.back().y) value -= H.front();
+  }
+  if (series.empty()) return;
+  console.out << '\n'
+              << plot::terminal_log_plot("|H - H(0)|", series,
+                                         {.unicode = console.unicode, .colour = console.colour});
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, Session& session) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* report =
+      app.add_subcommand("report", "Compare finished runs, and make a page of HTML of them");
+  report->add_option("DIR", arguments->folders, "the folder of a run, or several")->required();
+  report
+      ->add_option("-o", arguments->output,
+                   "where the page goes (default: report.html in DIR, or above the folders)")
+      ->type_name("FILE");
+  report->callback([&session, arguments] {
+    session.action = [arguments](const Console& console) -> int {
+      std::vector<Run> runs;
+      for (const auto& folder : arguments->folders) runs.push_back(read_run(folder));
+      print_comparison(console, runs);
+      print_energies(console, runs);
+      const auto page = page_of(*arguments);
+      write_report(runs, page);
+      console.out << "\nThe report is " << page.string() << '\n';
+      return done;
+    };
+  });
+}
+
+}  // namespace courant::cli

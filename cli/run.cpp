@@ -1,0 +1,98 @@
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <ostream>
+
+#include "courant/cli/command.hpp"
+#include "courant/cli/experiment_file.hpp"
+#include "courant/cli/progress_bar.hpp"
+#include "courant/cli/run_text.hpp"
+#include "courant/systems/runner.hpp"
+
+namespace courant::cli {
+namespace {
+
+struct Arguments {
+  std::string file;
+  std::string folder;
+  Backend backend = Backend::automatic;
+  bool force = false;
+  bool resume = false;
+  bool quiet = false;
+};
+
+std::filesystem::path folder_of(const Arguments& arguments) {
+  if (!arguments.folder.empty()) return arguments.folder;
+  const std::string name = std::filesystem::path(arguments.file).stem().string();
+  return std::filesystem::path("runs") / (arguments.file == "-" ? "stdin" : name);
+}
+
+// Expectations that did not hold, as errors of their entries.
+void report_failures(const Console& console, const std::string& file, const RunOutcome& outcome) {
+  for (const ExpectationResult& result : outcome.expectations)
+    if (!result.passed)
+      console.err << "courant: " << file << ": " << result.pointer << ": " << result.description
+                  << ": is " << shown(result.value) << ", expected " << shown(result.bound) << '\n';
+}
+
+int run_experiment(const Console& console, const Arguments& arguments,
+                   const Experiment& experiment) {
+  RunOptions options{.folder = folder_of(arguments),
+                     .backend = arguments.backend,
+                     .replace = arguments.force,
+                     .stop = console.stop,
+                     .on_ladder = {},
+                     .on_progress = {}};
+  std::optional<ProgressBar> bar;
+  if (!arguments.quiet) {
+    options.on_ladder = [&](const Json& ladder) { print_opening(console, experiment, ladder); };
+    if (console.is_terminal) {
+      bar.emplace(console.err);
+      options.on_progress = [&](const Progress& progress) { bar->show(progress); };
+    }
+  }
+  const RunOutcome outcome = run(experiment, options);
+  bar.reset();
+  if (!arguments.quiet) print_outcome(console, outcome, options.folder);
+  if (outcome.status != RunStatus::completed)
+    console.err << "courant: " << arguments.file << ": " << outcome.message << '\n';
+  if (outcome.status == RunStatus::interrupted) return interrupted;
+  if (outcome.status == RunStatus::failed) return failed;
+  report_failures(console, arguments.file, outcome);
+  return outcome.as_expected() ? done : failed;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, Session& session) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* run =
+      app.add_subcommand("run", "Run an experiment and write its trajectory and summary");
+  run->add_option("FILE", arguments->file, "the experiment, or - for standard input")->required();
+  run->add_option("-o", arguments->folder, "where the files go (default: runs/<name of FILE>)")
+      ->type_name("DIR");
+  run->add_option("--backend", arguments->backend,
+                  "what evaluates formulas: auto, native or interpreter")
+      ->transform(CLI::CheckedTransformer(
+                      std::map<std::string, Backend>{{"auto", Backend::automatic},
+                                                     {"native", Backend::native},
+                                                     {"interpreter", Backend::interpreter}})
+                      .description(""))
+      ->type_name("NAME");
+  run->add_flag("--force", arguments->force, "replace a run that is in the folder already");
+  run->add_flag("--resume", arguments->resume)->group("");  // not listed: it cannot be done yet
+  run->add_flag("--quiet", arguments->quiet, "print errors only");
+  run->callback([&session, arguments] {
+    if (arguments->resume)
+      throw CLI::ValidationError("--resume",
+                                 "runs cannot be continued yet; --force starts from the beginning");
+    session.action = [arguments](const Console& console) {
+      return with_experiment(console, arguments->file, [&](const Experiment& experiment) {
+        return run_experiment(console, *arguments, experiment);
+      });
+    };
+  });
+}
+
+}  // namespace courant::cli

@@ -1,0 +1,19 @@
+// What `courant run` prints.
+#pragma once
+
+#include <filesystem>
+
+#include "courant/cli/command.hpp"
+#include "courant/cli/text.hpp"
+#include "courant/systems/runner.hpp"
+
+namespace courant::cli {
+
+// What is run, and what the constraint algorithm found.
+void print_opening(const Console& console, const Experiment& experiment, const Json& ladder);
+
+// How it went: paths in the plane, observables, solver, expectations, where the files are.
+void print_outcome(const Console& console, const RunOutcome& outcome,
+                   const std::filesystem::path& folder);
+
+}  // namespace courant::cli

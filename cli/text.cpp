@@ -1,0 +1,62 @@
+#include "courant/cli/text.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <ostream>
+
+namespace courant::cli {
+namespace {
+
+// Characters, of which each of the texts here takes one column.
+std::size_t width(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+}  // namespace
+
+std::string shown(double value, int digits) {
+  char buffer[40];
+  std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
+  return buffer;
+}
+
+std::string shown(const Json& value, int digits) {
+  if (value.is_number_integer()) return std::to_string(value.get<long>());
+  if (value.is_number()) return shown(value.get<double>(), digits);
+  if (value.is_null()) return "–";
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+void TextTable::print(std::ostream& out, const std::string& indent) const {
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows_) {
+    widths.resize(std::max(widths.size(), row.size()));
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width(row[i]));
+  }
+  for (const auto& row : rows_) {
+    std::string line = indent;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string padding(widths[i] - width(row[i]), ' ');
+      line += (i == 0 ? "" : "  ") + (i == 0 ? row[i] + padding : padding + row[i]);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    out << line << '\n';
+  }
+}
+
+std::string ladder_line(const Json& ladder) {
+  std::string line;
+  Json before;
+  for (const Json& level : ladder.at("levels")) {
+    const Json& S = level.at("dim_S");
+    const Json pair{S, level.at("dim_M")};
+    if (pair == before) continue;
+    before = pair;
+    if (!line.empty()) line += " ⊇ ";
+    line += S.is_null() ? "∅" : "(" + shown(S) + ", " + shown(level.at("dim_M")) + ")";
+  }
+  return line;
+}
+
+}  // namespace courant::cli

@@ -1,0 +1,32 @@
+// Numbers and tables for a terminal.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "courant/systems/findings.hpp"
+
+namespace courant::cli {
+
+// A number to a few significant digits, "1.596e-04"; "–" for a JSON null.
+std::string shown(double value, int digits = 6);
+std::string shown(const Json& value, int digits = 6);
+
+// Rows of cells; the first column is left-aligned, the others right-aligned, two spaces apart.
+class TextTable {
+ public:
+  explicit TextTable(std::vector<std::string> header) : rows_{std::move(header)} {}
+  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+  bool empty() const { return rows_.size() == 1; }
+  void print(std::ostream& out, const std::string& indent = "  ") const;
+
+ private:
+  std::vector<std::vector<std::string>> rows_;
+};
+
+// "(16, 8) ⊇ (8, 8)": (dim S, dim M) of each level but those that only confirm; ∅ where one is
+// empty.
+std::string ladder_line(const Json& ladder);
+
+}  // namespace courant::cli

@@ -1,0 +1,117 @@
+#include "courant/systems/consistent_start.hpp"
+
+#include <cmath>
+
+#include "courant/core/rank_decision.hpp"
+#include "courant/integrators/constraint_algorithm.hpp"
+
+namespace courant {
+namespace {
+
+using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
+
+std::vector<Index> indices(const Flags& flags) {
+  std::vector<Index> list;
+  for (Index i = 0; i < flags.size(); ++i)
+    if (flags[i]) list.push_back(i);
+  return list;
+}
+
+void check_finite(const Experiment& experiment, const InitialGuess& guess) {
+  const ImplicitSystem& system = *experiment.model.system;
+  const VectorXd v =
+      guess.v.size() > 0 ? guess.v : VectorXd::Zero(system.manifold()->tangent_dimension());
+  const VectorXd z = guess.z.size() > 0 ? guess.z : VectorXd::Zero(system.auxiliary_size());
+  const VectorXd residual = system.residual(guess.x, v, z, guess.t);
+  for (Index i = 0; i < residual.size(); ++i)
+    if (!std::isfinite(residual[i]))
+      throw ExperimentError(
+          "/initial",
+          "the equation \"" + system.names().equations[static_cast<std::size_t>(i)] + "\" is " +
+              std::to_string(residual[i]) + " at the initial values" +
+              (experiment.initial.x.given.all() ? "" : " (with 0 for what is not given)") +
+              "; expected a finite number");
+}
+
+// Names of coordinates that are not given and that neither M_f nor the given velocities and
+// unknowns determine.
+std::vector<std::string> undetermined(const Experiment& experiment,
+                                      const ConstraintLadder& ladder) {
+  if (ladder.verdict != Verdict::regular && ladder.verdict != Verdict::gauge) return {};
+  const InitialValues& initial = experiment.initial;
+  const Manifold& M = *experiment.model.system->manifold();
+  const MatrixXd basis = M.tangent_basis(ladder.point.x);
+  const MatrixXd conormals = ladder.conormals() * basis;
+  const MatrixXd motion = M.frame(ladder.point.x) * basis;
+  const std::vector<Index> given = indices(initial.x.given);
+  // The directions on M_f along which no given value changes.
+  MatrixXd conditions(conormals.rows() + static_cast<Index>(given.size()), basis.cols());
+  conditions.topRows(conormals.rows()) = conormals;
+  for (std::size_t i = 0; i < given.size(); ++i)
+    conditions.row(conormals.rows() + static_cast<Index>(i)) = motion.row(given[i]);
+  const MatrixXd free = motion * kernel(conditions, {.data_error = 1e-9});
+  if (free.cols() <= initial.velocity.given.count() + initial.z.given.count()) return {};
+  std::vector<std::string> names;
+  const auto& coordinates = experiment.model.system->names().coordinates;
+  for (Index i = 0; i < free.rows(); ++i)
+    if (!initial.x.given[i] && free.row(i).norm() > 1e-6)
+      names.push_back(coordinates[static_cast<std::size_t>(i)]);
+  return names;
+}
+
+}  // namespace
+
+ConstraintLadder consistent_start(const Experiment& experiment) {
+  const auto& system = experiment.model.system;
+  const Manifold& M = *system->manifold();
+  const InitialValues& initial = experiment.initial;
+  InitialGuess guess{.t = experiment.start(), .x = initial.x.values};
+  if (initial.velocity.given.any()) guess.v = M.coframe(guess.x) * initial.velocity.values;
+  if (initial.z.given.any()) guess.z = initial.z.values;
+  check_finite(experiment, guess);
+
+  ConstraintAlgorithm::Options options;
+  options.metric = initial.x.given.cast<double>().matrix().asDiagonal();
+  const ConstraintAlgorithm algorithm(options);
+  const bool one_velocity_each = M.tangent_dimension() == M.ambient_dimension();
+  const auto hold = [&](const Flags& velocities, const Flags& unknowns) {
+    guess.hold_x = indices(initial.x.held);
+    if (one_velocity_each) guess.hold_v = indices(velocities);
+    guess.hold_z = indices(unknowns);
+  };
+  hold(initial.velocity.given, initial.z.given);
+  ConstraintLadder ladder = algorithm.run(system, guess);
+  const bool gave_way = ladder.verdict == Verdict::inconsistent &&
+                        (initial.velocity.given.any() || initial.z.given.any());
+  if (gave_way) {
+    hold(initial.velocity.held, initial.z.held);
+    ladder = algorithm.run(system, guess);
+  }
+  const bool any_held = initial.x.held.any() || initial.velocity.held.any() || initial.z.held.any();
+  if (ladder.verdict == Verdict::inconsistent) {
+    if (!any_held) return ladder;
+    guess.hold_x = guess.hold_v = guess.hold_z = {};
+    const ConstraintLadder free = algorithm.run(system, guess);
+    if (free.verdict == Verdict::inconsistent) return free;
+    throw ExperimentError("/hold",
+                          "what is held contradicts the constraints, which are violated by " +
+                              std::to_string(ladder.levels.back().residual) +
+                              "; expected values that satisfy them. " + ladder.reason);
+  }
+  std::erase_if(ladder.moves, [&](const Movement& move) {
+    const auto& names = system->names().coordinates;
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (names[i] == move.name) return !initial.x.given[static_cast<Index>(i)];
+    return !gave_way;  // a velocity or unknown, of which those that are given did not move
+  });
+  if (const auto names = undetermined(experiment, ladder); !names.empty()) {
+    std::string list;
+    for (std::size_t i = 0; i < names.size() && i < 5; ++i) list += (i == 0 ? "" : ", ") + names[i];
+    if (names.size() > 5) list += ", …";
+    throw ExperimentError("/initial",
+                          "nothing determines " + list + "; expected more initial values");
+  }
+  return ladder;
+}
+
+}  // namespace courant

@@ -1,0 +1,52 @@
+#include "courant/manifolds/cotangent_bundle.hpp"
+#include "courant/structures/dirac_system.hpp"
+#include "courant/systems/space.hpp"
+#include "courant/systems/structure_kinds.hpp"
+#include "courant/systems/system_kinds.hpp"
+
+namespace courant {
+namespace {
+
+// T*Rⁿ for the canonical structure, Rⁿ for the others.
+Json default_manifold(const std::optional<JsonReader>& structure) {
+  const bool canonical =
+      !structure || structure->value() == "canonical" ||
+      (structure->value().is_object() && structure->value().value("type", Json()) == "canonical");
+  return canonical ? Json{{"type", "cotangent-bundle"}} : Json{{"type", "euclidean"}};
+}
+
+}  // namespace
+
+// S = {v : (v, dH) ∈ D}.
+std::optional<Model> read_hamiltonian(ObjectReader& system) {
+  Findings& findings = system.place().findings();
+  Model model;
+  Vocabulary& vocabulary = model.vocabulary;
+  vocabulary.parameters = read_parameters(system);
+  vocabulary.definitions = read_definitions(system);
+  SymbolTable taken = vocabulary.symbols({.t = Expr(0.0)});
+  const auto space = read_space(system, default_manifold(system.optional("structure")), taken);
+  const auto key = system.required("hamiltonian");
+  const auto formula = key ? read_formula(*key) : std::nullopt;
+  if (!space) return std::nullopt;
+
+  vocabulary.coordinates = space->coordinates;
+  check_definitions(vocabulary, findings);
+  const auto structure =
+      structure_kinds().read(system, "structure", "canonical", {space->manifold, vocabulary});
+  Graph graph;
+  const SymbolTable symbols = vocabulary.symbols(
+      {.x = graph.variables("x", vocabulary.coordinates.size()), .t = graph.variable("t")});
+  if (!formula || !check(*formula, symbols, findings) || !structure) return std::nullopt;
+
+  const auto family = std::make_shared<Hamiltonian>(
+      space->manifold, [formula = *formula, vocabulary](const ExprVector& x, const Expr& t) {
+        return evaluate(formula, vocabulary.symbols({.x = x, .t = t}));
+      });
+  model.description = "Hamiltonian system on " + space->manifold->name();
+  model.system = std::make_shared<DiracSystem>(
+      *structure, family, ImplicitSystem::Names{vocabulary.coordinates.element_names(), {}, {}});
+  return model;
+}
+
+}  // namespace courant

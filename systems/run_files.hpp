@@ -1,0 +1,65 @@
+// Reading a finished run: a folder with its trajectory, its summary and its experiment.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace courant {
+
+// A file of a run that cannot be read or is not what it should be. One line: `file:line: what it
+// is`, or `file: /json/pointer: what it is`.
+class RunFileError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Named columns of the same number of rows. The first is t; no two have the same name.
+class TrajectoryTable {
+ public:
+  // Throws std::invalid_argument when the columns are not as many as the names or not all as long,
+  // when a name repeats, or when the first is not t.
+  TrajectoryTable(std::vector<std::string> names, std::vector<std::vector<double>> columns);
+
+  const std::vector<std::string>& names() const { return names_; }
+  std::size_t rows() const { return columns_.front().size(); }
+  bool contains(std::string_view name) const;
+  // The values of a column; throws std::invalid_argument when there is none of this name.
+  std::span<const double> column(std::string_view name) const;
+
+ private:
+  std::vector<std::string> names_;
+  std::vector<std::vector<double>> columns_;
+};
+
+// A run as its files tell it. The summary has the fields of the contract, of the right types: what
+// is missing is optional, what is null is a number that was not finite.
+struct Run {
+  std::string name;  // of the folder
+  TrajectoryTable trajectory;
+  nlohmann::ordered_json summary;
+  nlohmann::ordered_json experiment;
+
+  // The columns by what they are: `constraint[i]`, the observables of the summary, and the rest but
+  // t.
+  std::vector<std::string> coordinates() const;
+  std::vector<std::string> observables() const;
+  std::vector<std::string> constraints() const;
+};
+
+// Reads trajectory.csv, or trajectory.npy with columns.json (an array of names), summary.json and
+// experiment.json. Throws RunFileError.
+Run read_run(const std::filesystem::path& directory);
+
+// The parts, each usable alone. Throw RunFileError.
+TrajectoryTable read_trajectory_csv(const std::filesystem::path& file);
+TrajectoryTable read_trajectory_npy(const std::filesystem::path& file,
+                                    std::vector<std::string> names);
+nlohmann::ordered_json read_json(const std::filesystem::path& file);
+
+}  // namespace courant

@@ -1,0 +1,18 @@
+// The systems that an experiment can ask for.
+#pragma once
+
+#include "courant/systems/model.hpp"
+#include "courant/systems/registry.hpp"
+
+namespace courant {
+
+// The kinds of `system`: descriptions by formulas, and the catalogue.
+const Registry<Model>& system_kinds();
+
+// One file each, read_<kind>.cpp.
+std::optional<Model> read_hamiltonian(ObjectReader& system);
+std::optional<Model> read_lagrangian(ObjectReader& system);
+std::optional<Model> read_implicit(ObjectReader& system);
+std::optional<Model> read_point_vortices(ObjectReader& system);
+
+}  // namespace courant

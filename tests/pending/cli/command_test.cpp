@@ -1,0 +1,230 @@
+#include "courant/cli/command.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <sstream>
+
+#include "../systems/temporary_folder.hpp"
+#include "courant/systems/run_files.hpp"
+
+namespace courant {
+namespace {
+
+struct Answer {
+  int status;
+  std::string out, err;
+};
+
+// The command with these arguments and this standard input.
+Answer courant_command(const std::vector<std::string>& arguments, const std::string& input = "") {
+  std::istringstream in(input);
+  std::ostringstream out, err;
+  const int status = cli::command(arguments, {.in = in, .out = out, .err = err});
+  return {status, out.str(), err.str()};
+}
+
+const std::string oscillator = R"({
+  "title": "Oscillator",
+  "system": { "type": "hamiltonian", "coordinates": ["q"], "hamiltonian": "(p_q^2 + q^2)/2" },
+  "initial": { "q": 1, "p_q": 0 },
+  "method": "discretize-first",
+  "time": { "step": 0.1, "end": 1 },
+  "expect": [ { "observable": "H", "max_drift": 1e-12 } ]
+})";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(command)
+
+BOOST_AUTO_TEST_CASE(runs_a_file) {
+  const TemporaryFolder folder;
+  const std::string file = (folder / "oscillator.json").string(), runs = (folder / "run").string();
+  write_text(file, oscillator);
+  const Answer answer = courant_command({"run", file, "-o", runs, "--backend", "interpreter"});
+  BOOST_TEST(answer.status == 0, answer.err);
+  BOOST_TEST(answer.err == "");
+  for (const char* part :
+       {"Oscillator", "(dim S, dim M): (2, 2)", "Regular.", "passed", "10 steps of 0.1"})
+    BOOST_TEST(answer.out.find(part) != std::string::npos, part << " is not in\n" << answer.out);
+  BOOST_TEST(read_run(runs).trajectory.rows() == 11u);
+
+  const Answer again = courant_command({"run", file, "-o", runs});
+  BOOST_TEST(again.status == 2);
+  BOOST_TEST(again.err == "courant: " + runs +
+                              ": there is a run in this folder; expected another folder (-o), or "
+                              "--force to replace it\n");
+  const Answer forced =
+      courant_command({"run", file, "-o", runs, "--force", "--quiet", "--backend", "interpreter"});
+  BOOST_TEST(forced.status == 0);
+  BOOST_TEST(forced.out == "");
+}
+
+BOOST_AUTO_TEST_CASE(runs_standard_input) {
+  const TemporaryFolder folder;
+  const Answer answer = courant_command(
+      {"run", "-", "-o", (folder / "run").string(), "--quiet", "--backend", "interpreter"},
+      oscillator);
+  BOOST_TEST(answer.status == 0, answer.err);
+  BOOST_TEST(std::filesystem::exists(folder / "run" / "summary.json"));
+}
+
+// Each a line that begins with the file and the place, status 2, and nothing written.
+BOOST_AUTO_TEST_CASE(wrong_experiments_are_refused_in_one_line) {
+  const std::string vortices =
+      R"({"system": {"type": "point-vortices", "strengths": [1, 1]}, "initial": {"x": [0, 1], "y": [0, 0]},
+    "method": "rk2", "time": {"step": 1, "end": 2}})";
+  const std::pair<std::string, std::string> cases[] = {
+      {replaced(vortices, "\"x\": [0, 1]", "\"x\": [0, 0]"),
+       "/initial: vortices 0 and 1 are at one place"},
+      {replaced(vortices, "\"step\": 1", "\"step\": -1"),
+       "/time/step: is -1; expected a number greater than 0"},
+      {replaced(vortices, "[1, 1]", "[1, 0]"), "/system/strengths/1: is 0; expected"},
+      {replaced(oscillator, "q^2)/2", "qq^2)/2"),
+       "/system/hamiltonian: column 10: unknown name \"qq\" (did you mean \"q\"?)"},
+      {oscillator.substr(0, 200), "line 6, column 12: the text ends too soon"},
+      {replaced(oscillator, "\"method\"", "\"metod\""), "/method: is missing"},
+      {replaced(oscillator, "\"title\"", "\"titel\""),
+       "/titel: unknown key (did you mean \"title\"?)"},
+      {"", "line 1, column 1: the text ends too soon"},
+  };
+  for (const auto& [text, message] : cases) {
+    const TemporaryFolder folder;
+    const Answer answer = courant_command({"run", "-", "-o", (folder / "run").string()}, text);
+    BOOST_TEST(answer.status == 2);
+    BOOST_TEST(answer.out == "");
+    BOOST_TEST(answer.err.find("courant: -: " + message) == 0u,
+               answer.err << " does not begin with " << message);
+    BOOST_TEST(!std::filesystem::exists(folder / "run"));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(every_problem_has_its_line) {
+  std::string text = replaced(oscillator, "\"title\"", "\"titel\"");
+  text = replaced(text, "q^2)/2", "qq^2)/2");
+  text = replaced(text, "\"step\": 0.1", "\"step\": 0");
+  const Answer answer = courant_command({"run", "-"}, text);
+  BOOST_TEST(answer.status == 2);
+  BOOST_TEST(std::count(answer.err.begin(), answer.err.end(), '\n') == 3);
+}
+
+BOOST_AUTO_TEST_CASE(files_and_folders_that_cannot_be_used) {
+  const TemporaryFolder folder;
+  write_text(folder / "file", "");
+  const std::string missing = (folder / "none.json").string();
+  const Answer absent = courant_command({"run", missing});
+  BOOST_TEST(absent.status == 2);
+  BOOST_TEST(absent.err == "courant: " + missing + ": cannot be read: No such file or directory\n");
+  const Answer directory = courant_command({"run", folder.path().string()});
+  BOOST_TEST(directory.err ==
+             "courant: " + folder.path().string() + ": cannot be read: is a folder\n");
+  const std::string below = (folder / "file" / "run").string();
+  const Answer unwritable =
+      courant_command({"run", "-", "-o", below, "--quiet", "--backend", "interpreter"}, oscillator);
+  BOOST_TEST(unwritable.status == 2);
+  BOOST_TEST(unwritable.err ==
+             "courant: " + below + ": the folder cannot be made: Not a directory\n");
+}
+
+BOOST_AUTO_TEST_CASE(a_failed_expectation_is_status_3) {
+  const TemporaryFolder folder;
+  const Answer answer = courant_command(
+      {"run", "-", "-o", (folder / "run").string(), "--quiet", "--backend", "interpreter"},
+      replaced(oscillator, "\"max_drift\": 1e-12", "\"min_drift\": 1e-3"));
+  BOOST_TEST(answer.status == 3);
+  BOOST_TEST(answer.err.find("courant: -: /expect/0: greatest drift of H, at least: is ") == 0u,
+             answer.err);
+  BOOST_TEST(std::filesystem::exists(folder / "run" / "summary.json"));
+}
+
+BOOST_AUTO_TEST_CASE(an_interrupt_is_status_130) {
+  const TemporaryFolder folder;
+  std::istringstream in(oscillator);
+  std::ostringstream out, err;
+  const std::atomic<bool> stop{true};
+  const int status =
+      cli::command({"run", "-", "-o", (folder / "run").string(), "--backend", "interpreter"},
+                   {.in = in, .out = out, .err = err, .stop = &stop});
+  BOOST_TEST(status == 130);
+  BOOST_TEST(read_run(folder / "run").summary["status"] == "interrupted");
+}
+
+BOOST_AUTO_TEST_CASE(constraints_prints_the_ladder) {
+  const std::string text =
+      R"({"system": {"type": "lagrangian", "coordinates": ["x", "y"], "lagrangian": "x*y' - x^2/2 - y^2/2"},
+    "initial": {"x": 1, "y": 0}})";
+  const Answer answer = courant_command({"constraints", "-"}, text);
+  BOOST_TEST(answer.status == 0);
+  BOOST_TEST(answer.out.find("(4, 2) ⊇ (2, 2)") != std::string::npos, answer.out);
+  const Answer json = courant_command({"constraints", "-", "--json"}, text);
+  BOOST_TEST(json.status == 0);
+  const auto ladder = nlohmann::json::parse(json.out);
+  BOOST_TEST(ladder["verdict"] == "regular");
+  BOOST_TEST(ladder["index"] == 1);
+  BOOST_TEST(ladder["levels"].size() == 3u);
+  BOOST_TEST(ladder["levels"][0]["dim_S"] == 4);
+  BOOST_TEST(ladder["degrees_of_freedom"] == 2);
+  BOOST_TEST(ladder["consistent_point"]["p_y"] == 1.0);
+}
+
+BOOST_AUTO_TEST_CASE(list_has_every_kind) {
+  const Answer text = courant_command({"list"});
+  BOOST_TEST(text.status == 0);
+  BOOST_TEST(text.out.find("point-vortices") != std::string::npos);
+  const auto json = nlohmann::json::parse(courant_command({"list", "--json"}).out);
+  for (const char* shelf :
+       {"systems", "manifolds", "structures", "methods", "discretizations", "projectors"})
+    BOOST_TEST(json[shelf].size() > 1u);
+}
+
+BOOST_AUTO_TEST_CASE(report_compares_runs) {
+  const TemporaryFolder folder;
+  for (const char* name : {"a", "b"})
+    courant_command(
+        {"run", "-", "-o", (folder / name).string(), "--quiet", "--backend", "interpreter"},
+        oscillator);
+  const Answer answer = courant_command({"report", (folder / "a").string(), (folder / "b").string(),
+                                         "-o", (folder / "page.html").string()});
+  BOOST_TEST(answer.status == 0, answer.err);
+  BOOST_TEST(answer.out.find("discretize-first, midpoint") != std::string::npos);
+  BOOST_TEST(std::filesystem::exists(folder / "page.html"));
+  BOOST_TEST(courant_command({"report", (folder / "none").string()}).status == 2);
+}
+
+BOOST_AUTO_TEST_CASE(wrong_command_lines_are_status_2) {
+  BOOST_TEST(courant_command({"rnu", "x"}).err ==
+             "courant: unknown command \"rnu\" (did you mean \"run\"?); `courant --help` lists the "
+             "commands\n");
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{},
+                                                    {"run"},
+                                                    {"run", "x", "--frce"},
+                                                    {"run", "x", "--backend", "gpu"},
+                                                    {"run", "x", "--resume"},
+                                                    {"report"}}) {
+    const Answer answer = courant_command(arguments);
+    BOOST_TEST(answer.status == 2);
+    BOOST_TEST(answer.err.find("courant: ") == 0u);
+    BOOST_TEST(std::count(answer.err.begin(), answer.err.end(), '\n') == 1, answer.err);
+    BOOST_TEST(answer.out == "");
+  }
+  BOOST_TEST(courant_command({"run", "x", "--resume"}).err.find("cannot be continued yet") !=
+             std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(help_and_version_are_status_0) {
+  const Answer help = courant_command({"--help"});
+  BOOST_TEST(help.status == 0);
+  for (const char* word : {"run", "constraints", "list", "schema", "report"})
+    BOOST_TEST(help.out.find(word) != std::string::npos);
+  BOOST_TEST(help.out.find("study") == std::string::npos);
+  const Answer run = courant_command({"run", "--help"});
+  BOOST_TEST(run.out.find("--force") != std::string::npos);
+  BOOST_TEST(run.out.find("--resume") == std::string::npos);
+  BOOST_TEST(courant_command({"--version"}).out.find("courant ") == 0u);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace courant

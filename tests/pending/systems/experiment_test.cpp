@@ -1,0 +1,212 @@
+#include "courant/systems/experiment.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <string>
+
+namespace courant {
+namespace {
+
+const Json vortices = Json::parse(R"({
+  "system": { "type": "point-vortices", "strengths": [1, 1, -1, -1] },
+  "initial": { "x": [-1, 1, -1, 1], "y": [2, 2, -2, -2] },
+  "method": { "type": "constrain-first", "discretization": "midpoint", "projector": "momentum" },
+  "time": { "step": 1.0, "end": 300 },
+  "observe": { "spread": "(x[1]-x[0])^2 + (y[1]-y[0])^2" },
+  "expect": [ { "observable": "H", "max_drift": 2e-4 } ]
+})");
+
+const Json pendulum = Json::parse(R"json({
+  "system": {
+    "type": "lagrangian", "parameters": { "g": 9.81, "l": 2, "k": "sqrt(g/l)" },
+    "definitions": { "height": "-l*cos(q)", "kinetic": "l^2*q'^2/2" },
+    "coordinates": ["q"], "lagrangian": "kinetic - g*height"
+  },
+  "initial": { "q": 1, "q'": "k" }, "method": "rk4", "time": { "step": 0.1, "end": 1 }
+})json");
+
+// The problems of an experiment after a change, a line each; nothing if there are none.
+std::string problems(const Json& experiment) {
+  try {
+    read_experiment(experiment.dump());
+  } catch (const ExperimentError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string problems(Json experiment, const char* pointer, const Json& value) {
+  experiment[Json::json_pointer(pointer)] = value;
+  return problems(experiment);
+}
+
+std::string problems_without(Json experiment, const char* parent, const char* key) {
+  experiment[Json::json_pointer(parent)].erase(key);
+  return problems(experiment);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(experiment)
+
+BOOST_AUTO_TEST_CASE(reads_an_experiment) {
+  const Experiment experiment = read_experiment(vortices.dump());
+  BOOST_TEST(experiment.model.description == "4 point vortices, singular Lagrangian form");
+  BOOST_TEST(experiment.method->description == "constrain-first, midpoint, momentum projector");
+  BOOST_TEST(experiment.time->steps == 300);
+  BOOST_TEST(experiment.model.system->manifold()->ambient_dimension() == 16);
+  BOOST_TEST(experiment.initial.x.given.count() == 8);
+  BOOST_TEST(experiment.initial.x.values[3] == 1.0);
+  BOOST_TEST(experiment.initial.x.values[4] == 2.0);
+  BOOST_TEST(problems(pendulum) == "");
+}
+
+BOOST_AUTO_TEST_CASE(fills_defaults_into_the_document) {
+  const Json document = read_experiment(pendulum.dump()).document;
+  BOOST_TEST(document["time"]["start"] == 0.0);
+  BOOST_TEST(document["output"]["every"] == 1);
+  BOOST_TEST(document["output"]["format"] == "csv");
+  BOOST_TEST(document["method"]["type"] == "rk4");
+  BOOST_TEST(read_experiment(vortices.dump()).document["system"]["form"] == "lagrangian");
+  // What was filled in means the same: the document is its own completion.
+  BOOST_TEST(read_experiment(document.dump()).document.dump() == document.dump());
+}
+
+BOOST_AUTO_TEST_CASE(names_the_place_in_a_formula) {
+  BOOST_TEST(problems(pendulum, "/system/lagrangian", "kinetic - qq") ==
+             "/system/lagrangian: column 11: unknown name \"qq\" (did you mean \"q\"?)");
+  BOOST_TEST(problems(pendulum, "/system/definitions/height", "-l*coz(q)")
+                 .find("/system/definitions/height: column 4: ") == 0u);
+  BOOST_TEST(problems(pendulum, "/system/parameters/k", "sqrt(g/")
+                 .find("/system/parameters/k: column 8: ") == 0u);
+  BOOST_TEST(problems(vortices, "/observe/spread", "x[4]").find("/observe/spread: column ") == 0u);
+  BOOST_TEST(
+      problems(pendulum, "/initial/q", "t").find("/initial/q: column 1: unknown name \"t\"") == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(refuses_strengths_and_steps_that_mean_nothing) {
+  BOOST_TEST(
+      problems(vortices, "/system/strengths/2", 0).find("/system/strengths/2: is 0; expected") ==
+      0u);
+  BOOST_TEST(problems(vortices, "/system/strengths", Json::array()).find("/system/strengths: ") ==
+             0u);
+  BOOST_TEST(problems(vortices, "/time/step", -1.0) ==
+             "/time/step: is -1.0; expected a number greater than 0");
+  BOOST_TEST(problems(vortices, "/time/step", 0) ==
+             "/time/step: is 0; expected a number greater than 0");
+  BOOST_TEST(problems(vortices, "/time/step", 0.7).find("/time/end: is 428.57") == 0u);
+  BOOST_TEST(problems(vortices, "/time/end", -1).find("/time/end: is -1; expected") == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(refuses_coinciding_vortices) {
+  Json coinciding = vortices;
+  coinciding["initial"]["x"][1] = -1;
+  BOOST_TEST(problems(coinciding).find("/initial: vortices 0 and 1 are at one place") == 0u);
+  coinciding["initial"]["y"][1] = 2.5;
+  BOOST_TEST(problems(coinciding) == "");
+}
+
+BOOST_AUTO_TEST_CASE(refuses_unknown_and_missing_keys) {
+  BOOST_TEST(problems(vortices, "/metod", 1) == "/metod: unknown key (did you mean \"method\"?)");
+  BOOST_TEST(problems(vortices, "/method/projektor", "momentum") ==
+             "/method/projektor: unknown key (did you mean \"projector\"?)");
+  BOOST_TEST(problems(vortices, "/method/type", "constrainfirst") ==
+             "/method/type: unknown \"constrainfirst\" (did you mean \"constrain-first\"?)");
+  BOOST_TEST(problems_without(vortices, "", "system") == "/system: is missing");
+  BOOST_TEST(problems_without(vortices, "", "initial") == "/initial: is missing");
+  BOOST_TEST(problems_without(vortices, "", "method") == "/method: is missing");
+  BOOST_TEST(problems_without(vortices, "", "time") == "/time: is missing");
+  BOOST_TEST(problems_without(vortices, "/system", "strengths") == "/system/strengths: is missing");
+  BOOST_TEST(problems("[]"_json).find("is an array; expected an object") == 0u ||
+             problems("[]"_json).find("is an empty array; expected an object") == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(tells_all_problems_at_once) {
+  Json wrong = pendulum;
+  wrong["titel"] = "x";
+  wrong["time"]["step"] = "fast";
+  wrong["system"]["lagrangian"] = "q'^2 - u";
+  wrong["initial"]["p"] = 1;
+  wrong["observe"] = {{"speed", "abs(q'"}};
+  wrong["expect"] = {{{"observable", "L"}, {"max_drift", 1}}};
+  const std::string found = problems(wrong);
+  // Without a system, what is said in its words cannot be looked into.
+  for (const char* where : {"/titel: ", "/time/step: ", "/system/lagrangian: "})
+    BOOST_TEST(found.find(where) != std::string::npos, where << " is not in\n" << found);
+  wrong["system"]["lagrangian"] = "q'^2";
+  const std::string now = problems(wrong);
+  for (const char* where : {"/titel: ", "/time/step: ", "/initial/p: key, column 1: unknown name",
+                            "/observe/speed: column ", "/expect/0/observable: unknown"})
+    BOOST_TEST(now.find(where) != std::string::npos, where << " is not in\n" << now);
+}
+
+BOOST_AUTO_TEST_CASE(refuses_names_that_are_taken) {
+  BOOST_TEST(
+      problems(vortices, "/system/parameters", {{"x", 1}}).find("/system/parameters/x: key, ") ==
+      0u);
+  BOOST_TEST(
+      problems(pendulum, "/system/coordinates", {"q", "q"}).find("/system/coordinates/1: ") == 0u);
+  BOOST_TEST(
+      problems(pendulum, "/system/coordinates", {"q", "g"}).find("/system/coordinates/1: ") == 0u);
+  BOOST_TEST(
+      problems(pendulum, "/system/coordinates", {"q", "t"}).find("/system/coordinates/1: ") == 0u);
+  BOOST_TEST(problems(pendulum, "/system/coordinates", {"q", "p_q"})
+                 .find("/system/coordinates: the momentum of") == 0u);
+  BOOST_TEST(
+      problems(pendulum, "/system/definitions/q", "1").find("/system/definitions/q: key, ") == 0u);
+  BOOST_TEST(problems(pendulum, "/observe", {{"H", "1"}}).find("/observe/H: key, ") == 0u);
+  BOOST_TEST(problems(pendulum, "/observe", {{"q", "1"}}).find("/observe/q: key, ") == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(refuses_initial_values_that_do_not_fit) {
+  BOOST_TEST(problems(vortices, "/initial/x", {1, 2, 3}) ==
+             "/initial/x: has 3 values; expected 4, for x");
+  BOOST_TEST(problems(vortices, "/initial/x[0]", 1) == "/initial/x[0]: is given twice");
+  BOOST_TEST(problems(vortices, "/initial/x[4]", 1).find("/initial/x[4]: key, column ") == 0u);
+  BOOST_TEST(problems(vortices, "/initial/y", {1, 2, 3, "1/0"}).find("/initial/y: is not finite") ==
+             0u);
+  BOOST_TEST(problems(vortices, "/hold", {"p_x"})
+                 .find("/hold/0: is to be held, but its value is not given") == 0u);
+  BOOST_TEST(problems(vortices, "/hold", {"x", "z"}).find("/hold/1: ") == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(refuses_structures_that_do_not_fit) {
+  Json regular = Json::parse(R"({
+    "system": { "type": "hamiltonian", "coordinates": ["x", "y"], "hamiltonian": "x^2 + y^2",
+                "structure": { "type": "bivector", "matrix": [[0, "1+x"], ["-1-x", 0]] } },
+    "initial": { "x": 1, "y": 0 } })");
+  BOOST_TEST(problems(regular) == "");
+  BOOST_TEST(problems(regular, "/system/structure/matrix/1/0", "1+x")
+                 .find("/system/structure/matrix: is not skew-symmetric: ") == 0u);
+  BOOST_TEST(problems(regular, "/system/structure/matrix/1", Json::array({0}))
+                 .find("/system/structure/matrix/1: has 1 entries; expected 2") == 0u);
+  BOOST_TEST(problems(regular, "/system/structure/matrix", {{0}})
+                 .find("/system/structure/matrix: has 1 rows; expected 2 rows of 2 formulas") ==
+             0u);
+  BOOST_TEST(problems(regular, "/system/structure/matrix/0/1", "t")
+                 .find("/system/structure/matrix/0/1: column 1: unknown name \"t\"") == 0u);
+  Json canonical = regular;
+  canonical["system"]["structure"] = "canonical";
+  canonical["system"]["manifold"] = "euclidean";
+  BOOST_TEST(problems(canonical).find("/system/structure: the canonical structure is on ") == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(refuses_expectations_that_cannot_be_met_or_missed) {
+  const auto expecting = [](const Json& entry) { return problems(vortices, "/expect", {entry}); };
+  BOOST_TEST(expecting({{"observable", "h"}, {"max_drift", 1}}) ==
+             "/expect/0/observable: unknown observable or coordinate \"h\" (did you mean \"H\"?)");
+  BOOST_TEST(expecting({{"observable", "H"}}).find("/expect/0: has no bound; expected") == 0u);
+  BOOST_TEST(expecting({{"at", 0.5}, {"state", {{"H", 1}}}, {"tolerance", 1}})
+                 .find("/expect/0/at: is 0.5; expected the time of a step, from 0 to 300 by 1") ==
+             0u);
+  BOOST_TEST(expecting({{"state", {{"H", "cos(t) + q"}}}, {"tolerance", 1}})
+                 .find("/expect/0/state/H: column 10: unknown name") == 0u);
+  BOOST_TEST(expecting({{"state", {{"H", 1}}}}) == "/expect/0/tolerance: is missing");
+  BOOST_TEST(expecting({{"verdict", "regulr"}}).find("/expect/0/verdict: unknown") == 0u);
+  BOOST_TEST(expecting({{"ladder", {{1, 2, 3}}}}).find("/expect/0/ladder: ") == 0u);
+  BOOST_TEST(expecting(Json::object()).find("/expect/0: expects nothing") == 0u);
+  BOOST_TEST(expecting({{"max_drft", 1}}).find("/expect/0/max_drft: unknown key") == 0u);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace courant
