@@ -6,14 +6,14 @@
 namespace courant {
 namespace {
 
-const Json vortices = Json::parse(R"({
+const Json vortices = Json::parse(R"json({
   "system": { "type": "point-vortices", "strengths": [1, 1, -1, -1] },
   "initial": { "x": [-1, 1, -1, 1], "y": [2, 2, -2, -2] },
   "method": { "type": "constrain-first", "discretization": "midpoint", "projector": "momentum" },
   "time": { "step": 1.0, "end": 300 },
   "observe": { "spread": "(x[1]-x[0])^2 + (y[1]-y[0])^2" },
   "expect": [ { "observable": "H", "max_drift": 2e-4 } ]
-})");
+})json");
 
 const Json pendulum = Json::parse(R"json({
   "system": {
@@ -116,8 +116,7 @@ BOOST_AUTO_TEST_CASE(refuses_unknown_and_missing_keys) {
   BOOST_TEST(problems_without(vortices, "", "method") == "/method: is missing");
   BOOST_TEST(problems_without(vortices, "", "time") == "/time: is missing");
   BOOST_TEST(problems_without(vortices, "/system", "strengths") == "/system/strengths: is missing");
-  BOOST_TEST(problems("[]"_json).find("is an array; expected an object") == 0u ||
-             problems("[]"_json).find("is an empty array; expected an object") == 0u);
+  BOOST_TEST(problems(Json::array()) == "is an empty array; expected an object");
 }
 
 BOOST_AUTO_TEST_CASE(tells_all_problems_at_once) {
@@ -151,8 +150,8 @@ BOOST_AUTO_TEST_CASE(refuses_names_that_are_taken) {
       problems(pendulum, "/system/coordinates", {"q", "t"}).find("/system/coordinates/1: ") == 0u);
   BOOST_TEST(problems(pendulum, "/system/coordinates", {"q", "p_q"})
                  .find("/system/coordinates: the momentum of") == 0u);
-  BOOST_TEST(
-      problems(pendulum, "/system/definitions/q", "1").find("/system/definitions/q: key, ") == 0u);
+  BOOST_TEST(problems(pendulum, "/system/definitions/q", "1") ==
+             "/system/coordinates/0: column 1: \"q\" has a meaning already; expected a new name");
   BOOST_TEST(problems(pendulum, "/observe", {{"H", "1"}}).find("/observe/H: key, ") == 0u);
   BOOST_TEST(problems(pendulum, "/observe", {{"q", "1"}}).find("/observe/q: key, ") == 0u);
 }
@@ -170,10 +169,10 @@ BOOST_AUTO_TEST_CASE(refuses_initial_values_that_do_not_fit) {
 }
 
 BOOST_AUTO_TEST_CASE(refuses_structures_that_do_not_fit) {
-  Json regular = Json::parse(R"({
+  Json regular = Json::parse(R"json({
     "system": { "type": "hamiltonian", "coordinates": ["x", "y"], "hamiltonian": "x^2 + y^2",
                 "structure": { "type": "bivector", "matrix": [[0, "1+x"], ["-1-x", 0]] } },
-    "initial": { "x": 1, "y": 0 } })");
+    "initial": { "x": 1, "y": 0 } })json");
   BOOST_TEST(problems(regular) == "");
   BOOST_TEST(problems(regular, "/system/structure/matrix/1/0", "1+x")
                  .find("/system/structure/matrix: is not skew-symmetric: ") == 0u);
@@ -191,7 +190,9 @@ BOOST_AUTO_TEST_CASE(refuses_structures_that_do_not_fit) {
 }
 
 BOOST_AUTO_TEST_CASE(refuses_expectations_that_cannot_be_met_or_missed) {
-  const auto expecting = [](const Json& entry) { return problems(vortices, "/expect", {entry}); };
+  const auto expecting = [](const Json& entry) {
+    return problems(vortices, "/expect", Json::array({entry}));
+  };
   BOOST_TEST(expecting({{"observable", "h"}, {"max_drift", 1}}) ==
              "/expect/0/observable: unknown observable or coordinate \"h\" (did you mean \"H\"?)");
   BOOST_TEST(expecting({{"observable", "H"}}).find("/expect/0: has no bound; expected") == 0u);

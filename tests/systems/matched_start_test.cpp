@@ -35,7 +35,7 @@ State at(const VectorXd& x) {
 }  // namespace
 }  // namespace courant
 
-BOOST_AUTO_TEST_SUITE(matched_start)
+BOOST_AUTO_TEST_SUITE(matched_starts)
 
 using namespace courant;
 

@@ -41,7 +41,8 @@ BOOST_AUTO_TEST_CASE(what_is_not_a_number_stays) {
   for (const int position : {0, 1, 2}) {
     QuantityStatistics statistics;
     for (int k = 0; k < 3; ++k)
-      statistics.add(k, (VectorXd(2) << (k == position ? NAN : k), k).finished());
+      statistics.add(k,
+                     (VectorXd(2) << (k == position ? std::nan("") : 1.0 * k), 1.0 * k).finished());
     BOOST_TEST(std::isnan(statistics.record(0).max));
     BOOST_TEST(std::isnan(statistics.record(0).min));
     BOOST_TEST(std::isnan(statistics.record(0).max_drift));

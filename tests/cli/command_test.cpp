@@ -22,14 +22,14 @@ Answer courant_command(const std::vector<std::string>& arguments, const std::str
   return {status, out.str(), err.str()};
 }
 
-const std::string oscillator = R"({
+const std::string oscillator = R"json({
   "title": "Oscillator",
   "system": { "type": "hamiltonian", "coordinates": ["q"], "hamiltonian": "(p_q^2 + q^2)/2" },
   "initial": { "q": 1, "p_q": 0 },
   "method": "discretize-first",
   "time": { "step": 0.1, "end": 1 },
   "expect": [ { "observable": "H", "max_drift": 1e-12 } ]
-})";
+})json";
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   return text.replace(text.find(from), from.size(), to);
@@ -74,8 +74,8 @@ BOOST_AUTO_TEST_CASE(runs_standard_input) {
 // Each a line that begins with the file and the place, status 2, and nothing written.
 BOOST_AUTO_TEST_CASE(wrong_experiments_are_refused_in_one_line) {
   const std::string vortices =
-      R"({"system": {"type": "point-vortices", "strengths": [1, 1]}, "initial": {"x": [0, 1], "y": [0, 0]},
-    "method": "rk2", "time": {"step": 1, "end": 2}})";
+      R"json({"system": {"type": "point-vortices", "strengths": [1, 1]}, "initial": {"x": [0, 1], "y": [0, 0]},
+    "method": "rk2", "time": {"step": 1, "end": 2}})json";
   const std::pair<std::string, std::string> cases[] = {
       {replaced(vortices, "\"x\": [0, 1]", "\"x\": [0, 0]"),
        "/initial: vortices 0 and 1 are at one place"},
@@ -153,8 +153,8 @@ BOOST_AUTO_TEST_CASE(an_interrupt_is_status_130) {
 
 BOOST_AUTO_TEST_CASE(constraints_prints_the_ladder) {
   const std::string text =
-      R"({"system": {"type": "lagrangian", "coordinates": ["x", "y"], "lagrangian": "x*y' - x^2/2 - y^2/2"},
-    "initial": {"x": 1, "y": 0}})";
+      R"json({"system": {"type": "lagrangian", "coordinates": ["x", "y"], "lagrangian": "x*y' - x^2/2 - y^2/2"},
+    "initial": {"x": 1, "y": 0}})json";
   const Answer answer = courant_command({"constraints", "-"}, text);
   BOOST_TEST(answer.status == 0);
   BOOST_TEST(answer.out.find("(4, 2) ⊇ (2, 2)") != std::string::npos, answer.out);
