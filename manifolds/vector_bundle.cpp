@@ -20,9 +20,9 @@ const Manifold& checked(const std::string& kind, const std::shared_ptr<const Man
 }  // namespace
 
 VectorBundle::VectorBundle(const std::string& kind, std::shared_ptr<const Manifold> base)
-    : Manifold(kind + "(" + checked(kind, base).name() + ")", 2 * base->dimension(),
-               base->ambient_dimension() + base->tangent_dimension(),
-               2 * base->tangent_dimension()),
+    : Manifold(kind + "(" + checked(kind, base).name() + ")", 2 * checked(kind, base).dimension(),
+               checked(kind, base).ambient_dimension() + checked(kind, base).tangent_dimension(),
+               2 * checked(kind, base).tangent_dimension()),
       base_(std::move(base)) {}
 
 ExprVector VectorBundle::do_retract(const ExprVector& x, const ExprVector& v) const {

@@ -120,12 +120,12 @@ inline std::vector<ManifoldPointer> manifold_catalogue() {
           make<CotangentBundle>(spherical_circle())};
 }
 
-// The final classes that derive from one of `bases` in the headers of a folder of the sources.
-inline std::set<std::string> final_classes(const std::string& folder, const std::string& bases) {
-  const auto sources = std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
+// The final classes that derive from one of `bases` in the headers of a folder.
+inline std::set<std::string> final_classes(const std::filesystem::path& folder,
+                                           const std::string& bases) {
   const std::regex declaration("class (\\w+) final\\s*:\\s*public (?:" + bases + ")\\b");
   std::set<std::string> result;
-  for (const auto& entry : std::filesystem::directory_iterator(sources / folder)) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() != ".hpp") continue;
     std::ifstream file(entry.path());
     const std::string text(std::istreambuf_iterator<char>(file), {});

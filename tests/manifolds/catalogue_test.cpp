@@ -15,7 +15,7 @@ BOOST_AUTO_TEST_CASE(every_manifold_keeps_every_law) {
 }
 
 BOOST_AUTO_TEST_CASE(every_class_is_in_the_catalogue) {
-  const auto classes = test::final_classes("manifolds", "Manifold|VectorBundle");
+  const auto classes = test::final_classes(COURANT_SOURCES "/manifolds", "Manifold|VectorBundle");
   BOOST_TEST(classes.size() >= 12U);
   const auto catalogue = test::manifold_catalogue();
   for (const std::string& name : classes)
