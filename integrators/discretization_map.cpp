@@ -21,21 +21,21 @@ DiscretizationMap::DiscretizationMap(std::string name, std::shared_ptr<const Man
   if (!manifold_) throw std::invalid_argument(name_ + "::DiscretizationMap: manifold is null.");
 }
 
-DiscretizationMap::PointPair<Expr> DiscretizationMap::forward(const ExprVector& x,
-                                                              const ExprVector& v) const {
+DiscretizationMap::PointPair<Expr> DiscretizationMap::checked_forward(const ExprVector& x,
+                                                                      const ExprVector& v) const {
   check_size(name_ + "::forward", "x", x.size(), manifold_->ambient_dimension());
   check_size(name_ + "::forward", "v", v.size(), manifold_->tangent_dimension());
   return do_forward(x, v);
 }
 
-DiscretizationMap::PointPair<double> DiscretizationMap::forward(const VectorXd& x,
-                                                                const VectorXd& v) const {
+DiscretizationMap::PointPair<double> DiscretizationMap::numeric_forward(const VectorXd& x,
+                                                                        const VectorXd& v) const {
   const PointPair<Expr> result = forward(constants(x), constants(v));
   return {values(result.first), values(result.second)};
 }
 
-DiscretizationMap::TangentVector<Expr> DiscretizationMap::inverse(const ExprVector& x0,
-                                                                  const ExprVector& x1) const {
+DiscretizationMap::TangentVector<Expr> DiscretizationMap::checked_inverse(
+    const ExprVector& x0, const ExprVector& x1) const {
   check_size(name_ + "::inverse", "x0", x0.size(), manifold_->ambient_dimension());
   check_size(name_ + "::inverse", "x1", x1.size(), manifold_->ambient_dimension());
   return has_inverse() ? do_inverse(x0, x1) : DiscretizationMap::do_inverse(x0, x1);
@@ -48,8 +48,8 @@ DiscretizationMap::TangentVector<Expr> DiscretizationMap::do_inverse(const ExprV
       "::inverse: this map has no closed inverse. Pass numbers, or use the forward formulation.");
 }
 
-DiscretizationMap::TangentVector<double> DiscretizationMap::inverse(const VectorXd& x0,
-                                                                    const VectorXd& x1) const {
+DiscretizationMap::TangentVector<double> DiscretizationMap::numeric_inverse(
+    const VectorXd& x0, const VectorXd& x1) const {
   if (has_inverse()) {
     const TangentVector<Expr> result = inverse(constants(x0), constants(x1));
     return {values(result.x), values(result.v)};

@@ -36,14 +36,24 @@ class DiscretizationMap {
   const std::string& name() const { return name_; }
   const std::shared_ptr<const Manifold>& manifold() const { return manifold_; }
 
-  // (x⁻, x⁺). Throws std::invalid_argument on wrong sizes.
-  PointPair<Expr> forward(const ExprVector& x, const ExprVector& v) const;
-  PointPair<double> forward(const VectorXd& x, const VectorXd& v) const;
+  // (x⁻, x⁺), on expressions or on numbers. Throws std::invalid_argument on wrong sizes.
+  template <class X, class V>
+  auto forward(const Eigen::MatrixBase<X>& x, const Eigen::MatrixBase<V>& v) const {
+    if constexpr (std::is_same_v<typename X::Scalar, Expr>)
+      return checked_forward(x, v);
+    else
+      return numeric_forward(x, v);
+  }
 
   // (x, v). On expressions throws std::logic_error if !has_inverse(); numbers are then inverted by
   // Newton's method, std::domain_error where that does not converge.
-  TangentVector<Expr> inverse(const ExprVector& x0, const ExprVector& x1) const;
-  TangentVector<double> inverse(const VectorXd& x0, const VectorXd& x1) const;
+  template <class X, class Y>
+  auto inverse(const Eigen::MatrixBase<X>& x0, const Eigen::MatrixBase<Y>& x1) const {
+    if constexpr (std::is_same_v<typename X::Scalar, Expr>)
+      return checked_inverse(x0, x1);
+    else
+      return numeric_inverse(x0, x1);
+  }
 
   // Whether inverse is a closed formula.
   virtual bool has_inverse() const { return true; }
@@ -65,6 +75,11 @@ class DiscretizationMap {
   virtual PointPair<Expr> do_forward(const ExprVector& x, const ExprVector& v) const = 0;
   // May override (or has_inverse() → false, and numbers are inverted by Newton's method):
   virtual TangentVector<Expr> do_inverse(const ExprVector& x0, const ExprVector& x1) const;
+
+  PointPair<Expr> checked_forward(const ExprVector& x, const ExprVector& v) const;
+  PointPair<double> numeric_forward(const VectorXd& x, const VectorXd& v) const;
+  TangentVector<Expr> checked_inverse(const ExprVector& x0, const ExprVector& x1) const;
+  TangentVector<double> numeric_inverse(const VectorXd& x0, const VectorXd& x1) const;
 
   std::string name_;
   std::shared_ptr<const Manifold> manifold_;

@@ -16,9 +16,9 @@ namespace courant {
 // evaluate what depends on them).
 struct State {
   double t = 0.0;
-  VectorXd x;
-  VectorXd v;
-  VectorXd z;
+  VectorXd x = {};
+  VectorXd v = {};
+  VectorXd z = {};
 };
 
 struct SolverStatistics {
