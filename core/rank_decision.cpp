@@ -61,6 +61,16 @@ MatrixXd complement_and_span(const VectorXd& scale, const MatrixXd& X) {
   return result;
 }
 
+// How far the columns of L are from zeros of Lᵀa for the columns a of A, next to their lengths.
+double residual(const MatrixXd& A, const MatrixXd& L) {
+  double largest = 0.0;
+  if (L.cols() == 0) return largest;
+  for (const auto& a : A.colwise())
+    if (const double length = a.norm(); length > 0.0)
+      largest = std::max(largest, (L.transpose() * a).norm() / length);
+  return largest;
+}
+
 }  // namespace
 
 double entry_noise(const RankOptions& options) { return std::max(64.0 * eps, options.data_error); }
@@ -119,7 +129,24 @@ FundamentalSubspaces::FundamentalSubspaces(const Eigen::Ref<const MatrixXd>& A,
   // S = diag(r) A diag(c): Sz = 0 means A(cz) = 0, and wᵀS = 0 means (rw)ᵀA = 0.
   rows_ = complement_and_span(column_scale, V.rightCols(A.cols() - rank()));
   columns_ = complement_and_span(row_scale, U.rightCols(A.rows() - rank()));
+  if (options.magnitude == 0.0) prefer_smaller_residuals(A, options);
   core_ = range().transpose() * A * row_space();
+}
+
+void FundamentalSubspaces::prefer_smaller_residuals(const Eigen::Ref<const MatrixXd>& A,
+                                                    const RankOptions& options) {
+  const auto size = static_cast<double>(std::max(A.rows(), A.cols()));
+  const double expected = 100.0 * (size * eps + std::sqrt(size) * options.data_error);
+  const double in_rows = residual(A.transpose(), kernel());
+  const double in_columns = residual(A, left_kernel());
+  if (in_rows <= expected && in_columns <= expected) return;
+  const auto [values, U, V] = singular_value_decomposition(A);
+  const MatrixXd kernel = V.rightCols(A.cols() - rank());
+  const MatrixXd left_kernel = U.rightCols(A.rows() - rank());
+  if (in_rows > expected && residual(A.transpose(), kernel) < in_rows)
+    rows_ = complement_and_span(VectorXd::Ones(A.cols()), kernel);
+  if (in_columns > expected && residual(A, left_kernel) < in_columns)
+    columns_ = complement_and_span(VectorXd::Ones(A.rows()), left_kernel);
 }
 
 MatrixXd FundamentalSubspaces::pseudo_solve(const Eigen::Ref<const MatrixXd>& B) const {

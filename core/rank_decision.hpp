@@ -65,6 +65,11 @@ RankDecision decide_rank(const SparseMatrixXd& A, const RankOptions& options = {
 //
 // Columns are orthonormal, [range left_kernel] and [row_space kernel] are orthogonal matrices:
 // bases for A itself, the scales of the equilibration are undone.
+//
+// Rounding noise next to the only number of its row, a small one, is too large for equilibrate to
+// see it as noise, and is scaled up: that can leave 2 digits of a basis of an orthogonal matrix's
+// blocks. It shows in the residuals AX and YᵀA of the kernels X, Y; where those are beyond
+// rounding, the kernels of the decided rank are taken from A as it is, if these have smaller ones.
 class FundamentalSubspaces {
  public:
   explicit FundamentalSubspaces(const Eigen::Ref<const MatrixXd>& A,
@@ -82,6 +87,8 @@ class FundamentalSubspaces {
   MatrixXd pseudo_solve(const Eigen::Ref<const MatrixXd>& B) const;
 
  private:
+  void prefer_smaller_residuals(const Eigen::Ref<const MatrixXd>& A, const RankOptions& options);
+
   RankDecision decision_;
   MatrixXd rows_;     // [row_space kernel]
   MatrixXd columns_;  // [range left_kernel]

@@ -74,11 +74,11 @@ PairedSubspace forward_image(const Eigen::Ref<const MatrixXd>& phi, const Paired
 }
 
 LinearDirac backward_image(const Eigen::Ref<const MatrixXd>& phi, const LinearDirac& D) {
-  return LinearDirac(backward_image(phi, static_cast<const PairedSubspace&>(D)));
+  return LinearDirac::nearest(backward_image(phi, static_cast<const PairedSubspace&>(D)));
 }
 
 LinearDirac forward_image(const Eigen::Ref<const MatrixXd>& phi, const LinearDirac& D) {
-  return LinearDirac(forward_image(phi, static_cast<const PairedSubspace&>(D)));
+  return LinearDirac::nearest(forward_image(phi, static_cast<const PairedSubspace&>(D)));
 }
 
 PairedSubspace product(const PairedSubspace& A, const PairedSubspace& B) {

@@ -14,6 +14,9 @@ namespace courant {
 //
 // Laws: the image of a Dirac structure is Dirac;  (ψφ)^! = φ^! ψ^!,  (ψφ)_! = ψ_! φ_!;
 // φ^!(graph of ω) = graph of φ*ω;  φ_!(graph of Λ) = graph of φ_*Λ.
+//
+// Where U and φ are within δ of a pair at which the image jumps, rounding is amplified by 1/δ², up
+// to δ² = 1e-12. For a Dirac structure the nearest one is returned: isotropy is kept to rounding.
 PairedSubspace backward_image(const Eigen::Ref<const MatrixXd>& phi, const PairedSubspace& U);
 PairedSubspace forward_image(const Eigen::Ref<const MatrixXd>& phi, const PairedSubspace& U);
 LinearDirac backward_image(const Eigen::Ref<const MatrixXd>& phi, const LinearDirac& D);

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "courant/core/singular_value_decomposition.hpp"
 #include "courant/structures/blocks.hpp"
 
 namespace courant {
@@ -46,8 +47,8 @@ MatrixXd skew(const std::string& name, const Eigen::Ref<const MatrixXd>& matrix)
   return skew_part(matrix);
 }
 
-// Generators (columns) of {(u, α) : u ∈ im F, α(f_j) = ω(u, f_j)}, f_j the columns of F: (f_i, α)
-// with the least α that has α(f_j) = ω_ij, and (0, α) with α ∈ F°.
+// An orthonormal basis (columns) of {(u, α) : u ∈ im F, α(f_j) = ω(u, f_j)}, f_j the columns of F:
+// (q, α) for q ∈ im F with the least such α, and (0, α) with α ∈ F°.
 struct Generators {
   MatrixXd range, other;
 };
@@ -55,26 +56,36 @@ struct Generators {
 Generators generators(const Eigen::Ref<const MatrixXd>& F, const std::string& name,
                       const Eigen::Ref<const MatrixXd>& omega) {
   require_size(name, omega, F.cols(), F.cols());
-  const FundamentalSubspaces evaluation(F.transpose());  // α ↦ α(f_j)
-  if (evaluation.rank() < F.cols()) {
-    throw std::domain_error("LinearDirac: F has " + std::to_string(F.cols()) + " columns of rank " +
-                            std::to_string(evaluation.rank()) + "; expected a basis.");
+  const FundamentalSubspaces of_F(F);
+  const Index n = F.rows(), r = F.cols();
+  if (of_F.rank() < r) {
+    throw std::domain_error("LinearDirac: F has " + std::to_string(r) + " columns of rank " +
+                            std::to_string(of_F.rank()) + "; expected a basis.");
   }
-  const MatrixXd annihilator = evaluation.kernel();
-  return {beside(F, MatrixXd::Zero(F.rows(), annihilator.cols())),
-          beside(evaluation.pseudo_solve(skew(name, omega).transpose()), annihilator)};
+  const MatrixXd Q = of_F.range(), annihilator = of_F.left_kernel();
+  MatrixXd graph(2 * r, r);  // of the form in the basis Q: F = Q T, ω = Tᵀ ω' T
+  if (r > 0) {
+    const Eigen::PartialPivLU<MatrixXd> transposed((Q.transpose() * F).transpose());
+    const MatrixXd half = transposed.solve(skew(name, omega));
+    graph << MatrixXd::Identity(r, r), skew_part(transposed.solve(half.transpose()));
+    graph = Eigen::HouseholderQR<MatrixXd>(graph).householderQ() * MatrixXd::Identity(2 * r, r);
+  }
+  return {beside(Q * graph.topRows(r), MatrixXd::Zero(n, n - r)),
+          beside(Q * graph.bottomRows(r), annihilator)};
 }
+
+constexpr RankOptions orthonormal{.magnitude = 1.0};
 
 PairedSubspace subspace(const FormOnSubspace& pair) {
   const auto [vectors, covectors] = generators(pair.F, "omega", pair.omega);
-  return PairedSubspace::image(vectors, covectors);
+  return PairedSubspace::image(vectors, covectors, orthonormal);
 }
 
 // β(v) = Λ(β, α) is v(β) = (-Λ)(α, β): the form -Λ on the subspace F of V*, with the parts of V and
 // V* exchanged.
 PairedSubspace subspace(const BivectorOnSubspace& pair) {
   const auto [covectors, vectors] = generators(pair.F, "lambda", -pair.lambda);
-  return PairedSubspace::image(vectors, covectors);
+  return PairedSubspace::image(vectors, covectors, orthonormal);
 }
 
 PairedSubspace subspace(const ConstrainedRepresentation<MatrixXd>& representation) {
@@ -167,16 +178,17 @@ LinearDirac::LinearDirac(const ConstrainedRepresentation<MatrixXd>& representati
 LinearDirac::LinearDirac(const HybridRepresentation<MatrixXd>& representation)
     : LinearDirac(subspace(representation)) {}
 
-LinearDirac::LinearDirac(const FormOnSubspace& pair) : LinearDirac(subspace(pair)) {}
+// A form of size 1e6 costs its basis six digits of isotropy, which theory gives back.
+LinearDirac::LinearDirac(const FormOnSubspace& pair) : LinearDirac(nearest(subspace(pair))) {}
 
-LinearDirac::LinearDirac(const BivectorOnSubspace& pair) : LinearDirac(subspace(pair)) {}
+LinearDirac::LinearDirac(const BivectorOnSubspace& pair) : LinearDirac(nearest(subspace(pair))) {}
 
 LinearDirac LinearDirac::annihilator_sum(const Eigen::Ref<const MatrixXd>& F) {
   const FundamentalSubspaces of_transpose(F.transpose());
   const MatrixXd span = of_transpose.row_space(), annihilator = of_transpose.kernel();
-  return LinearDirac(
-      PairedSubspace::image(beside(span, MatrixXd::Zero(F.rows(), annihilator.cols())),
-                            beside(MatrixXd::Zero(F.rows(), span.cols()), annihilator)));
+  return LinearDirac(PairedSubspace::image(
+      beside(span, MatrixXd::Zero(F.rows(), annihilator.cols())),
+      beside(MatrixXd::Zero(F.rows(), span.cols()), annihilator), orthonormal));
 }
 
 LinearDirac LinearDirac::graph_of_form(const Eigen::Ref<const MatrixXd>& omega) {
@@ -192,7 +204,22 @@ LinearDirac LinearDirac::graph_of_bivector(const Eigen::Ref<const MatrixXd>& lam
 LinearDirac LinearDirac::from_scattering(const Eigen::Ref<const MatrixXd>& O) {
   require_size("O", O, O.rows(), O.rows());
   const MatrixXd identity = MatrixXd::Identity(O.rows(), O.rows());
-  return LinearDirac(PairedSubspace::image(0.5 * (identity + O), 0.5 * (identity - O)));
+  return LinearDirac(
+      PairedSubspace::image(0.5 * (identity + O), 0.5 * (identity - O), orthonormal));
+}
+
+// In a = v + α and b = v - α, halves of the orthonormal basis, D is b = O a; U has bᵀb ≈ aᵀa.
+LinearDirac LinearDirac::nearest(const PairedSubspace& U) {
+  const Index n = U.space_dimension();
+  if (U.dimension() != n || !U.is_dirac(1e-4)) {
+    throw std::domain_error("LinearDirac::nearest: the subspace has dimension " +
+                            std::to_string(U.dimension()) + " and isotropy defect " +
+                            number(U.isotropy_defect()) + "; expected dimension " +
+                            std::to_string(n) + " = dim V and a defect of at most 1e-04.");
+  }
+  const auto svd = singular_value_decomposition((U.vectors() - U.covectors()) *
+                                                (U.vectors() + U.covectors()).transpose());
+  return from_scattering(svd.U * svd.V.transpose());
 }
 
 LinearDirac LinearDirac::random(Index n, std::mt19937& generator) {

@@ -46,6 +46,11 @@ class LinearDirac : public PairedSubspace {
   // The graph of an orthogonal matrix O (n × n) in v + α and v - α: scattering or wave variables.
   static LinearDirac from_scattering(const Eigen::Ref<const MatrixXd>& O);
 
+  // The Dirac structure nearest to a subspace that is one up to rounding (dimension n, defects of
+  // at most 1e-4; else std::domain_error): for what must be Dirac by theory and lost digits on the
+  // way.
+  static LinearDirac nearest(const PairedSubspace& subspace);
+
   // Any D can come out: dim F_D is uniform in 0 … n, the rank of ω_D among the even numbers up to
   // that.
   static LinearDirac random(Index n, std::mt19937& generator);

@@ -233,6 +233,23 @@ BOOST_AUTO_TEST_CASE(pseudo_inverse) {
                     std::invalid_argument);
 }
 
+// [Q 0; noise N], [Q N] orthogonal, N with a small entry: next to it rounding of 3e-17 is above
+// what counts as zero. Equilibrated like a number it leaves 2 digits of the range.
+BOOST_AUTO_TEST_CASE(noise_beside_a_small_number_does_not_spoil_the_subspaces) {
+  Random random;
+  const VectorXd N = VectorXd{{-2e-3, -0.6, 0.6, -0.5}}.normalized();
+  const MatrixXd Q = FundamentalSubspaces(N).left_kernel();
+  MatrixXd A = MatrixXd::Zero(8, 4);
+  A << Q, VectorXd::Zero(4), 4e-17 * random.matrix(4, 3), N;
+  for (const MatrixXd& B : {A, MatrixXd(A.transpose())}) {
+    const FundamentalSubspaces subspaces(B);
+    BOOST_TEST(subspaces.rank() == 4);
+    BOOST_TEST((subspaces.left_kernel().transpose() * B).norm() < 1e-13);
+    BOOST_TEST((B * subspaces.kernel()).norm() < 1e-13);
+    BOOST_TEST(orthogonality_defect(subspaces.range()) < 1e-14);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
 
 }  // namespace courant
