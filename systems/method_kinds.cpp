@@ -2,11 +2,16 @@
 
 #include <charconv>
 
+#include "courant/integrators/cayley_midpoint.hpp"
+#include "courant/integrators/chordal.hpp"
 #include "courant/integrators/constrain_first.hpp"
 #include "courant/integrators/cotangent_lift.hpp"
 #include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/explicit_runge_kutta.hpp"
+#include "courant/integrators/product_map.hpp"
 #include "courant/integrators/theta.hpp"
+#include "courant/manifolds/euclidean.hpp"
+#include "courant/manifolds/torus.hpp"
 #include "courant/systems/matched_start.hpp"
 
 namespace courant {
@@ -40,6 +45,56 @@ std::optional<DiscretizationChoice> theta_map(ObjectReader& object) {
   const std::string shown(digits, std::to_chars(digits, digits + sizeof digits, theta).ptr);
   return lifted("theta = " + shown,
                 [theta](const ManifoldPointer& M) { return std::make_shared<Theta>(M, theta); });
+}
+
+// A map that only some manifolds have, on M or, factor by factor, on a product of them; flat
+// factors get the midpoint map, which is what each of these maps is there.
+template <class Make>
+MapPointer on_factors(const ManifoldPointer& M, const Make& make) {
+  if (const auto product = std::dynamic_pointer_cast<const Product>(M)) {
+    std::vector<MapPointer> maps;
+    for (const ManifoldPointer& factor : product->factors())
+      maps.push_back(on_factors(factor, make));
+    return std::make_shared<ProductMap>(product, std::move(maps));
+  }
+  if (dynamic_cast<const Euclidean*>(M.get()) || dynamic_cast<const Torus*>(M.get()))
+    return std::make_shared<Theta>(M, 0.5);
+  return make(M);
+}
+
+[[noreturn]] void refuse(const std::string& map, const std::string& home, const Manifold& M) {
+  throw std::invalid_argument("the discretization \"" + map + "\" is for " + home +
+                              ", but the configurations are on " + M.name() +
+                              "; expected \"midpoint\"");
+}
+
+std::optional<DiscretizationChoice> exponential(ObjectReader&) {
+  return lifted("exponential", [](const ManifoldPointer& M) {
+    if (!M->is_geodesic()) refuse("exponential", "manifolds with the exponential retraction", *M);
+    return std::make_shared<Theta>(M, 0.5);
+  });
+}
+
+std::optional<DiscretizationChoice> chordal(ObjectReader&) {
+  return lifted("chordal", [](const ManifoldPointer& manifold) {
+    return on_factors(manifold, [](const ManifoldPointer& M) -> MapPointer {
+      if (const auto sphere = std::dynamic_pointer_cast<const Sphere>(M))
+        return std::make_shared<Chordal>(sphere);
+      refuse("chordal", "spheres", *M);
+    });
+  });
+}
+
+std::optional<DiscretizationChoice> cayley(ObjectReader&) {
+  return lifted("cayley", [](const ManifoldPointer& manifold) {
+    return on_factors(manifold, [](const ManifoldPointer& M) -> MapPointer {
+      if (const auto rotations = std::dynamic_pointer_cast<const SpecialOrthogonal3>(M))
+        return std::make_shared<CayleyMidpoint>(rotations);
+      if (const auto motions = std::dynamic_pointer_cast<const SpecialEuclidean3>(M))
+        return std::make_shared<CayleyMidpoint>(motions);
+      refuse("cayley", "so3 and se3", *M);
+    });
+  });
 }
 
 std::optional<ProjectorChoice> orthogonal(ObjectReader&) {
@@ -124,6 +179,9 @@ std::optional<MethodChoice> explicit_runge_kutta(ObjectReader& object) {
 const Registry<DiscretizationChoice>& discretization_kinds() {
   static const Registry<DiscretizationChoice> kinds({
       {{"midpoint", "R_d(x, v) = (R_x(-v/2), R_x(v/2)), symmetric, order 2"}, midpoint},
+      {{"exponential", "midpoint, where the retraction is the exponential map"}, exponential},
+      {{"chordal", "the symmetric map (2) of spheres, and of products of them"}, chordal},
+      {{"cayley", "midpoint of the Cayley transform on so3 and se3, and products"}, cayley},
       {{"theta", "R_d(x, v) = (R_x(-θv), R_x((1-θ)v)) with \"theta\" in [0, 1]"}, theta_map},
   });
   return kinds;

@@ -26,7 +26,8 @@ const Registry<std::shared_ptr<const Manifold>, NameList>& manifold_kinds();
 std::optional<Space> read_space(ObjectReader& system, const Json& otherwise, SymbolTable& taken);
 
 // The cotangent bundle of a space, with momenta. A momentum has the shape of its coordinate, but
-// where covectors are not represented in R^N (n < N on groups) it is an array of Ñ.
+// where covectors are not represented in R^N (n < N on groups) it is an array of Ñ: "R[3][3]" has
+// p_R[3]. On SE(3) with "R[3][3]", "r[3]" there are p_R[3] and p_r[3].
 std::optional<Space> cotangent_bundle(const Space& base, SymbolTable& taken,
                                       const JsonReader& coordinates);
 
