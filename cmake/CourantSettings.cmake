@@ -37,6 +37,9 @@ function(courant_settings target)
     target_compile_options(${target} PRIVATE -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow
       -Wno-stringop-overread)
   endif()
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    target_compile_options(${target} PRIVATE -fpch-preprocess) # or ccache passes by precompiled headers
+  endif()
   # The interpreter and the native code that is compiled at run time must give the same bits. A compiler
   # that contracts a*b+c into one rounding does so where it likes, differently in the two: so never.
   target_compile_options(${target} PUBLIC -ffp-contract=off)

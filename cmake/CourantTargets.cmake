@@ -4,6 +4,22 @@
 set(courant_precompiled <Eigen/Dense> <Eigen/SparseCore> <algorithm> <cmath> <functional> <memory> <random> <stdexcept>
     <string> <vector>)
 
+# courant_precompile(<target> <folder> <suffix> [<header>...])
+#
+# Uses precompiled headers in a target: those above and the given ones. They are compiled in core and, because JSON
+# is read from there on, once more in systems; the folders in between take them from core (<suffix>: "" or "_tests").
+function(courant_precompile target folder suffix)
+  if(folder STREQUAL core)
+    target_precompile_headers(${target} PRIVATE ${courant_precompiled} ${ARGN})
+  elseif(folder STREQUAL systems)
+    target_precompile_headers(${target} PRIVATE ${courant_precompiled} <nlohmann/json.hpp> ${ARGN})
+  elseif(folder STREQUAL cli)
+    target_precompile_headers(${target} REUSE_FROM courant_systems${suffix})
+  else()
+    target_precompile_headers(${target} REUSE_FROM courant_core${suffix})
+  endif()
+endfunction()
+
 # courant_library(<folder> PUBLIC <links>... [PRIVATE <links>...])
 #
 # The library courant_<folder> of all sources of this folder, its headers installed to
@@ -19,7 +35,7 @@ function(courant_library folder)
   add_library(${target} ${sources} ${headers})
   add_library(Courant::${folder} ALIAS ${target})
   courant_settings(${target})
-  target_precompile_headers(${target} PRIVATE ${courant_precompiled})
+  courant_precompile(${target} ${folder} "")
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
@@ -47,7 +63,7 @@ function(courant_tests folder)
   set(target courant_${folder}_tests)
   add_executable(${target} ${sources})
   courant_settings(${target})
-  target_precompile_headers(${target} PRIVATE ${courant_precompiled} <boost/test/unit_test.hpp>)
+  courant_precompile(${target} ${folder} _tests <boost/test/unit_test.hpp>)
   # The one file that defines BOOST_TEST_MODULE before it includes Boost.Test.
   set_source_files_properties(${folder}/main.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
   # Tests run for seconds and compile for minutes.

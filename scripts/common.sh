@@ -49,6 +49,7 @@ build_in() {
   local dir=$1
   shift
   local options=("$@")
+  export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS-pch_defines,time_macros} # without it no precompiled header is cached
   mkdir -p "$dir"
   if [ ! -f "$dir/CMakeCache.txt" ]; then
     command -v ninja >/dev/null && options+=(-G Ninja)
