@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "courant/core/derivative.hpp"
+
 namespace courant {
 
 DiracStructure::DiracStructure(std::string name, std::shared_ptr<const Manifold> manifold,
@@ -36,6 +38,27 @@ ExprVector DiracStructure::membership(const ExprVector& x, const ExprVector& v,
   ExprVector result = do_membership(x, v, alpha, u);
   check("the residual", result.size(), equation_count_);
   return result;
+}
+
+DiracStructure::Matrices DiracStructure::matrices(const VectorXd& x) const {
+  const Index n = manifold_->tangent_dimension(), m = port_size_;
+  Graph graph;
+  const ExprVector z = graph.variables("z", 2 * n + m);
+  const ExprVector residual = membership(constants(x), z.head(n), z.segment(n, n), z.tail(m));
+  const ExprMatrix derivative = jacobian(residual, z).dense();
+  const ExprVector entries =
+      substitute(ExprVector(Eigen::Map<const ExprVector>(derivative.data(), derivative.size())), z,
+                 ExprVector::Zero(z.size()));
+  MatrixXd A(derivative.rows(), derivative.cols());
+  A.reshaped() = values(entries);
+  const MatrixXd basis = manifold_->tangent_basis(x);
+  const MatrixXd covectors = manifold_->tangent_projector(x).transpose() * basis;
+  return {A.leftCols(n) * basis, A.middleCols(n, n) * covectors, A.rightCols(m)};
+}
+
+PairedSubspace DiracStructure::fibre(const VectorXd& x) const {
+  const auto [F, E, P] = matrices(x);
+  return PairedSubspace::kernel(F, E, P, rounding);
 }
 
 }  // namespace courant

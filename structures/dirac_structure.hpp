@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "courant/manifolds/manifold.hpp"
+#include "courant/structures/linear_dirac.hpp"
 
 namespace courant {
 
@@ -17,9 +18,12 @@ namespace courant {
 // multipliers that the description needs (m).
 //
 // Laws, measured by check_structure:
-//   S1  dim D_x = n                                             (Dirac: maximally isotropic,
-//   Definition 2.1) S2  ⟨α₁, v₂⟩ + ⟨α₂, v₁⟩ = 0 on D_x                           (isotropy) S3
-//   membership vanishes on D_x and does not off D_x; it is linear in (v, α, u)
+//   S1  dim D_x = n (at least n if it is only coisotropic)
+//   S2  ⟨α₁, v₂⟩ + ⟨α₂, v₁⟩ = 0 on D_x: isotropic (Definition 2.1), if it claims to be Dirac
+//   S3  D_x^⊥ ⊂ D_x: coisotropic
+//   S4  membership is linear in (v, α, u)
+//   S5  membership vanishes on D_x for some u, and for no u off D_x
+//   S6  the ranks behind D_x are the same at every point: D is a smooth bundle
 // Open port-Hamiltonian structures are coisotropic only (Proposition 7.1): is_dirac() says what a
 // structure claims. Signs: ω♭(u)(v) = ω(u, v); ⟨β, ♯α⟩ = Λ(β, α) (Example 2.2). Integrability
 // (Remark 2.6) is not part of the definition.
@@ -43,6 +47,21 @@ class DiracStructure {
   // The residual of the equations, size r. Throws std::invalid_argument on wrong sizes.
   ExprVector membership(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,
                         const ExprVector& u) const;
+
+  // membership = F v + E α + P u at x, by its exact derivatives, in the orthonormal basis
+  // B = tangent_basis(x) of T_xM: (w, a) ∈ Rⁿ ⊕ Rⁿ stands for v = B w and the α with a = Bᵀ α.
+  struct Matrices {
+    MatrixXd F, E, P;  // r × n, r × n, r × m
+  };
+  Matrices matrices(const VectorXd& x) const;
+  // D_x in that basis. Throws std::domain_error where the membership is not a finite number.
+  PairedSubspace fibre(const VectorXd& x) const;
+  // The same as a Dirac structure: throws std::domain_error where it is not one.
+  LinearDirac linear(const VectorXd& x) const { return LinearDirac(fibre(x)); }
+
+  // How much rounding the entries of `matrices` may have, next to the largest of their row and
+  // column.
+  static constexpr RankOptions rounding{.data_error = 1e-12};
 
  protected:
   DiracStructure(std::string name, std::shared_ptr<const Manifold> manifold, Index port_size,

@@ -85,7 +85,15 @@ PairedSubspace PairedSubspace::kernel(const Eigen::Ref<const MatrixXd>& F,
   require(P.rows() == F.rows(), "kernel",
           "P is " + size(P) + " and F is " + size(F) + "; expected equal numbers of rows.");
   const MatrixXd free_of_ports = FundamentalSubspaces(P, options).left_kernel().transpose();
-  return kernel(free_of_ports * F, free_of_ports * E, options);
+  // What cancels to rounding is zero: equations that say the same must not become one of noise.
+  const double noise = std::max(1e-13, options.data_error);
+  const auto reduced = [&](const MatrixXd& A) {
+    const MatrixXd product = free_of_ports * A;
+    const MatrixXd terms = free_of_ports.cwiseAbs() * A.cwiseAbs();
+    return MatrixXd(
+        (product.array().abs() > noise * terms.array()).select(product.array(), 0.0).matrix());
+  };
+  return kernel(reduced(F), reduced(E), options);
 }
 
 PairedSubspace PairedSubspace::orthogonal() const {

@@ -1,9 +1,8 @@
 // The graph of a bivector.
 #pragma once
 
-#include <functional>
-
 #include "courant/structures/dirac_structure.hpp"
+#include "courant/structures/matrix_field.hpp"
 
 namespace courant {
 
@@ -15,7 +14,7 @@ namespace courant {
 // structure in any case.
 class Poisson final : public DiracStructure {
  public:
-  using Bivector = std::function<ExprMatrix(const ExprVector& x)>;
+  using Bivector = MatrixField;
   Poisson(std::shared_ptr<const Manifold> manifold, Bivector bivector);
 
   ExprMatrix bivector(const ExprVector& x) const { return bivector_(x); }

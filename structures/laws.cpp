@@ -1,0 +1,148 @@
+#include "courant/structures/laws.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "courant/manifolds/measurement.hpp"
+#include "courant/structures/rank_profile.hpp"
+
+namespace courant {
+namespace {
+
+class StructureLaws {
+ public:
+  StructureLaws(const DiracStructure& structure, std::span<const VectorXd> points,
+                const LawOptions& options)
+      : D_(structure), points_(points), generator_(options.seed) {}
+
+  std::vector<LawResult> run() {
+    std::vector<LawResult> results{dimension()};
+    if (D_.is_dirac()) results.push_back(isotropy());
+    results.push_back(coisotropy());
+    results.push_back(linearity());
+    results.push_back(vanishes_on_D());
+    results.push_back(nowhere_else());
+    results.push_back(constant_ranks());
+    return results;
+  }
+
+ private:
+  LawMeasurement law(const std::string& text, double bound) const {
+    return LawMeasurement(D_.name(), text, bound);
+  }
+  template <class Measure>
+  LawResult at_points(LawMeasurement measured, const Measure& measure) const {
+    for (const VectorXd& x : points_) measured.add([&] { return measure(x); }, describe("x", x));
+    return measured.result();
+  }
+
+  VectorXd random(Index size) {
+    std::normal_distribution<double> normal;
+    return VectorXd::NullaryExpr(size, [&] { return normal(generator_); });
+  }
+  VectorXd residual(const VectorXd& x, const VectorXd& v, const VectorXd& alpha,
+                    const VectorXd& u) const {
+    return values(D_.membership(constants(x), constants(v), constants(alpha), constants(u)));
+  }
+  // The covector with a = Bᵀα.
+  VectorXd covector(const VectorXd& x, const VectorXd& a) const {
+    const Manifold& M = *D_.manifold();
+    return M.tangent_projector(x).transpose() * (M.tangent_basis(x) * a);
+  }
+  // The least of |membership(x, v, α, u)| over u, for (v, α) given by (w, a) in the basis, next to
+  // the size of its matrices.
+  double least_residual(const VectorXd& x, const VectorXd& w, const VectorXd& a) const {
+    const auto [F, E, P] = D_.matrices(x);
+    const VectorXd v = D_.manifold()->tangent_basis(x) * w, alpha = covector(x, a);
+    const VectorXd without = residual(x, v, alpha, VectorXd::Zero(D_.port_size()));
+    const VectorXd u = -FundamentalSubspaces(P, DiracStructure::rounding).pseudo_solve(without);
+    const double size = F.norm() + E.norm() + P.norm();
+    return residual(x, v, alpha, u).norm() / std::max(size, 1e-300);
+  }
+
+  LawResult dimension() {
+    const bool dirac = D_.is_dirac();
+    return at_points(law(dirac ? "S1 dim D = n" : "S1 dim D ≥ n", 0.0), [&](const VectorXd& x) {
+      const Index excess = D_.fibre(x).dimension() - D_.manifold()->dimension();
+      return static_cast<double>(dirac ? std::abs(excess) : std::max<Index>(-excess, 0));
+    });
+  }
+
+  LawResult isotropy() {
+    return at_points(law("S2 ⟨α₁, v₂⟩ + ⟨α₂, v₁⟩ = 0 on D", 1e-9),
+                     [&](const VectorXd& x) { return D_.fibre(x).isotropy_defect(); });
+  }
+
+  LawResult coisotropy() {
+    return at_points(law("S3 D^⊥ ⊂ D", 1e-9),
+                     [&](const VectorXd& x) { return D_.fibre(x).coisotropy_defect(); });
+  }
+
+  LawResult linearity() {
+    const Index n = D_.manifold()->tangent_dimension(), m = D_.port_size();
+    return at_points(law("S4 membership is linear", 1e-12), [&](const VectorXd& x) {
+      const VectorXd v = random(n), w = random(n), alpha = random(n), beta = random(n),
+                     u = random(m), s = random(m);
+      const double c = 3.0;
+      const VectorXd sum = residual(x, c * v + w, c * alpha + beta, c * u + s);
+      const VectorXd parts = c * residual(x, v, alpha, u) + residual(x, w, beta, s);
+      return relative(sum - parts, sum);
+    });
+  }
+
+  LawResult vanishes_on_D() {
+    return at_points(law("S5 membership = 0 on D", 1e-9), [&](const VectorXd& x) {
+      const PairedSubspace fibre = D_.fibre(x);
+      const VectorXd c = random(fibre.dimension()).normalized();
+      return least_residual(x, fibre.vectors() * c, fibre.covectors() * c);
+    });
+  }
+
+  LawResult nowhere_else() {
+    return at_points(law("S5 membership ≠ 0 off D (1 where it vanishes)", 0.0),
+                     [&](const VectorXd& x) {
+                       const PairedSubspace fibre = D_.fibre(x);
+                       const MatrixXd normals = fibre.complement();
+                       if (normals.cols() == 0) return 0.0;
+                       const VectorXd normal = normals * random(normals.cols()).normalized();
+                       const Index n = fibre.space_dimension();
+                       return least_residual(x, normal.head(n), normal.tail(n)) > 1e-9 ? 0.0 : 1.0;
+                     });
+  }
+
+  LawResult constant_ranks() {
+    auto measured = law("S6 constant ranks (number of points where they jump)", 0.0);
+    std::string where = "all points";
+    measured.add(
+        [&] {
+          const RankProfile profile = rank_profile(D_, points_);
+          if (!profile.is_smooth()) where = describe("x", points_[profile.jumps.front()]);
+          return static_cast<double>(profile.jumps.size());
+        },
+        where);
+    return measured.result();
+  }
+
+  const DiracStructure& D_;
+  std::span<const VectorXd> points_;
+  std::mt19937 generator_;
+};
+
+}  // namespace
+
+std::vector<LawResult> check_structure(const DiracStructure& structure,
+                                       std::span<const VectorXd> points,
+                                       const LawOptions& options) {
+  return StructureLaws(structure, points, options).run();
+}
+
+std::vector<LawResult> check_structure(const DiracStructure& structure, const LawOptions& options) {
+  std::mt19937 generator(options.seed);
+  std::vector<VectorXd> points;
+  for (int i = 0; i < options.points; ++i)
+    points.push_back(structure.manifold()->random_point(generator));
+  return check_structure(structure, points, options);
+}
+
+}  // namespace courant
