@@ -40,7 +40,8 @@ std::string compiler_name() {
 // The file that a program name stands for, as a shell would find it; empty if there is none.
 fs::path find_program(const std::string& name) {
   const auto executable = [](const fs::path& file) {
-    return fs::is_regular_file(file) && access(file.c_str(), X_OK) == 0;
+    std::error_code unreadable;  // as a folder of PATH may be
+    return fs::is_regular_file(file, unreadable) && access(file.c_str(), X_OK) == 0;
   };
   if (name.find('/') != std::string::npos) return executable(name) ? fs::path(name) : fs::path();
   std::istringstream path(environment("PATH"));
@@ -202,7 +203,8 @@ std::shared_ptr<const NativeLibrary> NativeLibrary::compile(const std::string& c
   const auto owned = [](void* handle) {
     return std::shared_ptr<const NativeLibrary>(new NativeLibrary(handle));
   };
-  if (!cache.empty() && fs::exists(cached_object) && read(cached_source) == content)
+  std::error_code unreadable;
+  if (!cache.empty() && fs::exists(cached_object, unreadable) && read(cached_source) == content)
     if (void* handle = load(cached_object))
       return owned(handle);  // one that doesn't load is made anew
 

@@ -44,10 +44,10 @@ install_packages() {
   rm -f "$log"
 }
 
-# build_in <build directory> [<CMake option>...]: configures and builds everything there.
+# build_in <build directory> <target> [<CMake option>...]: configures and builds the target there.
 build_in() {
-  local dir=$1
-  shift
+  local dir=$1 target=$2
+  shift 2
   local options=("$@")
   export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS-pch_defines,time_macros} # without it no precompiled header is cached
   mkdir -p "$dir"
@@ -57,5 +57,5 @@ build_in() {
     printf 'Building in %s (some minutes the first time) ...\n' "$dir" >&2
   fi
   quietly "$dir/configure.log" cmake -S "$root" -B "$dir" "${options[@]}"
-  quietly "$dir/build.log" cmake --build "$dir" --parallel "$(nproc)"
+  quietly "$dir/build.log" cmake --build "$dir" --target "$target" --parallel "$(nproc)"
 }

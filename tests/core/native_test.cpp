@@ -195,6 +195,14 @@ BOOST_FIXTURE_TEST_CASE(without_a_directory_to_write_to_it_still_compiles, Cache
   BOOST_TEST(call(*NativeLibrary::compile(constant_function(3.0))) == 3.0);
 }
 
+BOOST_FIXTURE_TEST_CASE(a_folder_of_the_path_may_be_unreadable, Cache) {
+  fs::create_symlink("loop", folder() / "loop");  // neither there nor absent: an error to ask about
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", ((folder() / "loop").string() + ":" + path).c_str(), 1);
+  BOOST_TEST(native_compiler_available());
+  setenv("PATH", path.c_str(), 1);
+}
+
 BOOST_FIXTURE_TEST_CASE(threads_may_compile_the_same_at_once, Cache) {
   std::vector<double> result(4, 0.0);
   {
