@@ -171,7 +171,7 @@ Value Parser::primary() {
       return is_next(TokenKind::left_parenthesis) ? call(token) : named(token);
     case TokenKind::left_parenthesis: {
       next();
-      const Value value = expression(0);
+      Value value = expression(0);
       expect(TokenKind::right_parenthesis, "\")\"");
       return value;
     }

@@ -46,7 +46,7 @@ fs::path find_program(const std::string& name) {
   if (name.find('/') != std::string::npos) return executable(name) ? fs::path(name) : fs::path();
   std::istringstream path(environment("PATH"));
   for (std::string folder; std::getline(path, folder, ':');) {
-    const fs::path file = fs::path(folder.empty() ? "." : folder) / name;
+    fs::path file = fs::path(folder.empty() ? "." : folder) / name;
     if (executable(file)) return file;
   }
   return {};

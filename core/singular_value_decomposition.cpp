@@ -7,12 +7,14 @@
 
 extern "C" {
 // LAPACK: divide and conquer; QR iteration, slower, which converges where the former does not.
+// NOLINTBEGIN(readability-identifier-naming): Fortran's names
 void dgesdd_(const char* job, const int* m, const int* n, double* a, const int* lda, double* s,
              double* u, const int* ldu, double* vt, const int* ldvt, double* work, const int* lwork,
              int* iwork, int* info);
 void dgesvd_(const char* jobu, const char* jobvt, const int* m, const int* n, double* a,
              const int* lda, double* s, double* u, const int* ldu, double* vt, const int* ldvt,
              double* work, const int* lwork, int* info);
+// NOLINTEND(readability-identifier-naming)
 }
 
 namespace courant {

@@ -28,7 +28,7 @@ ExprVector joined(const ExprVector& a, const ExprVector& b, const ExprVector& c)
 
 }  // namespace
 
-ImplicitSubmanifold::ImplicitSubmanifold(std::string name, std::shared_ptr<const Manifold> M,
+ImplicitSubmanifold::ImplicitSubmanifold(const std::string& name, std::shared_ptr<const Manifold> M,
                                          Equations equations, Index count)
     : Manifold(name, checked(name, M).dimension() - count, checked(name, M).ambient_dimension(),
                checked(name, M).tangent_dimension()),

@@ -28,8 +28,8 @@ class ImplicitSubmanifold final : public Manifold {
   using Equations = std::function<ExprVector(const ExprVector& x)>;
 
   // c(x) has `count` entries. Throws std::invalid_argument if M is null or c of another size.
-  ImplicitSubmanifold(std::string name, std::shared_ptr<const Manifold> M, Equations equations,
-                      Index count);
+  ImplicitSubmanifold(const std::string& name, std::shared_ptr<const Manifold> M,
+                      Equations equations, Index count);
 
   const std::shared_ptr<const Manifold>& surrounding() const { return surrounding_; }  // M
   bool has_inverse() const override { return surrounding_->has_inverse(); }

@@ -77,7 +77,7 @@ ExprMatrix VectorBundle::do_coframe(const ExprVector& x) const {
 }
 
 ExprVector VectorBundle::do_constraint(const ExprVector& x) const {
-  const ExprVector on_base = base_->constraint(position(x));
+  ExprVector on_base = base_->constraint(position(x));
   if (is_trivialised()) return on_base;
   const ExprVector fibre = fibre_part(x);
   ExprVector result(on_base.size() + fibre.size());
