@@ -7,6 +7,7 @@
 #include "courant/core/derivative.hpp"
 #include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/local_formulation.hpp"
+#include "courant/integrators/moving_basis.hpp"
 #include "courant/integrators/step_solver.hpp"
 
 namespace courant {
@@ -45,7 +46,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
         solver_(method.equations_, {n_, n_, rest_, d_}, method.name()),
         projector_(method.projection_, {n_, n_, rest_, d_}, method.name() + " (projection)"),
         predictor_(manifold_, method.blocks_, solver_.unknown().size()),
-        basis_(manifold_.tangent_basis(initial.x)),
+        basis_(manifold_, method.basis_, initial.x),
         directions_(n_, d_),
         origin_(initial.t),
         h_(h),
@@ -59,7 +60,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
     if (state_.z.size() != m) state_.z = VectorXd::Zero(m);
     VectorXd& y = projector_.unknown();
     y.setZero();
-    y.segment(n_, n_) = basis_.transpose() * state_.v;
+    y.segment(n_, n_) = basis_.matrix().transpose() * state_.v;
     y.segment(method_.blocks_ * n_, m) = state_.z;
     near_ = state_.x;
     project(state_.x, state_.t);
@@ -77,7 +78,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
       y = start_;
       y.head(n_) = 0.5 * h_ * here.segment(n_, n_);
     } else {
-      predictor_.predict(basis_, y);
+      predictor_.predict(basis_.matrix(), y);
     }
     const double* in[] = {y.data(), state_.x.data(), basis_.data(), directions_.data(),
                           &h_,      &state_.t};
@@ -87,7 +88,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
       throw SolveError(SolveError::Reason::left_domain, state_.t, statistics_.steps + 1, {},
                        method_.name() + ": step " + std::to_string(statistics_.steps + 1) +
                            " leads to a state that is not finite.");
-    predictor_.record(basis_, y);
+    predictor_.record(basis_.matrix(), y);
 
     VectorXd& end = projector_.unknown();
     end = y;
@@ -111,11 +112,13 @@ class ConstrainFirst::Trajectory final : public Stepper {
     VectorXd& y = projector_.unknown();
     double previous = std::numeric_limits<double>::infinity();
     for (int iteration = 0; iteration < kMaxProjections; ++iteration) {
-      MatrixXd basis = n_ < manifold_.tangent_dimension() ? manifold_.tangent_basis(guess) : basis_;
-      if (n_ < manifold_.tangent_dimension())  // the same vectors in the new basis
-        for (Index b = 0; b < method_.blocks_; ++b)
-          y.segment(b * n_, n_) = basis.transpose() * (basis_ * y.segment(b * n_, n_)).eval();
-      basis_ = std::move(basis);
+      if (n_ < manifold_.tangent_dimension()) {  // the same vectors in the new basis
+        vectors_.noalias() =
+            basis_.matrix() * y.head(method_.blocks_ * n_).reshaped(n_, method_.blocks_);
+        basis_.move_to(guess);
+        y.head(method_.blocks_ * n_).reshaped(n_, method_.blocks_).noalias() =
+            basis_.matrix().transpose() * vectors_;
+      }
       y.head(n_).setZero();
       aim(guess, y, t);
       start_ = y;
@@ -157,7 +160,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
         (Q.rightCols(J.rows() - others.rank()).transpose() * J.leftCols(n_)).transpose();
     const Eigen::ColPivHouseholderQR<MatrixXd> span(gradients);
     const MatrixXd conormals = span.householderQ() * MatrixXd::Identity(n_, d_);
-    const MatrixXd W = method_.projector_->directions(x, basis_, conormals);
+    const MatrixXd W = method_.projector_->directions(x, basis_.matrix(), conormals);
     // The same span as W, but near the last one, so that μ and the kept factorisations go on.
     if (statistics_.steps > 0) {
       const MatrixXd turned = W * (W.transpose() * directions_);
@@ -183,7 +186,9 @@ class ConstrainFirst::Trajectory final : public Stepper {
   bool constant_directions_, is_aimed_ = false;
   StepSolver solver_, projector_;
   Predictor predictor_;
-  MatrixXd basis_, directions_;  // B and W at x_k
+  MovingBasis basis_;    // B at x_k
+  MatrixXd directions_;  // W at x_k
+  MatrixXd vectors_;
   double origin_, h_;
   VectorXd start_, near_, found_, rows_;
 };
@@ -222,17 +227,18 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
   auxiliaries_ = jets.size() - blocks_ * n;
   const ExprVector y = join({jets, mu});
   const ExprVector basis_entries = basis_parameters(M, basis);
+  const ExprVector equations = local.nonzero_equations();
 
   constraints_ =
       Function("constraints", {{"y", jets}, {"x0", x0}, {"basis", basis_entries}, {"t", t}},
-               local.equations, {.differentiate = {"y"}, .backend = options.backend});
+               equations, {.differentiate = {"y"}, .backend = options.backend});
 
   // The step.
   const auto ends = map_->forward(local.x, ExprVector(h[0] * local.v));
   const ExprVector moved = M.chart(x0, basis, shift);
   const ExprVector at_start = M.coframe(x0) * ExprVector(ends.first - moved);
-  const ExprVector staged = substitute(
-      local.equations, t, ExprVector::Constant(1, t[0] + Expr(map_->stage_time()) * h[0]));
+  const ExprVector staged =
+      substitute(equations, t, ExprVector::Constant(1, t[0] + Expr(map_->stage_time()) * h[0]));
   const std::vector<Function::Input> step = {
       {"y", y}, {"x0", x0}, {"basis", basis_entries}, {"W", directions}, {"h", h}, {"t", t}};
   equations_ =
@@ -246,9 +252,10 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
   const ExprVector distance = M.coframe(x0) * ExprVector(M.retract(local.x, along) - near);
   const std::vector<Function::Input> at_end = {
       {"y", y}, {"x0", x0}, {"basis", basis_entries}, {"W", directions}, {"near", near}, {"t", t}};
-  projection_ = Function("projection", at_end,
-                         join({ExprVector(basis.transpose() * distance), local.equations}),
-                         {.differentiate = {"y"}, .backend = options.backend});
+  projection_ =
+      Function("projection", at_end, join({ExprVector(basis.transpose() * distance), equations}),
+               {.differentiate = {"y"}, .backend = options.backend});
+  basis_ = MovingBasis::projection(M, options.backend);
   projected_ = Function("projected", at_end, join({local.x, local.v, local.z[0]}),
                         {.backend = options.backend});
 }

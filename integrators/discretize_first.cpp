@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "courant/integrators/local_formulation.hpp"
+#include "courant/integrators/moving_basis.hpp"
 #include "courant/integrators/round_off_projection.hpp"
 #include "courant/integrators/step_solver.hpp"
 
@@ -26,13 +27,13 @@ class DiscretizeFirst::Trajectory final : public Stepper {
       : Stepper(initial),
         method_(method),
         manifold_(*method.system_->manifold()),
-        projection_(manifold_),
+        projection_(method.constraint_),
         n_(manifold_.dimension()),
         m_(method.system_->auxiliary_size()),
         blocks_(method.tangent_blocks_),
         solver_(method.equations_, {blocks_ * n_, m_}, method.name()),
         predictor_(manifold_, blocks_, blocks_ * n_ + m_),
-        basis_(manifold_.tangent_basis(initial.x)),
+        basis_(manifold_, method.basis_, initial.x),
         origin_(initial.t),
         h_(h),
         start_(VectorXd::Zero(blocks_ * n_ + m_)),
@@ -47,15 +48,15 @@ class DiscretizeFirst::Trajectory final : public Stepper {
   void do_step() override {
     const Index tangent = manifold_.tangent_dimension();
     VectorXd& y = solver_.unknown();
-    if (n_ < tangent) basis_ = manifold_.tangent_basis(state_.x);
+    basis_.move_to(state_.x);
     if (predictor_.is_empty()) {
       // The displacement of the velocity that is known, half of it where the middle point is
       // sought.
-      y.segment((blocks_ - 1) * n_, n_) = h_ * (basis_.transpose() * state_.v);
+      y.segment((blocks_ - 1) * n_, n_) = h_ * (basis_.matrix().transpose() * state_.v);
       if (blocks_ == 2) y.head(n_) = 0.5 * y.segment(n_, n_);
       y.tail(m_) = state_.z;
     } else {
-      predictor_.predict(basis_, y);
+      predictor_.predict(basis_.matrix(), y);
     }
     const double* in[] = {y.data(), state_.x.data(), basis_.data(), &h_, &state_.t};
     const double size = largest(state_.x);
@@ -67,7 +68,7 @@ class DiscretizeFirst::Trajectory final : public Stepper {
       throw SolveError(SolveError::Reason::left_domain, state_.t, statistics_.steps + 1, {},
                        method_.name() + ": step " + std::to_string(statistics_.steps + 1) +
                            " leads to a state that is not finite.");
-    predictor_.record(basis_, y);
+    predictor_.record(basis_.matrix(), y);
     start_.tail(m_) = y.tail(m_);
     state_.x = next_.head(state_.x.size());
     projection_.apply(state_.x);
@@ -82,7 +83,7 @@ class DiscretizeFirst::Trajectory final : public Stepper {
   Index n_, m_, blocks_;
   StepSolver solver_;
   Predictor predictor_;
-  MatrixXd basis_;
+  MovingBasis basis_;
   double origin_, h_;
   VectorXd start_;
   VectorXd next_;
@@ -112,7 +113,7 @@ DiscretizeFirst::DiscretizeFirst(std::shared_ptr<const ImplicitSystem> system,
     x1 = M.chart(x0, basis, xi);
     const auto middle = map_->inverse(x0, x1);
     v = middle.v / h[0];
-    residual = system_->residual(middle.x, v, z, stage_time);
+    residual = reduced_residual(*system_, basis, middle.x, v, z, stage_time);
     y.resize(n + z.size());
     y << xi, z;
   } else {
@@ -124,8 +125,9 @@ DiscretizeFirst::DiscretizeFirst(std::shared_ptr<const ImplicitSystem> system,
     x1 = ends.second;
     v = displacement / h[0];
     const ExprVector at_start = M.coframe(x0) * (ends.first - x0).eval();
-    residual.resize(n + system_->equation_count());
-    residual << basis.transpose() * at_start, system_->residual(x, v, z, stage_time);
+    const ExprVector equations = reduced_residual(*system_, basis, x, v, z, stage_time);
+    residual.resize(n + equations.size());
+    residual << basis.transpose() * at_start, equations;
     y.resize(2 * n + z.size());
     y << xi, eta, z;
     tangent_blocks_ = 2;
@@ -137,6 +139,8 @@ DiscretizeFirst::DiscretizeFirst(std::shared_ptr<const ImplicitSystem> system,
   equations_ = Function("discretize-first", inputs, residual,
                         {.differentiate = {"y"}, .backend = options.backend});
   advance_ = Function("advance", inputs, advanced, {.backend = options.backend});
+  basis_ = MovingBasis::projection(M, options.backend);
+  constraint_ = RoundOffProjection::constraint(M, options.backend);
 }
 
 std::unique_ptr<Stepper> DiscretizeFirst::start(const State& initial, double h) const {

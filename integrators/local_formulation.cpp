@@ -6,6 +6,31 @@
 
 namespace courant {
 
+namespace {
+
+// F with each tangent block r replaced by Bᵀr and then `zeros` (per equation that is lost).
+ExprVector with_reduced_blocks(const ImplicitSystem& system, const ExprMatrix& basis,
+                               const ExprVector& F, bool zeros) {
+  const Index full = basis.rows(), n = basis.cols();
+  if (n == full) return F;
+  const Index blocks = system.tangent_blocks();
+  const Index kept = zeros ? full : n;
+  ExprVector result = ExprVector::Zero(F.size() - blocks * (full - kept));
+  for (Index b = 0; b < blocks; ++b)
+    result.segment(b * kept, n) = basis.transpose() * F.segment(b * full, full);
+  const Index others = F.size() - blocks * full;
+  result.tail(others) = F.tail(others);
+  return result;
+}
+
+}  // namespace
+
+ExprVector reduced_residual(const ImplicitSystem& system, const ExprMatrix& basis,
+                            const ExprVector& x, const ExprVector& v, const ExprVector& z,
+                            const Expr& t) {
+  return with_reduced_blocks(system, basis, system.residual(x, v, z, t), false);
+}
+
 LocalFormulation::LocalFormulation(Graph& graph, const ImplicitSystem& system, const ExprVector& x0,
                                    const ExprMatrix& basis, const Expr& t,
                                    const std::vector<int>& differentiations) {
@@ -22,7 +47,7 @@ LocalFormulation::LocalFormulation(Graph& graph, const ImplicitSystem& system, c
   x = M.chart(x0, basis, xi[0]);
   v = M.coframe(x) * tangent(x, xi[0], xi[1]);
 
-  const ExprVector F = system.residual(x, v, z[0], t);
+  const ExprVector F = with_reduced_blocks(system, basis, system.residual(x, v, z[0], t), true);
   std::vector<Expr> collected(F.begin(), F.end());
   for (Index i = 0; i < F.size(); ++i) source.push_back(i);
   ExprVector derivative = F;
@@ -51,6 +76,13 @@ LocalFormulation::LocalFormulation(Graph& graph, const ImplicitSystem& system, c
     }
   }
   equations = Eigen::Map<ExprVector>(collected.data(), static_cast<Index>(collected.size()));
+}
+
+ExprVector LocalFormulation::nonzero_equations() const {
+  std::vector<Expr> kept;
+  for (const Expr& equation : equations)
+    if (!equation.is_constant() || equation.value() != 0.0) kept.push_back(equation);
+  return Eigen::Map<ExprVector>(kept.data(), static_cast<Index>(kept.size()));
 }
 
 ExprMatrix basis_variables(Graph& graph, const Manifold& manifold) {

@@ -13,6 +13,9 @@ namespace courant {
 //   along (ξ', ξ'', …; z', z'', …)
 //
 // Where n = Ñ the basis B is the identity, and no parameter.
+//
+// Where n < Ñ, a block of Ñ equations that is a tangent vector or covector r (ImplicitSystem::
+// tangent_blocks) stands in `equations` as Bᵀr and Ñ - n zeros: near x₀ that says the same.
 struct LocalFormulation {
   // Traces in `graph` with chart origin `x0` (N) and basis `basis` (Ñ × n). Equation i is
   // differentiated differentiations[i] times; jets up to the order that they contain are made.
@@ -25,7 +28,15 @@ struct LocalFormulation {
   ExprVector x, v;
   ExprVector equations;       // F_i, then the derivatives asked for, by order
   std::vector<Index> source;  // equations[j] comes from F_{source[j]}
+
+  ExprVector nonzero_equations() const;  // without those that are the constant 0
 };
+
+// The residual of the system near the chart origin of `basis`, each tangent block r as Bᵀr (n
+// equations), which near there says the same: as many equations as are independent.
+ExprVector reduced_residual(const ImplicitSystem& system, const ExprMatrix& basis,
+                            const ExprVector& x, const ExprVector& v, const ExprVector& z,
+                            const Expr& t);
 
 // The basis of a chart as an argument of a traced function: the identity where that holds for every
 // point, else fresh variables.

@@ -5,11 +5,14 @@
 
 namespace courant {
 
-RoundOffProjection::RoundOffProjection(const Manifold& manifold) {
+Function RoundOffProjection::constraint(const Manifold& manifold, Backend backend) {
   Graph graph;
   const ExprVector x = graph.variables("x", manifold.ambient_dimension());
-  constraint_ =
-      Function("constraint", {{"x", x}}, manifold.constraint(x), {.differentiate = {"x"}});
+  return Function("constraint", {{"x", x}}, manifold.constraint(x),
+                  {.differentiate = {"x"}, .backend = backend});
+}
+
+RoundOffProjection::RoundOffProjection(Function constraint) : constraint_(std::move(constraint)) {
   all_.resize(constraint_.output_size() + constraint_.nonzeros());
   jacobian_.setZero(constraint_.output_size(), constraint_.jacobian_cols());
 }
@@ -26,7 +29,12 @@ void RoundOffProjection::apply(VectorXd& x) {
   for (std::size_t k = 0; k < constraint_.pattern_row().size(); ++k)
     jacobian_(constraint_.pattern_row()[k], constraint_.pattern_col()[k]) =
         all_[count + static_cast<Index>(k)];
-  x -= jacobian_.completeOrthogonalDecomposition().solve(all_.head(count));
+  // Equations of bundles repeat each other up to round-off: what is 1e-8 of the others is no
+  // direction to move in.
+  Eigen::CompleteOrthogonalDecomposition<MatrixXd> decomposition;
+  decomposition.setThreshold(1e-8);
+  decomposition.compute(jacobian_);
+  x -= decomposition.solve(all_.head(count));
 }
 
 }  // namespace courant

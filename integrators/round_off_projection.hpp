@@ -13,7 +13,9 @@ namespace courant {
 // workspace: one object a trajectory.
 class RoundOffProjection {
  public:
-  explicit RoundOffProjection(const Manifold& manifold);
+  // x ↦ constraint(x) with its Jacobian, to be traced once for all trajectories.
+  static Function constraint(const Manifold& manifold, Backend backend);
+  explicit RoundOffProjection(Function constraint);
   void apply(VectorXd& x);
 
  private:

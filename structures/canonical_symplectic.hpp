@@ -17,6 +17,8 @@ class CanonicalSymplectic final : public DiracStructure {
  public:
   explicit CanonicalSymplectic(std::shared_ptr<const CotangentBundle> phase_space);
 
+  Index tangent_blocks() const override { return 1; }
+
  private:
   ExprVector do_membership(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,
                            const ExprVector& u) const override;

@@ -43,6 +43,10 @@ class DiracStructure {
 
   // The claim: a Dirac structure, or (false) a subbundle that is only coisotropic.
   virtual bool is_dirac() const { return true; }
+  // How many leading blocks of Ñ equations are tangent vectors or covectors at x by construction,
+  // so that where n < Ñ only n combinations of a block say something. 0 is always right; more makes
+  // what is built on the structure see no equations that repeat others.
+  virtual Index tangent_blocks() const { return 0; }
 
   // The residual of the equations, size r. Throws std::invalid_argument on wrong sizes.
   ExprVector membership(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,

@@ -20,6 +20,7 @@ class DiracSystem final : public ImplicitSystem {
 
   const std::shared_ptr<const DiracStructure>& structure() const { return structure_; }
   const std::shared_ptr<const GeneratingFamily>& family() const { return family_; }
+  Index tangent_blocks() const override { return structure_->tangent_blocks(); }
 
  private:
   ExprVector do_residual(const ExprVector& x, const ExprVector& v, const ExprVector& z,

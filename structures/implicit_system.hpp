@@ -36,6 +36,10 @@ class ImplicitSystem {
   Index equation_count() const { return equation_count_; }  // r
   const Names& names() const { return names_; }
 
+  // How many leading blocks of Ñ equations are tangent vectors or covectors at x, as in
+  // DiracStructure.
+  virtual Index tangent_blocks() const { return 0; }
+
   // F(x, v, z, t), size r; x: N, v: Ñ, z: m. Throws std::invalid_argument on wrong sizes.
   ExprVector residual(const ExprVector& x, const ExprVector& v, const ExprVector& z,
                       const Expr& t) const;

@@ -19,6 +19,8 @@ class Poisson final : public DiracStructure {
 
   ExprMatrix bivector(const ExprVector& x) const { return bivector_(x); }
 
+  Index tangent_blocks() const override { return 1; }
+
  private:
   ExprVector do_membership(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,
                            const ExprVector& u) const override;

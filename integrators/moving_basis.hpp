@@ -1,0 +1,33 @@
+// The basis of a chart along a trajectory.
+#pragma once
+
+#include "courant/core/function.hpp"
+#include "courant/manifolds/manifold.hpp"
+
+namespace courant {
+
+// An orthonormal basis B of T_xM (Ñ × n) that turns as little as possible while x moves: the last
+// one projected to the new tangent space, made orthonormal by its polar factor. What was factorised
+// or extrapolated in it stays good, which a basis made afresh at every point would spoil.
+//
+// Nothing is computed where n = Ñ: B is the identity. Nothing is allocated by move_to, but for
+// points so far apart that the projection is nearly singular. One object a trajectory.
+class MovingBasis {
+ public:
+  // (x, B) ↦ Π(x) B, to be traced once for all trajectories.
+  static Function projection(const Manifold& manifold, Backend backend);
+
+  // `manifold` has to outlive it.
+  MovingBasis(const Manifold& manifold, Function projection, const VectorXd& x);
+
+  void move_to(const VectorXd& x);
+  const MatrixXd& matrix() const { return basis_; }
+  const double* data() const { return basis_.data(); }
+
+ private:
+  const Manifold& manifold_;
+  Function projection_;
+  MatrixXd basis_, projected_, correction_;
+};
+
+}  // namespace courant
