@@ -14,6 +14,7 @@ class Adjoint final : public DiscretizationMap {
   explicit Adjoint(std::shared_ptr<const DiscretizationMap> map);
 
   bool has_inverse() const override { return map_->has_inverse(); }
+  double domain_radius() const override { return map_->domain_radius(); }
   int order() const override { return map_->order(); }
   bool is_symmetric() const override { return map_->is_symmetric(); }
   std::optional<bool> is_symplectic() const override { return map_->is_symplectic(); }

@@ -1,6 +1,7 @@
 // DiscretizationMap: R_d: TM → M × M.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -55,6 +56,9 @@ class DiscretizationMap {
       return numeric_inverse(x0, x1);
   }
 
+  // ‖v‖ below which forward is defined and injective, where that is less than the injectivity
+  // radius of the manifold.
+  virtual double domain_radius() const { return std::numeric_limits<double>::infinity(); }
   // Whether inverse is a closed formula.
   virtual bool has_inverse() const { return true; }
   // The order of the one-step method that the map gives on an ordinary differential equation.

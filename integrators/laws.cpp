@@ -93,7 +93,7 @@ class DiscretizationMapLaws {
       : map_(map),
         M_(*map.manifold()),
         generator_(options.seed),
-        samples_(draw_samples(M_, options.points, 1.0, generator_)) {
+        samples_(draw_samples(M_, options.points, 1.0, generator_, map.domain_radius())) {
     if (map.is_symplectic().has_value() &&
         std::dynamic_pointer_cast<const CotangentBundle>(map.manifold()))
       symplecticity_.emplace(map);

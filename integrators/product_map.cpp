@@ -35,6 +35,12 @@ ProductMap::ProductMap(std::shared_ptr<const Product> manifold, Factors factors)
                                   "; expected one on that factor of the manifold.");
 }
 
+double ProductMap::domain_radius() const {
+  double radius = std::numeric_limits<double>::infinity();
+  for (const auto& factor : factors_) radius = std::min(radius, factor->domain_radius());
+  return radius;
+}
+
 bool ProductMap::has_inverse() const {
   return std::ranges::all_of(factors_, [](const auto& factor) { return factor->has_inverse(); });
 }

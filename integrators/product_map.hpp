@@ -17,6 +17,7 @@ class ProductMap final : public DiscretizationMap {
   ProductMap(std::shared_ptr<const Product> manifold,
              std::vector<std::shared_ptr<const DiscretizationMap>> factors);
 
+  double domain_radius() const override;
   bool has_inverse() const override;
   int order() const override;
   bool is_symmetric() const override;

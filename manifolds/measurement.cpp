@@ -67,12 +67,12 @@ double CurveFamily::difference_defect(const VectorXd& data, const MatrixXd& exac
 }
 
 std::vector<LawSample> draw_samples(const Manifold& M, int count, double far,
-                                    std::mt19937& generator) {
+                                    std::mt19937& generator, double limit) {
   std::vector<LawSample> samples;
   for (int i = 0; i < count; ++i) {
     LawSample sample;
     sample.x = M.random_point(generator);
-    sample.radius = M.injectivity_radius(sample.x);
+    sample.radius = std::min(limit, M.injectivity_radius(sample.x));
     const bool bounded = std::isfinite(sample.radius);
     for (const double length : {0.0, 1e-8, 1e-4, bounded ? 0.5 * sample.radius : 0.5,
                                 bounded ? 0.99 * sample.radius : far})

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -43,9 +44,11 @@ struct LawSample {
   VectorXd w, u;                  // unit tangent vectors, directions to differentiate along
 };
 
-// `count` random ones. `far` is the length that stands for the last 1 % of an infinite radius.
+// `count` random ones. `far` is the length that stands for the last 1 % of an infinite radius;
+// radii are at most `limit`.
 std::vector<LawSample> draw_samples(const Manifold& M, int count, double far,
-                                    std::mt19937& generator);
+                                    std::mt19937& generator,
+                                    double limit = std::numeric_limits<double>::infinity());
 
 // A point of M at about that ambient distance from x, made by projection and not by the retraction.
 VectorXd point_near(const Manifold& M, const VectorXd& x, double distance, std::mt19937& generator);

@@ -9,6 +9,7 @@
 #include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/explicit_runge_kutta.hpp"
 #include "courant/integrators/product_map.hpp"
+#include "courant/integrators/spherical_midpoint.hpp"
 #include "courant/integrators/theta.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/torus.hpp"
@@ -75,14 +76,24 @@ std::optional<DiscretizationChoice> exponential(ObjectReader&) {
   });
 }
 
-std::optional<DiscretizationChoice> chordal(ObjectReader&) {
-  return lifted("chordal", [](const ManifoldPointer& manifold) {
-    return on_factors(manifold, [](const ManifoldPointer& M) -> MapPointer {
+// A map that every sphere has.
+template <class Map>
+DiscretizationChoice on_spheres(const std::string& name) {
+  return lifted(name, [name](const ManifoldPointer& manifold) {
+    return on_factors(manifold, [&](const ManifoldPointer& M) -> MapPointer {
       if (const auto sphere = std::dynamic_pointer_cast<const Sphere>(M))
-        return std::make_shared<Chordal>(sphere);
-      refuse("chordal", "spheres", *M);
+        return std::make_shared<Map>(sphere);
+      refuse(name, "spheres", *M);
     });
   });
+}
+
+std::optional<DiscretizationChoice> chordal(ObjectReader&) {
+  return on_spheres<Chordal>("chordal");
+}
+
+std::optional<DiscretizationChoice> spherical_midpoint(ObjectReader&) {
+  return on_spheres<SphericalMidpoint>("spherical-midpoint");
 }
 
 std::optional<DiscretizationChoice> cayley(ObjectReader&) {
@@ -181,6 +192,8 @@ const Registry<DiscretizationChoice>& discretization_kinds() {
       {{"midpoint", "R_d(x, v) = (R_x(-v/2), R_x(v/2)), symmetric, order 2"}, midpoint},
       {{"exponential", "midpoint, where the retraction is the exponential map"}, exponential},
       {{"chordal", "the symmetric map (2) of spheres, and of products of them"}, chordal},
+      {{"spherical-midpoint", "(x√(1-v²/4) - v/2, x√(1-v²/4) + v/2) on spheres, and products"},
+       spherical_midpoint},
       {{"cayley", "midpoint of the Cayley transform on so3 and se3, and products"}, cayley},
       {{"theta", "R_d(x, v) = (R_x(-θv), R_x((1-θ)v)) with \"theta\" in [0, 1]"}, theta_map},
   });

@@ -1,4 +1,5 @@
 #include "courant/systems/point_vortices.hpp"
+#include "courant/systems/spherical_vortices.hpp"
 #include "courant/systems/system_kinds.hpp"
 
 namespace courant {
@@ -26,6 +27,12 @@ std::optional<VectorXd> read_strengths(ObjectReader& system, const SymbolTable& 
   return right ? strengths : std::nullopt;
 }
 
+std::optional<std::string> problem_of(const std::optional<std::pair<Index, Index>>& pair) {
+  if (!pair) return std::nullopt;
+  return "vortices " + std::to_string(pair->first) + " and " + std::to_string(pair->second) +
+         " are at one place; expected different places (their energy is infinite)";
+}
+
 }  // namespace
 
 std::optional<Model> read_point_vortices(ObjectReader& system) {
@@ -49,11 +56,29 @@ std::optional<Model> read_point_vortices(ObjectReader& system) {
   model.description = std::to_string(vortices.count()) + " point vortices, " +
                       (lagrangian ? "singular Lagrangian" : "Hamiltonian") + " form";
   model.system = lagrangian ? vortices.lagrangian_form() : vortices.hamiltonian_form();
-  model.point_problem = [vortices](const VectorXd& x) -> std::optional<std::string> {
-    const auto pair = vortices.coinciding(x.head(2 * vortices.count()));
-    if (!pair) return std::nullopt;
-    return "vortices " + std::to_string(pair->first) + " and " + std::to_string(pair->second) +
-           " are at one place; expected different places (their energy is infinite)";
+  model.point_problem = [vortices](const VectorXd& x) {
+    return problem_of(vortices.coinciding(x.head(2 * vortices.count())));
+  };
+  return model;
+}
+
+std::optional<Model> read_spherical_vortices(ObjectReader& system) {
+  Model model;
+  Vocabulary& vocabulary = model.vocabulary;
+  vocabulary.parameters = read_parameters(system, {"strengths", "x"});
+  vocabulary.definitions = read_definitions(system);
+  const auto strengths = read_strengths(system, vocabulary.symbols({}));
+  if (!strengths) return std::nullopt;
+
+  const SphericalVortices vortices(*strengths);
+  vocabulary.parameters.push_back({"strengths", {{vortices.count()}, constants(*strengths)}});
+  vocabulary.coordinates.append({"x", {vortices.count(), 3}});
+  check_definitions(vocabulary, system.place().findings());
+
+  model.description = std::to_string(vortices.count()) + " point vortices on the sphere";
+  model.system = vortices.system();
+  model.point_problem = [vortices](const VectorXd& x) {
+    return problem_of(vortices.coinciding(x));
   };
   return model;
 }

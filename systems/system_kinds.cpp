@@ -9,6 +9,8 @@ const Registry<Model>& system_kinds() {
       {{"implicit", "equations in coordinates, velocities and unknowns"}, read_implicit},
       {{"point-vortices", "n point vortices in the plane, of given \"strengths\""},
        read_point_vortices},
+      {{"spherical-vortices", "n point vortices on the sphere, of given \"strengths\""},
+       read_spherical_vortices},
   });
   return kinds;
 }

@@ -10,6 +10,7 @@
 #include "courant/integrators/chordal.hpp"
 #include "courant/integrators/cotangent_lift.hpp"
 #include "courant/integrators/product_map.hpp"
+#include "courant/integrators/spherical_midpoint.hpp"
 #include "courant/integrators/theta.hpp"
 
 namespace courant::test {
@@ -59,6 +60,8 @@ inline std::vector<MapPointer> base_map_catalogue() {
           make<Chordal>(sphere),
           make<Chordal>(make<Sphere>(1)),
           make<Chordal>(projective),
+          make<SphericalMidpoint>(sphere),
+          make<SphericalMidpoint>(make<Sphere>(1)),
           make<CayleyMidpoint>(rotations),
           make<CayleyMidpoint>(cayley),
           make<CayleyMidpoint>(motions),

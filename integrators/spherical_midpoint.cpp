@@ -1,0 +1,21 @@
+#include "courant/integrators/spherical_midpoint.hpp"
+
+namespace courant {
+
+SphericalMidpoint::SphericalMidpoint(std::shared_ptr<const Sphere> sphere)
+    : DiscretizationMap("SphericalMidpoint", std::move(sphere)) {}
+
+DiscretizationMap::PointPair<Expr> SphericalMidpoint::do_forward(const ExprVector& x,
+                                                                 const ExprVector& v) const {
+  const ExprVector half = Expr(0.5) * v;
+  const ExprVector middle = sqrt(1.0 - half.squaredNorm()) * x;
+  return {middle - half, middle + half};
+}
+
+DiscretizationMap::TangentVector<Expr> SphericalMidpoint::do_inverse(const ExprVector& x0,
+                                                                     const ExprVector& x1) const {
+  const ExprVector sum = x0 + x1;
+  return {sum / sqrt(sum.squaredNorm()), x1 - x0};
+}
+
+}  // namespace courant
