@@ -49,7 +49,8 @@ build_in() {
   local dir=$1 target=$2
   shift 2
   local options=("$@")
-  export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS-pch_defines,time_macros} # without it no precompiled header is cached
+  # Without the first ccache keeps nothing that uses a precompiled header, without the second it preprocesses twice.
+  export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS-pch_defines,time_macros} CCACHE_DEPEND=${CCACHE_DEPEND-1}
   mkdir -p "$dir"
   if [ ! -f "$dir/CMakeCache.txt" ]; then
     command -v ninja >/dev/null && options+=(-G Ninja)

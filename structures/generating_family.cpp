@@ -58,7 +58,7 @@ Expr Hamiltonian::do_value(const ExprVector& x, const ExprVector&, const Expr& t
 
 Lagrangian::Lagrangian(std::shared_ptr<const CotangentBundle> phase_space, Formula lagrangian)
     : GeneratingFamily(phase_space, phase_space ? phase_space->base()->tangent_dimension() : 0),
-      phase_space_(phase_space),
+      phase_space_(std::move(phase_space)),
       lagrangian_(std::move(lagrangian)) {}
 
 Expr Lagrangian::do_value(const ExprVector& x, const ExprVector& w, const Expr& t) const {
