@@ -39,6 +39,7 @@ int command(const std::vector<std::string>& arguments, const Console& console) {
   app.set_version_flag("--version", "courant " COURANT_VERSION);
   add_run(app, session);
   add_constraints(app, session);
+  add_check(app, session);
   add_list(app, session);
   add_schema(app, session);
   add_report(app, session);

@@ -36,6 +36,7 @@ struct Session {
 
 void add_run(CLI::App& app, Session& session);
 void add_constraints(CLI::App& app, Session& session);
+void add_check(CLI::App& app, Session& session);
 void add_list(CLI::App& app, Session& session);
 void add_schema(CLI::App& app, Session& session);
 void add_report(CLI::App& app, Session& session);

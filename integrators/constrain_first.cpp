@@ -209,6 +209,7 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
   const Manifold& M = *system_->manifold();
   const Index n = M.dimension();
   codimension_ = n - ladder.degrees_of_freedom;
+  gauge_dimension_ = ladder.gauge_dimension;
 
   Graph graph;
   const ExprVector x0 = graph.variables("x0", M.ambient_dimension());

@@ -37,7 +37,8 @@ class ConstrainFirst final : public Integrator {
 
   std::string name() const override { return "constrain-first"; }
   int order() const override { return map_->order(); }
-  bool is_symmetric() const override { return map_->is_symmetric(); }
+  // With gauge freedom the step of least change is not that of the way back.
+  bool is_symmetric() const override { return gauge_dimension_ == 0 && map_->is_symmetric(); }
   // M_f with the pulled-back form is in general not preserved (Proposition 6.3): known only where
   // there is nothing to constrain.
   std::optional<bool> is_symplectic() const override {
@@ -53,6 +54,7 @@ class ConstrainFirst final : public Integrator {
   std::shared_ptr<const DiscretizationMap> map_;
   std::shared_ptr<const Projector> projector_;
   Index codimension_;   // d = dim M - dim M_f
+  Index gauge_dimension_;
   Index blocks_;        // tangent blocks of the unknowns: ξ, ξ', …
   Index auxiliaries_;   // z, z', …
   Function equations_;  // (ξ, ξ', …, z, …, μ); x₀, basis, W, h, t  ↦ residual of the step

@@ -153,14 +153,15 @@ std::optional<MethodChoice> discretize_first(ObjectReader& object) {
   const auto map = discretization_kinds().read(object, "discretization", "midpoint");
   const bool rk2 = object.word("start", "on-manifold", {"on-manifold", "rk2"}) == "rk2";
   if (!map) return std::nullopt;
-  return MethodChoice{"discretize-first, " + map->description + (rk2 ? ", started by rk2" : ""),
-                      [map = *map, rk2](const MethodSetting& at) {
-                        const auto on_manifold = map.make(at.system->manifold());
-                        return PreparedMethod{std::make_shared<DiscretizeFirst>(
-                                                  at.system, on_manifold,
-                                                  DiscretizeFirst::Options{.backend = at.backend}),
-                                              start_of_method_1(at, *on_manifold, rk2)};
-                      }};
+  return MethodChoice{
+      "discretize-first, " + map->description + (rk2 ? ", started by rk2" : ""),
+      [map = *map, rk2](const MethodSetting& at) {
+        const auto on_manifold = map.make(at.system->manifold());
+        return PreparedMethod{
+            std::make_shared<DiscretizeFirst>(at.system, on_manifold,
+                                              DiscretizeFirst::Options{.backend = at.backend}),
+            start_of_method_1(at, *on_manifold, rk2), on_manifold};
+      }};
 }
 
 std::optional<MethodChoice> constrain_first(ObjectReader& object) {
@@ -170,11 +171,12 @@ std::optional<MethodChoice> constrain_first(ObjectReader& object) {
   return MethodChoice{"constrain-first, " + map->description + ", " + projector->description,
                       [map = *map, projector = *projector](const MethodSetting& at) {
                         const auto& manifold = at.system->manifold();
+                        const auto on_manifold = map.make(manifold);
                         return PreparedMethod{
                             std::make_shared<ConstrainFirst>(
-                                at.system, at.ladder, map.make(manifold), projector.make(manifold),
+                                at.system, at.ladder, on_manifold, projector.make(manifold),
                                 ConstrainFirst::Options{.backend = at.backend}),
-                            at.initial};
+                            at.initial, on_manifold};
                       }};
 }
 

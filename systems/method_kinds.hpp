@@ -24,10 +24,12 @@ struct MethodSetting {
   Backend backend = Backend::automatic;
 };
 
-// The method, and the initial state moved to where it wants to start.
+// The method, the initial state moved to where it wants to start, and the discretization map, of
+// methods that have one.
 struct PreparedMethod {
   std::shared_ptr<const Integrator> integrator;
   State initial;
+  std::shared_ptr<const DiscretizationMap> map = {};
 };
 
 // The choice of a method, before there is a system to make it for.

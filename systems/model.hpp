@@ -5,7 +5,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "courant/structures/dirac_structure.hpp"
 #include "courant/structures/implicit_system.hpp"
 #include "courant/systems/vocabulary.hpp"
 
@@ -16,6 +19,9 @@ struct Model {
   std::string description;  // one line, for summaries
   std::shared_ptr<const ImplicitSystem> system;
   Vocabulary vocabulary;
+  // Structures that belong to the system, with a word for each; the one that it uses comes first.
+  // Empty: that of a DiracSystem, or none is known.
+  std::vector<std::pair<std::string, std::shared_ptr<const DiracStructure>>> structures;
   // What is wrong with a point of M as an initial one, where the kind of system knows better than
   // the formulas (two vortices at one place); entries that are not known are NaN. May be empty.
   std::function<std::optional<std::string>(const VectorXd& x)> point_problem;

@@ -4,7 +4,13 @@
 #include <random>
 
 #include "courant/structures/canonical_symplectic.hpp"
+#include "courant/structures/distribution.hpp"
+#include "courant/structures/gauge_transformed.hpp"
+#include "courant/structures/lie_poisson.hpp"
 #include "courant/structures/poisson.hpp"
+#include "courant/structures/presymplectic.hpp"
+#include "courant/structures/restricted_bivector.hpp"
+#include "courant/structures/restricted_two_form.hpp"
 
 namespace courant {
 namespace {
@@ -12,22 +18,250 @@ namespace {
 using StructurePointer = std::shared_ptr<const DiracStructure>;
 
 // The matrix at x, filled by rows.
-ExprMatrix matrix(const WrittenFormulas& formulas, const Vocabulary& vocabulary,
-                  const ExprVector& x) {
+ExprMatrix matrix(const WrittenFormulas& formulas, Index rows, Index columns,
+                  const Vocabulary& vocabulary, const ExprVector& x) {
   const ExprVector entries = evaluate(formulas, vocabulary.symbols({.x = x}));
-  const Index columns = formulas.shape[1];
-  ExprMatrix result(formulas.shape[0], columns);
-  for (Index i = 0; i < result.rows(); ++i) result.row(i) = entries.segment(i * columns, columns);
+  ExprMatrix result(rows, columns);
+  for (Index i = 0; i < rows; ++i) result.row(i) = entries.segment(i * columns, columns);
   return result;
 }
 
-// Whether A(x) + A(x)ᵀ = 0, up to round-off, at some points; a problem where it is not. Points
-// where the matrix is not finite say nothing.
-bool is_skew(const Manifold& manifold, const Poisson::Bivector& bivector, const JsonReader& place) {
+// Whether the formulas are right as functions of the point.
+bool check_at_point(const WrittenFormulas& formulas, const StructureSite& site,
+                    const JsonReader& place) {
+  Graph graph;
+  const ExprVector x = graph.variables("x", site.manifold->ambient_dimension());
+  return check(formulas, site.vocabulary.symbols({.x = x}), place.findings());
+}
+
+// The formulas and their shape as a matrix; a vector is one row, or one column.
+struct Block {
+  WrittenFormulas formulas;
+  Index rows, columns;
+};
+std::optional<Block> read_block(const JsonReader& value, bool vector_is_row) {
+  const auto formulas = read_formulas(value);
+  if (!formulas) return std::nullopt;
+  const auto& shape = formulas->shape;
+  if (shape.size() == 2) return Block{*formulas, shape[0], shape[1]};
+  if (shape.size() == 1)
+    return vector_is_row ? Block{*formulas, 1, shape[0]} : Block{*formulas, shape[0], 1};
+  value.expected("a matrix of formulas by rows");
+  return std::nullopt;
+}
+
+std::optional<StructurePointer> canonical(ObjectReader& object, const StructureSite& site) {
+  const auto bundle = std::dynamic_pointer_cast<const CotangentBundle>(site.manifold);
+  if (!bundle) {
+    object.place().problem("the canonical structure is on " + site.manifold->name() +
+                           "; expected a cotangent bundle as manifold");
+    return std::nullopt;
+  }
+  return std::make_shared<CanonicalSymplectic>(bundle);
+}
+
+// The key `matrix`, a skew matrix of formulas.
+std::optional<MatrixField> skew_matrix(ObjectReader& object, const StructureSite& site) {
+  const Index n = site.manifold->tangent_dimension();
+  const auto key = object.required("matrix");
+  const auto field = key ? read_matrix_field(*key, site, n, n) : std::nullopt;
+  if (!field || !is_skew(*site.manifold, *field, *key)) return std::nullopt;
+  return field;
+}
+
+std::optional<StructurePointer> bivector(ObjectReader& object, const StructureSite& site) {
+  const auto lambda = skew_matrix(object, site);
+  if (!lambda) return std::nullopt;
+  return std::make_shared<Poisson>(site.manifold, *lambda);
+}
+
+std::optional<StructurePointer> two_form(ObjectReader& object, const StructureSite& site) {
+  const auto omega = skew_matrix(object, site);
+  if (!omega) return std::nullopt;
+  return std::make_shared<Presymplectic>(site.manifold, *omega);
+}
+
+std::optional<StructurePointer> distribution(ObjectReader& object, const StructureSite& site) {
+  const auto forms = object.optional("forms"), fields = object.optional("fields");
+  if (!forms == !fields) {
+    object.place().problem(
+        "a distribution has either \"forms\" that vanish on it or \"fields\" that span it; "
+        "expected one of the two");
+    return std::nullopt;
+  }
+  const auto rows = read_row_field(forms ? *forms : *fields, site);
+  if (!rows) return std::nullopt;
+  if (forms)
+    return std::make_shared<Distribution>(
+        Distribution::annihilated_by(site.manifold, rows->count, rows->field));
+  return std::make_shared<Distribution>(
+      Distribution::spanned_by(site.manifold, rows->count, rows->field));
+}
+
+std::optional<StructurePointer> restricted_two_form(ObjectReader& object,
+                                                    const StructureSite& site) {
+  const auto omega = skew_matrix(object, site);
+  const auto key = object.required("forms");
+  const auto forms = key ? read_row_field(*key, site) : std::nullopt;
+  if (!omega || !forms) return std::nullopt;
+  return std::make_shared<RestrictedTwoForm>(site.manifold, *omega, forms->count, forms->field);
+}
+
+std::optional<StructurePointer> restricted_bivector(ObjectReader& object,
+                                                    const StructureSite& site) {
+  const auto lambda = skew_matrix(object, site);
+  const auto key = object.required("fields");
+  const auto fields = key ? read_row_field(*key, site) : std::nullopt;
+  if (!lambda || !fields) return std::nullopt;
+  return std::make_shared<RestrictedBivector>(site.manifold, *lambda, fields->count, fields->field);
+}
+
+// An array of square matrices of numbers, by rows.
+std::optional<std::vector<MatrixXd>> matrices(const JsonReader& value) {
+  const auto elements = value.elements();
+  if (!elements) return std::nullopt;
+  std::vector<MatrixXd> result;
+  for (const JsonReader& element : *elements) {
+    const auto rows = element.elements();
+    if (!rows) return std::nullopt;
+    const auto n = static_cast<Index>(rows->size());
+    MatrixXd A(n, n);
+    for (Index i = 0; i < n; ++i) {
+      const auto entries = (*rows)[static_cast<std::size_t>(i)].elements();
+      if (!entries) return std::nullopt;
+      if (static_cast<Index>(entries->size()) != n) {
+        element.expected("a square matrix of numbers");
+        return std::nullopt;
+      }
+      for (Index j = 0; j < n; ++j) {
+        const auto entry = (*entries)[static_cast<std::size_t>(j)].number();
+        if (!entry) return std::nullopt;
+        A(i, j) = *entry;
+      }
+    }
+    result.push_back(std::move(A));
+  }
+  return result;
+}
+
+std::optional<LieAlgebra> read_algebra(ObjectReader& object) {
+  const auto algebra = object.optional("algebra"), constants_key = object.optional("constants");
+  const auto n_key = object.optional("n"), representation = object.optional("representation");
+  if (!algebra == !constants_key) {
+    object.place().problem(
+        "a Lie algebra is one of \"algebra\" or has structure \"constants\"; expected one of the "
+        "two");
+    return std::nullopt;
+  }
+  const JsonReader& place = algebra ? *algebra : *constants_key;
+  try {
+    std::optional<LieAlgebra> g;
+    if (algebra) {
+      const auto word = algebra->word({"so3", "se3", "so", "abelian"});
+      if (!word) return std::nullopt;
+      const bool sized = *word == "so" || *word == "abelian";
+      if (sized != n_key.has_value()) {
+        place.problem(sized ? "needs its size; expected \"n\" beside it"
+                            : "has a size of its own; expected no \"n\" beside it");
+        return std::nullopt;
+      }
+      const auto n = sized ? n_key->integer(0) : std::optional<Index>(0);
+      if (!n) return std::nullopt;
+      g = *word == "so3"   ? LieAlgebra::so3()
+          : *word == "se3" ? LieAlgebra::se3()
+          : *word == "so"  ? LieAlgebra::so(*n)
+                           : LieAlgebra::abelian(*n);
+    } else {
+      const auto constants = matrices(*constants_key);
+      if (!constants) return std::nullopt;
+      g = LieAlgebra("g", *constants);
+    }
+    if (!representation) return g;
+    const auto rho = matrices(*representation);
+    if (!rho) return std::nullopt;
+    return LieAlgebra::semidirect(*g, *rho);
+  } catch (const std::exception& error) {
+    (representation ? *representation : place).problem(error.what());
+    return std::nullopt;
+  }
+}
+
+std::optional<StructurePointer> lie_poisson(ObjectReader& object, const StructureSite& site) {
+  const bool plus = object.word("sign", "minus", {"minus", "plus"}) == "plus";
+  const auto algebra = read_algebra(object);
+  if (!algebra) return std::nullopt;
+  try {
+    return std::make_shared<LiePoisson>(*algebra, site.manifold,
+                                        plus ? LiePoisson::Sign::plus : LiePoisson::Sign::minus);
+  } catch (const std::invalid_argument& error) {
+    object.place().problem(error.what());
+    return std::nullopt;
+  }
+}
+
+std::optional<StructurePointer> gauge_transformed(ObjectReader& object, const StructureSite& site) {
+  const auto form = skew_matrix(object, site);
+  const auto key = object.required("structure");
+  const auto structure = key ? structure_kinds().read(*key, site) : std::nullopt;
+  if (!form || !structure) return std::nullopt;
+  return std::make_shared<GaugeTransformed>(*structure, *form);
+}
+
+}  // namespace
+
+std::optional<MatrixField> read_matrix_field(const JsonReader& value, const StructureSite& site,
+                                             Index rows, Index columns) {
+  const auto formulas = read_formula_matrix(value, rows, columns);
+  if (!formulas || !check_at_point(*formulas, site, value)) return std::nullopt;
+  return [formulas = *formulas, vocabulary = site.vocabulary, rows, columns](const ExprVector& x) {
+    return matrix(formulas, rows, columns, vocabulary, x);
+  };
+}
+
+std::optional<ColumnField> read_row_field(const JsonReader& value, const StructureSite& site) {
+  const auto block = read_block(value, true);
+  if (!block) return std::nullopt;
+  const Index n = site.manifold->tangent_dimension();
+  if (block->columns != n) {
+    value.problem("has rows of " + std::to_string(block->columns) + " entries; expected " +
+                  std::to_string(n) + " in each");
+    return std::nullopt;
+  }
+  if (!check_at_point(block->formulas, site, value)) return std::nullopt;
+  return ColumnField{[formulas = block->formulas, vocabulary = site.vocabulary, rows = block->rows,
+                      n](const ExprVector& x) {
+                       return ExprMatrix(matrix(formulas, rows, n, vocabulary, x).transpose());
+                     },
+                     block->rows};
+}
+
+std::optional<ColumnField> read_column_field(const JsonReader& value, const StructureSite& site) {
+  const auto block = read_block(value, false);
+  if (!block) return std::nullopt;
+  const Index n = site.manifold->tangent_dimension();
+  if (block->rows != n) {
+    value.problem("has " + std::to_string(block->rows) + " rows; expected " + std::to_string(n));
+    return std::nullopt;
+  }
+  if (!check_at_point(block->formulas, site, value)) return std::nullopt;
+  return ColumnField{
+      [formulas = block->formulas, vocabulary = site.vocabulary, n, columns = block->columns](
+          const ExprVector& x) { return matrix(formulas, n, columns, vocabulary, x); },
+      block->columns};
+}
+
+std::vector<MatrixXd> sampled(const Manifold& manifold, const MatrixField& field) {
   std::mt19937 generator(1);
+  std::vector<MatrixXd> samples;
   for (int trial = 0; trial < 3; ++trial) {
-    const MatrixXd A = values(bivector(constants(manifold.random_point(generator))));
-    if (!A.allFinite()) continue;
+    const MatrixXd A = values(field(constants(manifold.random_point(generator))));
+    if (A.size() > 0 && A.allFinite()) samples.push_back(A);
+  }
+  return samples;
+}
+
+bool is_skew(const Manifold& manifold, const MatrixField& field, const JsonReader& place) {
+  for (const MatrixXd& A : sampled(manifold, field)) {
     Index i = 0, j = 0;
     const double defect = (A + A.transpose()).cwiseAbs().maxCoeff(&i, &j);
     if (defect > 1e-12 * A.cwiseAbs().maxCoeff()) {
@@ -43,39 +277,25 @@ bool is_skew(const Manifold& manifold, const Poisson::Bivector& bivector, const 
   return true;
 }
 
-std::optional<StructurePointer> canonical(ObjectReader& object, const StructureSite& site) {
-  const auto bundle = std::dynamic_pointer_cast<const CotangentBundle>(site.manifold);
-  if (!bundle) {
-    object.place().problem("the canonical structure is on " + site.manifold->name() +
-                           "; expected a cotangent bundle as manifold");
-    return std::nullopt;
-  }
-  return std::make_shared<CanonicalSymplectic>(bundle);
-}
-
-std::optional<StructurePointer> bivector(ObjectReader& object, const StructureSite& site) {
-  const Index n = site.manifold->tangent_dimension();
-  const auto key = object.required("matrix");
-  const auto formulas = key ? read_formula_matrix(*key, n, n) : std::nullopt;
-  if (!formulas) return std::nullopt;
-  Graph graph;
-  const ExprVector x = graph.variables("x", site.manifold->ambient_dimension());
-  if (!check(*formulas, site.vocabulary.symbols({.x = x}), key->findings())) return std::nullopt;
-  const Poisson::Bivector bivector = [formulas = *formulas,
-                                      vocabulary = site.vocabulary](const ExprVector& point) {
-    return matrix(formulas, vocabulary, point);
-  };
-  if (!is_skew(*site.manifold, bivector, *key)) return std::nullopt;
-  return std::make_shared<Poisson>(site.manifold, bivector);
-}
-
-}  // namespace
-
 const Registry<StructurePointer, StructureSite>& structure_kinds() {
   static const Registry<StructurePointer, StructureSite> kinds({
       {{"canonical", "the graph of ω = dq ∧ dp on a cotangent bundle"}, canonical},
+      {{"two-form", "the graph of a two-form given by its \"matrix\" ω of formulas: α = ω(x)ᵀ v"},
+       two_form},
       {{"bivector", "the graph of a bivector given by its \"matrix\" Λ of formulas: v = Λ(x) α"},
        bivector},
+      {{"distribution", "F ⊕ F°, F by \"forms\" that vanish on it or \"fields\" that span it"},
+       distribution},
+      {{"restricted-two-form", "a two-form \"matrix\" on the distribution where \"forms\" vanish"},
+       restricted_two_form},
+      {{"restricted-bivector", "a bivector \"matrix\" on the covectors that vanish on \"fields\""},
+       restricted_bivector},
+      {{"lie-poisson",
+        "the dual of a Lie \"algebra\" so3, se3, so or abelian of \"n\", or of "
+        "structure \"constants\""},
+       lie_poisson},
+      {{"gauge", "a \"structure\" transformed by a two-form \"matrix\" B: (v, α + B♭v)"},
+       gauge_transformed},
   });
   return kinds;
 }

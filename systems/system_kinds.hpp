@@ -12,6 +12,7 @@ const Registry<Model>& system_kinds();
 // One file each, read_<kind>.cpp; the vortices share one.
 std::optional<Model> read_hamiltonian(ObjectReader& system);
 std::optional<Model> read_lagrangian(ObjectReader& system);
+std::optional<Model> read_port_hamiltonian(ObjectReader& system);
 std::optional<Model> read_implicit(ObjectReader& system);
 std::optional<Model> read_point_vortices(ObjectReader& system);
 std::optional<Model> read_spherical_vortices(ObjectReader& system);

@@ -1,0 +1,50 @@
+// PortHamiltonianSystem: a Hamiltonian with dissipation and ports.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "courant/structures/generating_family.hpp"
+#include "courant/structures/implicit_system.hpp"
+#include "courant/structures/matrix_field.hpp"
+
+namespace courant {
+
+// S = {(x, v)} of equations (20), (24) and (26), with resistive ports R(x) ⪰ 0 closed by
+// themselves:
+//
+//   open     v = (J(x) - R(x)) dH + B(x) u,   u = input(t, y),   y = B(x)ᵀ dH
+//   closed   v = (J(x) - R(x)) dH + B(x) u,   0 = B(x)ᵀ dH
+//
+// Auxiliary unknowns z = u ∈ R^m. Along solutions dH/dt = ⟨y, u⟩ - dHᵀ R dH (- and ⟨y, u⟩ = 0 if
+// closed). J: Ñ × Ñ, skew, with range in T_xM; R: Ñ × Ñ, symmetric, likewise; B: Ñ × m. The Dirac
+// structure behind it, without R, is ClosedPortHamiltonian(J, B), or OpenPortHamiltonian(J, B).
+class PortHamiltonianSystem final : public ImplicitSystem {
+ public:
+  // u for the time and the outputs y (m).
+  using Input = std::function<ExprVector(const Expr& t, const ExprVector& y)>;
+  struct Matrices {
+    MatrixField J, R, B;  // R may be empty: none
+    Index m = 0;
+  };
+  // `energy` has no parameters. Without an input the ports are closed. Throws
+  // std::invalid_argument if the energy has parameters or a matrix is missing.
+  PortHamiltonianSystem(Matrices matrices, std::shared_ptr<const GeneratingFamily> energy,
+                        std::optional<Input> input, Names names = {});
+
+  bool is_open() const { return input_.has_value(); }
+  // y = B(x)ᵀ dH(x, t), size m.
+  ExprVector output(const ExprVector& x, const Expr& t) const;
+
+ private:
+  ExprVector do_residual(const ExprVector& x, const ExprVector& v, const ExprVector& u,
+                         const Expr& t) const override;
+  std::optional<Expr> do_energy(const ExprVector& x, const ExprVector& u,
+                                const Expr& t) const override;
+
+  Matrices matrices_;
+  std::shared_ptr<const GeneratingFamily> energy_;
+  std::optional<Input> input_;
+};
+
+}  // namespace courant
