@@ -130,12 +130,8 @@ std::optional<SmallestSingular> smallest_singular(const LongSparseMatrix& R, Ind
 }  // namespace
 
 RankDecision decide_rank(const SparseMatrixXd& A, const RankOptions& options) {
-  if (options.magnitude > 0.0) {
-    throw std::invalid_argument(
-        "decide_rank: options.magnitude is set; expected 0, a sparse matrix is always "
-        "equilibrated.");
-  }
-  const SparseMatrixXd S = equilibrate(A, entry_noise(options)).scaled;
+  const SparseMatrixXd S =
+      options.magnitude > 0.0 ? A : equilibrate(A, entry_noise(options)).scaled;
   RankDecision decision;
   decision.rows = A.rows();
   decision.columns = A.cols();
@@ -150,6 +146,10 @@ RankDecision decide_rank(const SparseMatrixXd& A, const RankOptions& options) {
   // A column that is left with a few roundings is dependent; with ten of them QR has to keep it.
   const auto [R, W, dropped] = factor(S, 10.0 * noise.floor);
   const Index r = R.rows();
+  if (r == 0) {
+    conclude(decision, 0, 0.0, dropped, noise);
+    return decision;
+  }
   Index block = std::min<Index>(8, r);
   std::optional<SmallestSingular> smallest = smallest_singular(R, block);
   while (smallest && block < r && smallest->values[0] <= number) {

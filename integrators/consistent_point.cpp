@@ -1,6 +1,7 @@
 #include "courant/integrators/consistent_point.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -52,10 +53,10 @@ ConsistentJet ConsistentPoint::start() const {
   return {array, zero};
 }
 
-LinearizableMap ConsistentPoint::conditions(const DerivativeArray& array) const {
-  return [this, &array](const VectorXd& y) {
+LinearizableMap ConsistentPoint::conditions(const DerivativeArray& array, bool hold) const {
+  return [this, &array, hold](const VectorXd& y) {
     Linearization at = array.linearize(y);
-    if (!held_.empty()) {
+    if (hold && !held_.empty()) {
       const Linearization state = array.state_map(y);
       const Eigen::SparseMatrix<double, Eigen::RowMajor> by_row = state.jacobian;
       std::vector<Eigen::Triplet<double>> entries;
@@ -89,6 +90,11 @@ Mobility ConsistentPoint::mobility(const ConsistentJet& from, bool x_is_free) co
   const VectorXd in_frame = system_->manifold()->coframe(from.array.origin()) * from.array.origin();
   const VectorXd position = (from.array.basis().transpose() * in_frame).cwiseAbs();
   result.typical.head(n) = result.typical.head(n).cwiseMax(position);
+  result.leading = n;
+  const double radius = system_->manifold()->injectivity_radius(from.array.origin());
+  result.radius = 0.9 * radius;
+  if (std::isfinite(radius))  // angles
+    result.typical.head(n) = result.typical.head(n).cwiseMax(radius / std::numbers::pi);
   return result;
 }
 
@@ -112,13 +118,15 @@ double ConsistentPoint::distance(const VectorXd& x) const {
       std::max(0.0, metric_.size() == 0 ? moved.squaredNorm() : moved.dot(metric_ * moved)));
 }
 
-ConsistentJet ConsistentPoint::recentred(const DerivativeArray& array, const Zero& zero) const {
+ConsistentJet ConsistentPoint::recentred(const DerivativeArray& array, const Zero& zero,
+                                         bool hold) const {
   const State state = array.state(zero.y);
   ConsistentJet there = {array.at(array.t(), state.x), zero};
   const VectorXd first = there.array.jet(state.v, state.z);
   there.zero.y.head(first.size()) = first;
   // ξ_0 = 0 and ξ_1, z_0 are those of the same state; higher coefficients change with the chart.
-  const Zero polished = find_zero(conditions(there.array), there.zero.y, mobility(there, false));
+  const Zero polished =
+      find_zero(conditions(there.array, hold), there.zero.y, mobility(there, false));
   if (polished.found) {
     there.zero = polished;
     there.zero.iterations += zero.iterations;
@@ -128,7 +136,7 @@ ConsistentJet ConsistentPoint::recentred(const DerivativeArray& array, const Zer
 }
 
 ConsistentJet ConsistentPoint::find(const ConsistentJet& from) const {
-  const LinearizableMap F = conditions(from.array);
+  const LinearizableMap F = conditions(from.array, true);
   Zero zero = find_zero(F, from.zero.y, mobility(from, false));
   if (zero.found) return {from.array, zero};
   const Mobility free = mobility(from, true);
@@ -136,16 +144,15 @@ ConsistentJet ConsistentPoint::find(const ConsistentJet& from) const {
   if (!zero.found) return {from.array, zero};
   zero = least_zero(
       F, [&](const VectorXd& y) { return displacement(from.array, y); }, zero, free);
-  return recentred(from.array, zero);
+  return recentred(from.array, zero, true);
 }
 
-ConsistentJet ConsistentPoint::find_displaced(const ConsistentJet& from,
-                                              const VectorXd& displacement) const {
-  VectorXd y = from.zero.y;
-  y.head(displacement.size()) += displacement;
-  const Zero zero = find_zero(conditions(from.array), y, mobility(from, true));
-  if (!zero.found) return {from.array, zero};
-  return recentred(from.array, zero);
+ConsistentPoint::Neighbour ConsistentPoint::find_displaced(const ConsistentJet& from,
+                                                           const VectorXd& displacement) const {
+  const VectorXd y = from.zero.y + displacement;
+  const Zero zero = find_zero(conditions(from.array, false), y, mobility(from, true));
+  if (!zero.found) return {{from.array, zero}, VectorXd::Zero(y.size())};
+  return {recentred(from.array, zero, false), zero.y - y};
 }
 
 }  // namespace courant

@@ -31,17 +31,22 @@ class ConsistentPoint {
   ConsistentJet start() const;
   // The zero of F^[k] near `from`, whose jet is of level k.
   ConsistentJet find(const ConsistentJet& from) const;
-  // A zero of F^[k] near `from`, displaced there by `displacement` (n) in the chart.
-  ConsistentJet find_displaced(const ConsistentJet& from, const VectorXd& displacement) const;
+  // A zero of F^[k] near `from`, its jet displaced by `displacement`, and how far from there it is
+  // (in the chart of `from`).
+  struct Neighbour {
+    ConsistentJet jet;
+    VectorXd correction;
+  };
+  Neighbour find_displaced(const ConsistentJet& from, const VectorXd& displacement) const;
 
   // ‖x - x_given‖_W.
   double distance(const VectorXd& x) const;
 
  private:
-  LinearizableMap conditions(const DerivativeArray& array) const;
+  LinearizableMap conditions(const DerivativeArray& array, bool hold) const;
   Mobility mobility(const ConsistentJet& from, bool x_is_free) const;
   Quadratic displacement(const DerivativeArray& array, const VectorXd& y) const;
-  ConsistentJet recentred(const DerivativeArray& array, const Zero& zero) const;
+  ConsistentJet recentred(const DerivativeArray& array, const Zero& zero, bool hold) const;
 
   std::shared_ptr<const ImplicitSystem> system_;
   InitialGuess guess_;

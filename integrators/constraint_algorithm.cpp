@@ -1,7 +1,6 @@
 #include "courant/integrators/constraint_algorithm.hpp"
 
 #include <cmath>
-#include <random>
 
 #include "courant/integrators/consistent_point.hpp"
 #include "courant/integrators/ladder_levels.hpp"
@@ -16,10 +15,16 @@ bool repeats(const std::vector<LadderLevel>& levels) {
   return last.dim_S == before.dim_S && last.dim_M == before.dim_M;
 }
 
-bool same_dimensions(const std::vector<LadderLevel>& a, const std::vector<LadderLevel>& b) {
-  for (std::size_t k = 0; k < a.size(); ++k)
-    if (a[k].dim_S != b[k].dim_S || a[k].dim_M != b[k].dim_M) return false;
-  return true;
+// Where dimensions differ at two consistent points, in words; empty if they do not.
+std::string difference(const std::vector<LadderLevel>& a, const std::vector<LadderLevel>& b) {
+  for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k) {
+    if (a[k].is_empty || (a[k].dim_S == b[k].dim_S && a[k].dim_M == b[k].dim_M)) continue;
+    const std::string level = std::to_string(k);
+    return "(dim S_" + level + ", dim M_" + level + ") is (" + std::to_string(a[k].dim_S) + ", " +
+           std::to_string(a[k].dim_M) + ") here and (" + std::to_string(b[k].dim_S) + ", " +
+           std::to_string(b[k].dim_M) + ") at a consistent point nearby.";
+  }
+  return "";
 }
 
 std::string derivative_of(const std::string& name, Index order) {
@@ -75,10 +80,67 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
   const ConsistentPoint consistent(system, guess, options_.metric);
   ConsistentJet jet = consistent.start();
   ConstraintLadder ladder;
+  const auto error_of = [&](const ConsistentJet& at) {
+    return options_.data_error + 10.0 * at.zero.uncertainty;
+  };
+  // What is singular at a zero of the derivative array, in words; empty if nothing is. Zeros of
+  // constant rank form a manifold whose tangent space is the kernel of the Jacobian: a point at ε
+  // in a tangent direction has a zero within O(ε²), and the same ranks there.
+  const auto seen_from = [&](const std::vector<LadderLevel>& levels, const ConsistentJet& at,
+                             const TangentDisplacement& units,
+                             const VectorXd& tangent) -> std::string {
+    const auto near = consistent.find_displaced(at, 1e-3 * tangent);
+    if (!near.jet.zero.found) return "";
+    const std::string other = difference(
+        levels,
+        ladder_levels(near.jet.array, near.jet.zero.y, near.jet.zero.reach, error_of(near.jet)));
+    if (!other.empty()) return other;
+    // How far the zeros are from ε·tangent: quadratic in ε if regular, linear if not. Round-off is
+    // 10⁻⁶; a curvature of 10⁴ makes the first ratio look linear, but not the second.
+    const auto off = [&](double epsilon) {
+      const auto found = consistent.find_displaced(at, epsilon * tangent);
+      return found.jet.zero.found ? units.size(found.correction) : 0.0;
+    };
+    const double off3 = units.size(near.correction), off4 = off(1e-4);
+    if (off4 < 1e-5 || off4 < 0.03 * off3) return "";
+    const double off5 = off(1e-5);
+    const double size = units.size(tangent);
+    if (!(off5 > 1e-6 && off5 > 0.05 * off4) && !(off4 > 1e-4 * size && off5 > 5e-7 * size))
+      return "";
+    return "The equations have solutions in fewer directions than their linear parts: one of the "
+           "constraints has a vanishing gradient here.";
+  };
+  const auto singularity = [&](const std::vector<LadderLevel>& levels,
+                               const ConsistentJet& at) -> std::string {
+    if (levels.front().is_empty || at.array.has_constant_jacobian()) return "";
+    TangentDisplacement tangents(at.array, at.zero.y, at.zero.reach);
+    // A neighbour can be misjudged where equations are strongly curved in its direction; a singular
+    // point looks singular from everywhere. So the majority of three decides.
+    int clean = 0;
+    std::string first;
+    for (int i = 0; i < 3 && clean < 2; ++i) {
+      const std::string finding = seen_from(levels, at, tangents, tangents.next());
+      if (finding.empty()) {
+        ++clean;
+        continue;
+      }
+      if (!first.empty()) return first;
+      first = finding;
+    }
+    return "";
+  };
+  ConsistentJet found_jet = jet;  // of the highest level that is not empty
   bool stopped = false;
+  std::string singular;
   for (Index k = 0; k <= options_.max_level && !stopped; ++k) {
     jet.zero.y = jet.array.resized(jet.zero.y, k);
     const ConsistentJet next = consistent.find(jet);
+    const bool moved = next.array.origin() != jet.array.origin();
+    if (k > 0 && (moved || !next.zero.found)) {
+      // Before the point is given up, see whether it is singular.
+      singular = singularity(ladder.levels, found_jet);
+      if (!singular.empty()) break;
+    }
     if (!next.zero.found) {
       LadderLevel empty;
       empty.k = k;
@@ -92,20 +154,27 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
       jet.zero.y = next.array.resized(next.zero.y, k);
       break;
     }
-    jet = next;
-    ladder.levels = ladder_levels(
-        jet.array, jet.zero.y, {.data_error = options_.data_error + 10.0 * jet.zero.uncertainty});
+    jet = found_jet = next;
+    ladder.levels = ladder_levels(jet.array, jet.zero.y, jet.zero.reach, error_of(jet));
     stopped = repeats(ladder.levels);
   }
+  if (!singular.empty()) jet = found_jet;
   ladder.point = jet.array.state(jet.zero.y);
   ladder.jet = jet.zero.y;
   ladder.moved = consistent.distance(ladder.point.x);
   ladder.moves = movements(*system, guess, ladder.point);
-  if (ladder.verdict == Verdict::inconsistent) return ladder;
+  if (singular.empty() && !ladder.levels.back().is_empty)
+    singular = singularity(ladder.levels, found_jet);
+  if (!singular.empty()) {
+    ladder.verdict = Verdict::rank_change;
+    ladder.reason = singular;
+  }
+  if (ladder.levels.back().is_empty) return ladder;
 
   const LadderLevel& last = ladder.levels.back();
   ladder.degrees_of_freedom = last.dim_M;
   ladder.gauge_dimension = last.fibre();
+  if (ladder.verdict == Verdict::rank_change) return ladder;
   if (!stopped) {
     ladder.reason =
         "The dimensions still fell at level " + std::to_string(last.k) + ", the highest allowed.";
@@ -113,23 +182,7 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
   }
   ladder.index = last.k - 1;
   ladder.verdict = ladder.gauge_dimension == 0 ? Verdict::regular : Verdict::gauge;
-  describe(ladder, jet.array, jet.zero.y);
-
-  if (jet.array.has_constant_jacobian()) return ladder;
-  std::mt19937 generator(options_.seed);
-  for (int i = 0; i < options_.neighbours; ++i) {
-    const ConsistentJet near =
-        consistent.find_displaced(jet, small_displacement(jet.array, jet.zero.y, generator));
-    if (!near.zero.found) continue;
-    const auto there =
-        ladder_levels(near.array, near.zero.y,
-                      {.data_error = options_.data_error + 10.0 * near.zero.uncertainty});
-    if (!same_dimensions(ladder.levels, there)) {
-      ladder.verdict = Verdict::rank_change;
-      ladder.reason = "At a consistent point nearby the dimensions are others.";
-      break;
-    }
-  }
+  describe(ladder, jet.array, jet.zero.y, jet.zero.reach);
   return ladder;
 }
 

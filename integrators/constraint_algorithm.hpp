@@ -41,9 +41,6 @@ class ConstraintAlgorithm {
     // Relative error of the Jacobian that ranks have to survive. 10⁻¹¹: points are found to about
     // 12 digits.
     double data_error = 1e-11;
-    // Consistent points nearby that ranks are compared at.
-    int neighbours = 2;
-    unsigned seed = 1;
   };
 
   ConstraintAlgorithm() = default;

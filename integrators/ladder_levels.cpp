@@ -5,6 +5,7 @@
 
 #include "courant/integrators/derivative_array.hpp"
 #include "courant/integrators/natural_scaling.hpp"
+#include "courant/integrators/nearest_zero.hpp"
 #include "courant/integrators/row_reduction.hpp"
 
 namespace courant {
@@ -43,9 +44,11 @@ Combination combination(const SparseEntries& multipliers, const VectorXd& row_sc
 }  // namespace
 
 std::vector<LadderLevel> ladder_levels(const Prolongation& array, const VectorXd& y,
-                                       const RankOptions& options) {
+                                       const VectorXd& reach, double data_error) {
+  // GenericScaling made rows and columns comparable; what is small now is small.
+  const RankOptions options{.data_error = data_error, .magnitude = 1.0};
   const Index n = array.base_size();
-  const SparseMatrixXd jacobian = GenericScaling(array, y).scaled;
+  const SparseMatrixXd jacobian = GenericScaling(array, y, reach).scaled;
   const VectorXd residual = array.residual(y);
   std::vector<LadderLevel> levels;
   for (Index k = 0; k <= array.level_of(y); ++k) {
@@ -64,7 +67,8 @@ std::vector<LadderLevel> ladder_levels(const Prolongation& array, const VectorXd
   return levels;
 }
 
-void describe(ConstraintLadder& ladder, const DerivativeArray& array, const VectorXd& y) {
+void describe(ConstraintLadder& ladder, const DerivativeArray& array, const VectorXd& y,
+              const VectorXd& reach) {
   enum Group : Index { higher = 0, auxiliary = 1, velocity = 2, position = 3 };
   const Index n = array.base_size(), m = array.auxiliary_size(), r = array.equation_count();
   std::vector<Index> row_level, column_group;
@@ -74,7 +78,7 @@ void describe(ConstraintLadder& ladder, const DerivativeArray& array, const Vect
                            : j < 2 * n     ? velocity
                            : j < 2 * n + m ? auxiliary
                                            : higher);
-  const GenericScaling units(array, y);
+  const GenericScaling units(array, y, reach);
   const RowReduction reduction(units.scaled, row_level, column_group);
   const MatrixXd& basis = array.basis();
 
@@ -133,13 +137,22 @@ void describe(ConstraintLadder& ladder, const DerivativeArray& array, const Vect
   }
 }
 
-VectorXd small_displacement(const Prolongation& array, const VectorXd& y, std::mt19937& generator) {
-  const NaturalScaling units(array.linearize(y), y.cwiseAbs());
+TangentDisplacement::TangentDisplacement(const Prolongation& array, const VectorXd& y,
+                                         const VectorXd& reach)
+    : generator_(1) {
+  const Linearization at = array.linearize(y);
+  const GenericScaling generic(array, y, reach);
+  const NaturalScaling scaling({VectorXd::Zero(at.value.size()), generic.magnitude}, reach, 0.0,
+                               1e-10);
+  units_ = scaling.column_scale;
+  jacobian_ = scaling.row_scale.asDiagonal() * at.jacobian * units_.asDiagonal();
+}
+
+VectorXd TangentDisplacement::next() {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  VectorXd displacement(array.base_size());
-  for (Index i = 0; i < displacement.size(); ++i)
-    displacement[i] = 1e-3 * units.column_scale[i] * uniform(generator);
-  return displacement;
+  const VectorXd direction =
+      VectorXd::NullaryExpr(units_.size(), [&] { return uniform(generator_); });
+  return units_.cwiseProduct(kernel_part(jacobian_, direction));
 }
 
 }  // namespace courant

@@ -10,19 +10,30 @@ namespace courant {
 
 // dim S_k and dim M_k for k = 0 … level of y, at a zero y of the prolongation, with the ranks that
 // they come from: π_A(ker J) has dimension |A| - (rank J - rank J_rest), where J_rest lacks the
-// columns in A.
+// columns in A. `reach`: sizes of the unknowns; `data_error`: the relative error of the Jacobian
+// that ranks have to survive.
 std::vector<LadderLevel> ladder_levels(const Prolongation& array, const VectorXd& y,
-                                       const RankOptions& options);
+                                       const VectorXd& reach, double data_error);
 
 // Fills in what row reduction of the Jacobian tells: constraints, differentiations, redundancies,
 // gauge directions and determined auxiliary unknowns. `ladder` has its levels and index; y is of
 // the last level.
 class DerivativeArray;
-void describe(ConstraintLadder& ladder, const DerivativeArray& array, const VectorXd& y);
+void describe(ConstraintLadder& ladder, const DerivativeArray& array, const VectorXd& y,
+              const VectorXd& reach);
 
-// A random displacement of x_0 by 10⁻³ of the natural size of the unknowns: small against the scale
-// on which a system changes, large against the error of a zero, so that a rank that is lost at y
-// only is seen.
-VectorXd small_displacement(const Prolongation& array, const VectorXd& y, std::mt19937& generator);
+// Random tangent vectors of the zeros at y: δ with J δ = 0, entries of up to a natural unit each.
+class TangentDisplacement {
+ public:
+  TangentDisplacement(const Prolongation& array, const VectorXd& y, const VectorXd& reach);
+  VectorXd next();
+  // ‖δ‖ in natural units.
+  double size(const VectorXd& delta) const { return delta.cwiseQuotient(units_).norm(); }
+
+ private:
+  std::mt19937 generator_;
+  VectorXd units_;
+  SparseMatrixXd jacobian_;
+};
 
 }  // namespace courant

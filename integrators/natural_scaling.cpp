@@ -1,7 +1,6 @@
 #include "courant/integrators/natural_scaling.hpp"
 
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <random>
 
@@ -30,9 +29,9 @@ class Components {
 
 }  // namespace
 
-NaturalScaling::NaturalScaling(const Linearization& at, const VectorXd& reach) {
-  constexpr double eps = std::numeric_limits<double>::epsilon();
-  Equilibration<SparseMatrixXd> equilibrated = equilibrate(at.jacobian, 64 * eps);
+NaturalScaling::NaturalScaling(const Linearization& at, const VectorXd& reach, double noise,
+                               double least_size) {
+  Equilibration<SparseMatrixXd> equilibrated = equilibrate(at.jacobian, noise);
   scaled = std::move(equilibrated.scaled);
   row_scale = std::move(equilibrated.row_scale);
   column_scale = std::move(equilibrated.column_scale);
@@ -48,7 +47,6 @@ NaturalScaling::NaturalScaling(const Linearization& at, const VectorXd& reach) {
     return index;
   };
   for (Index i = 0; i < m; ++i) row_component.push_back(component_of(i));
-  std::vector<Index> column_component;
   for (Index j = 0; j < n; ++j) column_component.push_back(component_of(m + j));
 
   VectorXd size = VectorXd::Zero(component_count),
@@ -62,8 +60,8 @@ NaturalScaling::NaturalScaling(const Linearization& at, const VectorXd& reach) {
     s = std::max(s, std::abs(at.value[i]) * row_scale[i]);
   }
   const auto factor = [&](Index component) {
-    if (size[component] > 0.0) return size[component];
-    return inverse_residual[component] > 0.0 ? inverse_residual[component] : 1.0;
+    if (size[component] > least_size) return size[component];
+    return inverse_residual[component] > least_size ? inverse_residual[component] : 1.0;
   };
   for (Index i = 0; i < m; ++i) row_scale[i] /= factor(row_component[static_cast<std::size_t>(i)]);
   for (Index j = 0; j < n; ++j)
@@ -85,28 +83,59 @@ double NaturalScaling::defect(const VectorXd& value, const VectorXd& reach) cons
   return worst;
 }
 
-GenericScaling::GenericScaling(const Prolongation& array, const VectorXd& y) {
-  const SparseMatrixXd jacobian = array.linearize(y).jacobian;
-  SparseMatrixXd magnitude = jacobian.cwiseAbs();
-  if (!array.has_constant_jacobian()) {
-    std::mt19937 generator(20250613);
-    std::uniform_real_distribution<double> uniform(-0.1, 0.1);
-    for (int sample = 0; sample < 2; ++sample) {
-      const VectorXd nearby =
-          y.unaryExpr([&](double value) { return value * (1.0 + uniform(generator)); });
-      const SparseMatrixXd there = array.linearize(nearby).jacobian.cwiseAbs();
-      bool finite = true;
-      for (Index k = 0; k < there.nonZeros(); ++k)
-        finite = finite && std::isfinite(there.valuePtr()[k]);
-      if (!finite) continue;
-      const SparseMatrixXd larger = magnitude.cwiseMax(there);
-      magnitude = larger;
+SparseMatrixXd generic_magnitude(const LinearizableMap& map, const VectorXd& y,
+                                 const VectorXd& reach, const Linearization& at) {
+  constexpr double vanishing = 1e-4;  // in natural units
+  SparseMatrixXd magnitude = at.jacobian.cwiseAbs();
+  std::mt19937 generator(20250613);
+  std::uniform_real_distribution<double> uniform(-0.1, 0.1);
+  const auto include = [&](const VectorXd& size) {
+    const VectorXd nearby =
+        y + size.unaryExpr([&](double unit) { return unit * uniform(generator); });
+    const SparseMatrixXd there = map(nearby).jacobian.cwiseAbs();
+    for (Index k = 0; k < there.nonZeros(); ++k)
+      if (!std::isfinite(there.valuePtr()[k])) return;
+    magnitude = SparseMatrixXd(magnitude.cwiseMax(there));
+  };
+  for (int sample = 0; sample < 2; ++sample) include(reach);
+  // An unknown that vanishes at y moves by the unit that the others give it: as many of its column
+  // scales as they have on average. Two rounds: entries that vanish at y tell units too.
+  for (int round = 0; round < 2; ++round) {
+    const NaturalScaling units({at.value, magnitude}, reach, 1e-9, 1e-10);
+    VectorXd count = VectorXd::Zero(units.component_count), logarithm = count;
+    const auto component = [&](Index j) {
+      return units.column_component[static_cast<std::size_t>(j)];
+    };
+    const VectorXd size = reach.cwiseQuotient(units.column_scale);
+    for (Index j = 0; j < y.size(); ++j) {
+      if (size[j] < vanishing) continue;
+      count[component(j)] += 1.0;
+      logarithm[component(j)] += std::log(size[j]);
     }
+    VectorXd move = reach;
+    for (Index j = 0; j < y.size(); ++j) {
+      const Index c = component(j);
+      if (size[j] < vanishing)
+        move[j] =
+            units.column_scale[j] * (count[c] > 0.0 ? std::exp(logarithm[c] / count[c]) : 1.0);
+    }
+    include(move);
   }
+  return magnitude;
+}
+
+GenericScaling::GenericScaling(const Prolongation& array, const VectorXd& y,
+                               const VectorXd& reach) {
+  Linearization at = array.linearize(y);
+  at.value.setZero();  // y is a zero; what is left of the value is no size of anything
+  magnitude = array.has_constant_jacobian()
+                  ? SparseMatrixXd(at.jacobian.cwiseAbs())
+                  : generic_magnitude([&](const VectorXd& there) { return array.linearize(there); },
+                                      y, reach, at);
   Equilibration<SparseMatrixXd> equilibrated = equilibrate(magnitude, 0.0);
   row_scale = std::move(equilibrated.row_scale);
   column_scale = std::move(equilibrated.column_scale);
-  scaled = row_scale.asDiagonal() * jacobian * column_scale.asDiagonal();
+  scaled = row_scale.asDiagonal() * at.jacobian * column_scale.asDiagonal();
 }
 
 }  // namespace courant

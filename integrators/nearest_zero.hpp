@@ -2,20 +2,23 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <vector>
 
-#include "courant/integrators/prolongation.hpp"
+#include "courant/integrators/natural_scaling.hpp"
 
 namespace courant {
-
-using LinearizableMap = std::function<Linearization(const VectorXd& y)>;
 
 // What to move by preference.
 struct Mobility {
   VectorXd cost;  // of a step by one natural unit of each unknown: a step δ minimises ‖cost ∘ δ‖
                   // among those that do as well
-  Index frozen = 0;  // so many leading unknowns do not move at all
-  VectorXd typical;  // sizes |y_j| below which a change of y_j is round-off in the map; may be 0
+  Index frozen = 0;               // so many leading unknowns do not move at all
+  VectorXd typical = VectorXd();  // sizes |y_j| below which a change of y_j is round-off in the
+                                  // map; may be 0
+  // The first `leading` unknowns stay within this distance of 0: the domain of a chart.
+  Index leading = 0;
+  double radius = std::numeric_limits<double>::infinity();
 };
 
 // A zero y of a map, or where its search ended: found starts as false.
@@ -35,11 +38,14 @@ struct Zero {
 };
 
 // Gauss–Newton with the Levenberg–Marquardt safeguard from `start`: each step δ minimises
-// ‖S δ + F‖² + μ ‖cost ∘ δ‖² with the Jacobian equilibrated, S = diag(r) J diag(c); μ starts at
-// 10⁻¹⁰ and grows only where a step does not reduce ‖F‖. No rank decision is needed on the way: the
-// convergence is that of Gauss–Newton wherever the zeros form a manifold whose normal space is the
-// row space of J (Yamashita, Fukushima 2001), redundant equations or not. Accepted: defect ≤ 10⁻¹⁰,
-// and iterated on until it no longer falls.
+// ‖S δ + F‖² + μ ‖cost ∘ δ‖² with S = diag(r) J diag(c) in natural units: those of the largest
+// Jacobian met so far, so that an unknown that is small by accident does not look like a large
+// unit. μ starts at 0, the pseudo-inverse that neglects singular values below about 10⁻⁹ (10⁻¹⁰ for
+// more than 200 unknowns, where sparse factors of the normal equations are used), and grows only
+// where a step reduces neither ‖F‖ nor the next step. The convergence is that of Gauss–Newton
+// wherever the zeros form a manifold whose normal space is the row space of J (Yamashita, Fukushima
+// 2001), redundant equations or not. Accepted: defect ≤ 10⁻¹⁰, and iterated on until it no longer
+// falls.
 Zero find_zero(const LinearizableMap& map, const VectorXd& start, const Mobility& mobility);
 
 // A function to make least: its value, gradient and (Gauss–Newton) Hessian by the first unknowns.
@@ -54,5 +60,8 @@ struct Quadratic {
 Zero least_zero(const LinearizableMap& map,
                 const std::function<Quadratic(const VectorXd& y)>& objective, const Zero& at,
                 const Mobility& mobility);
+
+// The part of `direction` in the kernel of S, orthogonal to the rest.
+VectorXd kernel_part(const SparseMatrixXd& S, const VectorXd& direction);
 
 }  // namespace courant

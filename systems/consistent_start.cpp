@@ -74,18 +74,34 @@ ConstraintLadder consistent_start(const Experiment& experiment) {
   options.metric = initial.x.given.cast<double>().matrix().asDiagonal();
   const ConstraintAlgorithm algorithm(options);
   const bool one_velocity_each = M.tangent_dimension() == M.ambient_dimension();
-  const auto hold = [&](const Flags& velocities, const Flags& unknowns) {
-    guess.hold_x = indices(initial.x.held);
+  const auto run = [&](const Flags& x, const Flags& velocities, const Flags& unknowns) {
+    guess.hold_x = indices(x);
     if (one_velocity_each) guess.hold_v = indices(velocities);
     guess.hold_z = indices(unknowns);
+    return algorithm.run(system, guess);
   };
-  hold(initial.velocity.given, initial.z.given);
-  ConstraintLadder ladder = algorithm.run(system, guess);
-  const bool gave_way = ladder.verdict == Verdict::inconsistent &&
-                        (initial.velocity.given.any() || initial.z.given.any());
-  if (gave_way) {
-    hold(initial.velocity.held, initial.z.held);
-    ladder = algorithm.run(system, guess);
+  // What is given is kept if it can be; velocities and unknowns give way first, then coordinates.
+  const Flags nothing = Flags::Constant(initial.x.held.size(), false);
+  const bool more_given = initial.velocity.given.any() || initial.z.given.any();
+  ConstraintLadder ladder = run(initial.x.given, initial.velocity.given, initial.z.given);
+  if (ladder.verdict == Verdict::inconsistent && more_given)
+    ladder = run(initial.x.given, initial.velocity.held, initial.z.held);
+  if (ladder.verdict == Verdict::inconsistent) {
+    ladder = run(initial.x.held, initial.velocity.held, initial.z.held);
+    if (ladder.verdict != Verdict::inconsistent && more_given) {
+      // Velocities and unknowns that can be kept at the point that was found.
+      const VectorXd given = guess.x;
+      guess.x = ladder.point.x;
+      const ConstraintLadder kept = run(!nothing, initial.velocity.given, initial.z.given);
+      guess.x = given;
+      if (kept.verdict != Verdict::inconsistent) {
+        const auto moves_of_x = ladder.moves;
+        const double moved = ladder.moved;
+        ladder = kept;
+        ladder.moved = moved;
+        ladder.moves.insert(ladder.moves.begin(), moves_of_x.begin(), moves_of_x.end());
+      }
+    }
   }
   const bool any_held = initial.x.held.any() || initial.velocity.held.any() || initial.z.held.any();
   if (ladder.verdict == Verdict::inconsistent) {
@@ -98,16 +114,24 @@ ConstraintLadder consistent_start(const Experiment& experiment) {
                               std::to_string(ladder.levels.back().residual) +
                               "; expected values that satisfy them. " + ladder.reason);
   }
+  // What was not given has not moved.
+  const ImplicitSystem::Names& names = system->names();
+  std::vector<std::string> given;
+  for (Index i = 0; i < initial.x.given.size(); ++i) {
+    const std::string& name = names.coordinates[static_cast<std::size_t>(i)];
+    if (initial.x.given[i]) given.push_back(name);
+    if (initial.velocity.given[i]) given.push_back(name + "'");
+  }
+  for (Index i = 0; i < initial.z.given.size(); ++i)
+    if (initial.z.given[i]) given.push_back(names.auxiliary[static_cast<std::size_t>(i)]);
   std::erase_if(ladder.moves, [&](const Movement& move) {
-    const auto& names = system->names().coordinates;
-    for (std::size_t i = 0; i < names.size(); ++i)
-      if (names[i] == move.name) return !initial.x.given[static_cast<Index>(i)];
-    return !gave_way;  // a velocity or unknown, of which those that are given did not move
+    return std::find(given.begin(), given.end(), move.name) == given.end();
   });
-  if (const auto names = undetermined(experiment, ladder); !names.empty()) {
+  if (const auto missing = undetermined(experiment, ladder); !missing.empty()) {
     std::string list;
-    for (std::size_t i = 0; i < names.size() && i < 5; ++i) list += (i == 0 ? "" : ", ") + names[i];
-    if (names.size() > 5) list += ", …";
+    for (std::size_t i = 0; i < missing.size() && i < 5; ++i)
+      list += (i == 0 ? "" : ", ") + missing[i];
+    if (missing.size() > 5) list += ", …";
     throw ExperimentError("/initial",
                           "nothing determines " + list + "; expected more initial values");
   }

@@ -19,6 +19,11 @@ VectorXd powers_of_ten(Index size, std::mt19937& generator) {
   return VectorXd::NullaryExpr(size, [&] { return power_of_ten(generator); });
 }
 
+bool is_flat(const Problem& problem) {
+  const Manifold& M = *problem.system->manifold();
+  return M.dimension() == M.ambient_dimension();
+}
+
 MatrixXd metric_of(const Problem& problem) {
   return problem.metric.size() > 0
              ? problem.metric
@@ -35,19 +40,30 @@ ExprVector equations(std::initializer_list<Expr> entries) {
 
 Problem permuted(const Problem& problem, std::mt19937& generator) {
   const SystemPointer& system = problem.system;
-  std::vector<Index> order(static_cast<std::size_t>(system->equation_count()));
-  std::iota(order.begin(), order.end(), 0);
-  std::shuffle(order.begin(), order.end(), generator);
+  const bool flat = is_flat(problem);
+  const auto random_order = [&](Index size) {
+    Eigen::PermutationMatrix<Eigen::Dynamic> order(size);
+    order.setIdentity();
+    std::shuffle(order.indices().begin(), order.indices().end(), generator);
+    return MatrixXd(order);
+  };
+  const Index n = problem.guess.x.size();
+  const MatrixXd rows = random_order(system->equation_count());
+  const MatrixXd P = flat ? random_order(n) : MatrixXd(MatrixXd::Identity(n, n));
+  const MatrixXd Pz = random_order(system->auxiliary_size());
   Problem result = problem;
+  InitialGuess& guess = result.guess;
+  guess.x = P.transpose() * guess.x;
+  if (guess.v.size() > 0 && flat) guess.v = P.transpose() * guess.v;
+  if (guess.z.size() > 0) guess.z = Pz.transpose() * guess.z;
+  result.metric = P.transpose() * metric_of(problem) * P;
   result.system = std::make_shared<FormulaSystem>(
       system->manifold(), system->auxiliary_size(), system->equation_count(),
-      [system, order](const ExprVector& x, const ExprVector& v, const ExprVector& z,
-                      const Expr& t) {
-        const ExprVector F = system->residual(x, v, z, t);
-        ExprVector shuffled(F.size());
-        for (std::size_t i = 0; i < order.size(); ++i)
-          shuffled[static_cast<Index>(i)] = F[order[i]];
-        return shuffled;
+      [system, rows, P, Pz, flat](const ExprVector& x, const ExprVector& v, const ExprVector& z,
+                                  const Expr& t) {
+        const ExprVector velocity = flat ? ExprVector(constants(P) * v) : v;
+        return ExprVector(constants(rows) * system->residual(ExprVector(constants(P) * x), velocity,
+                                                             ExprVector(constants(Pz) * z), t));
       });
   return result;
 }
@@ -56,7 +72,7 @@ Problem scaled(const Problem& problem, std::mt19937& generator) {
   const SystemPointer& system = problem.system;
   Problem result = problem;
   InitialGuess& guess = result.guess;
-  const bool flat = system->manifold()->dimension() == system->manifold()->ambient_dimension();
+  const bool flat = is_flat(problem);
   const VectorXd rows = powers_of_ten(system->equation_count(), generator);
   const VectorXd s =
       flat ? powers_of_ten(guess.x.size(), generator) : VectorXd::Ones(guess.x.size());
@@ -87,18 +103,29 @@ Problem transformed(const Problem& problem, std::mt19937& generator) {
     const MatrixXd Q =
         Eigen::HouseholderQR<MatrixXd>(A).householderQ() * MatrixXd::Identity(size, size);
     return MatrixXd(Q * VectorXd::NullaryExpr(size, [&] {
-                          return std::exp(0.5 * normal(generator));
+                          return std::exp(0.3 * normal(generator));
                         }).asDiagonal());
   };
   const Index n = guess.x.size(), m = system->auxiliary_size();
-  // x = x_0 + A (u + ⅕ (u_1², u_2², …, shifted)),  u = x' - x'_0: near u = 0 the derivative is A.
+  if (!is_flat(problem)) {
+    const MatrixXd B = random_matrix(m), C = random_matrix(system->equation_count());
+    if (guess.z.size() > 0) guess.z = B.colPivHouseholderQr().solve(guess.z);
+    result.system = std::make_shared<FormulaSystem>(
+        system->manifold(), m, system->equation_count(),
+        [system, B, C](const ExprVector& x, const ExprVector& v, const ExprVector& z,
+                       const Expr& t) {
+          return ExprVector(constants(C) * system->residual(x, v, ExprVector(constants(B) * z), t));
+        });
+    return result;
+  }
+  // x = x_0 + A (u + ⅒ (u_1², u_2², …, shifted)),  u = x' - x'_0: near u = 0 the derivative is A.
   const MatrixXd A = random_matrix(n), B = random_matrix(m);
   const VectorXd x0 = guess.x;
   const auto change = [A, x0, n](const ExprVector& y) {
     ExprVector u(n);
     for (Index i = 0; i < n; ++i)
-      u[i] = y[i] - 0.5 + 0.2 * square(y[(i + 1) % n] - 0.5) +
-             0.1 * (y[i] - 0.5) * (y[(i + 1) % n] - 0.5);
+      u[i] = y[i] - 0.5 + 0.1 * square(y[(i + 1) % n] - 0.5) +
+             0.05 * (y[i] - 0.5) * (y[(i + 1) % n] - 0.5);
     return ExprVector(constants(x0) + constants(A) * u);
   };
   guess.x = VectorXd::Constant(n, 0.5);

@@ -33,7 +33,7 @@ std::string problem(const Json& experiment) {
 }  // namespace
 }  // namespace courant
 
-BOOST_AUTO_TEST_SUITE(consistent_start)
+BOOST_AUTO_TEST_SUITE(consistent_start_test)
 
 using namespace courant;
 
