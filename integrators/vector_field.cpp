@@ -1,6 +1,7 @@
 #include "courant/integrators/vector_field.hpp"
 
 #include <Eigen/Dense>
+#include <cmath>
 #include <stdexcept>
 
 #include "courant/core/derivative.hpp"
@@ -51,9 +52,15 @@ VectorField::VectorField(std::shared_ptr<const ImplicitSystem> system,
       full.jacobian({start_, ladder.point.x, entries, VectorXd::Constant(1, ladder.point.t)});
   VectorXd scale = J.rowwise().norm();
   scale = scale.unaryExpr([](double s) { return s > 0 ? 1.0 / s : 0.0; });
+  // Equations before their derivatives: with the velocity from the derivative of a constraint
+  // instead of the equation for it, momenta would be free to leave M_f.
+  std::vector<int> order(static_cast<std::size_t>(system_->equation_count()), 0);
+  for (Index i = 0; i < all.size(); ++i)
+    scale[i] *= std::pow(
+        1e-2, order[static_cast<std::size_t>(local.source[static_cast<std::size_t>(i)])]++);
   Eigen::ColPivHouseholderQR<MatrixXd> rows;
-  rows.setThreshold(
-      1e-9);  // the ladder decided this rank with a gap; here it only has to be found again
+  // The ladder decided this rank with a gap; here it only has to be found again.
+  rows.setThreshold(1e-11);
   rows.compute((scale.asDiagonal() * J).transpose());
   ExprVector kept(rows.rank());
   for (Index i = 0; i < kept.size(); ++i) kept[i] = all[rows.colsPermutation().indices()[i]];

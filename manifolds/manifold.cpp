@@ -89,7 +89,10 @@ MatrixXd Manifold::tangent_basis(const VectorXd& x) const {
   if (dimension_ == tangent_dimension_) return MatrixXd::Identity(dimension_, dimension_);
   const MatrixXd projector = tangent_projector(x);
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(projector);
-  return qr.householderQ() * MatrixXd::Identity(tangent_dimension_, dimension_);
+  const MatrixXd basis = qr.householderQ() * MatrixXd::Identity(tangent_dimension_, dimension_);
+  // Zeros that are round-off become zeros: what is computed in the basis would see dependences that
+  // are not there.
+  return (basis.array().abs() < 1e-15).select(0.0, basis);
 }
 
 double Manifold::point_defect(const VectorXd& x) const {

@@ -46,7 +46,7 @@ std::string map_of(const Json& choice, const Json& experiment) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(manifold_kinds_of_experiments)
+BOOST_AUTO_TEST_SUITE(space)
 
 BOOST_AUTO_TEST_CASE(each_kind_is_the_manifold_that_it_says) {
   const auto name = [](const Json& base, const char* coordinates) {
