@@ -59,6 +59,22 @@ std::vector<std::string> undetermined(const Experiment& experiment,
   return names;
 }
 
+void forget_moves_of_what_was_not_given(ConstraintLadder& ladder, const Experiment& experiment) {
+  const InitialValues& initial = experiment.initial;
+  const ImplicitSystem::Names& names = experiment.model.system->names();
+  std::vector<std::string> given;
+  for (Index i = 0; i < initial.x.given.size(); ++i) {
+    const std::string& name = names.coordinates[static_cast<std::size_t>(i)];
+    if (initial.x.given[i]) given.push_back(name);
+    if (initial.velocity.given[i]) given.push_back(name + "'");
+  }
+  for (Index i = 0; i < initial.z.given.size(); ++i)
+    if (initial.z.given[i]) given.push_back(names.auxiliary[static_cast<std::size_t>(i)]);
+  std::erase_if(ladder.moves, [&](const Movement& move) {
+    return std::find(given.begin(), given.end(), move.name) == given.end();
+  });
+}
+
 }  // namespace
 
 ConstraintLadder consistent_start(const Experiment& experiment) {
@@ -105,6 +121,7 @@ ConstraintLadder consistent_start(const Experiment& experiment) {
   }
   const bool any_held = initial.x.held.any() || initial.velocity.held.any() || initial.z.held.any();
   if (ladder.verdict == Verdict::inconsistent) {
+    forget_moves_of_what_was_not_given(ladder, experiment);
     if (!any_held) return ladder;
     guess.hold_x = guess.hold_v = guess.hold_z = {};
     const ConstraintLadder free = algorithm.run(system, guess);
@@ -114,19 +131,7 @@ ConstraintLadder consistent_start(const Experiment& experiment) {
                               std::to_string(ladder.levels.back().residual) +
                               "; expected values that satisfy them. " + ladder.reason);
   }
-  // What was not given has not moved.
-  const ImplicitSystem::Names& names = system->names();
-  std::vector<std::string> given;
-  for (Index i = 0; i < initial.x.given.size(); ++i) {
-    const std::string& name = names.coordinates[static_cast<std::size_t>(i)];
-    if (initial.x.given[i]) given.push_back(name);
-    if (initial.velocity.given[i]) given.push_back(name + "'");
-  }
-  for (Index i = 0; i < initial.z.given.size(); ++i)
-    if (initial.z.given[i]) given.push_back(names.auxiliary[static_cast<std::size_t>(i)]);
-  std::erase_if(ladder.moves, [&](const Movement& move) {
-    return std::find(given.begin(), given.end(), move.name) == given.end();
-  });
+  forget_moves_of_what_was_not_given(ladder, experiment);
   if (const auto missing = undetermined(experiment, ladder); !missing.empty()) {
     std::string list;
     for (std::size_t i = 0; i < missing.size() && i < 5; ++i)

@@ -4,15 +4,21 @@
 namespace courant {
 namespace {
 
+std::vector<std::string> texts(const WrittenFormulas& formulas) {
+  std::vector<std::string> result;
+  for (const WrittenFormula& formula : formulas.formulas) result.push_back(formula.text);
+  return result;
+}
+
 // S = {(x, v) : F(x, E(x) v, z, t) = 0 for some z}, with F (and perhaps an energy) in formulas.
 class FormulaSystem final : public ImplicitSystem {
  public:
   FormulaSystem(std::shared_ptr<const Manifold> manifold, Vocabulary vocabulary,
                 WrittenFormulas equations, std::optional<WrittenFormula> energy)
-      : ImplicitSystem(
-            std::move(manifold), vocabulary.unknowns.size(),
-            static_cast<Index>(equations.formulas.size()),
-            {vocabulary.coordinates.element_names(), vocabulary.unknowns.element_names(), {}}),
+      : ImplicitSystem(std::move(manifold), vocabulary.unknowns.size(),
+                       static_cast<Index>(equations.formulas.size()),
+                       {vocabulary.coordinates.element_names(), vocabulary.unknowns.element_names(),
+                        texts(equations)}),
         vocabulary_(std::move(vocabulary)),
         equations_(std::move(equations)),
         energy_(std::move(energy)) {}
