@@ -101,7 +101,8 @@ void print_report(const Console& console, const Json& report) {
         << "; symmetric " << yes_or_no(method.at("symmetric")) << " ("
         << shown(method.at("symmetry_defect"), 2) << "); symplectic "
         << yes_or_no(method.at("symplectic")) << " (" << shown(method.at("symplecticity_defect"), 2)
-        << ")\n";
+        << "); distance of the structure from its image " << shown(method.at("structure_defect"), 2)
+        << "\n";
   if (!report.at("invariants").empty()) {
     out << "\n  along solutions\n";
     for (const Json& quantity : report.at("invariants"))

@@ -53,7 +53,7 @@ class ConstrainFirst final : public Integrator {
   std::shared_ptr<const ImplicitSystem> system_;
   std::shared_ptr<const DiscretizationMap> map_;
   std::shared_ptr<const Projector> projector_;
-  Index codimension_;   // d = dim M - dim M_f
+  Index codimension_;  // d = dim M - dim M_f
   Index gauge_dimension_;
   Index blocks_;        // tangent blocks of the unknowns: ξ, ξ', …
   Index auxiliaries_;   // z, z', …

@@ -23,7 +23,7 @@ namespace courant {
 // fundamental cut-set.
 //
 // Sizes: A has two entries an element, loops and cut-sets as many as the loops are long. Nothing is
-// dense: for 10⁵ elements all is done in fractions of a second. Immutable.
+// dense: for 10⁵ elements in a grid all is done in less than a second. Immutable.
 class Kirchhoff {
  public:
   // The forest is a minimum spanning forest by the weights of the elements. Among equal weights it

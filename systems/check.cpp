@@ -10,6 +10,7 @@
 #include "courant/integrators/vector_field.hpp"
 #include "courant/manifolds/measurement.hpp"
 #include "courant/structures/closed_port_hamiltonian.hpp"
+#include "courant/structures/dirac_interconnection.hpp"
 #include "courant/structures/dirac_system.hpp"
 #include "courant/structures/integrability.hpp"
 #include "courant/structures/laws.hpp"
@@ -241,7 +242,8 @@ class Check {
             {"symmetric", integrator.is_symmetric()},
             {"symmetry_defect", json_of(asymmetry)},
             {"symplectic", symplectic ? Json(*symplectic) : Json()},
-            {"symplecticity_defect", json_of(bent)}};
+            {"symplecticity_defect", json_of(bent)},
+            {"structure_defect", json_of(attempt([&] { return structure_defect(integrator); }))}};
   }
 
   std::string where() const { return courant::describe("x", initial_.x); }
@@ -305,30 +307,54 @@ class Check {
     return F * omega * F.transpose();
   }
 
-  // |Φ_h*ω - ω| next to |ω|, on T M_f at the initial point.
-  double symplecticity_defect(const Integrator& integrator, const StructurePointer& structure,
-                              double h) const {
+  // One step from the initial point, y = Φ_h(x), with TΦ_h on T M_f: the columns of `image` are the
+  // images of those of `tangent`, in the bases of T_xM and T_yM.
+  struct Differential {
+    VectorXd y;
+    MatrixXd tangent, image;
+  };
+  Differential differential(const Integrator& integrator, double h) const {
     const VectorXd& x = initial_.x;
     const MatrixXd basis = manifold_.tangent_basis(x);
-    const MatrixXd tangent = kernel(ladder_.conormals() * basis, {.data_error = 1e-9});
-    const VectorXd y = stepped(integrator, x, h, 1);
-    const MatrixXd back = manifold_.tangent_basis(y).transpose() * manifold_.coframe(y);
+    Differential result;
+    result.tangent = kernel(ladder_.conormals() * basis, {.data_error = 1e-9});
+    result.y = stepped(integrator, x, h, 1);
+    const MatrixXd back =
+        manifold_.tangent_basis(result.y).transpose() * manifold_.coframe(result.y);
     const double epsilon = 1e-3 * scale();
-    MatrixXd image(basis.cols(), tangent.cols());
-    for (Index k = 0; k < tangent.cols(); ++k) {
-      const VectorXd direction = basis * tangent.col(k);
+    result.image.resize(basis.cols(), result.tangent.cols());
+    for (Index k = 0; k < result.tangent.cols(); ++k) {
+      const VectorXd direction = basis * result.tangent.col(k);
       const auto at = [&](double s) {
         return stepped(integrator, manifold_.retract(x, (s * epsilon * direction).eval()), h, 1);
       };
       const VectorXd velocity =
           (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * epsilon);
-      image.col(k) = back * velocity;
+      result.image.col(k) = back * velocity;
     }
-    const MatrixXd before = tangent.transpose() * form_at(*structure, x) * tangent;
+    return result;
+  }
+
+  // |Φ_h*ω - ω| next to |ω|, on T M_f at the initial point.
+  double symplecticity_defect(const Integrator& integrator, const StructurePointer& structure,
+                              double h) const {
+    const auto [y, tangent, image] = differential(integrator, h);
+    const MatrixXd before = tangent.transpose() * form_at(*structure, initial_.x) * tangent;
     const MatrixXd after = image.transpose() * form_at(*structure, y) * image;
     if (before.size() == 0 || before.norm() == 0.0)
       throw std::domain_error("the form vanishes on the constraint set");
     return (after - before).norm() / before.norm();
+  }
+
+  // The distance of (Φ_h)_! D_x, the forward image, from D_y: 0 where the step preserves D. Only
+  // where there are no constraints.
+  double structure_defect(const Integrator& integrator) const {
+    const auto all = structures();
+    if (all.empty() || ladder_.degrees_of_freedom != manifold_.dimension())
+      throw std::domain_error("no structure, or constraints");
+    const auto [y, tangent, image] = differential(integrator, step_);
+    const DiracStructure& D = *all.front().second;
+    return distance(forward_image(image * tangent.transpose(), D.linear(initial_.x)), D.linear(y));
   }
 
   // d/dt of the energy and of the observables of x alone, along S_f, at the points of M_f that the

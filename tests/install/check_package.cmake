@@ -57,3 +57,6 @@ set(docs ${CMAKE_CURRENT_LIST_DIR}/../../docs)
 execute_process(COMMAND ${CONSUMER}/heisenberg OUTPUT_VARIABLE output COMMAND_ECHO NONE
                 COMMAND_ERROR_IS_FATAL ANY)
 check_tutorial(${docs}/tutorial-new-manifold.md ${docs}/examples/heisenberg.cpp "${output}")
+execute_process(COMMAND ${CONSUMER}/rolling_penny OUTPUT_VARIABLE output COMMAND_ECHO NONE
+                COMMAND_ERROR_IS_FATAL ANY)
+check_tutorial(${docs}/tutorial-new-structure.md ${docs}/examples/rolling_penny.cpp "${output}")
