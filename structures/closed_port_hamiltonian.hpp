@@ -15,6 +15,7 @@ class ClosedPortHamiltonian final : public DiracStructure {
  public:
   ClosedPortHamiltonian(std::shared_ptr<const Manifold> manifold, MatrixField interconnection,
                         Index m, MatrixField input);
+  Index tangent_blocks() const override { return 1; }
 
  private:
   ExprVector do_membership(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,

@@ -24,6 +24,7 @@ namespace courant {
 //   S4  membership is linear in (v, α, u)
 //   S5  membership vanishes on D_x for some u, and for no u off D_x
 //   S6  the ranks behind D_x are the same at every point: D is a smooth bundle
+//   S7  the leading tangent_blocks() blocks of the residual are tangent vectors or covectors at x
 // Open port-Hamiltonian structures are coisotropic only (Proposition 7.1): is_dirac() says what a
 // structure claims. Signs: ω♭(u)(v) = ω(u, v); ⟨β, ♯α⟩ = Λ(β, α) (Example 2.2). Integrability
 // (Remark 2.6) is not part of the definition.

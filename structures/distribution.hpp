@@ -22,6 +22,8 @@ class Distribution final : public DiracStructure {
   static Distribution spanned_by(std::shared_ptr<const Manifold> manifold, Index k,
                                  MatrixField fields);
 
+  Index tangent_blocks() const override { return 1; }
+
  private:
   enum class By { one_forms, fields };
   Distribution(std::string name, std::shared_ptr<const Manifold> manifold, Index count,

@@ -14,6 +14,7 @@ class GaugeTransformed final : public DiracStructure {
  public:
   GaugeTransformed(std::shared_ptr<const DiracStructure> structure, MatrixField form);
   bool is_dirac() const override { return structure_->is_dirac(); }
+  Index tangent_blocks() const override { return structure_->tangent_blocks(); }
 
  private:
   ExprVector do_membership(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <stdexcept>
 
 #include "courant/manifolds/measurement.hpp"
 #include "courant/structures/rank_profile.hpp"
@@ -24,6 +25,7 @@ class StructureLaws {
     results.push_back(vanishes_on_D());
     results.push_back(nowhere_else());
     results.push_back(constant_ranks());
+    results.push_back(tangent_equations());
     return results;
   }
 
@@ -122,6 +124,28 @@ class StructureLaws {
         },
         where);
     return measured.result();
+  }
+
+  LawResult tangent_equations() {
+    const Manifold& M = *D_.manifold();
+    const Index n = M.dimension(), size = M.tangent_dimension();
+    return at_points(law("S7 the first tangent_blocks() equations are tangent", 1e-12),
+                     [&](const VectorXd& x) {
+                       const VectorXd r = residual(x, M.tangent_basis(x) * random(n),
+                                                   covector(x, random(n)), random(D_.port_size()));
+                       if (D_.tangent_blocks() * size > r.size())
+                         throw std::domain_error("tangent_blocks() are more than there are");
+                       const MatrixXd projector = M.tangent_projector(x);
+                       double defect = 0.0;
+                       for (Index k = 0; k < D_.tangent_blocks(); ++k) {
+                         const VectorXd block = r.segment(k * size, size);
+                         const VectorXd tangent = projector * block;
+                         const VectorXd cotangent = projector.transpose() * block;
+                         defect = std::max(defect, std::min(relative(block - tangent, block),
+                                                            relative(block - cotangent, block)));
+                       }
+                       return defect;
+                     });
   }
 
   const DiracStructure& D_;

@@ -9,7 +9,7 @@
 
 namespace courant {
 
-// Every law of `structure` (S1 to S6 in the comment of DiracStructure) at the points, or at random
+// Every law of `structure` (S1 to S7 in the comment of DiracStructure) at the points, or at random
 // ones of its manifold. Independent of how the structure is described: the pairing is taken on
 // elements that solve the equations, and the residuals on and off D_x are those of the membership
 // itself.

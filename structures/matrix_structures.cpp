@@ -90,7 +90,7 @@ ExprVector Distribution::do_membership(const ExprVector& x, const ExprVector& v,
   const ExprMatrix projector = manifold()->tangent_projector(x);
   const ExprMatrix transposed = A.transpose();
   if (by_ == By::fields) return stacked(v - projector * (A * u), transposed * alpha);
-  return stacked(transposed * v, alpha - projector.transpose().eval() * (A * u));
+  return stacked(alpha - projector.transpose().eval() * (A * u), transposed * v);
 }
 
 RestrictedTwoForm::RestrictedTwoForm(ManifoldPointer manifold, MatrixField form, Index m,

@@ -19,6 +19,7 @@ class OpenPortHamiltonian final : public DiracStructure {
                       Index m, MatrixField input);
 
   bool is_dirac() const override { return port_size() == 0; }
+  Index tangent_blocks() const override { return 1; }
 
   // y = B(x)ᵀ α, size m.
   ExprVector output(const ExprVector& x, const ExprVector& alpha) const;

@@ -32,6 +32,7 @@ class PortHamiltonianSystem final : public ImplicitSystem {
   PortHamiltonianSystem(Matrices matrices, std::shared_ptr<const GeneratingFamily> energy,
                         std::optional<Input> input, Names names = {});
 
+  Index tangent_blocks() const override { return 1; }
   bool is_open() const { return input_.has_value(); }
   // y = B(x)ᵀ dH(x, t), size m.
   ExprVector output(const ExprVector& x, const Expr& t) const;

@@ -16,6 +16,8 @@ class Presymplectic final : public DiracStructure {
  public:
   Presymplectic(std::shared_ptr<const Manifold> manifold, MatrixField form);
 
+  Index tangent_blocks() const override { return 1; }
+
   ExprMatrix form(const ExprVector& x) const { return form_(x); }
 
  private:

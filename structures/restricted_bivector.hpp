@@ -18,6 +18,7 @@ class RestrictedBivector final : public DiracStructure {
  public:
   RestrictedBivector(std::shared_ptr<const Manifold> manifold, MatrixField bivector, Index k,
                      MatrixField fields);
+  Index tangent_blocks() const override { return 1; }
 
  private:
   ExprVector do_membership(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,

@@ -18,6 +18,7 @@ class RestrictedTwoForm final : public DiracStructure {
  public:
   RestrictedTwoForm(std::shared_ptr<const Manifold> manifold, MatrixField form, Index m,
                     MatrixField one_forms);
+  Index tangent_blocks() const override { return 1; }
 
  private:
   ExprVector do_membership(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,

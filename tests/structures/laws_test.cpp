@@ -5,6 +5,7 @@
 #include "../manifolds/catalogue.hpp"
 #include "catalogue.hpp"
 #include "courant/manifolds/euclidean.hpp"
+#include "courant/manifolds/sphere.hpp"
 #include "courant/structures/distribution.hpp"
 #include "courant/structures/poisson.hpp"
 #include "courant/structures/rank_profile.hpp"
@@ -155,6 +156,16 @@ BOOST_AUTO_TEST_CASE(a_distribution_that_is_not_regular_jumps) {
   }
   const RankProfile profile = rank_profile(D, points);
   BOOST_TEST((profile.jumps == std::vector<std::size_t>{1}));
+}
+
+// Its values are not tangent to the sphere: the equations it claims to be n are n + 1.
+BOOST_AUTO_TEST_CASE(a_bivector_out_of_the_tangent_space_is_found) {
+  const Poisson wrong(std::make_shared<Sphere>(2), [](const ExprVector& x) {
+    ExprVector a = x;
+    a[0] += 0.1;
+    return test::hat(a);
+  });
+  BOOST_TEST(failing(wrong).contains("S7"));
 }
 
 BOOST_AUTO_TEST_CASE(what_throws_fails_a_law) {
