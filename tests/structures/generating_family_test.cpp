@@ -3,11 +3,80 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "courant/core/derivative.hpp"
+#include "courant/core/rank_decision.hpp"
 #include "courant/manifolds/euclidean.hpp"
 
 BOOST_AUTO_TEST_SUITE(generating_family)
 
 using namespace courant;
+
+namespace {
+
+// A Lagrangian on R² without symmetry, singular (linear in w₁).
+Expr lagrangian(const ExprVector& q, const ExprVector& w) {
+  return 0.5 * exp(q[1]) * square(w[0]) + sin(q[0]) * w[1] - square(q[0]) * q[1];
+}
+
+// 𝓘_{TQ}: (q, p, μ_q, μ_p) ↦ (q, μ_p, -μ_q, p) on vectors of 4 × 2 entries (equation (5)).
+ExprVector tulczyjew(const ExprVector& point) {
+  ExprVector image(8);
+  image << point.head(2), point.tail(2), -point.segment(4, 2), point.segment(2, 2);
+  return image;
+}
+
+// The canonical form of a cotangent bundle with base coordinates first: dx ∧ dy on R⁴ × R⁴.
+MatrixXd canonical_form() {
+  MatrixXd omega = MatrixXd::Zero(8, 8);
+  omega.topRightCorner(4, 4).setIdentity();
+  omega.bottomLeftCorner(4, 4) = -MatrixXd::Identity(4, 4);
+  return omega;
+}
+
+}  // namespace
+
+// An antisymplectomorphism of T*T*Q and T*TQ.
+BOOST_AUTO_TEST_CASE(equation_5) {
+  Graph graph;
+  const ExprVector point = graph.variables("point", 8);
+  const MatrixXd derivative = values(jacobian(tulczyjew(point), point).dense());
+  BOOST_TEST((derivative.transpose() * canonical_form() * derivative + canonical_form()).norm() ==
+             0.0);
+}
+
+// 𝓛 = 𝓘⁻¹(Im dL) is what the family generates, with P_q = -∂L/∂q; and it is Lagrangian in T*T*Q.
+BOOST_AUTO_TEST_CASE(lagrangian_submanifold) {
+  const auto M = std::make_shared<CotangentBundle>(std::make_shared<Euclidean>(2));
+  const Lagrangian family(
+      M, [](const ExprVector& q, const ExprVector& w, const Expr&) { return lagrangian(q, w); });
+  Graph graph;
+  const ExprVector qw = graph.variables("qw", 4);
+  const ExprVector dL = gradient(lagrangian(qw.head(2), qw.tail(2)), qw);
+  ExprVector x(4);  // over (q, w): p = ∂L/∂w, where ∂_λE = 0
+  x << qw.head(2), dL.tail(2);
+  ExprVector element(8);
+  element << x, family.differential(x, qw.tail(2), 0.0);
+  ExprVector expected(8);  // dL as a point (q, w, ∂_qL, ∂_wL) of T*TQ
+  expected << qw, dL;
+  const VectorXd at = VectorXd{{0.4, -0.3, 1.1, 0.6}};
+  const auto number = [&](const ExprVector& y) {
+    return VectorXd(values(substitute(y, qw, constants(at))));
+  };
+  BOOST_TEST((number(tulczyjew(element)) - number(expected)).norm() < 1e-15);
+  BOOST_TEST(number(family.stationarity(x, qw.tail(2), 0.0)).norm() < 1e-15);
+
+  const ExprMatrix tangent = jacobian(element, qw).dense();
+  MatrixXd T(8, 4);
+  for (Index k = 0; k < 4; ++k) T.col(k) = number(ExprVector(tangent.col(k)));
+  BOOST_TEST(decide_rank(T).rank == 4);
+  BOOST_TEST((T.transpose() * canonical_form() * T).norm() < 1e-14);
+  // With P_q = -∂L/∂w, as printed, it is not.
+  ExprVector printed = element;
+  printed.segment(4, 2) = -dL.tail(2);
+  const ExprMatrix other = jacobian(printed, qw).dense();
+  for (Index k = 0; k < 4; ++k) T.col(k) = number(ExprVector(other.col(k)));
+  BOOST_TEST((T.transpose() * canonical_form() * T).norm() > 0.1);
+}
 
 BOOST_AUTO_TEST_CASE(morse_family) {
   // L = ½ m w² e^{q} - k q²: 𝓛 = {(-∂_qL, w) : p = ∂_wL} with P_q = -∂L/∂q (docs/errata.md).

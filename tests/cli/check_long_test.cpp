@@ -1,0 +1,33 @@
+// `courant check` on every experiment there is.
+#include <boost/test/unit_test.hpp>
+#include <filesystem>
+#include <sstream>
+
+#include "courant/cli/command.hpp"
+#include "courant/systems/findings.hpp"
+
+namespace courant {
+
+BOOST_AUTO_TEST_SUITE(check_long)
+
+BOOST_AUTO_TEST_CASE(every_experiment_passes) {
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator("experiments")) {
+    const std::string name = entry.path().stem().string();
+    if (entry.path().extension() != ".json" || name == "schema") continue;
+    std::istringstream in;
+    std::ostringstream out, err;
+    const int status = cli::command({"check", entry.path().string(), "--json"},
+                                    {.in = in, .out = out, .err = err});
+    BOOST_TEST(status == 0, name << ": " << err.str());
+    if (status == 2) continue;
+    for (const Json& check : Json::parse(out.str()).at("checks"))
+      BOOST_TEST(check.at("passed").get<bool>(), name << ": " << check.dump());
+    ++count;
+  }
+  BOOST_TEST(count >= 40U);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace courant
