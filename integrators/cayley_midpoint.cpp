@@ -33,4 +33,11 @@ DiscretizationMap::TangentVector<Expr> CayleyMidpoint::do_inverse(const ExprVect
   return {cayley_->retract(x0, ExprVector(Expr(0.5) * v)), v};
 }
 
+DiscretizationMap::Displacement CayleyMidpoint::do_from_start(const ExprVector& x0,
+                                                              const ExprVector& w) const {
+  const ExprVector half = Expr(0.5) * w;
+  const ExprVector middle = cayley_->retract(x0, half);
+  return {middle, w, cayley_->retract(middle, half)};
+}
+
 }  // namespace courant

@@ -26,6 +26,7 @@ class CayleyMidpoint final : public DiscretizationMap {
  private:
   PointPair<Expr> do_forward(const ExprVector& x, const ExprVector& v) const override;
   TangentVector<Expr> do_inverse(const ExprVector& x0, const ExprVector& x1) const override;
+  Displacement do_from_start(const ExprVector& x0, const ExprVector& w) const override;
 
   std::shared_ptr<const Manifold> cayley_;  // the same group, with the Cayley retraction
 };

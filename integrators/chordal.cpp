@@ -22,4 +22,13 @@ DiscretizationMap::TangentVector<Expr> Chordal::do_inverse(const ExprVector& x0,
   return {(x0 + x1) / length, Expr(2.0) * (x1 - x0) / length};
 }
 
+DiscretizationMap::Displacement Chordal::do_from_start(const ExprVector& x0,
+                                                       const ExprVector& w) const {
+  // The middle m of the chord's arc, then x₁ as the reflection of x₀ in it.
+  const ExprVector middle = normalised(x0 + Expr(0.5) * w);
+  const Expr c = middle.dot(x0);
+  const ExprVector end = 2.0 * c * middle - x0;
+  return {middle, (end - x0) / c, end};
+}
+
 }  // namespace courant

@@ -58,10 +58,29 @@ CotangentLift::CotangentLift(std::shared_ptr<const CotangentBundle> phase_space,
 
 DiscretizationMap::TangentVector<Expr> CotangentLift::do_inverse(const ExprVector& x0,
                                                                  const ExprVector& x1) const {
+  const auto [q, v] = base_->inverse(phase_space_->position(x0), phase_space_->position(x1));
+  return lifted(q, v, x0, x1);
+}
+
+DiscretizationMap::Displacement CotangentLift::do_from_start(const ExprVector& x0,
+                                                             const ExprVector& w) const {
+  const Manifold& Q = *phase_space_->base();
+  const auto [q, v, q1] =
+      base_->from_start(phase_space_->position(x0), phase_space_->horizontal(w));
+  const ExprVector momentum = phase_space_->momentum(x0) + phase_space_->vertical(w);
+  ExprVector x1(x0.size());
+  x1 << q1, Q.tangent_projector(q1).transpose() * momentum;
+  auto [x, velocity] = lifted(q, v, x0, x1);
+  return {std::move(x), std::move(velocity), x1};
+}
+
+DiscretizationMap::TangentVector<Expr> CotangentLift::lifted(const ExprVector& q,
+                                                             const ExprVector& v,
+                                                             const ExprVector& x0,
+                                                             const ExprVector& x1) const {
   const Manifold& Q = *phase_space_->base();
   const ExprVector q0 = phase_space_->position(x0);
   const ExprVector q1 = phase_space_->position(x1);
-  const auto [q, v] = base_->inverse(q0, q1);
   const ExprVector first = -(Q.coframe(q0).transpose() * phase_space_->momentum(x0).eval());
   const ExprVector second = Q.coframe(q1).transpose() * phase_space_->momentum(x1).eval();
   const PulledBack covector = pull_back_frame(*base_, q, v, first, second);

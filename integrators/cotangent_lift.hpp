@@ -32,6 +32,10 @@ class CotangentLift final : public DiscretizationMap {
  private:
   PointPair<Expr> do_forward(const ExprVector& x, const ExprVector& v) const override;
   TangentVector<Expr> do_inverse(const ExprVector& x0, const ExprVector& x1) const override;
+  Displacement do_from_start(const ExprVector& x0, const ExprVector& w) const override;
+  // R_d⁻¹(x₀, x₁), where that of the base is (q, v).
+  TangentVector<Expr> lifted(const ExprVector& q, const ExprVector& v, const ExprVector& x0,
+                             const ExprVector& x1) const;
 
   std::shared_ptr<const CotangentBundle> phase_space_;
   std::shared_ptr<const DiscretizationMap> base_;

@@ -48,6 +48,20 @@ DiscretizationMap::TangentVector<Expr> DiscretizationMap::do_inverse(const ExprV
       "::inverse: this map has no closed inverse. Pass numbers, or use the forward formulation.");
 }
 
+DiscretizationMap::Displacement DiscretizationMap::from_start(const ExprVector& x0,
+                                                              const ExprVector& w) const {
+  check_size(name_ + "::from_start", "x0", x0.size(), manifold_->ambient_dimension());
+  check_size(name_ + "::from_start", "w", w.size(), manifold_->tangent_dimension());
+  return has_inverse() ? do_from_start(x0, w) : from_start_by_inverse(x0, w);
+}
+
+DiscretizationMap::Displacement DiscretizationMap::from_start_by_inverse(
+    const ExprVector& x0, const ExprVector& w) const {
+  const ExprVector end = manifold_->retract(x0, w);
+  auto [x, v] = inverse(x0, end);
+  return {std::move(x), std::move(v), end};
+}
+
 DiscretizationMap::TangentVector<double> DiscretizationMap::numeric_inverse(
     const VectorXd& x0, const VectorXd& x1) const {
   if (has_inverse()) {

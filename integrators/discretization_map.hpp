@@ -18,6 +18,7 @@ namespace courant {
 //   D2  d/ds (R⁺ - R⁻)(s v) = v at s = 0, in the frame of M
 //   D3  inverse(forward(x, v)) = (x, v) and forward(inverse(x₀, x₁)) = (x₀, x₁), near the diagonal
 //   (Proposition 4.6) D4  the claims order(), is_symmetric() and is_symplectic() hold
+//   D5  forward(x̄, v) = (x₀, x₁) for (x̄, v, x₁) = from_start(x₀, w), near w = 0
 //
 // x, x₀, x₁: points (N); v: tangent vector (Ñ). Immutable. To subclass: override do_forward and the
 // claims.
@@ -30,6 +31,10 @@ class DiscretizationMap {
   template <class Scalar>
   struct TangentVector {
     Eigen::Matrix<Scalar, Eigen::Dynamic, 1> x, v;
+  };
+
+  struct Displacement {
+    ExprVector x, v, end;
   };
 
   virtual ~DiscretizationMap() = default;
@@ -56,6 +61,11 @@ class DiscretizationMap {
       return numeric_inverse(x0, x1);
   }
 
+  // The pairs that begin at x₀, by tangent vectors w at x₀: (x̄, v, x₁) with R_d(x̄, v) = (x₀, x₁)
+  // and v = w to first order. A step has w as unknown, which for most maps is a shorter formula
+  // than R_d⁻¹(x₀, R_{x₀}(w)). Throws std::logic_error if !has_inverse().
+  Displacement from_start(const ExprVector& x0, const ExprVector& w) const;
+
   // ‖v‖ below which forward is defined and injective, where that is less than the injectivity
   // radius of the manifold.
   virtual double domain_radius() const { return std::numeric_limits<double>::infinity(); }
@@ -73,12 +83,17 @@ class DiscretizationMap {
 
  protected:
   DiscretizationMap(std::string name, std::shared_ptr<const Manifold> manifold);
+  // from_start by inverse at retract(x0, w).
+  Displacement from_start_by_inverse(const ExprVector& x0, const ExprVector& w) const;
 
  private:
   // To subclass, override:
   virtual PointPair<Expr> do_forward(const ExprVector& x, const ExprVector& v) const = 0;
   // May override (or has_inverse() → false, and numbers are inverted by Newton's method):
   virtual TangentVector<Expr> do_inverse(const ExprVector& x0, const ExprVector& x1) const;
+  virtual Displacement do_from_start(const ExprVector& x0, const ExprVector& w) const {
+    return from_start_by_inverse(x0, w);
+  }
 
   PointPair<Expr> checked_forward(const ExprVector& x, const ExprVector& v) const;
   PointPair<double> numeric_forward(const VectorXd& x, const VectorXd& v) const;

@@ -110,8 +110,8 @@ DiscretizeFirst::DiscretizeFirst(std::shared_ptr<const ImplicitSystem> system,
   ExprVector y, residual, x1, v;
   if (map_->has_inverse()) {
     const ExprVector xi = graph.variables("xi", n);
-    x1 = M.chart(x0, basis, xi);
-    const auto middle = map_->inverse(x0, x1);
+    const auto middle = map_->from_start(x0, basis * xi);
+    x1 = middle.end;
     v = middle.v / h[0];
     residual = reduced_residual(*system_, basis, middle.x, v, z, stage_time);
     y.resize(n + z.size());

@@ -11,9 +11,9 @@ namespace courant {
 // The discrete system (S₀)_d^h = {(x₀, x₁) ∈ M × M : (1/h) R_d⁻¹(x₀, x₁) ∈ S} of an implicit system
 // as a one-step method (Option 1 of Section 5.2, equations (3), (12), (28), (30), (36)-(38)).
 //
-// With a map that has a closed inverse the unknowns of a step are the chart coordinates of x₁ at x₀
-// and z:
-//   F(x̄, v / h, z, t̄) = 0,   (x̄, v) = R_d⁻¹(x₀, x₁);
+// With a map that has a closed inverse the unknowns of a step are the coordinates ξ of a tangent
+// vector at x₀ and z:
+//   F(x̄, v / h, z, t̄) = 0,   (x̄, v, x₁) = from_start(x₀, B ξ), so that (x̄, v) = R_d⁻¹(x₀, x₁);
 // otherwise (x̄, v, z), with R_d⁻(x̄, h v) = x₀ and then x₁ = R_d⁺(x̄, h v).
 // Where redundant equations or undetermined z make the matrix singular or oblong, steps are solved
 // by least squares.

@@ -103,7 +103,10 @@ class DiscretizationMapLaws {
     std::vector<LawResult> results = {
         zero_section(),  difference_to_first_order(), stays_on(), left_inverse(),
         right_inverse(), derivatives_of_forward(),    order(),    symmetry()};
-    if (map_.has_inverse()) results.push_back(derivatives_of_inverse());
+    if (map_.has_inverse()) {
+      results.push_back(derivatives_of_inverse());
+      results.push_back(from_start());
+    }
     if (map_.is_symplectic().has_value()) results.push_back(symplectic());
     return results;
   }
@@ -193,6 +196,25 @@ class DiscretizationMapLaws {
                      M_.point_defect(x) / (1.0 + x.squaredNorm()) + M_.tangent_defect(x, v);
             },
             describe("x₀", s.x) + ", x₁ at distance " + std::to_string(distance));
+    return measured.result();
+  }
+
+  // R_d(x̄, v) = (x₀, x₁), and v = w to first order: the slope of v - w (in the space around).
+  LawResult from_start() const {
+    auto measured = law("D5 R_d(from_start(x₀, w)) begins at x₀, ends where it says", 1e-10);
+    for (const LawSample& s : samples_)
+      for (const double length : {0.0, 1e-8, 1e-3, 0.3 * std::min(1.0, s.radius)})
+        measured.add(
+            [&] {
+              const VectorXd w = length * s.w;
+              const auto [x, v, end] = map_.from_start(constants(s.x), constants(w));
+              const auto [x0, x1] = map_.forward(values(x), values(v));
+              const double far = (values(v) - w).norm() / (length + 1e-12);
+              return (M_.separation(x0, s.x) + M_.separation(x1, values(end))) /
+                         (1.0 + s.x.norm()) +
+                     (length < 1e-2 && far > 0.1 * (1.0 + s.x.norm()) ? kInfinity : 0.0);
+            },
+            describe("x₀", s.x) + ", ‖w‖ = " + std::to_string(length));
     return measured.result();
   }
 

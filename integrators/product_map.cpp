@@ -79,4 +79,17 @@ DiscretizationMap::TangentVector<Expr> ProductMap::do_inverse(const ExprVector& 
   return result;
 }
 
+DiscretizationMap::Displacement ProductMap::do_from_start(const ExprVector& x0,
+                                                          const ExprVector& w) const {
+  Displacement result{ExprVector(x0.size()), ExprVector(w.size()), ExprVector(x0.size())};
+  for (std::size_t i = 0; i < factors_.size(); ++i) {
+    const Displacement factor =
+        factors_[i]->from_start(product_->point_part(x0, i), product_->tangent_part(w, i));
+    product_->point_part(result.x, i) = factor.x;
+    product_->tangent_part(result.v, i) = factor.v;
+    product_->point_part(result.end, i) = factor.end;
+  }
+  return result;
+}
+
 }  // namespace courant

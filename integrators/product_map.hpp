@@ -25,6 +25,7 @@ class ProductMap final : public DiscretizationMap {
  private:
   PointPair<Expr> do_forward(const ExprVector& x, const ExprVector& v) const override;
   TangentVector<Expr> do_inverse(const ExprVector& x0, const ExprVector& x1) const override;
+  Displacement do_from_start(const ExprVector& x0, const ExprVector& w) const override;
 
   std::shared_ptr<const Product> product_;
   std::vector<std::shared_ptr<const DiscretizationMap>> factors_;

@@ -18,4 +18,12 @@ DiscretizationMap::TangentVector<Expr> SphericalMidpoint::do_inverse(const ExprV
   return {sum / sqrt(sum.squaredNorm()), x1 - x0};
 }
 
+DiscretizationMap::Displacement SphericalMidpoint::do_from_start(const ExprVector& x0,
+                                                                 const ExprVector& w) const {
+  const ExprVector toward = x0 + Expr(0.5) * w;
+  const ExprVector middle = toward / sqrt(toward.squaredNorm());
+  const ExprVector end = 2.0 * middle.dot(x0) * middle - x0;
+  return {middle, end - x0, end};
+}
+
 }  // namespace courant

@@ -41,4 +41,13 @@ DiscretizationMap::TangentVector<Expr> Theta::do_inverse(const ExprVector& x0,
   return {x, M.inverse_retract(x, x1) - M.inverse_retract(x, x0)};
 }
 
+DiscretizationMap::Displacement Theta::do_from_start(const ExprVector& x0,
+                                                     const ExprVector& w) const {
+  const Manifold& M = *manifold();
+  if (theta_ == 0.0) return {x0, w, M.retract(x0, w)};
+  if (!M.is_geodesic()) return from_start_by_inverse(x0, w);
+  return {M.retract(x0, ExprVector(Expr(theta_) * w)), M.velocity_along(x0, w, theta_),
+          M.retract(x0, w)};
+}
+
 }  // namespace courant

@@ -17,6 +17,9 @@ class Euclidean final : public Manifold {
   ExprVector do_inverse_retract(const ExprVector& x, const ExprVector& y) const override {
     return y - x;
   }
+  ExprVector do_velocity_along(const ExprVector&, const ExprVector& v, const Expr&) const override {
+    return v;
+  }
   ExprMatrix do_frame(const ExprVector& x) const override;
   ExprMatrix do_coframe(const ExprVector& x) const override;
 };

@@ -70,6 +70,27 @@ ExprVector Manifold::checked_constraint(const ExprVector& x) const {
   return do_constraint(x);
 }
 
+ExprVector Manifold::velocity_along(const ExprVector& x, const ExprVector& v, const Expr& s) const {
+  check_size("velocity_along", "x", x.size(), ambient_dimension_, "ambient_dimension()");
+  check_size("velocity_along", "v", v.size(), tangent_dimension_, "tangent_dimension()");
+  return do_velocity_along(x, v, s);
+}
+
+ExprVector Manifold::differentiated_velocity(const ExprVector& x, const ExprVector& v,
+                                             const Expr& s) const {
+  Graph graph;
+  ExprVector from(ambient_dimension_ + tangent_dimension_ + 1), to(from.size());
+  from << graph.variables("x", ambient_dimension_), graph.variables("v", tangent_dimension_),
+      graph.variable("s");
+  to << x, v, s;
+  const ExprVector length = from.tail(1);
+  const ExprVector curve =
+      retract(from.head(ambient_dimension_),
+              ExprVector(length[0] * from.segment(ambient_dimension_, tangent_dimension_)));
+  return substitute(ExprVector(coframe(curve) * tangent(curve, length, ExprVector::Ones(1))), from,
+                    to);
+}
+
 ExprVector Manifold::do_inverse_retract(const ExprVector&, const ExprVector&) const {
   throw std::logic_error(
       name_ +

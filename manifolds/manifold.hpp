@@ -93,6 +93,9 @@ class Manifold {
   // w ∈ T_mM (exponential maps). A claim that check_manifold measures.
   virtual bool is_geodesic() const { return false; }
 
+  // C(y) dy/ds of the curve y = R_x(s v), as a tangent vector at y; on expressions.
+  ExprVector velocity_along(const ExprVector& x, const ExprVector& v, const Expr& s) const;
+
   // An orthonormal basis of T_xM in the tangent representation, Ñ × n; the identity where n = Ñ.
   // Constant where that holds.
   MatrixXd tangent_basis(const VectorXd& x) const;
@@ -117,6 +120,9 @@ class Manifold {
   // Throws std::invalid_argument unless 0 ≤ n ≤ Ñ and n ≤ N.
   Manifold(std::string name, Index dimension, Index ambient_dimension, Index tangent_dimension);
 
+  // velocity_along by differentiation.
+  ExprVector differentiated_velocity(const ExprVector& x, const ExprVector& v, const Expr& s) const;
+
  private:
   // To subclass, override:
   virtual ExprVector do_retract(const ExprVector& x, const ExprVector& v) const = 0;
@@ -126,6 +132,11 @@ class Manifold {
   // May override:
   virtual ExprVector do_inverse_retract(const ExprVector& x,
                                         const ExprVector& y) const;  // or has_inverse() → false
+  // Where there is a shorter formula than the one by differentiation:
+  virtual ExprVector do_velocity_along(const ExprVector& x, const ExprVector& v,
+                                       const Expr& s) const {
+    return differentiated_velocity(x, v, s);
+  }
   virtual ExprVector do_constraint(
       const ExprVector& x) const;  // must, unless n = N (an open subset of R^N)
   virtual double do_point_defect(

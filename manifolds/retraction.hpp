@@ -17,6 +17,8 @@ struct Retraction {
   std::function<ExprVector(const ExprVector& x, const ExprVector& y)> inverse;  // v = R_x⁻¹(y)
   double injectivity_radius = std::numeric_limits<double>::infinity();
   bool is_geodesic = false;  // as Manifold::is_geodesic
+  // Manifold::velocity_along, or empty: by differentiation.
+  std::function<ExprVector(const ExprVector& x, const ExprVector& v, const Expr& s)> velocity = {};
 };
 
 }  // namespace courant

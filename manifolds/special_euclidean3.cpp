@@ -58,7 +58,8 @@ Retraction SpecialEuclidean3::exponential() {
                 return joined(w, r - Expr(0.5) * w_r + factor * (hat(w) * w_r));
               },
           .injectivity_radius = std::numbers::pi,
-          .is_geodesic = true};
+          .is_geodesic = true,
+          .velocity = [](const ExprVector&, const ExprVector& v, const Expr&) { return v; }};
 }
 
 Retraction SpecialEuclidean3::cayley() {
@@ -84,6 +85,11 @@ ExprVector SpecialEuclidean3::do_retract(const ExprVector& x, const ExprVector& 
 
 ExprVector SpecialEuclidean3::do_inverse_retract(const ExprVector& x, const ExprVector& y) const {
   return retraction_.inverse(x, y);
+}
+
+ExprVector SpecialEuclidean3::do_velocity_along(const ExprVector& x, const ExprVector& v,
+                                                const Expr& s) const {
+  return retraction_.velocity ? retraction_.velocity(x, v, s) : differentiated_velocity(x, v, s);
 }
 
 ExprMatrix SpecialEuclidean3::do_frame(const ExprVector& x) const {

@@ -29,7 +29,8 @@ Retraction SpecialOrthogonal3::exponential() {
       .inverse = [](const ExprVector& x,
                     const ExprVector& y) { return rotation_logarithm(quotient(x, y)); },
       .injectivity_radius = std::numbers::pi,
-      .is_geodesic = true};
+      .is_geodesic = true,
+      .velocity = [](const ExprVector&, const ExprVector& v, const Expr&) { return v; }};
 }
 
 Retraction SpecialOrthogonal3::cayley() {
@@ -46,6 +47,11 @@ ExprVector SpecialOrthogonal3::do_retract(const ExprVector& x, const ExprVector&
 
 ExprVector SpecialOrthogonal3::do_inverse_retract(const ExprVector& x, const ExprVector& y) const {
   return retraction_.inverse(x, y);
+}
+
+ExprVector SpecialOrthogonal3::do_velocity_along(const ExprVector& x, const ExprVector& v,
+                                                 const Expr& s) const {
+  return retraction_.velocity ? retraction_.velocity(x, v, s) : differentiated_velocity(x, v, s);
 }
 
 ExprMatrix SpecialOrthogonal3::do_frame(const ExprVector& x) const {

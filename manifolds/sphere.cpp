@@ -21,7 +21,11 @@ Retraction Sphere::exponential() {
             return arccos_factor(0, c) * (y - c * x);
           },
           .injectivity_radius = std::numbers::pi,
-          .is_geodesic = true};
+          .is_geodesic = true,
+          .velocity = [](const ExprVector& x, const ExprVector& v, const Expr& s) -> ExprVector {
+            const Expr squared = square(s) * v.squaredNorm();
+            return stumpff(0, squared) * v - s * v.squaredNorm() * stumpff(1, squared) * x;
+          }};
 }
 
 Retraction Sphere::projective() {
@@ -40,6 +44,11 @@ ExprVector Sphere::do_retract(const ExprVector& x, const ExprVector& v) const {
 
 ExprVector Sphere::do_inverse_retract(const ExprVector& x, const ExprVector& y) const {
   return retraction_.inverse(x, y);
+}
+
+ExprVector Sphere::do_velocity_along(const ExprVector& x, const ExprVector& v,
+                                     const Expr& s) const {
+  return retraction_.velocity ? retraction_.velocity(x, v, s) : differentiated_velocity(x, v, s);
 }
 
 ExprMatrix Sphere::do_frame(const ExprVector& x) const {

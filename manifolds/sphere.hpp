@@ -32,6 +32,8 @@ class Sphere final : public Manifold {
  private:
   ExprVector do_retract(const ExprVector& x, const ExprVector& v) const override;
   ExprVector do_inverse_retract(const ExprVector& x, const ExprVector& y) const override;
+  ExprVector do_velocity_along(const ExprVector& x, const ExprVector& v,
+                               const Expr& s) const override;
   ExprMatrix do_frame(const ExprVector& x) const override;
   ExprMatrix do_coframe(const ExprVector& x) const override { return do_frame(x); }
   ExprVector do_constraint(const ExprVector& x) const override;

@@ -19,6 +19,9 @@ class Torus final : public Manifold {
  private:
   ExprVector do_retract(const ExprVector& x, const ExprVector& v) const override { return x + v; }
   ExprVector do_inverse_retract(const ExprVector& x, const ExprVector& y) const override;
+  ExprVector do_velocity_along(const ExprVector&, const ExprVector& v, const Expr&) const override {
+    return v;
+  }
   ExprMatrix do_frame(const ExprVector& x) const override;
   ExprMatrix do_coframe(const ExprVector& x) const override { return do_frame(x); }
   double do_separation(const VectorXd& x, const VectorXd& y) const override;

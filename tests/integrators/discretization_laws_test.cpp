@@ -16,12 +16,14 @@ class Planted final : public DiscretizationMap {
  public:
   using Map = std::function<PointPair<Expr>(const ExprVector&, const ExprVector&)>;
   using Inverse = std::function<TangentVector<Expr>(const ExprVector&, const ExprVector&)>;
+  using Start = std::function<Displacement(const ExprVector&, const ExprVector&)>;
   struct Parts {
     Map forward;
     Inverse inverse;
     int order;
     bool symmetric;
     std::optional<bool> symplectic;
+    Start start = {};
   };
   Planted(std::shared_ptr<const Manifold> manifold, Parts parts)
       : DiscretizationMap("Planted", std::move(manifold)), parts_(std::move(parts)) {}
@@ -35,6 +37,9 @@ class Planted final : public DiscretizationMap {
   }
   TangentVector<Expr> do_inverse(const ExprVector& x0, const ExprVector& x1) const override {
     return parts_.inverse(x0, x1);
+  }
+  Displacement do_from_start(const ExprVector& x0, const ExprVector& w) const override {
+    return parts_.start ? parts_.start(x0, w) : from_start_by_inverse(x0, w);
   }
 
   Parts parts_;
@@ -125,6 +130,24 @@ BOOST_AUTO_TEST_CASE(d3_an_inverse_that_is_not_smooth_at_the_diagonal) {
   };
   BOOST_TEST(!fails(chordal(), parts, "D3 R_d⁻¹(R_d"));
   BOOST_TEST(fails(chordal(), parts, "D3 derivatives of R_d⁻¹"));
+}
+
+BOOST_AUTO_TEST_CASE(d5_pairs_that_end_elsewhere_or_are_too_long) {
+  auto parts = parts_of(chordal());
+  parts.start = [](const ExprVector& x0, const ExprVector& w) {
+    return chordal().from_start(x0, w);
+  };
+  BOOST_TEST(!fails(chordal(), parts, "D5"));
+  parts.start = [](const ExprVector& x0, const ExprVector& w) {
+    auto result = chordal().from_start(x0, w);
+    result.end = chordal().manifold()->retract(x0, w);  // right to second order
+    return result;
+  };
+  BOOST_TEST(fails(chordal(), parts, "D5"));
+  parts.start = [](const ExprVector& x0, const ExprVector& w) {
+    return chordal().from_start(x0, ExprVector(Expr(1.5) * w));
+  };
+  BOOST_TEST(fails(chordal(), parts, "D5"));
 }
 
 BOOST_AUTO_TEST_CASE(d4_an_order_that_is_too_high_or_too_low) {
