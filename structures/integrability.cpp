@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <random>
 
 #include "courant/core/derivative.hpp"
 #include "courant/core/singular_value_decomposition.hpp"
@@ -84,7 +86,8 @@ ExprMatrix equations(const DiracStructure& structure, Chart& chart) {
   return all;
 }
 
-Sections sections(const DiracStructure& structure, const VectorXd& x) {
+// Sections through all of an orthonormal basis, or through `most` random orthonormal elements.
+Sections sections(const DiracStructure& structure, const VectorXd& x, Index most) {
   Chart chart(*structure.manifold(), x);
   const Index n = chart.n(), size = structure.manifold()->tangent_dimension();
   const MatrixJet A = chart.jet(equations(structure, chart));
@@ -95,7 +98,14 @@ Sections sections(const DiracStructure& structure, const VectorXd& x) {
   // Combinations of the kernel whose pairs (dξ/dt, Vᵀα) are an orthonormal basis of D_x.
   const MatrixXd pairs = above(kernel.topRows(n), V.value.transpose() * kernel.middleRows(n, size));
   const FundamentalSubspaces of_pairs(pairs, {.data_error = 1e-12, .magnitude = 1.0});
-  const MatrixXd z = kernel * of_pairs.pseudo_solve(of_pairs.range());
+  MatrixXd z = kernel * of_pairs.pseudo_solve(of_pairs.range());
+  if (z.cols() > most) {
+    std::mt19937 generator(1);
+    std::normal_distribution<double> normal;
+    const MatrixXd random =
+        MatrixXd::NullaryExpr(z.cols(), most, [&] { return normal(generator); });
+    z *= range(random);
+  }
 
   Sections result;
   result.X = z.topRows(n);
@@ -206,7 +216,7 @@ AlternatingTensor schouten_bracket(const Manifold& manifold, const MatrixField& 
 }
 
 AlternatingTensor courant_tensor(const DiracStructure& structure, const VectorXd& x) {
-  const Sections s = sections(structure, x);
+  const Sections s = sections(structure, x, std::numeric_limits<Index>::max());
   return alternating(s.X.cols(), lie_terms(s).value);
 }
 
@@ -217,7 +227,7 @@ Integrability integrability(const DiracStructure& structure, const VectorXd& x) 
     result.undefined = "D is not Dirac at this point";
     return result;
   }
-  const Sections s = sections(structure, x);
+  const Sections s = sections(structure, x, 24);
   if (s.rank_defect > 1e-7) {
     result.undefined = "the rank of D is not constant at this point";
     return result;

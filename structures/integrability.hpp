@@ -55,7 +55,9 @@ struct Integrability {
 // isotropic: it depends on the values at x only. They are extended to sections along the chart of
 // the retraction at x, with exact first derivatives, A z = 0 ⟹ dz = -A⁺ dA z.
 //
-// Basis: the orthonormal basis of D_x that fibre(x) has, up to rotation. n⁴ operations.
+// Basis: the orthonormal basis of D_x that fibre(x) has, up to rotation. n⁴ operations. For n > 24
+// `integrability` takes T on 24 random orthonormal elements of D_x, fixed once and for all: a
+// tensor that is not zero vanishes there with probability 0.
 AlternatingTensor courant_tensor(const DiracStructure& structure, const VectorXd& x);
 Integrability integrability(const DiracStructure& structure, const VectorXd& x);
 // The worst of several points, undefined ones last: at those where it has a value, and the number

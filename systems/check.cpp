@@ -203,7 +203,7 @@ class Check {
     const Integrator& integrator = *method->integrator;
     initial_ = method->initial;
     step_ = experiment_.time->step;
-    const auto attempt = [](const auto& measure) -> std::optional<double> {
+    const auto attempt = [](const auto& measure) -> std::optional<decltype(measure())> {
       try {
         return measure();
       } catch (const std::exception&) {
@@ -219,18 +219,20 @@ class Check {
     if (asymmetry && integrator.is_symmetric())
       add_laws(checks, "method",
                {{integrator.name(), "P1 Φ_{-h} ∘ Φ_h = id", *asymmetry, 1e-9, where()}});
+    const auto step = attempt([&] { return differential(integrator, step_); });
+    const auto preserved = attempt([&] { return structure_defect(step.value()); });
     std::optional<double> bent;
     std::optional<bool> symplectic;
     if (const StructurePointer form = symplectic_structure()) {
-      bent = attempt([&] { return symplecticity_defect(integrator, form, step_); });
+      bent = attempt([&] { return symplecticity_defect(form, step.value()); });
       // A small step of a method of high order can look symplectic: a longer one tells.
       if (bent && *bent > symplectic_bound)
         symplectic = false;
       else if (bent && integrator.is_symplectic())
         symplectic = *integrator.is_symplectic();
       else if (bent)
-        if (const auto longer =
-                attempt([&] { return symplecticity_defect(integrator, form, 8.0 * step_); }))
+        if (const auto longer = attempt(
+                [&] { return symplecticity_defect(form, differential(integrator, 8.0 * step_)); }))
           symplectic = *longer <= symplectic_bound;
       if (bent && integrator.is_symplectic().value_or(false))
         add_laws(checks, "method",
@@ -243,7 +245,7 @@ class Check {
             {"symmetry_defect", json_of(asymmetry)},
             {"symplectic", symplectic ? Json(*symplectic) : Json()},
             {"symplecticity_defect", json_of(bent)},
-            {"structure_defect", json_of(attempt([&] { return structure_defect(integrator); }))}};
+            {"structure_defect", json_of(preserved)}};
   }
 
   std::string where() const { return courant::describe("x", initial_.x); }
@@ -336,9 +338,8 @@ class Check {
   }
 
   // |Φ_h*ω - ω| next to |ω|, on T M_f at the initial point.
-  double symplecticity_defect(const Integrator& integrator, const StructurePointer& structure,
-                              double h) const {
-    const auto [y, tangent, image] = differential(integrator, h);
+  double symplecticity_defect(const StructurePointer& structure, const Differential& step) const {
+    const auto& [y, tangent, image] = step;
     const MatrixXd before = tangent.transpose() * form_at(*structure, initial_.x) * tangent;
     const MatrixXd after = image.transpose() * form_at(*structure, y) * image;
     if (before.size() == 0 || before.norm() == 0.0)
@@ -348,11 +349,11 @@ class Check {
 
   // The distance of (Φ_h)_! D_x, the forward image, from D_y: 0 where the step preserves D. Only
   // where there are no constraints.
-  double structure_defect(const Integrator& integrator) const {
+  double structure_defect(const Differential& step) const {
     const auto all = structures();
     if (all.empty() || ladder_.degrees_of_freedom != manifold_.dimension())
       throw std::domain_error("no structure, or constraints");
-    const auto [y, tangent, image] = differential(integrator, step_);
+    const auto& [y, tangent, image] = step;
     const DiracStructure& D = *all.front().second;
     return distance(forward_image(image * tangent.transpose(), D.linear(initial_.x)), D.linear(y));
   }

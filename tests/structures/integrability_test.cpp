@@ -1,5 +1,6 @@
 #include "courant/structures/integrability.hpp"
 
+#include <Eigen/LU>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <random>
@@ -212,6 +213,23 @@ BOOST_AUTO_TEST_CASE(frobenius) {
     BOOST_TEST(result.integrable() == (c == 0.0));
     // The defect is c in the frame (∂_x + c y ∂_z, ∂_y, dz - c y dx), normalised.
     BOOST_TEST(std::abs(result.defect - c / (1.0 + 0.25 * c * c)) < 1e-12);
+  }
+}
+
+// On R³⁰ one contact plane among 27 constant directions is found by random elements.
+BOOST_AUTO_TEST_CASE(in_many_dimensions) {
+  const auto M = std::make_shared<Euclidean>(30);
+  for (const double c : {0.0, 0.1}) {
+    const auto D = Distribution::annihilated_by(M, 1, [=](const ExprVector& x) {
+      ExprMatrix mu = ExprMatrix::Zero(30, 1);
+      mu(7, 0) = -c * x[11];
+      mu(29, 0) = 1.0;
+      return mu;
+    });
+    const Integrability result = integrability(D, VectorXd::Constant(30, 0.3));
+    BOOST_TEST(result.undefined.empty());
+    BOOST_TEST(result.integrable() == (c == 0.0));
+    if (c > 0.0) BOOST_TEST(result.defect > 1e-4);
   }
 }
 
