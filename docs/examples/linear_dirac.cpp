@@ -38,9 +38,8 @@ int main() {
   std::cout << forward_image(projection, bivector);
 
   // Two gyrators in a row are a transformer: flows are related to flows.
-  const auto gyrator = [](double r) {
-    return LinearDirac::graph_of_bivector(MatrixXd{{0, r}, {-r, 0}});
-  };
+  const LinearDirac two = LinearDirac::graph_of_bivector(MatrixXd{{0, 2}, {-2, 0}});
+  const LinearDirac six = LinearDirac::graph_of_bivector(MatrixXd{{0, 6}, {-6, 0}});
   const std::array<Index, 1> second{1}, first{0};
-  std::cout << composition(gyrator(2), second, gyrator(6), first);
+  std::cout << composition(two, second, six, first);
 }
