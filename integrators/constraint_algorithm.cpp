@@ -15,10 +15,19 @@ bool repeats(const std::vector<LadderLevel>& levels) {
   return last.dim_S == before.dim_S && last.dim_M == before.dim_M;
 }
 
-// Where dimensions differ at two consistent points, in words; empty if they do not.
+// Where dimensions differ at a point and at one nearby, in words; empty if they do not. A rank can
+// only be higher nearby: where it seems lower a number was taken for noise, and nothing is
+// concluded.
 std::string difference(const std::vector<LadderLevel>& a, const std::vector<LadderLevel>& b) {
+  const auto seems_lower = [](const RankDecision& here, const RankDecision& nearby) {
+    return nearby.rank < here.rank;
+  };
   for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k) {
     if (a[k].is_empty || (a[k].dim_S == b[k].dim_S && a[k].dim_M == b[k].dim_M)) continue;
+    if (seems_lower(a[k].all, b[k].all) ||
+        seems_lower(a[k].without_tangent, b[k].without_tangent) ||
+        seems_lower(a[k].without_point, b[k].without_point))
+      continue;
     const std::string level = std::to_string(k);
     return "(dim S_" + level + ", dim M_" + level + ") is (" + std::to_string(a[k].dim_S) + ", " +
            std::to_string(a[k].dim_M) + ") here and (" + std::to_string(b[k].dim_S) + ", " +
@@ -129,18 +138,11 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
     }
     return "";
   };
-  ConsistentJet found_jet = jet;  // of the highest level that is not empty
   bool stopped = false;
   std::string singular;
   for (Index k = 0; k <= options_.max_level && !stopped; ++k) {
     jet.zero.y = jet.array.resized(jet.zero.y, k);
     const ConsistentJet next = consistent.find(jet);
-    const bool moved = next.array.origin() != jet.array.origin();
-    if (k > 0 && (moved || !next.zero.found)) {
-      // Before the point is given up, see whether it is singular.
-      singular = singularity(ladder.levels, found_jet);
-      if (!singular.empty()) break;
-    }
     if (!next.zero.found) {
       LadderLevel empty;
       empty.k = k;
@@ -154,17 +156,16 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
       jet.zero.y = next.array.resized(next.zero.y, k);
       break;
     }
-    jet = found_jet = next;
+    jet = next;
     ladder.levels = ladder_levels(jet.array, jet.zero.y, jet.zero.reach, error_of(jet));
+    singular = singularity(ladder.levels, jet);
+    if (!singular.empty()) break;
     stopped = repeats(ladder.levels);
   }
-  if (!singular.empty()) jet = found_jet;
   ladder.point = jet.array.state(jet.zero.y);
   ladder.jet = jet.zero.y;
   ladder.moved = consistent.distance(ladder.point.x);
   ladder.moves = movements(*system, guess, ladder.point);
-  if (singular.empty() && !ladder.levels.back().is_empty)
-    singular = singularity(ladder.levels, found_jet);
   if (!singular.empty()) {
     ladder.verdict = Verdict::rank_change;
     ladder.reason = singular;

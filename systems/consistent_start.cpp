@@ -87,7 +87,8 @@ ConstraintLadder consistent_start(const Experiment& experiment) {
   check_finite(experiment, guess);
 
   ConstraintAlgorithm::Options options;
-  options.metric = initial.x.given.cast<double>().matrix().asDiagonal();
+  options.metric =
+      initial.x.given.cast<double>().matrix().cwiseProduct(initial.weight).asDiagonal();
   const ConstraintAlgorithm algorithm(options);
   const bool one_velocity_each = M.tangent_dimension() == M.ambient_dimension();
   const auto run = [&](const Flags& x, const Flags& velocities, const Flags& unknowns) {

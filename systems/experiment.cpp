@@ -108,6 +108,8 @@ Experiment read_experiment(std::string_view text) {
     if (time) experiment.time = read_time(*time);
     if (method && !time) object.required("time");
     if (time && !method) object.required("method");
+    experiment.examine = static_cast<long>(object.integer("examine", 0, 0));
+    const auto weights = object.optional("weights");
     const auto observe = object.optional("observe");
     const auto expect = object.optional("expect");
     const Json no_output = Json::object();
@@ -118,7 +120,7 @@ Experiment read_experiment(std::string_view text) {
     if (model) {
       experiment.model = *model;
       if (initial)
-        if (const auto values = read_initial_values(*initial, hold, *model))
+        if (const auto values = read_initial_values(*initial, hold, weights, *model))
           experiment.initial = *values;
       if (observe) experiment.observe = read_observables(*observe, *model);
       if (expect)

@@ -36,6 +36,7 @@ struct Experiment {
   std::vector<Observable> observe;
   Expectations expect;
   Output output;
+  long examine = 0;  // steps between two examinations of the ladder; 0: none
 
   double start() const { return time ? time->start : 0.0; }
 };

@@ -72,6 +72,21 @@ void read_hold(const JsonReader& name, const Model& model, InitialValues& values
   }
 }
 
+void read_weight(const std::string& key, const JsonReader& value, const Model& model,
+                 InitialValues& values) {
+  const auto weight = value.positive_number();
+  if (!weight) return;
+  try {
+    const Target target = find(parse_reference(key), model.vocabulary, values);
+    if (target.vector != &values.x)
+      value.problem("is the weight of something that is no coordinate; expected a coordinate");
+    else
+      values.weight.segment(target.first, target.count).setConstant(*weight);
+  } catch (const FormulaError& error) {
+    value.problem(error.what());
+  }
+}
+
 }  // namespace
 
 PartialVector::PartialVector(Index size)
@@ -81,15 +96,18 @@ PartialVector::PartialVector(Index size)
 
 std::optional<InitialValues> read_initial_values(const JsonReader& initial,
                                                  const std::optional<JsonReader>& hold,
+                                                 const std::optional<JsonReader>& weights,
                                                  const Model& model) {
   const Index N = model.vocabulary.coordinates.size();
   InitialValues values{PartialVector(N), PartialVector(N),
-                       PartialVector(model.vocabulary.unknowns.size())};
+                       PartialVector(model.vocabulary.unknowns.size()), VectorXd::Ones(N)};
   const auto entries = initial.entries();
   if (!entries) return std::nullopt;
   for (const auto& [key, value] : *entries) read_entry(key, value, model, values);
   if (const auto names = hold ? hold->elements() : std::nullopt)
     for (const JsonReader& name : *names) read_hold(name, model, values);
+  if (const auto entries_of_weights = weights ? weights->entries() : std::nullopt)
+    for (const auto& [key, value] : *entries_of_weights) read_weight(key, value, model, values);
   if (model.point_problem) {
     const VectorXd x =
         values.x.given.select(values.x.values, std::numeric_limits<double>::quiet_NaN());

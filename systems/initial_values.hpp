@@ -20,13 +20,16 @@ struct InitialValues {
   PartialVector x;         // N
   PartialVector velocity;  // dx/dt, N
   PartialVector z;         // m, where unknowns have names
+  VectorXd weight;  // N: coordinates that must move do so with the least Σ weight · movement²
 };
 
 // Reads `initial`, an object such as {"x": [-1, 1], "y[0]": 2, "x'": "v0/2"}: an array name takes
 // an array, values may be formulas of the parameters. `hold` is the array beside it, of names that
-// are given. The pointers of what is wrong are those of the entries.
+// are given; `weights` an object of names and positive numbers, 1 for what is not in it. The
+// pointers of what is wrong are those of the entries.
 std::optional<InitialValues> read_initial_values(const JsonReader& initial,
                                                  const std::optional<JsonReader>& hold,
+                                                 const std::optional<JsonReader>& weights,
                                                  const Model& model);
 
 }  // namespace courant

@@ -9,6 +9,7 @@
 
 #include "courant/systems/consistent_start.hpp"
 #include "courant/systems/ladder_json.hpp"
+#include "courant/systems/ladder_watch.hpp"
 #include "courant/systems/observer.hpp"
 #include "courant/systems/quantity_statistics.hpp"
 #include "courant/systems/run_folder.hpp"
@@ -131,6 +132,15 @@ class Run {
     record(stepper->state(), 0, time.steps, writer);
     const auto begin = Clock::now();
     auto shown = begin;
+    std::optional<LadderWatch> watch;
+    if (experiment_.examine > 0) watch.emplace(experiment_.model.system, ladder_);
+    const auto still_holds = [&](const State& state, long k) {
+      if (!watch || k % experiment_.examine != 0) return true;
+      const std::string finding = watch->examine(state);
+      if (!finding.empty()) fail("Stopped after step " + std::to_string(k) + ". " + finding);
+      return finding.empty();
+    };
+    still_holds(stepper->state(), 0);
     try {
       for (long k = 1; k <= time.steps; ++k) {
         if (options_.stop && options_.stop->load(std::memory_order_relaxed)) {
@@ -140,6 +150,7 @@ class Run {
         }
         stepper->step();
         record(stepper->state(), k, time.steps, writer);
+        if (!still_holds(stepper->state(), k)) break;
         if (!options_.on_progress) continue;
         if (const auto now = Clock::now();
             now - shown > std::chrono::milliseconds(100) || k == time.steps) {
@@ -148,7 +159,7 @@ class Run {
         }
       }
     } catch (const SolveError& error) {
-      fail(error.what());
+      fail(error.what() + (watch ? watch->decline() : ""));
     }
     wall_seconds_ = seconds_since(begin);
     solver_ = stepper->statistics();

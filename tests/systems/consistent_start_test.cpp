@@ -62,6 +62,38 @@ BOOST_AUTO_TEST_CASE(what_is_held_stays_and_the_others_move) {
   BOOST_TEST(ladder.point.x[1] == -std::sqrt(0.75), boost::test_tools::tolerance(1e-9));
 }
 
+// y = 4 instead of -4 chooses the other of the two points with x = 0.5.
+BOOST_AUTO_TEST_CASE(given_values_choose_the_branch) {
+  Json experiment = pendulum({{"x", 0.5}, {"y", 4}, {"v", 0}, {"w", 0}});
+  experiment["hold"] = {"x"};
+  BOOST_TEST(start(experiment).point.x[1] == std::sqrt(0.75), boost::test_tools::tolerance(1e-9));
+}
+
+// The least 100 (x - 3)² + (y + 4)² on the circle: its gradient is parallel to (x, y).
+BOOST_AUTO_TEST_CASE(weights_say_what_moving_costs) {
+  Json experiment = pendulum({{"x", 3}, {"y", -4}, {"v", 0}, {"w", 0}});
+  experiment["weights"] = {{"x", 100}};
+  const VectorXd x = start(experiment).point.x;
+  BOOST_TEST(std::abs(x[0] * x[0] + x[1] * x[1] - 1) < 1e-12);
+  BOOST_TEST(std::abs(100 * (x[0] - 3) * x[1] - (x[1] + 4) * x[0]) < 1e-5);
+  BOOST_TEST(x[0] > 0.9);
+  experiment["weights"] = {{"tension", 1}, {"x", -1}};
+  BOOST_TEST(
+      problem(experiment).find("/weights/tension: is the weight of something") != std::string::npos,
+      problem(experiment));
+  BOOST_TEST(problem(experiment).find("/weights/x: ") != std::string::npos);
+}
+
+// Three of four coordinates held: the fourth follows from the hidden constraint.
+BOOST_AUTO_TEST_CASE(several_values_are_held) {
+  Json experiment = pendulum({{"x", 0.6}, {"y", -0.8}, {"v", 0.4}, {"w", 7}});
+  experiment["hold"] = {"x", "y", "v"};
+  const ConstraintLadder ladder = start(experiment);
+  BOOST_TEST((ladder.point.x - (VectorXd(4) << 0.6, -0.8, 0.4, 0.3).finished()).norm() < 1e-9);
+  BOOST_REQUIRE_EQUAL(ladder.moves.size(), 1U);
+  BOOST_TEST(ladder.moves[0].name == "w");
+}
+
 BOOST_AUTO_TEST_CASE(what_is_held_against_the_constraints_is_an_error) {
   Json experiment = pendulum({{"x", 2}, {"y", -4}, {"v", 0}, {"w", 0}});
   experiment["hold"] = {"x", "y"};
