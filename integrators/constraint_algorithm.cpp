@@ -82,6 +82,59 @@ std::vector<Movement> movements(const ImplicitSystem& system, const InitialGuess
   return moves;
 }
 
+std::vector<LadderLevel> levels_at(const ConsistentJet& jet, double data_error) {
+  return ladder_levels(jet.array, jet.zero.y, jet.zero.reach,
+                       data_error + 10.0 * jet.zero.uncertainty);
+}
+
+// What is singular at a zero of the derivative array, as seen from one point nearby, in words;
+// empty if nothing is. Zeros of constant rank form a manifold whose tangent space is the kernel of
+// the Jacobian: a point at ε in a tangent direction has a zero within O(ε²), and the same ranks
+// there.
+std::string singularity_seen_along(const VectorXd& tangent, const TangentDisplacement& units,
+                                   const ConsistentPoint& consistent, const ConsistentJet& at,
+                                   const std::vector<LadderLevel>& levels, double data_error) {
+  const auto near = consistent.find_displaced(at, 1e-3 * tangent);
+  if (!near.jet.zero.found) return "";
+  const std::string other = difference(levels, levels_at(near.jet, data_error));
+  if (!other.empty()) return other;
+  // How far the zeros are from ε·tangent: quadratic in ε if regular, linear if not. Round-off is
+  // 10⁻⁶; a curvature of 10⁴ makes the first ratio look linear, but not the second.
+  const auto off = [&](double epsilon) {
+    const auto found = consistent.find_displaced(at, epsilon * tangent);
+    return found.jet.zero.found ? units.size(found.correction) : 0.0;
+  };
+  const double off3 = units.size(near.correction), off4 = off(1e-4);
+  if (off4 < 1e-5 || off4 < 0.03 * off3) return "";
+  const double off5 = off(1e-5);
+  const double size = units.size(tangent);
+  if (!(off5 > 1e-6 && off5 > 0.05 * off4) && !(off4 > 1e-4 * size && off5 > 5e-7 * size))
+    return "";
+  return "The equations have solutions in fewer directions than their linear parts: one of the "
+         "constraints has a vanishing gradient here.";
+}
+
+// A neighbour can be misjudged where equations are strongly curved in its direction; a singular
+// point looks singular from everywhere. So the majority of three decides.
+std::string singularity(const ConsistentPoint& consistent, const ConsistentJet& at,
+                        const std::vector<LadderLevel>& levels, double data_error) {
+  if (at.array.has_constant_jacobian()) return "";
+  TangentDisplacement tangents(at.array, at.zero.y, at.zero.reach);
+  int clean = 0;
+  std::string first;
+  for (int i = 0; i < 3 && clean < 2; ++i) {
+    const std::string finding =
+        singularity_seen_along(tangents.next(), tangents, consistent, at, levels, data_error);
+    if (finding.empty()) {
+      ++clean;
+      continue;
+    }
+    if (!first.empty()) return first;
+    first = finding;
+  }
+  return "";
+}
+
 }  // namespace
 
 ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSystem>& system,
@@ -89,55 +142,6 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
   const ConsistentPoint consistent(system, guess, options_.metric);
   ConsistentJet jet = consistent.start();
   ConstraintLadder ladder;
-  const auto error_of = [&](const ConsistentJet& at) {
-    return options_.data_error + 10.0 * at.zero.uncertainty;
-  };
-  // What is singular at a zero of the derivative array, in words; empty if nothing is. Zeros of
-  // constant rank form a manifold whose tangent space is the kernel of the Jacobian: a point at ε
-  // in a tangent direction has a zero within O(ε²), and the same ranks there.
-  const auto seen_from = [&](const std::vector<LadderLevel>& levels, const ConsistentJet& at,
-                             const TangentDisplacement& units,
-                             const VectorXd& tangent) -> std::string {
-    const auto near = consistent.find_displaced(at, 1e-3 * tangent);
-    if (!near.jet.zero.found) return "";
-    const std::string other = difference(
-        levels,
-        ladder_levels(near.jet.array, near.jet.zero.y, near.jet.zero.reach, error_of(near.jet)));
-    if (!other.empty()) return other;
-    // How far the zeros are from ε·tangent: quadratic in ε if regular, linear if not. Round-off is
-    // 10⁻⁶; a curvature of 10⁴ makes the first ratio look linear, but not the second.
-    const auto off = [&](double epsilon) {
-      const auto found = consistent.find_displaced(at, epsilon * tangent);
-      return found.jet.zero.found ? units.size(found.correction) : 0.0;
-    };
-    const double off3 = units.size(near.correction), off4 = off(1e-4);
-    if (off4 < 1e-5 || off4 < 0.03 * off3) return "";
-    const double off5 = off(1e-5);
-    const double size = units.size(tangent);
-    if (!(off5 > 1e-6 && off5 > 0.05 * off4) && !(off4 > 1e-4 * size && off5 > 5e-7 * size))
-      return "";
-    return "The equations have solutions in fewer directions than their linear parts: one of the "
-           "constraints has a vanishing gradient here.";
-  };
-  const auto singularity = [&](const std::vector<LadderLevel>& levels,
-                               const ConsistentJet& at) -> std::string {
-    if (levels.front().is_empty || at.array.has_constant_jacobian()) return "";
-    TangentDisplacement tangents(at.array, at.zero.y, at.zero.reach);
-    // A neighbour can be misjudged where equations are strongly curved in its direction; a singular
-    // point looks singular from everywhere. So the majority of three decides.
-    int clean = 0;
-    std::string first;
-    for (int i = 0; i < 3 && clean < 2; ++i) {
-      const std::string finding = seen_from(levels, at, tangents, tangents.next());
-      if (finding.empty()) {
-        ++clean;
-        continue;
-      }
-      if (!first.empty()) return first;
-      first = finding;
-    }
-    return "";
-  };
   bool stopped = false;
   std::string singular;
   for (Index k = 0; k <= options_.max_level && !stopped; ++k) {
@@ -157,8 +161,8 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
       break;
     }
     jet = next;
-    ladder.levels = ladder_levels(jet.array, jet.zero.y, jet.zero.reach, error_of(jet));
-    singular = singularity(ladder.levels, jet);
+    ladder.levels = levels_at(jet, options_.data_error);
+    singular = singularity(consistent, jet, ladder.levels, options_.data_error);
     if (!singular.empty()) break;
     stopped = repeats(ladder.levels);
   }

@@ -47,12 +47,24 @@ BOOST_AUTO_TEST_SUITE(ladder_watch_test)
 // No step hits it; the watch sees the rank fall before.
 BOOST_AUTO_TEST_CASE(a_singular_configuration_stops_the_run) {
   const TemporaryFolder folder;
-  const RunOutcome outcome = run_in(folder, linkage(0.008, 1.2, 1));
+  const RunOutcome outcome = run_in(folder, linkage(0.01, 1.0, 5));
   BOOST_TEST((outcome.status == RunStatus::failed));
-  BOOST_TEST(outcome.message.find("The ranks change") != std::string::npos, outcome.message);
-  BOOST_TEST(outcome.message.find("singular") != std::string::npos, outcome.message);
-  const double stopped = outcome.summary["time"]["end"].get<double>();
-  BOOST_TEST(stopped > 0.68);
+  BOOST_TEST(outcome.message.find("The ranks change near t = 0.71") != std::string::npos,
+             outcome.message);
+  BOOST_TEST(outcome.message.find("at level 0 fell from 0.075") != std::string::npos,
+             outcome.message);
+  BOOST_TEST(outcome.message.find("to 0.014") != std::string::npos, outcome.message);
+  BOOST_TEST(outcome.message.find("singular") != std::string::npos);
+  BOOST_TEST(outcome.summary["time"]["end"].get<double>() == 0.7,
+             boost::test_tools::tolerance(1e-12));
+}
+
+// Examined at every step it goes on until just before.
+BOOST_AUTO_TEST_CASE(closer_looks_stop_later) {
+  const TemporaryFolder folder;
+  const double stopped =
+      run_in(folder, linkage(0.008, 1.0, 1)).summary["time"]["end"].get<double>();
+  BOOST_TEST(stopped > 0.7);
   BOOST_TEST(stopped < 0.7264);
 }
 
