@@ -17,6 +17,7 @@ class Adjoint final : public DiscretizationMap {
   double domain_radius() const override { return map_->domain_radius(); }
   int order() const override { return map_->order(); }
   bool is_symmetric() const override { return map_->is_symmetric(); }
+  bool is_left_invariant() const override { return map_->is_left_invariant(); }
   std::optional<bool> is_symplectic() const override { return map_->is_symplectic(); }
 
  private:

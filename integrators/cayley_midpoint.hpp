@@ -22,6 +22,7 @@ class CayleyMidpoint final : public DiscretizationMap {
 
   int order() const override { return 2; }
   bool is_symmetric() const override { return true; }
+  bool is_left_invariant() const override { return true; }
 
  private:
   PointPair<Expr> do_forward(const ExprVector& x, const ExprVector& v) const override;

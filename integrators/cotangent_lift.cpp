@@ -56,6 +56,15 @@ CotangentLift::CotangentLift(std::shared_ptr<const CotangentBundle> phase_space,
         phase_space_->base()->name() + "; expected one on the base of the phase space.");
 }
 
+CotangentLift::Site CotangentLift::site(const ExprVector& q, const ExprVector& v,
+                                        const ExprVector& q0, const ExprVector& q1) const {
+  const auto unit = base_->is_left_invariant() ? phase_space_->base()->unit() : std::nullopt;
+  if (!unit) return {q, q0, q1};
+  const ExprVector e = constants(*unit);
+  auto [first, second] = base_->forward(e, v);
+  return {e, std::move(first), std::move(second)};
+}
+
 DiscretizationMap::TangentVector<Expr> CotangentLift::do_inverse(const ExprVector& x0,
                                                                  const ExprVector& x1) const {
   const auto [q, v] = base_->inverse(phase_space_->position(x0), phase_space_->position(x1));
@@ -79,11 +88,10 @@ DiscretizationMap::TangentVector<Expr> CotangentLift::lifted(const ExprVector& q
                                                              const ExprVector& x0,
                                                              const ExprVector& x1) const {
   const Manifold& Q = *phase_space_->base();
-  const ExprVector q0 = phase_space_->position(x0);
-  const ExprVector q1 = phase_space_->position(x1);
-  const ExprVector first = -(Q.coframe(q0).transpose() * phase_space_->momentum(x0).eval());
-  const ExprVector second = Q.coframe(q1).transpose() * phase_space_->momentum(x1).eval();
-  const PulledBack covector = pull_back_frame(*base_, q, v, first, second);
+  const Site at = site(q, v, phase_space_->position(x0), phase_space_->position(x1));
+  const ExprVector first = -(Q.coframe(at.q0).transpose() * phase_space_->momentum(x0).eval());
+  const ExprVector second = Q.coframe(at.q1).transpose() * phase_space_->momentum(x1).eval();
+  const PulledBack covector = pull_back_frame(*base_, at.q, v, first, second);
   const ExprVector momentum_rate = covector.mu - phase_space_->torsion(q, covector.p, v);
   TangentVector<Expr> result;
   result.x.resize(x0.size());
@@ -109,13 +117,14 @@ DiscretizationMap::PointPair<Expr> CotangentLift::do_forward(
   const ExprMatrix P = Q.tangent_projector(q).transpose();
   const ExprMatrix P0 = Q.tangent_projector(q0).transpose();
   const ExprMatrix P1 = Q.tangent_projector(q1).transpose();
-  const ExprMatrix C0 = Q.coframe(q0).transpose() * P0;
-  const ExprMatrix C1 = Q.coframe(q1).transpose() * P1;
+  const Site at = site(q, v, q0, q1);
+  const ExprMatrix C0 = Q.coframe(at.q0).transpose() * P0;
+  const ExprMatrix C1 = Q.coframe(at.q1).transpose() * P1;
   const ExprVector none = ExprVector::Zero(Q.ambient_dimension());
   ExprMatrix A(2 * n, 2 * n);
   for (Index j = 0; j < n; ++j) {
-    const PulledBack left = pull_back_frame(*base_, q, v, -C0.col(j), none);
-    const PulledBack right = pull_back_frame(*base_, q, v, none, C1.col(j));
+    const PulledBack left = pull_back_frame(*base_, at.q, v, -C0.col(j), none);
+    const PulledBack right = pull_back_frame(*base_, at.q, v, none, C1.col(j));
     A.col(j) << P * left.mu, left.p;
     A.col(n + j) << P * right.mu, right.p;
   }

@@ -33,6 +33,13 @@ class CotangentLift final : public DiscretizationMap {
   PointPair<Expr> do_forward(const ExprVector& x, const ExprVector& v) const override;
   TangentVector<Expr> do_inverse(const ExprVector& x0, const ExprVector& x1) const override;
   Displacement do_from_start(const ExprVector& x0, const ExprVector& w) const override;
+  // (q, q₀, q₁) with R_d(q, v) = (q₀, q₁) for the base, or on a group the same moved so that q is
+  // the unit, where formulas are short: what the pull-back is computed at.
+  struct Site {
+    ExprVector q, q0, q1;
+  };
+  Site site(const ExprVector& q, const ExprVector& v, const ExprVector& q0,
+            const ExprVector& q1) const;
   // R_d⁻¹(x₀, x₁), where that of the base is (q, v).
   TangentVector<Expr> lifted(const ExprVector& q, const ExprVector& v, const ExprVector& x0,
                              const ExprVector& x1) const;

@@ -77,6 +77,8 @@ class DiscretizationMap {
   virtual double stage_time() const { return 0.5; }
   // R⁺(v) = R⁻(-v): the method is its own adjoint.
   virtual bool is_symmetric() const = 0;
+  // On a group (Manifold::unit): R_d(g x, v) = g R_d(x, v). False where that is unknown.
+  virtual bool is_left_invariant() const { return false; }
   // On T*Q: whether R_d pulls pr₂*ω_Q - pr₁*ω_Q back to d_Tω_Q (Corollary 4.12). No value: unknown,
   // or M isn't a cotangent bundle.
   virtual std::optional<bool> is_symplectic() const { return std::nullopt; }

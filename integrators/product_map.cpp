@@ -35,6 +35,11 @@ ProductMap::ProductMap(std::shared_ptr<const Product> manifold, Factors factors)
                                   "; expected one on that factor of the manifold.");
 }
 
+bool ProductMap::is_left_invariant() const {
+  return std::ranges::all_of(factors_,
+                             [](const auto& factor) { return factor->is_left_invariant(); });
+}
+
 double ProductMap::domain_radius() const {
   double radius = std::numeric_limits<double>::infinity();
   for (const auto& factor : factors_) radius = std::min(radius, factor->domain_radius());

@@ -21,6 +21,7 @@ class ProductMap final : public DiscretizationMap {
   bool has_inverse() const override;
   int order() const override;
   bool is_symmetric() const override;
+  bool is_left_invariant() const override;
 
  private:
   PointPair<Expr> do_forward(const ExprVector& x, const ExprVector& v) const override;

@@ -21,6 +21,7 @@ class Theta final : public DiscretizationMap {
   int order() const override { return theta_ == 0.5 ? 2 : 1; }
   double stage_time() const override { return theta_; }
   bool is_symmetric() const override { return theta_ == 0.5; }
+  bool is_left_invariant() const override { return manifold()->unit().has_value(); }
 
  private:
   PointPair<Expr> do_forward(const ExprVector& x, const ExprVector& v) const override;

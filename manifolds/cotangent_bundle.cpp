@@ -24,7 +24,8 @@ ExprVector CotangentBundle::torsion(const ExprVector& q, const ExprVector& p,
   ExprVector from(at.size() + 2 * size);
   from << at, momentum, velocity;
   ExprVector to(from.size());
-  to << q, p, v;
+  const auto unit = Q.unit();  // where the torsion is the same everywhere
+  to << (unit ? constants(*unit) : q), p, v;
   return substitute(result, from, to);
 }
 

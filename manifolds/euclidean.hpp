@@ -17,6 +17,7 @@ class Euclidean final : public Manifold {
   ExprVector do_inverse_retract(const ExprVector& x, const ExprVector& y) const override {
     return y - x;
   }
+  std::optional<VectorXd> do_unit() const override { return VectorXd::Zero(dimension()); }
   ExprVector do_velocity_along(const ExprVector&, const ExprVector& v, const Expr&) const override {
     return v;
   }

@@ -30,6 +30,7 @@ class ManifoldLaws {
             derivatives_of_retraction(),
             derivatives_of_inverse(),
             geodesics(),
+            left_invariance(),
             points_and_vectors()};
   }
 
@@ -255,6 +256,28 @@ class ManifoldLaws {
             },
             describe(s, v));
     });
+    return measured.result();
+  }
+
+  LawResult left_invariance() const {
+    const auto unit = M_.unit();
+    if (!unit) {
+      auto measured = law("M9 unit() is not claimed", 0.0);
+      measured.add(0.0, "");
+      return measured.result();
+    }
+    auto measured = law("M9 R⁻¹(R(x, v), R(x, w)) is the same at x and at unit()", 1e-10);
+    for (const LawSample& s : samples_)
+      for (const double length : {1e-4, 0.3 * std::min(1.0, s.radius)})
+        measured.add(
+            [&] {
+              const VectorXd v = length * s.w, w = 0.5 * length * s.u;
+              const auto seen = [&](const VectorXd& x) {
+                return M_.inverse_retract(M_.retract(x, v), M_.retract(x, w));
+              };
+              return M_.point_defect(*unit) + relative(seen(s.x) - seen(*unit), seen(s.x));
+            },
+            describe("x", s.x));
     return measured.result();
   }
 

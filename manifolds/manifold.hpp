@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <random>
 #include <string>
 
@@ -27,6 +28,7 @@ namespace courant {
 //   injectivity_radius(x) M4  inverse_retract(x, retract(x, v)) = v, retract(x, inverse_retract(x,
 //   y)) = y   within the injectivity radius M5  C E C = C and E C E = E on M, rank n;  E(x) R^Ñ =
 //   ker d constraint(x) M6  every map is smooth at and near v = 0: derivatives are finite and right
+//   M9  inverse_retract(R(x, v), R(x, w)) is the same at every x   where unit() claims a group
 //
 // Every formula is written once, on Expr; given numbers, the same functions return numbers
 // (constants fold). Reference: Absil, Mahony, Sepulchre, Optimization Algorithms on Matrix
@@ -93,6 +95,11 @@ class Manifold {
   // w ∈ T_mM (exponential maps). A claim that check_manifold measures.
   virtual bool is_geodesic() const { return false; }
 
+  // The unit element, where M is a Lie group with left-trivialised vectors and a left-invariant
+  // retraction: then formulas in vectors and covectors (torsion, lifts) are the same at every point
+  // as there. Empty by default, which is always right; a claim that check_manifold measures (M9).
+  std::optional<VectorXd> unit() const { return do_unit(); }
+
   // C(y) dy/ds of the curve y = R_x(s v), as a tangent vector at y; on expressions.
   ExprVector velocity_along(const ExprVector& x, const ExprVector& v, const Expr& s) const;
 
@@ -132,6 +139,7 @@ class Manifold {
   // May override:
   virtual ExprVector do_inverse_retract(const ExprVector& x,
                                         const ExprVector& y) const;  // or has_inverse() → false
+  virtual std::optional<VectorXd> do_unit() const { return std::nullopt; }
   // Where there is a shorter formula than the one by differentiation:
   virtual ExprVector do_velocity_along(const ExprVector& x, const ExprVector& v,
                                        const Expr& s) const {

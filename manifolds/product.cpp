@@ -67,6 +67,16 @@ ExprVector Product::do_inverse_retract(const ExprVector& x, const ExprVector& y)
   return v;
 }
 
+std::optional<VectorXd> Product::do_unit() const {
+  VectorXd result(ambient_dimension());
+  for (std::size_t i = 0; i < factors_.size(); ++i) {
+    const auto unit = factors_[i]->unit();
+    if (!unit) return std::nullopt;
+    point_part(result, i) = *unit;
+  }
+  return result;
+}
+
 ExprMatrix Product::do_frame(const ExprVector& x) const {
   ExprMatrix result = ExprMatrix::Zero(ambient_dimension(), tangent_dimension());
   for (std::size_t i = 0; i < factors_.size(); ++i) {

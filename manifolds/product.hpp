@@ -32,6 +32,7 @@ class Product final : public Manifold {
  private:
   ExprVector do_retract(const ExprVector& x, const ExprVector& v) const override;
   ExprVector do_inverse_retract(const ExprVector& x, const ExprVector& y) const override;
+  std::optional<VectorXd> do_unit() const override;
   ExprMatrix do_frame(const ExprVector& x) const override;
   ExprMatrix do_coframe(const ExprVector& x) const override;
   ExprVector do_constraint(const ExprVector& x) const override;

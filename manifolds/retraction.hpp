@@ -16,7 +16,8 @@ struct Retraction {
   std::function<ExprVector(const ExprVector& x, const ExprVector& v)> map;      // y = R_x(v)
   std::function<ExprVector(const ExprVector& x, const ExprVector& y)> inverse;  // v = R_x⁻¹(y)
   double injectivity_radius = std::numeric_limits<double>::infinity();
-  bool is_geodesic = false;  // as Manifold::is_geodesic
+  bool is_geodesic = false;        // as Manifold::is_geodesic
+  bool is_left_invariant = false;  // on a group: g R_x(v) = R_{gx}(v)
   // Manifold::velocity_along, or empty: by differentiation.
   std::function<ExprVector(const ExprVector& x, const ExprVector& v, const Expr& s)> velocity = {};
 };

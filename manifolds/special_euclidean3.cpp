@@ -59,6 +59,7 @@ Retraction SpecialEuclidean3::exponential() {
               },
           .injectivity_radius = std::numbers::pi,
           .is_geodesic = true,
+          .is_left_invariant = true,
           .velocity = [](const ExprVector&, const ExprVector& v, const Expr&) { return v; }};
 }
 
@@ -76,7 +77,8 @@ Retraction SpecialEuclidean3::cayley() {
                 const ExprVector w = rotation_inverse_cayley(rotation_quotient(x, y));
                 const ExprVector r = translation_quotient(x, y);
                 return joined(w, r - Expr(0.5) * (hat(w) * r));
-              }};
+              },
+          .is_left_invariant = true};
 }
 
 ExprVector SpecialEuclidean3::do_retract(const ExprVector& x, const ExprVector& v) const {
@@ -85,6 +87,13 @@ ExprVector SpecialEuclidean3::do_retract(const ExprVector& x, const ExprVector& 
 
 ExprVector SpecialEuclidean3::do_inverse_retract(const ExprVector& x, const ExprVector& y) const {
   return retraction_.inverse(x, y);
+}
+
+std::optional<VectorXd> SpecialEuclidean3::do_unit() const {
+  if (!retraction_.is_left_invariant) return std::nullopt;
+  VectorXd unit = VectorXd::Zero(ambient_dimension());
+  unit[0] = unit[4] = unit[8] = 1.0;
+  return unit;
 }
 
 ExprVector SpecialEuclidean3::do_velocity_along(const ExprVector& x, const ExprVector& v,

@@ -30,6 +30,7 @@ class SpecialEuclidean3 final : public Manifold {
  private:
   ExprVector do_retract(const ExprVector& x, const ExprVector& v) const override;
   ExprVector do_inverse_retract(const ExprVector& x, const ExprVector& y) const override;
+  std::optional<VectorXd> do_unit() const override;
   ExprVector do_velocity_along(const ExprVector& x, const ExprVector& v,
                                const Expr& s) const override;
   ExprMatrix do_frame(const ExprVector& x) const override;

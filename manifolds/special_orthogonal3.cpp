@@ -30,6 +30,7 @@ Retraction SpecialOrthogonal3::exponential() {
                     const ExprVector& y) { return rotation_logarithm(quotient(x, y)); },
       .injectivity_radius = std::numbers::pi,
       .is_geodesic = true,
+      .is_left_invariant = true,
       .velocity = [](const ExprVector&, const ExprVector& v, const Expr&) { return v; }};
 }
 
@@ -38,7 +39,8 @@ Retraction SpecialOrthogonal3::cayley() {
           .map = [](const ExprVector& x,
                     const ExprVector& v) { return vector_of(rotation(x) * rotation_cayley(v)); },
           .inverse = [](const ExprVector& x,
-                        const ExprVector& y) { return rotation_inverse_cayley(quotient(x, y)); }};
+                        const ExprVector& y) { return rotation_inverse_cayley(quotient(x, y)); },
+          .is_left_invariant = true};
 }
 
 ExprVector SpecialOrthogonal3::do_retract(const ExprVector& x, const ExprVector& v) const {
@@ -47,6 +49,13 @@ ExprVector SpecialOrthogonal3::do_retract(const ExprVector& x, const ExprVector&
 
 ExprVector SpecialOrthogonal3::do_inverse_retract(const ExprVector& x, const ExprVector& y) const {
   return retraction_.inverse(x, y);
+}
+
+std::optional<VectorXd> SpecialOrthogonal3::do_unit() const {
+  if (!retraction_.is_left_invariant) return std::nullopt;
+  VectorXd unit = VectorXd::Zero(ambient_dimension());
+  unit[0] = unit[4] = unit[8] = 1.0;
+  return unit;
 }
 
 ExprVector SpecialOrthogonal3::do_velocity_along(const ExprVector& x, const ExprVector& v,

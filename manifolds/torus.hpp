@@ -19,6 +19,7 @@ class Torus final : public Manifold {
  private:
   ExprVector do_retract(const ExprVector& x, const ExprVector& v) const override { return x + v; }
   ExprVector do_inverse_retract(const ExprVector& x, const ExprVector& y) const override;
+  std::optional<VectorXd> do_unit() const override { return VectorXd::Zero(dimension()); }
   ExprVector do_velocity_along(const ExprVector&, const ExprVector& v, const Expr&) const override {
     return v;
   }

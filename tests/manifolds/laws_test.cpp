@@ -222,4 +222,35 @@ BOOST_AUTO_TEST_CASE(m8_a_projection_that_moves_points_of_the_manifold) {
   BOOST_TEST(fails(parts, "M8"));
 }
 
+// R² with its addition, but a retraction that depends on where it starts.
+BOOST_AUTO_TEST_CASE(m9_a_group_whose_retraction_is_not_invariant) {
+  class Sheared final : public Manifold {
+   public:
+    explicit Sheared(double amount) : Manifold("Sheared", 2, 2, 2), amount_(amount) {}
+
+   private:
+    ExprVector do_retract(const ExprVector& x, const ExprVector& v) const override {
+      ExprVector y = x + v;
+      y[1] += amount_ * x[0] * square(v[0]);
+      return y;
+    }
+    ExprVector do_inverse_retract(const ExprVector& x, const ExprVector& y) const override {
+      ExprVector v = y - x;
+      v[1] -= amount_ * x[0] * square(v[0]);
+      return v;
+    }
+    ExprMatrix do_frame(const ExprVector&) const override { return ExprMatrix::Identity(2, 2); }
+    ExprMatrix do_coframe(const ExprVector&) const override { return ExprMatrix::Identity(2, 2); }
+    std::optional<VectorXd> do_unit() const override { return VectorXd::Zero(2); }
+    double amount_;
+  };
+  BOOST_TEST(all_passed(check_manifold(Sheared(0.0))));
+  int broken = 0;
+  for (const LawResult& result : check_manifold(Sheared(0.1))) {
+    if (!result.passed()) ++broken;
+    BOOST_TEST(result.passed() == !result.law.starts_with("M9"), result);
+  }
+  BOOST_TEST(broken == 1);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,64 @@
+#include "courant/integrators/moving_basis.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include "courant/manifolds/cotangent_bundle.hpp"
+#include "courant/manifolds/hyperbolic.hpp"
+#include "courant/manifolds/special_orthogonal3.hpp"
+#include "courant/manifolds/sphere.hpp"
+
+using namespace courant;
+
+namespace {
+
+MovingBasis basis_at(const Manifold& M, const VectorXd& x) {
+  return MovingBasis(M, MovingBasis::projection(M, Backend::interpreter), x);
+}
+
+// How far B is from an orthonormal basis of T_xM.
+double defect(const Manifold& M, const VectorXd& x, const MatrixXd& B) {
+  const MatrixXd one = MatrixXd::Identity(M.dimension(), M.dimension());
+  return (B.transpose() * B - one).norm() + (M.tangent_projector(x) * B - B).norm();
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(moving_basis)
+
+// Along a curve it stays an orthonormal basis, and turns by no more than the tangent space does.
+BOOST_AUTO_TEST_CASE(follows_a_curve) {
+  std::mt19937 generator(4);
+  const std::vector<std::shared_ptr<const Manifold>> manifolds = {
+      std::make_shared<Sphere>(2), std::make_shared<CotangentBundle>(std::make_shared<Sphere>(2)),
+      std::make_shared<CotangentBundle>(std::make_shared<Hyperbolic>(2))};
+  for (const auto& M : manifolds) {
+    VectorXd x = M->random_point(generator);
+    MovingBasis basis = basis_at(*M, x);
+    const double length = 0.02 * std::min(1.0, M->injectivity_radius(x));
+    for (int k = 0; k < 20; ++k) {
+      const MatrixXd before = basis.matrix();
+      x = M->retract(x, M->random_tangent(x, length, generator));
+      basis.move_to(x);
+      BOOST_TEST(defect(*M, x, basis.matrix()) < 1e-12, M->name());
+      BOOST_TEST((basis.matrix() - before).norm() < 0.5, M->name());
+    }
+  }
+}
+
+// Too far for the projection of the last basis: a fresh one.
+BOOST_AUTO_TEST_CASE(jumps) {
+  const Sphere sphere(2);
+  MovingBasis basis = basis_at(sphere, Eigen::Vector3d::UnitZ());
+  basis.move_to(Eigen::Vector3d::UnitX());
+  BOOST_TEST(defect(sphere, Eigen::Vector3d::UnitX(), basis.matrix()) < 1e-14);
+}
+
+BOOST_AUTO_TEST_CASE(is_the_identity_on_a_group) {
+  const SpecialOrthogonal3 rotations;
+  std::mt19937 generator(1);
+  MovingBasis basis = basis_at(rotations, rotations.random_point(generator));
+  basis.move_to(rotations.random_point(generator));
+  BOOST_TEST((basis.matrix() - MatrixXd::Identity(3, 3)).norm() == 0.0);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
