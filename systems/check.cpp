@@ -36,13 +36,18 @@ Json rows(const MatrixXd& matrix) {
   return json;
 }
 
-// "S1 dim D = n" is law S1, statement dim D = n.
+// "S1 dim D = n" is law S1, statement dim D = n. Of retractions M1 and M2 are (R1) and (R2) of
+// Definition 4.1, and have these names.
+std::string law_name(const std::string& name) {
+  return name == "M1" ? "R1" : name == "M2" ? "R2" : name;
+}
+
 void add_laws(Json& checks, const char* subject, const std::vector<LawResult>& results) {
   for (const LawResult& result : results) {
     const auto space = result.law.find(' ');
     checks.push_back({{"subject", subject},
                       {"name", result.subject},
-                      {"law", result.law.substr(0, space)},
+                      {"law", law_name(result.law.substr(0, space))},
                       {"statement", space == std::string::npos ? "" : result.law.substr(space + 1)},
                       {"passed", result.passed()},
                       {"defect", number(result.defect)},

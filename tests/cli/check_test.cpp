@@ -49,6 +49,9 @@ BOOST_AUTO_TEST_CASE(the_json_has_the_names_of_the_contract) {
     BOOST_TEST(report.at("structure").contains(key), key);
   for (const char* key : {"order", "symmetric", "symplectic", "symplecticity_defect"})
     BOOST_TEST(report.at("method").contains(key), key);
+  BOOST_TEST(report.at("checks").at(0).at("subject") == "manifold");
+  BOOST_TEST(law(report, "R1").at("passed") == true);
+  BOOST_TEST(law(report, "R2").at("passed") == true);
   const Json omega = report.at("structure").at("pair").at("omega");
   BOOST_TEST(omega.size() == 2U);
   BOOST_TEST(std::abs(std::abs(omega.at(0).at(1).get<double>()) - 1.0) < 1e-12);
