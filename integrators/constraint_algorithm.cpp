@@ -93,11 +93,14 @@ std::vector<LadderLevel> levels_at(const ConsistentJet& jet, double data_error) 
 // there.
 std::string singularity_seen_along(const VectorXd& tangent, const TangentDisplacement& units,
                                    const ConsistentPoint& consistent, const ConsistentJet& at,
-                                   const std::vector<LadderLevel>& levels, double data_error) {
+                                   const std::vector<LadderLevel>& levels, double data_error,
+                                   bool follow) {
   const auto near = consistent.find_displaced(at, 1e-3 * tangent);
   if (!near.jet.zero.found) return "";
   const std::string other = difference(levels, levels_at(near.jet, data_error));
   if (!other.empty()) return other;
+  // Sparse factors know the kernel to five digits only: too few for what follows.
+  if (!follow || tangent.size() > 200) return "";
   // How far the zeros are from ε·tangent: quadratic in ε if regular, linear if not. Round-off is
   // 10⁻⁶; a curvature of 10⁴ makes the first ratio look linear, but not the second.
   const auto off = [&](double epsilon) {
@@ -115,16 +118,17 @@ std::string singularity_seen_along(const VectorXd& tangent, const TangentDisplac
 }
 
 // A neighbour can be misjudged where equations are strongly curved in its direction; a singular
-// point looks singular from everywhere. So the majority of three decides.
+// point looks singular from everywhere. So the majority of three decides. Ranks are compared; with
+// `follow`, zeros are followed too.
 std::string singularity(const ConsistentPoint& consistent, const ConsistentJet& at,
-                        const std::vector<LadderLevel>& levels, double data_error) {
+                        const std::vector<LadderLevel>& levels, double data_error, bool follow) {
   if (at.array.has_constant_jacobian()) return "";
   TangentDisplacement tangents(at.array, at.zero.y, at.zero.reach);
   int clean = 0;
   std::string first;
   for (int i = 0; i < 3 && clean < 2; ++i) {
-    const std::string finding =
-        singularity_seen_along(tangents.next(), tangents, consistent, at, levels, data_error);
+    const std::string finding = singularity_seen_along(tangents.next(), tangents, consistent, at,
+                                                       levels, data_error, follow);
     if (finding.empty()) {
       ++clean;
       continue;
@@ -162,9 +166,9 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
     }
     jet = next;
     ladder.levels = levels_at(jet, options_.data_error);
-    singular = singularity(consistent, jet, ladder.levels, options_.data_error);
-    if (!singular.empty()) break;
     stopped = repeats(ladder.levels);
+    singular = singularity(consistent, jet, ladder.levels, options_.data_error, stopped);
+    if (!singular.empty()) break;
   }
   ladder.point = jet.array.state(jet.zero.y);
   ladder.jet = jet.zero.y;
