@@ -32,6 +32,7 @@ Newton::Newton(Function function, std::vector<Index> groups, const Options& opti
   inverse_.resize(size, function_.output_size());
   all_.resize(function_.output_size() + function_.nonzeros());
   step_.resize(size);
+  magnitude_.resize(function_.output_size());
 }
 
 bool Newton::factorize(const double* const* in) {
@@ -82,6 +83,26 @@ double Newton::change(const double* y, const double* scales) const {
   return result;
 }
 
+// Whether every residual is round-off: of the terms J_ij y_j, where an unknown that is an increment
+// belongs to a sum of the size of its block's scale.
+bool Newton::is_rounded(const double* y, const double* scales) {
+  magnitude_.setZero();
+  const Index rows = magnitude_.size();
+  const auto row = function_.pattern_row();
+  const auto column = function_.pattern_col();
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    std::size_t g = 0;
+    for (Index end = groups_[0]; column[k] >= end; end += groups_[++g]) {
+    }
+    const double size = std::max(std::fabs(y[column[k]]), std::min(scales[g], scales[0]));
+    magnitude_[row[k]] += std::fabs(all_[rows + static_cast<Index>(k)]) * size;
+  }
+  constexpr double few = 16.0 * std::numeric_limits<double>::epsilon();
+  for (Index i = 0; i < rows; ++i)
+    if (!(std::fabs(all_[i]) <= few * magnitude_[i])) return false;
+  return true;
+}
+
 Newton::Result Newton::solve(double* y, const double* const* in, const double* scales) {
   Result result;
   Eigen::Map<VectorXd> unknown(y, step_.size());
@@ -121,14 +142,14 @@ Newton::Result Newton::solve(double* y, const double* const* in, const double* s
         return result;
       }
       const bool slow = contraction > options_.slow && moved > 1e3 * options_.tolerance;
-      if (slow && (!fresh || (contraction > 0.5 && moved > kRoundOff))) {
+      if (slow && (!fresh || (contraction > 0.5 && moved > kRoundOff && !is_rounded(y, scales)))) {
         if (!refactorize()) {
           result.status = Status::singular;
           return result;
         }
         continue;
       }
-      if (contraction > 0.5 && moved <= kRoundOff) {
+      if (contraction > 0.5 && (moved <= kRoundOff || is_rounded(y, scales))) {
         result.status = Status::converged;
         return result;
       }

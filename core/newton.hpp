@@ -15,8 +15,9 @@ namespace courant {
 // unknowns) of an earlier Jacobian, kept as long as it contracts well. Convergence is relative to
 // the scale of the unknowns: the error left is estimated from the last change and the contraction,
 // and iterates that only move by round-off are accepted too (an absolute test goes on for ever once
-// the state is large). Holds workspace: one object a trajectory, not shared between threads. No
-// allocation after the first solve.
+// the state is large), as are those whose residual is round-off of its terms: near a singular point
+// unknowns can move far for that. Holds workspace: one object a trajectory, not shared between
+// threads. No allocation after the first solve.
 class Newton {
  public:
   struct Options {
@@ -52,6 +53,7 @@ class Newton {
  private:
   bool factorize(const double* const* in);
   double change(const double* y, const double* scales) const;
+  bool is_rounded(const double* y, const double* scales);
 
   Function function_;
   std::vector<Index> groups_;
@@ -60,6 +62,7 @@ class Newton {
   MatrixXd inverse_;  // A, n × r
   VectorXd all_;      // F and the entries of its Jacobian
   VectorXd step_;
+  VectorXd magnitude_;  // of the terms that each equation is a sum of
 };
 
 }  // namespace courant

@@ -1,5 +1,6 @@
 #include "courant/integrators/constraint_algorithm.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "courant/integrators/consistent_point.hpp"
@@ -139,6 +140,22 @@ std::string singularity(const ConsistentPoint& consistent, const ConsistentJet& 
   return "";
 }
 
+// Counts what other points of the final constraint set need as well: a multiplier that is zero at
+// this point, as x₁ of a rod in the plane x₁ = 0, is not along a motion that leaves it.
+void count_differentiations_nearby(ConstraintLadder& ladder, const ConsistentPoint& consistent,
+                                   const ConsistentJet& at) {
+  if (at.array.has_constant_jacobian()) return;
+  TangentDisplacement tangents(at.array, at.zero.y, at.zero.reach);
+  for (int i = 0; i < 2; ++i) {
+    const auto near = consistent.find_displaced(at, 1e-2 * tangents.next());
+    if (!near.jet.zero.found) continue;
+    const std::vector<int> counts =
+        needed_differentiations(near.jet.array, near.jet.zero.y, near.jet.zero.reach, ladder.index);
+    for (std::size_t e = 0; e < counts.size(); ++e)
+      ladder.differentiations[e] = std::max(ladder.differentiations[e], counts[e]);
+  }
+}
+
 }  // namespace
 
 ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSystem>& system,
@@ -192,6 +209,7 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
   ladder.index = last.k - 1;
   ladder.verdict = ladder.gauge_dimension == 0 ? Verdict::regular : Verdict::gauge;
   describe(ladder, jet.array, jet.zero.y, jet.zero.reach);
+  count_differentiations_nearby(ladder, consistent, jet);
   return ladder;
 }
 

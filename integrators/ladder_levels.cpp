@@ -41,6 +41,35 @@ Combination combination(const SparseEntries& multipliers, const VectorXd& row_sc
   return result;
 }
 
+enum Group : Index { higher = 0, auxiliary = 1, velocity = 2, position = 3 };
+
+// The Jacobian at y, reduced: jets first, the point last.
+RowReduction reduced(const DerivativeArray& array, const VectorXd& y, const GenericScaling& units) {
+  const Index n = array.base_size(), m = array.auxiliary_size(), r = array.equation_count();
+  std::vector<Index> row_level, column_group;
+  for (Index i = 0; i < array.row_count(array.level_of(y)); ++i) row_level.push_back(i / r);
+  for (Index j = 0; j < y.size(); ++j)
+    column_group.push_back(j < n           ? position
+                           : j < 2 * n     ? velocity
+                           : j < 2 * n + m ? auxiliary
+                                           : higher);
+  return RowReduction(units.scaled, row_level, column_group);
+}
+
+std::vector<int> needed_differentiations(const RowReduction& reduction, Index equation_count,
+                                         Index index) {
+  std::vector<int> result(static_cast<std::size_t>(equation_count), 0);
+  for (const Group g : {velocity, position})
+    for (const RowReduction::Row& row : reduction.group(g)) {
+      if (row.level > index) continue;
+      for (const auto& [i, value] : row.multipliers) {
+        int& count = result[static_cast<std::size_t>(i % equation_count)];
+        count = std::max(count, static_cast<int>(i / equation_count));
+      }
+    }
+  return result;
+}
+
 }  // namespace
 
 std::vector<LadderLevel> ladder_levels(const Prolongation& array, const VectorXd& y,
@@ -67,30 +96,20 @@ std::vector<LadderLevel> ladder_levels(const Prolongation& array, const VectorXd
   return levels;
 }
 
+std::vector<int> needed_differentiations(const DerivativeArray& array, const VectorXd& y,
+                                         const VectorXd& reach, Index index) {
+  const GenericScaling units(array, y, reach);
+  return needed_differentiations(reduced(array, y, units), array.equation_count(), index);
+}
+
 void describe(ConstraintLadder& ladder, const DerivativeArray& array, const VectorXd& y,
               const VectorXd& reach) {
-  enum Group : Index { higher = 0, auxiliary = 1, velocity = 2, position = 3 };
   const Index n = array.base_size(), m = array.auxiliary_size(), r = array.equation_count();
-  std::vector<Index> row_level, column_group;
-  for (Index i = 0; i < array.row_count(array.level_of(y)); ++i) row_level.push_back(i / r);
-  for (Index j = 0; j < y.size(); ++j)
-    column_group.push_back(j < n           ? position
-                           : j < 2 * n     ? velocity
-                           : j < 2 * n + m ? auxiliary
-                                           : higher);
   const GenericScaling units(array, y, reach);
-  const RowReduction reduction(units.scaled, row_level, column_group);
+  const RowReduction reduction = reduced(array, y, units);
   const MatrixXd& basis = array.basis();
 
-  ladder.differentiations.assign(static_cast<std::size_t>(r), 0);
-  for (const Group g : {velocity, position})
-    for (const RowReduction::Row& row : reduction.group(g)) {
-      if (row.level > ladder.index) continue;
-      for (const auto& [i, value] : row.multipliers) {
-        int& count = ladder.differentiations[static_cast<std::size_t>(i % r)];
-        count = std::max(count, static_cast<int>(i / r));
-      }
-    }
+  ladder.differentiations = needed_differentiations(reduction, r, ladder.index);
 
   for (const RowReduction::Row& row : reduction.group(position)) {
     double factor = 1.0;

@@ -15,10 +15,16 @@ namespace courant {
 std::vector<LadderLevel> ladder_levels(const Prolongation& array, const VectorXd& y,
                                        const VectorXd& reach, double data_error);
 
+// How often each equation is differentiated for what the levels up to `index` say about point and
+// velocity, by the left null vectors of the Jacobian at y. An equation whose multiplier happens to
+// vanish at y is not counted: look at more than one point.
+class DerivativeArray;
+std::vector<int> needed_differentiations(const DerivativeArray& array, const VectorXd& y,
+                                         const VectorXd& reach, Index index);
+
 // Fills in what row reduction of the Jacobian tells: constraints, differentiations, redundancies,
 // gauge directions and determined auxiliary unknowns. `ladder` has its levels and index; y is of
 // the last level.
-class DerivativeArray;
 void describe(ConstraintLadder& ladder, const DerivativeArray& array, const VectorXd& y,
               const VectorXd& reach);
 
