@@ -57,6 +57,20 @@ ExprMatrix ImplicitSubmanifold::projector(const ExprVector& x) const {
   return surrounding_->tangent_projector(x) - W * coefficients;
 }
 
+ExprVector ImplicitSubmanifold::projection(const ExprVector& y) const {
+  if (y.size() != ambient_dimension())
+    throw std::invalid_argument(name() + "::projection: y has " + std::to_string(y.size()) +
+                                " entries, expected " + std::to_string(ambient_dimension()) + ".");
+  Graph graph;
+  const ExprVector at = graph.variables("y", ambient_dimension());
+  const auto [A, W] = normal(at);
+  const ExprVector lambda = solve(A * W, equations_(at));
+  const ExprVector improved = surrounding_->retract(at, ExprVector(-(W * lambda)));
+  ExprVector result = y;
+  for (int step = 0; step < kNewtonSteps; ++step) result = substitute(improved, at, result);
+  return result;
+}
+
 ExprVector ImplicitSubmanifold::do_retract(const ExprVector& x, const ExprVector& v) const {
   Graph graph;
   const ExprVector at = graph.variables("x", ambient_dimension());

@@ -22,6 +22,10 @@ namespace courant {
 // at most half that of M: an estimate from one point, right where the curvature does not grow much
 // over that distance. Beyond, the result may be off S (point_defect tells) or not a number.
 //
+// projection(y) is P: M → S on expressions, near S: six Gauss–Newton steps
+//   y ↦ R^M_y(-W (A W)⁻¹ c(y)).  P(x) = x and T P = Π on S,
+// and at a distance of a fraction ε of the radius of curvature the result is off S by about ε^64.
+//
 // Reference: Absil, Malick, Projection-like retractions on matrix manifolds (2012).
 class ImplicitSubmanifold final : public Manifold {
  public:
@@ -32,6 +36,7 @@ class ImplicitSubmanifold final : public Manifold {
                       Equations equations, Index count);
 
   const std::shared_ptr<const Manifold>& surrounding() const { return surrounding_; }  // M
+  ExprVector projection(const ExprVector& y) const;  // N ↦ N; std::invalid_argument on other sizes
   bool has_inverse() const override { return surrounding_->has_inverse(); }
 
  private:

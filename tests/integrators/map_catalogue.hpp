@@ -10,6 +10,7 @@
 #include "courant/integrators/chordal.hpp"
 #include "courant/integrators/cotangent_lift.hpp"
 #include "courant/integrators/product_map.hpp"
+#include "courant/integrators/projected.hpp"
 #include "courant/integrators/spherical_midpoint.hpp"
 #include "courant/integrators/theta.hpp"
 
@@ -19,6 +20,12 @@ using MapPointer = std::shared_ptr<const DiscretizationMap>;
 
 inline std::shared_ptr<const CotangentLift> lift(const MapPointer& map) {
   return make<CotangentLift>(make<CotangentBundle>(map->manifold()), map);
+}
+
+// S: an ImplicitSubmanifold.
+inline MapPointer projected(const ManifoldPointer& S, double theta) {
+  const auto submanifold = std::dynamic_pointer_cast<const ImplicitSubmanifold>(S);
+  return make<Projected>(submanifold, make<Theta>(submanifold->surrounding(), theta));
 }
 
 // Maps of manifolds that are not cotangent bundles, in dimension 0, 1 and more: explicit, implicit
@@ -65,6 +72,9 @@ inline std::vector<MapPointer> base_map_catalogue() {
           make<CayleyMidpoint>(rotations),
           make<CayleyMidpoint>(cayley),
           make<CayleyMidpoint>(motions),
+          projected(ellipsoid(), 0.5),
+          projected(ellipsoid(), 0.3),
+          projected(spherical_circle(), 0.5),
           make<Adjoint>(make<Theta>(rotations, 0.2)),
           make<Adjoint>(make<Chordal>(sphere)),
           make<ProductMap>(pair, std::vector<MapPointer>{make<Chordal>(sphere),
