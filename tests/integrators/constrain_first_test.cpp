@@ -100,6 +100,30 @@ BOOST_AUTO_TEST_CASE(proposition_6_3_nonlinear_alpha_is_not) {
   BOOST_TEST(std::log2(coarse / fine) == 3.0, boost::test_tools::tolerance(0.1));
 }
 
+// Linear up to a differential is enough: (14) contains α through dα alone.
+BOOST_AUTO_TEST_CASE(proposition_6_3_an_exact_part_of_alpha_changes_nothing) {
+  // φ = Σ q_i³/30 + q_0 q_5²/10
+  const Degenerate linear = lagrangian_form();
+  const Degenerate curved(
+      8,
+      [](const ExprVector& q) {
+        ExprVector result = alpha(q) + Expr(0.1) * q.cwiseProduct(q);
+        result[0] += 0.1 * square(q[5]);
+        result[5] += 0.2 * q[0] * q[5];
+        return result;
+      },
+      hamiltonian);
+  const auto end = [](const Degenerate& problem) {
+    const auto method =
+        problem.method_2(positions(), std::make_shared<MomentumProjector>(problem.phase_space));
+    return one_step(*method, problem.over(positions()), 1.0);
+  };
+  const VectorXd a = end(linear), b = end(curved);
+  BOOST_TEST((a - b).head(8).norm() < 1e-13);
+  BOOST_TEST((a - b).tail(8).norm() > 0.1);  // while p = α(q) differs
+  BOOST_TEST(preservation_defect(curved, positions(), 1.0) < 1e-10);
+}
+
 BOOST_AUTO_TEST_CASE(remark_6_4_theta_other_than_one_half_breaks_it) {
   BOOST_TEST(preservation_defect(lagrangian_form(), positions(), 1.0, 0.4) > 1e-4);
 }

@@ -46,6 +46,56 @@ BOOST_AUTO_TEST_CASE(equation_12_of_the_regular_form_is_the_midpoint_rule) {
   BOOST_TEST((q1 - q0 - velocity(0.5 * (q0 + q1))).lpNorm<Eigen::Infinity>() < 1e-15);
 }
 
+// The midpoint integrator of a regular Lagrangian: (p₀ + p₁)/2 = ∂L/∂q̇ and p₁ - p₀ = h ∂L/∂q at
+// ((q₀ + q₁)/2, (q₁ - q₀)/h), and not as printed.
+BOOST_AUTO_TEST_CASE(section_5_1_1_the_midpoint_integrator_of_a_lagrangian) {
+  // L = (1.3 u² + 0.6 w²)/2 + 0.4 x² w - cos(x) y
+  const auto M = std::make_shared<CotangentBundle>(std::make_shared<Euclidean>(2));
+  const auto system = std::make_shared<DiracSystem>(
+      std::make_shared<CanonicalSymplectic>(M),
+      std::make_shared<Lagrangian>(M, [](const ExprVector& q, const ExprVector& w, const Expr&) {
+        return 0.65 * square(w[0]) + 0.3 * square(w[1]) + 0.4 * square(q[0]) * w[1] -
+               cos(q[0]) * q[1];
+      }));
+  const DiscretizeFirst method(
+      system, std::make_shared<CotangentLift>(M, std::make_shared<Theta>(M->base())));
+  const double h = 0.2;
+  const VectorXd x0 = (VectorXd(4) << 0.7, -0.4, 1.1, 0.5).finished();
+  const VectorXd x1 = one_step(method, x0, h);
+  const Eigen::Vector2d q = 0.5 * (x0 + x1).head(2), w = (x1 - x0).head(2) / h;
+  const Eigen::Vector2d dL_dw(1.3 * w[0], 0.6 * w[1] + 0.4 * q[0] * q[0]);
+  const Eigen::Vector2d dL_dq(0.8 * q[0] * w[1] + std::sin(q[0]) * q[1], -std::cos(q[0]));
+  BOOST_TEST((0.5 * (x0 + x1).tail(2) - dL_dw).norm() < 1e-14);
+  BOOST_TEST(((x1 - x0).tail(2) - h * dL_dq).norm() < 1e-14);
+  BOOST_TEST(((x1 - x0).head(2) - h * dL_dw).norm() > 1e-2);
+  BOOST_TEST(((x1 - x0).tail(2) + h * dL_dq).norm() > 1e-2);
+}
+
+// The discrete equations by hand, at points of T*Q × T*Q: p₀ is any covector, and q₁ depends on it.
+BOOST_AUTO_TEST_CASE(equation_12_is_in_the_cotangent_bundle) {
+  const Degenerate vortices = lagrangian_form();
+  const auto method = vortices.method_1();
+  const double h = 0.5;
+  const auto step = [&](double off) {
+    VectorXd x0 = vortices.over(positions());
+    x0.tail(8) += off * VectorXd::LinSpaced(8, -1.0, 1.0);
+    const VectorXd x1 = one_step(*method, x0, h);
+    const VectorXd q = 0.5 * (x0 + x1).head(8), w = (x1 - x0).head(8) / h;
+    const VectorXd f = velocity(q);
+    VectorXd alpha(8), force(8);  // force = ∂α_j/∂q q̇_j - ∂H/∂q, with ∂H/∂q from (6)
+    for (Index j = 0; j < 4; ++j) {
+      alpha[j] = -0.5 * kStrength[j] * q[4 + j];
+      alpha[4 + j] = 0.5 * kStrength[j] * q[j];
+      force[j] = kStrength[j] * (0.5 * w[4 + j] - f[4 + j]);
+      force[4 + j] = -kStrength[j] * (0.5 * w[j] - f[j]);
+    }
+    BOOST_TEST((0.5 * (x0 + x1).tail(8) - alpha).lpNorm<Eigen::Infinity>() < 1e-14);
+    BOOST_TEST(((x1 - x0).tail(8) - h * force).lpNorm<Eigen::Infinity>() < 1e-14);
+    return x1;
+  };
+  BOOST_TEST((step(0.05) - step(0.0)).head(8).norm() > 1e-2);
+}
+
 BOOST_AUTO_TEST_CASE(equation_13_is_the_map_without_p) {
   // Two steps from any (q₀, p₀): q₂ - q₀ = h (f(q_{1/2}) + f(q_{3/2})), whatever p₀ is.
   const Degenerate vortices = lagrangian_form();
