@@ -1,21 +1,8 @@
-#include "courant/manifolds/cotangent_bundle.hpp"
 #include "courant/structures/dirac_system.hpp"
-#include "courant/systems/space.hpp"
 #include "courant/systems/structure_kinds.hpp"
 #include "courant/systems/system_kinds.hpp"
 
 namespace courant {
-namespace {
-
-// T*Rⁿ for the canonical structure, Rⁿ for the others.
-Json default_manifold(const std::optional<JsonReader>& structure) {
-  const bool canonical =
-      !structure || structure->value() == "canonical" ||
-      (structure->value().is_object() && structure->value().value("type", Json()) == "canonical");
-  return canonical ? Json{{"type", "cotangent-bundle"}} : Json{{"type", "euclidean"}};
-}
-
-}  // namespace
 
 // S = {v : (v, dH) ∈ D}.
 std::optional<Model> read_hamiltonian(ObjectReader& system) {
@@ -25,7 +12,7 @@ std::optional<Model> read_hamiltonian(ObjectReader& system) {
   vocabulary.parameters = read_parameters(system);
   vocabulary.definitions = read_definitions(system);
   SymbolTable taken = vocabulary.symbols({.t = Expr(0.0)});
-  const auto space = read_space(system, default_manifold(system.optional("structure")), taken);
+  const auto space = read_structure_space(system, taken);
   const auto key = system.required("hamiltonian");
   const auto formula = key ? read_formula(*key) : std::nullopt;
   if (!space) return std::nullopt;
@@ -39,11 +26,12 @@ std::optional<Model> read_hamiltonian(ObjectReader& system) {
       {.x = graph.variables("x", vocabulary.coordinates.size()), .t = graph.variable("t")});
   if (!formula || !check(*formula, symbols, findings) || !structure) return std::nullopt;
 
+  const auto manifold = (*structure)->manifold();
   const auto family = std::make_shared<Hamiltonian>(
-      space->manifold, [formula = *formula, vocabulary](const ExprVector& x, const Expr& t) {
+      manifold, [formula = *formula, vocabulary](const ExprVector& x, const Expr& t) {
         return evaluate(formula, vocabulary.symbols({.x = x, .t = t}));
       });
-  model.description = "Hamiltonian system on " + space->manifold->name();
+  model.description = "Hamiltonian system on " + manifold->name();
   model.system = std::make_shared<DiracSystem>(
       *structure, family, ImplicitSystem::Names{vocabulary.coordinates.element_names(), {}, {}});
   return model;

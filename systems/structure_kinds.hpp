@@ -7,6 +7,7 @@
 #include "courant/structures/dirac_structure.hpp"
 #include "courant/structures/matrix_field.hpp"
 #include "courant/systems/registry.hpp"
+#include "courant/systems/space.hpp"
 #include "courant/systems/vocabulary.hpp"
 
 namespace courant {
@@ -20,6 +21,12 @@ struct StructureSite {
 
 // The kinds of `structure`.
 const Registry<std::shared_ptr<const DiracStructure>, StructureSite>& structure_kinds();
+
+// The keys `coordinates` and `manifold` of an object with a `structure`. The manifold is by default
+// T*Rⁿ for the canonical structure and Rⁿ for others; a product or composed structure has one made
+// of its parts, so none may be given, and that of the space is only as large as the coordinates:
+// take DiracStructure::manifold() once the structure is read.
+std::optional<Space> read_structure_space(ObjectReader& object, SymbolTable& taken);
 
 // A matrix of formulas of the point, rows × columns; nothing, and a problem, if it is none.
 std::optional<MatrixField> read_matrix_field(const JsonReader& value, const StructureSite& site,

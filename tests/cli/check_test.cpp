@@ -79,8 +79,10 @@ BOOST_AUTO_TEST_CASE(proposition_7_1) {
 }
 
 BOOST_AUTO_TEST_CASE(integrability_is_told_and_where_it_fails) {
-  for (const char* name : {"structure_two_form", "structure_gauge", "structure_lie_poisson",
-                           "structure_bivector", "structure_restricted_bivector"}) {
+  for (const char* name :
+       {"structure_two_form", "structure_gauge", "structure_lie_poisson", "structure_bivector",
+        "structure_restricted_bivector", "structure_product", "structure_composed",
+        "structure_pullback", "structure_pushforward"}) {
     const Json structure = checked(name).at("structure");
     BOOST_TEST(structure.at("integrable") == true, name);
     BOOST_TEST(structure.at("not_integrable_at").is_null(), name);
@@ -94,6 +96,14 @@ BOOST_AUTO_TEST_CASE(integrability_is_told_and_where_it_fails) {
   const Json top = checked("structure_lie_poisson").at("structure");
   BOOST_TEST(top.at("rank_of_F") == 4);
   BOOST_TEST(top.at("casimirs") == 2);
+  // A plane and a sphere; two halves of a symplectic plane; a surface; T*SO(3) reduced to so(3)*.
+  const auto rank_of_F = [](const char* name) {
+    return checked(name).at("structure").at("rank_of_F").get<int>();
+  };
+  BOOST_TEST(rank_of_F("structure_product") == 4);
+  BOOST_TEST(rank_of_F("structure_composed") == 2);
+  BOOST_TEST(rank_of_F("structure_pullback") == 3);
+  BOOST_TEST(rank_of_F("structure_pushforward") == 2);
 }
 
 BOOST_AUTO_TEST_CASE(methods_are_measured) {

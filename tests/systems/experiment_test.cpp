@@ -189,6 +189,109 @@ BOOST_AUTO_TEST_CASE(refuses_structures_that_do_not_fit) {
   BOOST_TEST(problems(canonical).find("/system/structure: the canonical structure is on ") == 0u);
 }
 
+BOOST_AUTO_TEST_CASE(refuses_parts_of_structures_that_do_not_fit) {
+  const Json product = Json::parse(R"json({
+    "system": { "type": "hamiltonian", "coordinates": ["x", "p_x", "s[3]"], "hamiltonian": "x^2 + s[0]",
+                "definitions": { "twice": "2*x" },
+                "structure": { "type": "product", "factors": [
+                  { "coordinates": ["x"], "structure": "canonical" },
+                  { "coordinates": ["s[3]"],
+                    "structure": { "type": "lie-poisson", "algebra": "so3" } } ] } },
+    "initial": { "x": 1, "p_x": 0, "s": [1, 0, 0] } })json");
+  BOOST_TEST(problems(product) == "");
+  BOOST_TEST(problems(product, "/system/coordinates/1", "p") ==
+             "/system/structure/factors: have the coordinates x, p_x, s[0], s[1], s[2]; expected "
+             "x, p, s[0], s[1], s[2], those of the whole, in that order");
+  BOOST_TEST(problems(product, "/system/manifold", "euclidean").find("/system/manifold: is made") ==
+             0u);
+  BOOST_TEST(problems(product, "/system/structure/factors/0/coordinates/0", "twice")
+                 .find("/system/structure/factors/0/coordinates/0: ") == 0u);
+  BOOST_TEST(problems(product, "/system/structure/factors/0/momenta", 1)
+                 .find("/system/structure/factors/0/momenta: unknown key") == 0u);
+  BOOST_TEST(problems_without(product, "/system/structure/factors/1", "structure")
+                 .find("/system/structure/factors/1/structure: ") == 0u);
+  BOOST_TEST(problems(product, "/system/structure/factors/1/structure",
+                      {{"type", "bivector"}, {"matrix", {{0, "x"}, {"-x", 0}}}})
+                 .find("/system/structure/factors/1/structure/matrix: has 2 rows; expected 3") ==
+             0u);
+
+  const Json composed = Json::parse(R"json({
+    "system": { "type": "hamiltonian", "coordinates": ["q", "p"], "hamiltonian": "q^2 + p^2",
+                "structure": { "type": "composed", "parts": [
+                  { "coordinates": ["q"],
+                    "structure": { "type": "bivector", "matrix": [[0, 1], [-1, 0]] } },
+                  { "coordinates": ["p"],
+                    "structure": { "type": "distribution", "fields": [1, -1] } } ] } },
+    "initial": { "q": 1, "p": 0 } })json");
+  BOOST_TEST(problems(composed) == "");
+  BOOST_TEST(problems(composed, "/system/structure/ports", 2)
+                 .find("/system/structure/parts/0/structure/matrix: has 2 rows; expected 3") == 0u);
+  BOOST_TEST(problems(composed, "/system/structure/ports", 0).find("/system/structure/ports: ") ==
+             0u);
+  BOOST_TEST(problems(composed, "/system/structure/parts/0/structure", "canonical")
+                 .find("/system/structure/parts/0/structure: the canonical structure is on ") ==
+             0u);
+  Json three = composed;
+  three["system"]["coordinates"].push_back("r");
+  three["system"]["structure"]["parts"].push_back(
+      {{"coordinates", {"r"}}, {"structure", {{"type", "distribution"}, {"fields", {1, -1}}}}});
+  BOOST_TEST(problems(three) == "/system/structure/parts: are 3; expected 2");
+  // A product does not have the ports.
+  const Json without_ports = {
+      {"type", "product"},
+      {"factors", {composed.at(Json::json_pointer("/system/structure/parts/0"))}}};
+  Json inner = composed;
+  inner["system"]["structure"]["parts"][0]["structure"] = without_ports;
+  inner["system"]["structure"]["parts"][0]["structure"]["factors"][0]["structure"]["matrix"] = {
+      {0}};
+  BOOST_TEST(problems(inner).find("/system/structure/parts: Composed(") == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(refuses_maps_that_do_not_fit) {
+  const Json pullback = Json::parse(R"json({
+    "system": { "type": "hamiltonian", "coordinates": ["a", "b"], "hamiltonian": "a^2 + b^2",
+                "structure": { "type": "pullback", "coordinates": ["x"], "structure": "canonical",
+                               "map": ["a^3 + a", "b"] } },
+    "initial": { "a": 1, "b": 0 } })json");
+  BOOST_TEST(problems(pullback) == "");
+  BOOST_TEST(problems(pullback, "/system/structure/map", Json::array({"a"})) ==
+             "/system/structure/map: has 1 formulas; expected 2, one for each coordinate of "
+             "CotangentBundle(Euclidean(1))");
+  BOOST_TEST(problems(pullback, "/system/structure/map/1", "p_x")
+                 .find("/system/structure/map/1: column 1: unknown name \"p_x\"") == 0u);
+  BOOST_TEST(problems(pullback, "/system/structure/coordinates/0", "a")
+                 .find("/system/structure/coordinates/0: ") == 0u);
+  BOOST_TEST(
+      problems_without(pullback, "/system/structure", "map").find("/system/structure/map: ") == 0u);
+  BOOST_TEST(problems(pullback, "/system/structure/section", {"x", "p_x"})
+                 .find("/system/structure/section: unknown key") == 0u);
+  Json sphere = pullback;
+  sphere["system"]["structure"] = {{"type", "pullback"},
+                                   {"coordinates", {"x[3]"}},
+                                   {"manifold", "sphere"},
+                                   {"structure", {{"type", "distribution"}, {"fields", {0, 0, 0}}}},
+                                   {"map", {"cos(a)", "sin(a)", 0}}};
+  BOOST_TEST(problems(sphere) == "");
+  BOOST_TEST(problems(sphere, "/system/structure/map/2", "b")
+                 .find("/system/structure/map: leads away from Sphere(2, ") == 0u);
+
+  const Json pushforward = Json::parse(R"json({
+    "system": { "type": "hamiltonian", "coordinates": ["a", "b"], "hamiltonian": "a^2 + b^2",
+                "structure": { "type": "pushforward", "coordinates": ["x"],
+                               "structure": "canonical", "map": ["2*x", "p_x/2"],
+                               "section": ["a/2", "2*b"] } },
+    "initial": { "a": 1, "b": 0 } })json");
+  BOOST_TEST(problems(pushforward) == "");
+  BOOST_TEST(problems(pushforward, "/system/structure/section/0", "a")
+                 .find("/system/structure/section: is no section: ") == 0u);
+  BOOST_TEST(problems(pushforward, "/system/structure/section", {"a/2", "2*b", 0})
+                 .find("/system/structure/section: has 3 formulas; expected 2") == 0u);
+  BOOST_TEST(problems(pushforward, "/system/structure/map/0", "a")
+                 .find("/system/structure/map/0: column 1: unknown name \"a\"") == 0u);
+  BOOST_TEST(problems_without(pushforward, "/system/structure", "section")
+                 .find("/system/structure/section: ") == 0u);
+}
+
 BOOST_AUTO_TEST_CASE(refuses_expectations_that_cannot_be_met_or_missed) {
   const auto expecting = [](const Json& entry) {
     return problems(vortices, "/expect", Json::array({entry}));
