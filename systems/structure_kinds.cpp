@@ -209,16 +209,6 @@ std::optional<StructurePointer> lie_poisson(ObjectReader& object, const Structur
   }
 }
 
-std::optional<StructurePointer> gauge_transformed(ObjectReader& object, const StructureSite& site) {
-  const auto matrix_key = object.required("matrix"), key = object.required("structure");
-  const auto structure = key ? structure_kinds().read(*key, site) : std::nullopt;
-  if (!structure || !matrix_key) return std::nullopt;
-  const StructureSite own{(*structure)->manifold(), site.vocabulary};
-  const auto form = read_skew_matrix(*matrix_key, own);
-  if (!form) return std::nullopt;
-  return std::make_shared<GaugeTransformed>(*structure, *form);
-}
-
 // T*Rⁿ for the canonical structure, Rⁿ for the others.
 Json default_manifold(const std::optional<JsonReader>& structure) {
   const bool canonical =
@@ -233,6 +223,19 @@ bool has_parts(const Json& structure) {
   const Json type = structure.value("type", Json());
   if (type == "gauge") return structure.contains("structure") && has_parts(structure["structure"]);
   return type == "product" || type == "composed";
+}
+
+std::optional<StructurePointer> gauge_transformed(ObjectReader& object, const StructureSite& site) {
+  const auto matrix_key = object.required("matrix"), key = object.required("structure");
+  const auto structure = key ? structure_kinds().read(*key, site) : std::nullopt;
+  StructureSite own = site;
+  if (structure)
+    own.manifold = (*structure)->manifold();
+  else if (key && has_parts(key->value()))
+    return std::nullopt;  // the size of the matrix is not known
+  const auto form = matrix_key ? read_skew_matrix(*matrix_key, own) : std::nullopt;
+  if (!form || !structure) return std::nullopt;
+  return std::make_shared<GaugeTransformed>(*structure, *form);
 }
 
 // Names that coordinates inside a structure may not have.

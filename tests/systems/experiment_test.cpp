@@ -214,6 +214,15 @@ BOOST_AUTO_TEST_CASE(refuses_parts_of_structures_that_do_not_fit) {
                       {{"type", "bivector"}, {"matrix", {{0, "x"}, {"-x", 0}}}})
                  .find("/system/structure/factors/1/structure/matrix: has 2 rows; expected 3") ==
              0u);
+  Json gauge = product;  // it is on the manifold of the product
+  gauge["system"]["structure"] = {{"type", "gauge"},
+                                  {"structure", product.at("system").at("structure")},
+                                  {"matrix", Json(5, Json(5, 0))}};
+  BOOST_TEST(problems(gauge) == "");
+  BOOST_TEST(problems(gauge, "/system/manifold", "euclidean").find("/system/manifold: is made") ==
+             0u);
+  BOOST_TEST(problems(gauge, "/system/structure/matrix/1", Json::array({0}))
+                 .find("/system/structure/matrix/1: has 1 entries; expected 5") == 0u);
 
   const Json composed = Json::parse(R"json({
     "system": { "type": "hamiltonian", "coordinates": ["q", "p"], "hamiltonian": "q^2 + p^2",
