@@ -2,6 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include "courant/core/derivative.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/special_orthogonal3.hpp"
 #include "courant/manifolds/sphere.hpp"
@@ -10,7 +11,114 @@ using namespace courant;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+namespace {
+
+// Both sides of Proposition 6.2 on TR² at one point, for a one-form α and R_d = (R¹, R²).
+struct Forms {
+  MatrixXd A;                    // ∂α_i/∂q^j
+  MatrixXd second;               // ∂²α_i/∂q^j∂q^k q̇^k
+  MatrixXd A1, A2;               // A at R¹, R²
+  MatrixXd q1, q2, v1, v2;       // ∂R/∂q, ∂R/∂q̇
+  MatrixXd pulled_back, lifted;  // R_d*(-dα + dα) and d_T dα, on (q, q̇)
+};
+
+template <class OneForm, class Map>
+Forms forms(const OneForm& alpha, const Map& R_d, const Vector2d& q, const Vector2d& v) {
+  Graph graph;
+  const ExprVector y = graph.variables("y", 4);
+  VectorXd point(4);
+  point << q, v;
+  const auto at = [](const ExprMatrix& E, const ExprVector& variables, const VectorXd& where) {
+    const ExprVector entries = E.reshaped();
+    return MatrixXd(
+        values(substitute(entries, variables, constants(where))).reshaped(E.rows(), E.cols()));
+  };
+  const ExprVector position = graph.variables("q", 2);
+  const ExprMatrix A = jacobian(ExprVector(alpha(position)), position).dense();
+  const ExprMatrix change =
+      tangent(ExprVector(A.reshaped()), position, ExprVector(constants(v))).reshaped(2, 2);
+  const auto [first, second] = R_d(ExprVector(y.head(2)), ExprVector(y.tail(2)));
+  const MatrixXd J1 = at(jacobian(first, y).dense(), y, point);
+  const MatrixXd J2 = at(jacobian(second, y).dense(), y, point);
+  const VectorXd r1 = at(first, y, point), r2 = at(second, y, point);
+  Forms f;
+  f.A = at(A, position, q);
+  f.second = at(change, position, q);
+  f.A1 = at(A, position, r1);
+  f.A2 = at(A, position, r2);
+  f.q1 = J1.leftCols(2), f.v1 = J1.rightCols(2);
+  f.q2 = J2.leftCols(2), f.v2 = J2.rightCols(2);
+  // dα(a, b) = aᵀ (Aᵀ - A) b; d_T of the form Ω is (∂_v Ω, Ω; Ω, 0).
+  f.pulled_back = J2.transpose() * (f.A2.transpose() - f.A2) * J2 -
+                  J1.transpose() * (f.A1.transpose() - f.A1) * J1;
+  f.lifted = MatrixXd::Zero(4, 4);
+  f.lifted.topLeftCorner(2, 2) = f.second.transpose() - f.second;
+  f.lifted.topRightCorner(2, 2) = f.lifted.bottomLeftCorner(2, 2) = f.A.transpose() - f.A;
+  return f;
+}
+
+double skew_part(const MatrixXd& X) { return (X - X.transpose()).norm(); }
+double defect_16(const Forms& f, double sign) {
+  return skew_part(sign * f.second - f.q1.transpose() * f.A1 * f.q1 +
+                   f.q2.transpose() * f.A2 * f.q2);
+}
+double defect_17(const Forms& f, double sign) {
+  const MatrixXd X = f.q1.transpose() * f.A1 * f.v1 - f.q2.transpose() * f.A2 * f.v2;
+  const MatrixXd Y = f.v1.transpose() * f.A1 * f.q1 - f.v2.transpose() * f.A2 * f.q2;
+  return (sign * (f.A - f.A.transpose()) - (X - Y.transpose())).norm();
+}
+double defect_18(const Forms& f) {
+  return skew_part(f.v1.transpose() * f.A1 * f.v1 - f.v2.transpose() * f.A2 * f.v2);
+}
+
+}  // namespace
+
 BOOST_AUTO_TEST_SUITE(theta)
+
+// (16), (17), (18) are the dq ∧ dq, dq ∧ dq̇ and dq̇ ∧ dq̇ parts of R_d*(-dα + dα) = d_T dα, with
+// one ∂R/∂q̇ in (17), two in (18), and the signs of (19) on the left of (16) and (17).
+BOOST_AUTO_TEST_CASE(proposition_6_2) {
+  const Vector2d q(0.4, -0.7), v(0.6, 0.9);
+  const auto linear = [](const ExprVector& x) {
+    return (ExprVector(2) << 0.3 * x[0] - 0.2 * x[1], 0.9 * x[0]).finished();
+  };
+  // e^x dy, and the midpoint rule in the coordinates (e^x, y), where it is linear.
+  const auto curved = [](const ExprVector& x) {
+    return (ExprVector(2) << Expr(0.0), exp(x[0])).finished();
+  };
+  const auto in_coordinates = [](const ExprVector& x, const ExprVector& w) {
+    const Expr half = 0.5 * w[0];
+    return DiscretizationMap::PointPair<Expr>{
+        (ExprVector(2) << x[0] + log(1.0 - half), x[1] - 0.5 * w[1]).finished(),
+        (ExprVector(2) << x[0] + log(1.0 + half), x[1] + 0.5 * w[1]).finished()};
+  };
+  const auto on_the_plane = [](double value) {
+    return [map = Theta(std::make_shared<Euclidean>(2), value)](
+               const ExprVector& x, const ExprVector& w) { return map.forward(x, w); };
+  };
+  for (const Forms& f :
+       {forms(linear, on_the_plane(0.5), q, v), forms(curved, in_coordinates, q, v)}) {
+    BOOST_TEST((f.pulled_back - f.lifted).norm() < 1e-14);
+    BOOST_TEST(defect_16(f, -1.0) + defect_17(f, -1.0) + defect_18(f) < 1e-14);
+    BOOST_TEST(defect_17(f, 1.0) > 1.0);  // the sign as printed
+  }
+  BOOST_TEST(defect_16(forms(curved, in_coordinates, q, v), 1.0) > 1.0);
+  // The left side of (17) against factors ∂R/∂q alone, as printed.
+  const Forms f = forms(linear, on_the_plane(0.5), q, v);
+  const MatrixXd X = f.q1.transpose() * f.A1 * f.q1 - f.q2.transpose() * f.A2 * f.q2;
+  for (const double sign : {-1.0, 1.0})
+    BOOST_TEST((sign * (f.A - f.A.transpose()) - (X - X.transpose())).norm() > 1.0);
+  // Off the middle (18) fails, and so does the proposition's conclusion; with α that is not linear
+  // the midpoint rule fails too.
+  const Forms off = forms(linear, on_the_plane(0.3), q, v);
+  BOOST_TEST(defect_18(off) > 0.1);
+  BOOST_TEST(skew_part(off.q1.transpose() * off.A1 * off.q1 -
+                       off.q2.transpose() * off.A2 * off.q2) < 1e-15);  // (18) as printed holds
+  BOOST_TEST((off.pulled_back - off.lifted).norm() > 0.1);
+  const Forms bent = forms(curved, on_the_plane(0.5), q, v);
+  BOOST_TEST(defect_16(bent, -1.0) + defect_17(bent, -1.0) + defect_18(bent) > 0.1);
+  BOOST_TEST((bent.pulled_back - bent.lifted).norm() > 0.1);
+}
 
 // Example 4.8.
 BOOST_AUTO_TEST_CASE(on_vector_spaces) {
