@@ -17,6 +17,12 @@ std::string yes_or_no(const Json& value) {
   return value.get<bool>() ? "yes" : "no";
 }
 
+// A claim with the defect that it was measured by; null: there is nothing to claim.
+std::string measured(const Json& method, const char* claim, const char* defect) {
+  if (method.at(claim).is_null()) return "not defined";
+  return yes_or_no(method.at(claim)) + " (" + shown(method.at(defect), 2) + ")";
+}
+
 void print_matrix(std::ostream& out, const char* name, const Json& matrix) {
   out << "    " << name << '\n';
   for (const Json& row : matrix) {
@@ -79,8 +85,9 @@ void print_structure(std::ostream& out, const Json& structure) {
 void print_report(const Console& console, const Json& report) {
   std::ostream& out = console.out;
   if (const std::string title = report.at("title"); !title.empty()) out << title << '\n';
-  out << "  " << report.at("system").get<std::string>() << " on "
-      << report.at("manifold").get<std::string>() << "\n\n";
+  const auto system = report.at("system").get<std::string>();
+  const std::string home = " on " + report.at("manifold").get<std::string>();
+  out << "  " << system << (system.ends_with(home) ? "" : home) << "\n\n";
   TextTable table({"law", "defect", "bound", ""});
   for (const Json& check : report.at("checks"))
     table.add({check.at("subject").get<std::string>() + "  " + check.at("law").get<std::string>() +
@@ -98,10 +105,11 @@ void print_report(const Console& console, const Json& report) {
   if (const Json& method = report.at("method"); !method.is_null())
     out << "\n  method " << method.at("name").get<std::string>() << "\n    order "
         << shown(method.at("order")) << ", measured " << shown(method.at("measured_order"), 3)
-        << "; symmetric " << yes_or_no(method.at("symmetric")) << " ("
-        << shown(method.at("symmetry_defect"), 2) << "); symplectic "
-        << yes_or_no(method.at("symplectic")) << " (" << shown(method.at("symplecticity_defect"), 2)
-        << "); distance of the structure from its image " << shown(method.at("structure_defect"), 2)
+        << "; symmetric " << measured(method, "symmetric", "symmetry_defect") << "; symplectic "
+        << measured(method, "symplectic", "symplecticity_defect")
+        << "; distance of the structure from its image "
+        << (method.at("structure_defect").is_null() ? "not defined"
+                                                    : shown(method.at("structure_defect"), 2))
         << "\n";
   if (!report.at("invariants").empty()) {
     out << "\n  along solutions\n";
