@@ -1,6 +1,7 @@
 #include "courant/integrators/constraint_algorithm.hpp"
 
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 
 #include "ladder_catalogue.hpp"
 
@@ -100,6 +101,30 @@ BOOST_AUTO_TEST_CASE(closed_port_hamiltonian) {
   BOOST_TEST(std::abs(x[3] + x[1]) < 1e-14);
   BOOST_TEST(ladder.point.z[0] == (2 * x[1] - x[3]) / 1.5, boost::test_tools::tolerance(1e-12));
   BOOST_TEST(ladder.determined[0]);
+}
+
+// x'² = x with z = x': two velocities at each point. The velocity and the unknown of the last point
+// are a warm start that stays on its branch, here twenty times from x = 1 to x = 11.
+BOOST_AUTO_TEST_CASE(a_warm_start_stays_on_its_branch) {
+  const auto system =
+      flat(1, 1, 2, [](const ExprVector& x, const ExprVector& v, const ExprVector& z, const Expr&) {
+        ExprVector F(2);
+        F << z[0] - v[0], z[0] * z[0] - x[0];
+        return F;
+      });
+  for (const double sign : {1.0, -1.0}) {
+    InitialGuess guess = at({1.0});
+    guess.v = guess.z = VectorXd::Constant(1, 0.8 * sign);
+    for (int k = 0; k <= 20; ++k) {
+      const ConstraintLadder ladder = ConstraintAlgorithm().run(system, guess);
+      const double x = 1.0 + 0.5 * k;
+      BOOST_TEST(ladder.point.x[0] == x);
+      BOOST_TEST(ladder.point.v[0] == sign * std::sqrt(x), boost::test_tools::tolerance(1e-12));
+      guess.v = ladder.point.v;
+      guess.z = ladder.point.z;
+      guess.x[0] = x + 0.5;
+    }
+  }
 }
 
 BOOST_AUTO_TEST_CASE(levels_that_are_not_allowed_are_not_reached) {
