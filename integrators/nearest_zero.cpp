@@ -196,7 +196,7 @@ Zero least_zero(const LinearizableMap& map,
                 const std::function<Quadratic(const VectorXd& y)>& objective, const Zero& at,
                 const Mobility& mobility) {
   constexpr double gamma = 1e-11;  // constraints give way to the objective by this much in a step,
-                                  // find_zero takes it back
+                                   // find_zero takes it back
   Zero best = at;
   double length = 1.0;
   VectorXd before;  // the whole step before this one
