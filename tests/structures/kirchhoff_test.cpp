@@ -68,8 +68,9 @@ BOOST_AUTO_TEST_CASE(all_representations_of_random_graphs) {
     BOOST_TEST(decide_rank(structure.incidence()).rank == nodes);
     BOOST_TEST(decide_rank(structure.reduced_incidence()).rank == nodes);
     BOOST_TEST(structure.reduced_incidence().rows() == nodes);
-    BOOST_TEST((structure.incidence() * structure.loops()).norm() == 0.0);
-    BOOST_TEST((structure.cut_sets().transpose() * structure.loops()).norm() == 0.0);
+    // Dense: Eigen refuses the norm of a sparse matrix that has no entries at all.
+    BOOST_TEST(MatrixXd(structure.incidence() * structure.loops()).norm() == 0.0);
+    BOOST_TEST(MatrixXd(structure.cut_sets().transpose() * structure.loops()).norm() == 0.0);
     BOOST_TEST(decide_rank(structure.cut_sets()).rank == nodes);
     BOOST_TEST(all_exact(check_kirchhoff(structure)));
     disconnected += structure.component_count() > 1;
