@@ -156,7 +156,7 @@ class DiscretizationMapLaws {
 
   LawResult stays_on() const {
     auto measured = law("D3 R⁻ and R⁺ lie on M", 1e-11);
-    for_vectors([&](const LawSample& s, const VectorXd& v) {
+    for_vectors(samples_, [&](const LawSample& s, const VectorXd& v) {
       measured.add(
           [&] {
             const auto [x0, x1] = map_.forward(s.x, v);
@@ -170,7 +170,7 @@ class DiscretizationMapLaws {
 
   LawResult left_inverse() const {
     auto measured = law("D3 R_d⁻¹(R_d(x, v)) = (x, v)", 1e-9);
-    for_vectors([&](const LawSample& s, const VectorXd& v) {
+    for_vectors(samples_, [&](const LawSample& s, const VectorXd& v) {
       measured.add(
           [&] {
             const auto [x0, x1] = map_.forward(s.x, v);
@@ -218,29 +218,8 @@ class DiscretizationMapLaws {
     return measured.result();
   }
 
-  // data: x, w, v, u and the curves of check_manifold.
-  template <class Curve>
-  LawResult derivatives(const std::string& text, const Curve& curve) const {
-    auto measured = law(text, 1e-7);
-    const Index N = M_.ambient_dimension();
-    const Index size = M_.tangent_dimension();
-    try {
-      const CurveFamily family(
-          [&](const Expr& t, const ExprVector& data) {
-            return curve(t, data.head(N), data.segment(N, size), data.segment(N + size, size),
-                         data.tail(size));
-          },
-          N + 3 * size);
-      for_vectors([&](const LawSample& s, const VectorXd& v) {
-        VectorXd data(N + 3 * size);
-        data << s.x, s.w, v, s.u;
-        const double step = 1e-2 * std::min(1.0, s.radius - v.norm());
-        measured.add([&] { return family.derivative_defect(data, step); }, describe(s, v));
-      });
-    } catch (const std::exception& error) {
-      measured.add(kInfinity, error.what());
-    }
-    return measured.result();
+  LawResult derivatives(const std::string& text, const SampleCurve& curve) const {
+    return measure_derivatives(law(text, 1e-7), M_, samples_, curve);
   }
 
   LawResult derivatives_of_forward() const {
@@ -300,13 +279,13 @@ class DiscretizationMapLaws {
     if (!map_.is_symmetric())
       return not_claimed("D4 not symmetric, as said", [&] {
         double largest = M_.dimension() == 0 ? kInfinity : 0.0;
-        for_vectors([&](const LawSample& s, const VectorXd& v) {
+        for_vectors(samples_, [&](const LawSample& s, const VectorXd& v) {
           largest = std::max(largest, asymmetry(s.x, v));
         });
         return largest;
       });
     auto measured = law("D4 symmetric, as said: R⁺(x, v) = R⁻(x, -v)", 1e-11);
-    for_vectors([&](const LawSample& s, const VectorXd& v) {
+    for_vectors(samples_, [&](const LawSample& s, const VectorXd& v) {
       measured.add([&] { return asymmetry(s.x, v) / (1.0 + s.x.norm()); }, describe(s, v));
     });
     return measured.result();
@@ -328,13 +307,13 @@ class DiscretizationMapLaws {
     if (!*map_.is_symplectic())
       return not_claimed("D4 not symplectic, as said", [&] {
         double largest = 0.0;
-        for_vectors([&](const LawSample& s, const VectorXd& v) {
+        for_vectors(samples_, [&](const LawSample& s, const VectorXd& v) {
           largest = std::max(largest, symplecticity_->defect(s.x, v, generator_));
         });
         return largest;
       });
     auto measured = law("D4 symplectic, as said: R_d pulls Ω₁₂ back to d_Tω_Q", 1e-11);
-    for_vectors([&](const LawSample& s, const VectorXd& v) {
+    for_vectors(samples_, [&](const LawSample& s, const VectorXd& v) {
       measured.add([&] { return symplecticity_->defect(s.x, v, generator_); }, describe(s, v));
     });
     return measured.result();
@@ -342,7 +321,7 @@ class DiscretizationMapLaws {
 
   LawResult inverse_symplectic() {
     auto measured = law("L2 R_d⁻¹ pulls d_Tω_Q back to Ω₁₂", 1e-11);
-    for_vectors([&](const LawSample& s, const VectorXd& v) {
+    for_vectors(samples_, [&](const LawSample& s, const VectorXd& v) {
       measured.add(
           [&] {
             const auto [x0, x1] = map_.forward(s.x, v);
@@ -355,7 +334,7 @@ class DiscretizationMapLaws {
 
   LawResult covers(const CotangentBundle& phase_space, const DiscretizationMap& base) const {
     auto measured = law("L1 covers the base map", 1e-13);
-    for_vectors([&](const LawSample& s, const VectorXd& v) {
+    for_vectors(samples_, [&](const LawSample& s, const VectorXd& v) {
       measured.add(
           [&] {
             const auto [x0, x1] = map_.forward(s.x, v);
@@ -366,12 +345,6 @@ class DiscretizationMapLaws {
           describe(s, v));
     });
     return measured.result();
-  }
-
-  template <class Visit>
-  void for_vectors(const Visit& visit) const {
-    for (const LawSample& s : samples_)
-      for (const VectorXd& v : s.vectors) visit(s, v);
   }
 
   const DiscretizationMap& map_;

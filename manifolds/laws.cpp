@@ -91,7 +91,7 @@ class ManifoldLaws {
 
   LawResult stays_on() const {
     auto measured = law("M3 R(x, v) lies on M", 1e-12);
-    for_vectors([&](const LawSample& s, const VectorXd& v) {
+    for_vectors(samples_, [&](const LawSample& s, const VectorXd& v) {
       measured.add(
           [&] {
             const VectorXd y = M_.retract(s.x, v);
@@ -104,7 +104,7 @@ class ManifoldLaws {
 
   LawResult left_inverse() const {
     auto measured = law("M4 R⁻¹(x, R(x, v)) = v", 1e-10);
-    for_vectors([&](const LawSample& s, const VectorXd& v) {
+    for_vectors(samples_, [&](const LawSample& s, const VectorXd& v) {
       measured.add([&] { return relative(M_.inverse_retract(s.x, M_.retract(s.x, v)) - v, v); },
                    describe(s, v));
     });
@@ -180,29 +180,8 @@ class ManifoldLaws {
     return {moved, M_.tangent_projector(moved) * (v + t * u)};
   }
 
-  template <class Curve>
-  LawResult derivatives(const std::string& text, const Curve& curve) const {
-    auto measured = law(text, 1e-8);
-    const Index N = M_.ambient_dimension();
-    const Index size = M_.tangent_dimension();
-    try {
-      const CurveFamily family(
-          [&](const Expr& t, const ExprVector& data) {
-            return curve(t, data.head(N), data.segment(N, size), data.segment(N + size, size),
-                         data.tail(size));
-          },
-          N + 3 * size);
-      for_vectors([&](const LawSample& s, const VectorXd& v) {
-        VectorXd data(N + 3 * size);
-        data << s.x, s.w, v, s.u;
-        // Small against the distance to where the maps may end.
-        const double step = 1e-2 * std::min(1.0, s.radius - v.norm());
-        measured.add([&] { return family.derivative_defect(data, step); }, describe(s, v));
-      });
-    } catch (const std::exception& error) {
-      measured.add(std::numeric_limits<double>::infinity(), error.what());
-    }
-    return measured.result();
+  LawResult derivatives(const std::string& text, const SampleCurve& curve) const {
+    return measure_derivatives(law(text, 1e-8), M_, samples_, curve);
   }
 
   LawResult derivatives_of_retraction() const {
@@ -245,7 +224,7 @@ class ManifoldLaws {
     }
     auto measured =
         law("M7 is_geodesic(): seen from R(x, s v), x and R(x, v) lie along one vector", 1e-10);
-    for_vectors([&](const LawSample& s, const VectorXd& v) {
+    for_vectors(samples_, [&](const LawSample& s, const VectorXd& v) {
       for (const double along : {0.25, 0.5, 0.8})
         measured.add(
             [&] {
@@ -295,12 +274,6 @@ class ManifoldLaws {
           },
           describe("x", s.x));
     return measured.result();
-  }
-
-  template <class Visit>
-  void for_vectors(const Visit& visit) const {
-    for (const LawSample& s : samples_)
-      for (const VectorXd& v : s.vectors) visit(s, v);
   }
 
   const Manifold& M_;

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <sstream>
 
@@ -82,6 +83,30 @@ std::vector<LawSample> draw_samples(const Manifold& M, int count, double far,
     samples.push_back(std::move(sample));
   }
   return samples;
+}
+
+LawResult measure_derivatives(LawMeasurement measured, const Manifold& M,
+                              const std::vector<LawSample>& samples, const SampleCurve& curve) {
+  const Index N = M.ambient_dimension();
+  const Index size = M.tangent_dimension();
+  try {
+    const CurveFamily family(
+        [&](const Expr& t, const ExprVector& data) {
+          return curve(t, data.head(N), data.segment(N, size), data.segment(N + size, size),
+                       data.tail(size));
+        },
+        N + 3 * size);
+    for_vectors(samples, [&](const LawSample& s, const VectorXd& v) {
+      VectorXd data(N + 3 * size);
+      data << s.x, s.w, v, s.u;
+      // Small against the distance to where the maps may end.
+      const double step = 1e-2 * std::min(1.0, s.radius - v.norm());
+      measured.add([&] { return family.derivative_defect(data, step); }, describe(s, v));
+    });
+  } catch (const std::exception& error) {
+    measured.add(std::numeric_limits<double>::infinity(), error.what());
+  }
+  return measured.result();
 }
 
 VectorXd point_near(const Manifold& M, const VectorXd& x, double distance,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "courant/core/function.hpp"
+#include "courant/manifolds/law_result.hpp"
 #include "courant/manifolds/manifold.hpp"
 
 namespace courant {
@@ -49,6 +50,23 @@ struct LawSample {
 std::vector<LawSample> draw_samples(const Manifold& M, int count, double far,
                                     std::mt19937& generator,
                                     double limit = std::numeric_limits<double>::infinity());
+
+// Calls visit(sample, v) for each tangent vector of each sample.
+template <class Visit>
+void for_vectors(const std::vector<LawSample>& samples, const Visit& visit) {
+  for (const LawSample& s : samples)
+    for (const VectorXd& v : s.vectors) visit(s, v);
+}
+
+// A curve t ↦ F(t) to differentiate at t = 0, made of a sample's x, w and u and one of its vectors.
+using SampleCurve =
+    std::function<ExprVector(const Expr& t, const ExprVector& x, const ExprVector& w,
+                             const ExprVector& v, const ExprVector& u)>;
+
+// The derivative_defect of the curve for each tangent vector of each sample. A curve that cannot be
+// traced is an infinite defect.
+LawResult measure_derivatives(LawMeasurement measured, const Manifold& M,
+                              const std::vector<LawSample>& samples, const SampleCurve& curve);
 
 // A point of M at about that ambient distance from x, made by projection and not by the retraction.
 VectorXd point_near(const Manifold& M, const VectorXd& x, double distance, std::mt19937& generator);
