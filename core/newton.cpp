@@ -141,15 +141,17 @@ Newton::Result Newton::solve(double* y, const double* const* in, const double* s
         result.status = Status::converged;
         return result;
       }
+      const bool stalled = contraction > 0.5;
+      const bool rounded = stalled && (moved <= kRoundOff || is_rounded(y, scales));
       const bool slow = contraction > options_.slow && moved > 1e3 * options_.tolerance;
-      if (slow && (!fresh || (contraction > 0.5 && moved > kRoundOff && !is_rounded(y, scales)))) {
+      if (slow && (!fresh || (stalled && !rounded))) {
         if (!refactorize()) {
           result.status = Status::singular;
           return result;
         }
         continue;
       }
-      if (contraction > 0.5 && (moved <= kRoundOff || is_rounded(y, scales))) {
+      if (rounded) {
         result.status = Status::converged;
         return result;
       }
