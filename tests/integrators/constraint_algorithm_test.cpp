@@ -10,12 +10,6 @@ using namespace courant::examples;
 
 namespace {
 
-Dimensions dimensions(const ConstraintLadder& ladder) {
-  Dimensions result;
-  for (const LadderLevel& level : ladder.levels) result.emplace_back(level.dim_S, level.dim_M);
-  return result;
-}
-
 KnownLadder known(const std::string& name) {
   for (const KnownLadder& entry : catalogue())
     if (entry.name == name) return entry;

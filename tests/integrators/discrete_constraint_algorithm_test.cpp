@@ -11,12 +11,6 @@ using namespace courant::examples;
 
 namespace {
 
-Dimensions dimensions(const ConstraintLadder& ladder) {
-  Dimensions result;
-  for (const LadderLevel& level : ladder.levels) result.emplace_back(level.dim_S, level.dim_M);
-  return result;
-}
-
 ConstraintLadder discrete(const SystemPointer& system, const InitialGuess& guess, double theta,
                           double h) {
   return DiscreteConstraintAlgorithm().run(

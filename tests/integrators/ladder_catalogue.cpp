@@ -633,6 +633,12 @@ void without_answers(std::vector<KnownLadder>& table) {
 
 }  // namespace
 
+Dimensions dimensions(const ConstraintLadder& ladder) {
+  Dimensions result;
+  for (const LadderLevel& level : ladder.levels) result.emplace_back(level.dim_S, level.dim_M);
+  return result;
+}
+
 SystemPointer lagrangian(Index n, Lagrangian::Formula L, ImplicitSystem::Names names) {
   const auto phase_space = std::make_shared<CotangentBundle>(space(n));
   return std::make_shared<DiracSystem>(std::make_shared<CanonicalSymplectic>(phase_space),

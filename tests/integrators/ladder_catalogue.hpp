@@ -12,6 +12,7 @@ namespace courant::examples {
 
 // (dim S_k, dim M_k) for k = 0, 1, …; of an empty level (-1, -1).
 using Dimensions = std::vector<std::pair<Index, Index>>;
+Dimensions dimensions(const ConstraintLadder& ladder);
 
 struct KnownLadder {
   std::string name;
