@@ -47,8 +47,7 @@ std::optional<Model> read_implicit(ObjectReader& system) {
   Findings& findings = system.place().findings();
   Model model;
   Vocabulary& vocabulary = model.vocabulary;
-  vocabulary.parameters = read_parameters(system);
-  vocabulary.definitions = read_definitions(system);
+  vocabulary = read_vocabulary(system);
   SymbolTable taken = vocabulary.symbols({.t = Expr(0.0)});
   const auto space = read_space(system, "euclidean", taken);
   const auto unknowns = system.optional("unknowns");

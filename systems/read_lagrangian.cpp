@@ -10,8 +10,7 @@ std::optional<Model> read_lagrangian(ObjectReader& system) {
   Findings& findings = system.place().findings();
   Model model;
   Vocabulary& vocabulary = model.vocabulary;
-  vocabulary.parameters = read_parameters(system);
-  vocabulary.definitions = read_definitions(system);
+  vocabulary = read_vocabulary(system);
   SymbolTable taken = vocabulary.symbols({.t = Expr(0.0)});
   const auto base = read_space(system, "euclidean", taken);
   const auto key = system.required("lagrangian");

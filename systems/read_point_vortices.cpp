@@ -38,8 +38,7 @@ std::optional<std::string> problem_of(const std::optional<std::pair<Index, Index
 std::optional<Model> read_point_vortices(ObjectReader& system) {
   Model model;
   Vocabulary& vocabulary = model.vocabulary;
-  vocabulary.parameters = read_parameters(system, {"strengths", "x", "y", "p_x", "p_y"});
-  vocabulary.definitions = read_definitions(system);
+  vocabulary = read_vocabulary(system, {"strengths", "x", "y", "p_x", "p_y"});
   const std::string form = system.word("form", "lagrangian", {"lagrangian", "hamiltonian"});
   const auto strengths = read_strengths(system, vocabulary.symbols({}));
   if (!strengths) return std::nullopt;
@@ -65,8 +64,7 @@ std::optional<Model> read_point_vortices(ObjectReader& system) {
 std::optional<Model> read_spherical_vortices(ObjectReader& system) {
   Model model;
   Vocabulary& vocabulary = model.vocabulary;
-  vocabulary.parameters = read_parameters(system, {"strengths", "x"});
-  vocabulary.definitions = read_definitions(system);
+  vocabulary = read_vocabulary(system, {"strengths", "x"});
   const auto strengths = read_strengths(system, vocabulary.symbols({}));
   if (!strengths) return std::nullopt;
 

@@ -34,6 +34,42 @@ bool is_available(const Definition& definition, const SymbolTable& symbols) {
   return true;
 }
 
+std::vector<std::pair<std::string, Symbol>> read_parameters(
+    ObjectReader& system, const std::vector<std::string>& reserved) {
+  std::vector<std::pair<std::string, Symbol>> parameters;
+  const auto object = system.optional("parameters");
+  const auto entries = object ? object->entries() : std::nullopt;
+  if (!entries) return parameters;
+  SymbolTable known;  // names that are taken
+  known.add("t", 0.0);
+  for (const std::string& name : reserved) known.add(name, 0.0);
+  for (const auto& [name, value] : *entries) {
+    if (!is_new_name(name, value.pointer(), known, value.findings())) continue;
+    Symbol symbol{{}, ExprVector::Ones(1)};
+    if (const auto formulas = read_formulas(value)) {
+      SymbolTable earlier;
+      for (const auto& [earlier_name, earlier_symbol] : parameters)
+        earlier.add(earlier_name, earlier_symbol.shape, earlier_symbol.values);
+      if (const auto values = evaluate_constants(*formulas, earlier, value.findings()))
+        symbol = {formulas->shape, constants(*values)};
+    }
+    known.add(name, symbol.shape, symbol.values);
+    parameters.emplace_back(name, std::move(symbol));
+  }
+  return parameters;
+}
+
+std::vector<Definition> read_definitions(ObjectReader& system) {
+  std::vector<Definition> definitions;
+  const auto object = system.optional("definitions");
+  const auto entries = object ? object->entries() : std::nullopt;
+  if (!entries) return definitions;
+  for (const auto& [name, value] : *entries)
+    if (auto formulas = read_formulas(value))
+      definitions.push_back({name, value.pointer(), std::move(*formulas)});
+  return definitions;
+}
+
 }  // namespace
 
 void NameList::append(Declaration declaration) {
@@ -129,40 +165,11 @@ bool read_names(const JsonReader& value, SymbolTable& taken, NameList& names) {
   return right;
 }
 
-std::vector<std::pair<std::string, Symbol>> read_parameters(
-    ObjectReader& system, const std::vector<std::string>& reserved) {
-  std::vector<std::pair<std::string, Symbol>> parameters;
-  const auto object = system.optional("parameters");
-  const auto entries = object ? object->entries() : std::nullopt;
-  if (!entries) return parameters;
-  SymbolTable known;  // names that are taken
-  known.add("t", 0.0);
-  for (const std::string& name : reserved) known.add(name, 0.0);
-  for (const auto& [name, value] : *entries) {
-    if (!is_new_name(name, value.pointer(), known, value.findings())) continue;
-    Symbol symbol{{}, ExprVector::Ones(1)};
-    if (const auto formulas = read_formulas(value)) {
-      SymbolTable earlier;
-      for (const auto& [earlier_name, earlier_symbol] : parameters)
-        earlier.add(earlier_name, earlier_symbol.shape, earlier_symbol.values);
-      if (const auto values = evaluate_constants(*formulas, earlier, value.findings()))
-        symbol = {formulas->shape, constants(*values)};
-    }
-    known.add(name, symbol.shape, symbol.values);
-    parameters.emplace_back(name, std::move(symbol));
-  }
-  return parameters;
-}
-
-std::vector<Definition> read_definitions(ObjectReader& system) {
-  std::vector<Definition> definitions;
-  const auto object = system.optional("definitions");
-  const auto entries = object ? object->entries() : std::nullopt;
-  if (!entries) return definitions;
-  for (const auto& [name, value] : *entries)
-    if (auto formulas = read_formulas(value))
-      definitions.push_back({name, value.pointer(), std::move(*formulas)});
-  return definitions;
+Vocabulary read_vocabulary(ObjectReader& system, const std::vector<std::string>& reserved) {
+  Vocabulary vocabulary;
+  vocabulary.parameters = read_parameters(system, reserved);
+  vocabulary.definitions = read_definitions(system);
+  return vocabulary;
 }
 
 void check_definitions(Vocabulary& vocabulary, Findings& findings) {

@@ -62,13 +62,11 @@ struct Vocabulary {
 // The declarations of an array such as ["x", "r[n][3]"] are appended to `names`; `taken` has the
 // names that may not be used again, and gets the new ones.
 bool read_names(const JsonReader& value, SymbolTable& taken, NameList& names);
-// The key `parameters` of a system, which may not have the `reserved` names. Each is evaluated at
-// once; one that is wrong is a problem and stands for 1, so that formulas with it are not problems
-// too.
-std::vector<std::pair<std::string, Symbol>> read_parameters(
-    ObjectReader& system, const std::vector<std::string>& reserved = {});
-// The key `definitions`; what they mean is not looked into before check_definitions.
-std::vector<Definition> read_definitions(ObjectReader& system);
+// The keys `parameters` and `definitions` of a system. No parameter may have one of the `reserved`
+// names. Each is evaluated at once; one that is wrong is a problem and stands for 1, so that
+// formulas with it are not problems too. What definitions mean is not looked into before
+// check_definitions.
+Vocabulary read_vocabulary(ObjectReader& system, const std::vector<std::string>& reserved = {});
 // Makes a problem of each definition that is wrong where formulas may depend on everything, and 1
 // of its value.
 void check_definitions(Vocabulary& vocabulary, Findings& findings);
