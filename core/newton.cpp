@@ -6,6 +6,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "courant/core/static_size.hpp"
+
 namespace courant {
 namespace {
 
@@ -19,6 +21,22 @@ constexpr double kSingular = 1e-13;
 // far below any tolerance a user would set.
 constexpr double kRoundOff = 1e-9;
 
+// b = A x, for a square A of n rows or (Eigen::Dynamic) any.
+template <int n>
+void multiply(const MatrixXd& A, const VectorXd& x, VectorXd& b) {
+  if constexpr (n == Eigen::Dynamic) {
+    b.noalias() = A * x.head(A.cols());
+  } else {
+    // By numbers, not by packets: F has just been written number by number, and a packet would wait
+    // until that has reached the cache.
+    const double* entry = A.data();
+    double sum[n] = {};
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) sum[i] += *entry++ * x[j];
+    for (int i = 0; i < n; ++i) b[i] = sum[i];
+  }
+}
+
 }  // namespace
 
 Newton::Newton(Function function, std::vector<Index> groups, const Options& options)
@@ -30,6 +48,9 @@ Newton::Newton(Function function, std::vector<Index> groups, const Options& opti
     throw std::invalid_argument("Newton: the groups and the Jacobian of " + function_.name() +
                                 " do not fit its " + std::to_string(size) + " unknowns.");
   inverse_.resize(size, function_.output_size());
+  const bool square = inverse_.rows() == inverse_.cols();
+  multiply_ =
+      with_static_size(square ? size : 0, [](auto n) { return &multiply<decltype(n)::value>; });
   all_.resize(function_.output_size() + function_.nonzeros());
   step_.resize(size);
   magnitude_.resize(function_.output_size());
@@ -64,23 +85,25 @@ bool Newton::factorize(const double* const* in) {
   return factorized_ = inverse_.allFinite();
 }
 
-// The largest change of a block relative to its scale.
-double Newton::change(const double* y, const double* scales) const {
+// y ← y - A F. Returns the largest change of a block relative to its scale.
+double Newton::improve(double* y, const double* scales) {
+  multiply_(inverse_, all_, step_);
   double result = 0.0;
-  Index offset = 0;
+  double total = 0.0;  // not finite if one of the changes is not
+  Index i = 0;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     double moved = 0.0;
     double size = scales[g];
-    for (Index i = offset; i < offset + groups_[g]; ++i) {
-      moved = std::max(moved, std::fabs(step_[i]));
+    for (const Index end = i + groups_[g]; i < end; ++i) {
+      const double change = std::fabs(step_[i]);
+      y[i] -= step_[i];
+      moved = std::max(moved, change);
       size = std::max(size, std::fabs(y[i]));
-      if (!(std::fabs(step_[i]) <= std::numeric_limits<double>::max()))
-        return std::numeric_limits<double>::infinity();
+      total += change;
     }
     if (moved > 0.0) result = std::max(result, moved / size);
-    offset += groups_[g];
   }
-  return result;
+  return std::isfinite(total) ? result : std::numeric_limits<double>::infinity();
 }
 
 // Whether every residual is round-off: of the terms J_ij y_j, where an unknown that is an increment
@@ -105,7 +128,6 @@ bool Newton::is_rounded(const double* y, const double* scales) {
 
 Newton::Result Newton::solve(double* y, const double* const* in, const double* scales) {
   Result result;
-  Eigen::Map<VectorXd> unknown(y, step_.size());
   const auto residual = all_.head(function_.output_size());
   double previous = std::numeric_limits<double>::infinity();
   double contraction = 0.0;
@@ -124,9 +146,7 @@ Newton::Result Newton::solve(double* y, const double* const* in, const double* s
   while (result.iterations < options_.max_iterations) {
     ++result.iterations;
     function_.value(in, all_.data());
-    step_.noalias() = inverse_ * residual;
-    unknown -= step_;
-    const double moved = change(y, scales);
+    const double moved = improve(y, scales);
     if (!std::isfinite(moved)) {
       result.residuals.push_back(residual.size() == 0 ? 0.0 : residual.lpNorm<Eigen::Infinity>());
       return result;
@@ -137,7 +157,7 @@ Newton::Result Newton::solve(double* y, const double* const* in, const double* s
     }
     if (compared) {
       contraction = moved / previous;
-      if (contraction < 0.5 && contraction / (1.0 - contraction) * moved <= options_.tolerance) {
+      if (contraction < 0.5 && contraction * moved <= (1.0 - contraction) * options_.tolerance) {
         result.status = Status::converged;
         return result;
       }

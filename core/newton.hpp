@@ -52,7 +52,7 @@ class Newton {
 
  private:
   bool factorize(const double* const* in);
-  double change(const double* y, const double* scales) const;
+  double improve(double* y, const double* scales);
   bool is_rounded(const double* y, const double* scales);
 
   Function function_;
@@ -60,7 +60,9 @@ class Newton {
   Options options_;
   bool factorized_ = false;
   MatrixXd inverse_;  // A, n × r
-  VectorXd all_;      // F and the entries of its Jacobian
+  // b = A x, made for the size of A.
+  void (*multiply_)(const MatrixXd& A, const VectorXd& x, VectorXd& b);
+  VectorXd all_;  // F and the entries of its Jacobian
   VectorXd step_;
   VectorXd magnitude_;  // of the terms that each equation is a sum of
 };

@@ -3,7 +3,7 @@
 namespace courant {
 namespace {
 
-ExprVector normalised(const ExprVector& x) { return x / sqrt(x.squaredNorm()); }
+ExprVector normalised(const ExprVector& x) { return x * (1.0 / sqrt(x.squaredNorm())); }
 
 }  // namespace
 
@@ -24,11 +24,12 @@ DiscretizationMap::TangentVector<Expr> Chordal::do_inverse(const ExprVector& x0,
 
 DiscretizationMap::Displacement Chordal::do_from_start(const ExprVector& x0,
                                                        const ExprVector& w) const {
-  // The middle m of the chord's arc, then x₁ as the reflection of x₀ in it.
-  const ExprVector middle = normalised(x0 + Expr(0.5) * w);
-  const Expr c = middle.dot(x0);
-  const ExprVector end = 2.0 * c * middle - x0;
-  return {middle, (end - x0) / c, end};
+  // The middle m = s/‖s‖ of the chord's arc, then x₁ as the reflection of x₀ in it.
+  const ExprVector s = x0 + Expr(0.5) * w;
+  const Expr length = sqrt(s.squaredNorm());
+  const Expr along = s.dot(x0);
+  const ExprVector middle = s * (1.0 / length);
+  return {middle, Expr(2.0) * (middle - length / along * x0), 2.0 * along / length * middle - x0};
 }
 
 }  // namespace courant

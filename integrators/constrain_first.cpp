@@ -8,6 +8,7 @@
 #include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/local_formulation.hpp"
 #include "courant/integrators/moving_basis.hpp"
+#include "courant/integrators/predictor.hpp"
 #include "courant/integrators/step_solver.hpp"
 
 namespace courant {

@@ -5,6 +5,7 @@
 
 #include "courant/integrators/local_formulation.hpp"
 #include "courant/integrators/moving_basis.hpp"
+#include "courant/integrators/predictor.hpp"
 #include "courant/integrators/round_off_projection.hpp"
 #include "courant/integrators/step_solver.hpp"
 
@@ -107,12 +108,13 @@ DiscretizeFirst::DiscretizeFirst(std::shared_ptr<const ImplicitSystem> system,
   const ExprVector z = graph.variables("z", system_->auxiliary_size());
   const Expr stage_time = t[0] + Expr(map_->stage_time()) * h[0];
 
+  const Expr rate = 1.0 / h[0];
   ExprVector y, residual, x1, v;
   if (map_->has_inverse()) {
     const ExprVector xi = graph.variables("xi", n);
     const auto middle = map_->from_start(x0, basis * xi);
     x1 = middle.end;
-    v = middle.v / h[0];
+    v = middle.v * rate;
     residual = reduced_residual(*system_, basis, middle.x, v, z, stage_time);
     y.resize(n + z.size());
     y << xi, z;
@@ -123,7 +125,7 @@ DiscretizeFirst::DiscretizeFirst(std::shared_ptr<const ImplicitSystem> system,
     const ExprVector displacement = M.tangent_projector(x) * (basis * eta).eval();
     const auto ends = map_->forward(x, displacement);
     x1 = ends.second;
-    v = displacement / h[0];
+    v = displacement * rate;
     const ExprVector at_start = M.coframe(x0) * (ends.first - x0).eval();
     const ExprVector equations = reduced_residual(*system_, basis, x, v, z, stage_time);
     residual.resize(n + equations.size());

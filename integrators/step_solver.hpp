@@ -11,29 +11,6 @@
 
 namespace courant {
 
-// The next unknown of a sequence of steps, by polynomial extrapolation of the last ones (up to a
-// parabola).
-//
-// The first `blocks` · n entries of an unknown are coordinates of tangent vectors with respect to
-// the basis of its step; they are kept in the tangent representation (Ñ each), which outlives the
-// basis.
-class Predictor {
- public:
-  Predictor(const Manifold& manifold, Index blocks, Index size);
-
-  void predict(const MatrixXd& basis, VectorXd& y);
-  void record(const MatrixXd& basis, const VectorXd& y);
-  bool is_empty() const { return count_ == 0; }
-
- private:
-  bool constant_basis_;
-  Index coordinates_, tangents_, blocks_;
-  VectorXd history_[3];
-  VectorXd extrapolated_;
-  int newest_ = 0;
-  int count_ = 0;
-};
-
 // Solves the equations of one step after the other, or throws SolveError. Holds workspace; one
 // object a trajectory.
 class StepSolver {

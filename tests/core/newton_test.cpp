@@ -74,6 +74,24 @@ BOOST_AUTO_TEST_CASE(redundant_and_undetermined_systems_by_least_squares) {
   BOOST_TEST((problem.y - VectorXd((VectorXd(3) << 2.0, 0.5, 0.5).finished())).norm() < 1e-14);
 }
 
+// Matrices of every size that has code of its own, and larger ones.
+BOOST_AUTO_TEST_CASE(sizes) {
+  for (Index size = 1; size <= 12; ++size) {
+    Problem problem = make(size, [&](const ExprVector& y, const Expr& a) {
+      ExprVector F = y;
+      for (Index i = 0; i < size; ++i)
+        F[i] += 0.3 * sin(y[(i + 1) % size]) + 0.1 * square(y[size - 1 - i]) - a;
+      return F;
+    });
+    problem.parameter = 0.5;
+    Newton newton(problem.function, {}, {});
+    BOOST_TEST((problem.solve(newton, 1.0).status == Newton::Status::converged));
+    const VectorXd residual = problem.function({problem.y, VectorXd::Constant(1, 0.5)});
+    BOOST_TEST(residual.lpNorm<Eigen::Infinity>() < 1e-15);
+    BOOST_TEST(problem.y.norm() > 0.1);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(no_solution_is_reported) {
   Problem problem = make(1, [](const ExprVector& y, const Expr&) {
     return ExprVector(ExprVector::Constant(1, square(y[0]) + 1.0));

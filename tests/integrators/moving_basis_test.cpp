@@ -6,6 +6,7 @@
 #include "courant/manifolds/hyperbolic.hpp"
 #include "courant/manifolds/special_orthogonal3.hpp"
 #include "courant/manifolds/sphere.hpp"
+#include "courant/manifolds/stiefel.hpp"
 
 using namespace courant;
 
@@ -30,7 +31,8 @@ BOOST_AUTO_TEST_CASE(follows_a_curve) {
   std::mt19937 generator(4);
   const std::vector<std::shared_ptr<const Manifold>> manifolds = {
       std::make_shared<Sphere>(2), std::make_shared<CotangentBundle>(std::make_shared<Sphere>(2)),
-      std::make_shared<CotangentBundle>(std::make_shared<Hyperbolic>(2))};
+      std::make_shared<CotangentBundle>(std::make_shared<Hyperbolic>(2)),
+      std::make_shared<Sphere>(7), std::make_shared<Stiefel>(5, 3)};  // 9 columns
   for (const auto& M : manifolds) {
     VectorXd x = M->random_point(generator);
     MovingBasis basis = basis_at(*M, x);
