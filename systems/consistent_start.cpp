@@ -1,6 +1,7 @@
 #include "courant/systems/consistent_start.hpp"
 
 #include <cmath>
+#include <stdexcept>
 
 #include "courant/core/rank_decision.hpp"
 #include "courant/integrators/constraint_algorithm.hpp"
@@ -17,6 +18,20 @@ std::vector<Index> indices(const Flags& flags) {
   return list;
 }
 
+std::string with_zeros(const Experiment& experiment) {
+  return experiment.initial.x.given.all() ? "" : " (with 0 for what is not given)";
+}
+
+void check_near_manifold(const Experiment& experiment, const InitialGuess& guess) {
+  const Manifold& M = *experiment.model.system->manifold();
+  try {
+    M.project(guess.x);
+  } catch (const std::domain_error& error) {
+    throw ExperimentError("/initial", "no point of " + M.name() + " is near the initial values" +
+                                          with_zeros(experiment) + ": " + error.what());
+  }
+}
+
 void check_finite(const Experiment& experiment, const InitialGuess& guess) {
   const ImplicitSystem& system = *experiment.model.system;
   const VectorXd v =
@@ -26,11 +41,9 @@ void check_finite(const Experiment& experiment, const InitialGuess& guess) {
   for (Index i = 0; i < residual.size(); ++i)
     if (!std::isfinite(residual[i]))
       throw ExperimentError(
-          "/initial",
-          "the equation \"" + system.names().equations[static_cast<std::size_t>(i)] + "\" is " +
-              std::to_string(residual[i]) + " at the initial values" +
-              (experiment.initial.x.given.all() ? "" : " (with 0 for what is not given)") +
-              "; expected a finite number");
+          "/initial", "the equation \"" + system.names().equations[static_cast<std::size_t>(i)] +
+                          "\" is " + std::to_string(residual[i]) + " at the initial values" +
+                          with_zeros(experiment) + "; expected a finite number");
 }
 
 // Names of coordinates that are not given and that neither M_f nor the given velocities and
@@ -84,6 +97,7 @@ ConstraintLadder consistent_start(const Experiment& experiment) {
   InitialGuess guess{.t = experiment.start(), .x = initial.x.values};
   if (initial.velocity.given.any()) guess.v = M.coframe(guess.x) * initial.velocity.values;
   if (initial.z.given.any()) guess.z = initial.z.values;
+  check_near_manifold(experiment, guess);
   check_finite(experiment, guess);
 
   ConstraintAlgorithm::Options options;

@@ -9,6 +9,7 @@
 #include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/explicit_runge_kutta.hpp"
 #include "courant/integrators/product_map.hpp"
+#include "courant/integrators/projected.hpp"
 #include "courant/integrators/spherical_midpoint.hpp"
 #include "courant/integrators/theta.hpp"
 #include "courant/manifolds/euclidean.hpp"
@@ -108,6 +109,18 @@ std::optional<DiscretizationChoice> cayley(ObjectReader&) {
   });
 }
 
+// A map of the surrounding manifold with its ends projected to a submanifold.
+std::optional<DiscretizationChoice> projected(ObjectReader& object) {
+  const auto map = discretization_kinds().read(object, "map", "midpoint");
+  if (!map) return std::nullopt;
+  return lifted("projected " + map->description,
+                [make = map->make](const ManifoldPointer& M) -> MapPointer {
+                  const auto submanifold = std::dynamic_pointer_cast<const ImplicitSubmanifold>(M);
+                  if (!submanifold) refuse("projected", "implicit submanifolds", *M);
+                  return std::make_shared<Projected>(submanifold, make(submanifold->surrounding()));
+                });
+}
+
 std::optional<ProjectorChoice> orthogonal(ObjectReader&) {
   return ProjectorChoice{"orthogonal projector", [](const ManifoldPointer&) {
                            return std::make_shared<OrthogonalProjector>();
@@ -197,6 +210,8 @@ const Registry<DiscretizationChoice>& discretization_kinds() {
       {{"spherical-midpoint", "(x√(1-v²/4) - v/2, x√(1-v²/4) + v/2) on spheres, and products"},
        spherical_midpoint},
       {{"cayley", "midpoint of the Cayley transform on so3 and se3, and products"}, cayley},
+      {{"projected", "(P × P) R_d on an implicit submanifold, R_d a \"map\" of the surrounding"},
+       projected},
       {{"theta", "R_d(x, v) = (R_x(-θv), R_x((1-θ)v)) with \"theta\" in [0, 1]"}, theta_map},
   });
   return kinds;

@@ -11,7 +11,7 @@ std::optional<Model> read_hamiltonian(ObjectReader& system) {
   Vocabulary& vocabulary = model.vocabulary;
   vocabulary = read_vocabulary(system);
   SymbolTable taken = vocabulary.symbols({.t = Expr(0.0)});
-  const auto space = read_structure_space(system, taken);
+  const auto space = read_structure_space(system, vocabulary, taken);
   const auto key = system.required("hamiltonian");
   const auto formula = key ? read_formula(*key) : std::nullopt;
   if (!space) return std::nullopt;

@@ -53,7 +53,7 @@ std::optional<Model> read_port_hamiltonian(ObjectReader& system) {
   Vocabulary& vocabulary = model.vocabulary;
   vocabulary = read_vocabulary(system);
   SymbolTable taken = vocabulary.symbols({.t = Expr(0.0)});
-  const auto space = read_space(system, "euclidean", taken);
+  const auto space = read_space(system, "euclidean", vocabulary, taken);
   const auto hamiltonian_key = system.required("hamiltonian");
   const auto hamiltonian = hamiltonian_key ? read_formula(*hamiltonian_key) : std::nullopt;
   const auto J_key = system.required("J");

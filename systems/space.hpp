@@ -10,20 +10,22 @@
 
 namespace courant {
 
-// A manifold M ⊂ R^N with N names. On a cotangent bundle those of the base come first, then the
-// momenta p_<name>.
+// A manifold M ⊂ R^N with N names. On a bundle those of the base come first, then those of the
+// fibres: momenta p_<name> on T*Q, velocities v_<name> on TQ.
 struct Space {
   std::shared_ptr<const Manifold> manifold;
   NameList coordinates;
 };
 
-// The kinds of `manifold`; the coordinates are what the experiment declares, for a cotangent bundle
-// on its base.
-const Registry<std::shared_ptr<const Manifold>, NameList>& manifold_kinds();
+// The kinds of `manifold`. The vocabulary has the coordinates that the experiment declares, for a
+// bundle on its base, and what else formulas of them may contain.
+const Registry<std::shared_ptr<const Manifold>, Vocabulary>& manifold_kinds();
 
-// Reads the keys `coordinates` and `manifold` (or `otherwise`, where it is missing). `taken` has
-// the names that may not be used again, and gets the new ones.
-std::optional<Space> read_space(ObjectReader& system, const Json& otherwise, SymbolTable& taken);
+// Reads the keys `coordinates` and `manifold` (or `otherwise`, where it is missing), whose formulas
+// may use the parameters and definitions of a vocabulary. `taken` has the names that may not be
+// used again, and gets the new ones.
+std::optional<Space> read_space(ObjectReader& system, const Json& otherwise,
+                                const Vocabulary& vocabulary, SymbolTable& taken);
 
 // The cotangent bundle of a space, with momenta. A momentum has the shape of its coordinate, but
 // where covectors are not represented in R^N (n < N on groups) it is an array of Ñ: "R[3][3]" has

@@ -224,7 +224,7 @@ struct Part {
 std::optional<Part> read_part(ObjectReader& object, const Vocabulary& outer, SymbolTable& taken,
                               Index ports = 0) {
   const auto key = object.required("structure");
-  auto space = read_structure_space(object, taken);
+  auto space = read_structure_space(object, outer, taken);
   if (!key || !space) return std::nullopt;
   StructureSite site{space->manifold, outer};
   site.vocabulary.coordinates = space->coordinates;
@@ -360,10 +360,11 @@ std::optional<StructurePointer> pushed_forward(ObjectReader& object, const Struc
 
 }  // namespace
 
-std::optional<Space> read_structure_space(ObjectReader& object, SymbolTable& taken) {
+std::optional<Space> read_structure_space(ObjectReader& object, const Vocabulary& vocabulary,
+                                          SymbolTable& taken) {
   const auto structure = object.optional("structure");
   if (!structure || !has_parts(structure->value()))
-    return read_space(object, default_manifold(structure), taken);
+    return read_space(object, default_manifold(structure), vocabulary, taken);
   const auto coordinates = object.required("coordinates");
   if (const auto manifold = object.optional("manifold"))
     manifold->problem("is made of those of the structure's parts; expected no \"manifold\" here");

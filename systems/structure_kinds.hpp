@@ -13,10 +13,11 @@ namespace courant {
 // The kinds of `structure`.
 const Registry<std::shared_ptr<const DiracStructure>, StructureSite>& structure_kinds();
 
-// The keys `coordinates` and `manifold` of an object with a `structure`. The manifold is by default
-// T*Rⁿ for the canonical structure and Rⁿ for others; a product or composed structure has one made
-// of its parts, so none may be given, and that of the space is only as large as the coordinates:
-// take DiracStructure::manifold() once the structure is read.
-std::optional<Space> read_structure_space(ObjectReader& object, SymbolTable& taken);
+// The keys `coordinates` and `manifold` of an object with a `structure`, see read_space. The
+// manifold is by default T*Rⁿ for the canonical structure and Rⁿ for others; a product or composed
+// structure has one made of its parts, so none may be given, and that of the space is only as large
+// as the coordinates: take DiracStructure::manifold() once the structure is read.
+std::optional<Space> read_structure_space(ObjectReader& object, const Vocabulary& vocabulary,
+                                          SymbolTable& taken);
 
 }  // namespace courant

@@ -140,6 +140,19 @@ BOOST_AUTO_TEST_CASE(a_velocity_that_cannot_be_kept_gives_way) {
   BOOST_TEST(told);
 }
 
+BOOST_AUTO_TEST_CASE(values_that_are_near_no_point_are_an_error) {
+  const Json experiment = {{"system",
+                            {{"type", "hamiltonian"},
+                             {"manifold", {{"type", "cotangent-bundle"}, {"base", "so3"}}},
+                             {"coordinates", {"R[3][3]"}},
+                             {"hamiltonian", "dot(p_R, p_R)"}}},
+                           {"initial", {{"p_R", {1, 0, 0}}}}};
+  BOOST_TEST(problem(experiment) ==
+             "/initial: no point of CotangentBundle(SpecialOrthogonal3(exponential)) is near the "
+             "initial values (with 0 for what is not given): nearest_rotation: A has determinant "
+             "0.000000; expected one above 0, as near a rotation.");
+}
+
 BOOST_AUTO_TEST_CASE(equations_that_are_not_finite_are_an_error) {
   const Json experiment = {
       {"system",

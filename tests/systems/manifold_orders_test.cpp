@@ -115,6 +115,33 @@ BOOST_AUTO_TEST_CASE(products) {
                {"exponential"});
 }
 
+// The spherical pendulum as an equation for the velocity, where there is no symplectic form.
+BOOST_AUTO_TEST_CASE(tangent_bundle) {
+  Json equations;
+  for (const std::string i : {"[0]", "[1]", "[2]"}) {
+    equations.push_back("x" + i + "' - v_x" + i);
+    equations.push_back("v_x" + i + "' + (dot(v_x, v_x) - x[2] - x[0]*x[1]*2)*x" + i +
+                        " + gradient" + i);
+  }
+  const Json experiment = {{"system",
+                            {{"type", "implicit"},
+                             {"manifold", {{"type", "tangent-bundle"}, {"base", "sphere"}}},
+                             {"coordinates", {"x[3]"}},
+                             {"definitions", {{"gradient", {"x[1]", "x[0]", "1"}}}},
+                             {"equations", equations}}},
+                           {"initial", {{"x", {0.6, 0, 0.8}}, {"v_x", {0.4, 0.7, -0.3}}}}};
+  check_orders(experiment, {"midpoint"});
+}
+
+// An ellipsoid, in formulas.
+BOOST_AUTO_TEST_CASE(submanifold_of_an_experiment) {
+  check_orders(motion({{"type", "implicit-submanifold"},
+                       {"equations", {"x[0]^2 + x[1]^2/2 + x[2]^2/4 - 1"}}},
+                      {"x[3]"}, "dot(p_x, p_x)/2 + x[2] + 0.3*x[0]",
+                      {{"x", {0.6, 0, 1.6}}, {"p_x", {0.3, 0.5, -0.45}}}),
+               {"midpoint", "projected"});
+}
+
 BOOST_AUTO_TEST_CASE(submanifold_given_by_equations) {
   const auto ellipsoid = std::make_shared<ImplicitSubmanifold>(
       "Ellipsoid", std::make_shared<Euclidean>(3),

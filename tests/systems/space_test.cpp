@@ -104,6 +104,76 @@ BOOST_AUTO_TEST_CASE(coordinates_that_do_not_fit_are_problems) {
              "are called; expected one array for each factor, such as \"R[3][3]\"");
 }
 
+BOOST_AUTO_TEST_CASE(velocities_over_a_tangent_bundle) {
+  const auto names = [](const Json& manifold, const Json& coordinates) {
+    const Json experiment = {{"system",
+                              {{"type", "implicit"},
+                               {"manifold", manifold},
+                               {"coordinates", coordinates},
+                               {"equations", {"0"}}}},
+                             {"initial", Json::object()}};
+    return read_experiment(experiment.dump()).model.system->names().coordinates;
+  };
+  const auto rotations = names({{"type", "tangent-bundle"}, {"base", "so3"}}, {"R[3][3]"});
+  BOOST_REQUIRE(rotations.size() == 12u);
+  BOOST_TEST(rotations[9] == "v_R[0]");
+  const auto twice =
+      names({{"type", "cotangent-bundle"}, {"base", {{"type", "tangent-bundle"}, {"base", "so3"}}}},
+            {"R[3][3]"});
+  BOOST_REQUIRE(twice.size() == 18u);
+  BOOST_TEST(twice[9] == "v_R[0]");
+  BOOST_TEST(twice[12] == "p_R[0]");
+  BOOST_TEST(twice[15] == "p_v_R[0]");
+}
+
+// The sphere as a submanifold of R³, and a circle of it.
+BOOST_AUTO_TEST_CASE(submanifolds_by_equations) {
+  const Json sphere = {{"type", "implicit-submanifold"}, {"equations", {"dot(x, x) - r^2"}}};
+  const auto with = [](const Json& base, const Json& coordinates = {"x[3]"}) {
+    Json experiment = motion(base, coordinates, "0");
+    experiment["system"]["parameters"] = {{"r", 2}};
+    experiment["system"]["definitions"] = {{"height", "x[2]"}, {"energy", "p_x[0]"}};
+    return experiment;
+  };
+  const auto M = manifold_of(with(sphere));
+  BOOST_TEST(M->name() == "CotangentBundle(ImplicitSubmanifold(Euclidean(3), 1))");
+  BOOST_TEST(M->dimension() == 4);
+  VectorXd x(6);
+  x << 0, 1.2, 1.6, 1, 0.8, -0.6;
+  BOOST_TEST(M->point_defect(x) < 1e-15);
+  x[2] = 1.7;
+  BOOST_TEST(M->point_defect(x) > 0.1);
+
+  const Json circle = {
+      {"type", "implicit-submanifold"}, {"surrounding", "sphere"}, {"equations", {"height - 1/2"}}};
+  BOOST_TEST(manifold_of(with(circle))->dimension() == 2);
+  BOOST_TEST(map_of({{"type", "projected"}, {"map", "chordal"}}, with(circle)) ==
+             "CotangentLift(Projected(Chordal))");
+  BOOST_CHECK_THROW(map_of("projected", motion("sphere", {"x[3]"}, "0")), std::invalid_argument);
+
+  const auto changed = [&](const char* key, const Json& value) {
+    Json base = sphere;
+    base[key] = value;
+    return problems(with(base));
+  };
+  const std::string place = "/system/manifold/base";
+  BOOST_TEST(changed("equations", {"x[0]^2 + 1"}) ==
+             place +
+                 "/equations: have no zero that could be found in Euclidean(3); expected "
+                 "equations that hold somewhere, with independent gradients there");
+  BOOST_TEST(changed("equations", {"(x[0] - 1)^2"}) == changed("equations", {"x[0]^2 + 1"}));
+  BOOST_TEST(changed("equations", {"x[0]", "x[1]", "x[2]"}) ==
+             place +
+                 "/equations: are 3; expected 1 to 2, fewer than the dimension of "
+                 "Euclidean(3)");
+  BOOST_TEST(changed("equations", {"energy"}) ==
+             place + "/equations/0: column 1: unknown name \"energy\"");
+  BOOST_TEST(changed("surrounding", "so3") ==
+             place +
+                 ": is in SpecialOrthogonal3(exponential) with points of 9 numbers, but the "
+                 "coordinates are 3");
+}
+
 BOOST_AUTO_TEST_CASE(maps_are_those_of_the_factors) {
   const Json sphere = motion("sphere", {"x[3]"}, "0");
   const Json rotations = motion("so3", {"R[3][3]"}, "0");
