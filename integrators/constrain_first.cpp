@@ -9,6 +9,7 @@
 #include "courant/integrators/local_formulation.hpp"
 #include "courant/integrators/moving_basis.hpp"
 #include "courant/integrators/predictor.hpp"
+#include "courant/integrators/round_off_projection.hpp"
 #include "courant/integrators/step_solver.hpp"
 
 namespace courant {
@@ -46,6 +47,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
                              method.projector_->has_constant_directions(d_)),
         solver_(method.equations_, {n_, n_, rest_, d_}, method.name()),
         projector_(method.projection_, {n_, n_, rest_, d_}, method.name() + " (projection)"),
+        round_off_projection_(method.constraint_),
         predictor_(manifold_, method.blocks_, solver_.unknown().size()),
         basis_(manifold_, method.basis_, initial.x),
         directions_(n_, d_),
@@ -89,6 +91,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
       throw SolveError(SolveError::Reason::left_domain, state_.t, statistics_.steps + 1, {},
                        method_.name() + ": step " + std::to_string(statistics_.steps + 1) +
                            " leads to a state that is not finite.");
+    round_off_projection_.apply(near_);
     predictor_.record(basis_.matrix(), y);
 
     VectorXd& end = projector_.unknown();
@@ -186,6 +189,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
   Index n_, d_, rest_;
   bool constant_directions_, is_aimed_ = false;
   StepSolver solver_, projector_;
+  RoundOffProjection round_off_projection_;
   Predictor predictor_;
   MovingBasis basis_;    // B at x_k
   MatrixXd directions_;  // W at x_k
@@ -258,6 +262,7 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
       Function("projection", at_end, join({ExprVector(basis.transpose() * distance), equations}),
                {.differentiate = {"y"}, .backend = options.backend});
   basis_ = MovingBasis::projection(M, options.backend);
+  constraint_ = RoundOffProjection::constraint(M, options.backend);
   projected_ = Function("projected", at_end, join({local.x, local.v, local.z[0]}),
                         {.backend = options.backend});
 }

@@ -61,8 +61,9 @@ class ConstrainFirst final : public Integrator {
   Function advance_;    // the same ↦ R_d⁺(x̄, h v)
   Function projection_;  // (ξ, ξ', …, z, …, μ); x_guess, basis, W, x_near, t ↦ residual of x ∈ M_f,
                          // R_x(W μ) = x_near
-  Function projected_;  // the same ↦ x, v, z
-  Function basis_;      // of MovingBasis
+  Function projected_;   // the same ↦ x, v, z
+  Function basis_;       // of MovingBasis
+  Function constraint_;  // of RoundOffProjection
   Function constraints_;  // (ξ, ξ', …, z, …); x₀, basis, t ↦ equations of S_f, with Jacobian
 };
 
