@@ -21,6 +21,12 @@ constexpr double kSingular = 1e-13;
 // far below any tolerance a user would set.
 constexpr double kRoundOff = 1e-9;
 
+// With a matrix that was made one iteration ago such short steps contract by about their length,
+// unless the root is of high multiplicity. Those that keep nine tenths of their length are
+// round-off, enlarged by a matrix that is nearly singular.
+constexpr double kShort = 1e-5;
+constexpr double kStagnant = 0.9;
+
 // b = A x, for a square A of n rows or (Eigen::Dynamic) any.
 template <int n>
 void multiply(const MatrixXd& A, const VectorXd& x, VectorXd& b) {
@@ -131,12 +137,12 @@ Newton::Result Newton::solve(double* y, const double* const* in, const double* s
   const auto residual = all_.head(function_.output_size());
   double previous = std::numeric_limits<double>::infinity();
   double contraction = 0.0;
-  bool fresh = false;     // A belongs to a point of this solve
-  bool compared = false;  // `previous` was made with the same A
+  bool fresh = false;  // A belongs to a point of this solve
+  int compared = 0;    // iterations with the same A before, which made `previous`
   const auto refactorize = [&] {
     ++result.factorizations;
     fresh = true;
-    compared = false;
+    compared = 0;
     return factorize(in);
   };
   if (!factorized_ && !refactorize()) {
@@ -155,14 +161,15 @@ Newton::Result Newton::solve(double* y, const double* const* in, const double* s
       result.status = Status::converged;
       return result;
     }
-    if (compared) {
+    if (compared > 0) {
       contraction = moved / previous;
       if (contraction < 0.5 && contraction * moved <= (1.0 - contraction) * options_.tolerance) {
         result.status = Status::converged;
         return result;
       }
       const bool stalled = contraction > 0.5;
-      const bool rounded = stalled && (moved <= kRoundOff || is_rounded(y, scales));
+      const bool stagnant = fresh && compared == 1 && contraction > kStagnant && moved <= kShort;
+      const bool rounded = stalled && (moved <= kRoundOff || stagnant || is_rounded(y, scales));
       const bool slow = contraction > options_.slow && moved > 1e3 * options_.tolerance;
       if (slow && (!fresh || (stalled && !rounded))) {
         if (!refactorize()) {
@@ -177,7 +184,7 @@ Newton::Result Newton::solve(double* y, const double* const* in, const double* s
       }
     }
     previous = moved;
-    compared = true;
+    ++compared;
   }
   result.residuals.push_back(residual.size() == 0 ? 0.0 : residual.lpNorm<Eigen::Infinity>());
   return result;

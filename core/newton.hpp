@@ -15,8 +15,8 @@ namespace courant {
 // unknowns) of an earlier Jacobian, kept as long as it contracts well. Convergence is relative to
 // the scale of the unknowns: the error left is estimated from the last change and the contraction,
 // and iterates that only move by round-off are accepted too (an absolute test goes on for ever once
-// the state is large), as are those whose residual is round-off of its terms: near a singular point
-// unknowns can move far for that. Holds workspace: one object a trajectory, not shared between
+// the state is large), as are those whose residual is round-off of its terms, or that a matrix made
+// just before does not bring nearer: close to a singular point unknowns move far for round-off. Holds workspace: one object a trajectory, not shared between
 // threads. No allocation after the first solve.
 class Newton {
  public:

@@ -3,12 +3,23 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 #include "courant/core/derivative.hpp"
 #include "courant/integrators/local_formulation.hpp"
 #include "courant/integrators/step_solver.hpp"
 
 namespace courant {
+namespace {
+
+// What may be the matter with a point that has no velocity.
+std::string whereabouts(const Manifold& M, const VectorXd& x) {
+  const double defect = M.point_defect(x);
+  if (defect < 1e-3) return "is at or near a singular point";
+  return "has left " + M.name() + ", whose equations are violated by " + std::to_string(defect);
+}
+
+}  // namespace
 
 VectorField::VectorField(std::shared_ptr<const ImplicitSystem> system,
                          const ConstraintLadder& ladder, Backend backend)
@@ -70,6 +81,7 @@ VectorField::VectorField(std::shared_ptr<const ImplicitSystem> system,
   ExprVector rate(x.size() + v.size() + local.z[0].size());
   rate << M.frame(x) * v, v, local.z[0];
   rate_ = Function("rate", inputs, rate, {.backend = backend});
+  basis_ = MovingBasis::projection(M, backend);
 }
 
 VectorField::Evaluation::Evaluation(const VectorField& field)
@@ -82,8 +94,11 @@ VectorField::Evaluation::Evaluation(const VectorField& field)
 
 void VectorField::Evaluation::operator()(const VectorXd& x, VectorXd& rate, double t) {
   const Manifold& M = *field_.system_->manifold();
-  if (M.dimension() < M.tangent_dimension()) basis_ = M.tangent_basis(x);
-  const double* in[] = {y_.data(), x.data(), basis_.data(), &t};
+  if (basis_)
+    basis_->move_to(x);
+  else
+    basis_.emplace(M, field_.basis_, x);
+  const double* in[] = {y_.data(), x.data(), basis_->data(), &t};
   const double scale = largest(y_);
   auto result = newton_.solve(y_.data(), in, &scale);
   if (result.status != Newton::Status::converged) {
@@ -93,7 +108,7 @@ void VectorField::Evaluation::operator()(const VectorXd& x, VectorXd& rate, doub
   }
   if (result.status != Newton::Status::converged || !y_.allFinite())
     throw std::domain_error("VectorField::operator(): no velocity found at t = " +
-                            std::to_string(t) + "; the state is at or near a singular point.");
+                            std::to_string(t) + "; the state " + whereabouts(M, x) + ".");
   field_.rate_.value(in, out_.data());
   rate = out_.head(x.size());
   v_ = out_.segment(x.size(), v_.size());

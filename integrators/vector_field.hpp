@@ -1,9 +1,12 @@
 // VectorField: S_f as the graph of a vector field.
 #pragma once
 
+#include <optional>
+
 #include "courant/core/function.hpp"
 #include "courant/core/newton.hpp"
 #include "courant/integrators/constraint_ladder.hpp"
+#include "courant/integrators/moving_basis.hpp"
 #include "courant/structures/implicit_system.hpp"
 
 namespace courant {
@@ -38,7 +41,7 @@ class VectorField {
     const VectorField& field_;
     Newton newton_;
     VectorXd y_, out_, v_, z_;
-    MatrixXd basis_;
+    std::optional<MovingBasis> basis_;  // from the first point on
   };
 
  private:
@@ -46,6 +49,7 @@ class VectorField {
   VectorXd start_;      // (ξ', …, z, …) at the ladder's point
   Function equations_;  // y = (ξ', …, z, …); x, basis, t ↦ the equations kept
   Function rate_;       // the same ↦ ẋ, v, z
+  Function basis_;      // of MovingBasis
 };
 
 }  // namespace courant

@@ -62,6 +62,18 @@ BOOST_AUTO_TEST_CASE(large_states_stop_at_round_off) {
   BOOST_TEST(result.iterations <= 6);
 }
 
+// y = 10⁻⁷ would be the solution, but 2 + 10⁻⁹ y has steps of 4·10⁻⁷ in y.
+BOOST_AUTO_TEST_CASE(nearly_singular_equations_stop_at_round_off) {
+  Problem problem = make(1, [](const ExprVector& y, const Expr&) {
+    return ExprVector(ExprVector::Constant(1, (2.0 + 1e-9 * y[0]) - 2.0 - 1e-16));
+  });
+  Newton newton(problem.function, {}, {});
+  const auto result = problem.solve(newton, 1.0);
+  BOOST_TEST((result.status == Newton::Status::converged));
+  BOOST_TEST(result.iterations <= 6);
+  BOOST_TEST(std::abs(problem.y[0]) < 1e-6);
+}
+
 BOOST_AUTO_TEST_CASE(redundant_and_undetermined_systems_by_least_squares) {
   // The equation y₀ = 2 twice, y₁ + y₂ = 1: the change of least norm from zero is y₁ = y₂.
   Problem problem = make(3, [](const ExprVector& y, const Expr&) {
