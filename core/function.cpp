@@ -13,7 +13,12 @@ namespace {
 constexpr Index kNativeMinimum = 4;
 constexpr Index kNativeMaximum = 10'000;
 
-std::string c_source(const Program& value, const Program& all) {
+bool is_worthwhile(Index instructions) {
+  return instructions >= kNativeMinimum && instructions <= kNativeMaximum;
+}
+
+// What the functions of programs call.
+std::string c_prelude() {
   std::string source = "#include <math.h>\n";
   source += special_functions_source();
   source +=
@@ -24,7 +29,7 @@ std::string c_source(const Program& value, const Program& all) {
       "    if (exponent & 1u) { result = first ? base : result * base; first = 0; }\n"
       "    exponent >>= 1;\n    if (exponent) base = base * base;\n  }\n"
       "  return k < 0 ? 1.0 / result : result;\n}\n";
-  return source + value.c_source("courant_value") + all.c_source("courant_value_and_jacobian");
+  return source;
 }
 
 }  // namespace
@@ -59,20 +64,26 @@ Function::Function(const std::string& name, const std::vector<Input>& inputs,
   value_ = std::make_shared<const Program>(groups, outputs);
   all_ = by.empty() ? value_ : std::make_shared<const Program>(groups, all);
 
-  const Index size = all_->instruction_count();
-  const bool worthwhile =
-      size >= kNativeMinimum && size <= kNativeMaximum && native_compiler_available();
-  if (options.backend == Backend::interpreter ||
-      (options.backend == Backend::automatic && !worthwhile))
-    return;
+  if (options.backend == Backend::interpreter) return;
+  const bool automatic = options.backend == Backend::automatic;
+  if (automatic && !native_compiler_available()) return;
+  // A Jacobian is many times as long as the value, and seldom asked for: Newton's method keeps its
+  // factorisations.
+  const bool compile_all = !automatic || is_worthwhile(all_->instruction_count());
+  if (!compile_all && !is_worthwhile(value_->instruction_count())) return;
+  const auto source = [&](const ExprVector& results, const char* symbol) {
+    return Program(groups, results, Program::Order::as_made).c_source(symbol);
+  };
   try {
-    native_ = NativeLibrary::compile(c_source(Program(groups, outputs, Program::Order::as_made),
-                                              Program(groups, all, Program::Order::as_made)));
+    std::string code = c_prelude() + source(outputs, "courant_value");
+    if (compile_all) code += source(all, "courant_value_and_jacobian");
+    native_ = NativeLibrary::compile(code);
     native_value_ = native_->function("courant_value");
-    native_all_ = native_->function("courant_value_and_jacobian");
+    if (compile_all) native_all_ = native_->function("courant_value_and_jacobian");
   } catch (const std::runtime_error&) {
-    if (options.backend == Backend::native) throw;
+    if (!automatic) throw;
     native_ = nullptr;
+    native_value_ = native_all_ = nullptr;
   }
 }
 

@@ -18,8 +18,8 @@ enum class Backend {
   interpreter,  // always there
   native,  // printed as C, compiled by the machine's C compiler; throws std::runtime_error without
            // one
-  automatic,  // native where a compiler works and the program is neither trivial nor huge, else
-              // interpreter
+  automatic,  // native where a compiler works and the program is neither trivial nor huge (the
+              // value alone, if the Jacobian is), else interpreter
 };
 
 // A map f: R^{n_0} × … × R^{n_g} → Rᵐ of named input groups, with its Jacobian by some of them and
@@ -65,11 +65,11 @@ class Function {
   // The inner loop: in[g] points to the n_g numbers of group g; nothing is checked, nothing
   // allocated.
   void value(const double* const* in, double* out) const {  // out: m
-    native_ ? native_value_(in, out) : value_->run(in, out);
+    native_value_ ? native_value_(in, out) : value_->run(in, out);
   }
   void value_and_jacobian(const double* const* in,
                           double* out) const {  // out: m values, then nonzeros() entries of J
-    native_ ? native_all_(in, out) : all_->run(in, out);
+    native_all_ ? native_all_(in, out) : all_->run(in, out);
   }
   // Series of order K: in[g] and out hold K+1 coefficients for each number, see taylor.hpp.
   void taylor(const double* const* in, Index order, double* out) const {
