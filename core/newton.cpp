@@ -1,6 +1,7 @@
 #include "courant/core/newton.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -24,8 +25,11 @@ constexpr double kRoundOff = 1e-9;
 // With a matrix that was made one iteration ago such short steps contract by about their length,
 // unless the root is of high multiplicity. Those that keep nine tenths of their length are
 // round-off, enlarged by a matrix that is nearly singular.
-constexpr double kShort = 1e-5;
+constexpr double kShort = 1e-4;
 constexpr double kStagnant = 0.9;
+
+// Relative changes that are round-off everywhere.
+constexpr double kLeast = 2.0 * std::numeric_limits<double>::epsilon();
 
 // b = A x, for a square A of n rows or (Eigen::Dynamic) any.
 template <int n>
@@ -53,23 +57,36 @@ Newton::Newton(Function function, std::vector<Index> groups, const Options& opti
       function_.jacobian_cols() != size)
     throw std::invalid_argument("Newton: the groups and the Jacobian of " + function_.name() +
                                 " do not fit its " + std::to_string(size) + " unknowns.");
-  inverse_.resize(size, function_.output_size());
+  contained_ = function_.pattern_col();
+  std::sort(contained_.begin(), contained_.end());
+  contained_.erase(std::unique(contained_.begin(), contained_.end()), contained_.end());
+  Index end = 0;
+  for (const Index group : groups_) {
+    end += group;
+    ends_.push_back(std::lower_bound(contained_.begin(), contained_.end(), end) -
+                    contained_.begin());
+  }
+  const auto rows = static_cast<Index>(contained_.size());
+  inverse_.resize(rows, function_.output_size());
   const bool square = inverse_.rows() == inverse_.cols();
   multiply_ =
-      with_static_size(square ? size : 0, [](auto n) { return &multiply<decltype(n)::value>; });
+      with_static_size(square ? rows : 0, [](auto n) { return &multiply<decltype(n)::value>; });
   all_.resize(function_.output_size() + function_.nonzeros());
-  step_.resize(size);
+  step_.resize(rows);
   magnitude_.resize(function_.output_size());
 }
 
 bool Newton::factorize(const double* const* in) {
   function_.value_and_jacobian(in, all_.data());
   const Index rows = function_.output_size();
-  MatrixXd J = MatrixXd::Zero(rows, function_.jacobian_cols());
-  for (std::size_t k = 0; k < function_.pattern_row().size(); ++k)
-    J(function_.pattern_row()[k], function_.pattern_col()[k]) = all_[rows + static_cast<Index>(k)];
+  MatrixXd J = MatrixXd::Zero(rows, inverse_.rows());
+  for (std::size_t k = 0; k < function_.pattern_row().size(); ++k) {
+    const auto column =
+        std::lower_bound(contained_.begin(), contained_.end(), function_.pattern_col()[k]);
+    J(function_.pattern_row()[k], column - contained_.begin()) = all_[rows + static_cast<Index>(k)];
+  }
   if (!J.allFinite()) return false;
-  if (J.size() == 0) return factorized_ = true;
+  if (J.size() == 0) return factorized_ = determined_ = true;
 
   VectorXd scale = J.rowwise().lpNorm<Eigen::Infinity>();
   scale = scale.unaryExpr([](double s) { return s > 0 ? 1.0 / s : 1.0; });
@@ -81,11 +98,13 @@ bool Newton::factorize(const double* const* in) {
     regular = pivots.minCoeff() > kSingular * pivots.maxCoeff();
     if (regular) inverse_ = lu.inverse();
   }
+  determined_ = regular;
   if (!regular) {
     Eigen::CompleteOrthogonalDecomposition<MatrixXd> cod;
     cod.setThreshold(1e-11);
     cod.compute(J);
     inverse_ = cod.pseudoInverse();
+    determined_ = cod.rank() == J.cols();
   }
   inverse_ = inverse_ * scale.asDiagonal();
   return factorized_ = inverse_.allFinite();
@@ -96,15 +115,17 @@ double Newton::improve(double* y, const double* scales) {
   multiply_(inverse_, all_, step_);
   double result = 0.0;
   double total = 0.0;  // not finite if one of the changes is not
+  const Index* contained = contained_.data();
   Index i = 0;
-  for (std::size_t g = 0; g < groups_.size(); ++g) {
+  for (std::size_t g = 0; g < ends_.size(); ++g) {
     double moved = 0.0;
     double size = scales[g];
-    for (const Index end = i + groups_[g]; i < end; ++i) {
+    for (const Index end = ends_[g]; i < end; ++i) {
+      double& unknown = y[contained[i]];
       const double change = std::fabs(step_[i]);
-      y[i] -= step_[i];
+      unknown -= step_[i];
       moved = std::max(moved, change);
-      size = std::max(size, std::fabs(y[i]));
+      size = std::max(size, std::fabs(unknown));
       total += change;
     }
     if (moved > 0.0) result = std::max(result, moved / size);
@@ -117,8 +138,8 @@ double Newton::improve(double* y, const double* scales) {
 bool Newton::is_rounded(const double* y, const double* scales) {
   magnitude_.setZero();
   const Index rows = magnitude_.size();
-  const auto row = function_.pattern_row();
-  const auto column = function_.pattern_col();
+  const auto& row = function_.pattern_row();
+  const auto& column = function_.pattern_col();
   for (std::size_t k = 0; k < row.size(); ++k) {
     std::size_t g = 0;
     for (Index end = groups_[0]; column[k] >= end; end += groups_[++g]) {
@@ -167,11 +188,14 @@ Newton::Result Newton::solve(double* y, const double* const* in, const double* s
         result.status = Status::converged;
         return result;
       }
+      // With an old factorisation, changes that do not become smaller may come from its age.
       const bool stalled = contraction > 0.5;
       const bool stagnant = fresh && compared == 1 && contraction > kStagnant && moved <= kShort;
-      const bool rounded = stalled && (moved <= kRoundOff || stagnant || is_rounded(y, scales));
+      const bool rounded =
+          stalled && (moved > kRoundOff ? stagnant || is_rounded(y, scales)
+                                        : fresh || moved <= std::max(kLeast, 2 * round_off_));
       const bool slow = contraction > options_.slow && moved > 1e3 * options_.tolerance;
-      if (slow && (!fresh || (stalled && !rounded))) {
+      if ((slow && !fresh) || (stalled && !rounded)) {
         if (!refactorize()) {
           result.status = Status::singular;
           return result;
@@ -179,6 +203,7 @@ Newton::Result Newton::solve(double* y, const double* const* in, const double* s
         continue;
       }
       if (rounded) {
+        round_off_ = fresh ? moved : 0.99 * round_off_;
         result.status = Status::converged;
         return result;
       }

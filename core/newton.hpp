@@ -16,8 +16,9 @@ namespace courant {
 // the scale of the unknowns: the error left is estimated from the last change and the contraction,
 // and iterates that only move by round-off are accepted too (an absolute test goes on for ever once
 // the state is large), as are those whose residual is round-off of its terms, or that a matrix made
-// just before does not bring nearer: close to a singular point unknowns move far for round-off. Holds workspace: one object a trajectory, not shared between
-// threads. No allocation after the first solve.
+// just before does not bring nearer: close to a singular point unknowns move far for round-off.
+// Unknowns that F does not contain stay as they are. Holds workspace: one object a trajectory, not
+// shared between threads. No allocation after the first solve.
 class Newton {
  public:
   struct Options {
@@ -48,7 +49,13 @@ class Newton {
   Result solve(double* y, const double* const* in, const double* scales);
 
   // Forgets the kept factorisation.
-  void reset() { factorized_ = false; }
+  void reset() {
+    factorized_ = false;
+    round_off_ = 0.0;
+  }
+
+  // Whether, by the last factorisation, F determines all the unknowns that it contains.
+  bool is_determined() const { return determined_; }
 
  private:
   bool factorize(const double* const* in);
@@ -57,9 +64,13 @@ class Newton {
 
   Function function_;
   std::vector<Index> groups_;
+  std::vector<Index> contained_;  // unknowns that F contains, ascending
+  std::vector<Index> ends_;       // of the groups, in contained_
   Options options_;
-  bool factorized_ = false;
-  MatrixXd inverse_;  // A, n × r
+  bool factorized_ = false, determined_ = false;
+  double round_off_ =
+      0.0;            // what iterates moved by with a new factorisation when they stalled last
+  MatrixXd inverse_;  // A: a row an unknown of contained_
   // b = A x, made for the size of A.
   void (*multiply_)(const MatrixXd& A, const VectorXd& x, VectorXd& b);
   VectorXd all_;  // F and the entries of its Jacobian

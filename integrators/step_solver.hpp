@@ -20,6 +20,7 @@ class StepSolver {
 
   VectorXd& unknown() { return y_; }
   const VectorXd& unknown() const { return y_; }
+  bool is_determined() const { return newton_.is_determined(); }  // as of Newton
 
   // On return unknown() solves the equations; in[0] is its place. `start` is where a second try
   // begins if the first fails.

@@ -115,4 +115,58 @@ BOOST_AUTO_TEST_CASE(no_solution_is_reported) {
   BOOST_TEST(!result.residuals.empty());
 }
 
+BOOST_AUTO_TEST_CASE(unknowns_that_are_not_contained_stay) {
+  // Two equations in y₀, y₂, y₃ of four unknowns, in three groups.
+  Problem problem = make(4, [](const ExprVector& y, const Expr& a) {
+    ExprVector F(2);
+    F << y[0] + 0.1 * sin(y[2]) - a, y[2] - 0.2 * cos(y[0]);
+    return F;
+  });
+  problem.y << 0.5, 7.0, 0.5, -8.0;
+  problem.parameter = 1.0;
+  Newton newton(problem.function, {1, 1, 2}, {});
+  const double scales[] = {1.0, 1.0, 1.0};
+  const double* in[] = {problem.y.data(), &problem.parameter};
+  BOOST_TEST((newton.solve(problem.y.data(), in, scales).status == Newton::Status::converged));
+  BOOST_TEST(newton.is_determined());
+  const VectorXd& y = problem.y;
+  BOOST_TEST(std::abs(y[0] + 0.1 * std::sin(y[2]) - 1.0) < 1e-15);
+  BOOST_TEST(std::abs(y[2] - 0.2 * std::cos(y[0])) < 1e-15);
+  BOOST_TEST(y[1] == 7.0);
+  BOOST_TEST(y[3] == -8.0);
+}
+
+BOOST_AUTO_TEST_CASE(undetermined_unknowns_are_noticed) {
+  // One equation for two unknowns; the same twice; two that are independent.
+  for (const auto& [second, determined] : {std::pair(0.0, false), std::pair(1.0, true)}) {
+    Problem problem = make(2, [&](const ExprVector& y, const Expr& a) {
+      ExprVector F(3);
+      F << y[0] + y[1] - a, 2.0 * y[0] + 2.0 * y[1] - 2.0 * a, y[0] + y[1] - a + second * y[0];
+      return F;
+    });
+    Newton newton(problem.function, {}, {});
+    BOOST_TEST((problem.solve(newton, 1.0).status == Newton::Status::converged));
+    BOOST_TEST(newton.is_determined() == determined);
+  }
+}
+
+// A factorisation that has become old contracts badly: what it leaves is not round-off, however
+// small it is.
+BOOST_AUTO_TEST_CASE(slow_is_not_round_off) {
+  Problem problem = make(1, [](const ExprVector& y, const Expr& a) {
+    return ExprVector(ExprVector::Constant(1, (1.0 + a) * (y[0] - 1.0)));
+  });
+  Newton newton(problem.function, {}, {});
+  problem.solve(newton, 1.0);
+  for (const double slope : {-0.7, 0.6}) {  // contraction 0.7 and 0.6 with the old one
+    problem.parameter = slope;
+    problem.y[0] = 1.0 + 5e-15;
+    BOOST_TEST((problem.solve(newton, 1.0).status == Newton::Status::converged));
+    BOOST_TEST(std::abs(problem.y[0] - 1.0) < 5e-16);
+    problem.parameter = 0.0;
+    newton.reset();
+    problem.solve(newton, 1.0);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
