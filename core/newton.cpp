@@ -28,6 +28,9 @@ constexpr double kRoundOff = 1e-9;
 constexpr double kShort = 1e-4;
 constexpr double kStagnant = 0.9;
 
+// Round-off is measured with a new factorisation, and again when this has made it too small.
+constexpr double kForget = 0.97;
+
 // Relative changes that are round-off everywhere.
 constexpr double kLeast = 2.0 * std::numeric_limits<double>::epsilon();
 
@@ -203,7 +206,7 @@ Newton::Result Newton::solve(double* y, const double* const* in, const double* s
         continue;
       }
       if (rounded) {
-        round_off_ = fresh ? moved : 0.99 * round_off_;
+        round_off_ = fresh && moved <= kRoundOff ? moved : kForget * round_off_;
         result.status = Status::converged;
         return result;
       }

@@ -68,9 +68,8 @@ class Newton {
   std::vector<Index> ends_;       // of the groups, in contained_
   Options options_;
   bool factorized_ = false, determined_ = false;
-  double round_off_ =
-      0.0;            // what iterates moved by with a new factorisation when they stalled last
-  MatrixXd inverse_;  // A: a row an unknown of contained_
+  double round_off_ = 0.0;  // by how much iterates moved when they stalled with a new factorisation
+  MatrixXd inverse_;        // A: a row an unknown of contained_
   // b = A x, made for the size of A.
   void (*multiply_)(const MatrixXd& A, const VectorXd& x, VectorXd& b);
   VectorXd all_;  // F and the entries of its Jacobian

@@ -1,13 +1,14 @@
 #include "courant/integrators/constrain_first.hpp"
 
-#include <Eigen/Dense>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "courant/core/derivative.hpp"
 #include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/local_formulation.hpp"
 #include "courant/integrators/moving_basis.hpp"
+#include "courant/integrators/moving_conormals.hpp"
 #include "courant/integrators/predictor.hpp"
 #include "courant/integrators/round_off_projection.hpp"
 #include "courant/integrators/step_solver.hpp"
@@ -18,6 +19,12 @@ namespace {
 // P is found by solving with W of the last iterate until W no longer changes: contraction is about
 // curvature × ‖μ‖ = O(h²).
 constexpr int kMaxProjections = 30;
+
+// What is left of x, relative to its size, when W is taken to change no more: less than round-off.
+// The contraction that it is computed with is that of the last step, at most so many times too
+// small.
+constexpr double kTolerance = 1e-16;
+constexpr double kSafety = 10.0;
 
 // One vector of all parts.
 ExprVector join(const std::vector<ExprVector>& parts) {
@@ -30,6 +37,17 @@ ExprVector join(const std::vector<ExprVector>& parts) {
     offset += part.size();
   }
   return result;
+}
+
+// How many of ξ, ξ', … (at least two) and of z, z', … (at least one) there are up to the last that
+// the equations contain.
+std::pair<Index, Index> contained_jets(const LocalFormulation& local, const ExprVector& equations) {
+  const auto last = [&](const std::vector<ExprVector>& jets, std::size_t least) {
+    std::size_t count = jets.size();
+    while (count > least && jacobian(equations, jets[count - 1]).values.size() == 0) --count;
+    return static_cast<Index>(count);
+  };
+  return {last(local.xi, 2), last(local.z, 1)};
 }
 
 }  // namespace
@@ -49,14 +67,19 @@ class ConstrainFirst::Trajectory final : public Stepper {
         projector_(method.projection_, {n_, n_, rest_, d_}, method.name() + " (projection)"),
         round_off_projection_(method.constraint_),
         predictor_(manifold_, method.blocks_, solver_.unknown().size()),
+        end_(manifold_, method.blocks_, solver_.unknown().size()),
+        shift_(manifold_.tangent_dimension()),
         basis_(manifold_, method.basis_, initial.x),
+        conormals_(method.conormals_, n_, d_),
         directions_(n_, d_),
         origin_(initial.t),
         h_(h),
         start_(VectorXd::Zero(solver_.unknown().size())),
         near_(manifold_.ambient_dimension()),
-        found_(method.projected_.output_size()),
-        rows_(method.constraints_.output_size() + method.constraints_.nonzeros()) {
+        guess_(near_.size()),
+        shifted_(VectorXd::Zero(manifold_.tangent_dimension())),
+        corrected_(shifted_),
+        found_(method.projected_.output_size()) {
     const Index m = method.system_->auxiliary_size();
     if (state_.v.size() != manifold_.tangent_dimension())
       state_.v = VectorXd::Zero(manifold_.tangent_dimension());
@@ -66,7 +89,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
     y.segment(n_, n_) = basis_.matrix().transpose() * state_.v;
     y.segment(method_.blocks_ * n_, m) = state_.z;
     near_ = state_.x;
-    project(state_.x, state_.t);
+    project(state_.t);
     accept(state_.t);
   }
 
@@ -92,14 +115,13 @@ class ConstrainFirst::Trajectory final : public Stepper {
                        method_.name() + ": step " + std::to_string(statistics_.steps + 1) +
                            " leads to a state that is not finite.");
     round_off_projection_.apply(near_);
+    if (!solver_.is_determined()) predictor_.limit_degree(Predictor::kUndetermined);
     predictor_.record(basis_.matrix(), y);
 
-    VectorXd& end = projector_.unknown();
-    end = y;
-    end.head(n_).setZero();
-    end.tail(d_).setZero();
+    projector_.unknown() = y;
     const double t = origin_ + static_cast<double>(statistics_.steps + 1) * h_;
-    project(near_, t);
+    project(t);
+    record();
     accept(t);
   }
 
@@ -110,33 +132,50 @@ class ConstrainFirst::Trajectory final : public Stepper {
     solver.solve(in, scales, start_, state_, statistics_);
   }
 
-  // The point of M_f that P takes near_ to, searched from `guess`; leaves its unknowns in
-  // projector_, its basis and W behind.
-  void project(VectorXd guess, double t) {
+  // The point of M_f that P takes near_ to; leaves its unknowns in projector_, its basis and W
+  // behind. Before, projector_ has those of the step.
+  void project(double t) {
     VectorXd& y = projector_.unknown();
+    y.head(n_).setZero();
+    y.tail(d_).setZero();
+    guess_ = near_;
+    const bool is_foreseen = !shift_.is_empty();
+    if (is_foreseen) {
+      shift_.predict(shifted_);
+      const double* in[] = {near_.data(), shifted_.data()};
+      method_.shift_.value(in, guess_.data());
+    }
+    foreseen_ = guess_;
     double previous = std::numeric_limits<double>::infinity();
     for (int iteration = 0; iteration < kMaxProjections; ++iteration) {
-      if (n_ < manifold_.tangent_dimension()) {  // the same vectors in the new basis
-        vectors_.noalias() =
-            basis_.matrix() * y.head(method_.blocks_ * n_).reshaped(n_, method_.blocks_);
-        basis_.move_to(guess);
-        y.head(method_.blocks_ * n_).reshaped(n_, method_.blocks_).noalias() =
-            basis_.matrix().transpose() * vectors_;
-      }
-      y.head(n_).setZero();
-      aim(guess, y, t);
+      move_basis(guess_, y);
       start_ = y;
-      const double* in[] = {y.data(),           guess.data(), basis_.data(),
-                            directions_.data(), near_.data(), &t};
+      if (iteration == 0 && is_foreseen) {
+        end_.predict(basis_.matrix(), y);
+        y.head(n_).setZero();
+      }
+      aim(guess_, y, t);
+      aimed_ = y;
+      const double* in[] = {y.data(),           guess_.data(), basis_.data(),
+                            directions_.data(), near_.data(),  &t};
       solve(projector_, in);
       method_.projected_.value(in, found_.data());
       const double moved = largest(y.head(n_));
-      guess = found_.head(guess.size());
-      // P does not depend on W once x no longer moves with it; below 4 eps of the state, round-off
-      // moves it.
-      if (d_ == 0 || constant_directions_ || moved <= 1e-15 * largest(guess) ||
-          (moved >= 0.5 * previous && moved < 1e-12 * (1.0 + largest(guess))))
-        return;
+      const double size = largest(found_.head(guess_.size()));
+      if (d_ == 0 || constant_directions_) return;
+      // P does not depend on W once x no longer moves with it.
+      if (iteration == 0) {
+        const double distance = std::max(y.tail(d_).norm(), solver_.unknown().tail(d_).norm());
+        const double change = std::max(moved, size * jet_change(aimed_, y));
+        if (kSafety * turning_ * distance * change <= kTolerance * size) return;
+      } else {
+        const double contraction = moved / previous;
+        if (moved <= 1e-15 * size || contraction * moved <= kTolerance * size ||
+            (contraction >= 0.5 && moved < 1e-12 * (1.0 + size)))
+          return;
+      }
+      guess_ = found_.head(guess_.size());
+      y.head(n_).setZero();
       previous = moved;
     }
     throw SolveError(SolveError::Reason::diverged, state_.t, statistics_.steps + 1, {},
@@ -144,44 +183,73 @@ class ConstrainFirst::Trajectory final : public Stepper {
                          std::to_string(statistics_.steps + 1) + "; the step is too large.");
   }
 
-  // W at a point: the conormals of M_f are the combinations of the equations of S_f that contain
-  // nothing but x.
+  // By how much ξ', … and z, … differ, relative to their size: W is computed with them.
+  double jet_change(const VectorXd& from, const VectorXd& to) const {
+    const auto change = [&](Index first, Index size) {
+      const double moved = (to - from).segment(first, size).lpNorm<Eigen::Infinity>();
+      return moved == 0.0 ? 0.0 : moved / to.segment(first, size).lpNorm<Eigen::Infinity>();
+    };
+    return std::max(change(n_, n_), rest_ == 0 ? 0.0 : change(2 * n_, rest_));
+  }
+
+  // The same vectors in the basis at x.
+  void move_basis(const VectorXd& x, VectorXd& y) {
+    if (n_ == manifold_.tangent_dimension()) return;
+    vectors_.noalias() =
+        basis_.matrix() * y.head(method_.blocks_ * n_).reshaped(n_, method_.blocks_);
+    basis_.move_to(x);
+    y.head(method_.blocks_ * n_).reshaped(n_, method_.blocks_).noalias() =
+        basis_.matrix().transpose() * vectors_;
+  }
+
+  // W at x, with columns near those of the last step, so that μ and the kept factorisations go on.
   void aim(const VectorXd& x, const VectorXd& y, double t) {
     if (d_ == 0 || (constant_directions_ && is_aimed_)) return;
-    is_aimed_ = true;
     const double* in[] = {y.data(), x.data(), basis_.data(), &t};
-    const Function& f = method_.constraints_;
-    f.value_and_jacobian(in, rows_.data());
-    MatrixXd J = MatrixXd::Zero(f.output_size(), f.jacobian_cols());
-    for (std::size_t k = 0; k < f.pattern_row().size(); ++k)
-      J(f.pattern_row()[k], f.pattern_col()[k]) = rows_[f.output_size() + static_cast<Index>(k)];
-    Eigen::ColPivHouseholderQR<MatrixXd> others;
-    others.setThreshold(
-        1e-9);  // the ladder decided this rank with a gap; here it only has to be found again
-    others.compute(J.rightCols(J.cols() - n_));
-    const MatrixXd Q = others.householderQ();
-    const MatrixXd gradients =
-        (Q.rightCols(J.rows() - others.rank()).transpose() * J.leftCols(n_)).transpose();
-    const Eigen::ColPivHouseholderQR<MatrixXd> span(gradients);
-    const MatrixXd conormals = span.householderQ() * MatrixXd::Identity(n_, d_);
-    const MatrixXd W = method_.projector_->directions(x, basis_.matrix(), conormals);
-    // The same span as W, but near the last one, so that μ and the kept factorisations go on.
-    if (statistics_.steps > 0) {
-      const MatrixXd turned = W * (W.transpose() * directions_);
-      directions_ = 1.5 * turned - 0.5 * turned * (turned.transpose() * turned);
-      if ((directions_.transpose() * directions_ - MatrixXd::Identity(d_, d_))
-              .lpNorm<Eigen::Infinity>() < 0.1)
-        return;
+    conormals_.move_to(in);
+    if (method_.projector_->is_orthogonal()) {
+      directions_ = conormals_.matrix();
+    } else {
+      directions_ = method_.projector_->directions(x, basis_.matrix(), conormals_.matrix());
+      if (last_directions_.size() > 0) {
+        const MatrixXd turned = directions_ * (directions_.transpose() * last_directions_);
+        const MatrixXd nearest = 1.5 * turned - 0.5 * turned * (turned.transpose() * turned).eval();
+        if ((nearest.transpose() * nearest - MatrixXd::Identity(d_, d_)).lpNorm<Eigen::Infinity>() <
+            0.1)
+          directions_ = nearest;
+      }
     }
-    directions_ = W;
+    is_aimed_ = true;
+  }
+
+  // What the next projection starts from.
+  void record() {
+    VectorXd& y = projector_.unknown();
+    if (!projector_.is_determined()) end_.limit_degree(Predictor::kUndetermined);
+    y.head(n_).setZero();
+    end_.record(basis_.matrix(), y);
+    // shifted_ led to foreseen_: to first order in what is left, this one leads to x.
+    const double* in[] = {near_.data(), shifted_.data(), foreseen_.data(), found_.data()};
+    method_.corrected_shift_.value(in, corrected_.data());
+    shift_.record(corrected_);
   }
 
   void accept(double t) {
     const Index tangent = manifold_.tangent_dimension();
+    if (d_ > 0 && !constant_directions_) {
+      const double moved = (found_.head(state_.x.size()) - state_.x).norm();
+      if (last_directions_.size() > 0 && moved > 1e-7 * largest(state_.x)) {
+        const double turning = (directions_ - last_directions_).norm() / moved;
+        turning_ = std::isfinite(turning_) ? std::max(turning, 0.9 * turning_) : turning;
+      }
+      last_directions_ = directions_;
+      conormals_.keep();
+    }
     state_.x = found_.head(state_.x.size());
     state_.v = found_.segment(state_.x.size(), tangent);
     state_.z = found_.tail(state_.z.size());
     state_.t = t;
+    basis_.move_to(state_.x);
   }
 
   const ConstrainFirst method_;  // its functions are shared, not copied
@@ -190,12 +258,17 @@ class ConstrainFirst::Trajectory final : public Stepper {
   bool constant_directions_, is_aimed_ = false;
   StepSolver solver_, projector_;
   RoundOffProjection round_off_projection_;
-  Predictor predictor_;
+  Predictor predictor_;  // of the unknowns of the step
+  Predictor end_;        // of those of the projection
+  Predictor shift_;      // of the vector at near_ that leads to x
   MovingBasis basis_;    // B at x_k
-  MatrixXd directions_;  // W at x_k
+  MovingConormals conormals_;
+  MatrixXd directions_, last_directions_;  // W, and that at x_k
+  // ‖ΔW‖ / ‖Δx‖ of the last steps; unknown before the first
+  double turning_ = std::numeric_limits<double>::infinity();
   MatrixXd vectors_;
   double origin_, h_;
-  VectorXd start_, near_, found_, rows_;
+  VectorXd start_, aimed_, near_, guess_, foreseen_, shifted_, corrected_, found_;
 };
 
 ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
@@ -226,18 +299,21 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
   const ExprVector shift =
       Eigen::Map<const ExprMatrix>(directions.data(), n, codimension_) * mu;  // W μ
   const LocalFormulation local(graph, *system_, x0, basis, t[0], ladder.differentiations);
-  blocks_ = static_cast<Index>(local.xi.size());
-  std::vector<ExprVector> parts = local.xi;
-  parts.insert(parts.end(), local.z.begin(), local.z.end());
+  const ExprVector equations = local.nonzero_equations();
+  const auto [blocks, orders] = contained_jets(local, equations);
+  blocks_ = blocks;
+  std::vector<ExprVector> parts(local.xi.begin(), local.xi.begin() + blocks);
+  parts.insert(parts.end(), local.z.begin(), local.z.begin() + orders);
   const ExprVector jets = join(parts);
   auxiliaries_ = jets.size() - blocks_ * n;
   const ExprVector y = join({jets, mu});
   const ExprVector basis_entries = basis_parameters(M, basis);
-  const ExprVector equations = local.nonzero_equations();
 
-  constraints_ =
-      Function("constraints", {{"y", jets}, {"x0", x0}, {"basis", basis_entries}, {"t", t}},
-               equations, {.differentiate = {"y"}, .backend = options.backend});
+  const bool aims_once = n == M.tangent_dimension() &&
+                         (codimension_ == 0 || projector_->has_constant_directions(codimension_));
+  conormals_ = MovingConormals::trace(graph, equations, jets, n, codimension_,
+                                      {{"x0", x0}, {"basis", basis_entries}, {"t", t}},
+                                      aims_once ? Backend::interpreter : options.backend);
 
   // The step.
   const auto ends = map_->forward(local.x, ExprVector(h[0] * local.v));
@@ -261,6 +337,14 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
   projection_ =
       Function("projection", at_end, join({ExprVector(basis.transpose() * distance), equations}),
                {.differentiate = {"y"}, .backend = options.backend});
+  const ExprVector s = graph.variables("s", M.tangent_dimension());
+  shift_ = Function("shift", {{"near", near}, {"s", s}},
+                    M.retract(near, ExprVector(M.tangent_projector(near) * s)),
+                    {.backend = options.backend});
+  const ExprVector x = graph.variables("x", M.ambient_dimension());
+  corrected_shift_ = Function("corrected shift", {{"near", near}, {"s", s}, {"x0", x0}, {"x", x}},
+                              M.tangent_projector(near) * s + M.coframe(near) * ExprVector(x - x0),
+                              {.backend = options.backend});
   basis_ = MovingBasis::projection(M, options.backend);
   constraint_ = RoundOffProjection::constraint(M, options.backend);
   projected_ = Function("projected", at_end, join({local.x, local.v, local.z[0]}),

@@ -5,6 +5,7 @@
 #include "courant/integrators/constraint_ladder.hpp"
 #include "courant/integrators/discretization_map.hpp"
 #include "courant/integrators/integrator.hpp"
+#include "courant/integrators/moving_conormals.hpp"
 #include "courant/integrators/projector.hpp"
 #include "courant/structures/implicit_system.hpp"
 
@@ -64,7 +65,9 @@ class ConstrainFirst final : public Integrator {
   Function projected_;   // the same ↦ x, v, z
   Function basis_;       // of MovingBasis
   Function constraint_;  // of RoundOffProjection
-  Function constraints_;  // (ξ, ξ', …, z, …); x₀, basis, t ↦ equations of S_f, with Jacobian
+  Function shift_;       // (near, s) ↦ R_near(Π s)
+  Function corrected_shift_;  // (near, s, x₀, x) ↦ what leads to x if s leads to x₀, to first order
+  MovingConormals::Functions conormals_;
 };
 
 }  // namespace courant

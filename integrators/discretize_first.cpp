@@ -69,6 +69,7 @@ class DiscretizeFirst::Trajectory final : public Stepper {
       throw SolveError(SolveError::Reason::left_domain, state_.t, statistics_.steps + 1, {},
                        method_.name() + ": step " + std::to_string(statistics_.steps + 1) +
                            " leads to a state that is not finite.");
+    if (!solver_.is_determined()) predictor_.limit_degree(Predictor::kUndetermined);
     predictor_.record(basis_.matrix(), y);
     start_.tail(m_) = y.tail(m_);
     state_.x = next_.head(state_.x.size());

@@ -21,6 +21,8 @@ Predictor::Predictor(const Manifold& manifold, Index blocks, Index size)
   others_.history.setZero(kKept, size - blocks * coordinates_);
 }
 
+Predictor::Predictor(Index size) { others_.history.setZero(kKept, size); }
+
 void Predictor::predict(const MatrixXd& basis, VectorXd& y) {
   if (constant_basis_) {
     predict(vectors_, y.data());
@@ -44,9 +46,19 @@ void Predictor::record(const MatrixXd& basis, const VectorXd& y) {
   record(vectors_, vectors);
   record(others_, y.data() + blocks_ * coordinates_);
   if (--steps_to_choice_ > 0) return;
-  set_degree(vectors_, best_degree(vectors_));
-  set_degree(others_, best_degree(others_));
+  choose_degrees();
   steps_to_choice_ = count_ < kKept ? 1 : kStepsBetweenChoices;
+}
+
+void Predictor::limit_degree(int degree) {
+  if (degree >= limit_) return;
+  limit_ = degree;
+  if (count_ > 0) choose_degrees();
+}
+
+void Predictor::choose_degrees() {
+  set_degree(vectors_, std::min(limit_, best_degree(vectors_)));
+  set_degree(others_, std::min(limit_, best_degree(others_)));
 }
 
 void Predictor::predict(const Block& block, double* values) const {

@@ -20,15 +20,24 @@ namespace courant {
 class Predictor {
  public:
   static constexpr int kMaxDegree = 8;
+  // The limit where equations leave something undetermined: what is predicted there stays, so that
+  // its round-off grows like steps^{d + 1/2}.
+  static constexpr int kUndetermined = 1;
 
   // `size` entries in an unknown, blocks · n of them coordinates.
   Predictor(const Manifold& manifold, Index blocks, Index size);
+  // Of unknowns without coordinates.
+  explicit Predictor(Index size);
 
   // `basis` (Ñ × n) is that of the step to come; needs a recorded unknown.
   void predict(const MatrixXd& basis, VectorXd& y);
+  void predict(VectorXd& y) { predict(MatrixXd(), y); }
   // The unknown of a step that was made, in the basis of that step.
   void record(const MatrixXd& basis, const VectorXd& y);
+  void record(const VectorXd& y) { record(MatrixXd(), y); }
   bool is_empty() const { return count_ == 0; }
+  // From now on no degree above `degree`.
+  void limit_degree(int degree);
 
  private:
   static constexpr int kJudged = 3;  // last steps that degrees are judged by
@@ -44,16 +53,18 @@ class Predictor {
 
   void predict(const Block& block, double* values) const;
   void record(Block& block, const double* values) const;
+  void choose_degrees();
   int best_degree(const Block& block) const;
   static void set_degree(Block& block, int degree);
 
-  bool constant_basis_;
-  Index coordinates_, tangents_, blocks_;
+  bool constant_basis_ = true;
+  Index coordinates_ = 0, tangents_ = 0, blocks_ = 0;
   Block vectors_, others_;
   VectorXd tangent_;  // the vectors in the tangent representation
   int newest_ = 0;
   int count_ = 0;  // unknowns in the history
   int steps_to_choice_ = 0;
+  int limit_ = kMaxDegree;
 };
 
 }  // namespace courant

@@ -25,6 +25,8 @@ class Projector {
   // Whether the span of W(x) is the same at every x, in a basis that is the same at every x, for
   // M_f of this codimension d.
   virtual bool has_constant_directions(Index) const { return false; }
+  // Whether W(x) spans the conormals themselves.
+  virtual bool is_orthogonal() const { return false; }
 
   // An orthonormal W(x). x: N; basis: Ñ × n, orthonormal; conormals: n × d, an orthonormal basis of
   // the annihilator of T_xM_f in the coordinates of that basis. Throws std::domain_error if the
@@ -46,6 +48,7 @@ class Projector {
 class OrthogonalProjector final : public Projector {
  public:
   OrthogonalProjector() : Projector("orthogonal") {}
+  bool is_orthogonal() const override { return true; }
 
  private:
   MatrixXd do_directions(const VectorXd& x, const MatrixXd& basis,

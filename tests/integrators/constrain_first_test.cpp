@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "courant/core/derivative.hpp"
+#include "courant/integrators/spherical_midpoint.hpp"
+#include "courant/manifolds/sphere.hpp"
 #include "courant/tests/integrators/example_systems.hpp"
 #include "courant/tests/integrators/vortices.hpp"
 
@@ -53,6 +55,37 @@ std::shared_ptr<const ImplicitSystem> cartesian_pendulum() {
                                     square(x[0]) + square(x[1]) - kLength * kLength});
       });
 }
+
+// ż = y ẋ on T*R³ with V = (x² + y²)/2.
+std::shared_ptr<const ImplicitSystem> nonholonomic_particle(
+    std::shared_ptr<const CotangentBundle> phase_space) {
+  return std::make_shared<FormulaSystem>(
+      phase_space, 1, 7,
+      [](const ExprVector& x, const ExprVector& v, const ExprVector& z, const Expr&) {
+        return examples::equations({v[0] - x[3], v[1] - x[4], v[2] - x[5],
+                                    v[3] + x[0] + z[0] * x[1], v[4] + x[1], v[5] - z[0],
+                                    x[5] - x[1] * x[3]});
+      });
+}
+
+// ẋ = A x + z Π(x)∇g on S³ with a skew A and g(x) = x₀² + 2 x₁² - 0.7 = 0.
+class RollOnSphere final : public ImplicitSystem {
+ public:
+  RollOnSphere() : ImplicitSystem(std::make_shared<Sphere>(3), 1, 5, {}) {}
+  Index tangent_blocks() const override { return 1; }
+
+ private:
+  ExprVector do_residual(const ExprVector& x, const ExprVector& v, const ExprVector& z,
+                         const Expr&) const override {
+    const ExprVector turning = examples::equations(
+        {x[2] + 0.3 * x[1], 0.7 * x[3] - 0.3 * x[0], -x[0] + 0.2 * x[3], -0.7 * x[1] - 0.2 * x[2]});
+    const ExprVector gradient = examples::equations({2.0 * x[0], 4.0 * x[1], 0.0, 0.0});
+    ExprVector F(5);
+    F << v - turning - z[0] * (manifold()->tangent_projector(x) * gradient).eval(),
+        square(x[0]) + 2.0 * square(x[1]) - 0.7;
+    return F;
+  }
+};
 
 VectorXd pendulum_point(double angle, double rate) {
   return (VectorXd(4) << kLength * std::sin(angle), -kLength * std::cos(angle),
@@ -165,17 +198,11 @@ BOOST_AUTO_TEST_CASE(proposition_7_3_pendulum_keeps_both_constraints_at_order_tw
 }
 
 BOOST_AUTO_TEST_CASE(equations_39_to_43_nonholonomic_particle) {
-  // ż = y ẋ on T*R³ with V = (x² + y²)/2: μ = (-y, 0, 1), eq. (34)-(35); M_0: p_z - y p_x = 0.
+  // μ = (-y, 0, 1), eq. (34)-(35); M_0: p_z - y p_x = 0.
   // Momentum projector 𝒫 of Section 8.2.
   const auto base = std::make_shared<Euclidean>(3);
   const auto phase_space = std::make_shared<CotangentBundle>(base);
-  const auto system = std::make_shared<FormulaSystem>(
-      phase_space, 1, 7,
-      [](const ExprVector& x, const ExprVector& v, const ExprVector& z, const Expr&) {
-        return examples::equations({v[0] - x[3], v[1] - x[4], v[2] - x[5],
-                                    v[3] + x[0] + z[0] * x[1], v[4] + x[1], v[5] - z[0],
-                                    x[5] - x[1] * x[3]});
-      });
+  const auto system = nonholonomic_particle(phase_space);
   const VectorXd x0 = (VectorXd(6) << 0.5, 0.8, 0.0, 0.6, -0.3, 0.48).finished();
   const ConstraintLadder ladder = ConstraintAlgorithm().run(system, {.x = x0});
   const ConstrainFirst method(
@@ -218,6 +245,53 @@ BOOST_AUTO_TEST_CASE(equations_39_to_43_nonholonomic_particle) {
     violation = std::max(violation, std::abs(x[5] - x[1] * x[3]));
   }
   BOOST_TEST(violation < 1e-14);
+}
+
+// The step and the projection are both begun from an extrapolation of the last ones: few
+// iterations, and the same result as without a past.
+BOOST_AUTO_TEST_CASE(few_iterations_to_the_result_of_a_fresh_start) {
+  const auto pendulum = cartesian_pendulum();
+  const auto base = std::make_shared<Euclidean>(3);
+  const auto phase_space = std::make_shared<CotangentBundle>(base);
+  const auto particle = nonholonomic_particle(phase_space);
+  const auto on_sphere = std::make_shared<RollOnSphere>();
+  const struct {
+    std::shared_ptr<const ImplicitSystem> system;
+    VectorXd x;
+    std::shared_ptr<const DiscretizationMap> map;
+    std::shared_ptr<const Projector> projector;
+  } cases[] = {
+      {pendulum, pendulum_point(1.0, 0.3), std::make_shared<Theta>(pendulum->manifold()),
+       std::make_shared<OrthogonalProjector>()},
+      {particle, (VectorXd(6) << 0.5, 0.8, 0.0, 0.6, -0.3, 0.48).finished(),
+       std::make_shared<CotangentLift>(phase_space, std::make_shared<Theta>(base)),
+       std::make_shared<MomentumProjector>(phase_space)},
+      {on_sphere,
+       (VectorXd(4) << std::sqrt(0.3), std::sqrt(0.2), std::sqrt(0.4), -std::sqrt(0.1)).finished(),
+       std::make_shared<SphericalMidpoint>(
+           std::dynamic_pointer_cast<const Sphere>(on_sphere->manifold())),
+       std::make_shared<OrthogonalProjector>()},
+  };
+  const double h = 0.01;
+  for (const auto& [system, x, map, projector] : cases) {
+    const ConstraintLadder ladder = ConstraintAlgorithm().run(system, {.x = x});
+    const ConstrainFirst method(system, ladder, map, projector);
+    const auto stepper = method.start({0.0, ladder.point.x, {}, {}}, h);
+    for (int k = 0; k < 100; ++k) stepper->step();
+    const long before = stepper->statistics().iterations;
+    for (int k = 0; k < 1000; ++k) stepper->step();
+    BOOST_TEST(static_cast<double>(stepper->statistics().iterations - before) / 1000 < 12.0,
+               system->manifold()->name());
+    BOOST_TEST(stepper->statistics().failures == 0);
+    for (int k = 0; k < 20; ++k) {
+      const auto fresh = method.start(stepper->state(), h);
+      fresh->step();
+      stepper->step();
+      const State &a = fresh->state(), &b = stepper->state();
+      BOOST_TEST((a.x - b.x).lpNorm<Eigen::Infinity>() < 3e-15 * b.x.lpNorm<Eigen::Infinity>());
+      BOOST_TEST((a.z - b.z).lpNorm<Eigen::Infinity>() < 1e-12 * (1.0 + b.z.norm()));
+    }
+  }
 }
 
 BOOST_AUTO_TEST_CASE(momentum_projector_refuses_position_constraints) {

@@ -112,4 +112,22 @@ BOOST_AUTO_TEST_CASE(turning_bases) {
   }
 }
 
+// An unknown that equations do not determine goes on as predicted: its round-off must not grow like
+// a high power of the steps.
+BOOST_AUTO_TEST_CASE(undetermined) {
+  const auto last = [](int limit) {
+    Predictor predictor(2);
+    predictor.limit_degree(limit);
+    VectorXd y = two(1.0, 0.3);
+    for (int k = 0; k < 20000; ++k) {
+      if (!predictor.is_empty()) predictor.predict(y);
+      y[0] = std::sin(0.05 * k);
+      predictor.record(y);
+    }
+    return y[1];
+  };
+  BOOST_TEST(std::fabs(last(Predictor::kUndetermined) - 0.3) < 1e-8);
+  BOOST_TEST(!(std::fabs(last(Predictor::kMaxDegree) - 0.3) < 1.0));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,128 @@
+#include "courant/integrators/moving_conormals.hpp"
+
+#include <Eigen/Dense>
+
+#include "courant/core/derivative.hpp"
+
+namespace courant {
+namespace {
+
+// The ladder decided this rank with a gap; here it only has to be found again.
+constexpr double kRankThreshold = 1e-9;
+
+// w is as good as its first error times the contraction when it has moved by no more than this, and
+// counts for x only times the distance from M_f.
+constexpr double kTolerance = 1e-13;
+
+// ‖NᵀN‖ beyond which the last C is no help, and the defect of an orthonormal basis whose square is
+// round-off.
+constexpr double kFar = 0.1;
+constexpr double kRound = 1e-8;
+
+}  // namespace
+
+MovingConormals::Functions MovingConormals::trace(Graph& graph, const ExprVector& F,
+                                                  const ExprVector& jets, Index n, Index d,
+                                                  const std::vector<Function::Input>& parameters,
+                                                  Backend backend) {
+  Functions result;
+  std::vector<Function::Input> inputs = {{"y", jets}};
+  inputs.insert(inputs.end(), parameters.begin(), parameters.end());
+  result.constraints = Function("constraints", inputs, F, {.differentiate = {"y"}});
+  const ExprVector w = graph.variables("w", F.size());
+  const ExprVector unit = graph.variables("unit", d);
+  const ExprVector entries = graph.variables("C", n * d);
+  const ExprVector pulled = pull_back(F, jets, w);
+  const ExprVector conormal = pulled.head(n);
+  std::vector<Expr> equations;
+  for (const Expr& component : pulled.tail(pulled.size() - n))
+    if (!component.is_constant() || component.value() != 0.0) equations.push_back(component);
+  const ExprVector along =
+      Eigen::Map<const ExprMatrix>(entries.data(), n, d).transpose() * conormal - unit;
+  equations.insert(equations.end(), along.begin(), along.end());
+  inputs.insert(inputs.begin(), {{"w", w}, {"unit", unit}});
+  inputs.push_back({"C", entries});
+  result.equations =
+      Function("conormal equations", inputs,
+               Eigen::Map<ExprVector>(equations.data(), static_cast<Index>(equations.size())),
+               {.differentiate = {"w"}, .backend = backend});
+  result.conormal = Function("conormal", inputs, conormal, {.backend = backend});
+  return result;
+}
+
+MovingConormals::MovingConormals(Functions functions, Index n, Index d)
+    : functions_(std::move(functions)),
+      n_(n),
+      d_(d),
+      newton_(functions_.equations, {}, {.tolerance = kTolerance}),
+      predictor_(d * functions_.constraints.output_size()),
+      conormals_(MatrixXd::Zero(n, d)),
+      kept_(conormals_),
+      units_(MatrixXd::Identity(d, d)),
+      weights_(VectorXd::Zero(d * functions_.constraints.output_size())),
+      covectors_(n, d),
+      gram_(d, d) {}
+
+void MovingConormals::move_to(const double* const* in) {
+  if (d_ == 0) return;
+  is_continued_ = is_found_ && continue_to(in);
+  if (!is_continued_) find(in);
+}
+
+void MovingConormals::keep() {
+  kept_ = conormals_;
+  is_found_ = true;
+  is_moving_ = false;
+  if (!is_continued_) return;
+  if (!newton_.is_determined()) predictor_.limit_degree(Predictor::kUndetermined);
+  predictor_.record(weights_);
+}
+
+bool MovingConormals::continue_to(const double* const* in) {
+  if (!is_moving_ && !predictor_.is_empty()) predictor_.predict(weights_);
+  is_moving_ = true;
+  const Index r = functions_.constraints.output_size();
+  constexpr double scale = 0.0;
+  for (Index j = 0; j < d_; ++j) {
+    double* w = weights_.data() + j * r;
+    const double* all[] = {w, units_.col(j).data(), in[0], in[1], in[2], in[3], kept_.data()};
+    if (newton_.solve(w, all, &scale).status != Newton::Status::converged) {
+      newton_.reset();
+      weights_.setZero();
+      return false;
+    }
+    functions_.conormal.value(all, covectors_.col(j).data());
+  }
+  // C + N with CᵀN = 0, made orthonormal by the Newton–Schulz iteration: its error is squared each
+  // time.
+  gram_.noalias() = covectors_.transpose() * covectors_;
+  double defect = (gram_ - units_).lpNorm<Eigen::Infinity>();
+  if (!(defect < kFar)) return false;
+  while (true) {
+    gram_ = 1.5 * units_ - 0.5 * gram_;
+    conormals_.noalias() = covectors_ * gram_;
+    if (defect < kRound) return true;
+    covectors_ = conormals_;
+    gram_.noalias() = covectors_.transpose() * covectors_;
+    defect = (gram_ - units_).lpNorm<Eigen::Infinity>();
+  }
+}
+
+void MovingConormals::find(const double* const* in) {
+  const Function& f = functions_.constraints;
+  VectorXd all(f.output_size() + f.nonzeros());
+  f.value_and_jacobian(in, all.data());
+  MatrixXd J = MatrixXd::Zero(f.output_size(), f.jacobian_cols());
+  for (std::size_t k = 0; k < f.pattern_row().size(); ++k)
+    J(f.pattern_row()[k], f.pattern_col()[k]) = all[f.output_size() + static_cast<Index>(k)];
+  Eigen::ColPivHouseholderQR<MatrixXd> others;
+  others.setThreshold(kRankThreshold);
+  others.compute(J.rightCols(J.cols() - n_));
+  const MatrixXd Q = others.householderQ();
+  const MatrixXd gradients =
+      (Q.rightCols(J.rows() - others.rank()).transpose() * J.leftCols(n_)).transpose();
+  const Eigen::ColPivHouseholderQR<MatrixXd> span(gradients);
+  conormals_ = span.householderQ() * MatrixXd::Identity(n_, d_);
+}
+
+}  // namespace courant

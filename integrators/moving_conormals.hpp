@@ -1,0 +1,56 @@
+// The conormals of M_f along a trajectory.
+#pragma once
+
+#include "courant/core/newton.hpp"
+#include "courant/integrators/predictor.hpp"
+
+namespace courant {
+
+// An orthonormal basis C (n × d) of the annihilator of T_xM_f that turns as little as possible
+// while x moves. Where S_f is F(ξ, ξ', …, z, …) = 0 in the chart at x, the conormals are the
+// combinations of dF that contain dξ alone:
+//
+//   c = (∂F/∂ξ)ᵀ w,   (∂F/∂(ξ', …, z, …))ᵀ w = 0
+//
+// Those at the next point are the solutions with Cᵀ c = e_1, …, e_d for the last C, found by
+// Newton's method with a kept factorisation from an extrapolation of the last w, and made
+// orthonormal. Where that fails, and at the first point, by QR decomposition. One object a
+// trajectory; nothing is allocated but by QR decompositions.
+class MovingConormals {
+ public:
+  // Traced once for all trajectories.
+  struct Functions {
+    // (ξ, ξ', …, z, …); x₀, basis, t  ↦  F, with Jacobian.
+    Function constraints;
+    // w; e, (ξ, …), x₀, basis, C, t  ↦  (∂F/∂(ξ', …))ᵀ w, Cᵀ (∂F/∂ξ)ᵀ w - e, with Jacobian by w.
+    Function equations;
+    Function conormal;  // the same ↦ (∂F/∂ξ)ᵀ w
+  };
+  // `jets`: the variables (ξ, ξ', …, z, …), the first n of them ξ; `parameters`: x₀, basis, t.
+  static Functions trace(Graph& graph, const ExprVector& F, const ExprVector& jets, Index n,
+                         Index d, const std::vector<Function::Input>& parameters, Backend backend);
+
+  MovingConormals(Functions functions, Index n, Index d);
+
+  // in: (ξ, ξ', …, z, …), x₀, basis, t. The last C is that of the last keep(), so that this can be
+  // repeated while a point is sought.
+  void move_to(const double* const* in);
+  void keep();
+  const MatrixXd& matrix() const { return conormals_; }
+
+ private:
+  bool continue_to(const double* const* in);
+  void find(const double* const* in);
+
+  Functions functions_;
+  Index n_, d_;
+  Newton newton_;
+  Predictor predictor_;
+  bool is_found_ = false, is_continued_ = false, is_moving_ = false;
+  MatrixXd conormals_, kept_;
+  MatrixXd units_;    // e_1, …, e_d
+  VectorXd weights_;  // w_1, …, w_d
+  MatrixXd covectors_, gram_;
+};
+
+}  // namespace courant
