@@ -4,6 +4,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "courant/integrators/chordal.hpp"
+#include "courant/integrators/inversion.hpp"
 #include "courant/integrators/theta.hpp"
 #include "courant/manifolds/stiefel.hpp"
 
@@ -26,6 +27,24 @@ BOOST_AUTO_TEST_CASE(inverse_by_newton) {
     BOOST_TEST((y - x).norm() < 1e-12);
     BOOST_TEST((w - v).norm() < 1e-12);
   }
+}
+
+// One inversion for pairs at many points; wrong sizes are refused.
+BOOST_AUTO_TEST_CASE(inversion_of_many_pairs) {
+  const auto frames = std::make_shared<Stiefel>(4, 2);
+  const Theta map(frames, 0.5);
+  const Inversion inverse(map);
+  std::mt19937 generator(2);
+  for (int k = 0; k < 10; ++k) {
+    const VectorXd x = frames->random_point(generator);
+    const VectorXd v = frames->random_tangent(x, 1.0, generator);
+    const auto [x0, x1] = map.forward(x, v);
+    const auto [y, w] = inverse(x0, x1);
+    BOOST_TEST((y - x).norm() + (w - v).norm() < 1e-12);
+    BOOST_TEST((w - v - frames->random_tangent(x, 1e-6, generator)).norm() > 1e-7);
+  }
+  BOOST_CHECK_THROW(inverse(Vector2d(1.0, 0.0), VectorXd(frames->random_point(generator))),
+                    std::invalid_argument);
 }
 
 BOOST_AUTO_TEST_CASE(points_that_are_not_reached) {
