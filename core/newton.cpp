@@ -29,7 +29,7 @@ constexpr double kShort = 1e-4;
 constexpr double kStagnant = 0.9;
 
 // Round-off is measured with a new factorisation, and again when this has made it too small.
-constexpr double kForget = 0.97;
+constexpr double kForget = 0.998;
 
 // Relative changes that are round-off everywhere.
 constexpr double kLeast = 2.0 * std::numeric_limits<double>::epsilon();

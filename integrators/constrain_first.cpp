@@ -66,9 +66,9 @@ class ConstrainFirst::Trajectory final : public Stepper {
         solver_(method.equations_, {n_, n_, rest_, d_}, method.name()),
         projector_(method.projection_, {n_, n_, rest_, d_}, method.name() + " (projection)"),
         round_off_projection_(method.constraint_),
-        predictor_(manifold_, method.blocks_, solver_.unknown().size()),
-        end_(manifold_, method.blocks_, solver_.unknown().size()),
-        shift_(manifold_.tangent_dimension()),
+        predictor_({method.blocks_ * n_, solver_.unknown().size() - method.blocks_ * n_}),
+        end_({method.blocks_ * n_, solver_.unknown().size() - method.blocks_ * n_}),
+        shift_({manifold_.tangent_dimension()}),
         basis_(manifold_, method.basis_, initial.x),
         conormals_(method.conormals_, n_, d_),
         directions_(n_, d_),
@@ -104,7 +104,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
       y = start_;
       y.head(n_) = 0.5 * h_ * here.segment(n_, n_);
     } else {
-      predictor_.predict(basis_.matrix(), y);
+      predictor_.predict(y);
     }
     const double* in[] = {y.data(), state_.x.data(), basis_.data(), directions_.data(),
                           &h_,      &state_.t};
@@ -116,7 +116,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
                            " leads to a state that is not finite.");
     round_off_projection_.apply(near_);
     if (!solver_.is_determined()) predictor_.limit_degree(Predictor::kUndetermined);
-    predictor_.record(basis_.matrix(), y);
+    predictor_.record(y);
 
     projector_.unknown() = y;
     const double t = origin_ + static_cast<double>(statistics_.steps + 1) * h_;
@@ -139,8 +139,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
     y.head(n_).setZero();
     y.tail(d_).setZero();
     guess_ = near_;
-    const bool is_foreseen = !shift_.is_empty();
-    if (is_foreseen) {
+    if (!shift_.is_empty()) {
       shift_.predict(shifted_);
       const double* in[] = {near_.data(), shifted_.data()};
       method_.shift_.value(in, guess_.data());
@@ -150,8 +149,8 @@ class ConstrainFirst::Trajectory final : public Stepper {
     for (int iteration = 0; iteration < kMaxProjections; ++iteration) {
       move_basis(guess_, y);
       start_ = y;
-      if (iteration == 0 && is_foreseen) {
-        end_.predict(basis_.matrix(), y);
+      if (iteration == 0 && !end_.is_empty()) {
+        end_.predict(y);
         y.head(n_).setZero();
       }
       aim(guess_, y, t);
@@ -192,12 +191,18 @@ class ConstrainFirst::Trajectory final : public Stepper {
     return std::max(change(n_, n_), rest_ == 0 ? 0.0 : change(2 * n_, rest_));
   }
 
+  void move_basis(const VectorXd& x) {
+    if (basis_.move_to(x)) return;
+    predictor_.forget();
+    end_.forget();
+  }
+
   // The same vectors in the basis at x.
   void move_basis(const VectorXd& x, VectorXd& y) {
     if (n_ == manifold_.tangent_dimension()) return;
     vectors_.noalias() =
         basis_.matrix() * y.head(method_.blocks_ * n_).reshaped(n_, method_.blocks_);
-    basis_.move_to(x);
+    move_basis(x);
     y.head(method_.blocks_ * n_).reshaped(n_, method_.blocks_).noalias() =
         basis_.matrix().transpose() * vectors_;
   }
@@ -227,7 +232,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
     VectorXd& y = projector_.unknown();
     if (!projector_.is_determined()) end_.limit_degree(Predictor::kUndetermined);
     y.head(n_).setZero();
-    end_.record(basis_.matrix(), y);
+    end_.record(y);
     // shifted_ led to foreseen_: to first order in what is left, this one leads to x.
     const double* in[] = {near_.data(), shifted_.data(), foreseen_.data(), found_.data()};
     method_.corrected_shift_.value(in, corrected_.data());
@@ -249,7 +254,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
     state_.v = found_.segment(state_.x.size(), tangent);
     state_.z = found_.tail(state_.z.size());
     state_.t = t;
-    basis_.move_to(state_.x);
+    move_basis(state_.x);
   }
 
   const ConstrainFirst method_;  // its functions are shared, not copied

@@ -33,7 +33,7 @@ class DiscretizeFirst::Trajectory final : public Stepper {
         m_(method.system_->auxiliary_size()),
         blocks_(method.tangent_blocks_),
         solver_(method.equations_, {blocks_ * n_, m_}, method.name()),
-        predictor_(manifold_, blocks_, blocks_ * n_ + m_),
+        predictor_({blocks_ * n_, m_}),
         basis_(manifold_, method.basis_, initial.x),
         origin_(initial.t),
         h_(h),
@@ -49,7 +49,7 @@ class DiscretizeFirst::Trajectory final : public Stepper {
   void do_step() override {
     const Index tangent = manifold_.tangent_dimension();
     VectorXd& y = solver_.unknown();
-    basis_.move_to(state_.x);
+    if (!basis_.move_to(state_.x)) predictor_.forget();
     if (predictor_.is_empty()) {
       // The displacement of the velocity that is known, half of it where the middle point is
       // sought.
@@ -57,7 +57,7 @@ class DiscretizeFirst::Trajectory final : public Stepper {
       if (blocks_ == 2) y.head(n_) = 0.5 * y.segment(n_, n_);
       y.tail(m_) = state_.z;
     } else {
-      predictor_.predict(basis_.matrix(), y);
+      predictor_.predict(y);
     }
     const double* in[] = {y.data(), state_.x.data(), basis_.data(), &h_, &state_.t};
     const double size = largest(state_.x);
@@ -70,7 +70,7 @@ class DiscretizeFirst::Trajectory final : public Stepper {
                        method_.name() + ": step " + std::to_string(statistics_.steps + 1) +
                            " leads to a state that is not finite.");
     if (!solver_.is_determined()) predictor_.limit_degree(Predictor::kUndetermined);
-    predictor_.record(basis_.matrix(), y);
+    predictor_.record(y);
     start_.tail(m_) = y.tail(m_);
     state_.x = next_.head(state_.x.size());
     projection_.apply(state_.x);

@@ -1,10 +1,15 @@
 #include "courant/integrators/moving_basis.hpp"
 
+#include <Eigen/SVD>
+
 #include "courant/core/static_size.hpp"
 #include "courant/integrators/local_formulation.hpp"
 
 namespace courant {
 namespace {
+
+// The cosine below which tangent spaces are taken as orthogonal.
+constexpr double kRightAngle = 1e-2;
 
 // root = (1 - E)^{-1/2} by its power series, with the workspace `power` and `next`. False if E is
 // too large for that.
@@ -74,11 +79,20 @@ MovingBasis::MovingBasis(const Manifold& manifold, Function projection, const Ve
       make_orthonormal_(with_static_size(
           basis_.cols(), [](auto n) { return &make_orthonormal<decltype(n)::value>; })) {}
 
-void MovingBasis::move_to(const VectorXd& x) {
-  if (projection_.output_size() == 0) return;
+bool MovingBasis::move_to(const VectorXd& x) {
+  if (projection_.output_size() == 0) return true;
   const double* in[] = {x.data(), basis_.data()};
   projection_.value(in, projected_.data());
-  if (!make_orthonormal_(projected_, basis_, workspace_)) basis_ = manifold_.tangent_basis(x);
+  if (make_orthonormal_(projected_, basis_, workspace_)) return true;
+  if (projected_.allFinite()) {
+    const Eigen::JacobiSVD<MatrixXd> svd(projected_, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    if (svd.singularValues().minCoeff() > kRightAngle * svd.singularValues().maxCoeff()) {
+      basis_ = svd.matrixU() * svd.matrixV().transpose();
+      return true;
+    }
+  }
+  basis_ = manifold_.tangent_basis(x);
+  return false;
 }
 
 }  // namespace courant

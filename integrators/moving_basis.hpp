@@ -13,7 +13,7 @@ namespace courant {
 // or extrapolated in it stays good, which a basis made afresh at every point would spoil.
 //
 // Nothing is computed where n = Ñ: B is the identity. Nothing is allocated by move_to, but for
-// points so far apart that the projection is nearly singular. One object a trajectory.
+// points far apart. One object a trajectory.
 class MovingBasis {
  public:
   // (x, B) ↦ Π(x) B, to be traced once for all trajectories.
@@ -22,7 +22,9 @@ class MovingBasis {
   // `manifold` has to outlive it.
   MovingBasis(const Manifold& manifold, Function projection, const VectorXd& x);
 
-  void move_to(const VectorXd& x);
+  // Whether B went on from the last one; where the new tangent space is at right angles to the old
+  // one it is made afresh, and coordinates in it have nothing to do with those before.
+  bool move_to(const VectorXd& x);
   const MatrixXd& matrix() const { return basis_; }
   const double* data() const { return basis_.data(); }
 

@@ -55,7 +55,7 @@ MovingConormals::MovingConormals(Functions functions, Index n, Index d)
       n_(n),
       d_(d),
       newton_(functions_.equations, {}, {.tolerance = kTolerance}),
-      predictor_(d * functions_.constraints.output_size()),
+      predictor_({d * functions_.constraints.output_size()}),
       conormals_(MatrixXd::Zero(n, d)),
       kept_(conormals_),
       units_(MatrixXd::Identity(d, d)),

@@ -11,40 +11,27 @@ constexpr int kStepsBetweenChoices = 32;
 
 }  // namespace
 
-Predictor::Predictor(const Manifold& manifold, Index blocks, Index size)
-    : constant_basis_(manifold.dimension() == manifold.tangent_dimension()),
-      coordinates_(manifold.dimension()),
-      tangents_(manifold.tangent_dimension()),
-      blocks_(blocks),
-      tangent_(VectorXd::Zero(blocks * tangents_)) {
-  vectors_.history.setZero(kKept, blocks * tangents_);
-  others_.history.setZero(kKept, size - blocks * coordinates_);
-}
-
-Predictor::Predictor(Index size) { others_.history.setZero(kKept, size); }
-
-void Predictor::predict(const MatrixXd& basis, VectorXd& y) {
-  if (constant_basis_) {
-    predict(vectors_, y.data());
-  } else {
-    predict(vectors_, tangent_.data());
-    y.head(blocks_ * coordinates_).reshaped(coordinates_, blocks_) =
-        basis.transpose().lazyProduct(tangent_.reshaped(tangents_, blocks_));
+Predictor::Predictor(const std::vector<Index>& groups) {
+  Index end = 0;
+  for (const Index size : groups) {
+    groups_.push_back({.begin = end, .end = end + size});
+    end += size;
   }
-  predict(others_, y.data() + blocks_ * coordinates_);
+  history_.setZero(kKept, end);
 }
 
-void Predictor::record(const MatrixXd& basis, const VectorXd& y) {
+void Predictor::predict(VectorXd& y) const {
+  for (const Group& group : groups_) {
+    const auto weights = group.weights.segment<kKept>(kKept - newest_);
+    for (Index i = group.begin; i < group.end; ++i) y[i] = history_.col(i).dot(weights);
+  }
+}
+
+void Predictor::record(const VectorXd& y) {
   newest_ = (newest_ + 1) % kKept;
+  history_.row(newest_) = y;
+  if (count_ == 0) steps_to_choice_ = 0;
   count_ = std::min(count_ + 1, kKept);
-  const double* vectors = y.data();
-  if (!constant_basis_) {
-    tangent_.reshaped(tangents_, blocks_) =
-        basis.lazyProduct(y.head(blocks_ * coordinates_).reshaped(coordinates_, blocks_));
-    vectors = tangent_.data();
-  }
-  record(vectors_, vectors);
-  record(others_, y.data() + blocks_ * coordinates_);
   if (--steps_to_choice_ > 0) return;
   choose_degrees();
   steps_to_choice_ = count_ < kKept ? 1 : kStepsBetweenChoices;
@@ -57,29 +44,18 @@ void Predictor::limit_degree(int degree) {
 }
 
 void Predictor::choose_degrees() {
-  set_degree(vectors_, std::min(limit_, best_degree(vectors_)));
-  set_degree(others_, std::min(limit_, best_degree(others_)));
-}
-
-void Predictor::predict(const Block& block, double* values) const {
-  const auto weights = block.weights.segment<kKept>(kKept - newest_);
-  for (Index i = 0; i < block.history.cols(); ++i) values[i] = block.history.col(i).dot(weights);
-}
-
-void Predictor::record(Block& block, const double* values) const {
-  for (Index i = 0; i < block.history.cols(); ++i) block.history(newest_, i) = values[i];
+  for (Group& group : groups_) set_degree(group, std::min(limit_, best_degree(group)));
 }
 
 // The degree that would have been best for the newest unknowns; one higher than those that can be
 // judged if the errors have fallen so far.
-int Predictor::best_degree(const Block& block) const {
+int Predictor::best_degree(const Group& group) const {
   std::array<double, kMaxDegree + 1> largest = {};           // |∇ᵈ⁺¹| of the newest unknowns
   const int degrees = std::min(count_ - 1, kMaxDegree + 1);  // those that can be judged
-  for (Index i = 0; i < block.history.cols(); ++i) {
+  for (Index i = group.begin; i < group.end; ++i) {
     std::array<double, kKept> differences;  // ∇ʲ of the unknown that is so many steps old
     for (int age = 0; age < count_; ++age)
-      differences[static_cast<std::size_t>(age)] =
-          block.history((newest_ + kKept - age) % kKept, i);
+      differences[static_cast<std::size_t>(age)] = history_((newest_ + kKept - age) % kKept, i);
     for (int d = 0; d < degrees; ++d) {
       const int remaining = count_ - d - 1;
       for (std::size_t age = 0; age < static_cast<std::size_t>(remaining); ++age)
@@ -95,14 +71,14 @@ int Predictor::best_degree(const Block& block) const {
   return best == degrees - 1 ? std::min(best + 1, kMaxDegree) : best;
 }
 
-void Predictor::set_degree(Block& block, int degree) {
-  block.weights.setZero();
+void Predictor::set_degree(Group& group, int degree) {
+  group.weights.setZero();
   double binomial = 1.0;
   for (int age = 0; age <= degree; ++age) {
     binomial *= static_cast<double>(degree + 1 - age) / (age + 1);
     const double weight = age % 2 == 0 ? binomial : -binomial;
-    block.weights[kKept - age] = weight;
-    block.weights[(2 * kKept - age) % (2 * kKept)] = weight;
+    group.weights[kKept - age] = weight;
+    group.weights[(2 * kKept - age) % (2 * kKept)] = weight;
   }
 }
 

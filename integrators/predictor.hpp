@@ -1,7 +1,9 @@
 // The next unknown of a sequence of steps, by extrapolation of the last ones.
 #pragma once
 
-#include "courant/manifolds/manifold.hpp"
+#include <vector>
+
+#include "courant/core/expr.hpp"
 
 namespace courant {
 
@@ -11,12 +13,11 @@ namespace courant {
 //
 // What each degree would have been wrong by in the last steps says which is best: a high one while
 // steps are short and the motion is smooth, a low one where it is rough or round-off is all that is
-// left. It is chosen for the tangent vectors and for the other unknowns apart, in every step at
-// first, later now and then.
+// left. It is chosen for each of some consecutive groups of unknowns apart, in every step at first,
+// later now and then.
 //
-// The first `blocks` · n entries of an unknown are coordinates of tangent vectors with respect to
-// the basis of its step; they are kept in the tangent representation (Ñ each), which outlives the
-// basis. Nothing is allocated after construction.
+// Nothing is allocated after construction. Coordinates of tangent vectors are to be those in a
+// basis that moves smoothly (MovingBasis).
 class Predictor {
  public:
   static constexpr int kMaxDegree = 8;
@@ -24,17 +25,11 @@ class Predictor {
   // its round-off grows like steps^{d + 1/2}.
   static constexpr int kUndetermined = 1;
 
-  // `size` entries in an unknown, blocks · n of them coordinates.
-  Predictor(const Manifold& manifold, Index blocks, Index size);
-  // Of unknowns without coordinates.
-  explicit Predictor(Index size);
+  explicit Predictor(const std::vector<Index>& groups);  // sizes
 
-  // `basis` (Ñ × n) is that of the step to come; needs a recorded unknown.
-  void predict(const MatrixXd& basis, VectorXd& y);
-  void predict(VectorXd& y) { predict(MatrixXd(), y); }
-  // The unknown of a step that was made, in the basis of that step.
-  void record(const MatrixXd& basis, const VectorXd& y);
-  void record(const VectorXd& y) { record(MatrixXd(), y); }
+  void predict(VectorXd& y) const;  // needs a recorded unknown
+  void record(const VectorXd& y);   // the unknown of a step that was made
+  void forget() { count_ = 0; }     // as if nothing had been recorded
   bool is_empty() const { return count_ == 0; }
   // From now on no degree above `degree`.
   void limit_degree(int degree);
@@ -43,24 +38,20 @@ class Predictor {
   static constexpr int kJudged = 3;  // last steps that degrees are judged by
   static constexpr int kKept = kMaxDegree + 1 + kJudged;
 
-  // A part of the unknowns. The history is a ring: a row an unknown, the newest in row newest_.
-  struct Block {
-    Eigen::Matrix<double, kKept, Eigen::Dynamic> history;
+  struct Group {
+    Index begin, end;
     // Of the unknowns that are -m mod kKept steps old, twice over: at kKept - newest_ begin the
     // weights of the rows.
-    Eigen::Matrix<double, 2 * kKept, 1> weights;
+    Eigen::Matrix<double, 2 * kKept, 1> weights = Eigen::Matrix<double, 2 * kKept, 1>::Zero();
   };
 
-  void predict(const Block& block, double* values) const;
-  void record(Block& block, const double* values) const;
   void choose_degrees();
-  int best_degree(const Block& block) const;
-  static void set_degree(Block& block, int degree);
+  int best_degree(const Group& group) const;
+  static void set_degree(Group& group, int degree);
 
-  bool constant_basis_ = true;
-  Index coordinates_ = 0, tangents_ = 0, blocks_ = 0;
-  Block vectors_, others_;
-  VectorXd tangent_;  // the vectors in the tangent representation
+  std::vector<Group> groups_;
+  // A ring: a row an unknown, the newest in row newest_.
+  Eigen::Matrix<double, kKept, Eigen::Dynamic> history_;
   int newest_ = 0;
   int count_ = 0;  // unknowns in the history
   int steps_to_choice_ = 0;

@@ -1,6 +1,8 @@
 #include "courant/integrators/moving_basis.hpp"
 
+#include <Eigen/Geometry>
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 
 #include "courant/manifolds/cotangent_bundle.hpp"
 #include "courant/manifolds/hyperbolic.hpp"
@@ -40,19 +42,27 @@ BOOST_AUTO_TEST_CASE(follows_a_curve) {
     for (int k = 0; k < 20; ++k) {
       const MatrixXd before = basis.matrix();
       x = M->retract(x, M->random_tangent(x, length, generator));
-      basis.move_to(x);
+      BOOST_TEST(basis.move_to(x), M->name());
       BOOST_TEST(defect(*M, x, basis.matrix()) < 1e-12, M->name());
       BOOST_TEST((basis.matrix() - before).norm() < 0.5, M->name());
     }
   }
 }
 
-// Too far for the projection of the last basis: a fresh one.
+// Far away the nearest basis too, but not at a right angle, where it is a fresh one.
 BOOST_AUTO_TEST_CASE(jumps) {
   const Sphere sphere(2);
+  const Eigen::Vector3d far(std::sin(1.2), 0.0, std::cos(1.2));
   MovingBasis basis = basis_at(sphere, Eigen::Vector3d::UnitZ());
-  basis.move_to(Eigen::Vector3d::UnitX());
-  BOOST_TEST(defect(sphere, Eigen::Vector3d::UnitX(), basis.matrix()) < 1e-14);
+  const MatrixXd before = basis.matrix();
+  BOOST_TEST(basis.move_to(far));
+  BOOST_TEST(defect(sphere, far, basis.matrix()) < 1e-14);
+  // The rotation by 1.2 about the second axis, which is the parallel transport.
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.2, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  BOOST_TEST((basis.matrix() - turn * before).norm() < 1e-14);
+  MovingBasis other = basis_at(sphere, Eigen::Vector3d::UnitZ());
+  BOOST_TEST(!other.move_to(Eigen::Vector3d::UnitX()));
+  BOOST_TEST(defect(sphere, Eigen::Vector3d::UnitX(), other.matrix()) < 1e-14);
 }
 
 BOOST_AUTO_TEST_CASE(is_the_identity_on_a_group) {
