@@ -9,6 +9,7 @@
 #include "courant/integrators/local_formulation.hpp"
 #include "courant/integrators/moving_basis.hpp"
 #include "courant/integrators/moving_conormals.hpp"
+#include "courant/integrators/nearest_orthonormal.hpp"
 #include "courant/integrators/predictor.hpp"
 #include "courant/integrators/round_off_projection.hpp"
 #include "courant/integrators/step_solver.hpp"
@@ -72,6 +73,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
         basis_(manifold_, method.basis_, initial.x),
         conormals_(method.conormals_, n_, d_),
         directions_(n_, d_),
+        make_orthonormal_(d_),
         origin_(initial.t),
         h_(h),
         start_(VectorXd::Zero(solver_.unknown().size())),
@@ -217,11 +219,8 @@ class ConstrainFirst::Trajectory final : public Stepper {
     } else {
       directions_ = method_.projector_->directions(x, basis_.matrix(), conormals_.matrix());
       if (last_directions_.size() > 0) {
-        const MatrixXd turned = directions_ * (directions_.transpose() * last_directions_);
-        const MatrixXd nearest = 1.5 * turned - 0.5 * turned * (turned.transpose() * turned).eval();
-        if ((nearest.transpose() * nearest - MatrixXd::Identity(d_, d_)).lpNorm<Eigen::Infinity>() <
-            0.1)
-          directions_ = nearest;
+        turned_ = directions_ * (directions_.transpose() * last_directions_);
+        make_orthonormal_(turned_, directions_);
       }
     }
     is_aimed_ = true;
@@ -268,7 +267,8 @@ class ConstrainFirst::Trajectory final : public Stepper {
   Predictor shift_;      // of the vector at near_ that leads to x
   MovingBasis basis_;    // B at x_k
   MovingConormals conormals_;
-  MatrixXd directions_, last_directions_;  // W, and that at x_k
+  MatrixXd directions_, last_directions_, turned_;  // W, and that at x_k
+  NearestOrthonormal make_orthonormal_;
   // ‖ΔW‖ / ‖Δx‖ of the last steps; unknown before the first
   double turning_ = std::numeric_limits<double>::infinity();
   MatrixXd vectors_;

@@ -1,9 +1,8 @@
 // The basis of a chart along a trajectory.
 #pragma once
 
-#include <array>
-
 #include "courant/core/function.hpp"
+#include "courant/integrators/nearest_orthonormal.hpp"
 #include "courant/manifolds/manifold.hpp"
 
 namespace courant {
@@ -32,9 +31,7 @@ class MovingBasis {
   const Manifold& manifold_;
   Function projection_;
   MatrixXd basis_, projected_;
-  std::array<MatrixXd, 4> workspace_;
-  // B from P = Π(x) B; false if they are too far apart.
-  bool (*make_orthonormal_)(const MatrixXd& P, MatrixXd& B, std::array<MatrixXd, 4>& workspace);
+  NearestOrthonormal make_orthonormal_;
 };
 
 }  // namespace courant

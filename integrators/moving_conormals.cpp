@@ -14,11 +14,6 @@ constexpr double kRankThreshold = 1e-9;
 // counts for x only times the distance from M_f.
 constexpr double kTolerance = 1e-13;
 
-// ‖NᵀN‖ beyond which the last C is no help, and the defect of an orthonormal basis whose square is
-// round-off.
-constexpr double kFar = 0.1;
-constexpr double kRound = 1e-8;
-
 }  // namespace
 
 MovingConormals::Functions MovingConormals::trace(Graph& graph, const ExprVector& F,
@@ -61,7 +56,7 @@ MovingConormals::MovingConormals(Functions functions, Index n, Index d)
       units_(MatrixXd::Identity(d, d)),
       weights_(VectorXd::Zero(d * functions_.constraints.output_size())),
       covectors_(n, d),
-      gram_(d, d) {}
+      make_orthonormal_(d) {}
 
 void MovingConormals::move_to(const double* const* in) {
   if (d_ == 0) return;
@@ -93,19 +88,7 @@ bool MovingConormals::continue_to(const double* const* in) {
     }
     functions_.conormal.value(all, covectors_.col(j).data());
   }
-  // C + N with CᵀN = 0, made orthonormal by the Newton–Schulz iteration: its error is squared each
-  // time.
-  gram_.noalias() = covectors_.transpose() * covectors_;
-  double defect = (gram_ - units_).lpNorm<Eigen::Infinity>();
-  if (!(defect < kFar)) return false;
-  while (true) {
-    gram_ = 1.5 * units_ - 0.5 * gram_;
-    conormals_.noalias() = covectors_ * gram_;
-    if (defect < kRound) return true;
-    covectors_ = conormals_;
-    gram_.noalias() = covectors_.transpose() * covectors_;
-    defect = (gram_ - units_).lpNorm<Eigen::Infinity>();
-  }
+  return make_orthonormal_(covectors_, conormals_);  // of C + N with CᵀN = 0
 }
 
 void MovingConormals::find(const double* const* in) {

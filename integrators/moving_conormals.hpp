@@ -2,6 +2,7 @@
 #pragma once
 
 #include "courant/core/newton.hpp"
+#include "courant/integrators/nearest_orthonormal.hpp"
 #include "courant/integrators/predictor.hpp"
 
 namespace courant {
@@ -50,7 +51,8 @@ class MovingConormals {
   MatrixXd conormals_, kept_;
   MatrixXd units_;    // e_1, …, e_d
   VectorXd weights_;  // w_1, …, w_d
-  MatrixXd covectors_, gram_;
+  MatrixXd covectors_;
+  NearestOrthonormal make_orthonormal_;
 };
 
 }  // namespace courant

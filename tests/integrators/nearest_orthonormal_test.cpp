@@ -1,0 +1,49 @@
+#include "courant/integrators/nearest_orthonormal.hpp"
+
+#include <Eigen/Dense>
+#include <boost/test/unit_test.hpp>
+#include <limits>
+#include <random>
+
+using namespace courant;
+
+BOOST_AUTO_TEST_SUITE(nearest_orthonormal)
+
+// The polar factor U Vᵀ of the singular value decomposition, for all sizes with code of their own
+// and larger ones, at distances from round-off to where it gives up.
+BOOST_AUTO_TEST_CASE(is_the_polar_factor) {
+  std::mt19937 generator(1);
+  std::normal_distribution<double> normal;
+  const auto random = [&](Index rows, Index columns) {
+    return MatrixXd(MatrixXd::NullaryExpr(rows, columns, [&] { return normal(generator); }));
+  };
+  for (Index columns = 1; columns <= 12; ++columns)
+    for (const Index rows : {columns, columns + 3})
+      for (const double distance : {1e-15, 1e-8, 1e-4, 1e-2, 0.2}) {
+        const MatrixXd Q = Eigen::HouseholderQR<MatrixXd>(random(rows, columns)).householderQ() *
+                           MatrixXd::Identity(rows, columns);
+        MatrixXd change = random(rows, columns);
+        change *= distance / change.norm();
+        const MatrixXd P = Q + change;
+        MatrixXd B = MatrixXd::Zero(rows, columns);
+        NearestOrthonormal nearest(columns);
+        BOOST_TEST_REQUIRE(nearest(P, B));
+        const Eigen::JacobiSVD<MatrixXd> svd(P, Eigen::ComputeThinU | Eigen::ComputeThinV);
+        BOOST_TEST((B - svd.matrixU() * svd.matrixV().transpose()).norm() < 2e-14,
+                   columns << " columns at " << distance);
+      }
+}
+
+BOOST_AUTO_TEST_CASE(gives_up_far_away) {
+  for (const Index columns : {2, 10}) {
+    NearestOrthonormal nearest(columns);
+    MatrixXd P = MatrixXd::Identity(columns, columns), B = P;
+    P(0, 0) = 0.5;
+    BOOST_TEST(!nearest(P, B));
+    P(0, 0) = std::numeric_limits<double>::quiet_NaN();
+    BOOST_TEST(!nearest(P, B));
+    BOOST_TEST((B - MatrixXd::Identity(columns, columns)).norm() == 0.0);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
