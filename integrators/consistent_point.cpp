@@ -90,9 +90,12 @@ Mobility ConsistentPoint::mobility(const ConsistentJet& from, bool x_is_free) co
   const VectorXd in_frame = system_->manifold()->coframe(from.array.origin()) * from.array.origin();
   const VectorXd position = (from.array.basis().transpose() * in_frame).cwiseAbs();
   result.typical.head(n) = result.typical.head(n).cwiseMax(position);
-  result.leading = n;
+  if (x_is_free)
+    result.admits = [extent = system_->manifold()->extent_at(from.array.origin()),
+                     basis = from.array.basis()](const VectorXd& y) {
+      return extent(basis * y.head(basis.cols())) < 0.9;
+    };
   const double radius = system_->manifold()->injectivity_radius(from.array.origin());
-  result.radius = 0.9 * radius;
   if (std::isfinite(radius))  // angles
     result.typical.head(n) = result.typical.head(n).cwiseMax(radius / std::numbers::pi);
   return result;

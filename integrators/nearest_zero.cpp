@@ -154,7 +154,7 @@ Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& m
         if (stationary) break;
       }
       const VectorXd y = zero.y + units.column_scale.cwiseProduct(delta);
-      if (y.head(mobility.leading).norm() > mobility.radius) continue;
+      if (mobility.admits && !mobility.admits(y)) continue;
       Linearization next = map(y);
       if (!finite(next)) continue;
       const VectorXd residual = units.row_scale.cwiseProduct(next.value);

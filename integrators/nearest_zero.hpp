@@ -16,9 +16,8 @@ struct Mobility {
   Index frozen = 0;               // so many leading unknowns do not move at all
   VectorXd typical = VectorXd();  // sizes |y_j| below which a change of y_j is round-off in the
                                   // map; may be 0
-  // The first `leading` unknowns stay within this distance of 0: the domain of a chart.
-  Index leading = 0;
-  double radius = std::numeric_limits<double>::infinity();
+  // Whether y may be gone to, as the domain of a chart allows; empty: anything may.
+  std::function<bool(const VectorXd& y)> admits = {};
 };
 
 // A zero y of a map, or where its search ended: found starts as false.

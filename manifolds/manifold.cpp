@@ -150,6 +150,15 @@ double Manifold::do_injectivity_radius(const VectorXd&) const {
   return std::numeric_limits<double>::infinity();
 }
 
+Manifold::Extent Manifold::extent_at(const VectorXd& x) const {
+  check_size("extent_at", "x", x.size(), ambient_dimension_, "ambient_dimension()");
+  return do_extent_at(x);
+}
+
+Manifold::Extent Manifold::do_extent_at(const VectorXd& x) const {
+  return [radius = injectivity_radius(x)](const VectorXd& v) { return v.norm() / radius; };
+}
+
 VectorXd Manifold::project(const VectorXd& x) const {
   check_size("project", "x", x.size(), ambient_dimension_, "ambient_dimension()");
   return do_project(x);

@@ -1,6 +1,7 @@
 // Manifold: what a space has to supply so that integrators can be built on it.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <random>
@@ -21,14 +22,14 @@ namespace courant {
 //
 //   E(x) = frame(x): R^Ñ → R^N,  v ↦ ẋ          C(x) = coframe(x): R^N → R^Ñ,  ẋ ↦ v
 //
-// Laws, measured by check_manifold:
-//   M1  retract(x, 0) = x                                                for x ∈ M
-//   M2  d/ds retract(x, s v) = frame(x) v at s = 0                       for v ∈ T_xM
-//   M3  constraint(retract(x, v)) = 0                                    for ‖v‖ <
-//   injectivity_radius(x) M4  inverse_retract(x, retract(x, v)) = v, retract(x, inverse_retract(x,
-//   y)) = y   within the injectivity radius M5  C E C = C and E C E = E on M, rank n;  E(x) R^Ñ =
-//   ker d constraint(x) M6  every map is smooth at and near v = 0: derivatives are finite and right
-//   M9  inverse_retract(R(x, v), R(x, w)) is the same at every x   where unit() claims a group
+// Laws, measured by check_manifold; r(x) = injectivity_radius(x):
+//   M1  R(x, 0) = x                                       for x ∈ M
+//   M2  d/ds R(x, s v) = E(x) v at s = 0                  for v ∈ T_xM
+//   M3  constraint(R(x, v)) = 0                           for ‖v‖ < r(x)
+//   M4  R⁻¹(x, R(x, v)) = v,  R(x, R⁻¹(x, y)) = y         for ‖v‖ < r(x)
+//   M5  C E C = C and E C E = E on M, rank n;             E(x) R^Ñ = ker d constraint(x)
+//   M6  every map is smooth at and near v = 0             derivatives are finite and right
+//   M9  R⁻¹(R(x, v), R(x, w)) is the same at every x      where unit() claims a group
 //
 // Every formula is written once, on Expr; given numbers, the same functions return numbers
 // (constants fold). Reference: Absil, Mahony, Sepulchre, Optimization Algorithms on Matrix
@@ -116,6 +117,11 @@ class Manifold {
   // A length (Euclidean norm in the tangent representation) below which retract at x is a
   // diffeomorphism onto its image.
   double injectivity_radius(const VectorXd& x) const;
+  // v ↦ how much of the domain of R_x it takes up: R_x is injective on {v ∈ T_xM : extent(v) < 1}.
+  // ‖v‖/injectivity_radius(x), but for components that nothing limits, as those along the fibres
+  // of bundles.
+  using Extent = std::function<double(const VectorXd& v)>;
+  Extent extent_at(const VectorXd& x) const;
   // The point of M near x: x itself up to round-off if x ∈ M. Throws std::domain_error if there is
   // none.
   VectorXd project(const VectorXd& x) const;
@@ -153,6 +159,7 @@ class Manifold {
       const VectorXd& x, const VectorXd& y) const;  // where points have several representatives
   virtual double do_injectivity_radius(
       const VectorXd& x) const;  // +∞ by default: must, unless R_x is injective on T_xM
+  virtual Extent do_extent_at(const VectorXd& x) const;
   virtual VectorXd do_project(const VectorXd& x) const;  // default: Gauss–Newton on the constraint
   virtual VectorXd do_random_point(
       std::mt19937& generator) const;  // default: a projected normal vector

@@ -126,6 +126,18 @@ double Product::do_injectivity_radius(const VectorXd& x) const {
   return result;
 }
 
+Manifold::Extent Product::do_extent_at(const VectorXd& x) const {
+  std::vector<Extent> extents;
+  for (std::size_t i = 0; i < factors_.size(); ++i)
+    extents.push_back(factors_[i]->extent_at(point_part(x, i)));
+  return [this, extents](const VectorXd& v) {
+    double result = 0.0;
+    for (std::size_t i = 0; i < extents.size(); ++i)
+      result = std::max(result, extents[i](tangent_part(v, i)));
+    return result;
+  };
+}
+
 VectorXd Product::do_project(const VectorXd& x) const {
   VectorXd result(x.size());
   for (std::size_t i = 0; i < factors_.size(); ++i)

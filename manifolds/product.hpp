@@ -39,6 +39,7 @@ class Product final : public Manifold {
   double do_point_defect(const VectorXd& x) const override;
   double do_separation(const VectorXd& x, const VectorXd& y) const override;
   double do_injectivity_radius(const VectorXd& x) const override;
+  Extent do_extent_at(const VectorXd& x) const override;
   VectorXd do_project(const VectorXd& x) const override;
   VectorXd do_random_point(std::mt19937& generator) const override;
 

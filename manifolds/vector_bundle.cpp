@@ -95,18 +95,28 @@ double VectorBundle::do_separation(const VectorXd& x, const VectorXd& y) const {
                     (fibre_part(x) - fibre_part(y)).norm());
 }
 
-double VectorBundle::do_injectivity_radius(const VectorXd& x) const {
-  const double base_radius = base_->injectivity_radius(position(x));
-  if (base_->dimension() == 0 || is_trivialised()) return base_radius;
+double VectorBundle::turning_rate(const VectorXd& position) const {
+  if (base_->dimension() == 0 || is_trivialised()) return 0.0;
   Graph graph;
   const ExprVector at = graph.variables("x", base_->ambient_dimension());
   const ExprMatrix turning =
       jacobian(fibre_projector(at).reshaped(), at).dense() * base_->frame(at);
-  const MatrixXd rate = values(substitute(turning.reshaped(), at, constants(VectorXd(position(x)))))
+  const MatrixXd rate = values(substitute(turning.reshaped(), at, constants(position)))
                             .reshaped(turning.rows(), turning.cols()) *
-                        base_->tangent_basis(position(x));
-  const double kappa = Eigen::JacobiSVD<MatrixXd>(rate).singularValues()[0];
-  return std::min(base_radius, 1.0 / kappa);
+                        base_->tangent_basis(position);
+  return Eigen::JacobiSVD<MatrixXd>(rate).singularValues()[0];
+}
+
+double VectorBundle::do_injectivity_radius(const VectorXd& x) const {
+  return std::min(base_->injectivity_radius(position(x)), 1.0 / turning_rate(position(x)));
+}
+
+Manifold::Extent VectorBundle::do_extent_at(const VectorXd& x) const {
+  return [this, of_base = base_->extent_at(position(x)),
+          rate = turning_rate(position(x))](const VectorXd& v) {
+    const VectorXd along = horizontal(v);
+    return std::max(of_base(along), rate * along.norm());
+  };
 }
 
 VectorXd VectorBundle::projected(const VectorXd& position, const VectorXd& fibre) const {

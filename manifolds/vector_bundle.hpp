@@ -18,7 +18,8 @@ namespace courant {
 // (x⁺, u + r), geodesic if M is. The inverse undoes the projection by the linear map F⁺F +
 // (1-F⁺)(1-F) between projectors (Kato), invertible while ‖F⁺ - F‖ < 1: on spheres up to π/2. So
 // the injectivity radius is at most 1/κ, where κ is the rate at which F turns at (x, u) per length
-// of v: an estimate from one point, which assumes that F does not turn much faster nearby.
+// of v: an estimate from one point, which assumes that F does not turn much faster nearby. Along
+// the fibres nothing is limited.
 class VectorBundle : public Manifold {
  public:
   const std::shared_ptr<const Manifold>& base() const { return base_; }  // M
@@ -62,9 +63,11 @@ class VectorBundle : public Manifold {
   double do_point_defect(const VectorXd& x) const override;
   double do_separation(const VectorXd& x, const VectorXd& y) const override;
   double do_injectivity_radius(const VectorXd& x) const override;
+  Extent do_extent_at(const VectorXd& x) const override;
   VectorXd do_project(const VectorXd& x) const override;
   VectorXd do_random_point(std::mt19937& generator) const override;
 
+  double turning_rate(const VectorXd& position) const;  // κ
   VectorXd projected(const VectorXd& position, const VectorXd& fibre) const;
   ExprMatrix fibre_motion(const ExprVector& x) const;
 

@@ -54,7 +54,8 @@ class DiracStructure {
                         const ExprVector& u) const;
 
   // membership = F v + E α + P u at x, by its exact derivatives, in the orthonormal basis
-  // B = tangent_basis(x) of T_xM: (w, a) ∈ Rⁿ ⊕ Rⁿ stands for v = B w and the α with a = Bᵀ α.
+  // B = tangent_basis(x) of T_xM: (w, a) ∈ Rⁿ ⊕ Rⁿ stands for v = B w and the α with a = Bᵀ α. A
+  // tangent block s of the residual stands in it as Bᵀ s.
   struct Matrices {
     MatrixXd F, E, P;  // r × n, r × n, r × m
   };

@@ -64,8 +64,10 @@ Lagrangian::Lagrangian(std::shared_ptr<const CotangentBundle> phase_space, Formu
 Expr Lagrangian::do_value(const ExprVector& x, const ExprVector& w, const Expr& t) const {
   const ExprVector q = phase_space_->position(x);
   const ExprVector p = phase_space_->momentum(x);
-  const ExprVector tangent = phase_space_->base()->tangent_projector(q) * w;
-  return p.dot(w) - lagrangian_(q, tangent, t);
+  const Manifold& Q = *phase_space_->base();
+  if (Q.dimension() == Q.tangent_dimension()) return p.dot(w) - lagrangian_(q, w, t);
+  const ExprVector tangent = Q.tangent_projector(q) * w;
+  return p.dot(w) - lagrangian_(q, tangent, t) + 0.5 * (w - tangent).squaredNorm();
 }
 
 Expr Lagrangian::do_energy(const ExprVector& x, const ExprVector& w, const Expr& t) const {

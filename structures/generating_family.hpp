@@ -66,8 +66,9 @@ class Hamiltonian final : public GeneratingFamily {
 };
 
 // 𝓛 = 𝓘_{TQ}⁻¹(Im dL) for a Lagrangian L: TQ → R, regular or singular, by E(q, p, w) = ⟨p, w⟩ -
-// L(q, w); k = Ñ_Q. Its energy is ⟨∂_w L, w⟩ - L, which doesn't contain p: for L = ⟨α(q), w⟩ - H(q)
-// it is H(q) on and off M_0.
+// L(q, w); k = Ñ_Q. Where n < Ñ there is ‖w - Π w‖²/2 besides, which says that w is tangent:
+// without it nothing would determine the rest of w. Its energy is ⟨∂_w L, w⟩ - L, which doesn't
+// contain p: for L = ⟨α(q), w⟩ - H(q) it is H(q) on and off M_0.
 class Lagrangian final : public GeneratingFamily {
  public:
   using Formula = std::function<Expr(const ExprVector& q, const ExprVector& w, const Expr& t)>;

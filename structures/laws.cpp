@@ -57,8 +57,8 @@ class StructureLaws {
   double least_residual(const VectorXd& x, const VectorXd& w, const VectorXd& a) const {
     const auto [F, E, P] = D_.matrices(x);
     const VectorXd v = D_.manifold()->tangent_basis(x) * w, alpha = covector(x, a);
-    const VectorXd without = residual(x, v, alpha, VectorXd::Zero(D_.port_size()));
-    const VectorXd u = -FundamentalSubspaces(P, DiracStructure::rounding).pseudo_solve(without);
+    const VectorXd u =
+        -FundamentalSubspaces(P, DiracStructure::rounding).pseudo_solve(F * w + E * a);
     const double size = F.norm() + E.norm() + P.norm();
     return residual(x, v, alpha, u).norm() / std::max(size, 1e-300);
   }

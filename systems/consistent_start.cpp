@@ -72,6 +72,21 @@ std::vector<std::string> undetermined(const Experiment& experiment,
   return names;
 }
 
+// The components of v = C ẋ that a part of the velocities ẋ determines.
+Flags components_of(const Flags& velocities, const Manifold& M, const MatrixXd& coframe) {
+  if (M.tangent_dimension() == M.ambient_dimension()) return velocities;  // v = ẋ
+  const double negligible = 1e-9 * coframe.cwiseAbs().maxCoeff();
+  return Flags::NullaryExpr(coframe.rows(), [&](Index i) {
+    bool any = false;
+    for (Index j = 0; j < coframe.cols(); ++j) {
+      if (std::fabs(coframe(i, j)) <= negligible) continue;
+      if (!velocities[j]) return false;
+      any = true;
+    }
+    return any;
+  });
+}
+
 void forget_moves_of_what_was_not_given(ConstraintLadder& ladder, const Experiment& experiment) {
   const InitialValues& initial = experiment.initial;
   const ImplicitSystem::Names& names = experiment.model.system->names();
@@ -104,10 +119,10 @@ ConstraintLadder consistent_start(const Experiment& experiment) {
   options.metric =
       initial.x.given.cast<double>().matrix().cwiseProduct(initial.weight).asDiagonal();
   const ConstraintAlgorithm algorithm(options);
-  const bool one_velocity_each = M.tangent_dimension() == M.ambient_dimension();
+  const MatrixXd coframe = M.coframe(guess.x);
   const auto run = [&](const Flags& x, const Flags& velocities, const Flags& unknowns) {
     guess.hold_x = indices(x);
-    if (one_velocity_each) guess.hold_v = indices(velocities);
+    guess.hold_v = indices(components_of(velocities, M, coframe));
     guess.hold_z = indices(unknowns);
     return algorithm.run(system, guess);
   };

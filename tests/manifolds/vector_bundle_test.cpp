@@ -5,6 +5,7 @@
 
 #include "courant/manifolds/cotangent_bundle.hpp"
 #include "courant/manifolds/hyperbolic.hpp"
+#include "courant/manifolds/product.hpp"
 #include "courant/manifolds/special_orthogonal3.hpp"
 #include "courant/manifolds/sphere.hpp"
 #include "courant/manifolds/tangent_bundle.hpp"
@@ -49,6 +50,33 @@ BOOST_AUTO_TEST_CASE(the_radius_keeps_projectors_comparable) {
   v[0] = 1.5;
   v[4] = 0.7;
   BOOST_TEST((TS.inverse_retract(x, TS.retract(x, v)) - v).norm() < 1e-13);  // 1.5 < π/2
+}
+
+// Along the fibre nothing is limited: extent counts the base alone, in products factor by factor,
+// and the retraction is injective up to extent 1 however long the vertical part is.
+BOOST_AUTO_TEST_CASE(the_fibre_is_not_limited) {
+  std::mt19937 generator(5);
+  const auto sphere = std::make_shared<Sphere>(2);
+  const auto rotations = std::make_shared<SpecialOrthogonal3>();
+  for (const auto& M :
+       {std::make_shared<CotangentBundle>(sphere), std::make_shared<CotangentBundle>(rotations)}) {
+    const VectorXd x = M->random_point(generator);
+    const auto extent = M->extent_at(x);
+    const Index size = M->base()->tangent_dimension();
+    VectorXd v = M->random_tangent(x, 1.0, generator);
+    v.head(size) *= 0.95 * M->injectivity_radius(x) / v.head(size).norm();
+    v.tail(size) *= 100.0;
+    BOOST_TEST(extent(v) == 0.95, boost::test_tools::tolerance(1e-12));
+    BOOST_TEST((M->inverse_retract(x, M->retract(x, v)) - v).norm() < 1e-11 * v.norm(), M->name());
+    BOOST_TEST(extent(1.1 / 0.95 * v) > 1.0);
+  }
+  const Product both({sphere, std::make_shared<CotangentBundle>(rotations)});
+  const VectorXd x = both.random_point(generator);
+  VectorXd v = VectorXd::Zero(9);
+  v.tail(3).setConstant(50.0);
+  BOOST_TEST(both.extent_at(x)(v) == 0.0);
+  v.head(3) = sphere->random_tangent(x.head(3), 1.0, generator);
+  BOOST_TEST(both.extent_at(x)(v) == 1.0 / M_PI, boost::test_tools::tolerance(1e-12));
 }
 
 // Covectors of hyperbolic space are not its vectors: the projectors are transposes.

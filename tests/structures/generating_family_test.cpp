@@ -1,11 +1,14 @@
 #include "courant/structures/generating_family.hpp"
 
+#include <Eigen/LU>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <random>
 
 #include "courant/core/derivative.hpp"
 #include "courant/core/rank_decision.hpp"
 #include "courant/manifolds/euclidean.hpp"
+#include "courant/manifolds/sphere.hpp"
 
 BOOST_AUTO_TEST_SUITE(generating_family)
 
@@ -112,6 +115,33 @@ BOOST_AUTO_TEST_CASE(wrong_sizes_are_refused) {
   const Hamiltonian family(std::make_shared<Euclidean>(2),
                            [](const ExprVector& x, const Expr&) { return x[0]; });
   BOOST_CHECK_THROW(family.value(ExprVector::Zero(3), ExprVector(0), 0.0), std::invalid_argument);
+}
+
+// On T*S² with w ∈ R³: the family is a Morse family (rank k = 3 of ∂_λ(∂_xE, ∂_λE)), so that w is
+// determined, and tangent; without the term for its normal part the rank would be 2.
+BOOST_AUTO_TEST_CASE(velocities_are_tangent_where_they_have_more_components_than_dimensions) {
+  const auto sphere = std::make_shared<Sphere>(2);
+  const auto M = std::make_shared<CotangentBundle>(sphere);
+  const Lagrangian family(M, [](const ExprVector& q, const ExprVector& w, const Expr&) {
+    return 0.5 * w.squaredNorm() + 0.3 * w[0] * w[1] - q[2];
+  });
+  std::mt19937 generator(6);
+  const VectorXd x = M->random_point(generator);
+  Graph graph;
+  const ExprVector w = graph.variables("w", 3);
+  ExprVector both(9);
+  both << family.differential(constants(x), w, 0.0), family.stationarity(constants(x), w, 0.0);
+  const ExprVector entries = jacobian(both, w).dense().reshaped();
+  const MatrixXd by_w =
+      values(substitute(entries, w, ExprVector::Zero(3))).reshaped(both.size(), 3);
+  BOOST_TEST(decide_rank(by_w).rank == 3);
+  // Stationarity is linear in w here.
+  const MatrixXd A = by_w.bottomRows(3);
+  const VectorXd at_zero =
+      values(substitute(family.stationarity(constants(x), w, 0.0), w, ExprVector::Zero(3)));
+  const VectorXd solution = A.fullPivLu().solve(-at_zero);
+  BOOST_TEST(std::abs(solution.dot(M->position(x))) < 1e-14);
+  BOOST_TEST(solution.norm() > 1e-3);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -5,6 +5,8 @@
 
 #include "catalogue.hpp"
 #include "courant/manifolds/euclidean.hpp"
+#include "courant/manifolds/implicit_submanifold.hpp"
+#include "courant/manifolds/special_orthogonal3.hpp"
 #include "courant/manifolds/sphere.hpp"
 #include "courant/structures/canonical_symplectic.hpp"
 #include "courant/structures/closed_port_hamiltonian.hpp"
@@ -65,6 +67,21 @@ BOOST_AUTO_TEST_CASE(dirac_on_a_manifold) {
   BOOST_TEST(at_x.kind() == "graph of a symplectic form");
   // ω(v, w) = vᵀ hat(x) w = v · (x × w) = ± the area: ±1 on orthonormal vectors.
   BOOST_TEST(std::abs(std::abs(at_x.form().omega.determinant()) - 1.0) < tolerance);
+}
+
+// Where the normal is along an axis but for 1e-34, the equations across the tangent space are all
+// noise of that size, which must not be scaled up to equations.
+BOOST_AUTO_TEST_CASE(noise_across_the_tangent_space_is_no_equation) {
+  const auto tilted = std::make_shared<ImplicitSubmanifold>(
+      "Tilted", std::make_shared<SpecialOrthogonal3>(),
+      [](const ExprVector& x) { return ExprVector(ExprVector::Constant(1, x[8] - 0.5)); }, 1);
+  const double c = 0.5, s = std::sqrt(0.75);
+  VectorXd x(12);
+  x << 1.0, 1.8e-34, -4.1e-33, -3.6e-33, c, -s, 2.3e-34, s, c, 0.0, 0.3, 0.2;
+  const auto M = std::make_shared<CotangentBundle>(tilted);
+  const FibreRanks ranks = fibre_ranks(CanonicalSymplectic(M), x);
+  BOOST_TEST(ranks.dimension == 4);
+  BOOST_TEST(ranks.equations == 4);
 }
 
 BOOST_AUTO_TEST_CASE(example_2_2_1) {
