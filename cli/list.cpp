@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <ostream>
 
@@ -37,11 +38,14 @@ void print_json(const Console& console) {
 }
 
 void print_text(const Console& console) {
-  for (const Shelf& shelf : catalogue()) {
+  const std::vector<Shelf> shelves = catalogue();
+  std::size_t width = 0;
+  for (const Shelf& shelf : shelves)
+    for (const KindDescription& kind : shelf.kinds) width = std::max(width, kind.type.size());
+  for (const Shelf& shelf : shelves) {
     console.out << shelf.name << '\n';
     for (const KindDescription& kind : shelf.kinds)
-      console.out << "  " << kind.type
-                  << std::string(kind.type.size() < 18 ? 18 - kind.type.size() : 1, ' ')
+      console.out << "  " << kind.type << std::string(width + 2 - kind.type.size(), ' ')
                   << kind.summary << '\n';
   }
 }
