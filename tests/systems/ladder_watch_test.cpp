@@ -3,8 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "courant/integrators/constraint_algorithm.hpp"
-#include "courant/systems/runner.hpp"
-#include "temporary_folder.hpp"
+#include "run_in.hpp"
 
 using namespace courant;
 
@@ -31,13 +30,6 @@ Json linkage(double step, double end, long examine) {
   experiment["time"] = {{"step", step}, {"end", end}};
   experiment["examine"] = examine;
   return experiment;
-}
-
-RunOutcome run_in(const TemporaryFolder& folder, const Json& experiment) {
-  RunOptions options;
-  options.folder = folder / "run";
-  options.backend = Backend::interpreter;
-  return run(read_experiment(experiment.dump()), options);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 #include "courant/systems/run_files.hpp"
 #include "courant/systems/run_folder.hpp"
-#include "temporary_folder.hpp"
+#include "run_in.hpp"
 
 namespace courant {
 namespace {
@@ -26,12 +26,6 @@ const Json collision = Json::parse(R"json({
   "method": { "type": "discretize-first" },
   "time": { "step": 0.01, "end": 10 }
 })json");
-
-RunOutcome run_in(const TemporaryFolder& folder, const Json& experiment, RunOptions options = {}) {
-  options.folder = folder / "run";
-  options.backend = Backend::interpreter;
-  return run(read_experiment(experiment.dump()), options);
-}
 
 }  // namespace
 

@@ -33,6 +33,7 @@ inline std::string read_text(const std::filesystem::path& file) {
 }
 
 inline void write_text(const std::filesystem::path& file, const std::string& text) {
+  std::filesystem::create_directories(file.parent_path());
   std::ofstream(file, std::ios::binary) << text;
 }
 
