@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "courant/core/derivative.hpp"
+#include "courant/structures/blocks.hpp"
 
 namespace courant {
 
@@ -11,16 +12,9 @@ namespace {
 // F with each tangent block r replaced by Bᵀr and then `zeros` (per equation that is lost).
 ExprVector with_reduced_blocks(const ImplicitSystem& system, const ExprMatrix& basis,
                                const ExprVector& F, bool zeros) {
-  const Index full = basis.rows(), n = basis.cols();
-  if (n == full) return F;
-  const Index blocks = system.tangent_blocks();
-  const Index kept = zeros ? full : n;
-  ExprVector result = ExprVector::Zero(F.size() - blocks * (full - kept));
-  for (Index b = 0; b < blocks; ++b)
-    result.segment(b * kept, n) = basis.transpose() * F.segment(b * full, full);
-  const Index others = F.size() - blocks * full;
-  result.tail(others) = F.tail(others);
-  return result;
+  if (basis.rows() == basis.cols()) return F;
+  return with_blocks_in_basis(F, basis, system.tangent_blocks(),
+                              zeros ? basis.rows() : basis.cols());
 }
 
 }  // namespace

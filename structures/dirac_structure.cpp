@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "courant/core/derivative.hpp"
+#include "courant/structures/blocks.hpp"
 
 namespace courant {
 
@@ -53,15 +54,8 @@ DiracStructure::Matrices DiracStructure::matrices(const VectorXd& x) const {
   A.reshaped() = values(entries);
   const MatrixXd basis = manifold_->tangent_basis(x);
   const MatrixXd covectors = manifold_->tangent_projector(x).transpose() * basis;
-  if (basis.cols() < n) {
-    // What a tangent vector or covector says across the tangent space is rounding noise.
-    const Index blocks = tangent_blocks(), kept = basis.cols();
-    MatrixXd reduced(A.rows() - blocks * (n - kept), A.cols());
-    for (Index b = 0; b < blocks; ++b)
-      reduced.middleRows(b * kept, kept) = basis.transpose() * A.middleRows(b * n, n);
-    reduced.bottomRows(A.rows() - blocks * n) = A.bottomRows(A.rows() - blocks * n);
-    A = reduced;
-  }
+  // What a tangent vector or covector says across the tangent space is rounding noise.
+  if (basis.cols() < n) A = with_blocks_in_basis(A, basis, tangent_blocks(), basis.cols());
   return {A.leftCols(n) * basis, A.middleCols(n, n) * covectors, A.rightCols(m)};
 }
 
