@@ -87,9 +87,7 @@ Mobility ConsistentPoint::mobility(const ConsistentJet& from, bool x_is_free) co
   result.cost = VectorXd::Constant(size, 0.03);
   result.cost.head(n).setOnes();
   result.typical = from.array.resized(from.zero.reach, from.array.level_of(from.zero.y));
-  const VectorXd in_frame = system_->manifold()->coframe(from.array.origin()) * from.array.origin();
-  const VectorXd position = (from.array.basis().transpose() * in_frame).cwiseAbs();
-  result.typical.head(n) = result.typical.head(n).cwiseMax(position);
+  result.typical.head(n) = result.typical.head(n).cwiseMax(from.array.origin_size());
   if (x_is_free)
     result.admits = [extent = system_->manifold()->extent_at(from.array.origin()),
                      basis = from.array.basis()](const VectorXd& y) {

@@ -113,6 +113,11 @@ DerivativeArray::Series DerivativeArray::evaluate(const VectorXd& y, Index k,
   return series;
 }
 
+VectorXd DerivativeArray::origin_size() const {
+  const VectorXd in_frame = system_->manifold()->coframe(origin_) * origin_;
+  return (basis_.transpose() * in_frame).cwiseAbs();
+}
+
 VectorXd DerivativeArray::do_residual(const VectorXd& y, Index k) const {
   const MatrixXd by_equation = evaluate(y, k, false).coefficients;  // column-major: F_0 first
   return Eigen::Map<const VectorXd>(by_equation.data(), by_equation.size());

@@ -35,6 +35,8 @@ class DerivativeArray final : public Prolongation {
   double t() const { return t_; }
   const VectorXd& origin() const { return origin_; }  // x₀
   const MatrixXd& basis() const { return basis_; }    // B, Ñ × n
+  // |Bᵀ C(x₀) x₀|: what the chart coordinates, which are 0 at x₀, are small next to.
+  VectorXd origin_size() const;
 
   // The jet of level 0 with ξ_0 = 0 that has the tangent vector v (Ñ) and z (m); empty vectors are
   // zero.

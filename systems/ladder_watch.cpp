@@ -29,9 +29,7 @@ std::string dimensions(const ConstraintLadder& ladder) {
 // Sizes of the unknowns of a jet: that of the point for the chart coordinates, which are 0.
 VectorXd reach(const DerivativeArray& array, const VectorXd& y) {
   VectorXd size = y.cwiseAbs();
-  const Manifold& M = *array.system()->manifold();
-  const VectorXd in_frame = M.coframe(array.origin()) * array.origin();
-  size.head(array.base_size()) = (array.basis().transpose() * in_frame).cwiseAbs();
+  size.head(array.base_size()) = array.origin_size();
   return size;
 }
 
