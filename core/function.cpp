@@ -111,9 +111,13 @@ VectorXd Function::operator()(std::span<const VectorXd> in) const {
 MatrixXd Function::jacobian(std::span<const VectorXd> in) const {
   VectorXd all(rows_ + nonzeros());
   value_and_jacobian(pointers(in).data(), all.data());
+  return dense_jacobian(all);
+}
+
+MatrixXd Function::dense_jacobian(const VectorXd& out) const {
   MatrixXd result = MatrixXd::Zero(rows_, cols_);
   for (std::size_t k = 0; k < pattern_row_.size(); ++k)
-    result(pattern_row_[k], pattern_col_[k]) = all[rows_ + static_cast<Index>(k)];
+    result(pattern_row_[k], pattern_col_[k]) = out[rows_ + static_cast<Index>(k)];
   return result;
 }
 

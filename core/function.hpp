@@ -71,6 +71,8 @@ class Function {
                           double* out) const {  // out: m values, then nonzeros() entries of J
     native_all_ ? native_all_(in, out) : all_->run(in, out);
   }
+  // J as a matrix, from what value_and_jacobian has put out.
+  MatrixXd dense_jacobian(const VectorXd& out) const;
   // Series of order K: in[g] and out hold K+1 coefficients for each number, see taylor.hpp.
   void taylor(const double* const* in, Index order, double* out) const {
     value_->run_taylor(in, order, out);

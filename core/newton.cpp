@@ -81,13 +81,7 @@ Newton::Newton(Function function, std::vector<Index> groups, const Options& opti
 
 bool Newton::factorize(const double* const* in) {
   function_.value_and_jacobian(in, all_.data());
-  const Index rows = function_.output_size();
-  MatrixXd J = MatrixXd::Zero(rows, inverse_.rows());
-  for (std::size_t k = 0; k < function_.pattern_row().size(); ++k) {
-    const auto column =
-        std::lower_bound(contained_.begin(), contained_.end(), function_.pattern_col()[k]);
-    J(function_.pattern_row()[k], column - contained_.begin()) = all_[rows + static_cast<Index>(k)];
-  }
+  MatrixXd J = function_.dense_jacobian(all_)(Eigen::all, contained_);
   if (!J.allFinite()) return false;
   if (J.size() == 0) return factorized_ = determined_ = true;
 

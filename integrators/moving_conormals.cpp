@@ -95,9 +95,7 @@ void MovingConormals::find(const double* const* in) {
   const Function& f = functions_.constraints;
   VectorXd all(f.output_size() + f.nonzeros());
   f.value_and_jacobian(in, all.data());
-  MatrixXd J = MatrixXd::Zero(f.output_size(), f.jacobian_cols());
-  for (std::size_t k = 0; k < f.pattern_row().size(); ++k)
-    J(f.pattern_row()[k], f.pattern_col()[k]) = all[f.output_size() + static_cast<Index>(k)];
+  const MatrixXd J = f.dense_jacobian(all);
   Eigen::ColPivHouseholderQR<MatrixXd> others;
   others.setThreshold(kRankThreshold);
   others.compute(J.rightCols(J.cols() - n_));

@@ -14,7 +14,6 @@ Function RoundOffProjection::constraint(const Manifold& manifold, Backend backen
 
 RoundOffProjection::RoundOffProjection(Function constraint) : constraint_(std::move(constraint)) {
   all_.resize(constraint_.output_size() + constraint_.nonzeros());
-  jacobian_.setZero(constraint_.output_size(), constraint_.jacobian_cols());
 }
 
 void RoundOffProjection::apply(VectorXd& x) {
@@ -26,14 +25,11 @@ void RoundOffProjection::apply(VectorXd& x) {
       32.0 * std::numeric_limits<double>::epsilon() * std::max(1.0, x.squaredNorm());
   if (all_.head(count).lpNorm<Eigen::Infinity>() <= negligible) return;
   constraint_.value_and_jacobian(in, all_.data());
-  for (std::size_t k = 0; k < constraint_.pattern_row().size(); ++k)
-    jacobian_(constraint_.pattern_row()[k], constraint_.pattern_col()[k]) =
-        all_[count + static_cast<Index>(k)];
   // Equations of bundles repeat each other up to round-off: what is 1e-8 of the others is no
   // direction to move in.
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> decomposition;
   decomposition.setThreshold(1e-8);
-  decomposition.compute(jacobian_);
+  decomposition.compute(constraint_.dense_jacobian(all_));
   x -= decomposition.solve(all_.head(count));
 }
 

@@ -21,7 +21,6 @@ class RoundOffProjection {
  private:
   Function constraint_;
   VectorXd all_;  // the constraint and the entries of its Jacobian
-  MatrixXd jacobian_;
 };
 
 }  // namespace courant
