@@ -110,7 +110,8 @@ ConstraintLadder consistent_start(const Experiment& experiment) {
   const Manifold& M = *system->manifold();
   const InitialValues& initial = experiment.initial;
   InitialGuess guess{.t = experiment.start(), .x = initial.x.values};
-  if (initial.velocity.given.any()) guess.v = M.coframe(guess.x) * initial.velocity.values;
+  const MatrixXd coframe = M.coframe(guess.x);
+  if (initial.velocity.given.any()) guess.v = coframe * initial.velocity.values;
   if (initial.z.given.any()) guess.z = initial.z.values;
   check_near_manifold(experiment, guess);
   check_finite(experiment, guess);
@@ -119,7 +120,6 @@ ConstraintLadder consistent_start(const Experiment& experiment) {
   options.metric =
       initial.x.given.cast<double>().matrix().cwiseProduct(initial.weight).asDiagonal();
   const ConstraintAlgorithm algorithm(options);
-  const MatrixXd coframe = M.coframe(guess.x);
   const auto run = [&](const Flags& x, const Flags& velocities, const Flags& unknowns) {
     guess.hold_x = indices(x);
     guess.hold_v = indices(components_of(velocities, M, coframe));

@@ -8,8 +8,7 @@ namespace courant {
 std::optional<Model> read_hamiltonian(ObjectReader& system) {
   Findings& findings = system.place().findings();
   Model model;
-  Vocabulary& vocabulary = model.vocabulary;
-  vocabulary = read_vocabulary(system);
+  Vocabulary& vocabulary = model.vocabulary = read_vocabulary(system);
   SymbolTable taken = vocabulary.symbols({.t = Expr(0.0)});
   const auto space = read_structure_space(system, vocabulary, taken);
   const auto key = system.required("hamiltonian");

@@ -46,8 +46,7 @@ class FormulaSystem final : public ImplicitSystem {
 std::optional<Model> read_implicit(ObjectReader& system) {
   Findings& findings = system.place().findings();
   Model model;
-  Vocabulary& vocabulary = model.vocabulary;
-  vocabulary = read_vocabulary(system);
+  Vocabulary& vocabulary = model.vocabulary = read_vocabulary(system);
   SymbolTable taken = vocabulary.symbols({.t = Expr(0.0)});
   const auto space = read_space(system, "euclidean", vocabulary, taken);
   const auto unknowns = system.optional("unknowns");

@@ -9,8 +9,7 @@ namespace courant {
 std::optional<Model> read_lagrangian(ObjectReader& system) {
   Findings& findings = system.place().findings();
   Model model;
-  Vocabulary& vocabulary = model.vocabulary;
-  vocabulary = read_vocabulary(system);
+  Vocabulary& vocabulary = model.vocabulary = read_vocabulary(system);
   SymbolTable taken = vocabulary.symbols({.t = Expr(0.0)});
   const auto base = read_space(system, "euclidean", vocabulary, taken);
   const auto key = system.required("lagrangian");

@@ -37,8 +37,8 @@ std::optional<std::string> problem_of(const std::optional<std::pair<Index, Index
 
 std::optional<Model> read_point_vortices(ObjectReader& system) {
   Model model;
-  Vocabulary& vocabulary = model.vocabulary;
-  vocabulary = read_vocabulary(system, {"strengths", "x", "y", "p_x", "p_y"});
+  Vocabulary& vocabulary = model.vocabulary =
+      read_vocabulary(system, {"strengths", "x", "y", "p_x", "p_y"});
   const std::string form = system.word("form", "lagrangian", {"lagrangian", "hamiltonian"});
   const auto strengths = read_strengths(system, vocabulary.symbols({}));
   if (!strengths) return std::nullopt;
@@ -63,8 +63,7 @@ std::optional<Model> read_point_vortices(ObjectReader& system) {
 
 std::optional<Model> read_spherical_vortices(ObjectReader& system) {
   Model model;
-  Vocabulary& vocabulary = model.vocabulary;
-  vocabulary = read_vocabulary(system, {"strengths", "x"});
+  Vocabulary& vocabulary = model.vocabulary = read_vocabulary(system, {"strengths", "x"});
   const auto strengths = read_strengths(system, vocabulary.symbols({}));
   if (!strengths) return std::nullopt;
 

@@ -50,8 +50,7 @@ bool append_name(NameList& names, const std::string& name, Index count, SymbolTa
 std::optional<Model> read_port_hamiltonian(ObjectReader& system) {
   Findings& findings = system.place().findings();
   Model model;
-  Vocabulary& vocabulary = model.vocabulary;
-  vocabulary = read_vocabulary(system);
+  Vocabulary& vocabulary = model.vocabulary = read_vocabulary(system);
   SymbolTable taken = vocabulary.symbols({.t = Expr(0.0)});
   const auto space = read_space(system, "euclidean", vocabulary, taken);
   const auto hamiltonian_key = system.required("hamiltonian");
