@@ -36,9 +36,9 @@ sub{font-size:.72em;line-height:0}
 figure{margin:1.2rem 0 2.2rem}
 figcaption{color:var(--soft);font-size:.9rem;margin-top:.4rem;max-width:42rem}
 figcaption b{color:var(--text);font-weight:normal;font-variant:small-caps}
-.panels{display:grid;grid-template-columns:minmax(0,1fr);gap:.8rem;overflow-x:auto}
+.panels{display:grid;grid-template-columns:minmax(0,1fr);gap:.8rem;overflow-x:auto;padding-left:1rem;margin-left:-1rem}
 .panels.abreast{grid-template-columns:repeat(auto-fill,minmax(19rem,1fr))}
-svg{display:block;max-width:100%;height:auto}
+svg{display:block;max-width:100%;height:auto;overflow:visible}
 .ladder text{font-size:18px}
 .ladder .dimension{font-size:13px;fill:var(--soft)}
 .ladder .map{font-size:15px;fill:var(--soft)}
