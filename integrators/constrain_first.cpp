@@ -6,7 +6,7 @@
 
 #include "courant/core/derivative.hpp"
 #include "courant/integrators/discretize_first.hpp"
-#include "courant/integrators/local_formulation.hpp"
+#include "courant/integrators/ladder/local_formulation.hpp"
 #include "courant/integrators/moving_basis.hpp"
 #include "courant/integrators/moving_conormals.hpp"
 #include "courant/integrators/nearest_orthonormal.hpp"
