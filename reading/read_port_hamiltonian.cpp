@@ -52,13 +52,13 @@ std::optional<Model> read_port_hamiltonian(ObjectReader& system) {
   Model model;
   Vocabulary& vocabulary = model.vocabulary = read_vocabulary(system);
   SymbolTable taken = vocabulary.symbols({.t = Expr(0.0)});
-  const auto space = read_space(system, "euclidean", vocabulary, taken);
+  const auto space = read_space(system, vocabulary, taken);
   const auto hamiltonian_key = system.required("hamiltonian");
   const auto hamiltonian = hamiltonian_key ? read_formula(*hamiltonian_key) : std::nullopt;
   const auto J_key = system.required("J");
   const auto R_key = system.optional("R");
   const auto B_key = system.optional("B");
-  const bool open = system.word("ports", "closed", {"open", "closed"}) == "open";
+  const bool open = system.word("ports") == "open";
   const auto inputs_key = open ? system.required("inputs") : system.optional("inputs");
   if (!open && inputs_key)
     inputs_key->problem("is for open ports; expected \"ports\": \"open\" beside it");
