@@ -1,6 +1,7 @@
 #include "courant/integrators/discretize_first.hpp"
 
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 
 #include "courant/integrators/ladder/local_formulation.hpp"
@@ -20,6 +21,16 @@ void check_start(const std::string& method, const ImplicitSystem& system, const 
   if (initial.x.size() != expected)
     throw std::invalid_argument(method + "::start: x has " + std::to_string(initial.x.size()) +
                                 " entries, expected " + std::to_string(expected) + ".");
+  // A step keeps the distance from the manifold that it begins with, or blows it up.
+  const double defect = system.manifold()->point_defect(initial.x);
+  const double bound = 1e-6 * (1.0 + initial.x.squaredNorm());
+  if (!(defect <= bound)) {
+    std::ostringstream message;
+    message << method << "::start: x is not on " << system.manifold()->name()
+            << ", whose equations it violates by " << defect << "; expected at most " << bound
+            << ". Project it first.";
+    throw std::domain_error(message.str());
+  }
 }
 
 class DiscretizeFirst::Trajectory final : public Stepper {
@@ -95,10 +106,10 @@ DiscretizeFirst::DiscretizeFirst(std::shared_ptr<const ImplicitSystem> system,
                                  std::shared_ptr<const DiscretizationMap> map,
                                  const Options& options)
     : system_(std::move(system)), map_(std::move(map)) {
-  if (!system_ || !map_ || map_->manifold() != system_->manifold())
+  if (!system_ || !map_ || *map_->manifold() != *system_->manifold())
     throw std::invalid_argument(
-        "DiscretizeFirst::DiscretizeFirst: map is not on the manifold of the system; expected the "
-        "same object.");
+        "DiscretizeFirst::DiscretizeFirst: the system or the map is missing, or the map is not on "
+        "the manifold of the system.");
   const Manifold& M = *system_->manifold();
   const Index n = M.dimension();
   Graph graph;

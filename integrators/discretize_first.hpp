@@ -23,7 +23,7 @@ class DiscretizeFirst final : public Integrator {
     Backend backend = Backend::automatic;
   };
 
-  // `map` on the manifold object of `system`; throws std::invalid_argument otherwise.
+  // `map` on the manifold of `system`; throws std::invalid_argument otherwise.
   DiscretizeFirst(std::shared_ptr<const ImplicitSystem> system,
                   std::shared_ptr<const DiscretizationMap> map, const Options& options);
   DiscretizeFirst(std::shared_ptr<const ImplicitSystem> system,
@@ -49,7 +49,8 @@ class DiscretizeFirst final : public Integrator {
   Index tangent_blocks_ = 1;  // leading blocks of y that are coordinates of tangent vectors at x₀
 };
 
-// Throws std::invalid_argument unless the state fits the system and h is finite and not zero.
+// Throws std::invalid_argument unless the state fits the system and h is finite and not zero,
+// std::domain_error unless x is on the manifold up to 1e-6.
 // `method` is named in the message.
 void check_start(const std::string& method, const ImplicitSystem& system, const State& initial,
                  double h);

@@ -1,5 +1,4 @@
-#include <Eigen/Eigenvalues>
-
+#include "courant/core/symmetric_eigenvalues.hpp"
 #include "courant/reading/space.hpp"
 #include "courant/reading/structure_kinds.hpp"
 #include "courant/reading/system_kinds.hpp"
@@ -18,7 +17,7 @@ bool is_resistive(const Manifold& manifold, const MatrixField& R, const JsonRead
       place.problem("is not symmetric at a random point; expected R = Rᵀ");
       return false;
     }
-    const double least = Eigen::SelfAdjointEigenSolver<MatrixXd>(A).eigenvalues().minCoeff();
+    const double least = symmetric_eigenvalues(A).minCoeff();
     if (least < -1e-12 * size) {
       place.problem("is not positive semidefinite: an eigenvalue at a random point is " +
                     std::to_string(least) + "; expected at least 0");
