@@ -130,6 +130,7 @@ VectorXd uncertainty(const Linearization& at, const NaturalScaling& units,
   const SparseMatrixXd S =
       units.row_scale.asDiagonal() * at.jacobian * units.column_scale.asDiagonal();
   VectorXd moved = VectorXd::Zero(S.cols());
+  if (S.size() == 0) return moved;
   const auto include = [&](const VectorXd& delta) {
     if (delta.size() > 0 && delta.allFinite()) moved = moved.cwiseMax(delta.cwiseAbs());
   };
