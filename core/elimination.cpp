@@ -1,0 +1,266 @@
+#include "courant/core/elimination.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <random>
+#include <set>
+#include <stdexcept>
+
+#include "courant/core/derivative.hpp"
+#include "courant/core/equilibration.hpp"
+#include "courant/core/function.hpp"
+#include "courant/core/subgraph.hpp"
+
+namespace courant {
+namespace {
+
+// A pivot is at least that part of the largest coefficient of its equation, in comparable units.
+constexpr double kThreshold = 0.1;
+
+// Sums below that part of their terms may be zero.
+constexpr double kCancelled = 1e-10;
+
+// As long as no more unknowns than that are left, fill does not matter: their matrix is dense anyway.
+constexpr std::size_t kDense = 64;
+
+ExprVector join(const ExprVector& a, const ExprVector& b) {
+  ExprVector result(a.size() + b.size());
+  result << a, b;
+  return result;
+}
+
+// The variables that expressions are made of.
+ExprVector variables_of(const ExprVector& expressions) {
+  const Subgraph subgraph(expressions);
+  std::vector<Expr> found;
+  for (const std::uint32_t node : subgraph.nodes())
+    if (subgraph.graph()->node(node).op == Op::variable)
+      found.push_back(subgraph.graph()->expression(node));
+  return Eigen::Map<const ExprVector>(found.data(), static_cast<Index>(found.size()));
+}
+
+// Sizes of the entries of a Jacobian, in comparable units: at a generic point, where what is never zero,
+// being a step size, is small.
+VectorXd typical_entries(const SparseExprMatrix& J, const ExprVector& never_zero) {
+  const ExprVector variables = variables_of(J.values);
+  std::mt19937 generator(7);
+  std::uniform_real_distribution<double> uniform(0.5, 1.5);
+  VectorXd point = VectorXd::NullaryExpr(variables.size(), [&] { return uniform(generator); });
+  for (Index i = 0; i < variables.size(); ++i)
+    if (std::find(never_zero.begin(), never_zero.end(), variables[i]) != never_zero.end())
+      point[i] *= 0.01;
+  VectorXd entries = Function("entries", {{"p", variables}}, J.values)({point});
+  std::vector<Eigen::Triplet<double>> finite;
+  for (Index k = 0; k < entries.size(); ++k)
+    if (std::isfinite(entries[k]) && entries[k] != 0.0)
+      finite.emplace_back(static_cast<int>(J.row[static_cast<std::size_t>(k)]),
+                          static_cast<int>(J.col[static_cast<std::size_t>(k)]), entries[k]);
+  SparseMatrixXd A(J.rows, J.cols);
+  A.setFromTriplets(finite.begin(), finite.end());
+  const Equilibration<SparseMatrixXd> units = equilibrate(A, 0.0);
+  for (Index k = 0; k < entries.size(); ++k)
+    entries[k] *= units.row_scale[J.row[static_cast<std::size_t>(k)]] *
+                  units.column_scale[J.col[static_cast<std::size_t>(k)]];
+  return entries;
+}
+
+// The Jacobian while pivots are taken out of it.
+class Tableau {
+ public:
+  Tableau(const SparseExprMatrix& J, const ExprVector& never_zero, std::vector<int> coarseness)
+      : never_zero_(never_zero),
+        coarseness_(std::move(coarseness)),
+        rows_(static_cast<std::size_t>(J.rows)),
+        columns_(static_cast<std::size_t>(J.cols)) {
+    const VectorXd typical = typical_entries(J, never_zero);
+    for (std::size_t k = 0; k < J.row.size(); ++k) {
+      const auto entry = static_cast<Index>(k);
+      rows_[static_cast<std::size_t>(J.row[k])].emplace(J.col[k],
+                                                        Entry{J.values[entry], typical[entry]});
+      columns_[static_cast<std::size_t>(J.col[k])].insert(J.row[k]);
+      columns_left_.insert(J.col[k]);
+    }
+  }
+
+  struct Chosen {
+    Elimination::Pivot pivot;
+    Expr coefficient;
+  };
+
+  // Takes pivots away that have nothing to do with each other: none of their equations contains the
+  // unknown of another one, now or before. Empty: nothing is left to take.
+  std::vector<Chosen> round() {
+    std::vector<std::pair<std::size_t, Elimination::Pivot>> candidates;
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      for (const auto& [j, entry] : rows_[i])
+        if (const auto cost = cost_of(static_cast<Index>(i), j))
+          candidates.push_back({*cost, {static_cast<Index>(i), j}});
+    // Of equal ones the last unknown first: multipliers and jets come after the state.
+    std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
+      return a.first != b.first ? a.first < b.first : a.second.unknown > b.second.unknown;
+    });
+    std::vector<bool> is_touched(rows_.size(), false);
+    std::set<Index> blocked;
+    std::vector<Chosen> taken;
+    for (const auto& [cost, pivot] : candidates) {
+      const auto i = static_cast<std::size_t>(pivot.equation);
+      if (is_touched[i] || blocked.contains(pivot.unknown)) continue;
+      const bool meets_taken = std::any_of(rows_[i].begin(), rows_[i].end(), [&](const auto& e) {
+        return columns_[static_cast<std::size_t>(e.first)].empty();
+      });
+      const auto cost_now = cost_of(pivot.equation, pivot.unknown);
+      if (meets_taken || !cost_now || *cost_now > cost) continue;
+      for (const auto& [j, entry] : rows_[i]) blocked.insert(j);
+      taken.push_back({pivot, rows_[i].at(pivot.unknown).coefficient});
+      for (const Index k : columns_[static_cast<std::size_t>(pivot.unknown)])
+        is_touched[static_cast<std::size_t>(k)] = true;
+      take(pivot);
+    }
+    return taken;
+  }
+
+ private:
+  struct Entry {
+    Expr coefficient;
+    double typical;  // NaN where it is not known, 0 where it may vanish
+  };
+  using Row = std::map<Index, Entry>;
+
+  // Whether a is made of numbers and of parameters that are never zero.
+  bool is_never_zero(const Expr& a) const {
+    if (a.is_constant()) return a.value() != 0.0 && std::isfinite(a.value());
+    if (std::find(never_zero_.begin(), never_zero_.end(), a) != never_zero_.end()) return true;
+    Graph& graph = *a.graph();
+    const Node& node = graph.node(a.node());
+    const auto operand = [&](std::uint32_t index) {
+      return is_never_zero(graph.expression(index));
+    };
+    switch (node.op) {
+      case Op::negate:
+      case Op::power:
+        return operand(node.a);
+      case Op::multiply:
+      case Op::divide:
+        return operand(node.a) && operand(node.b);
+      default:
+        return false;
+    }
+  }
+
+  // How many entries may be filled if y_j is taken out of equation i; nothing if it must not be.
+  std::optional<std::size_t> cost_of(Index i, Index j) const {
+    const Row& row = rows_[static_cast<std::size_t>(i)];
+    const auto found = row.find(j);
+    if (found == row.end()) return std::nullopt;
+    const std::size_t others = row.size() - 1;
+    const std::size_t elsewhere = columns_[static_cast<std::size_t>(j)].size() - 1;
+    const std::size_t cost = others * elsewhere;
+    if (columns_left_.size() > kDense && cost > others + elsewhere) return std::nullopt;
+    double largest = 0.0;
+    for (const auto& [l, entry] : row) {
+      if (coarseness_[static_cast<std::size_t>(l)] > coarseness_[static_cast<std::size_t>(j)])
+        return std::nullopt;
+      // The comparison is false where an entry is not known, and the pivot not allowed.
+      largest = largest >= std::fabs(entry.typical) ? largest : std::fabs(entry.typical);
+    }
+    const bool is_large = std::fabs(found->second.typical) >= kThreshold * largest;
+    if (cost > 0 && !is_large) return std::nullopt;
+    if (found->second.typical == 0.0 || !is_never_zero(found->second.coefficient))
+      return std::nullopt;
+    return cost;
+  }
+
+  // a_kl - a_kj a_il / a_ij for all other k and l, and away with equation i and unknown j.
+  void take(const Elimination::Pivot& pivot) {
+    Row pivot_row = std::move(rows_[static_cast<std::size_t>(pivot.equation)]);
+    rows_[static_cast<std::size_t>(pivot.equation)].clear();
+    const Entry a = pivot_row.at(pivot.unknown);
+    pivot_row.erase(pivot.unknown);
+    for (const auto& [l, entry] : pivot_row)
+      columns_[static_cast<std::size_t>(l)].erase(pivot.equation);
+    auto& column = columns_[static_cast<std::size_t>(pivot.unknown)];
+    column.erase(pivot.equation);
+    for (const Index k : column) {
+      Row& row = rows_[static_cast<std::size_t>(k)];
+      const Entry factor = row.at(pivot.unknown);
+      row.erase(pivot.unknown);
+      for (const auto& [l, entry] : pivot_row) subtract(k, row, l, factor, entry, a);
+    }
+    column.clear();
+    columns_left_.erase(pivot.unknown);
+  }
+
+  void subtract(Index k, Row& row, Index l, const Entry& factor, const Entry& entry,
+                const Entry& pivot) {
+    const auto [place, is_new] = row.try_emplace(l, Entry{Expr(0.0), 0.0});
+    Entry& target = place->second;
+    const double term = factor.typical * entry.typical / pivot.typical;
+    const double sum = target.typical - term;
+    const bool may_vanish = std::fabs(sum) <= kCancelled * std::fabs(term);
+    target.coefficient =
+        target.coefficient - factor.coefficient * entry.coefficient / pivot.coefficient;
+    target.typical = may_vanish ? 0.0 : sum;
+    if (target.coefficient.is_constant(0.0)) {
+      row.erase(place);
+      columns_[static_cast<std::size_t>(l)].erase(k);
+    } else if (is_new) {
+      columns_[static_cast<std::size_t>(l)].insert(k);
+    }
+  }
+
+  const ExprVector& never_zero_;
+  std::vector<int> coarseness_;
+  std::vector<Row> rows_;
+  std::vector<std::set<Index>> columns_;  // the rows of each
+  std::set<Index> columns_left_;
+};
+
+}  // namespace
+
+Elimination::Elimination(const ExprVector& F, const ExprVector& y, const Options& options)
+    : equations(F), unknowns(y) {
+  std::vector<int> coarseness = options.coarseness;
+  if (coarseness.empty()) coarseness.assign(static_cast<std::size_t>(y.size()), 0);
+  if (std::ssize(coarseness) != y.size())
+    throw std::invalid_argument(
+        "Elimination: the coarseness has " + std::to_string(coarseness.size()) +
+        " entries, expected one for each of the " + std::to_string(y.size()) + " unknowns.");
+  std::vector<bool> is_done(static_cast<std::size_t>(F.size()), false);
+  std::vector<bool> is_given(static_cast<std::size_t>(y.size()), false);
+  const SparseExprMatrix J = jacobian(F, y);
+  Tableau tableau(J, options.never_zero, std::move(coarseness));
+  for (auto taken = tableau.round(); !taken.empty(); taken = tableau.round()) {
+    const auto count = static_cast<Index>(taken.size());
+    ExprVector variables(count), rest(count);
+    for (Index k = 0; k < count; ++k) {
+      const Pivot& pivot = taken[static_cast<std::size_t>(k)].pivot;
+      variables[k] = y[pivot.unknown];
+      rest[k] = equations[pivot.equation];
+    }
+    ExprVector formulas = substitute(rest, variables, ExprVector::Constant(count, Expr(0.0)));
+    for (Index k = 0; k < count; ++k)
+      formulas[k] = -formulas[k] / taken[static_cast<std::size_t>(k)].coefficient;
+    for (const auto& [pivot, coefficient] : taken) {
+      is_done[static_cast<std::size_t>(pivot.equation)] = true;
+      is_given[static_cast<std::size_t>(pivot.unknown)] = true;
+      equations[pivot.equation] = Expr(0.0);
+      pivots.push_back(pivot);
+    }
+    const ExprVector all = substitute(join(equations, unknowns), variables, formulas);
+    equations = all.head(F.size());
+    unknowns = all.tail(y.size());
+  }
+  ExprVector left(F.size());
+  for (Index i = 0; i < F.size(); ++i)
+    if (!is_done[static_cast<std::size_t>(i)] && !equations[i].is_constant(0.0)) {
+      left[std::ssize(remaining)] = equations[i];
+      remaining.push_back(i);
+    }
+  equations = left.head(std::ssize(remaining)).eval();
+  for (Index j = 0; j < y.size(); ++j)
+    if (!is_given[static_cast<std::size_t>(j)]) kept.push_back(j);
+}
+
+}  // namespace courant
