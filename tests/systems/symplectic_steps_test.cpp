@@ -23,9 +23,7 @@ double symplecticity_defect(const Integrator& method, const CotangentBundle& M, 
     return result;
   };
   const auto step = [&](const VectorXd& y) {
-    const auto stepper = method.start({.x = y}, h);
-    stepper->step();
-    return stepper->state().x;
+    return method.advance({.x = y}, h).x;
   };
   // Along s ↦ R_x(s a), by differences of order 8.
   const auto derivatives = [&](const VectorXd& a) {
