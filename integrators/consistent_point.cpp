@@ -40,6 +40,7 @@ ConsistentPoint::ConsistentPoint(std::shared_ptr<const ImplicitSystem> system, I
   hold(guess_.hold_x, guess_.x, 0, "x");
   hold(guess_.hold_v, guess_.v, N, "v");
   hold(guess_.hold_z, guess_.z, N + tangent, "z");
+  if (guess_.z.size() == 0) guess_.z = system_->auxiliary_guess(guess_.x, guess_.v);
 }
 
 ConsistentJet ConsistentPoint::start() const {

@@ -8,7 +8,9 @@ namespace courant {
 
 // R_d^{T*} = Φ⁻¹ ∘ R̂_d ∘ α_Q: T(T*Q) → T*Q × T*Q for a discretization map R_d: TQ → Q × Q
 // (Proposition 4.11): a symplectomorphism from (T(T*Q), d_Tω_Q) to (T*Q × T*Q, pr₂*ω_Q - pr₁*ω_Q)
-// (Corollary 4.12), so that Hamiltonian and Lagrangian systems give symplectic methods.
+// (Corollary 4.12), so that Hamiltonian and Lagrangian systems give symplectic methods. Here
+//   α_Q: TT*Q → T*TQ, (q, p, q̇, ṗ) ↦ (q, v, p_q, p_v) = (q, q̇, ṗ, p)
+// (the paper prints its inverse).
 //
 // In coordinates (ṗ, p) = (T R_d)ᵀ(-p₀, p₁) at (q, v), R_d(q, v) = (q₀, q₁): the inverse needs no
 // linear solve. It is the gradient of

@@ -42,4 +42,10 @@ std::optional<Expr> DiracSystem::do_energy(const ExprVector& x, const ExprVector
   return family_->energy(x, z.head(family_->parameter_size()), t);
 }
 
+VectorXd DiracSystem::do_auxiliary_guess(const VectorXd& x, const VectorXd& v) const {
+  VectorXd z = VectorXd::Zero(auxiliary_size());
+  z.head(family_->parameter_size()) = family_->parameter_guess(x, v);
+  return z;
+}
+
 }  // namespace courant

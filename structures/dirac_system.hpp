@@ -27,6 +27,7 @@ class DiracSystem final : public ImplicitSystem {
                          const Expr& t) const override;
   std::optional<Expr> do_energy(const ExprVector& x, const ExprVector& z,
                                 const Expr& t) const override;
+  VectorXd do_auxiliary_guess(const VectorXd& x, const VectorXd& v) const override;
 
   std::shared_ptr<const DiracStructure> structure_;
   std::shared_ptr<const GeneratingFamily> family_;

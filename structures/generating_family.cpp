@@ -83,4 +83,8 @@ Expr Lagrangian::do_energy(const ExprVector& x, const ExprVector& w, const Expr&
   return substitute(gradient(lagrangian, velocity).dot(velocity) - lagrangian, from, to);
 }
 
+VectorXd Lagrangian::do_parameter_guess(const VectorXd&, const VectorXd& v) const {
+  return phase_space_->horizontal(v);
+}
+
 }  // namespace courant

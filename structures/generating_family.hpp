@@ -38,6 +38,11 @@ class GeneratingFamily {
   Expr energy(const ExprVector& x, const ExprVector& lambda, const Expr& t) const {
     return do_energy(x, lambda, t);
   }
+  // Where to start a search for the λ that goes with a tangent vector v at x (size Ñ): the velocity
+  // itself for a Lagrangian, 0 where nothing is known. Size k.
+  VectorXd parameter_guess(const VectorXd& x, const VectorXd& v) const {
+    return do_parameter_guess(x, v);
+  }
 
  protected:
   GeneratingFamily(std::shared_ptr<const Manifold> manifold, Index parameter_size);
@@ -46,6 +51,9 @@ class GeneratingFamily {
   virtual Expr do_value(const ExprVector& x, const ExprVector& lambda, const Expr& t) const = 0;
   virtual Expr do_energy(const ExprVector& x, const ExprVector& lambda, const Expr& t) const {
     return value(x, lambda, t);
+  }
+  virtual VectorXd do_parameter_guess(const VectorXd&, const VectorXd&) const {
+    return VectorXd::Zero(parameter_size_);
   }
   ExprVector derivative(const ExprVector& x, const ExprVector& lambda, const Expr& t,
                         bool by_lambda) const;
@@ -77,6 +85,7 @@ class Lagrangian final : public GeneratingFamily {
  private:
   Expr do_value(const ExprVector& x, const ExprVector& w, const Expr& t) const override;
   Expr do_energy(const ExprVector& x, const ExprVector& w, const Expr& t) const override;
+  VectorXd do_parameter_guess(const VectorXd& x, const VectorXd& v) const override;
   std::shared_ptr<const CotangentBundle> phase_space_;
   Formula lagrangian_;
 };

@@ -15,10 +15,10 @@ void complete(std::vector<std::string>& names, Index size, const char* stem) {
                                 ", expected " + std::to_string(size) + ".");
 }
 
-void check_size(const char* argument, Index size, Index expected) {
+void check_size(const char* function, const char* argument, Index size, Index expected) {
   if (size != expected)
-    throw std::invalid_argument(std::string("ImplicitSystem::residual: ") + argument + " has " +
-                                std::to_string(size) + " entries, expected " +
+    throw std::invalid_argument(std::string("ImplicitSystem::") + function + ": " + argument +
+                                " has " + std::to_string(size) + " entries, expected " +
                                 std::to_string(expected) + ".");
 }
 
@@ -38,12 +38,23 @@ ImplicitSystem::ImplicitSystem(std::shared_ptr<const Manifold> manifold, Index a
 
 ExprVector ImplicitSystem::residual(const ExprVector& x, const ExprVector& v, const ExprVector& z,
                                     const Expr& t) const {
-  check_size("x", x.size(), manifold_->ambient_dimension());
-  check_size("v", v.size(), manifold_->tangent_dimension());
-  check_size("z", z.size(), auxiliary_size_);
+  check_size("residual", "x", x.size(), manifold_->ambient_dimension());
+  check_size("residual", "v", v.size(), manifold_->tangent_dimension());
+  check_size("residual", "z", z.size(), auxiliary_size_);
   ExprVector result = do_residual(x, v, z, t);
-  check_size("the residual", result.size(), equation_count_);
+  check_size("residual", "the residual", result.size(), equation_count_);
   return result;
+}
+
+VectorXd ImplicitSystem::auxiliary_guess(const VectorXd& x, const VectorXd& v) const {
+  check_size("auxiliary_guess", "x", x.size(), manifold_->ambient_dimension());
+  if (v.size() == 0) return VectorXd::Zero(auxiliary_size_);
+  check_size("auxiliary_guess", "v", v.size(), manifold_->tangent_dimension());
+  return do_auxiliary_guess(x, v);
+}
+
+VectorXd ImplicitSystem::do_auxiliary_guess(const VectorXd&, const VectorXd&) const {
+  return VectorXd::Zero(auxiliary_size_);
 }
 
 VectorXd ImplicitSystem::residual(const VectorXd& x, const VectorXd& v, const VectorXd& z,

@@ -45,6 +45,10 @@ class ImplicitSystem {
                       const Expr& t) const;
   VectorXd residual(const VectorXd& x, const VectorXd& v, const VectorXd& z, double t) const;
 
+  // Where to start a search for the z that goes with (x, v): what is known of it without solving
+  // anything, 0 for the rest. v may be empty: unknown. Size m.
+  VectorXd auxiliary_guess(const VectorXd& x, const VectorXd& v) const;
+
   // The energy at (x, z, t), for systems that have one.
   std::optional<Expr> energy(const ExprVector& x, const ExprVector& z, const Expr& t) const {
     return do_energy(x, z, t);
@@ -61,6 +65,8 @@ class ImplicitSystem {
   virtual std::optional<Expr> do_energy(const ExprVector&, const ExprVector&, const Expr&) const {
     return std::nullopt;
   }
+  // May override, where z repeats something of v: v has size Ñ. The default is 0.
+  virtual VectorXd do_auxiliary_guess(const VectorXd& x, const VectorXd& v) const;
 
   std::shared_ptr<const Manifold> manifold_;
   Index auxiliary_size_;

@@ -36,7 +36,7 @@ void check_finite(const Experiment& experiment, const InitialGuess& guess) {
   const ImplicitSystem& system = *experiment.model.system;
   const VectorXd v =
       guess.v.size() > 0 ? guess.v : VectorXd::Zero(system.manifold()->tangent_dimension());
-  const VectorXd z = guess.z.size() > 0 ? guess.z : VectorXd::Zero(system.auxiliary_size());
+  const VectorXd z = guess.z.size() > 0 ? guess.z : system.auxiliary_guess(guess.x, guess.v);
   const VectorXd residual = system.residual(guess.x, v, z, guess.t);
   for (Index i = 0; i < residual.size(); ++i)
     if (!std::isfinite(residual[i]))

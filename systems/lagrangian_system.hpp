@@ -9,7 +9,7 @@
 
 namespace courant {
 
-// S = ♯_ω⁻¹(𝓘⁻¹(Im dL)) ⊂ TT*Q (Section 5.1.1 of the paper), with the words for its findings: the
+// S = ♯_ω(𝓘⁻¹(Im dL)) ⊂ TT*Q (Section 5.1.1 of the paper), with the words for its findings: the
 // auxiliary unknowns are the velocities x', and the equations say which variable's they are.
 // `coordinates` names the N + Ñ numbers of a point (q, p).
 std::shared_ptr<const DiracSystem> lagrangian_system(

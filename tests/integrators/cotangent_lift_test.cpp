@@ -1,7 +1,9 @@
 #include "courant/integrators/cotangent_lift.hpp"
 
+#include <Eigen/Dense>
 #include <boost/test/unit_test.hpp>
 
+#include "courant/core/derivative.hpp"
 #include "courant/integrators/theta.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/special_orthogonal3.hpp"
@@ -15,6 +17,25 @@ namespace {
 CotangentLift lift(const std::shared_ptr<const Manifold>& Q, double theta) {
   return CotangentLift(std::make_shared<CotangentBundle>(Q), std::make_shared<Theta>(Q, theta));
 }
+
+// R_d(q, v) = (q - v/2 + a(v), q + v/2 + b(q, v)) with a, b of second order in v: a map whose T R_d
+// depends on the point, and which no retraction gives.
+class Bent final : public DiscretizationMap {
+ public:
+  explicit Bent(std::shared_ptr<const Euclidean> plane)
+      : DiscretizationMap("Bent", std::move(plane)) {}
+  bool has_inverse() const override { return false; }
+  int order() const override { return 1; }
+  bool is_symmetric() const override { return false; }
+
+ private:
+  PointPair<Expr> do_forward(const ExprVector& q, const ExprVector& v) const override {
+    const ExprVector a = (ExprVector(2) << 0.1 * v[0] * v[1], 0.2 * square(v[0])).finished();
+    const ExprVector b = (ExprVector(2) << sin(q[1]) * square(v[0]), q[0] * v[0] * v[1]).finished();
+    const ExprVector half = Expr(0.5) * v;
+    return {q - half + a, q + half + b};
+  }
+};
 
 }  // namespace
 
@@ -37,6 +58,43 @@ BOOST_AUTO_TEST_CASE(on_vector_spaces) {
     BOOST_TEST((back - x).norm() < 1e-15);
     BOOST_TEST((velocity - v).norm() < 1e-15);
   }
+}
+
+// Φ⁻¹ ∘ R̂_d ∘ α_Q with each factor by its definition, for a map R_d that isn't linear, with
+//   α_Q: TT*Q → T*TQ, (q, p, q̇, ṗ) ↦ (q, v, p_q, p_v) = (q, q̇, ṗ, p).
+// The printed direction, (a, b, c, d) ↦ (a, d, b, c), gives another map, for which (D2) fails.
+BOOST_AUTO_TEST_CASE(alpha_q_leads_to_the_cotangent_bundle_of_the_tangent_bundle) {
+  using Eigen::Vector2d, Eigen::Vector4d;
+  const auto plane = std::make_shared<Euclidean>(2);
+  const auto R_d = std::make_shared<Bent>(plane);
+  const CotangentLift map(std::make_shared<CotangentBundle>(plane), R_d);
+  Graph graph;
+  const ExprVector y = graph.variables("y", 4);
+  const auto [first, second] = R_d->forward(ExprVector(y.head(2)), ExprVector(y.tail(2)));
+  ExprVector both(4);
+  both << first, second;
+  const ExprVector entries = jacobian(both, y).dense().reshaped();
+
+  // (q, v, p_q, p_v) ↦ (q₀, p₀; q₁, p₁): R̂_d = (T R_d⁻¹)*, then Φ⁻¹.
+  const auto lifted = [&](const Vector2d& q, const Vector2d& v, const Vector2d& p_q,
+                          const Vector2d& p_v) {
+    const Vector4d at = (Vector4d() << q, v).finished();
+    const MatrixXd T = values(substitute(entries, y, constants(at))).reshaped(4, 4);
+    const Vector4d ends = values(substitute(both, y, constants(at)));
+    const Vector4d covector = T.transpose().fullPivLu().solve((Vector4d() << p_q, p_v).finished());
+    return std::pair{(Vector4d() << ends.head(2), -covector.head(2)).finished(),
+                     (Vector4d() << ends.tail(2), covector.tail(2)).finished()};
+  };
+  const Vector2d q(0.3, -1.0), p(2.0, 0.7), q_dot(0.5, 0.2), p_dot(-0.4, -0.9);
+  const auto [x0, x1] =
+      map.forward((Vector4d() << q, p).finished(), (Vector4d() << q_dot, p_dot).finished());
+  const auto [y0, y1] = lifted(q, q_dot, p_dot, p);
+  BOOST_TEST((x0 - y0).norm() + (x1 - y1).norm() < 1e-14);
+  const auto [z0, z1] = lifted(q, p_dot, p, q_dot);
+  BOOST_TEST((x0 - z0).norm() + (x1 - z1).norm() > 0.1);
+  // (D1) is lost too: at (q, p, 0, 0) the printed direction puts q̇ = 0 in the place of p.
+  const auto [w0, w1] = lifted(q, Vector2d::Zero(), p, Vector2d::Zero());
+  BOOST_TEST((w0.tail(2) - p).norm() + (w1.tail(2) - p).norm() > 0.1);
 }
 
 // θ = 0 on SO(3), R_d(g, ω) = (g, g exp ω̂), by hand: ⟨p, δ⟩ is the pairing of p₁ with the variation

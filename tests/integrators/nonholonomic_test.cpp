@@ -27,6 +27,14 @@ namespace {
 Matrix4d inverse_metric(const Vector4d& q) {
   return Vector4d(1.0, 1.0 / (1.0 + q[0] * q[0]), 0.7, 1.2).asDiagonal();
 }
+ExprMatrix metric(const ExprVector& q) {
+  ExprMatrix g = ExprMatrix::Zero(4, 4);
+  g(0, 0) = 1.0;
+  g(1, 1) = 1.0 + square(q[0]);
+  g(2, 2) = 1.0 / 0.7;
+  g(3, 3) = 1.0 / 1.2;
+  return g;
+}
 Vector4d dH_dq(const Vector4d& q, const Vector4d& p) {
   const double s = 1.0 + q[0] * q[0];
   return q + Vector4d(0.3 * q[1] - q[0] * p[1] * p[1] / (s * s), 0.3 * q[0], 0.0, 0.0);
@@ -175,14 +183,6 @@ BOOST_AUTO_TEST_CASE(equations_36_to_38) {
 // λ_a μ^a in (40) and (43) is a sum over a.
 BOOST_AUTO_TEST_CASE(equations_39_to_43) {
   const Nonholonomic problem;
-  const auto metric = [](const ExprVector& q) {
-    ExprMatrix g = ExprMatrix::Zero(4, 4);
-    g(0, 0) = 1.0;
-    g(1, 1) = 1.0 + square(q[0]);
-    g(2, 2) = 1.0 / 0.7;
-    g(3, 3) = 1.0 / 1.2;
-    return g;
-  };
   const ConstrainFirst method(
       problem.system, ConstraintAlgorithm().run(problem.system, {.x = start()}), problem.lift,
       std::make_shared<MomentumProjector>(problem.phase_space, metric));
@@ -212,6 +212,43 @@ BOOST_AUTO_TEST_CASE(equations_39_to_43) {
     violation = std::max(violation, constraints(x.head(4), x.tail(4)).norm());
   }
   BOOST_TEST(violation < 1e-13);
+}
+
+// The last display of Section 7.2: what d_TΦ adds to S_1 is said of the vector
+// (x̄, v) = (R_d^{M_0})⁻¹(x_k, x_{k+1}) / h, so it is the inverse that pulls it back to M_0 × M_0:
+//   Φ(x̄) = 0,   (d_TΦ)(x̄, v) = ⟨dΦ(x̄), v⟩ = 0.
+// A step of Method 1 has the first of these alone.
+BOOST_AUTO_TEST_CASE(section_7_2_the_tangent_lift_is_pulled_back_by_the_inverse) {
+  const Nonholonomic problem;
+  const double h = 0.1;
+  const VectorXd x0 = start();
+  // ⟨dΦ(x̄), (q̇, μ_a λ^a - ∂H/∂q)⟩ for a step to x1 with p̄ = g q̇. (40) and (43), linear in λ, give
+  // λ: P0 and P1 are what the ends' momenta are taken through.
+  const auto slope = [&](const VectorXd& x1, const auto& P0, const auto& P1) {
+    const Vector4d q = 0.5 * (x0 + x1).head(4), velocity = (x1 - x0).head(4) / h;
+    const Vector4d p = inverse_metric(q).inverse() * velocity;
+    BOOST_TEST(constraints(q, p).norm() < 1e-13);
+    const auto ends = [&](const Vector4d& force) {
+      return stacked(P0(p - h / 2 * force) - x0.tail(4), P1(p + h / 2 * force) - x1.tail(4));
+    };
+    const VectorXd known = ends(-dH_dq(q, p));
+    MatrixXd A(8, 2);
+    for (Index a = 0; a < 2; ++a) A.col(a) = ends(mu(q).col(a) - dH_dq(q, p)) - known;
+    const Vector2d lambda = A.householderQr().solve(-known);
+    BOOST_TEST((A * lambda + known).norm() < 1e-13);
+    const Vector4d dq = 1e-5 * velocity, dp = 1e-5 * (mu(q) * lambda - dH_dq(q, p));
+    return ((constraints(q + dq, p + dp) - constraints(q - dq, p - dp)) / 2e-5).norm();
+  };
+  const ConstrainFirst second(problem.system, ConstraintAlgorithm().run(problem.system, {.x = x0}),
+                              problem.lift,
+                              std::make_shared<MomentumProjector>(problem.phase_space, metric));
+  const VectorXd x2 = one_step(second, h);
+  BOOST_TEST(slope(
+                 x2, [&](const Vector4d& p) { return projected_momentum(x0.head(4), p); },
+                 [&](const Vector4d& p) { return projected_momentum(x2.head(4), p); }) < 1e-9);
+  const auto as_it_is = [](const Vector4d& p) { return p; };
+  const VectorXd x1 = one_step(DiscretizeFirst(problem.system, problem.lift), h);
+  BOOST_TEST(slope(x1, as_it_is, as_it_is) > 1e-3);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -120,6 +120,28 @@ BOOST_AUTO_TEST_CASE(proposition_6_2) {
   BOOST_TEST((bent.pulled_back - bent.lifted).norm() > 0.1);
 }
 
+// (16) and (18) are needed for the parts skew in (i, j) only: they are coefficients of dq^i ∧ dq^j
+// and dq̇^i ∧ dq̇^j. An exact part of α adds something symmetric to them. With α + dφ,
+// φ = x³/3 + x²y, the midpoint rule is as symplectic as with α, and (18) as printed fails by
+// ¼ ∂³φ q̇ twice over.
+BOOST_AUTO_TEST_CASE(proposition_6_2_needs_skew_parts_only) {
+  const Vector2d q(0.4, -0.7), v(0.6, 0.9);
+  const auto alpha = [](const ExprVector& x) {
+    const Expr dx = square(x[0]) + 2.0 * x[0] * x[1], dy = square(x[0]);
+    return (ExprVector(2) << 0.3 * x[0] - 0.2 * x[1] + dx, 0.9 * x[0] + dy).finished();
+  };
+  const Theta midpoint(std::make_shared<Euclidean>(2));
+  const Forms f = forms(
+      alpha, [&](const ExprVector& x, const ExprVector& w) { return midpoint.forward(x, w); }, q,
+      v);
+  BOOST_TEST((f.pulled_back - f.lifted).norm() < 1e-14);
+  BOOST_TEST(defect_16(f, -1.0) + defect_17(f, -1.0) + defect_18(f) < 1e-14);
+  const MatrixXd right_of_18 = f.v1.transpose() * f.A1 * f.v1 - f.v2.transpose() * f.A2 * f.v2;
+  Eigen::Matrix2d third;  // ∂³φ/∂q^i∂q^j∂q^k q̇^k
+  third << 2.0 * v[0] + 2.0 * v[1], 2.0 * v[0], 2.0 * v[0], 0.0;
+  BOOST_TEST((right_of_18 + 0.25 * third).norm() < 1e-14);
+}
+
 // Example 4.8.
 BOOST_AUTO_TEST_CASE(on_vector_spaces) {
   const Theta map(std::make_shared<Euclidean>(2), 0.25);

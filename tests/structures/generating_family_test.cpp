@@ -9,6 +9,8 @@
 #include "courant/core/rank_decision.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/sphere.hpp"
+#include "courant/structures/canonical_symplectic.hpp"
+#include "courant/structures/dirac_system.hpp"
 
 BOOST_AUTO_TEST_SUITE(generating_family)
 
@@ -109,6 +111,23 @@ BOOST_AUTO_TEST_CASE(energy_of_a_degenerate_lagrangian_is_its_hamiltonian) {
   const VectorXd w = (VectorXd(2) << 3.0, -2.0).finished();
   BOOST_TEST(family.energy(constants(x), constants(w), 0.0).value() == H(constants(x)).value(),
              boost::test_tools::tolerance(1e-14));
+}
+
+// λ of a Lagrangian is the velocity; of others nothing is known.
+BOOST_AUTO_TEST_CASE(parameters_are_guessed_from_the_velocity) {
+  const auto M = std::make_shared<CotangentBundle>(std::make_shared<Euclidean>(2));
+  const VectorXd x = VectorXd::Zero(4);
+  const VectorXd v = (VectorXd(4) << 0.3, -2.0, 5.0, 7.0).finished();
+  const auto lagrangian = std::make_shared<Lagrangian>(
+      M, [](const ExprVector&, const ExprVector& w, const Expr&) { return w.squaredNorm(); });
+  BOOST_TEST((lagrangian->parameter_guess(x, v) - v.head(2)).norm() == 0.0);
+  const Hamiltonian hamiltonian(M, [](const ExprVector& y, const Expr&) { return y[0]; });
+  BOOST_TEST(hamiltonian.parameter_guess(x, v).size() == 0);
+
+  const DiracSystem system(std::make_shared<CanonicalSymplectic>(M), lagrangian);
+  BOOST_TEST((system.auxiliary_guess(x, v) - v.head(2)).norm() == 0.0);
+  BOOST_TEST((system.auxiliary_guess(x, VectorXd()) - VectorXd::Zero(2)).norm() == 0.0);
+  BOOST_CHECK_THROW(system.auxiliary_guess(x, x.head(3)), std::invalid_argument);
 }
 
 BOOST_AUTO_TEST_CASE(wrong_sizes_are_refused) {

@@ -294,6 +294,18 @@ BOOST_AUTO_TEST_CASE(proposition_7_1_at_a_point) {
     // D^⊥ = {v = Jα, Bᵀα = 0}. Without Bᵀα = 0, as printed, it is too large.
     BOOST_TEST(distance(PairedSubspace::kernel(F, E), open.orthogonal()) < tolerance);
     BOOST_TEST(LinearDirac::graph_of_bivector(J).dimension() > open.orthogonal().dimension());
+
+    // Why the closed structure is coisotropic: D^⊥ ⊆ D^(c), hence (D^(c))^⊥ ⊆ D, and (Bu, 0) ∈
+    // D^(c) gives Bᵀα = 0. That D^(c) ⊆ D says nothing: D^(c) without one of its directions is in D
+    // too.
+    BOOST_TEST(distance(intersection(open.orthogonal(), closed), open.orthogonal()) < tolerance);
+    BOOST_TEST(distance(intersection(closed.orthogonal(), open), closed.orthogonal()) < tolerance);
+    const PairedSubspace ports = PairedSubspace::image(B, MatrixXd::Zero(n, m));
+    BOOST_TEST(distance(intersection(ports, closed), ports) < tolerance);
+    const MatrixXd fewer = closed.basis().leftCols(n - 1);
+    const PairedSubspace part = PairedSubspace::image(fewer.topRows(n), fewer.bottomRows(n));
+    BOOST_TEST(distance(intersection(part, open), part) < tolerance);
+    BOOST_TEST(!part.is_coisotropic());
   }
 }
 

@@ -45,6 +45,37 @@ BOOST_AUTO_TEST_CASE(consistent_values_stay) {
   BOOST_TEST(ladder.moves.empty());
 }
 
+// The velocities of a Lagrangian are unknowns of its equations, too: what is given is where these
+// are evaluated first. At rest none of these Lagrangians has a derivative.
+BOOST_AUTO_TEST_CASE(velocities_of_a_lagrangian_enter_the_first_evaluation) {
+  const auto lagrangian = [](const Json& coordinates, const char* formula, const Json& initial) {
+    return start({{"system",
+                   {{"type", "lagrangian"}, {"coordinates", coordinates}, {"lagrangian", formula}}},
+                  {"initial", initial}});
+  };
+  const ConstraintLadder logarithm = lagrangian({"x"}, "log(x') - x^2/2", {{"x", 1}, {"x'", 0.5}});
+  BOOST_TEST((logarithm.verdict == Verdict::regular));
+  BOOST_TEST(logarithm.point.x[1] == 2.0, boost::test_tools::tolerance(1e-12));  // p = 1 / x'
+  BOOST_TEST(logarithm.point.z[0] == 0.5, boost::test_tools::tolerance(1e-12));
+
+  const ConstraintLadder ray =
+      lagrangian({"x", "y"}, "sqrt(x'^2 + y'^2)", {{"x", 1}, {"y", 0}, {"x'", 3}, {"y'", 4}});
+  BOOST_TEST((ray.verdict == Verdict::gauge));
+  BOOST_TEST((ray.point.x.tail(2) - Eigen::Vector2d(0.6, 0.8)).norm() < 1e-12);
+  BOOST_TEST((ray.point.v.head(2) - Eigen::Vector2d(3.0, 4.0)).norm() < 1e-12);
+
+  const ConstraintLadder particle = lagrangian({"time", "x"}, "-sqrt(time'^2 - x'^2)",
+                                               {{"time", 0}, {"x", 0}, {"time'", 1}, {"x'", 0.6}});
+  BOOST_TEST((particle.verdict == Verdict::gauge));
+  BOOST_TEST((particle.point.x.tail(2) - Eigen::Vector2d(-1.25, 0.75)).norm() < 1e-12);
+
+  const Json no_velocity = {
+      {"system",
+       {{"type", "lagrangian"}, {"coordinates", {"x"}}, {"lagrangian", "log(x') - x^2/2"}}},
+      {"initial", {{"x", 1}}}};
+  BOOST_TEST(problem(no_velocity).find("with 0 for what is not given") != std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(what_moves_is_told) {
   const ConstraintLadder ladder = start(pendulum({{"x", 3}, {"y", -4}, {"v", 0}, {"w", 0}}));
   BOOST_TEST(ladder.point.x[0] == 0.6, boost::test_tools::tolerance(1e-9));

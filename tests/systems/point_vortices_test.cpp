@@ -190,6 +190,30 @@ BOOST_AUTO_TEST_CASE(equation_11) {
   }
 }
 
+// S_0 = ♯_ω(𝓛): the images of the covectors of 𝓛 under ♯_ω = (ω♭)⁻¹ solve the equations of S_0.
+// With the sign of ♯ changed, or for a covector off 𝓛, they do not. ♯_ω⁻¹, as printed before (11),
+// leads from vectors to covectors.
+BOOST_AUTO_TEST_CASE(s_0_is_the_image_of_the_lagrangian_submanifold_under_sharp) {
+  std::mt19937 generator(8);
+  const VectorXd strengths = (VectorXd(3) << 1.5, -0.5, 2.0).finished();
+  const auto system = PointVortices(strengths).lagrangian_form();
+  const MatrixXd zero = MatrixXd::Zero(6, 6), one = MatrixXd::Identity(6, 6);
+  MatrixXd omega(12, 12);  // ω(a, b) = aᵀ omega b for dq ∧ dp, ω♭(a) = omegaᵀ a
+  omega << zero, one, -one, zero;
+  const MatrixXd sharp = omega.transpose().inverse();
+  for (int trial = 0; trial < 20; ++trial) {
+    const VectorXd q = random(6, generator), w = random(6, generator);
+    VectorXd x(12);
+    x << q, -0.5 * strengths.cwiseProduct(q.tail(3)), 0.5 * strengths.cwiseProduct(q.head(3));
+    const auto& family = *system->family();
+    BOOST_TEST(values(family.stationarity(constants(x), constants(w), 0.0)).norm() < 1e-14);
+    const VectorXd alpha = values(family.differential(constants(x), constants(w), 0.0));
+    BOOST_TEST(system->residual(x, sharp * alpha, w, 0.0).norm() < 1e-13 * (1.0 + alpha.norm()));
+    BOOST_TEST(system->residual(x, -sharp * alpha, w, 0.0).norm() > 1e-2);
+    BOOST_TEST(system->residual(x, sharp * random(12, generator), w, 0.0).norm() > 1e-2);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(flow_preserves_d_alpha) {
   const VectorXd strengths = (VectorXd(4) << 1, 1, -1, -1).finished();
   const VectorXd start = (VectorXd(8) << -1, 1, -1, 1, 2, 2, -2, -2).finished();
