@@ -103,8 +103,8 @@ class ConstrainFirst::Trajectory final : public Stepper {
     } else {
       predictor_.predict(y);
     }
-    const double* in[] = {y.data(), before.x.data(), basis_.data(), directions_.data(),
-                          &step.h,  &before.t};
+    const double* in[] = {y.data(),           before.x.data(), basis_.data(),
+                          directions_.data(), &step.h,         &before.t};
     const StepSolver::Attempt attempt{before.t, step.h};
     solve(solver_, in, before, attempt, jets_);
     method_.advance_.value(in, advanced_.data());
@@ -171,7 +171,8 @@ class ConstrainFirst::Trajectory final : public Stepper {
     const double size = largest(before.x);
     const double scales[] = {size, size / std::fabs(attempt.h),
                              auxiliary_scale(largest(before.z), size), size};
-    solver.solve(in, scales, [&] { solver.unknown() = start; }, attempt, statistics_);
+    solver.solve(
+        in, scales, [&] { solver.unknown() = start; }, attempt, statistics_);
   }
 
   // The point of M_f that P takes near_ to; leaves its unknowns in projector_, its basis and W
@@ -245,8 +246,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
   }
 
   // W at x, with columns near those of the last step, so that μ and the kept factorisations go on.
-  void aim(const VectorXd& x, const VectorXd& y, double t,
-           const StepSolver::Attempt& attempt) {
+  void aim(const VectorXd& x, const VectorXd& y, double t, const StepSolver::Attempt& attempt) {
     if (d_ == 0 || (constant_directions_ && is_aimed_)) return;
     const double* in[] = {y.data(), x.data(), basis_.data(), &t};
     conormals_.move_to(in);
@@ -383,7 +383,8 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
   equations_ =
       Function("constrain-first", step, join({ExprVector(basis.transpose() * at_start), staged}),
                {.differentiate = {"y"}, .backend = options.backend});
-  advance_ = Function("advance", step, join({ends.second, local.x, local.v}), {.backend = options.backend});
+  advance_ = Function("advance", step, join({ends.second, local.x, local.v}),
+                      {.backend = options.backend});
 
   // The projection.
   const ExprVector near = graph.variables("near", M.ambient_dimension());

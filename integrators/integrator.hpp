@@ -32,8 +32,7 @@ class Integrator {
   State advance(State state, double h, long count = 1) const {
     const auto workspace = stepper();
     const double start = state.t;
-    for (long k = 1; k <= count; ++k)
-      workspace->step(state, h, start + static_cast<double>(k) * h);
+    for (long k = 1; k <= count; ++k) workspace->step(state, h, start + static_cast<double>(k) * h);
     return state;
   }
 

@@ -20,7 +20,7 @@ class SolveError : public std::runtime_error {
              const std::string& what_happened, std::vector<double> residuals = {});
 
   Reason reason() const { return reason_; }
-  double time() const { return time_; }    // of the state that the step began at
+  double time() const { return time_; }  // of the state that the step began at
   double step_size() const { return h_; }
   const std::vector<double>& residuals() const { return residuals_; }  // ‖F‖_∞ of the iterates
 

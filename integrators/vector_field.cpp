@@ -53,8 +53,7 @@ VectorField::VectorField(std::shared_ptr<const ImplicitSystem> system,
   order_ = static_cast<Index>(local.xi.size()) - 1;
   start_ = VectorXd::Zero(y.size());
   start_.head(n) = B.transpose() * ladder.point.v;
-  start_.segment(order_ * n, system_->auxiliary_size()) =
-      ladder.point.z;
+  start_.segment(order_ * n, system_->auxiliary_size()) = ladder.point.z;
 
   const ExprVector all = at_origin(local.equations);
   const Function full("vector field", inputs, all, {.differentiate = {"y"}});

@@ -172,8 +172,7 @@ BOOST_AUTO_TEST_CASE(wrong_arguments_are_refused) {
   const Degenerate vortices = lagrangian_form();
   const auto method = vortices.method_1();
   BOOST_CHECK_THROW(method->advance({.x = positions()}, 1.0), std::invalid_argument);
-  BOOST_CHECK_THROW(method->advance({.x = vortices.over(positions())}, 0.0),
-                    std::invalid_argument);
+  BOOST_CHECK_THROW(method->advance({.x = vortices.over(positions())}, 0.0), std::invalid_argument);
   BOOST_CHECK_THROW(
       DiscretizeFirst(vortices.system, std::make_shared<Theta>(std::make_shared<Euclidean>(16))),
       std::invalid_argument);

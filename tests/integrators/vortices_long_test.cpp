@@ -69,7 +69,8 @@ BOOST_AUTO_TEST_CASE(section_6_3_rk2) {
   // In the first 10⁴ steps the drift is the method's, whatever the rounding. Later round-off breaks
   // the mirror symmetry and the pairs part: two orders of summation and long double give 0.11, 0.15
   // and 0.11 at 10⁶ (docs/errata.md).
-  BOOST_TEST(compare(rk2, positions(), 10'000, expected) == 8.607e-3, boost::test_tools::tolerance(5e-4));
+  BOOST_TEST(compare(rk2, positions(), 10'000, expected) == 8.607e-3,
+             boost::test_tools::tolerance(5e-4));
   const double drift = compare(rk2, positions(), kSteps, expected);
   BOOST_TEST(drift > 0.08);
   BOOST_TEST(drift < 0.2);
