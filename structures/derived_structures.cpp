@@ -16,6 +16,8 @@ using ManifoldPointer = std::shared_ptr<const Manifold>;
 using StructurePointer = std::shared_ptr<const DiracStructure>;
 using StructurePointers = std::vector<StructurePointer>;
 
+// For the first argument of a base in braces, which evaluate from left to right: what is null is
+// refused before it is used.
 const DiracStructure& not_null(const StructurePointer& structure, const std::string& where) {
   if (!structure) throw std::invalid_argument(where + ": a structure is null.");
   return *structure;
@@ -50,9 +52,9 @@ std::shared_ptr<const Product> product_of(const StructurePointers& factors) {
 }  // namespace
 
 GaugeTransformed::GaugeTransformed(StructurePointer structure, MatrixField form)
-    : DiracStructure("GaugeTransformed(" + not_null(structure, "GaugeTransformed").name() + ")",
+    : DiracStructure{"GaugeTransformed(" + not_null(structure, "GaugeTransformed").name() + ")",
                      structure->manifold(), structure->port_size(), structure->equation_count(),
-                     structure->port_names()),
+                     structure->port_names()},
       structure_(std::move(structure)),
       form_(std::move(form)) {}
 
@@ -109,11 +111,11 @@ ExprVector ProductStructure::do_membership(const ExprVector& x, const ExprVector
 
 Composed::Composed(StructurePointer A, ManifoldPointer M_A, StructurePointer B, ManifoldPointer M_B,
                    Index shared)
-    : DiracStructure("Composed(" + not_null(A, "Composed").name() + ", " +
+    : DiracStructure{"Composed(" + not_null(A, "Composed").name() + ", " +
                          not_null(B, "Composed").name() + ")",
                      std::make_shared<Product>(std::vector<ManifoldPointer>{M_A, M_B}),
                      A->port_size() + B->port_size() + 2 * shared,
-                     A->equation_count() + B->equation_count()),
+                     A->equation_count() + B->equation_count()},
       A_(std::move(A)),
       B_(std::move(B)),
       M_A_(std::move(M_A)),
@@ -169,9 +171,9 @@ ExprMatrix SmoothMap::tangent(const ExprVector& x) const {
 }
 
 Pullback::Pullback(SmoothMap phi, StructurePointer structure)
-    : DiracStructure("Pullback(" + not_null(structure, "Pullback").name() + ")", phi.source(),
+    : DiracStructure{"Pullback(" + not_null(structure, "Pullback").name() + ")", phi.source(),
                      structure->port_size() + phi.target()->tangent_dimension(),
-                     structure->equation_count() + phi.source()->tangent_dimension()),
+                     structure->equation_count() + phi.source()->tangent_dimension()},
       phi_(std::move(phi)),
       structure_(std::move(structure)) {
   if (phi_.target() != structure_->manifold())
@@ -191,9 +193,9 @@ ExprVector Pullback::do_membership(const ExprVector& y, const ExprVector& v,
 }
 
 Pushforward::Pushforward(SmoothMap phi, SmoothMap section, StructurePointer structure)
-    : DiracStructure("Pushforward(" + not_null(structure, "Pushforward").name() + ")", phi.target(),
+    : DiracStructure{"Pushforward(" + not_null(structure, "Pushforward").name() + ")", phi.target(),
                      structure->port_size() + phi.source()->tangent_dimension(),
-                     structure->equation_count() + phi.target()->tangent_dimension()),
+                     structure->equation_count() + phi.target()->tangent_dimension()},
       phi_(std::move(phi)),
       section_(std::move(section)),
       structure_(std::move(structure)) {

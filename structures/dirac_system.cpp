@@ -21,9 +21,10 @@ const DiracStructure& checked(const std::shared_ptr<const DiracStructure>& struc
 
 DiracSystem::DiracSystem(std::shared_ptr<const DiracStructure> structure,
                          std::shared_ptr<const GeneratingFamily> family, Names names)
-    : ImplicitSystem(checked(structure, family).manifold(),
+    // Braces evaluate from left to right: the check comes first.
+    : ImplicitSystem{checked(structure, family).manifold(),
                      family->parameter_size() + structure->port_size(),
-                     structure->equation_count() + family->parameter_size(), std::move(names)),
+                     structure->equation_count() + family->parameter_size(), std::move(names)},
       structure_(std::move(structure)),
       family_(std::move(family)) {}
 

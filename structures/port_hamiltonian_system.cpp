@@ -21,8 +21,9 @@ const GeneratingFamily& checked(const std::shared_ptr<const GeneratingFamily>& e
 PortHamiltonianSystem::PortHamiltonianSystem(Matrices matrices,
                                              std::shared_ptr<const GeneratingFamily> energy,
                                              std::optional<Input> input, Names names)
-    : ImplicitSystem(checked(energy, matrices).manifold(), matrices.m,
-                     energy->manifold()->tangent_dimension() + matrices.m, std::move(names)),
+    // Braces evaluate from left to right: the check comes first.
+    : ImplicitSystem{checked(energy, matrices).manifold(), matrices.m,
+                     energy->manifold()->tangent_dimension() + matrices.m, std::move(names)},
       matrices_(std::move(matrices)),
       energy_(std::move(energy)),
       input_(std::move(input)) {}

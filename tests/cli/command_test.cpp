@@ -139,6 +139,34 @@ BOOST_AUTO_TEST_CASE(a_failed_expectation_is_status_3) {
   BOOST_TEST(std::filesystem::exists(folder / "run" / "summary.json"));
 }
 
+// Falls onto q = 0, where the formula for the energy ends: whatever is expected, the run failed.
+BOOST_AUTO_TEST_CASE(a_run_that_fails_is_status_3) {
+  std::string collision = replaced(oscillator, "(p_q^2 + q^2)/2", "p_q^2/2 + sqrt(q)");
+  collision = replaced(collision, "\"step\": 0.1, \"end\": 1", "\"step\": 0.01, \"end\": 10");
+  for (const char* expectation :
+       {R"({ "observable": "H", "max_drift": 1e9 })", R"({ "verdict": "regular" })"}) {
+    const TemporaryFolder folder;
+    const Answer answer = courant_command(
+        {"run", "-", "-o", (folder / "run").string(), "--quiet", "--backend", "interpreter"},
+        replaced(collision, R"({ "observable": "H", "max_drift": 1e-12 })", expectation));
+    BOOST_TEST(answer.status == 3);
+    BOOST_TEST(answer.err.find("courant: -: ") == 0u, answer.err);
+    BOOST_TEST(read_run(folder / "run").summary["status"] == "failed");
+  }
+}
+
+// No point of S_1 is near q = 0: nothing can be run, and the ladder itself is what was asked for.
+BOOST_AUTO_TEST_CASE(an_inconsistent_system_is_status_3_where_it_is_run) {
+  const std::string text =
+      R"json({"system": {"type": "lagrangian", "coordinates": ["q"], "lagrangian": "q' + q"},
+    "initial": {"q": 0}})json";
+  const TemporaryFolder folder;
+  const Answer answer =
+      courant_command({"run", "-", "-o", (folder / "run").string(), "--quiet"}, text);
+  BOOST_TEST(answer.status == 3);
+  BOOST_TEST(answer.err.find("inconsistent") != std::string::npos, answer.err);
+}
+
 BOOST_AUTO_TEST_CASE(an_interrupt_is_status_130) {
   const TemporaryFolder folder;
   std::istringstream in(oscillator);

@@ -1,6 +1,7 @@
 // Each law has a manifold planted that breaks it, and only what depends on it.
 #include "courant/manifolds/laws.hpp"
 
+#include <Eigen/Geometry>
 #include <boost/test/unit_test.hpp>
 #include <functional>
 
@@ -26,6 +27,7 @@ class Planted final : public Manifold {
     double radius = Sphere::exponential().injectivity_radius;
     bool geodesic = false;
     VectorXd project_offset = VectorXd::Zero(3);
+    double project_turn = 0.0;  // about the last axis
     Index dimension = 2;
   };
   explicit Planted(Parts parts)
@@ -48,7 +50,8 @@ class Planted final : public Manifold {
   ExprVector do_constraint(const ExprVector& x) const override { return parts_.constraint(x); }
   double do_injectivity_radius(const VectorXd&) const override { return parts_.radius; }
   VectorXd do_project(const VectorXd& x) const override {
-    return x.normalized() + parts_.project_offset;
+    const Eigen::AngleAxisd turn(parts_.project_turn, Eigen::Vector3d::UnitZ());
+    return turn.matrix() * x.normalized() + parts_.project_offset;
   }
 
   Parts parts_;
@@ -123,6 +126,18 @@ BOOST_AUTO_TEST_CASE(m4_a_radius_that_is_too_large) {
   BOOST_TEST(!fails(parts, "M4 R(x, R⁻¹"));
 }
 
+// Wrong only at distances between those of the tangent vectors that are tried.
+BOOST_AUTO_TEST_CASE(m4_an_inverse_that_is_wrong_at_some_distances) {
+  Planted::Parts parts;
+  parts.inverse = [](const ExprVector& x, const ExprVector& y) {
+    const ExprVector v = Sphere::exponential().inverse(x, y);
+    const Expr s = v.squaredNorm();
+    return ExprVector(select(s > 1e-4, select(s < 0.1, 1.001, 1.0), 1.0) * v);
+  };
+  BOOST_TEST(!fails(parts, "M4 R⁻¹(x, R"));
+  BOOST_TEST(fails(parts, "M4 R(x, R⁻¹"));
+}
+
 BOOST_AUTO_TEST_CASE(m4_an_inverse_that_throws) {
   Planted::Parts parts;
   parts.inverse = [](const ExprVector&, const ExprVector&) -> ExprVector {
@@ -138,6 +153,24 @@ BOOST_AUTO_TEST_CASE(m5_frames_that_do_not_fit_each_other) {
     return ExprMatrix(Expr(1.0 + 1e-9) * Planted::projector(x));
   };
   BOOST_TEST(fails(parts, "M5 C E C"));
+}
+
+// C = 1 is a left inverse of the frame, but its values are not tangent.
+BOOST_AUTO_TEST_CASE(m5_a_coframe_that_is_not_tangent) {
+  Planted::Parts parts;
+  parts.coframe = [](const ExprVector&) { return ExprMatrix(ExprMatrix::Identity(3, 3)); };
+  BOOST_TEST(fails(parts, "M5 C E C"));
+}
+
+// The directions of latitude alone: tangent, and too few.
+BOOST_AUTO_TEST_CASE(m5_a_frame_of_too_few_directions) {
+  Planted::Parts parts;
+  parts.frame = parts.coframe = [](const ExprVector& x) {
+    ExprVector east(3);
+    east << -x[1], x[0], Expr(0.0);
+    return ExprMatrix(east * east.transpose() / east.squaredNorm());
+  };
+  BOOST_TEST(fails(parts, "M5 E(x) has range"));
 }
 
 BOOST_AUTO_TEST_CASE(m5_a_frame_that_is_not_tangent) {
@@ -219,6 +252,12 @@ BOOST_AUTO_TEST_CASE(m7_a_retraction_that_is_not_geodesic) {
 BOOST_AUTO_TEST_CASE(m8_a_projection_that_moves_points_of_the_manifold) {
   Planted::Parts parts;
   parts.project_offset[1] = 1e-9;
+  BOOST_TEST(fails(parts, "M8"));
+}
+
+BOOST_AUTO_TEST_CASE(m8_a_projection_that_moves_points_along_the_manifold) {
+  Planted::Parts parts;
+  parts.project_turn = 1e-9;
   BOOST_TEST(fails(parts, "M8"));
 }
 

@@ -187,4 +187,37 @@ BOOST_AUTO_TEST_CASE(pushforwards) {
   BOOST_CHECK_THROW(Pushforward(momentum, momentum, canonical), std::invalid_argument);
 }
 
+BOOST_AUTO_TEST_CASE(what_is_missing_is_refused) {
+  const auto D = std::make_shared<LiePoisson>(LieAlgebra::so3());
+  const SmoothMap identity(D->manifold(), D->manifold(), [](const ExprVector& x) { return x; });
+  BOOST_CHECK_THROW(GaugeTransformed(nullptr, skew3), std::invalid_argument);
+  BOOST_CHECK_THROW(ProductStructure({D, nullptr}), std::invalid_argument);
+  BOOST_CHECK_THROW(Composed(nullptr, R(2), D, R(2), 1), std::invalid_argument);
+  BOOST_CHECK_THROW(Composed(D, R(2), nullptr, R(2), 1), std::invalid_argument);
+  BOOST_CHECK_THROW(Pullback(identity, nullptr), std::invalid_argument);
+  BOOST_CHECK_THROW(Pushforward(identity, identity, nullptr), std::invalid_argument);
+}
+
+// The unknowns (f, e) of a shared port are its flow and effort as A has them; B has (-f, e).
+BOOST_AUTO_TEST_CASE(the_unknowns_of_a_composition_are_flow_and_effort_of_the_port) {
+  const auto A = oscillator_with_port(), B = oscillator_with_port();
+  const Composed joined(A, R(2), B, R(2), 1);
+  const VectorXd x = VectorXd{{0.7, 0.2, -1.1, 0.4}}, alpha = VectorXd{{0.3, -0.8, 0.5, 0.6}};
+  // Of each part q' = e_p, p' = -e_q + q e, f = -q e_p.
+  const double e = 1.7;
+  const VectorXd v = VectorXd{{-0.8, -0.3 + 0.7 * e, 0.6, -0.5 - 1.1 * e}};
+  const double f = 0.7 * 0.8;
+  const auto residual = [&](double flow, double effort) {
+    return VectorXd(values(joined.membership(constants(x), constants(v), constants(alpha),
+                                             constants(VectorXd{{flow, effort}}))));
+  };
+  // f_A = f solves the equations of A, and -f enters B, whose own flow is 1.1 · 0.6.
+  const VectorXd r = residual(f, e);
+  BOOST_TEST(r.head(3).norm() < 1e-15);
+  BOOST_TEST(r.segment(3, 2).norm() < 1e-15);
+  BOOST_TEST(std::abs(r[5] - (-f - 1.1 * 0.6)) < 1e-15);
+  BOOST_TEST(std::abs(residual(-f, e)[2]) > 0.5);
+  BOOST_TEST(std::abs(residual(f, -e)[1]) > 0.5);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

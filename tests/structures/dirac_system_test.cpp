@@ -5,6 +5,7 @@
 
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/structures/canonical_symplectic.hpp"
+#include "courant/structures/open_port_hamiltonian.hpp"
 #include "courant/structures/poisson.hpp"
 
 BOOST_AUTO_TEST_SUITE(dirac_system)
@@ -55,6 +56,46 @@ BOOST_AUTO_TEST_CASE(structure_and_family_share_a_manifold_object) {
   BOOST_CHECK_THROW(DiracSystem(std::make_shared<CanonicalSymplectic>(phase_space()),
                                 std::make_shared<Hamiltonian>(phase_space(), pendulum)),
                     std::invalid_argument);
+}
+
+BOOST_AUTO_TEST_CASE(what_is_missing_is_refused) {
+  const auto M = phase_space();
+  BOOST_CHECK_THROW(DiracSystem(nullptr, std::make_shared<Hamiltonian>(M, pendulum)),
+                    std::invalid_argument);
+  BOOST_CHECK_THROW(DiracSystem(std::make_shared<CanonicalSymplectic>(M), nullptr),
+                    std::invalid_argument);
+}
+
+// z = (λ, u): the parameters of the family first, the ports of the structure after them; equations
+// likewise. Here L = (1 + t) w²/2 - t q and the port is a force, v = (w, -t) + (0, 1) u.
+BOOST_AUTO_TEST_CASE(unknowns_are_parameters_and_then_ports) {
+  const auto M = phase_space();
+  const auto L =
+      std::make_shared<Lagrangian>(M, [](const ExprVector& q, const ExprVector& w, const Expr& t) {
+        return (1.0 + t) * square(w[0]) / 2.0 - t * q[0];
+      });
+  const auto J = [](const ExprVector&) {
+    ExprMatrix matrix = ExprMatrix::Zero(2, 2);
+    matrix(0, 1) = 1.0;
+    matrix(1, 0) = -1.0;
+    return matrix;
+  };
+  const auto B = [](const ExprVector&) {
+    ExprMatrix column = ExprMatrix::Zero(2, 1);
+    column(1, 0) = 1.0;
+    return column;
+  };
+  const DiracSystem system(std::make_shared<OpenPortHamiltonian>(M, J, 1, B), L);
+  BOOST_TEST(system.auxiliary_size() == 2);
+  const double q = 0.4, w = 0.9, t = 0.7, u = 0.25, p = (1.0 + t) * w;
+  const VectorXd x = VectorXd{{q, p}}, z = VectorXd{{w, u}};
+  BOOST_TEST(system.residual(x, VectorXd{{w, u - t}}, z, t).norm() < 1e-15);
+  // The last equation is stationarity: p - (1 + t) w.
+  const VectorXd r = system.residual(x, VectorXd{{w, u - t}}, VectorXd{{w + 0.5, u}}, t);
+  BOOST_TEST(r[2] == -0.5 * (1.0 + t), boost::test_tools::tolerance(1e-14));
+  // The energy ⟨∂L/∂w, w⟩ - L.
+  const auto energy = system.energy(constants(x), constants(z), Expr(t));
+  BOOST_TEST(energy->value() == p * w / 2 + t * q, boost::test_tools::tolerance(1e-14));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

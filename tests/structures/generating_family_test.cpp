@@ -8,6 +8,7 @@
 #include "courant/core/derivative.hpp"
 #include "courant/core/rank_decision.hpp"
 #include "courant/manifolds/euclidean.hpp"
+#include "courant/manifolds/special_orthogonal3.hpp"
 #include "courant/manifolds/sphere.hpp"
 #include "courant/structures/canonical_symplectic.hpp"
 #include "courant/structures/dirac_system.hpp"
@@ -161,6 +162,27 @@ BOOST_AUTO_TEST_CASE(velocities_are_tangent_where_they_have_more_components_than
   const VectorXd solution = A.fullPivLu().solve(-at_zero);
   BOOST_TEST(std::abs(solution.dot(M->position(x))) < 1e-14);
   BOOST_TEST(solution.norm() > 1e-3);
+}
+
+// On SO(3) the covector is in the frame: ⟨dH, e_i⟩ = d/ds H(R_x(s e_i)), s = 0.
+BOOST_AUTO_TEST_CASE(differential_is_in_the_frame_of_the_manifold) {
+  const auto G = std::make_shared<SpecialOrthogonal3>();
+  const auto energy = [](const ExprVector& x, const Expr& t) {
+    return x[0] * x[5] + square(x[7]) + t * x[1];
+  };
+  const Hamiltonian family(G, energy);
+  std::mt19937 generator(3);
+  const VectorXd x = G->random_point(generator);
+  const VectorXd dH = values(family.differential(constants(x), ExprVector(0), Expr(0.7)));
+  BOOST_TEST(dH.size() == 3);
+  for (Index i = 0; i < 3; ++i) {
+    Graph graph;
+    const ExprVector s = graph.variables("s", 1);
+    const ExprVector step = s[0] * constants(VectorXd::Unit(3, i));
+    const ExprVector slope = gradient(energy(G->retract(constants(x), step), Expr(0.7)), s);
+    BOOST_TEST(dH[i] == values(substitute(slope, s, ExprVector::Zero(1)))[0],
+               boost::test_tools::tolerance(1e-13));
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -6,10 +6,12 @@
 #include <random>
 
 #include "catalogue.hpp"
+#include "courant/core/derivative.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/special_orthogonal3.hpp"
 #include "courant/manifolds/sphere.hpp"
 #include "courant/structures/distribution.hpp"
+#include "courant/structures/open_port_hamiltonian.hpp"
 #include "courant/structures/poisson.hpp"
 #include "courant/structures/presymplectic.hpp"
 
@@ -188,6 +190,42 @@ BOOST_AUTO_TEST_CASE(on_a_lie_group) {
   BOOST_TEST(std::abs(exterior_derivative(M, axis, R)(0, 1, 2) - R01) < 1e-12);
 }
 
+// On SO(3), where frames do not commute: ½[Λ, Λ](df, dg, dh) = {f, {g, h}} + cyclic for any
+// functions, with {f, g} = Λ(df, dg) differentiated along the frame.
+BOOST_AUTO_TEST_CASE(remark_2_6_jacobi_identity_on_a_lie_group) {
+  const SpecialOrthogonal3 M;
+  const MatrixField constant = test::constant_field(MatrixXd{{0, 3, -2}, {-3, 0, 1}, {2, -1, 0}});
+  const MatrixField varying = [](const ExprVector& R) { return test::hat(R.head(3)); };
+  std::mt19937 generator(6);
+  const VectorXd R = M.random_point(generator);
+  Graph graph;
+  const ExprVector at = graph.variables("R", 9);
+  const auto number = [&](const Expr& value) {
+    return values(substitute(ExprVector(ExprVector::Constant(1, value)), at, constants(R)))[0];
+  };
+  const auto d = [&](const Expr& f) {
+    return ExprVector(M.frame(at).transpose() * gradient(f, at));
+  };
+  const Expr f = at[0] * at[4], g = square(at[5]) + at[1], h = sin(at[7]);
+  MatrixXd differentials(3, 3);
+  for (Index i = 0; i < 3; ++i) {
+    differentials(0, i) = number(d(f)[i]);
+    differentials(1, i) = number(d(g)[i]);
+    differentials(2, i) = number(d(h)[i]);
+  }
+  const double volume = (differentials * M.tangent_basis(R)).determinant();
+  for (const MatrixField& lambda : {constant, varying}) {
+    const auto bracket = [&](const Expr& a, const Expr& b) {
+      return d(a).dot(ExprVector(lambda(at) * d(b)));
+    };
+    const double jacobiator =
+        number(bracket(f, bracket(g, h)) + bracket(g, bracket(h, f)) + bracket(h, bracket(f, g)));
+    BOOST_TEST(0.5 * schouten_bracket(M, lambda, lambda, R)(0, 1, 2) * volume == jacobiator,
+               boost::test_tools::tolerance(1e-11));
+    BOOST_TEST(std::abs(jacobiator) > 1e-2);
+  }
+}
+
 // Every bivector on a surface is Poisson, and every two-form closed.
 BOOST_AUTO_TEST_CASE(in_two_dimensions_everything_is_integrable) {
   const auto S2 = std::make_shared<Sphere>(2);
@@ -243,6 +281,12 @@ BOOST_AUTO_TEST_CASE(where_it_is_not_defined_it_says_so) {
   const IntegrabilitySurvey survey = integrability(D, points);
   BOOST_TEST(survey.undefined == 1U);
   BOOST_TEST(survey.worst.x == points[1]);
+  // Open ports: T is no tensor.
+  const OpenPortHamiltonian open(
+      line, test::constant_field(MatrixXd::Zero(1, 1)), 1,
+      [](const ExprVector& x) { return ExprMatrix(ExprMatrix::Constant(1, 1, x[0])); });
+  BOOST_TEST(integrability(open, points[1]).undefined == "D is not Dirac at this point");
+  BOOST_TEST(!integrability(open, points[1]).integrable());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

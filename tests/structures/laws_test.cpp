@@ -127,6 +127,36 @@ BOOST_AUTO_TEST_CASE(a_membership_that_is_quadratic_does_not_vanish_on_its_fibre
       });
   BOOST_TEST(failing(wrong).contains("S1"));
   BOOST_TEST(failing(wrong).contains("S4"));
+  BOOST_TEST(failing(wrong).contains("S5"));
+}
+
+// Its derivative at zero is that of v₀, so the fibre is right, but it asks for nothing of vectors
+// that are longer than 1/10.
+BOOST_AUTO_TEST_CASE(a_membership_that_vanishes_off_its_fibre_is_found) {
+  const Planted wrong(
+      1, 0, 1, [](const ExprVector&, const ExprVector& v, const ExprVector&, const ExprVector&) {
+        return ExprVector(ExprVector::Constant(1, select(abs(v[0]) < 0.1, v[0], 0.0)));
+      });
+  int found = 0;
+  for (const LawResult& result : check_structure(wrong)) {
+    if (result.law.starts_with("S1") || result.law.starts_with("S5 membership = 0"))
+      BOOST_TEST(result.passed(), result);
+    if (!result.law.starts_with("S5 membership ≠ 0")) continue;
+    ++found;
+    BOOST_TEST(!result.passed(), result);
+  }
+  BOOST_TEST(found == 1);
+}
+
+// {(v, v)} has dimension n, but its orthogonal is {(v, -v)}: open structures contain theirs.
+BOOST_AUTO_TEST_CASE(an_open_structure_contains_its_orthogonal) {
+  const Planted wrong(
+      2, 0, 2,
+      [](const ExprVector&, const ExprVector& v, const ExprVector& alpha, const ExprVector&) {
+        return ExprVector(v - alpha);
+      },
+      false);
+  BOOST_TEST((failing(wrong) == Laws{"S3"}));
 }
 
 BOOST_AUTO_TEST_CASE(an_open_structure_is_not_dirac_whatever_it_claims) {

@@ -92,6 +92,13 @@ BOOST_AUTO_TEST_CASE(example_2_2_1) {
   // The same by the fields that span F.
   const auto by_fields = Distribution::spanned_by(R(4), 2, test::constant_field(F));
   BOOST_TEST(distance(by_fields.linear(point), expected) < tolerance);
+  // The unknowns of both are those of α = μ λ and v = X c, with their sign.
+  const VectorXd lambda = VectorXd{{0.9, -0.4}}, w = F * VectorXd{{0.7, -1.2}};
+  const VectorXd alpha = mu * lambda;
+  BOOST_TEST(residual(by_forms, w, alpha, lambda).norm() < tolerance);
+  BOOST_TEST(residual(by_forms, w, alpha, -lambda).norm() > 0.1);
+  BOOST_TEST(residual(by_fields, w, alpha, VectorXd{{0.7, -1.2}}).norm() < tolerance);
+  BOOST_TEST(residual(by_fields, w, alpha, VectorXd{{-0.7, 1.2}}).norm() > 0.1);
   // Negative control: F itself in the place of its annihilator.
   BOOST_TEST(distance(Distribution::spanned_by(R(4), 2, two_columns).linear(point), expected) >
              0.1);
@@ -129,6 +136,11 @@ BOOST_AUTO_TEST_CASE(theorem_2_4) {
     const VectorXd v = at_x.vectors().col(k), alpha = at_x.covectors().col(k);
     BOOST_TEST((F.transpose() * (alpha - omega.transpose() * v)).norm() < tolerance);
   }
+  // The multipliers are those of α = ωᵀ v + μ λ, with their sign: constraint forces are read off.
+  const VectorXd v = F * VectorXd{{0.7, -1.2}}, multipliers = VectorXd{{0.9, -0.4}};
+  const VectorXd alpha = omega.transpose() * v + number(two_columns) * multipliers;
+  BOOST_TEST(residual(D, v, alpha, multipliers).norm() < tolerance);
+  BOOST_TEST(residual(D, v, alpha, -multipliers).norm() > 0.1);
   // ω = 0 gives F ⊕ F°, F = TM the graph of ω.
   const MatrixField zero = test::constant_field(MatrixXd::Zero(4, 4));
   BOOST_TEST(distance(RestrictedTwoForm(R(4), zero, 2, two_columns).linear(point),
@@ -149,6 +161,11 @@ BOOST_AUTO_TEST_CASE(theorem_2_5) {
     BOOST_TEST((number(two_columns).transpose() * alpha).norm() < tolerance);
     BOOST_TEST((F.transpose() * (v - lambda * alpha)).norm() < tolerance);
   }
+  // The multipliers are those of v = Λ α + X λ, with their sign.
+  const VectorXd alpha = F * VectorXd{{0.7, -1.2}}, multipliers = VectorXd{{0.9, -0.4}};
+  const VectorXd v = lambda * alpha + number(two_columns) * multipliers;
+  BOOST_TEST(residual(D, v, alpha, multipliers).norm() < tolerance);
+  BOOST_TEST(residual(D, v, alpha, -multipliers).norm() > 0.1);
   const MatrixField none = test::constant_field(MatrixXd::Zero(4, 0));
   BOOST_TEST(distance(RestrictedBivector(R(4), skew4, 0, none).linear(point),
                       LinearDirac::graph_of_bivector(lambda)) < tolerance);
@@ -186,6 +203,12 @@ BOOST_AUTO_TEST_CASE(equation_23) {
   const ClosedPortHamiltonian D(R(4), skew4, 2, two_columns);
   const ConstrainedRepresentation<MatrixXd> expected{number(skew4), number(two_columns)};
   BOOST_TEST(distance(D.linear(point), LinearDirac(expected)) < tolerance);
+  // The unknowns are the u of v = J α + B u, with their sign.
+  const VectorXd alpha = annihilator(number(two_columns)) * VectorXd{{0.7, -1.2}};
+  const VectorXd u = VectorXd{{0.9, -0.4}};
+  const VectorXd v = number(skew4) * alpha + number(two_columns) * u;
+  BOOST_TEST(residual(D, v, alpha, u).norm() < tolerance);
+  BOOST_TEST(residual(D, v, alpha, -u).norm() > 0.1);
   // The same set as in Theorem 2.5.
   BOOST_TEST(distance(D.linear(point),
                       RestrictedBivector(R(4), skew4, 2, two_columns).linear(point)) < tolerance);

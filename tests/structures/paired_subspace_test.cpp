@@ -187,6 +187,40 @@ BOOST_AUTO_TEST_CASE(wrong_sizes_are_refused) {
                     std::invalid_argument);
 }
 
+// What is made of two subspaces is as uncertain as the worse of them, whichever comes first.
+BOOST_AUTO_TEST_CASE(errors_of_data_are_inherited) {
+  const MatrixXd one = MatrixXd::Identity(2, 2), zero = MatrixXd::Zero(2, 2);
+  const PairedSubspace exact = PairedSubspace::image(one, zero);
+  const PairedSubspace measured = PairedSubspace::image(zero, one, {.data_error = 1e-6});
+  BOOST_TEST(measured.block_options().data_error == 1e-6);
+  BOOST_TEST(measured.orthogonal().block_options().data_error == 1e-6);
+  for (const auto& [U, W] : {std::pair(exact, measured), std::pair(measured, exact)}) {
+    BOOST_TEST(sum(U, W).block_options().data_error == 1e-6);
+    BOOST_TEST(intersection(U, W).block_options().data_error == 1e-6);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_subspace_is_far_from_a_part_of_it) {
+  const MatrixXd one = MatrixXd::Identity(2, 2), zero = MatrixXd::Zero(2, 2);
+  const PairedSubspace plane = PairedSubspace::image(one, zero);
+  const PairedSubspace line = PairedSubspace::image(one.col(0), zero.col(0));
+  BOOST_TEST(distance(line, plane) == 1.0);
+  BOOST_TEST(distance(plane, line) == 1.0);
+}
+
+// One equation p u + f v + e α = 0 written twice, the second time with other factors: it determines
+// u and nothing else, and what is left of the second after u is eliminated is round-off.
+BOOST_AUTO_TEST_CASE(equations_that_say_the_same_leave_nothing) {
+  Random random;
+  for (int trial = 0; trial < 50; ++trial) {
+    const MatrixXd factors = random.matrix(3, 1), row = random.matrix(1, 3);
+    const MatrixXd equations = factors * row;
+    const PairedSubspace all =
+        PairedSubspace::kernel(equations.col(0), equations.col(1), equations.col(2));
+    BOOST_TEST(all.dimension() == 2);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
 
 }  // namespace courant

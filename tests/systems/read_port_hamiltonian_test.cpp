@@ -1,0 +1,61 @@
+#include <boost/test/unit_test.hpp>
+
+#include "run_in.hpp"
+
+namespace courant {
+namespace {
+
+// A damped oscillator: R = [[0, 0], [0, d]], driven through one port.
+Json damped(const Json& R) {
+  return {{"system",
+           {{"type", "port-hamiltonian"},
+            {"parameters", {{"d", 0.5}}},
+            {"coordinates", {"q", "p"}},
+            {"J", {{0, 1}, {-1, 0}}},
+            {"R", R},
+            {"B", {0, 1}},
+            {"hamiltonian", "(p^2 + q^2)/2"},
+            {"ports", "open"},
+            {"inputs", {"sin(t) - 2*y"}}}},
+          {"initial", {{"q", 1}, {"p", 0.5}}}};
+}
+
+std::string problems(const Json& experiment) {
+  try {
+    read_experiment(experiment.dump());
+  } catch (const ExperimentError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+}  // namespace courant
+
+BOOST_AUTO_TEST_SUITE(read_port_hamiltonian_test)
+
+using namespace courant;
+
+// q' = p, p' = -q - d p + u with u = sin t - 2 p: resistors take, inputs see time and output.
+BOOST_AUTO_TEST_CASE(resistors_and_feedback) {
+  const Experiment experiment = read_experiment(damped({{0, 0}, {0, "d"}}).dump());
+  const ImplicitSystem& system = *experiment.model.system;
+  const double q = 0.3, p = -0.7, t = 0.9, u = std::sin(t) - 2.0 * p;
+  const VectorXd x = VectorXd{{q, p}}, v = VectorXd{{p, -q - 0.5 * p + u}};
+  BOOST_TEST(system.residual(x, v, VectorXd::Constant(1, u), t).norm() < 1e-15);
+  BOOST_TEST(system.residual(x, v, VectorXd::Constant(1, u), 0.0).norm() > 0.1);
+  BOOST_TEST(system.residual(x, v, VectorXd::Constant(1, -u), t).norm() > 0.1);
+}
+
+// An R that would give energy is refused, at whatever points it does so.
+BOOST_AUTO_TEST_CASE(resistors_that_give_energy_are_refused) {
+  BOOST_TEST(problems(damped({{0, 0}, {0, "d"}})) == "");
+  BOOST_TEST(problems(damped(Json::parse(R"([["q^2", "q*p"], ["q*p", "p^2"]])"))) == "");
+  for (const Json& R : {Json{{0, 0}, {0, "-d"}}, Json{{1, 2}, {2, 1}}, Json{{"q", 0}, {0, 1}}})
+    BOOST_TEST(problems(damped(R)).find("/system/R: is not positive semidefinite") == 0u,
+               R.dump() << ": " << problems(damped(R)));
+  BOOST_TEST(problems(damped({{1, 0.5}, {-0.5, 1}})).find("/system/R: is not symmetric") == 0u,
+             problems(damped({{1, 0.5}, {-0.5, 1}})));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
