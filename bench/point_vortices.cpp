@@ -12,7 +12,7 @@
 #include <numbers>
 
 #include "courant/integrators/discretize_first.hpp"
-#include "courant/integrators/theta.hpp"
+#include "courant/integrators/maps/theta.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/structures/dirac_system.hpp"
 #include "courant/structures/poisson.hpp"

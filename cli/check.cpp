@@ -1,4 +1,4 @@
-#include "courant/systems/check.hpp"
+#include "courant/running/check.hpp"
 
 #include <CLI/CLI.hpp>
 #include <cmath>

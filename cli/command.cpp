@@ -5,8 +5,8 @@
 #include <ostream>
 
 #include "courant/core/spelling.hpp"
-#include "courant/systems/run_files.hpp"
-#include "courant/systems/run_folder.hpp"
+#include "courant/running/run_files.hpp"
+#include "courant/running/run_folder.hpp"
 
 namespace courant::cli {
 namespace {

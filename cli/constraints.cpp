@@ -7,10 +7,10 @@
 #include "courant/cli/command.hpp"
 #include "courant/cli/experiment_file.hpp"
 #include "courant/cli/text.hpp"
-#include "courant/systems/consistent_start.hpp"
-#include "courant/systems/ladder_diagram.hpp"
-#include "courant/systems/ladder_explanation.hpp"
-#include "courant/systems/ladder_json.hpp"
+#include "courant/reporting/ladder_diagram.hpp"
+#include "courant/reporting/ladder_explanation.hpp"
+#include "courant/running/consistent_start.hpp"
+#include "courant/running/ladder_json.hpp"
 
 namespace courant::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "courant/cli/command.hpp"
-#include "courant/systems/experiment.hpp"
+#include "courant/reading/experiment.hpp"
 
 namespace courant::cli {
 

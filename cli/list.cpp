@@ -5,10 +5,10 @@
 
 #include "courant/cli/command.hpp"
 #include "courant/cli/text.hpp"
-#include "courant/systems/method_kinds.hpp"
-#include "courant/systems/space.hpp"
-#include "courant/systems/structure_kinds.hpp"
-#include "courant/systems/system_kinds.hpp"
+#include "courant/reading/method_kinds.hpp"
+#include "courant/reading/space.hpp"
+#include "courant/reading/structure_kinds.hpp"
+#include "courant/reading/system_kinds.hpp"
 
 namespace courant::cli {
 namespace {

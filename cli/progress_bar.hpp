@@ -3,7 +3,7 @@
 
 #include <iosfwd>
 
-#include "courant/systems/runner.hpp"
+#include "courant/running/runner.hpp"
 
 namespace courant::cli {
 

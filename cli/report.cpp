@@ -1,4 +1,4 @@
-#include "courant/systems/report.hpp"
+#include "courant/reporting/report.hpp"
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -7,8 +7,8 @@
 
 #include "courant/cli/command.hpp"
 #include "courant/cli/text.hpp"
-#include "courant/systems/report_figures.hpp"
-#include "courant/systems/terminal_plot.hpp"
+#include "courant/plotting/terminal_plot.hpp"
+#include "courant/reporting/report_figures.hpp"
 
 namespace courant::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include "courant/cli/experiment_file.hpp"
 #include "courant/cli/progress_bar.hpp"
 #include "courant/cli/run_text.hpp"
-#include "courant/systems/runner.hpp"
+#include "courant/running/runner.hpp"
 
 namespace courant::cli {
 namespace {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <ostream>
 
-#include "courant/systems/ladder_diagram.hpp"
-#include "courant/systems/report_figures.hpp"
-#include "courant/systems/run_files.hpp"
-#include "courant/systems/terminal_plot.hpp"
+#include "courant/plotting/terminal_plot.hpp"
+#include "courant/reporting/ladder_diagram.hpp"
+#include "courant/reporting/report_figures.hpp"
+#include "courant/running/run_files.hpp"
 
 namespace courant::cli {
 namespace {

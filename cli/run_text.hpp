@@ -5,7 +5,7 @@
 
 #include "courant/cli/command.hpp"
 #include "courant/cli/text.hpp"
-#include "courant/systems/runner.hpp"
+#include "courant/running/runner.hpp"
 
 namespace courant::cli {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "courant/systems/findings.hpp"
+#include "courant/reading/findings.hpp"
 
 namespace courant::cli {
 

@@ -1,11 +1,15 @@
 # The installed package: find_package(Courant) gives Courant::courant, which is everything, and one
-# target a folder (Courant::core, ...) for those who want less.
+# target a room (Courant::core, ...) for those who want less.
 
 include(CMakePackageConfigHelpers)
 
 add_library(courant_all INTERFACE)
 add_library(Courant::courant ALIAS courant_all)
-target_link_libraries(courant_all INTERFACE courant_systems)
+foreach(room IN LISTS courant_rooms)
+  if(NOT room STREQUAL cli)
+    target_link_libraries(courant_all INTERFACE courant_${room})
+  endif()
+endforeach()
 set_target_properties(courant_all PROPERTIES EXPORT_NAME courant)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Courant)

@@ -1,87 +1,91 @@
-# One library a folder, one test executable a folder.
+# One library a room, one test executable a room.
 
 # What nearly every file includes, parsed once a target rather than once a file.
 set(courant_precompiled <Eigen/Dense> <Eigen/SparseCore> <algorithm> <cmath> <functional> <memory> <random> <stdexcept>
     <string> <vector>)
 
-# courant_precompile(<target> <folder> <suffix> [<header>...])
+# courant_precompile(<target> <room> <suffix> [<header>...])
 #
-# Uses precompiled headers in a target: those above and the given ones. They are compiled in core and, because JSON
-# is read from there on, once more in systems; the folders in between take them from core (<suffix>: "" or "_tests").
-function(courant_precompile target folder suffix)
-  if(folder STREQUAL core)
+# Uses precompiled headers in a target: those above and the given ones. They are compiled in core and, because JSON is
+# read from there on, once more in reading; the other rooms take them from one of the two (<suffix>: "" or "_tests").
+# The sources of plotting include nothing but the standard library.
+function(courant_precompile target room suffix)
+  if(room STREQUAL core)
     target_precompile_headers(${target} PRIVATE ${courant_precompiled} ${ARGN})
-  elseif(folder STREQUAL systems)
+  elseif(room STREQUAL reading)
     target_precompile_headers(${target} PRIVATE ${courant_precompiled} <nlohmann/json.hpp> ${ARGN})
-  elseif(folder STREQUAL cli)
-    target_precompile_headers(${target} REUSE_FROM courant_systems${suffix})
-  else()
+  elseif(room MATCHES "^(running|reporting|cli)$")
+    target_precompile_headers(${target} REUSE_FROM courant_reading${suffix})
+  elseif(suffix OR NOT room STREQUAL plotting)
     target_precompile_headers(${target} REUSE_FROM courant_core${suffix})
   endif()
 endfunction()
 
-# courant_library(<folder> PUBLIC <links>... [PRIVATE <links>...])
+# courant_library(<room> [PUBLIC <links>...] [PRIVATE <links>...])
 #
-# The library courant_<folder> of all sources of this folder, its headers installed to
-# include/courant/<folder>/ and the target exported as Courant::<folder>.
-function(courant_library folder)
-  set(target courant_${folder})
-  file(GLOB sources CONFIGURE_DEPENDS *.cpp)
-  file(GLOB headers CONFIGURE_DEPENDS *.hpp)
+# The library courant_<room> of all sources of this folder and its parts, linked to the rooms that it may know and to
+# what is given, its headers installed to include/courant/<room>/ and the target exported as Courant::<room>.
+function(courant_library room)
+  set(target courant_${room})
+  file(GLOB sources CONFIGURE_DEPENDS *.cpp */*.cpp)
+  file(GLOB headers CONFIGURE_DEPENDS *.hpp */*.hpp)
   if(NOT sources) # a folder may consist of headers alone
     set(sources ${CMAKE_CURRENT_BINARY_DIR}/headers_only.cpp)
     file(WRITE ${sources} "")
   endif()
   add_library(${target} ${sources} ${headers})
-  add_library(Courant::${folder} ALIAS ${target})
+  add_library(Courant::${room} ALIAS ${target})
   courant_settings(${target})
-  courant_precompile(${target} ${folder} "")
+  courant_precompile(${target} ${room} "")
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  list(TRANSFORM courant_known_${room} PREPEND courant_ OUTPUT_VARIABLE known)
+  target_link_libraries(${target} PUBLIC ${known})
   target_link_libraries(${target} ${ARGN})
   set_target_properties(${target} PROPERTIES
-    EXPORT_NAME ${folder}
+    EXPORT_NAME ${room}
     VERSION ${PROJECT_VERSION}
     SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   install(TARGETS ${target} EXPORT CourantTargets)
-  install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/courant/${folder})
+  install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/courant/${room}
+    FILES_MATCHING PATTERN *.hpp)
 endfunction()
 
-# courant_tests(<folder>)
+# courant_tests(<room>)
 #
-# The executable courant_<folder>_tests of all *_test.cpp in tests/<folder>. Each Boost.Test suite in it,
-# that is each file, becomes one ctest entry <folder>.<suite>, labelled "long" when its name ends in
+# The executable courant_<room>_tests of all *_test.cpp in tests/<room> and its parts. Each Boost.Test suite in it,
+# that is each file, becomes one ctest entry <room>.<suite>, labelled "long" when its name ends in
 # _long_test or _long, and "quick" otherwise. The suites are asked of the executable itself once it is built, so
 # none can be forgotten.
-function(courant_tests folder)
-  file(GLOB sources CONFIGURE_DEPENDS ${folder}/*_test.cpp)
+function(courant_tests room)
+  file(GLOB sources CONFIGURE_DEPENDS ${room}/*_test.cpp ${room}/*/*_test.cpp)
   if(NOT sources)
     return()
   endif()
-  file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp) # with what several tests share
-  set(target courant_${folder}_tests)
+  file(GLOB sources CONFIGURE_DEPENDS ${room}/*.cpp ${room}/*/*.cpp) # with what several tests share
+  set(target courant_${room}_tests)
   add_executable(${target} ${sources})
   courant_settings(${target})
-  courant_precompile(${target} ${folder} _tests <boost/test/unit_test.hpp>)
+  courant_precompile(${target} ${room} _tests <boost/test/unit_test.hpp>)
   # The one file that defines BOOST_TEST_MODULE before it includes Boost.Test.
-  set_source_files_properties(${folder}/main.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+  set_source_files_properties(${room}/main.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
   # Tests run for seconds and compile for minutes.
   target_compile_options(${target} PRIVATE -O1 -Wno-maybe-uninitialized) # at -O1 GCC sees it in Eigen
   target_compile_definitions(${target} PRIVATE BOOST_TEST_DYN_LINK)
-  target_link_libraries(${target} PRIVATE courant_${folder} Boost::unit_test_framework)
+  target_link_libraries(${target} PRIVATE courant_${room} Boost::unit_test_framework)
 
   set(discover ${PROJECT_SOURCE_DIR}/cmake/DiscoverTests.cmake)
   set(suites ${CMAKE_CURRENT_BINARY_DIR}/${target}.cmake)
   set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${discover})
   add_custom_command(TARGET ${target} POST_BUILD VERBATIM
-    COMMAND ${CMAKE_COMMAND} -D EXECUTABLE=$<TARGET_FILE:${target}> -D FOLDER=${folder}
+    COMMAND ${CMAKE_COMMAND} -D EXECUTABLE=$<TARGET_FILE:${target}> -D FOLDER=${room}
             -D WORKING_DIRECTORY=${PROJECT_SOURCE_DIR} -D OUTPUT=${suites} -P ${discover})
   file(CONFIGURE OUTPUT ${target}_include.cmake @ONLY CONTENT [[
 if(EXISTS "@suites@")
   include("@suites@")
 else()
-  add_test("@folder@.not_built" "@target@-is-not-built")
+  add_test("@room@.not_built" "@target@-is-not-built")
 endif()
 ]])
   set_property(DIRECTORY APPEND PROPERTY

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "courant/core/derivative.hpp"
-#include "courant/integrators/local_formulation.hpp"
+#include "courant/integrators/ladder/local_formulation.hpp"
 #include "courant/integrators/moving_basis.hpp"
 #include "courant/integrators/moving_conormals.hpp"
 #include "courant/integrators/nearest_orthonormal.hpp"

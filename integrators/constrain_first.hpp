@@ -2,9 +2,9 @@
 #pragma once
 
 #include "courant/core/function.hpp"
-#include "courant/integrators/constraint_ladder.hpp"
-#include "courant/integrators/discretization_map.hpp"
 #include "courant/integrators/integrator.hpp"
+#include "courant/integrators/ladder/constraint_ladder.hpp"
+#include "courant/integrators/maps/discretization_map.hpp"
 #include "courant/integrators/moving_conormals.hpp"
 #include "courant/integrators/projector.hpp"
 #include "courant/structures/implicit_system.hpp"

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "courant/integrators/local_formulation.hpp"
+#include "courant/integrators/ladder/local_formulation.hpp"
 #include "courant/integrators/moving_basis.hpp"
 #include "courant/integrators/predictor.hpp"
 #include "courant/integrators/round_off_projection.hpp"

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "courant/core/function.hpp"
-#include "courant/integrators/discretization_map.hpp"
 #include "courant/integrators/integrator.hpp"
+#include "courant/integrators/maps/discretization_map.hpp"
 #include "courant/structures/implicit_system.hpp"
 
 namespace courant {

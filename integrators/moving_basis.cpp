@@ -2,7 +2,7 @@
 
 #include <Eigen/SVD>
 
-#include "courant/integrators/local_formulation.hpp"
+#include "courant/integrators/ladder/local_formulation.hpp"
 
 namespace courant {
 namespace {

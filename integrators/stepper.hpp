@@ -5,7 +5,7 @@
 #include <string>
 
 #include "courant/integrators/solve_error.hpp"
-#include "courant/integrators/state.hpp"
+#include "courant/integrators/step.hpp"
 #include "courant/structures/implicit_system.hpp"
 
 namespace courant {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "courant/core/derivative.hpp"
-#include "courant/integrators/local_formulation.hpp"
+#include "courant/integrators/ladder/local_formulation.hpp"
 #include "courant/integrators/step_solver.hpp"
 
 namespace courant {

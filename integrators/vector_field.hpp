@@ -3,7 +3,7 @@
 
 #include "courant/core/function.hpp"
 #include "courant/core/newton.hpp"
-#include "courant/integrators/constraint_ladder.hpp"
+#include "courant/integrators/ladder/constraint_ladder.hpp"
 #include "courant/integrators/moving_basis.hpp"
 #include "courant/structures/implicit_system.hpp"
 

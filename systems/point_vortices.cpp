@@ -8,9 +8,8 @@
 
 #include "courant/manifolds/cotangent_bundle.hpp"
 #include "courant/manifolds/euclidean.hpp"
-#include "courant/structures/dirac_system.hpp"
+#include "courant/structures/lagrangian_system.hpp"
 #include "courant/structures/poisson.hpp"
-#include "courant/systems/lagrangian_system.hpp"
 
 namespace courant {
 namespace {
@@ -48,7 +47,7 @@ ExprVector PointVortices::alpha(const ExprVector& q) const {
   return alpha;
 }
 
-std::shared_ptr<const ImplicitSystem> PointVortices::lagrangian_form() const {
+std::shared_ptr<const DiracSystem> PointVortices::lagrangian_form() const {
   const auto plane = std::make_shared<Euclidean>(2 * count());
   return lagrangian_system(
       std::make_shared<CotangentBundle>(plane),

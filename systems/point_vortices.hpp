@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "courant/structures/implicit_system.hpp"
+#include "courant/structures/dirac_system.hpp"
 
 namespace courant {
 
@@ -26,7 +26,7 @@ class PointVortices {
   ExprVector alpha(const ExprVector& q) const;
 
   // On T*R²ⁿ, of the singular Lagrangian L = ⟨α(q), q̇⟩ - H(q) (equation (7)). Points (q, p).
-  std::shared_ptr<const ImplicitSystem> lagrangian_form() const;
+  std::shared_ptr<const DiracSystem> lagrangian_form() const;
   // On R²ⁿ, of H and the bivector with Γ_i ẋ_i = -∂H/∂y_i, Γ_i ẏ_i = ∂H/∂x_i. Points q.
   std::shared_ptr<const ImplicitSystem> hamiltonian_form() const;
 

@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "courant/cli/command.hpp"
-#include "courant/systems/findings.hpp"
+#include "courant/reading/findings.hpp"
 
 namespace courant {
 

@@ -3,8 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <sstream>
 
-#include "../systems/temporary_folder.hpp"
-#include "courant/systems/run_files.hpp"
+#include "../running/temporary_folder.hpp"
+#include "courant/running/run_files.hpp"
 
 namespace courant {
 namespace {

@@ -4,11 +4,11 @@
 #include <boost/test/unit_test.hpp>
 #include <set>
 
-#include "../systems/temporary_folder.hpp"
-#include "courant/systems/experiment.hpp"
-#include "courant/systems/space.hpp"
-#include "courant/systems/structure_kinds.hpp"
-#include "courant/systems/system_kinds.hpp"
+#include "../running/temporary_folder.hpp"
+#include "courant/reading/experiment.hpp"
+#include "courant/reading/space.hpp"
+#include "courant/reading/structure_kinds.hpp"
+#include "courant/reading/system_kinds.hpp"
 
 namespace courant {
 namespace {

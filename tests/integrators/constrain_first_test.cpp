@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "courant/core/derivative.hpp"
-#include "courant/integrators/spherical_midpoint.hpp"
+#include "courant/integrators/maps/spherical_midpoint.hpp"
 #include "courant/manifolds/sphere.hpp"
 #include "courant/tests/integrators/example_systems.hpp"
 #include "courant/tests/integrators/vortices.hpp"

@@ -7,7 +7,7 @@
 #include "courant/integrators/constrain_first.hpp"
 #include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/explicit_runge_kutta.hpp"
-#include "courant/integrators/theta.hpp"
+#include "courant/integrators/maps/theta.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/measurement.hpp"
 #include "courant/manifolds/sphere.hpp"

@@ -3,15 +3,10 @@
 #include <Eigen/Dense>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <random>
 
 #include "courant/core/derivative.hpp"
-#include "courant/integrators/constraint_algorithm.hpp"
-#include "courant/integrators/explicit_runge_kutta.hpp"
-#include "courant/structures/dirac_system.hpp"
-#include "courant/systems/experiment.hpp"
 
 namespace courant {
 namespace {
@@ -44,30 +39,6 @@ MatrixXd d_alpha(const VectorXd& strengths) {
   return form;
 }
 
-// ‖Φ*dα - dα‖_∞ at q, with the derivative of Φ by central differences of order 6.
-double preservation_defect(const std::function<VectorXd(const VectorXd&)>& map,
-                           const VectorXd& strengths, const VectorXd& q) {
-  MatrixXd D(q.size(), q.size());
-  for (Index j = 0; j < q.size(); ++j) {
-    const double delta = 1e-2;
-    const auto at = [&](double s) { return map(q + s * delta * VectorXd::Unit(q.size(), j)); };
-    D.col(j) =
-        (45.0 * (at(1) - at(-1)) - 9.0 * (at(2) - at(-2)) + (at(3) - at(-3))) / (60.0 * delta);
-  }
-  const MatrixXd form = d_alpha(strengths);
-  return (D.transpose() * form * D - form).lpNorm<Eigen::Infinity>();
-}
-
-const char* in_formulas = R"json({
-  "system": {
-    "type": "lagrangian",
-    "parameters": { "n": 3, "Gamma": [1.5, -0.5, 2] },
-    "coordinates": ["x[n]", "y[n]"],
-    "lagrangian": "sum(i, 0, n-1, Gamma[i]*(x[i]*y[i]' - y[i]*x[i]'))/2 - sum(i, 0, n-2, sum(j, i+1, n-1, Gamma[i]*Gamma[j]*log((x[i]-x[j])^2 + (y[i]-y[j])^2)))/(4*pi)"
-  },
-  "initial": { "x": [0, 1, 2], "y": [0, 1, 3] }
-})json";
-
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(point_vortices)
@@ -84,7 +55,8 @@ BOOST_AUTO_TEST_CASE(both_forms_move_by_equation_6) {
   std::mt19937 generator(3);
   const VectorXd strengths = (VectorXd(3) << 1.5, -0.5, 2.0).finished();
   const PointVortices vortices(strengths);
-  const auto hamiltonian = vortices.hamiltonian_form(), lagrangian = vortices.lagrangian_form();
+  const auto hamiltonian = vortices.hamiltonian_form();
+  const auto lagrangian = vortices.lagrangian_form();
   for (int trial = 0; trial < 20; ++trial) {
     const VectorXd q = random(6, generator);
     const VectorXd v = velocities(strengths, q);
@@ -216,54 +188,6 @@ BOOST_AUTO_TEST_CASE(s_0_is_the_image_of_the_lagrangian_submanifold_under_sharp)
     BOOST_TEST(system->residual(x, sharp * alpha, w, 0.0).norm() < 1e-13 * (1.0 + alpha.norm()));
     BOOST_TEST(system->residual(x, -sharp * alpha, w, 0.0).norm() > 1e-2);
     BOOST_TEST(system->residual(x, sharp * random(12, generator), w, 0.0).norm() > 1e-2);
-  }
-}
-
-// The vector field whose graph S_f is, found by the constraint algorithm from the singular
-// Lagrangian on T*R⁸, has a flow on M_0 = Im α that preserves ω_{M_0} = -dα.
-BOOST_AUTO_TEST_CASE(flow_preserves_d_alpha) {
-  const VectorXd strengths = (VectorXd(4) << 1, 1.5, -1, -0.8).finished();
-  const VectorXd start = (VectorXd(8) << -1, 1, -1, 1, 2, 2, -2, -2).finished();
-  const PointVortices vortices(strengths);
-  const auto system = vortices.lagrangian_form();
-  const auto on_M0 = [&](const VectorXd& q) {
-    return VectorXd((VectorXd(16) << q, values(vortices.alpha(constants(q)))).finished());
-  };
-  const auto field = std::make_shared<VectorField>(
-      system, ConstraintAlgorithm().run(system, {.x = on_M0(start)}), Backend::interpreter);
-  const auto moved = [&](const VectorXd& q, ExplicitRungeKutta::Kind kind, int steps) {
-    return ExplicitRungeKutta(field, kind).advance({.x = on_M0(q)}, 3.0 / steps, steps).x;
-  };
-  // The flow for time 3, with an error of about 10⁻¹².
-  const auto flow = [&](const VectorXd& q) {
-    return VectorXd(moved(q, ExplicitRungeKutta::Kind::classical, 300).head(8));
-  };
-  const VectorXd end = moved(start, ExplicitRungeKutta::Kind::classical, 300);
-  BOOST_TEST((end - on_M0(end.head(8))).norm() < 1e-9);  // it stays on M_0
-  BOOST_TEST((end.head(8) - start).norm() > 0.1);
-  BOOST_TEST(preservation_defect(flow, strengths, start) < 1e-9);
-  // The controls: one step of the explicit midpoint rule, and a form with another strength.
-  const auto rk2 = [&](const VectorXd& q) {
-    return VectorXd(moved(q, ExplicitRungeKutta::Kind::midpoint, 1).head(8));
-  };
-  BOOST_TEST(preservation_defect(rk2, strengths, start) > 1e-3);
-  VectorXd other = strengths;
-  other[1] = 1.0;
-  BOOST_TEST(preservation_defect(flow, other, start) > 1e-3);
-}
-
-// Written as a formula in an experiment it is the same system.
-BOOST_AUTO_TEST_CASE(the_catalogue_and_the_formulas_agree) {
-  std::mt19937 generator(4);
-  const auto formulas = read_experiment(in_formulas).model.system;
-  const auto catalogue =
-      PointVortices((VectorXd(3) << 1.5, -0.5, 2.0).finished()).lagrangian_form();
-  BOOST_TEST(formulas->names().coordinates == catalogue->names().coordinates);
-  BOOST_TEST(formulas->names().equations == catalogue->names().equations);
-  for (int trial = 0; trial < 20; ++trial) {
-    const VectorXd x = random(12, generator), v = random(12, generator), z = random(6, generator);
-    const VectorXd a = formulas->residual(x, v, z, 0.0), b = catalogue->residual(x, v, z, 0.0);
-    BOOST_TEST((a - b).norm() < 1e-12 * (1.0 + b.norm()));
   }
 }
 

@@ -1,0 +1,160 @@
+#include "courant/integrators/ladder/consistent_point.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+namespace courant {
+namespace {
+
+void check_size(const char* argument, Index size, Index expected, bool may_be_empty) {
+  if (size != expected && !(may_be_empty && size == 0))
+    throw std::invalid_argument(std::string("ConstraintAlgorithm::run: ") + argument + " has " +
+                                std::to_string(size) + " entries, expected " +
+                                std::to_string(expected) + ".");
+}
+
+}  // namespace
+
+ConsistentPoint::ConsistentPoint(std::shared_ptr<const ImplicitSystem> system, InitialGuess guess,
+                                 MatrixXd metric)
+    : system_(std::move(system)), guess_(std::move(guess)), metric_(std::move(metric)) {
+  const Index N = system_->manifold()->ambient_dimension();
+  const Index tangent = system_->manifold()->tangent_dimension();
+  check_size("x", guess_.x.size(), N, false);
+  check_size("v", guess_.v.size(), tangent, true);
+  check_size("z", guess_.z.size(), system_->auxiliary_size(), true);
+  check_size("metric", metric_.size(), N * N, true);
+  const auto hold = [&](const std::vector<Index>& components, const VectorXd& values, Index offset,
+                        const char* name) {
+    for (const Index i : components) {
+      if (i < 0 || i >= values.size())
+        throw std::invalid_argument(std::string("ConstraintAlgorithm::run: component ") +
+                                    std::to_string(i) + " of " + name + " is to be held, but " +
+                                    name + " has " + std::to_string(values.size()) +
+                                    " given entries.");
+      held_.emplace_back(offset + i, values[i]);
+    }
+  };
+  hold(guess_.hold_x, guess_.x, 0, "x");
+  hold(guess_.hold_v, guess_.v, N, "v");
+  hold(guess_.hold_z, guess_.z, N + tangent, "z");
+  if (guess_.z.size() == 0) guess_.z = system_->auxiliary_guess(guess_.x, guess_.v);
+}
+
+ConsistentJet ConsistentPoint::start() const {
+  const VectorXd x = system_->manifold()->point_defect(guess_.x) == 0.0
+                         ? guess_.x
+                         : system_->manifold()->project(guess_.x);
+  const DerivativeArray array(system_, guess_.t, x);
+  Zero zero;
+  zero.y = array.jet(guess_.v, guess_.z);
+  zero.reach = zero.y.cwiseAbs();
+  return {array, zero};
+}
+
+LinearizableMap ConsistentPoint::conditions(const DerivativeArray& array, bool hold) const {
+  return [this, &array, hold](const VectorXd& y) {
+    Linearization at = array.linearize(y);
+    if (hold && !held_.empty()) {
+      const Linearization state = array.state_map(y);
+      const Eigen::SparseMatrix<double, Eigen::RowMajor> by_row = state.jacobian;
+      std::vector<Eigen::Triplet<double>> entries;
+      for (Index j = 0; j < at.jacobian.outerSize(); ++j)
+        for (SparseMatrixXd::InnerIterator it(at.jacobian, j); it; ++it)
+          entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(j), it.value());
+      Index row = at.value.size();
+      at.value.conservativeResize(row + static_cast<Index>(held_.size()));
+      for (const auto& [component, value] : held_) {
+        at.value[row] = state.value[component] - value;
+        for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(by_row, component); it;
+             ++it)
+          entries.emplace_back(static_cast<int>(row), static_cast<int>(it.col()), it.value());
+        ++row;
+      }
+      at.jacobian.resize(row, y.size());
+      at.jacobian.setFromTriplets(entries.begin(), entries.end());
+    }
+    return at;
+  };
+}
+
+Mobility ConsistentPoint::mobility(const ConsistentJet& from, bool x_is_free) const {
+  const Index n = from.array.base_size(), size = from.zero.y.size();
+  Mobility result;
+  result.frozen = x_is_free ? 0 : n;
+  // Where x or a velocity can give way, the velocity does: by a factor of 1000 in the squares.
+  result.cost = VectorXd::Constant(size, 0.03);
+  result.cost.head(n).setOnes();
+  result.typical = from.array.resized(from.zero.reach, from.array.level_of(from.zero.y));
+  result.typical.head(n) = result.typical.head(n).cwiseMax(from.array.origin_size());
+  if (x_is_free)
+    result.admits = [extent = system_->manifold()->extent_at(from.array.origin()),
+                     basis = from.array.basis()](const VectorXd& y) {
+      return extent(basis * y.head(basis.cols())) < 0.9;
+    };
+  const double radius = system_->manifold()->injectivity_radius(from.array.origin());
+  if (std::isfinite(radius))  // angles
+    result.typical.head(n) = result.typical.head(n).cwiseMax(radius / std::numbers::pi);
+  return result;
+}
+
+Quadratic ConsistentPoint::displacement(const DerivativeArray& array, const VectorXd& y) const {
+  const Index N = system_->manifold()->ambient_dimension(), n = array.base_size();
+  const Linearization state = array.state_map(y);
+  const VectorXd moved = state.value.head(N) - guess_.x;
+  const SparseMatrixXd d_x = state.jacobian.topLeftCorner(N, n);
+  if (metric_.size() == 0)
+    return {0.5 * moved.squaredNorm(), d_x.transpose() * moved,
+            SparseMatrixXd(d_x.transpose() * d_x)};
+  const SparseMatrixXd W = metric_.sparseView();
+  const VectorXd force = W * moved;
+  return {0.5 * moved.dot(force), d_x.transpose() * force,
+          SparseMatrixXd(d_x.transpose() * W * d_x)};
+}
+
+double ConsistentPoint::distance(const VectorXd& x) const {
+  const VectorXd moved = x - guess_.x;
+  return std::sqrt(
+      std::max(0.0, metric_.size() == 0 ? moved.squaredNorm() : moved.dot(metric_ * moved)));
+}
+
+ConsistentJet ConsistentPoint::recentred(const DerivativeArray& array, const Zero& zero,
+                                         bool hold) const {
+  const State state = array.state(zero.y);
+  ConsistentJet there = {array.at(array.t(), state.x), zero};
+  const VectorXd first = there.array.jet(state.v, state.z);
+  there.zero.y.head(first.size()) = first;
+  // ξ_0 = 0 and ξ_1, z_0 are those of the same state; higher coefficients change with the chart.
+  const Zero polished =
+      find_zero(conditions(there.array, hold), there.zero.y, mobility(there, false));
+  if (polished.found) {
+    there.zero = polished;
+    there.zero.iterations += zero.iterations;
+    there.zero.uncertainty = std::max(polished.uncertainty, zero.uncertainty);
+  }
+  return there;
+}
+
+ConsistentJet ConsistentPoint::find(const ConsistentJet& from) const {
+  const LinearizableMap F = conditions(from.array, true);
+  Zero zero = find_zero(F, from.zero.y, mobility(from, false));
+  if (zero.found) return {from.array, zero};
+  const Mobility free = mobility(from, true);
+  zero = find_zero(F, from.zero.y, free);
+  if (!zero.found) return {from.array, zero};
+  zero = least_zero(
+      F, [&](const VectorXd& y) { return displacement(from.array, y); }, zero, free);
+  return recentred(from.array, zero, true);
+}
+
+ConsistentPoint::Neighbour ConsistentPoint::find_displaced(const ConsistentJet& from,
+                                                           const VectorXd& displacement) const {
+  const VectorXd y = from.zero.y + displacement;
+  const Zero zero = find_zero(conditions(from.array, false), y, mobility(from, true));
+  if (!zero.found) return {{from.array, zero}, VectorXd::Zero(y.size())};
+  return {recentred(from.array, zero, false), zero.y - y};
+}
+
+}  // namespace courant

@@ -1,0 +1,57 @@
+// Consistent points: zeros of a derivative array near given values.
+#pragma once
+
+#include "courant/integrators/ladder/constraint_algorithm.hpp"
+#include "courant/integrators/ladder/derivative_array.hpp"
+#include "courant/integrators/ladder/nearest_zero.hpp"
+
+namespace courant {
+
+// A jet y that solves F^[k] = 0 (if zero.found) in the chart of `array`, whose origin is its point:
+// ξ_0 = 0. zero.reach has the sizes of the unknowns on the way there.
+struct ConsistentJet {
+  DerivativeArray array;
+  Zero zero;
+};
+
+// Where F^[k] vanishes near a guess.
+//
+// Values that are held are conditions beside F^[k]; x stays exactly where it is if the other
+// unknowns alone can solve F^[k] = 0, otherwise it goes to the zero with the least ½ (x - x_given)ᵀ
+// W (x - x_given) nearby. v and z of the guess choose between branches and give the iteration its
+// start.
+class ConsistentPoint {
+ public:
+  // Throws std::invalid_argument if sizes do not fit the system. `metric`: W, N × N, or empty
+  // for 1.
+  ConsistentPoint(std::shared_ptr<const ImplicitSystem> system, InitialGuess guess,
+                  MatrixXd metric);
+
+  // The given values as a jet of level 0; x is brought to the manifold.
+  ConsistentJet start() const;
+  // The zero of F^[k] near `from`, whose jet is of level k.
+  ConsistentJet find(const ConsistentJet& from) const;
+  // A zero of F^[k] near `from`, its jet displaced by `displacement`, and how far from there it is
+  // (in the chart of `from`).
+  struct Neighbour {
+    ConsistentJet jet;
+    VectorXd correction;
+  };
+  Neighbour find_displaced(const ConsistentJet& from, const VectorXd& displacement) const;
+
+  // ‖x - x_given‖_W.
+  double distance(const VectorXd& x) const;
+
+ private:
+  LinearizableMap conditions(const DerivativeArray& array, bool hold) const;
+  Mobility mobility(const ConsistentJet& from, bool x_is_free) const;
+  Quadratic displacement(const DerivativeArray& array, const VectorXd& y) const;
+  ConsistentJet recentred(const DerivativeArray& array, const Zero& zero, bool hold) const;
+
+  std::shared_ptr<const ImplicitSystem> system_;
+  InitialGuess guess_;
+  MatrixXd metric_;
+  std::vector<std::pair<Index, double>> held_;  // row of (x, v, z), value
+};
+
+}  // namespace courant

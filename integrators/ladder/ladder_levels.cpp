@@ -1,0 +1,177 @@
+#include "courant/integrators/ladder/ladder_levels.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "courant/integrators/ladder/derivative_array.hpp"
+#include "courant/integrators/ladder/natural_scaling.hpp"
+#include "courant/integrators/ladder/nearest_zero.hpp"
+#include "courant/integrators/ladder/row_reduction.hpp"
+
+namespace courant {
+namespace {
+
+// Singular values cost 4 m n min(m, n) operations; from here on sparse factorisation is faster.
+constexpr Index dense_limit = 200;
+
+RankDecision decide(const SparseMatrixXd& A, const RankOptions& options) {
+  if (std::max(A.rows(), A.cols()) <= dense_limit) return decide_rank(MatrixXd(A), options);
+  return decide_rank(A, options);
+}
+
+double factorial(Index i) { return std::tgamma(static_cast<double>(i) + 1.0); }
+
+// The multipliers of a reduced row as a combination of derivatives, with coefficient 1 for the
+// largest of the highest ones. The i-th Taylor coefficient is the i-th derivative by i!. `factor`
+// receives what the row is to be multiplied with to fit.
+Combination combination(const SparseEntries& multipliers, const VectorXd& row_scale,
+                        Index equation_count, double& factor) {
+  Combination result;
+  Combination::Term lead = {0, -1, 0.0};
+  for (const auto& [row, value] : multipliers) {
+    const Index i = row / equation_count;
+    const Combination::Term term = {row % equation_count, i, value * row_scale[row] / factorial(i)};
+    result.terms.push_back(term);
+    if (i > lead.derivative ||
+        (i == lead.derivative && std::abs(term.coefficient) > std::abs(lead.coefficient)))
+      lead = term;
+  }
+  factor = 1.0 / lead.coefficient;
+  for (auto& term : result.terms) term.coefficient *= factor;
+  return result;
+}
+
+enum Group : Index { higher = 0, auxiliary = 1, velocity = 2, position = 3 };
+
+// The Jacobian at y, reduced: jets first, the point last.
+RowReduction reduced(const DerivativeArray& array, const VectorXd& y, const GenericScaling& units) {
+  const Index n = array.base_size(), m = array.auxiliary_size(), r = array.equation_count();
+  std::vector<Index> row_level, column_group;
+  for (Index i = 0; i < array.row_count(array.level_of(y)); ++i) row_level.push_back(i / r);
+  for (Index j = 0; j < y.size(); ++j)
+    column_group.push_back(j < n           ? position
+                           : j < 2 * n     ? velocity
+                           : j < 2 * n + m ? auxiliary
+                                           : higher);
+  return RowReduction(units.scaled, row_level, column_group);
+}
+
+std::vector<int> needed_differentiations(const RowReduction& reduction, Index equation_count,
+                                         Index index) {
+  std::vector<int> result(static_cast<std::size_t>(equation_count), 0);
+  for (const Group g : {velocity, position})
+    for (const RowReduction::Row& row : reduction.group(g)) {
+      if (row.level > index) continue;
+      for (const auto& [i, value] : row.multipliers) {
+        int& count = result[static_cast<std::size_t>(i % equation_count)];
+        count = std::max(count, static_cast<int>(i / equation_count));
+      }
+    }
+  return result;
+}
+
+}  // namespace
+
+std::vector<LadderLevel> ladder_levels(const Prolongation& array, const VectorXd& y,
+                                       const VectorXd& reach, double data_error) {
+  // GenericScaling made rows and columns comparable; what is small now is small.
+  const RankOptions options{.data_error = data_error, .magnitude = 1.0};
+  const Index n = array.base_size();
+  const SparseMatrixXd jacobian = GenericScaling(array, y, reach).scaled;
+  const VectorXd residual = array.residual(y);
+  std::vector<LadderLevel> levels;
+  for (Index k = 0; k <= array.level_of(y); ++k) {
+    const Index rows = array.row_count(k), columns = array.unknown_count(k);
+    const SparseMatrixXd J = jacobian.topLeftCorner(rows, columns);
+    LadderLevel level;
+    level.k = k;
+    level.all = decide(J, options);
+    level.without_tangent = decide(J.rightCols(columns - 2 * n), options);
+    level.without_point = decide(J.rightCols(columns - n), options);
+    level.dim_S = 2 * n - level.all.rank + level.without_tangent.rank;
+    level.dim_M = n - level.all.rank + level.without_point.rank;
+    level.residual = rows == 0 ? 0.0 : residual.head(rows).lpNorm<Eigen::Infinity>();
+    levels.push_back(std::move(level));
+  }
+  return levels;
+}
+
+std::vector<int> needed_differentiations(const DerivativeArray& array, const VectorXd& y,
+                                         const VectorXd& reach, Index index) {
+  const GenericScaling units(array, y, reach);
+  return needed_differentiations(reduced(array, y, units), array.equation_count(), index);
+}
+
+void describe(ConstraintLadder& ladder, const DerivativeArray& array, const VectorXd& y,
+              const VectorXd& reach) {
+  const Index n = array.base_size(), m = array.auxiliary_size(), r = array.equation_count();
+  const GenericScaling units(array, y, reach);
+  const RowReduction reduction = reduced(array, y, units);
+  const MatrixXd& basis = array.basis();
+
+  ladder.differentiations = needed_differentiations(reduction, r, ladder.index);
+
+  for (const RowReduction::Row& row : reduction.group(position)) {
+    double factor = 1.0;
+    const Combination origin = combination(row.multipliers, units.row_scale, r, factor);
+    VectorXd gradient = VectorXd::Zero(n);
+    for (const auto& [j, value] : row.entries) gradient[j] = factor * value / units.column_scale[j];
+    ladder.constraints.push_back({row.level, basis * gradient, origin});
+  }
+  for (const RowReduction::Row& row : reduction.zero_rows()) {
+    double factor = 1.0;
+    ladder.redundancies.push_back(combination(row.multipliers, units.row_scale, r, factor));
+  }
+
+  // The velocities that remain free, one for each column without pivot.
+  const std::vector<RowReduction::Row> velocities = reduction.reduced_group(velocity);
+  std::vector<bool> free(static_cast<std::size_t>(2 * n + m), true);
+  for (const auto& row : velocities) free[static_cast<std::size_t>(row.pivot)] = false;
+  ladder.gauge_directions.resize(basis.rows(), 0);
+  for (Index f = n; f < 2 * n; ++f) {
+    if (!free[static_cast<std::size_t>(f)]) continue;
+    VectorXd direction = VectorXd::Zero(n);
+    direction[f - n] = 1.0;
+    for (const auto& row : velocities)
+      for (const auto& [j, value] : row.entries)
+        if (j == f)
+          direction[row.pivot - n] = -value * units.column_scale[row.pivot] / units.column_scale[f];
+    ladder.gauge_directions.conservativeResize(Eigen::NoChange, ladder.gauge_directions.cols() + 1);
+    ladder.gauge_directions.rightCols(1) = basis * direction;
+  }
+
+  // An auxiliary unknown is determined if its reduced row contains no other one that is free, and
+  // no free velocity.
+  const std::vector<RowReduction::Row> auxiliaries = reduction.reduced_group(auxiliary);
+  for (const auto& row : auxiliaries) free[static_cast<std::size_t>(row.pivot)] = false;
+  ladder.determined.assign(static_cast<std::size_t>(m), false);
+  for (const auto& row : auxiliaries) {
+    bool determined = true;
+    for (const auto& [j, value] : row.entries) {
+      if (j >= 2 * n && j != row.pivot && free[static_cast<std::size_t>(j)]) determined = false;
+      if (j >= n && j < 2 * n)
+        for (Index c = 0; c < ladder.gauge_directions.cols(); ++c) determined = false;
+    }
+    ladder.determined[static_cast<std::size_t>(row.pivot - 2 * n)] = determined;
+  }
+}
+
+TangentDisplacement::TangentDisplacement(const Prolongation& array, const VectorXd& y,
+                                         const VectorXd& reach)
+    : generator_(1) {
+  const Linearization at = array.linearize(y);
+  const GenericScaling generic(array, y, reach);
+  const NaturalScaling scaling({VectorXd::Zero(at.value.size()), generic.magnitude}, reach, 0.0,
+                               1e-10);
+  units_ = scaling.column_scale;
+  jacobian_ = scaling.row_scale.asDiagonal() * at.jacobian * units_.asDiagonal();
+}
+
+VectorXd TangentDisplacement::next() {
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const VectorXd direction =
+      VectorXd::NullaryExpr(units_.size(), [&] { return uniform(generator_); });
+  return units_.cwiseProduct(kernel_part(jacobian_, direction));
+}
+
+}  // namespace courant

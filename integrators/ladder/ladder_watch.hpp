@@ -1,0 +1,46 @@
+// LadderWatch: the certificate of the constraint algorithm along a run.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "courant/integrators/ladder/constraint_ladder.hpp"
+#include "courant/integrators/ladder/derivative_array.hpp"
+#include "courant/structures/implicit_system.hpp"
+
+namespace courant {
+
+// Runs the constraint algorithm again at states of a trajectory and says when the ladder that the
+// method was built on no longer holds:
+//
+//   the dimensions or the verdict are others than at the start, or
+//   a singular value that a rank counts, in the units of the start, falls to zero before the next
+//   state: below 5 % of the largest it has had, to less than half since the last state, and falling
+//   before that. Of the levels where one falls the lowest counts: at higher ones it does so as a
+//   power.
+//
+// The second is how a singular configuration looks to steps that do not hit it. One object a run.
+class LadderWatch {
+ public:
+  LadderWatch(std::shared_ptr<const ImplicitSystem> system, const ConstraintLadder& start);
+
+  // Why the run should not go on from this state; empty if it may. Called in the order of time.
+  std::string examine(const State& state);
+  // What there is to say when a step failed after the last examination: which singular value had
+  // come down to less than half of the largest it had; empty if none.
+  std::string decline() const;
+
+ private:
+  // The smallest singular value that counts of each rank decision, level by level; as many as at
+  // the start.
+  VectorXd smallest_counted(const ConstraintLadder& now) const;
+
+  std::shared_ptr<const ImplicitSystem> system_;
+  ConstraintLadder start_;
+  DerivativeArray array_;
+  VectorXd row_scale_, column_scale_;  // of the Jacobian at the start
+  VectorXd largest_, last_, before_last_;
+  double last_time_ = 0.0;
+};
+
+}  // namespace courant

@@ -1,0 +1,95 @@
+#include "courant/integrators/ladder/local_formulation.hpp"
+
+#include <algorithm>
+
+#include "courant/core/derivative.hpp"
+#include "courant/structures/blocks.hpp"
+
+namespace courant {
+
+namespace {
+
+// F with each tangent block r replaced by Bᵀr and then `zeros` (per equation that is lost).
+ExprVector with_reduced_blocks(const ImplicitSystem& system, const ExprMatrix& basis,
+                               const ExprVector& F, bool zeros) {
+  if (basis.rows() == basis.cols()) return F;
+  return with_blocks_in_basis(F, basis, system.tangent_blocks(),
+                              zeros ? basis.rows() : basis.cols());
+}
+
+}  // namespace
+
+ExprVector reduced_residual(const ImplicitSystem& system, const ExprMatrix& basis,
+                            const ExprVector& x, const ExprVector& v, const ExprVector& z,
+                            const Expr& t) {
+  return with_reduced_blocks(system, basis, system.residual(x, v, z, t), false);
+}
+
+LocalFormulation::LocalFormulation(Graph& graph, const ImplicitSystem& system, const ExprVector& x0,
+                                   const ExprMatrix& basis, const Expr& t,
+                                   const std::vector<int>& differentiations) {
+  const Manifold& M = *system.manifold();
+  const int order = differentiations.empty()
+                        ? 0
+                        : *std::max_element(differentiations.begin(), differentiations.end());
+  for (int j = 0; j <= order + 1; ++j)
+    xi.push_back(
+        graph.variables("xi" + std::string(static_cast<std::size_t>(j), '\''), M.dimension()));
+  for (int j = 0; j <= order; ++j)
+    z.push_back(graph.variables("z" + std::string(static_cast<std::size_t>(j), '\''),
+                                system.auxiliary_size()));
+  x = M.chart(x0, basis, xi[0]);
+  v = M.coframe(x) * tangent(x, xi[0], xi[1]);
+
+  const ExprVector F = with_reduced_blocks(system, basis, system.residual(x, v, z[0], t), true);
+  std::vector<Expr> collected(F.begin(), F.end());
+  for (Index i = 0; i < F.size(); ++i) source.push_back(i);
+  ExprVector derivative = F;
+  for (int j = 1; j <= order; ++j) {
+    // d/dt along the jets: every variable of order below j moves with the next one.
+    std::vector<Expr> variables, rates;
+    const auto moves = [&](const ExprVector& from, const ExprVector& to) {
+      variables.insert(variables.end(), from.begin(), from.end());
+      rates.insert(rates.end(), to.begin(), to.end());
+    };
+    for (int k = 0; k <= j; ++k)
+      moves(xi[static_cast<std::size_t>(k)], xi[static_cast<std::size_t>(k) + 1]);
+    for (int k = 0; k < j; ++k)
+      moves(z[static_cast<std::size_t>(k)], z[static_cast<std::size_t>(k) + 1]);
+    if (!t.is_constant()) {
+      variables.push_back(t);
+      rates.push_back(1.0);
+    }
+    const auto size = static_cast<Index>(variables.size());
+    derivative = tangent(derivative, Eigen::Map<ExprVector>(variables.data(), size),
+                         Eigen::Map<ExprVector>(rates.data(), size));
+    for (Index i = 0; i < F.size(); ++i) {
+      if (differentiations[static_cast<std::size_t>(i)] < j) continue;
+      collected.push_back(derivative[i]);
+      source.push_back(i);
+    }
+  }
+  equations = Eigen::Map<ExprVector>(collected.data(), static_cast<Index>(collected.size()));
+}
+
+ExprVector LocalFormulation::nonzero_equations() const {
+  std::vector<Expr> kept;
+  for (const Expr& equation : equations)
+    if (!equation.is_constant() || equation.value() != 0.0) kept.push_back(equation);
+  return Eigen::Map<ExprVector>(kept.data(), static_cast<Index>(kept.size()));
+}
+
+ExprMatrix basis_variables(Graph& graph, const Manifold& manifold) {
+  const Index rows = manifold.tangent_dimension();
+  const Index cols = manifold.dimension();
+  if (rows == cols) return ExprMatrix::Identity(rows, cols);
+  const ExprVector entries = graph.variables("basis", rows * cols);
+  return Eigen::Map<const ExprMatrix>(entries.data(), rows, cols);
+}
+
+ExprVector basis_parameters(const Manifold& manifold, const ExprMatrix& basis) {
+  if (manifold.dimension() == manifold.tangent_dimension()) return ExprVector(0);
+  return Eigen::Map<const ExprVector>(basis.data(), basis.size());
+}
+
+}  // namespace courant

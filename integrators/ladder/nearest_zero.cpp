@@ -1,0 +1,262 @@
+#include "courant/integrators/ladder/nearest_zero.hpp"
+
+#include <Eigen/QR>
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace courant {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+// Where dense factorisations are cheaper than sparse ones.
+bool is_small(const SparseMatrixXd& S) { return std::max(S.rows(), S.cols()) <= 200; }
+
+// The solution of [P Sᵀ; S -γ] (δ, y) = (a, b), with P ⪰ 0 diagonally strengthened to be definite:
+// quasi-definite, so that LDLᵀ exists for every ordering. Entries far below those of S cost digits,
+// which two steps of refinement bring back.
+class SaddlePoint {
+ public:
+  SaddlePoint(const SparseMatrixXd& P, const SparseMatrixXd& S, double gamma) : columns_(S.cols()) {
+    const Index n = S.cols(), m = S.rows();
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(static_cast<std::size_t>(P.nonZeros() + 2 * S.nonZeros() + m));
+    for (Index j = 0; j < P.outerSize(); ++j)
+      for (SparseMatrixXd::InnerIterator it(P, j); it; ++it)
+        entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(j), it.value());
+    for (Index j = 0; j < S.outerSize(); ++j)
+      for (SparseMatrixXd::InnerIterator it(S, j); it; ++it) {
+        entries.emplace_back(static_cast<int>(n + it.row()), static_cast<int>(j), it.value());
+        entries.emplace_back(static_cast<int>(j), static_cast<int>(n + it.row()), it.value());
+      }
+    for (Index i = 0; i < m; ++i)
+      entries.emplace_back(static_cast<int>(n + i), static_cast<int>(n + i), -gamma);
+    matrix_.resize(n + m, n + m);
+    matrix_.setFromTriplets(entries.begin(), entries.end());
+    factors_.compute(matrix_);
+  }
+
+  Index columns() const { return columns_; }
+
+  // δ; empty if the factorisation broke down.
+  VectorXd solve(const VectorXd& a, const VectorXd& b) const {
+    if (factors_.info() != Eigen::Success) return VectorXd();
+    VectorXd right(a.size() + b.size());
+    right << a, b;
+    VectorXd solution = factors_.solve(right);
+    for (int refinement = 0; refinement < 2; ++refinement)
+      solution += factors_.solve(right - matrix_ * solution);
+    return solution.head(a.size());
+  }
+
+ private:
+  Index columns_;
+  SparseMatrixXd matrix_;
+  Eigen::SimplicialLDLT<SparseMatrixXd, Eigen::Lower> factors_;
+};
+
+SparseMatrixXd diagonal(const VectorXd& d) {
+  SparseMatrixXd matrix(d.size(), d.size());
+  matrix.setIdentity();
+  return d.asDiagonal() * matrix;
+}
+
+// g ↦ argmin ‖S δ + g‖² + μ ‖cost ∘ δ‖², for μ = 0 the least one in this norm of those that
+// minimise ‖S δ + g‖. Small ones by orthogonal factorisations, which square nothing: for μ = 0
+// singular values down to about 10⁻⁹ count, and there is no step at all in the directions of
+// others.
+class DampedInverse {
+ public:
+  DampedInverse(const SparseMatrixXd& S, const VectorXd& cost, double mu)
+      : m_(S.rows()), cost_(cost) {
+    const Index n = S.cols();
+    if (!is_small(S)) {
+      const double root = std::sqrt(std::max(mu, 1e-10));
+      saddle_.emplace(diagonal(root * cost.cwiseAbs2()), S, root);
+    } else if (mu == 0.0) {
+      least_norm_.setThreshold(1e-9);
+      least_norm_.compute(MatrixXd(S * cost.cwiseInverse().asDiagonal()));
+    } else {
+      MatrixXd stacked = MatrixXd::Zero(m_ + n, n);
+      stacked.topRows(m_) = S;
+      stacked.bottomRows(n).diagonal() = std::sqrt(mu) * cost;
+      damped_.compute(stacked);
+    }
+  }
+
+  // Empty if the factorisation broke down.
+  VectorXd step(const VectorXd& g) const {
+    if (saddle_) return saddle_->solve(VectorXd::Zero(saddle_->columns()), -g);
+    if (damped_.rows() == 0) return cost_.cwiseInverse().cwiseProduct(least_norm_.solve(-g));
+    VectorXd right = VectorXd::Zero(damped_.rows());
+    right.head(m_) = -g;
+    return damped_.solve(right);
+  }
+
+ private:
+  Index m_;
+  VectorXd cost_;
+  std::optional<SaddlePoint> saddle_;
+  Eigen::CompleteOrthogonalDecomposition<MatrixXd> least_norm_;
+  Eigen::HouseholderQR<MatrixXd> damped_;
+};
+
+bool finite(const Linearization& at) {
+  if (!at.value.allFinite()) return false;
+  for (Index j = 0; j < at.jacobian.outerSize(); ++j)
+    for (SparseMatrixXd::InnerIterator it(at.jacobian, j); it; ++it)
+      if (!std::isfinite(it.value())) return false;
+  return true;
+}
+
+// With `safeguard`, every step has to be an improvement; else full steps are made.
+Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& mobility,
+            bool safeguard) {
+  constexpr double least_damping = 1e-12, most_damping = 1e8, accepted = 1e-10;
+  const int most_iterations = safeguard ? 100 : 25;
+  Zero zero;
+  zero.y = start;
+  zero.reach = start.cwiseAbs();
+  if (mobility.typical.size() > 0) zero.reach = zero.reach.cwiseMax(mobility.typical);
+  zero.defect = std::numeric_limits<double>::infinity();
+  Linearization at = map(start);
+  if (!finite(at)) return zero;
+
+  SparseMatrixXd magnitude = generic_magnitude(map, start, zero.reach, at);
+  double damping = 0.0;
+  bool moves = true;
+  while (moves) {
+    magnitude = SparseMatrixXd(magnitude.cwiseMax(SparseMatrixXd(at.jacobian.cwiseAbs())));
+    const NaturalScaling units({at.value, magnitude}, zero.reach);
+    const VectorXd g = units.row_scale.cwiseProduct(at.value);
+    zero.scaled_value = g;
+    zero.defect = units.defect(at.value, zero.reach);
+    zero.found = zero.defect <= accepted;
+    zero.history.push_back(zero.defect);
+    zero.uncertainty = zero.defect;
+    if (zero.defect <= eps || zero.iterations == most_iterations) break;
+
+    SparseMatrixXd S = units.row_scale.asDiagonal() * at.jacobian * units.column_scale.asDiagonal();
+    S.prune([&](Index, Index column, double) { return column >= mobility.frozen; });
+    moves = false;
+    // At the level of rounding a step that does not help is the end; far from it, too long.
+    for (double mu = damping; !moves && mu <= (zero.found ? damping : most_damping);
+         mu = std::max(100.0 * mu, least_damping)) {
+      const DampedInverse inverse(S, mobility.cost, mu);
+      const VectorXd delta = inverse.step(g);
+      if (delta.size() == 0 || !delta.allFinite()) continue;
+      if (mu == 0.0) {
+        zero.uncertainty = delta.lpNorm<Eigen::Infinity>();
+        const bool stationary = (S * delta + g).squaredNorm() > (1.0 - 1e-6) * g.squaredNorm();
+        if (stationary) break;
+      }
+      const VectorXd y = zero.y + units.column_scale.cwiseProduct(delta);
+      if (mobility.admits && !mobility.admits(y)) continue;
+      Linearization next = map(y);
+      if (!finite(next)) continue;
+      const VectorXd residual = units.row_scale.cwiseProduct(next.value);
+      if (residual.norm() >= (1.0 - 1e-3) * g.norm() && (safeguard || zero.found)) {
+        // A residual may grow where equations are curved and the next step be shorter all the same
+        // (the natural monotonicity of Deuflhard).
+        if (zero.found) continue;
+        const VectorXd after = inverse.step(residual);
+        if (!(mobility.cost.cwiseProduct(after).norm() <
+              0.5 * mobility.cost.cwiseProduct(delta).norm()))
+          continue;
+      }
+      zero.y = y;
+      zero.reach = zero.reach.cwiseMax(y.cwiseAbs());
+      ++zero.iterations;
+      at = std::move(next);
+      damping = mu / 1e6 < least_damping ? 0.0 : mu / 1e6;
+      moves = true;
+    }
+  }
+  return zero;
+}
+
+}  // namespace
+
+Zero find_zero(const LinearizableMap& map, const VectorXd& start, const Mobility& mobility) {
+  const Zero careful = search(map, start, mobility, true);
+  if (careful.found) return careful;
+  const Zero bold = search(map, start, mobility, false);
+  return bold.found ? bold : careful;
+}
+
+VectorXd kernel_part(const SparseMatrixXd& S, const VectorXd& direction) {
+  const VectorXd normal = DampedInverse(S, VectorXd::Ones(S.cols()), 0.0).step(-(S * direction));
+  return normal.size() == 0 ? VectorXd(VectorXd::Zero(direction.size())) : direction - normal;
+}
+
+Zero least_zero(const LinearizableMap& map,
+                const std::function<Quadratic(const VectorXd& y)>& objective, const Zero& at,
+                const Mobility& mobility) {
+  constexpr double gamma = 1e-11;  // constraints give way to the objective by this much in a step,
+                                   // find_zero takes it back
+  Zero best = at;
+  double length = 1.0;
+  VectorXd before;  // the whole step before this one
+  double shortest_step = std::numeric_limits<double>::infinity();
+  int stalled = 0;
+  for (int iteration = 0; iteration < 50; ++iteration) {
+    const Quadratic goal = objective(best.y);
+    if (goal.value == 0.0) break;
+    const NaturalScaling scaling(map(best.y), best.reach);
+    const SparseMatrixXd& S = scaling.scaled;
+    const Index n = goal.gradient.size();
+    const VectorXd units = scaling.column_scale.head(n);
+    const SparseMatrixXd H = units.asDiagonal() * goal.hessian * units.asDiagonal();
+    const double strength = H.nonZeros() == 0 ? 0.0 : H.diagonal().maxCoeff();
+    if (strength == 0.0) break;
+    VectorXd right = VectorXd::Zero(best.y.size());
+    right.head(n) = -units.cwiseProduct(goal.gradient) / strength;
+    // The objective, and a little inertia for what it does not see.
+    SparseMatrixXd P = diagonal(1e-6 * mobility.cost.cwiseAbs2());
+    SparseMatrixXd lifted(best.y.size(), best.y.size());
+    std::vector<Eigen::Triplet<double>> entries;
+    for (Index j = 0; j < H.outerSize(); ++j)
+      for (SparseMatrixXd::InnerIterator it(H, j); it; ++it)
+        entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(j),
+                             it.value() / strength);
+    lifted.setFromTriplets(entries.begin(), entries.end());
+    P += lifted;
+    const VectorXd delta = SaddlePoint(P, S, gamma).solve(right, VectorXd::Zero(S.rows()));
+    if (delta.size() == 0 || !delta.allFinite()) break;
+
+    const double step = delta.norm();
+    if (before.size() > 0) {
+      // Where constraints are curved whole steps go too far; two steps tell by how much
+      // (Barzilai, Borwein 1988).
+      const VectorXd last = before.cwiseQuotient(scaling.column_scale);
+      const double bend = last.dot(last - delta);
+      length = bend > 0.0 ? std::min(1.0, length * last.squaredNorm() / bend) : 1.0;
+    }
+    bool improved = false;
+    double change = 0.0;
+    for (; length > 1e-3; length *= 0.5) {
+      const Zero next =
+          find_zero(map, best.y + length * scaling.column_scale.cwiseProduct(delta), mobility);
+      if (!next.found) continue;
+      change = objective(next.y).value / goal.value - 1.0;
+      // Near the minimum 1e-10 of the value is round-off, though y is known to 1e-5 only: there the
+      // steps decide.
+      if (change > 1e-10) continue;
+      const int iterations = best.iterations + next.iterations;
+      best = next;
+      best.iterations = iterations;
+      improved = true;
+      break;
+    }
+    stalled = change > -1e-10 && step > 0.5 * shortest_step ? stalled + 1 : 0;
+    if (!improved || step < 1e-10 || stalled == 4) break;
+    before = scaling.column_scale.cwiseProduct(delta);
+    shortest_step = std::min(shortest_step, step);
+  }
+  return best;
+}
+
+}  // namespace courant

@@ -1,0 +1,42 @@
+// Fewer vertices for the same picture: what is left out cannot be seen at the size it is drawn.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "courant/plotting/scale.hpp"
+
+namespace courant::plot {
+
+struct Vertex {
+  double x, y;
+};
+
+// The rows of a curve between two that are not finite: [begin, end).
+struct Stretch {
+  std::size_t begin, end;
+  std::size_t size() const { return end - begin; }
+};
+
+// The maximal stretches of rows in which both x and y are finite.
+std::vector<Stretch> finite_stretches(std::span<const double> x, std::span<const double> y);
+
+// A function of x seen through `columns` equal pieces of an interval: in each piece that has rows,
+// the least and the greatest value. So the extrema are kept, whatever the number of rows.
+struct Envelope {
+  std::vector<double> x, lower, upper;
+};
+
+// x is increasing and finite, y finite, of the same size; rows outside the interval count in its
+// end pieces.
+Envelope envelope(std::span<const double> x, std::span<const double> y, Interval interval,
+                  int columns);
+
+// A polyline through some of the vertices of `path`, the first and the last among them, from which
+// none of the others is farther than `tolerance`. Linear time: one vertex after the other is left
+// out while a ray from the last one kept passes all of them (the sleeve of Zhao and Saalfeld, 1997)
+// and moves on.
+std::vector<Vertex> simplified(std::span<const Vertex> path, double tolerance);
+
+}  // namespace courant::plot

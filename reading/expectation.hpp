@@ -1,0 +1,73 @@
+// What an experiment expects of its run.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "courant/reading/model.hpp"
+
+namespace courant {
+
+// A quantity along a run.
+struct QuantityRecord {
+  double initial = 0.0, final = 0.0, min = 0.0, max = 0.0;
+  double max_drift = 0.0;  // greatest |value - initial|
+  double slope = 0.0;  // of the least-squares line through (t, value): the drift per unit of time
+};
+
+// What is known of a run when its expectations are looked at.
+struct RunRecord {
+  bool completed = false;
+  std::map<std::string, QuantityRecord, std::less<>>
+      quantities;  // coordinates, observables, deviations
+  std::map<double, std::map<std::string, double, std::less<>>>
+      moments;                                                      // quantities at times asked for
+  double max_violation = std::numeric_limits<double>::quiet_NaN();  // of the constraints, if any
+  Json ladder;                                                      // null if not reached
+};
+
+// One entry of `expectations` in a summary.
+struct ExpectationResult {
+  std::string pointer;  // of the entry of `expect`
+  std::string description;
+  bool passed = false;
+  Json value;  // null where it is not known
+  Json bound;
+};
+
+// The entries of `expect`, and what a run has to keep for them.
+struct Expectations {
+  // |quantity - closed form in t|, which the record has under this name. The forms hold at every
+  // step.
+  struct Deviation {
+    std::string name;
+    std::string quantity;
+    WrittenFormula form;
+  };
+  std::vector<double> times;
+  std::vector<Deviation> deviations;
+  std::vector<std::function<ExpectationResult(const RunRecord&)>> checks;
+  bool inconsistent = false;  // the verdict that is expected, after which there is nothing to run
+};
+
+// The times of a run: start + k step for k = 0 … steps.
+struct TimeSpan {
+  double start = 0.0;
+  double step = 0.0;
+  long steps = 0;
+  double time(long k) const { return start + static_cast<double>(k) * step; }
+  double end() const { return time(steps); }
+  // The k with time(k) = t up to round-off.
+  std::optional<long> step_at(double t) const;
+};
+
+// Reads the array `expect`; `quantities` are the names of coordinates and observables.
+Expectations read_expectations(const JsonReader& expect, const Vocabulary& vocabulary,
+                               const std::vector<std::string>& quantities,
+                               const std::optional<TimeSpan>& time);
+
+}  // namespace courant

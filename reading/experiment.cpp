@@ -1,0 +1,136 @@
+#include "courant/reading/experiment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "courant/core/declaration.hpp"
+#include "courant/reading/json_document.hpp"
+#include "courant/reading/system_kinds.hpp"
+
+namespace courant {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+// The number of steps must be whole: a last step of another size would be another method.
+std::optional<TimeSpan> read_time(const JsonReader& value) {
+  ObjectReader object(value);
+  TimeSpan time;
+  time.start = object.number("start", 0.0);
+  const auto step_key = object.required("step");
+  time.step = step_key ? step_key->positive_number().value_or(kUnknown) : kUnknown;
+  const auto end_key = object.required("end");
+  const double end = end_key ? end_key->number().value_or(kUnknown) : kUnknown;
+  if (std::isnan(time.step) || std::isnan(end)) return std::nullopt;
+  const double steps = (end - time.start) / time.step;
+  if (!(steps >= 0.0 && steps <= 1e15)) {
+    end_key->expected("a time after the start, at most 1e15 steps later");
+    return std::nullopt;
+  }
+  time.steps = std::lround(steps);
+  if (std::abs(steps - static_cast<double>(time.steps)) > 1e-9 * std::max(1.0, steps)) {
+    end_key->problem("is " + std::to_string(steps) +
+                     " steps after the start; expected a whole number of them");
+    return std::nullopt;
+  }
+  return time;
+}
+
+Output read_output(const JsonReader& value) {
+  ObjectReader object(value);
+  Output output;
+  output.every = object.integer("every", 1, 1);
+  if (object.word("format", "csv", {"csv", "npy"}) == "npy") output.format = Output::Format::npy;
+  return output;
+}
+
+std::vector<Observable> read_observables(const JsonReader& value, const Model& model) {
+  std::vector<Observable> observables;
+  const auto entries = value.entries();
+  if (!entries) return observables;
+  const ImplicitSystem& system = *model.system;
+  const Manifold& M = *system.manifold();
+  Graph graph;
+  const ExprVector x = graph.variables("x", M.ambient_dimension());
+  const ExprVector z = graph.variables("z", system.auxiliary_size());
+  const Expr t = graph.variable("t");
+  const SymbolTable symbols = model.symbols(x, graph.variables("v", M.tangent_dimension()), z, t);
+  SymbolTable taken = symbols;
+  if (taken.find("H") == nullptr && system.energy(x, z, t)) taken.add("H", 0.0);
+  taken.add("constraint", 0.0);
+  for (const auto& [name, entry] : *entries) {
+    try {
+      if (!parse_declaration(name, taken).shape.empty())
+        throw FormulaError(1, "\"" + name + "\" has a size; expected a name");
+    } catch (const FormulaError& error) {
+      entry.problem(std::string("key, ") + error.what());
+      continue;
+    }
+    const auto formula = read_formula(entry);
+    if (formula && check(*formula, symbols, value.findings()))
+      observables.push_back({name, *formula});
+  }
+  return observables;
+}
+
+// Coordinates, H where there is an energy, observables: what expectations can be about.
+std::vector<std::string> quantities(const Model& model,
+                                    const std::vector<Observable>& observables) {
+  const ImplicitSystem& system = *model.system;
+  std::vector<std::string> names = system.names().coordinates;
+  Graph graph;
+  if (system.energy(graph.variables("x", system.manifold()->ambient_dimension()),
+                    graph.variables("z", system.auxiliary_size()), graph.variable("t")))
+    names.push_back("H");
+  for (const Observable& observable : observables) names.push_back(observable.name);
+  return names;
+}
+
+}  // namespace
+
+Experiment read_experiment(std::string_view text) {
+  const Json document = parse_json(text);
+  Findings findings;
+  Experiment experiment;
+  {
+    ObjectReader object(JsonReader(document, "", findings));
+    if (const auto schema = object.optional("$schema")) schema->text();
+    experiment.title = object.text("title", "");
+    if (const auto description = object.optional("description")) description->text();
+    const auto system = object.required("system");
+    const auto model = system ? system_kinds().read(*system) : std::nullopt;
+    const auto initial = object.required("initial");
+    const auto hold = object.optional("hold");
+    const auto method = object.optional("method");
+    if (method) experiment.method = method_kinds().read(*method);
+    const auto time = object.optional("time");
+    if (time) experiment.time = read_time(*time);
+    if (method && !time) object.required("time");
+    if (time && !method) object.required("method");
+    experiment.examine = static_cast<long>(object.integer("examine", 0, 0));
+    const auto weights = object.optional("weights");
+    const auto observe = object.optional("observe");
+    const auto expect = object.optional("expect");
+    const Json no_output = Json::object();
+    const auto output = object.optional("output");
+    if (!output) object.default_value("output", no_output);
+    experiment.output = read_output(output.value_or(JsonReader(no_output, "/output", findings)));
+
+    if (model) {
+      experiment.model = *model;
+      if (initial)
+        if (const auto values = read_initial_values(*initial, hold, weights, *model))
+          experiment.initial = *values;
+      if (observe) experiment.observe = read_observables(*observe, *model);
+      if (expect)
+        experiment.expect = read_expectations(
+            *expect, model->vocabulary, quantities(*model, experiment.observe), experiment.time);
+    }
+  }
+  findings.require_clean();
+  experiment.document = findings.completed(document);
+  return experiment;
+}
+
+}  // namespace courant

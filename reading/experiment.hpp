@@ -1,0 +1,47 @@
+// Experiment: what a JSON file asks for.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "courant/reading/expectation.hpp"
+#include "courant/reading/initial_values.hpp"
+#include "courant/reading/method_kinds.hpp"
+#include "courant/reading/model.hpp"
+
+namespace courant {
+
+struct Observable {
+  std::string name;
+  WrittenFormula formula;  // of coordinates, velocities, unknowns, t
+};
+
+struct Output {
+  enum class Format { csv, npy };
+  Format format = Format::csv;
+  long every = 1;  // steps a row
+};
+
+// A system, where it starts, how it is integrated, what is observed and expected. Without a method
+// it asks for the constraint algorithm alone. docs/experiment-format.md has the whole of it.
+struct Experiment {
+  Json document;  // as written, defaults filled in
+  std::string title;
+  Model model;
+  InitialValues initial;
+  std::optional<MethodChoice> method;  // both or none
+  std::optional<TimeSpan> time;
+  std::vector<Observable> observe;
+  Expectations expect;
+  Output output;
+  long examine = 0;  // steps between two examinations of the ladder; 0: none
+
+  double start() const { return time ? time->start : 0.0; }
+};
+
+// Reads the text of a file. Throws ExperimentError with everything that is wrong with it.
+Experiment read_experiment(std::string_view text);
+
+}  // namespace courant

@@ -1,0 +1,178 @@
+#include "courant/reading/json_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "courant/core/spelling.hpp"
+
+namespace courant {
+namespace {
+
+constexpr std::size_t kLongestShown = 40;
+
+std::string shown(const Json& value) {
+  if (value.is_object()) return "an object";
+  if (value.is_array()) return value.empty() ? "an empty array" : "an array";
+  const std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (text.size() <= kLongestShown) return text;
+  std::size_t end = kLongestShown;
+  while ((text[end] & 0xC0) == 0x80) --end;  // whole characters
+  return text.substr(0, end) + "…";
+}
+
+std::string in_quotes(const std::string& word) { return "\"" + word + "\""; }
+
+std::string listed(const std::vector<std::string>& words) {
+  std::string list;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    list += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + in_quotes(words[i]);
+  return list;
+}
+
+}  // namespace
+
+std::string pointer_token(std::string_view key) {
+  std::string token;
+  for (const char c : key) {
+    if (c == '~')
+      token += "~0";
+    else if (c == '/')
+      token += "~1";
+    else
+      token += c;
+  }
+  return token;
+}
+
+void JsonReader::expected(const std::string& expected) const {
+  problem("is " + shown(*value_) + "; expected " + expected);
+}
+
+std::optional<double> JsonReader::number() const {
+  if (value_->is_number()) return value_->get<double>();
+  expected("a number");
+  return std::nullopt;
+}
+
+std::optional<double> JsonReader::positive_number() const {
+  if (value_->is_number() && value_->get<double>() > 0.0) return value_->get<double>();
+  expected("a number greater than 0");
+  return std::nullopt;
+}
+
+std::optional<Index> JsonReader::integer(Index least) const {
+  // Up to 2⁵³, as 1e6 is as good as 1000000.
+  if (value_->is_number()) {
+    const double number = value_->get<double>();
+    if (number == std::floor(number) && number >= static_cast<double>(least) &&
+        std::abs(number) <= 9007199254740992.0)
+      return static_cast<Index>(number);
+  }
+  expected("an integer, at least " + std::to_string(least));
+  return std::nullopt;
+}
+
+std::optional<std::string> JsonReader::text() const {
+  if (value_->is_string()) return value_->get<std::string>();
+  expected("a string");
+  return std::nullopt;
+}
+
+std::optional<std::vector<JsonReader>> JsonReader::elements() const {
+  if (!value_->is_array()) {
+    expected("an array");
+    return std::nullopt;
+  }
+  std::vector<JsonReader> elements;
+  for (std::size_t i = 0; i < value_->size(); ++i)
+    elements.emplace_back((*value_)[i], pointer_ + "/" + std::to_string(i), *findings_);
+  return elements;
+}
+
+std::optional<std::vector<std::pair<std::string, JsonReader>>> JsonReader::entries() const {
+  if (!value_->is_object()) {
+    expected("an object");
+    return std::nullopt;
+  }
+  std::vector<std::pair<std::string, JsonReader>> entries;
+  for (const auto& [key, value] : value_->items())
+    entries.emplace_back(key, JsonReader(value, pointer_ + "/" + pointer_token(key), *findings_));
+  return entries;
+}
+
+std::optional<std::string> JsonReader::word(const std::vector<std::string>& words) const {
+  if (value_->is_string()) {
+    const auto& word = value_->get_ref<const std::string&>();
+    if (std::find(words.begin(), words.end(), word) != words.end()) return word;
+    if (const std::string meant = did_you_mean(word, words); !meant.empty()) {
+      problem("unknown " + in_quotes(word) + meant);
+      return std::nullopt;
+    }
+  }
+  expected(listed(words));
+  return std::nullopt;
+}
+
+ObjectReader::ObjectReader(const JsonReader& object) : ObjectReader(object, {}) {}
+
+ObjectReader::ObjectReader(const JsonReader& object, std::vector<std::string> known)
+    : object_(object), known_(std::move(known)) {
+  if (!object_.value().is_object()) object_.expected("an object");
+}
+
+ObjectReader::~ObjectReader() {
+  if (!object_.value().is_object()) return;
+  for (const auto& [key, value] : object_.value().items()) {
+    if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+    const std::string meant = did_you_mean(key, known_);
+    object_.findings().problem(
+        object_.pointer() + "/" + pointer_token(key),
+        "unknown key" + (meant.empty() ? "; expected " + listed(known_) : meant));
+  }
+}
+
+std::optional<JsonReader> ObjectReader::optional(const std::string& key) {
+  known_.push_back(key);
+  if (!object_.value().is_object()) return std::nullopt;
+  const auto found = object_.value().find(key);
+  if (found == object_.value().end()) return std::nullopt;
+  return JsonReader(*found, object_.pointer() + "/" + pointer_token(key), object_.findings());
+}
+
+std::optional<JsonReader> ObjectReader::required(const std::string& key) {
+  auto value = optional(key);
+  if (!value && object_.value().is_object())
+    object_.findings().problem(object_.pointer() + "/" + pointer_token(key), "is missing");
+  return value;
+}
+
+void ObjectReader::default_value(const std::string& key, Json value) {
+  object_.findings().default_value(object_.pointer() + "/" + pointer_token(key), std::move(value));
+}
+
+double ObjectReader::number(const std::string& key, double value) {
+  if (const auto given = optional(key)) return given->number().value_or(value);
+  default_value(key, value);
+  return value;
+}
+
+Index ObjectReader::integer(const std::string& key, Index value, Index least) {
+  if (const auto given = optional(key)) return given->integer(least).value_or(value);
+  default_value(key, value);
+  return value;
+}
+
+std::string ObjectReader::text(const std::string& key, const std::string& value) {
+  if (const auto given = optional(key)) return given->text().value_or(value);
+  default_value(key, value);
+  return value;
+}
+
+std::string ObjectReader::word(const std::string& key, const std::string& value,
+                               const std::vector<std::string>& words) {
+  if (const auto given = optional(key)) return given->word(words).value_or(value);
+  default_value(key, value);
+  return value;
+}
+
+}  // namespace courant

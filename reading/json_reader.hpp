@@ -1,0 +1,83 @@
+// Typed reading of a JSON document: every problem is collected, with its place.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "courant/core/expr.hpp"
+#include "courant/reading/findings.hpp"
+
+namespace courant {
+
+// A key as a part of a JSON pointer: ~ and / are written ~0 and ~1.
+std::string pointer_token(std::string_view key);
+
+// A value in a document, with its JSON pointer. What is not as it should be becomes a problem of
+// the findings, and the reading functions then return nothing. Cheap to copy; the document and the
+// findings must outlive it.
+class JsonReader {
+ public:
+  JsonReader(const Json& value, std::string pointer, Findings& findings)
+      : value_(&value), pointer_(std::move(pointer)), findings_(&findings) {}
+
+  const Json& value() const { return *value_; }
+  const std::string& pointer() const { return pointer_; }
+  Findings& findings() const { return *findings_; }
+
+  void problem(std::string what) const { findings_->problem(pointer_, std::move(what)); }
+  // The problem `is <the value>; expected <expected>`.
+  void expected(const std::string& expected) const;
+
+  std::optional<double> number() const;
+  std::optional<double> positive_number() const;
+  std::optional<Index> integer(Index least) const;
+  std::optional<std::string> text() const;
+  std::optional<std::vector<JsonReader>> elements() const;
+  // The entries of an object whose keys are free, in order.
+  std::optional<std::vector<std::pair<std::string, JsonReader>>> entries() const;
+  // A text that is one of a few words.
+  std::optional<std::string> word(const std::vector<std::string>& words) const;
+
+ private:
+  const Json* value_;
+  std::string pointer_;
+  Findings* findings_;
+};
+
+// An object with known keys. When it goes out of scope, every key that was never asked for is a
+// problem, with the known key that may have been meant.
+class ObjectReader {
+ public:
+  // A problem, and no keys, if the value is not an object.
+  explicit ObjectReader(const JsonReader& object);
+  // Keys that are already known to be there, and are read elsewhere.
+  ObjectReader(const JsonReader& object, std::vector<std::string> known);
+  ~ObjectReader();
+  ObjectReader(const ObjectReader&) = delete;
+  ObjectReader& operator=(const ObjectReader&) = delete;
+
+  const JsonReader& place() const { return object_; }
+
+  // Nothing if the key is missing, which for `required` is a problem.
+  std::optional<JsonReader> optional(const std::string& key);
+  std::optional<JsonReader> required(const std::string& key);
+
+  // The key is missing and stands for `value`, which the findings keep.
+  void default_value(const std::string& key, Json value);
+
+  // The value of a key that may be missing, or `value` as above.
+  double number(const std::string& key, double value);
+  Index integer(const std::string& key, Index value, Index least);
+  std::string text(const std::string& key, const std::string& value);
+  std::string word(const std::string& key, const std::string& value,
+                   const std::vector<std::string>& words);
+
+ private:
+  JsonReader object_;
+  std::vector<std::string> known_;
+};
+
+}  // namespace courant

@@ -1,0 +1,242 @@
+#include "courant/reading/method_kinds.hpp"
+
+#include <charconv>
+
+#include "courant/integrators/constrain_first.hpp"
+#include "courant/integrators/discretize_first.hpp"
+#include "courant/integrators/explicit_runge_kutta.hpp"
+#include "courant/integrators/maps/cayley_midpoint.hpp"
+#include "courant/integrators/maps/chordal.hpp"
+#include "courant/integrators/maps/cotangent_lift.hpp"
+#include "courant/integrators/maps/product_map.hpp"
+#include "courant/integrators/maps/projected.hpp"
+#include "courant/integrators/maps/spherical_midpoint.hpp"
+#include "courant/integrators/maps/theta.hpp"
+#include "courant/integrators/matched_start.hpp"
+#include "courant/manifolds/euclidean.hpp"
+#include "courant/manifolds/torus.hpp"
+
+namespace courant {
+namespace {
+
+using ManifoldPointer = std::shared_ptr<const Manifold>;
+using MapPointer = std::shared_ptr<const DiscretizationMap>;
+
+// The map that a choice gives on M; on T*Q the cotangent lift of the one on Q.
+template <class Make>
+DiscretizationChoice lifted(std::string description, Make make) {
+  return {std::move(description), [make](const ManifoldPointer& manifold) -> MapPointer {
+            if (const auto bundle = std::dynamic_pointer_cast<const CotangentBundle>(manifold))
+              return std::make_shared<CotangentLift>(bundle, make(bundle->base()));
+            return make(manifold);
+          }};
+}
+
+std::optional<DiscretizationChoice> midpoint(ObjectReader&) {
+  return lifted("midpoint",
+                [](const ManifoldPointer& M) { return std::make_shared<Theta>(M, 0.5); });
+}
+
+std::optional<DiscretizationChoice> theta_map(ObjectReader& object) {
+  const double theta = object.number("theta", 0.5);
+  if (!(theta >= 0.0 && theta <= 1.0)) {
+    object.optional("theta")->expected("a number from 0 to 1");
+    return std::nullopt;
+  }
+  char digits[32];
+  const std::string shown(digits, std::to_chars(digits, digits + sizeof digits, theta).ptr);
+  return lifted("theta = " + shown,
+                [theta](const ManifoldPointer& M) { return std::make_shared<Theta>(M, theta); });
+}
+
+// A map that only some manifolds have, on M or, factor by factor, on a product of them; flat
+// factors get the midpoint map, which is what each of these maps is there.
+template <class Make>
+MapPointer on_factors(const ManifoldPointer& M, const Make& make) {
+  if (const auto product = std::dynamic_pointer_cast<const Product>(M)) {
+    std::vector<MapPointer> maps;
+    for (const ManifoldPointer& factor : product->factors())
+      maps.push_back(on_factors(factor, make));
+    return std::make_shared<ProductMap>(product, std::move(maps));
+  }
+  if (dynamic_cast<const Euclidean*>(M.get()) || dynamic_cast<const Torus*>(M.get()))
+    return std::make_shared<Theta>(M, 0.5);
+  return make(M);
+}
+
+[[noreturn]] void refuse(const std::string& map, const std::string& home, const Manifold& M) {
+  throw std::invalid_argument("the discretization \"" + map + "\" is for " + home +
+                              ", but the configurations are on " + M.name() +
+                              "; expected \"midpoint\"");
+}
+
+std::optional<DiscretizationChoice> exponential(ObjectReader&) {
+  return lifted("exponential", [](const ManifoldPointer& M) {
+    if (!M->is_geodesic()) refuse("exponential", "manifolds with the exponential retraction", *M);
+    return std::make_shared<Theta>(M, 0.5);
+  });
+}
+
+// A map that every sphere has.
+template <class Map>
+DiscretizationChoice on_spheres(const std::string& name) {
+  return lifted(name, [name](const ManifoldPointer& manifold) {
+    return on_factors(manifold, [&](const ManifoldPointer& M) -> MapPointer {
+      if (const auto sphere = std::dynamic_pointer_cast<const Sphere>(M))
+        return std::make_shared<Map>(sphere);
+      refuse(name, "spheres", *M);
+    });
+  });
+}
+
+std::optional<DiscretizationChoice> chordal(ObjectReader&) {
+  return on_spheres<Chordal>("chordal");
+}
+
+std::optional<DiscretizationChoice> spherical_midpoint(ObjectReader&) {
+  return on_spheres<SphericalMidpoint>("spherical-midpoint");
+}
+
+std::optional<DiscretizationChoice> cayley(ObjectReader&) {
+  return lifted("cayley", [](const ManifoldPointer& manifold) {
+    return on_factors(manifold, [](const ManifoldPointer& M) -> MapPointer {
+      if (const auto rotations = std::dynamic_pointer_cast<const SpecialOrthogonal3>(M))
+        return std::make_shared<CayleyMidpoint>(rotations);
+      if (const auto motions = std::dynamic_pointer_cast<const SpecialEuclidean3>(M))
+        return std::make_shared<CayleyMidpoint>(motions);
+      refuse("cayley", "so3 and se3", *M);
+    });
+  });
+}
+
+// A map of the surrounding manifold with its ends projected to a submanifold.
+std::optional<DiscretizationChoice> projected(ObjectReader& object) {
+  const auto map = discretization_kinds().read(object, "map", "midpoint");
+  if (!map) return std::nullopt;
+  return lifted("projected " + map->description,
+                [make = map->make](const ManifoldPointer& M) -> MapPointer {
+                  const auto submanifold = std::dynamic_pointer_cast<const ImplicitSubmanifold>(M);
+                  if (!submanifold) refuse("projected", "implicit submanifolds", *M);
+                  return std::make_shared<Projected>(submanifold, make(submanifold->surrounding()));
+                });
+}
+
+std::optional<ProjectorChoice> orthogonal(ObjectReader&) {
+  return ProjectorChoice{"orthogonal projector", [](const ManifoldPointer&) {
+                           return std::make_shared<OrthogonalProjector>();
+                         }};
+}
+
+std::optional<ProjectorChoice> momentum(ObjectReader&) {
+  return ProjectorChoice{"momentum projector",
+                         [](const ManifoldPointer& manifold) -> std::shared_ptr<const Projector> {
+                           const auto bundle =
+                               std::dynamic_pointer_cast<const CotangentBundle>(manifold);
+                           if (!bundle)
+                             throw std::invalid_argument(
+                                 "the momentum projector is for cotangent bundles, but the "
+                                 "system is on " +
+                                 manifold->name() + "; expected \"orthogonal\"");
+                           return std::make_shared<MomentumProjector>(bundle);
+                         }};
+}
+
+std::shared_ptr<const Integrator> explicit_method(const MethodSetting& at,
+                                                  ExplicitRungeKutta::Kind kind) {
+  return std::make_shared<ExplicitRungeKutta>(
+      std::make_shared<VectorField>(at.system, at.ladder, at.backend), kind);
+}
+
+// Where Method 1 starts: at the consistent point, or so that its first step leads to where RK2
+// leads.
+State start_of_method_1(const MethodSetting& at, const DiscretizationMap& map, bool rk2) {
+  if (!rk2) return at.initial;
+  const State next =
+      explicit_method(at, ExplicitRungeKutta::Kind::midpoint)->advance(at.initial, at.step);
+  const auto bundle = std::dynamic_pointer_cast<const CotangentBundle>(at.system->manifold());
+  if (!bundle)
+    throw std::invalid_argument(
+        "the start \"rk2\" is for cotangent bundles, but the system is on " +
+        at.system->manifold()->name() + "; expected \"on-manifold\"");
+  return matched_start(*at.system, map, at.initial, bundle->position(next.x), at.step);
+}
+
+std::optional<MethodChoice> discretize_first(ObjectReader& object) {
+  const auto map = discretization_kinds().read(object, "discretization", "midpoint");
+  const bool rk2 = object.word("start", "on-manifold", {"on-manifold", "rk2"}) == "rk2";
+  if (!map) return std::nullopt;
+  return MethodChoice{
+      "discretize-first, " + map->description + (rk2 ? ", started by rk2" : ""),
+      [map = *map, rk2](const MethodSetting& at) {
+        const auto on_manifold = map.make(at.system->manifold());
+        return PreparedMethod{
+            std::make_shared<DiscretizeFirst>(at.system, on_manifold,
+                                              DiscretizeFirst::Options{.backend = at.backend}),
+            start_of_method_1(at, *on_manifold, rk2), on_manifold};
+      }};
+}
+
+std::optional<MethodChoice> constrain_first(ObjectReader& object) {
+  const auto map = discretization_kinds().read(object, "discretization", "midpoint");
+  const auto projector = projector_kinds().read(object, "projector", "orthogonal");
+  if (!map || !projector) return std::nullopt;
+  return MethodChoice{"constrain-first, " + map->description + ", " + projector->description,
+                      [map = *map, projector = *projector](const MethodSetting& at) {
+                        const auto& manifold = at.system->manifold();
+                        const auto on_manifold = map.make(manifold);
+                        return PreparedMethod{
+                            std::make_shared<ConstrainFirst>(
+                                at.system, at.ladder, on_manifold, projector.make(manifold),
+                                ConstrainFirst::Options{.backend = at.backend}),
+                            at.initial, on_manifold};
+                      }};
+}
+
+template <ExplicitRungeKutta::Kind kind>
+std::optional<MethodChoice> explicit_runge_kutta(ObjectReader& object) {
+  return MethodChoice{object.optional("type")->text().value(), [](const MethodSetting& at) {
+                        return PreparedMethod{explicit_method(at, kind), at.initial};
+                      }};
+}
+
+}  // namespace
+
+const Registry<DiscretizationChoice>& discretization_kinds() {
+  static const Registry<DiscretizationChoice> kinds({
+      {{"midpoint", "R_d(x, v) = (R_x(-v/2), R_x(v/2)), symmetric, order 2"}, midpoint},
+      {{"exponential", "midpoint, where the retraction is the exponential map"}, exponential},
+      {{"chordal", "the symmetric map (2) of spheres, and of products of them"}, chordal},
+      {{"spherical-midpoint", "(x√(1-v²/4) - v/2, x√(1-v²/4) + v/2) on spheres, and products"},
+       spherical_midpoint},
+      {{"cayley", "midpoint of the Cayley transform on so3 and se3, and products"}, cayley},
+      {{"projected", "(P × P) R_d on an implicit submanifold, R_d a \"map\" of the surrounding"},
+       projected},
+      {{"theta", "R_d(x, v) = (R_x(-θv), R_x((1-θ)v)) with \"theta\" in [0, 1]"}, theta_map},
+  });
+  return kinds;
+}
+
+const Registry<ProjectorChoice>& projector_kinds() {
+  static const Registry<ProjectorChoice> kinds({
+      {{"orthogonal", "to the nearest point of M_f"}, orthogonal},
+      {{"momentum", "on T*Q: q stays, p moves as little as possible"}, momentum},
+  });
+  return kinds;
+}
+
+const Registry<MethodChoice>& method_kinds() {
+  static const Registry<MethodChoice> kinds({
+      {{"discretize-first", "Method 1: (1/h) R_d⁻¹(x₀, x₁) ∈ S₀"}, discretize_first},
+      {{"constrain-first", "Method 2: the constraint algorithm, then R_d projected to M_f"},
+       constrain_first},
+      {{"rk2", "explicit midpoint rule on S_f, order 2"},
+       explicit_runge_kutta<ExplicitRungeKutta::Kind::midpoint>},
+      {{"rk4", "classical Runge–Kutta method on S_f, order 4"},
+       explicit_runge_kutta<ExplicitRungeKutta::Kind::classical>},
+      {{"dopri5", "Dormand–Prince method on S_f at constant steps, order 5"},
+       explicit_runge_kutta<ExplicitRungeKutta::Kind::dormand_prince>},
+  });
+  return kinds;
+}
+
+}  // namespace courant

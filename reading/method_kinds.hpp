@@ -1,0 +1,60 @@
+// The methods that an experiment can ask for.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "courant/core/function.hpp"
+#include "courant/integrators/integrator.hpp"
+#include "courant/integrators/ladder/constraint_ladder.hpp"
+#include "courant/integrators/maps/discretization_map.hpp"
+#include "courant/integrators/projector.hpp"
+#include "courant/reading/registry.hpp"
+#include "courant/structures/implicit_system.hpp"
+
+namespace courant {
+
+// What a method is made for.
+struct MethodSetting {
+  std::shared_ptr<const ImplicitSystem> system;
+  const ConstraintLadder& ladder;  // of the system at the initial state
+  State initial;
+  double step = 0.0;
+  Backend backend = Backend::automatic;
+};
+
+// The method, the initial state moved to where it wants to start, and the discretization map, of
+// methods that have one.
+struct PreparedMethod {
+  std::shared_ptr<const Integrator> integrator;
+  State initial;
+  std::shared_ptr<const DiscretizationMap> map = {};
+};
+
+// The choice of a method, before there is a system to make it for.
+struct MethodChoice {
+  std::string description;  // "constrain-first, midpoint, momentum projector"
+  // Throws std::invalid_argument where the method does not fit the system.
+  std::function<PreparedMethod(const MethodSetting&)> prepare;
+};
+
+// The choice of a discretization map. `make` gives it on any manifold; on a cotangent bundle it is
+// the cotangent lift of that on the base.
+struct DiscretizationChoice {
+  std::string description;
+  std::function<std::shared_ptr<const DiscretizationMap>(std::shared_ptr<const Manifold>)> make;
+};
+
+// The choice of a projector; `make` throws std::invalid_argument where it does not fit the
+// manifold.
+struct ProjectorChoice {
+  std::string description;
+  std::function<std::shared_ptr<const Projector>(std::shared_ptr<const Manifold>)> make;
+};
+
+const Registry<MethodChoice>& method_kinds();
+const Registry<DiscretizationChoice>& discretization_kinds();
+const Registry<ProjectorChoice>& projector_kinds();
+
+}  // namespace courant

@@ -1,0 +1,37 @@
+// Model: the system of an experiment, with its names.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "courant/reading/vocabulary.hpp"
+#include "courant/structures/dirac_structure.hpp"
+#include "courant/structures/implicit_system.hpp"
+
+namespace courant {
+
+// S ⊂ TM, and what the words of the experiment's other formulas stand for.
+struct Model {
+  std::string description;  // one line, for summaries
+  std::shared_ptr<const ImplicitSystem> system;
+  Vocabulary vocabulary;
+  // Structures that belong to the system, with a word for each; the one that it uses comes first.
+  // Empty: that of a DiracSystem, or none is known.
+  std::vector<std::pair<std::string, std::shared_ptr<const DiracStructure>>> structures;
+  // What is wrong with a point of M as an initial one, where the kind of system knows better than
+  // the formulas (two vortices at one place); entries that are not known are NaN. May be empty.
+  std::function<std::optional<std::string>(const VectorXd& x)> point_problem;
+
+  // The table for formulas at (x, v, z, t): the velocity of x is dx/dt = E(x) v.
+  SymbolTable symbols(const ExprVector& x, const ExprVector& v, const ExprVector& z,
+                      const Expr& t) const {
+    return vocabulary.symbols(
+        {.x = x, .velocity = (system->manifold()->frame(x) * v).eval(), .z = z, .t = t});
+  }
+};
+
+}  // namespace courant

@@ -1,0 +1,305 @@
+#include "courant/reading/space.hpp"
+
+#include <random>
+#include <span>
+
+#include "courant/manifolds/cotangent_bundle.hpp"
+#include "courant/manifolds/euclidean.hpp"
+#include "courant/manifolds/hyperbolic.hpp"
+#include "courant/manifolds/implicit_submanifold.hpp"
+#include "courant/manifolds/product.hpp"
+#include "courant/manifolds/special_euclidean3.hpp"
+#include "courant/manifolds/special_orthogonal3.hpp"
+#include "courant/manifolds/sphere.hpp"
+#include "courant/manifolds/stiefel.hpp"
+#include "courant/manifolds/symmetric_positive_definite.hpp"
+#include "courant/manifolds/tangent_bundle.hpp"
+#include "courant/manifolds/torus.hpp"
+
+namespace courant {
+namespace {
+
+using ManifoldPointer = std::shared_ptr<const Manifold>;
+
+std::optional<ManifoldPointer> euclidean(ObjectReader&, const Vocabulary& vocabulary) {
+  return std::make_shared<Euclidean>(vocabulary.coordinates.size());
+}
+
+std::optional<ManifoldPointer> torus(ObjectReader&, const Vocabulary& vocabulary) {
+  return std::make_shared<Torus>(vocabulary.coordinates.size());
+}
+
+std::optional<ManifoldPointer> sphere(ObjectReader& object, const Vocabulary& vocabulary) {
+  const bool projective =
+      object.word("retraction", "exponential", {"exponential", "projective"}) == "projective";
+  return std::make_shared<Sphere>(vocabulary.coordinates.size() - 1,
+                                  projective ? Sphere::projective() : Sphere::exponential());
+}
+
+std::optional<ManifoldPointer> hyperbolic(ObjectReader&, const Vocabulary& vocabulary) {
+  return std::make_shared<Hyperbolic>(vocabulary.coordinates.size() - 1);
+}
+
+// SO(3) or SE(3), whose retractions have the same names.
+template <class Group>
+std::optional<ManifoldPointer> read_group(ObjectReader& object) {
+  const bool cayley =
+      object.word("retraction", "exponential", {"exponential", "cayley"}) == "cayley";
+  return std::make_shared<Group>(cayley ? Group::cayley() : Group::exponential());
+}
+
+std::optional<ManifoldPointer> rotations(ObjectReader& object, const Vocabulary&) {
+  return read_group<SpecialOrthogonal3>(object);
+}
+
+std::optional<ManifoldPointer> motions(ObjectReader& object, const Vocabulary&) {
+  return read_group<SpecialEuclidean3>(object);
+}
+
+std::optional<ManifoldPointer> stiefel(ObjectReader& object, const Vocabulary& vocabulary) {
+  const auto& declarations = vocabulary.coordinates.declarations();
+  if (declarations.size() == 1 && declarations[0].shape.size() == 2 &&
+      declarations[0].shape[0] >= declarations[0].shape[1])
+    return std::make_shared<Stiefel>(declarations[0].shape[0], declarations[0].shape[1]);
+  object.place().problem(
+      "the points of a Stiefel manifold are matrices with at least as many rows as columns; "
+      "expected coordinates such as \"X[4][2]\"");
+  return std::nullopt;
+}
+
+std::optional<ManifoldPointer> symmetric_positive_definite(ObjectReader& object,
+                                                           const Vocabulary& vocabulary) {
+  Index n = 1;
+  while (n * (n + 1) / 2 < vocabulary.coordinates.size()) ++n;
+  if (n * (n + 1) / 2 == vocabulary.coordinates.size())
+    return std::make_shared<SymmetricPositiveDefinite>(n);
+  object.place().problem("a lower triangle does not have " +
+                         std::to_string(vocabulary.coordinates.size()) +
+                         " entries; expected n(n+1)/2 coordinates, such as \"X[6]\"");
+  return std::nullopt;
+}
+
+// One factor for each declaration of the coordinates.
+std::optional<ManifoldPointer> product_of(ObjectReader& object, const Vocabulary& vocabulary) {
+  const auto key = object.required("factors");
+  const auto elements = key ? key->elements() : std::nullopt;
+  if (!elements) return std::nullopt;
+  const auto& declarations = vocabulary.coordinates.declarations();
+  if (elements->size() != declarations.size()) {
+    key->problem("are " + std::to_string(elements->size()) + "; expected one for each of the " +
+                 std::to_string(declarations.size()) + " names in \"coordinates\"");
+    return std::nullopt;
+  }
+  std::vector<ManifoldPointer> factors;
+  for (std::size_t i = 0; i < elements->size(); ++i) {
+    Vocabulary of_factor = vocabulary;
+    of_factor.coordinates = NameList();
+    of_factor.coordinates.append(declarations[i]);
+    const auto factor = manifold_kinds().read((*elements)[i], of_factor);
+    if (!factor) continue;
+    if ((*factor)->ambient_dimension() == declarations[i].size()) {
+      factors.push_back(*factor);
+    } else {
+      (*elements)[i].problem("is " + (*factor)->name() + " with points of " +
+                             std::to_string((*factor)->ambient_dimension()) + " numbers, but \"" +
+                             declarations[i].name + "\" has " +
+                             std::to_string(declarations[i].size()));
+    }
+  }
+  if (factors.size() != elements->size()) return std::nullopt;
+  return std::make_shared<Product>(std::move(factors));
+}
+
+// {equations = 0} in the manifold `surrounding`.
+std::optional<ManifoldPointer> implicit_submanifold(ObjectReader& object,
+                                                    const Vocabulary& vocabulary) {
+  const auto surrounding = manifold_kinds().read(object, "surrounding", "euclidean", vocabulary);
+  const auto key = object.required("equations");
+  const auto equations = key ? read_formula_vector(*key) : std::nullopt;
+  if (!surrounding || !equations) return std::nullopt;
+  const Index size = vocabulary.coordinates.size();
+  if ((*surrounding)->ambient_dimension() != size) {
+    object.place().problem("is in " + (*surrounding)->name() + " with points of " +
+                           std::to_string((*surrounding)->ambient_dimension()) +
+                           " numbers, but the coordinates are " + std::to_string(size));
+    return std::nullopt;
+  }
+  const auto count = static_cast<Index>(equations->formulas.size());
+  if (count == 0 || count >= (*surrounding)->dimension()) {
+    key->problem("are " + std::to_string(count) + "; expected 1 to " +
+                 std::to_string((*surrounding)->dimension() - 1) +
+                 ", fewer than the dimension of " + (*surrounding)->name());
+    return std::nullopt;
+  }
+  try {
+    Graph graph;
+    const SymbolTable symbols = vocabulary.symbols({.x = graph.variables("x", size)});
+    if (!check(*equations, symbols, key->findings())) return std::nullopt;
+  } catch (const FormulaError& error) {  // of a definition
+    key->problem(std::string("cannot be read: in a definition, ") + error.what());
+    return std::nullopt;
+  }
+  const auto submanifold = std::make_shared<ImplicitSubmanifold>(
+      "ImplicitSubmanifold(" + (*surrounding)->name() + ", " + std::to_string(count) + ")",
+      *surrounding,
+      [equations = *equations, vocabulary](const ExprVector& x) {
+        return evaluate(equations, vocabulary.symbols({.x = x}));
+      },
+      count);
+  try {
+    std::mt19937 generator(1);
+    const VectorXd x = submanifold->random_point(generator);
+    if (submanifold->tangent_basis(x).allFinite()) return submanifold;
+    key->problem(
+        "are not independent where they are zero; expected equations with independent "
+        "gradients");
+  } catch (const std::domain_error&) {
+    key->problem("have no zero that could be found in " + (*surrounding)->name() +
+                 "; expected equations that hold somewhere, with independent gradients there");
+  }
+  return std::nullopt;
+}
+
+// A bundle on a "base".
+template <class Bundle>
+std::optional<ManifoldPointer> bundle_on(ObjectReader& object, const Vocabulary& vocabulary) {
+  const auto base = manifold_kinds().read(object, "base", "euclidean", vocabulary);
+  if (!base) return std::nullopt;
+  return std::make_shared<Bundle>(*base);
+}
+
+}  // namespace
+
+const Registry<ManifoldPointer, Vocabulary>& manifold_kinds() {
+  static const Registry<ManifoldPointer, Vocabulary> kinds({
+      {{"euclidean", "Rⁿ, with as many dimensions as there are coordinates"}, euclidean},
+      {{"torus", "Tⁿ by n angles"}, torus},
+      {{"sphere", "Sⁿ by unit vectors of Rⁿ⁺¹; \"retraction\" exponential or projective"}, sphere},
+      {{"hyperbolic", "Hⁿ, the hyperboloid x₀² = 1 + x₁² + … in Rⁿ⁺¹, x₀ > 0"}, hyperbolic},
+      {{"so3", "rotations by 3×3 matrices; \"retraction\" exponential or cayley"}, rotations},
+      {{"se3", "rigid motions by a rotation matrix and a vector; \"retraction\" as so3"}, motions},
+      {{"stiefel", "orthonormal k-frames of Rⁿ by n×k matrices"}, stiefel},
+      {{"symmetric-positive-definite", "such n×n matrices by their lower triangle, row after row"},
+       symmetric_positive_definite},
+      {{"product", "the product of \"factors\", one for each name in \"coordinates\""}, product_of},
+      {{"implicit-submanifold",
+        "where \"equations\" of the coordinates are zero in \"surrounding\""},
+       implicit_submanifold},
+      {{"tangent-bundle", "TQ of a \"base\" Q; the velocity over x is v_x"},
+       bundle_on<TangentBundle>},
+      {{"cotangent-bundle", "T*Q of a \"base\" Q; the momentum of x is p_x"},
+       bundle_on<CotangentBundle>},
+  });
+  return kinds;
+}
+
+namespace {
+
+// The shapes of the fibre coordinates over `declarations`, which together are the coordinates of Q:
+// those of the coordinates where vectors are in R^N; for each factor of a product its own; else one
+// array of Ñ, on SE(3) also 3 and 3 for a rotation and a translation that are named apart. Nothing
+// where the coordinates are named in another way.
+std::optional<std::vector<Shape>> fibre_shapes(const Manifold& Q,
+                                               std::span<const Declaration> declarations) {
+  std::vector<Shape> shapes;
+  if (Q.tangent_dimension() == Q.ambient_dimension()) {
+    for (const Declaration& declaration : declarations) shapes.push_back(declaration.shape);
+    return shapes;
+  }
+  if (const auto* submanifold = dynamic_cast<const ImplicitSubmanifold*>(&Q))
+    return fibre_shapes(*submanifold->surrounding(), declarations);
+  if (const auto* bundle = dynamic_cast<const VectorBundle*>(&Q)) {
+    // Over the base and over the fibres the same.
+    const auto of_base = fibre_shapes(*bundle->base(), declarations.first(declarations.size() / 2));
+    if (!of_base) return std::nullopt;
+    shapes = *of_base;
+    shapes.insert(shapes.end(), of_base->begin(), of_base->end());
+    return shapes;
+  }
+  if (const auto* factors = dynamic_cast<const Product*>(&Q)) {
+    if (factors->factors().size() != declarations.size()) return std::nullopt;
+    for (std::size_t i = 0; i < declarations.size(); ++i) {
+      const auto of_factor = fibre_shapes(*factors->factors()[i], declarations.subspan(i, 1));
+      if (!of_factor) return std::nullopt;
+      shapes.push_back(of_factor->front());
+    }
+    return shapes;
+  }
+  if (declarations.size() == 1) return std::vector<Shape>{{Q.tangent_dimension()}};
+  const bool motion = dynamic_cast<const SpecialEuclidean3*>(&Q) && declarations.size() == 2 &&
+                      declarations[0].size() == 9 && declarations[1].size() == 3;
+  if (motion) return std::vector<Shape>{{3}, {3}};
+  return std::nullopt;
+}
+
+// Adds the names of the fibres over Q to those of Q.
+bool name_fibres(const VectorBundle& bundle, NameList& names, SymbolTable& taken,
+                 const JsonReader& coordinates) {
+  const bool velocities = dynamic_cast<const TangentBundle*>(&bundle) != nullptr;
+  const std::vector<Declaration> base = names.declarations();
+  const auto shapes = fibre_shapes(*bundle.base(), base);
+  if (!shapes) {
+    coordinates.problem(std::string("do not say what the ") +
+                        (velocities ? "velocities" : "momenta") + " on " + bundle.base()->name() +
+                        " are called; expected one array for each factor, such as \"R[3][3]\"");
+    return false;
+  }
+  for (std::size_t i = 0; i < shapes->size(); ++i) {
+    Declaration fibre{(velocities ? "v_" : "p_") + base[i].name, (*shapes)[i]};
+    if (taken.find(fibre.name)) {
+      coordinates.problem(std::string("the ") + (velocities ? "velocity" : "momentum") +
+                          (velocities ? " over \"" : " of \"") + base[i].name + "\" is \"" +
+                          fibre.name + "\", which has a meaning already");
+      return false;
+    }
+    taken.add(fibre.name, fibre.shape, ExprVector::Ones(fibre.size()));
+    names.append(std::move(fibre));
+  }
+  return true;
+}
+
+// The names of all coordinates of M: `names`, and on a bundle those of its fibres.
+bool name_all(const Manifold& M, NameList& names, SymbolTable& taken,
+              const JsonReader& coordinates) {
+  const auto* bundle = dynamic_cast<const VectorBundle*>(&M);
+  return !bundle || (name_all(*bundle->base(), names, taken, coordinates) &&
+                     name_fibres(*bundle, names, taken, coordinates));
+}
+
+}  // namespace
+
+std::optional<Space> cotangent_bundle(const Space& base, SymbolTable& taken,
+                                      const JsonReader& coordinates) {
+  const auto bundle = std::make_shared<CotangentBundle>(base.manifold);
+  Space space{bundle, base.coordinates};
+  if (!name_fibres(*bundle, space.coordinates, taken, coordinates)) return std::nullopt;
+  return space;
+}
+
+std::optional<Space> read_space(ObjectReader& system, const Json& otherwise,
+                                const Vocabulary& vocabulary, SymbolTable& taken) {
+  const auto coordinates = system.required("coordinates");
+  NameList names;
+  if (!coordinates || !read_names(*coordinates, taken, names)) {
+    system.optional("manifold");  // cannot be looked into without coordinates
+    return std::nullopt;
+  }
+  if (names.size() == 0) {
+    coordinates->expected("at least one name");
+    system.optional("manifold");
+    return std::nullopt;
+  }
+  Vocabulary at_point = vocabulary;
+  at_point.coordinates = names;
+  const auto manifold = manifold_kinds().read(system, "manifold", otherwise, at_point);
+  if (!manifold || !name_all(**manifold, names, taken, *coordinates)) return std::nullopt;
+  if (names.size() != (*manifold)->ambient_dimension()) {
+    coordinates->problem("name " + std::to_string(names.size()) + " numbers; expected " +
+                         std::to_string((*manifold)->ambient_dimension()) +
+                         ", those of a point of " + (*manifold)->name());
+    return std::nullopt;
+  }
+  return Space{*manifold, names};
+}
+
+}  // namespace courant

@@ -1,0 +1,413 @@
+#include "courant/reading/structure_kinds.hpp"
+
+#include "courant/manifolds/euclidean.hpp"
+#include "courant/structures/canonical_symplectic.hpp"
+#include "courant/structures/composed.hpp"
+#include "courant/structures/distribution.hpp"
+#include "courant/structures/gauge_transformed.hpp"
+#include "courant/structures/lie_poisson.hpp"
+#include "courant/structures/poisson.hpp"
+#include "courant/structures/presymplectic.hpp"
+#include "courant/structures/product_structure.hpp"
+#include "courant/structures/pullback.hpp"
+#include "courant/structures/pushforward.hpp"
+#include "courant/structures/restricted_bivector.hpp"
+#include "courant/structures/restricted_two_form.hpp"
+
+namespace courant {
+namespace {
+
+using StructurePointer = std::shared_ptr<const DiracStructure>;
+
+std::optional<StructurePointer> canonical(ObjectReader& object, const StructureSite& site) {
+  const auto bundle = std::dynamic_pointer_cast<const CotangentBundle>(site.manifold);
+  if (!bundle) {
+    object.place().problem("the canonical structure is on " + site.manifold->name() +
+                           "; expected a cotangent bundle as manifold");
+    return std::nullopt;
+  }
+  return std::make_shared<CanonicalSymplectic>(bundle);
+}
+
+// A skew matrix of formulas.
+std::optional<MatrixField> read_skew_matrix(const JsonReader& value, const StructureSite& site) {
+  const Index n = site.manifold->tangent_dimension();
+  const auto field = read_matrix_field(value, site, n, n);
+  if (!field || !is_skew(*site.manifold, *field, value)) return std::nullopt;
+  return field;
+}
+
+// The key `matrix`, such a matrix.
+std::optional<MatrixField> skew_matrix(ObjectReader& object, const StructureSite& site) {
+  const auto key = object.required("matrix");
+  return key ? read_skew_matrix(*key, site) : std::nullopt;
+}
+
+std::optional<StructurePointer> bivector(ObjectReader& object, const StructureSite& site) {
+  const auto lambda = skew_matrix(object, site);
+  if (!lambda) return std::nullopt;
+  return std::make_shared<Poisson>(site.manifold, *lambda);
+}
+
+std::optional<StructurePointer> two_form(ObjectReader& object, const StructureSite& site) {
+  const auto omega = skew_matrix(object, site);
+  if (!omega) return std::nullopt;
+  return std::make_shared<Presymplectic>(site.manifold, *omega);
+}
+
+std::optional<StructurePointer> distribution(ObjectReader& object, const StructureSite& site) {
+  const auto forms = object.optional("forms"), fields = object.optional("fields");
+  if (!forms == !fields) {
+    object.place().problem(
+        "a distribution has either \"forms\" that vanish on it or \"fields\" that span it; "
+        "expected one of the two");
+    return std::nullopt;
+  }
+  const auto rows = read_row_field(forms ? *forms : *fields, site);
+  if (!rows) return std::nullopt;
+  if (forms)
+    return std::make_shared<Distribution>(
+        Distribution::annihilated_by(site.manifold, rows->count, rows->field));
+  return std::make_shared<Distribution>(
+      Distribution::spanned_by(site.manifold, rows->count, rows->field));
+}
+
+std::optional<StructurePointer> restricted_two_form(ObjectReader& object,
+                                                    const StructureSite& site) {
+  const auto omega = skew_matrix(object, site);
+  const auto key = object.required("forms");
+  const auto forms = key ? read_row_field(*key, site) : std::nullopt;
+  if (!omega || !forms) return std::nullopt;
+  return std::make_shared<RestrictedTwoForm>(site.manifold, *omega, forms->count, forms->field);
+}
+
+std::optional<StructurePointer> restricted_bivector(ObjectReader& object,
+                                                    const StructureSite& site) {
+  const auto lambda = skew_matrix(object, site);
+  const auto key = object.required("fields");
+  const auto fields = key ? read_row_field(*key, site) : std::nullopt;
+  if (!lambda || !fields) return std::nullopt;
+  return std::make_shared<RestrictedBivector>(site.manifold, *lambda, fields->count, fields->field);
+}
+
+// An array of square matrices of numbers, by rows.
+std::optional<std::vector<MatrixXd>> matrices(const JsonReader& value) {
+  const auto elements = value.elements();
+  if (!elements) return std::nullopt;
+  std::vector<MatrixXd> result;
+  for (const JsonReader& element : *elements) {
+    const auto rows = element.elements();
+    if (!rows) return std::nullopt;
+    const auto n = static_cast<Index>(rows->size());
+    MatrixXd A(n, n);
+    for (Index i = 0; i < n; ++i) {
+      const auto entries = (*rows)[static_cast<std::size_t>(i)].elements();
+      if (!entries) return std::nullopt;
+      if (static_cast<Index>(entries->size()) != n) {
+        element.expected("a square matrix of numbers");
+        return std::nullopt;
+      }
+      for (Index j = 0; j < n; ++j) {
+        const auto entry = (*entries)[static_cast<std::size_t>(j)].number();
+        if (!entry) return std::nullopt;
+        A(i, j) = *entry;
+      }
+    }
+    result.push_back(std::move(A));
+  }
+  return result;
+}
+
+std::optional<LieAlgebra> read_algebra(ObjectReader& object) {
+  const auto algebra = object.optional("algebra"), constants_key = object.optional("constants");
+  const auto n_key = object.optional("n"), representation = object.optional("representation");
+  if (!algebra == !constants_key) {
+    object.place().problem(
+        "a Lie algebra is one of \"algebra\" or has structure \"constants\"; expected one of the "
+        "two");
+    return std::nullopt;
+  }
+  const JsonReader& place = algebra ? *algebra : *constants_key;
+  try {
+    std::optional<LieAlgebra> g;
+    if (algebra) {
+      const auto word = algebra->word({"so3", "se3", "so", "abelian"});
+      if (!word) return std::nullopt;
+      const bool sized = *word == "so" || *word == "abelian";
+      if (sized != n_key.has_value()) {
+        place.problem(sized ? "needs its size; expected \"n\" beside it"
+                            : "has a size of its own; expected no \"n\" beside it");
+        return std::nullopt;
+      }
+      const auto n = sized ? n_key->integer(0) : std::optional<Index>(0);
+      if (!n) return std::nullopt;
+      g = *word == "so3"   ? LieAlgebra::so3()
+          : *word == "se3" ? LieAlgebra::se3()
+          : *word == "so"  ? LieAlgebra::so(*n)
+                           : LieAlgebra::abelian(*n);
+    } else {
+      const auto constants = matrices(*constants_key);
+      if (!constants) return std::nullopt;
+      g = LieAlgebra("g", *constants);
+    }
+    if (!representation) return g;
+    const auto rho = matrices(*representation);
+    if (!rho) return std::nullopt;
+    return LieAlgebra::semidirect(*g, *rho);
+  } catch (const std::exception& error) {
+    (representation ? *representation : place).problem(error.what());
+    return std::nullopt;
+  }
+}
+
+std::optional<StructurePointer> lie_poisson(ObjectReader& object, const StructureSite& site) {
+  const bool plus = object.word("sign", "minus", {"minus", "plus"}) == "plus";
+  const auto algebra = read_algebra(object);
+  if (!algebra) return std::nullopt;
+  try {
+    return std::make_shared<LiePoisson>(*algebra, site.manifold,
+                                        plus ? LiePoisson::Sign::plus : LiePoisson::Sign::minus);
+  } catch (const std::invalid_argument& error) {
+    object.place().problem(error.what());
+    return std::nullopt;
+  }
+}
+
+// T*Rⁿ for the canonical structure, Rⁿ for the others.
+Json default_manifold(const std::optional<JsonReader>& structure) {
+  const bool canonical =
+      !structure || structure->value() == "canonical" ||
+      (structure->value().is_object() && structure->value().value("type", Json()) == "canonical");
+  return canonical ? Json{{"type", "cotangent-bundle"}} : Json{{"type", "euclidean"}};
+}
+
+// Whether the manifold of a structure is made of those of its parts.
+bool has_parts(const Json& structure) {
+  if (!structure.is_object()) return false;
+  const Json type = structure.value("type", Json());
+  if (type == "gauge") return structure.contains("structure") && has_parts(structure["structure"]);
+  return type == "product" || type == "composed";
+}
+
+std::optional<StructurePointer> gauge_transformed(ObjectReader& object, const StructureSite& site) {
+  const auto matrix_key = object.required("matrix"), key = object.required("structure");
+  const auto structure = key ? structure_kinds().read(*key, site) : std::nullopt;
+  StructureSite own = site;
+  if (structure)
+    own.manifold = (*structure)->manifold();
+  else if (key && has_parts(key->value()))
+    return std::nullopt;  // the size of the matrix is not known
+  const auto form = matrix_key ? read_skew_matrix(*matrix_key, own) : std::nullopt;
+  if (!form || !structure) return std::nullopt;
+  return std::make_shared<GaugeTransformed>(*structure, *form);
+}
+
+// Names that coordinates inside a structure may not have.
+SymbolTable taken_names(const Vocabulary& vocabulary, bool with_coordinates) {
+  Vocabulary::Arguments arguments{.t = Expr(0.0)};
+  if (with_coordinates) arguments.x = ExprVector::Ones(vocabulary.coordinates.size());
+  SymbolTable taken = vocabulary.symbols(arguments);
+  for (const Definition& definition : vocabulary.definitions)
+    if (!taken.find(definition.name)) {
+      const auto size = static_cast<Index>(definition.formulas.formulas.size());
+      taken.add(definition.name, definition.formulas.shape, ExprVector::Ones(size));
+    }
+  return taken;
+}
+
+// The keys `coordinates`, `manifold` and `structure`: a space with names of its own, and a
+// structure on it, or on its product with R^ports.
+struct Part {
+  Space space;
+  StructurePointer structure;
+};
+std::optional<Part> read_part(ObjectReader& object, const Vocabulary& outer, SymbolTable& taken,
+                              Index ports = 0) {
+  const auto key = object.required("structure");
+  auto space = read_structure_space(object, outer, taken);
+  if (!key || !space) return std::nullopt;
+  StructureSite site{space->manifold, outer};
+  site.vocabulary.coordinates = space->coordinates;
+  if (ports > 0)
+    site.manifold = std::make_shared<Product>(std::vector<std::shared_ptr<const Manifold>>{
+        space->manifold, std::make_shared<Euclidean>(ports)});
+  const auto structure = structure_kinds().read(*key, site);
+  if (!structure) return std::nullopt;
+  if (ports == 0) space->manifold = (*structure)->manifold();
+  return Part{*space, *structure};
+}
+
+std::string spelled(const NameList& names) {
+  std::string text;
+  for (const std::string& name : names.element_names()) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+// The parts in an array, whose coordinates together must be those of the site, in order.
+std::optional<std::vector<Part>> read_parts(const JsonReader& value, const StructureSite& site,
+                                            Index ports) {
+  const auto elements = value.elements();
+  if (!elements) return std::nullopt;
+  SymbolTable taken = taken_names(site.vocabulary, false);
+  std::vector<Part> parts;
+  NameList names;
+  for (const JsonReader& element : *elements) {
+    ObjectReader object(element);
+    if (auto part = read_part(object, site.vocabulary, taken, ports)) {
+      for (const Declaration& declaration : part->space.coordinates.declarations())
+        names.append(declaration);
+      parts.push_back(std::move(*part));
+    }
+  }
+  if (parts.size() != elements->size()) return std::nullopt;
+  const NameList& expected = site.vocabulary.coordinates;
+  if (names.element_names() != expected.element_names()) {
+    value.problem("have the coordinates " + spelled(names) + "; expected " + spelled(expected) +
+                  ", those of the whole, in that order");
+    return std::nullopt;
+  }
+  return parts;
+}
+
+std::optional<StructurePointer> product_of_parts(ObjectReader& object, const StructureSite& site) {
+  const auto key = object.required("factors");
+  const auto factors = key ? read_parts(*key, site, 0) : std::nullopt;
+  if (!factors) return std::nullopt;
+  std::vector<StructurePointer> structures;
+  for (const Part& factor : *factors) structures.push_back(factor.structure);
+  return std::make_shared<ProductStructure>(std::move(structures));
+}
+
+std::optional<StructurePointer> composed_parts(ObjectReader& object, const StructureSite& site) {
+  const Index ports = object.integer("ports", 1, 1);
+  const auto key = object.required("parts");
+  const auto parts = key ? read_parts(*key, site, ports) : std::nullopt;
+  if (!parts) return std::nullopt;
+  if (parts->size() != 2) {
+    key->problem("are " + std::to_string(parts->size()) + "; expected 2");
+    return std::nullopt;
+  }
+  const Part &A = (*parts)[0], &B = (*parts)[1];
+  try {
+    return std::make_shared<Composed>(A.structure, A.space.manifold, B.structure, B.space.manifold,
+                                      ports);
+  } catch (const std::invalid_argument& error) {
+    key->problem(error.what());
+    return std::nullopt;
+  }
+}
+
+// Formulas of the point of a site for the coordinates of a point of `target`, which must be one.
+std::optional<SmoothMap> read_map(const JsonReader& value, const StructureSite& site,
+                                  const std::shared_ptr<const Manifold>& target) {
+  const auto formulas = read_formula_vector(value);
+  if (!formulas) return std::nullopt;
+  const Index size = formulas->shape[0], expected = target->ambient_dimension();
+  if (size != expected) {
+    value.problem("has " + std::to_string(size) + " formulas; expected " +
+                  std::to_string(expected) + ", one for each coordinate of " + target->name());
+    return std::nullopt;
+  }
+  if (!check_at_point(*formulas, site, value)) return std::nullopt;
+  const SmoothMap map(site.manifold, target,
+                      [formulas = *formulas, vocabulary = site.vocabulary](const ExprVector& x) {
+                        return evaluate(formulas, vocabulary.symbols({.x = x}));
+                      });
+  const MatrixField column = [&map](const ExprVector& x) { return ExprMatrix(map(x)); };
+  for (const MatrixXd& y : sampled(*site.manifold, column)) {
+    const double defect = target->point_defect(y.col(0));
+    if (defect > 1e-9 * (1 + y.norm())) {
+      value.problem("leads away from " + target->name() + ", at a random point by " +
+                    std::to_string(defect) + "; expected a point of it");
+      return std::nullopt;
+    }
+  }
+  return map;
+}
+
+std::optional<StructurePointer> pulled_back(ObjectReader& object, const StructureSite& site) {
+  const auto map_key = object.required("map");
+  SymbolTable taken = taken_names(site.vocabulary, true);
+  const auto target = read_part(object, site.vocabulary, taken);
+  if (!map_key || !target) return std::nullopt;
+  const auto map = read_map(*map_key, site, target->space.manifold);
+  if (!map) return std::nullopt;
+  return std::make_shared<Pullback>(*map, target->structure);
+}
+
+std::optional<StructurePointer> pushed_forward(ObjectReader& object, const StructureSite& site) {
+  const auto map_key = object.required("map"), section_key = object.required("section");
+  SymbolTable taken = taken_names(site.vocabulary, true);
+  const auto source = read_part(object, site.vocabulary, taken);
+  if (!map_key || !section_key || !source) return std::nullopt;
+  StructureSite inner{source->space.manifold, site.vocabulary};
+  inner.vocabulary.coordinates = source->space.coordinates;
+  const auto map = read_map(*map_key, inner, site.manifold);
+  const auto section = read_map(*section_key, site, inner.manifold);
+  if (!map || !section) return std::nullopt;
+  const MatrixField there_and_back = [&](const ExprVector& y) {
+    return ExprMatrix((*map)((*section)(y)) - y);
+  };
+  for (const MatrixXd& difference : sampled(*site.manifold, there_and_back))
+    if (difference.norm() > 1e-9) {
+      section_key->problem(
+          "is no section: the map leads from it to another point, at a random one " +
+          std::to_string(difference.norm()) + " away; expected map(section(y)) = y");
+      return std::nullopt;
+    }
+  return std::make_shared<Pushforward>(*map, *section, source->structure);
+}
+
+}  // namespace
+
+std::optional<Space> read_structure_space(ObjectReader& object, const Vocabulary& vocabulary,
+                                          SymbolTable& taken) {
+  const auto structure = object.optional("structure");
+  if (!structure || !has_parts(structure->value()))
+    return read_space(object, default_manifold(structure), vocabulary, taken);
+  const auto coordinates = object.required("coordinates");
+  if (const auto manifold = object.optional("manifold"))
+    manifold->problem("is made of those of the structure's parts; expected no \"manifold\" here");
+  NameList names;
+  if (!coordinates || !read_names(*coordinates, taken, names)) return std::nullopt;
+  if (names.size() == 0) {
+    coordinates->expected("at least one name");
+    return std::nullopt;
+  }
+  return Space{std::make_shared<Euclidean>(names.size()), names};
+}
+
+const Registry<StructurePointer, StructureSite>& structure_kinds() {
+  static const Registry<StructurePointer, StructureSite> kinds({
+      {{"canonical", "the graph of ω = dq ∧ dp on a cotangent bundle"}, canonical},
+      {{"two-form", "the graph of a two-form given by its \"matrix\" ω of formulas: α = ω(x)ᵀ v"},
+       two_form},
+      {{"bivector", "the graph of a bivector given by its \"matrix\" Λ of formulas: v = Λ(x) α"},
+       bivector},
+      {{"distribution", "F ⊕ F°, F by \"forms\" that vanish on it or \"fields\" that span it"},
+       distribution},
+      {{"restricted-two-form", "a two-form \"matrix\" on the distribution where \"forms\" vanish"},
+       restricted_two_form},
+      {{"restricted-bivector", "a bivector \"matrix\" on the covectors that vanish on \"fields\""},
+       restricted_bivector},
+      {{"lie-poisson",
+        "the dual of a Lie \"algebra\" so3, se3, so or abelian of \"n\", or of "
+        "structure \"constants\""},
+       lie_poisson},
+      {{"gauge", "a \"structure\" transformed by a two-form \"matrix\" B: (v, α + B♭v)"},
+       gauge_transformed},
+      {{"product", "the product of \"factors\", each a structure on coordinates of its own"},
+       product_of_parts},
+      {{"composed", "two \"parts\" with \"ports\" joined: common efforts, opposite flows"},
+       composed_parts},
+      {{"pullback", "a \"structure\" on other \"coordinates\", pulled back by a \"map\" to them"},
+       pulled_back},
+      {{"pushforward",
+        "a \"structure\" on other \"coordinates\", pushed forward by a \"map\" with a "
+        "\"section\""},
+       pushed_forward},
+  });
+  return kinds;
+}
+
+}  // namespace courant

@@ -1,0 +1,194 @@
+#include "courant/reading/vocabulary.hpp"
+
+#include <algorithm>
+
+#include "courant/core/spelling.hpp"
+
+namespace courant {
+namespace {
+
+std::string in_quotes(const std::string& name) { return "\"" + name + "\""; }
+
+// The key of a parameter or definition as a new name; nothing, and a problem, if it cannot be one.
+bool is_new_name(const std::string& name, const std::string& pointer, const SymbolTable& taken,
+                 Findings& findings) {
+  try {
+    if (!parse_declaration(name, taken).shape.empty())
+      throw FormulaError(
+          1, in_quotes(name) + " has a size; expected a name, the size is that of the value");
+    return true;
+  } catch (const FormulaError& error) {
+    findings.problem(pointer, std::string("key, ") + error.what());
+    return false;
+  }
+}
+
+bool is_available(const Definition& definition, const SymbolTable& symbols) {
+  for (const WrittenFormula& formula : definition.formulas.formulas)
+    for (const std::string& name : names_used(formula.text)) {
+      const bool known = name.back() == '\''
+                             ? symbols.find_velocity({name.data(), name.size() - 1}) != nullptr
+                             : symbols.find(name) != nullptr;
+      if (!known) return false;
+    }
+  return true;
+}
+
+std::vector<std::pair<std::string, Symbol>> read_parameters(
+    ObjectReader& system, const std::vector<std::string>& reserved) {
+  std::vector<std::pair<std::string, Symbol>> parameters;
+  const auto object = system.optional("parameters");
+  const auto entries = object ? object->entries() : std::nullopt;
+  if (!entries) return parameters;
+  SymbolTable known;  // names that are taken
+  known.add("t", 0.0);
+  for (const std::string& name : reserved) known.add(name, 0.0);
+  for (const auto& [name, value] : *entries) {
+    if (!is_new_name(name, value.pointer(), known, value.findings())) continue;
+    Symbol symbol{{}, ExprVector::Ones(1)};
+    if (const auto formulas = read_formulas(value)) {
+      SymbolTable earlier;
+      for (const auto& [earlier_name, earlier_symbol] : parameters)
+        earlier.add(earlier_name, earlier_symbol.shape, earlier_symbol.values);
+      if (const auto values = evaluate_constants(*formulas, earlier, value.findings()))
+        symbol = {formulas->shape, constants(*values)};
+    }
+    known.add(name, symbol.shape, symbol.values);
+    parameters.emplace_back(name, std::move(symbol));
+  }
+  return parameters;
+}
+
+std::vector<Definition> read_definitions(ObjectReader& system) {
+  std::vector<Definition> definitions;
+  const auto object = system.optional("definitions");
+  const auto entries = object ? object->entries() : std::nullopt;
+  if (!entries) return definitions;
+  for (const auto& [name, value] : *entries)
+    if (auto formulas = read_formulas(value))
+      definitions.push_back({name, value.pointer(), std::move(*formulas)});
+  return definitions;
+}
+
+}  // namespace
+
+void NameList::append(Declaration declaration) {
+  size_ += declaration.size();
+  declarations_.push_back(std::move(declaration));
+}
+
+std::vector<std::string> NameList::element_names() const {
+  std::vector<std::string> names;
+  for (const Declaration& declaration : declarations_)
+    for (std::string& name : declaration.element_names()) names.push_back(std::move(name));
+  return names;
+}
+
+std::pair<Index, Index> NameList::find(const Reference& reference) const {
+  Index first = 0;
+  std::vector<std::string> known;
+  for (const Declaration& declaration : declarations_) {
+    if (declaration.name == reference.name) {
+      const Shape& shape = declaration.shape;
+      if (reference.indices.size() > shape.size())
+        throw FormulaError(1, in_quotes(reference.name) + " takes " + std::to_string(shape.size()) +
+                                  " indices, found " + std::to_string(reference.indices.size()));
+      Index count = declaration.size();
+      for (std::size_t axis = 0; axis < reference.indices.size(); ++axis) {
+        const Index index = reference.indices[axis];
+        if (index >= shape[axis])
+          throw FormulaError(1, "index of " + reference.name + " is " + std::to_string(index) +
+                                    "; expected at most " + std::to_string(shape[axis] - 1));
+        count /= shape[axis];
+        first += index * count;
+      }
+      return {first, count};
+    }
+    first += declaration.size();
+    known.push_back(declaration.name);
+  }
+  throw FormulaError(
+      1, "unknown name " + in_quotes(reference.name) + did_you_mean(reference.name, known));
+}
+
+void NameList::add_to(SymbolTable& symbols, const ExprVector& values) const {
+  Index first = 0;
+  for (const Declaration& declaration : declarations_) {
+    symbols.add(declaration.name, declaration.shape, values.segment(first, declaration.size()));
+    first += declaration.size();
+  }
+}
+
+void NameList::add_velocities_to(SymbolTable& symbols, const ExprVector& values) const {
+  Index first = 0;
+  for (const Declaration& declaration : declarations_) {
+    symbols.add_velocity(declaration.name, declaration.shape,
+                         values.segment(first, declaration.size()));
+    first += declaration.size();
+  }
+}
+
+SymbolTable Vocabulary::symbols(const Arguments& arguments) const {
+  SymbolTable symbols;
+  for (const auto& [name, symbol] : parameters) symbols.add(name, symbol.shape, symbol.values);
+  if (arguments.t) symbols.add("t", *arguments.t);
+  if (arguments.x) coordinates.add_to(symbols, *arguments.x);
+  if (arguments.velocity) coordinates.add_velocities_to(symbols, *arguments.velocity);
+  if (arguments.z) unknowns.add_to(symbols, *arguments.z);
+  for (const Definition& definition : definitions)
+    if (is_available(definition, symbols))
+      symbols.add(definition.name, definition.formulas.shape,
+                  evaluate(definition.formulas, symbols));
+  return symbols;
+}
+
+bool read_names(const JsonReader& value, SymbolTable& taken, NameList& names) {
+  const auto elements = value.elements();
+  if (!elements) return false;
+  bool right = true;
+  for (const JsonReader& element : *elements) {
+    const auto text = element.text();
+    if (!text) {
+      right = false;
+      continue;
+    }
+    try {
+      Declaration declaration = parse_declaration(*text, taken);
+      taken.add(declaration.name, declaration.shape,
+                ExprVector::Constant(declaration.size(), Expr(1.0)));
+      names.append(std::move(declaration));
+    } catch (const FormulaError& error) {
+      element.problem(error.what());
+      right = false;
+    }
+  }
+  return right;
+}
+
+Vocabulary read_vocabulary(ObjectReader& system, const std::vector<std::string>& reserved) {
+  Vocabulary vocabulary;
+  vocabulary.parameters = read_parameters(system, reserved);
+  vocabulary.definitions = read_definitions(system);
+  return vocabulary;
+}
+
+void check_definitions(Vocabulary& vocabulary, Findings& findings) {
+  std::vector<Definition> checked;
+  std::swap(checked, vocabulary.definitions);
+  Graph graph;
+  const Index N = vocabulary.coordinates.size();
+  SymbolTable symbols = vocabulary.symbols({.x = graph.variables("x", N),
+                                            .velocity = graph.variables("v", N),
+                                            .z = graph.variables("z", vocabulary.unknowns.size()),
+                                            .t = graph.variable("t")});
+  for (Definition& definition : checked) {
+    if (!is_new_name(definition.name, definition.pointer, symbols, findings)) continue;
+    WrittenFormulas& formulas = definition.formulas;
+    if (!check(formulas, symbols, findings))
+      for (WrittenFormula& formula : formulas.formulas) formula.text = "1";
+    symbols.add(definition.name, formulas.shape, evaluate(formulas, symbols));
+    vocabulary.definitions.push_back(std::move(definition));
+  }
+}
+
+}  // namespace courant

@@ -1,0 +1,74 @@
+// The words of an experiment's formulas.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "courant/core/declaration.hpp"
+#include "courant/reading/written_formula.hpp"
+
+namespace courant {
+
+// Names for the entries of a vector: declarations side by side, "x", "r[3]" for a vector of 4.
+class NameList {
+ public:
+  void append(Declaration declaration);
+
+  const std::vector<Declaration>& declarations() const { return declarations_; }
+  Index size() const { return size_; }
+  std::vector<std::string> element_names() const;
+  // The entries that a reference such as r[2] (one) or r (all three) stands for: first and count.
+  // Throws FormulaError if there are none, with the name that may have been meant.
+  std::pair<Index, Index> find(const Reference& reference) const;
+
+  // Adds the names with these values to a table, as velocities or as themselves.
+  void add_to(SymbolTable& symbols, const ExprVector& values) const;
+  void add_velocities_to(SymbolTable& symbols, const ExprVector& values) const;
+
+ private:
+  std::vector<Declaration> declarations_;
+  Index size_ = 0;
+};
+
+struct Definition {
+  std::string name;
+  std::string pointer;
+  WrittenFormulas formulas;
+};
+
+// What the names in the formulas of a system stand for: coordinates x ∈ R^N and their velocities,
+// auxiliary unknowns z, the time t, constant parameters, and definitions made of all of them.
+struct Vocabulary {
+  NameList coordinates;
+  NameList unknowns;
+  std::vector<std::pair<std::string, Symbol>> parameters;
+  std::vector<Definition> definitions;  // later ones may use earlier ones
+
+  // What a formula may depend on; the others are no names in it.
+  struct Arguments {
+    std::optional<ExprVector> x = {};         // N
+    std::optional<ExprVector> velocity = {};  // dx/dt, N
+    std::optional<ExprVector> z = {};
+    std::optional<Expr> t = {};
+  };
+  // The table for a formula: parameters, arguments, and the definitions that need nothing else.
+  // Throws FormulaError if a definition is wrong, std::invalid_argument if a name repeats or a size
+  // is wrong.
+  SymbolTable symbols(const Arguments& arguments) const;
+};
+
+// The declarations of an array such as ["x", "r[n][3]"] are appended to `names`; `taken` has the
+// names that may not be used again, and gets the new ones.
+bool read_names(const JsonReader& value, SymbolTable& taken, NameList& names);
+// The keys `parameters` and `definitions` of a system. No parameter may have one of the `reserved`
+// names. Each is evaluated at once; one that is wrong is a problem and stands for 1, so that
+// formulas with it are not problems too. What definitions mean is not looked into before
+// check_definitions.
+Vocabulary read_vocabulary(ObjectReader& system, const std::vector<std::string>& reserved = {});
+// Makes a problem of each definition that is wrong where formulas may depend on everything, and 1
+// of its value.
+void check_definitions(Vocabulary& vocabulary, Findings& findings);
+
+}  // namespace courant

@@ -1,0 +1,229 @@
+#include "courant/reporting/ladder_explanation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+namespace courant {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string number(double value, int digits = 6) {
+  char buffer[40];
+  std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
+  return buffer;
+}
+
+std::string subscript(int k) {
+  std::string text;
+  for (const char digit : std::to_string(k)) {
+    text += "\xE2\x82";
+    text += static_cast<char>(0x80 + (digit - '0'));
+  }
+  return text;
+}
+
+std::string plural(int count, const std::string& noun) {
+  return (count == 1 ? "one " : std::to_string(count) + " ") + noun + (count == 1 ? "" : "s");
+}
+
+// 1.2 dx - 1.6 dy
+std::string linear_form(const Json& components, const std::string& prefix) {
+  std::string text;
+  int terms = 0;
+  for (const auto& [name, entry] : components.items()) {
+    const double value = entry.get<double>();
+    if (++terms > 6) return text + (value < 0 ? " - \u2026" : " + \u2026");
+    const std::string size = number(std::abs(value), 4);
+    text += text.empty() ? (value < 0 ? "-" : "") : (value < 0 ? " - " : " + ");
+    text += (size == "1" ? "" : size + " ") + prefix + name;
+  }
+  return text;
+}
+
+std::string derivative(int order, const std::string& equation) {
+  if (order == 0) return "[" + equation + "]";
+  if (order == 1) return "d/dt [" + equation + "]";
+  return "d^" + std::to_string(order) + "/dt^" + std::to_string(order) + " [" + equation + "]";
+}
+
+// The highest derivatives first: they are what the constraint is made of, the others what removes
+// the rest.
+std::string sources(const Json& terms) {
+  std::vector<std::pair<int, std::string>> list;
+  for (const Json& term : terms)
+    list.emplace_back(term.at("derivative").get<int>(), term.at("equation").get<std::string>());
+  std::stable_sort(list.begin(), list.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::string text;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (i == 5) return text + " and " + std::to_string(list.size() - 5) + " more";
+    text += (i == 0 ? "" : ", ") + derivative(list[i].first, list[i].second);
+  }
+  return text;
+}
+
+int whole(const Json& value) { return value.is_number_integer() ? value.get<int>() : -1; }
+
+void explain_level(const Json& ladder, int k, std::vector<std::string>& lines) {
+  const Json& levels = ladder.at("levels");
+  const Json& level = levels.at(static_cast<std::size_t>(k));
+  const int dim_M = whole(level.at("dim_M")), fibre = whole(level.at("fibre"));
+  std::vector<std::string> formulas;
+  std::vector<const Json*> constraints;
+  for (const Json& entry : ladder.at("formulas"))
+    if (whole(entry.at("level")) == k) formulas.push_back(entry.at("formula"));
+  for (const Json& entry : ladder.at("constraints"))
+    if (whole(entry.at("level")) == k) constraints.push_back(&entry);
+  const int count = static_cast<int>(constraints.size());
+
+  std::string text = "Level " + std::to_string(k) + ". ";
+  const std::string M = "M" + subscript(k);
+  if (k == 0) {
+    const int n = whole(ladder.at("dimension"));
+    text += count == 0 ? "The equations put no constraint on the coordinates: " + M +
+                             " is all of M, of dimension " + std::to_string(n) + "."
+                       : M + " has dimension " + std::to_string(dim_M) + " of " +
+                             std::to_string(n) + ": the equations contain " +
+                             plural(count, "constraint") + " on the coordinates.";
+  } else if (count > 0) {
+    text += "Solutions stay on M" + subscript(k - 1) +
+            ", so its constraints hold differentiated too: " + plural(count, "hidden constraint") +
+            ". " + M + " has dimension " + std::to_string(dim_M) + ".";
+  } else {
+    text += "No new constraint on the coordinates, but on the velocity.";
+  }
+  const int before = k == 0 ? -1 : whole(levels.at(static_cast<std::size_t>(k) - 1).at("fibre"));
+  if (fibre == 0)
+    text += " The velocity is determined at each of its points.";
+  else if (before != fibre || count > 0)
+    text += " The velocity at a point of it is free in " + plural(fibre, "direction") + ".";
+  lines.push_back(text);
+
+  constexpr int most = 6;
+  const bool all_formulas = static_cast<int>(formulas.size()) == count;
+  for (int i = 0; i < std::min(static_cast<int>(formulas.size()), most); ++i)
+    lines.push_back("    " + formulas[static_cast<std::size_t>(i)] + " = 0");
+  if (static_cast<int>(formulas.size()) > most)
+    lines.push_back("    \u2026 and " + std::to_string(static_cast<int>(formulas.size()) - most) +
+                    " more");
+  for (int i = 0; i < std::min(count, most); ++i) {
+    const Json& constraint = *constraints[static_cast<std::size_t>(i)];
+    if (!all_formulas || count == 1)
+      lines.push_back("    differential here: " + linear_form(constraint.at("gradient"), "d"));
+    if (!all_formulas || count == 1 || k > 0)
+      lines.push_back("    from " + sources(constraint.at("from")));
+  }
+  if (!all_formulas && count > most)
+    lines.push_back("    \u2026 and " + std::to_string(count - most) + " more");
+}
+
+void explain_unknowns(const Json& ladder, std::vector<std::string>& lines) {
+  std::string free;
+  int listed = 0;
+  double largest = 1.0;
+  for (const Json& unknown : ladder.at("unknowns"))
+    largest = std::max(largest, std::abs(unknown.at("value").get<double>()));
+  for (const auto& [name, unknown] : ladder.at("unknowns").items()) {
+    if (!unknown.at("determined").get<bool>()) {
+      free += (free.empty() ? "" : ", ") + name;
+      continue;
+    }
+    if (++listed > 8) continue;
+    if (listed == 1) lines.push_back("Unknowns that are determined, with their values here:");
+    const double value = unknown.at("value").get<double>();
+    std::string text =
+        "    " + name + " = " + number(std::abs(value) < 1e-14 * largest ? 0 : value);
+    if (unknown.contains("formula"))
+      text += "  (" + name + " = " + unknown.at("formula").get<std::string>() + ")";
+    lines.push_back(text);
+  }
+  if (listed > 8) lines.push_back("    \u2026 and " + std::to_string(listed - 8) + " more");
+  if (!free.empty()) lines.push_back("Unknowns that nothing determines: " + free + ".");
+}
+
+}  // namespace
+
+std::vector<std::string> ladder_text_diagram(const Json& ladder) {
+  std::string S = "  ", arrows = "  ", M = "  ", dim_S = "dim S  ", dim_M = "dim M  ";
+  std::vector<std::string> upper, lower, above, below, relation_S, relation_M;
+  const Json* before = nullptr;
+  for (const Json& level : ladder.at("levels")) {
+    const int k = level.at("k").get<int>();
+    const bool empty = level.at("dim_S").is_null();
+    if (before) {
+      const bool same = !empty && before->at("dim_S") == level.at("dim_S");
+      S += same ? "  =  " : "  \u2287  ";
+      M += !empty && before->at("dim_M") == level.at("dim_M") ? "  =  " : "  \u2287  ";
+      arrows += "     ";
+      dim_S += "     ";
+      dim_M += "     ";
+    }
+    const auto cell = [](std::string text, std::size_t columns) {
+      text.insert(0, columns > text.size() ? columns - text.size() : 0, ' ');
+      return text;
+    };
+    const std::size_t width = k < 10 ? 4 : 5;
+    S += empty ? std::string(width - 1, ' ') + "\u2205"
+               : std::string(width - (k < 10 ? 2 : 3), ' ') + "S" + subscript(k);
+    M += empty ? std::string(width - 1, ' ') + "\u2205"
+               : std::string(width - (k < 10 ? 2 : 3), ' ') + "M" + subscript(k);
+    arrows += std::string(width - 2, ' ') + "\u2193\u03c4";
+    dim_S += cell(empty ? "-" : std::to_string(level.at("dim_S").get<int>()), width);
+    dim_M += cell(empty ? "-" : std::to_string(level.at("dim_M").get<int>()), width);
+    before = &level;
+  }
+  const std::string margin(5, ' ');
+  return {dim_S, margin + S, margin + arrows, margin + M, dim_M};
+}
+
+std::vector<std::string> ladder_explanation(const Json& ladder) {
+  std::vector<std::string> lines;
+  const Json& levels = ladder.at("levels");
+  if (ladder.contains("constraints")) {
+    const int index = whole(ladder.at("index"));
+    for (int k = 0; k <= index; ++k) explain_level(ladder, k, lines);
+    lines.push_back("Level " + std::to_string(index + 1) +
+                    ". Nothing new: from here on every level is the same.");
+    lines.push_back(
+        "Degrees of freedom: " + std::to_string(whole(ladder.at("degrees_of_freedom"))) +
+        ", the dimension of M" + subscript(index) + ": so many initial values can be chosen.");
+    explain_unknowns(ladder, lines);
+    const Json& gauge = ladder.at("gauge_directions");
+    if (!gauge.empty()) {
+      lines.push_back("Gauge: the velocity may be changed at will along");
+      for (const Json& direction : gauge) lines.push_back("    " + linear_form(direction, ""));
+    }
+    const Json& redundant = ladder.at("redundant");
+    if (!redundant.empty()) {
+      lines.push_back("Redundant: " + plural(static_cast<int>(redundant.size()), "equation") +
+                      (redundant.size() == 1 ? " follows" : " follow") +
+                      " from the others here; harmless. Dependent among themselves are");
+      for (std::size_t i = 0; i < std::min<std::size_t>(redundant.size(), 4); ++i)
+        lines.push_back("    " + sources(redundant[i]));
+    }
+  }
+  const Json* weakest = nullptr;
+  for (const Json& level : levels)
+    if (!level.at("gap").is_null() &&
+        (!weakest || level.at("gap").get<double>() < weakest->at("gap").get<double>()))
+      weakest = &level;
+  if (weakest) {
+    const double gap = weakest->at("gap").get<double>();
+    lines.push_back(
+        "How sure: dimensions are differences of ranks, and a rank counts the singular values that "
+        "are not zero. In the weakest decision (level " +
+        std::to_string(whole(weakest->at("k"))) + ") the smallest that was counted is " +
+        number(weakest->at("smallest_counted").get<double>(), 2) +
+        ", the largest that was taken for "
+        "zero " +
+        number(weakest->at("largest_neglected").get<double>(), 2) +
+        ", and with the noise allowed for the gap is " + number(gap, 2) +
+        (gap < 1e3 ? ": less than 1000, ambiguous. Do not rely on the verdict." : "."));
+  }
+  return lines;
+}
+
+}  // namespace courant

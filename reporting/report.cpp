@@ -1,0 +1,256 @@
+#include "courant/reporting/report.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+
+#include "courant/reporting/ladder_diagram.hpp"
+#include "courant/reporting/report_figures.hpp"
+#include "courant/reporting/report_tables.hpp"
+
+namespace courant {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using plot::element;
+using plot::Markup;
+
+constexpr std::string_view page_style = R"css(
+:root{color-scheme:light dark;--page:#fffefb;--text:#1c1c1a;--soft:#5d5c57;--rule:#77756e;--faint:#e4e1d8;
+--good:#00664a;--bad:#a63a00;
+--serif:"STIX Two Text","Libertinus Serif","Latin Modern Roman",Charter,"Bitstream Charter",Georgia,"DejaVu Serif",serif;
+--mono:ui-monospace,"SF Mono",Menlo,Consolas,"DejaVu Sans Mono",monospace}
+@media screen and (prefers-color-scheme:dark){:root{--page:#16181a;--text:#e6e3dc;--soft:#a5a29a;--rule:#8b8982;--faint:#33363a;
+--good:#4fc9a0;--bad:#f2905f}}
+*{box-sizing:border-box}
+body{margin:0;background:var(--page);color:var(--text);font:17px/1.5 var(--serif)}
+main{max-width:48rem;margin:0 auto;padding:2.2rem 1.2rem 4rem}
+h1{font-size:1.75rem;line-height:1.2;font-weight:normal;margin:0 0 .3rem}
+h2{font-size:1.2rem;font-weight:normal;font-variant:small-caps;letter-spacing:.03em;margin:2.6rem 0 .6rem;
+border-bottom:1px solid var(--faint)}
+sub{font-size:.72em;line-height:0}
+.lead{color:var(--soft);margin:0 0 1rem}
+figure{margin:1.2rem 0 2.2rem}
+figcaption{color:var(--soft);font-size:.9rem;margin-top:.4rem;max-width:42rem}
+figcaption b{color:var(--text);font-weight:normal;font-variant:small-caps}
+.panels{display:grid;grid-template-columns:minmax(0,1fr);gap:.8rem;overflow-x:auto;padding-left:1rem;margin-left:-1rem}
+.panels.abreast{grid-template-columns:repeat(auto-fill,minmax(19rem,1fr))}
+svg{display:block;max-width:100%;height:auto;overflow:visible}
+.ladder text{font-size:18px}
+.ladder .dimension{font-size:13px;fill:var(--soft)}
+.ladder .map{font-size:15px;fill:var(--soft)}
+.arrow{stroke:var(--rule)}
+svg .heading{font-style:italic}
+.legend{list-style:none;display:flex;flex-wrap:wrap;gap:.1rem 1.4rem;margin:.2rem 0 .5rem;padding:0;font-size:.88rem}
+.legend li{display:flex;align-items:center;gap:.5rem}
+.scroll{overflow-x:auto;margin:1rem 0}
+table{border-collapse:collapse;font-size:.85rem;line-height:1.35;border-top:1.5px solid var(--text);border-bottom:1.5px solid var(--text)}
+caption{text-align:left;color:var(--soft);padding-bottom:.35rem;white-space:nowrap}
+th,td{padding:.22rem .75rem .22rem 0;text-align:left;font-weight:normal;vertical-align:baseline;min-width:3.2rem}
+tbody th+td:not(.number){min-width:8rem}
+thead th{border-bottom:1px solid var(--rule);color:var(--soft);vertical-align:bottom}
+td.number{font-variant-numeric:tabular-nums lining-nums;white-space:nowrap}
+.good{color:var(--good);white-space:nowrap}
+.bad{color:var(--bad);font-weight:bold;white-space:nowrap}
+.message{border-left:3px solid var(--bad);padding-left:.8rem}
+details{margin:.5rem 0}
+summary{cursor:pointer}
+pre{font:13px/1.45 var(--mono);overflow-x:auto;background:color-mix(in srgb,var(--faint) 40%,transparent);padding:.8rem 1rem}
+footer{margin-top:3rem;color:var(--soft);font-size:.85rem}
+@media (max-width:44rem){.panels:not(.abreast) svg,.diagram svg{min-width:34rem;max-width:none}}
+@media print{:root{--page:#fff}body{font-size:10.5pt}main{max-width:none;padding:0}figure,table{break-inside:avoid}h2{break-after:avoid}
+.panels.abreast{grid-template-columns:1fr 1fr}.scroll,.panels{overflow:visible}table{font-size:7.5pt}}
+)css";
+
+Markup section(std::string_view title, const Markup& content) {
+  if (content.str().empty()) return {};
+  return element("section", {}, element("h2", {}, title) + content);
+}
+
+// A sentence with its mathematics set: S_k and S_{k+1} with subscripts, single letters (but the
+// word "a") and the tangent bundle TM in italics.
+Markup typeset(std::string_view text) {
+  const auto letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  Markup markup;
+  while (!text.empty()) {
+    std::size_t size = 1;
+    if (letter(text[0])) {
+      while (size < text.size() && letter(text[size])) ++size;
+      const std::string_view word = text.substr(0, size);
+      const bool symbol = (size == 1 && word != "a") || word == "TM";
+      markup += symbol ? element("i", {}, word) : Markup(word);
+    } else if (text[0] == '_') {
+      const bool braced = text.starts_with("_{") && text.find('}') != std::string_view::npos;
+      size = braced ? text.find('}') + 1 : std::min<std::size_t>(2, text.size());
+      markup += element("sub", {}, typeset(braced ? text.substr(2, size - 3) : text.substr(1, 1)));
+    } else {
+      while (size < text.size() && text[size] != '_' && !letter(text[size])) ++size;
+      markup += text.substr(0, size);
+    }
+    text.remove_prefix(size);
+  }
+  return markup;
+}
+
+// Numbers the figures as they come.
+class Figures {
+ public:
+  Markup add(const Figure& figure) {
+    Markup panels;
+    bool abreast = figure.panels.size() > 1;
+    for (const plot::Panel& panel : figure.panels) {
+      panels += plot::draw(panel);
+      abreast = abreast && panel.width < 400;
+    }
+    const std::string style = abreast ? "panels abreast" : "panels";
+    Markup content = figure.legend.empty() ? Markup() : plot::legend(figure.legend);
+    content += element("div", {{"class", style}}, panels);
+    return element("figure", {}, content + caption(figure.caption));
+  }
+
+  Markup add(const std::vector<Figure>& figures) {
+    Markup all;
+    for (const Figure& figure : figures) all += add(figure);
+    return all;
+  }
+
+  Markup add(const std::optional<Figure>& figure) { return figure ? add(*figure) : Markup(); }
+
+ private:
+  Markup caption(const std::string& text) {
+    const std::string number = "Figure " + std::to_string(++count_) + ".";
+    return element("figcaption", {}, element("b", {}, number) + " " + text);
+  }
+
+  int count_ = 0;
+};
+
+std::string page_title(std::span<const Run> runs) {
+  std::vector<std::string> titles;
+  for (const Run& run : runs) {
+    const Json* title = run.experiment.contains("title") ? &run.experiment.at("title") : nullptr;
+    const std::string text =
+        title != nullptr && title->is_string() ? title->get<std::string>() : run.name;
+    if (std::find(titles.begin(), titles.end(), text) == titles.end()) titles.push_back(text);
+  }
+  std::string joined = titles.front();
+  for (std::size_t i = 1; i < titles.size(); ++i) joined += " · " + titles[i];
+  return joined;
+}
+
+Markup lead(std::span<const Run> runs) {
+  std::vector<std::string> systems;
+  for (const Run& run : runs) {
+    const std::string system = run.summary.at("system");
+    if (std::find(systems.begin(), systems.end(), system) == systems.end())
+      systems.push_back(system);
+  }
+  std::string text;
+  for (const std::string& system : systems) text += (text.empty() ? "" : ", ") + system;
+  text += runs.size() == 1 ? " — one run" : " — " + std::to_string(runs.size()) + " runs";
+  return element("p", {{"class", "lead"}}, text);
+}
+
+// What went wrong, of the runs that did not complete.
+Markup messages(std::span<const Run> runs, std::span<const std::string> labels) {
+  Markup all;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const Json& summary = runs[i].summary;
+    const std::string status = summary.at("status");
+    if (status == "completed") continue;
+    const std::string message = summary.value("message", "");
+    all +=
+        element("p", {{"class", "message"}},
+                element("span", {{"class", "bad"}}, status) + " — " + labels[i] + ". " + message);
+  }
+  return all;
+}
+
+// Each ladder once, with the runs it belongs to.
+Markup ladders(std::span<const Run> runs, std::span<const std::string> labels) {
+  std::vector<std::pair<const Json*, std::string>> distinct;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const auto found = runs[i].summary.find("ladder");
+    if (found == runs[i].summary.end()) continue;
+    const auto same = std::find_if(distinct.begin(), distinct.end(),
+                                   [&](const auto& entry) { return *entry.first == *found; });
+    if (same == distinct.end()) {
+      distinct.emplace_back(&*found, labels[i]);
+    } else {
+      same->second += ", " + labels[i];
+    }
+  }
+  Markup all;
+  for (const auto& [ladder, owners] : distinct) {
+    if (distinct.size() > 1) all += element("p", {{"class", "lead"}}, owners);
+    all += element("p", {}, typeset(verdict_in_words(*ladder)));
+    all += element("figure", {{"class", "diagram scroll"}}, ladder_diagram(*ladder));
+    all += ladder_table(*ladder);
+  }
+  if (distinct.empty()) return {};
+  return element("p", {{"class", "lead"}},
+                 typeset("M_k = τ(S_k), S_{k+1} = S_k ∩ TM_k, until nothing changes.")) +
+         all;
+}
+
+Markup experiments(std::span<const Run> runs, std::span<const std::string> labels) {
+  Markup all;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const std::string text = runs[i].experiment.dump(2, ' ', false, Json::error_handler_t::replace);
+    all +=
+        element("details", {},
+                element("summary", {}, labels[i]) + element("pre", {}, element("code", {}, text)));
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string report_html(std::span<const Run> runs) {
+  if (runs.empty())
+    throw std::invalid_argument("report_html: there are no runs, expected at least one.");
+  const std::vector<std::string> labels = run_labels(runs);
+  const std::string title = page_title(runs);
+  Figures figures;
+  Markup body = element("h1", {}, title) + lead(runs) + messages(runs, labels);
+  body += section("Motion", figures.add(motion_figures(runs)));
+  body += section("Energy", figures.add(energy_figures(runs)));
+  body += section("Constraint algorithm", ladders(runs, labels));
+  body += section("Constraints", figures.add(constraint_figure(runs)));
+  body += section("Expectations", expectations_table(runs, labels));
+  body += section("Observables",
+                  figures.add(observable_figure(runs)) + observables_table(runs, labels));
+  body += section("Runs and solver", runs_table(runs, labels));
+  body += section("Experiments", experiments(runs, labels));
+  body += element("footer", {}, "Made by courant report.");
+  const Markup head =
+      element("meta", {{"charset", "utf-8"}}) +
+      element("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}}) +
+      element("title", {}, title) +
+      plot::style_sheet(std::string(page_style) + plot::figure_style());
+  const Markup page =
+      element("html", {{"lang", "en"}, {"xmlns", "http://www.w3.org/1999/xhtml"}},
+              element("head", {}, head) + element("body", {}, element("main", {}, body)));
+  return "<!DOCTYPE html>\n" + page.str() + "\n";
+}
+
+void write_report(std::span<const Run> runs, const std::filesystem::path& output) {
+  const std::string page = report_html(runs);
+  std::filesystem::path part = output;
+  part += ".part";
+  std::ofstream stream(part, std::ios::binary);
+  stream << page;
+  stream.close();
+  std::error_code error;
+  if (stream) std::filesystem::rename(part, output, error);
+  if (!stream || error) {
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);
+    throw RunFileError(output.string() + ": cannot be written.");
+  }
+}
+
+}  // namespace courant

@@ -1,0 +1,22 @@
+// The report of finished runs: one page of HTML that needs nothing else.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "courant/running/run_files.hpp"
+
+namespace courant {
+
+// The page: the motion, the energy errors of all runs, the ladder of the constraint algorithm,
+// expectations, observables, solver statistics and the experiments. No script, no reference to
+// another file; whatever stands in the files of the runs is shown as text. Well-formed XML after
+// the document type, in UTF-8. Throws std::invalid_argument when there are no runs.
+std::string report_html(std::span<const Run> runs);
+
+// Writes the page of the runs to `output`; a page that is there is replaced in one piece or not at
+// all. Throws RunFileError when it cannot be written.
+void write_report(std::span<const Run> runs, const std::filesystem::path& output);
+
+}  // namespace courant

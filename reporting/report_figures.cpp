@@ -1,0 +1,357 @@
+#include "courant/reporting/report_figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
+
+namespace courant {
+
+namespace {
+
+using plot::Interval;
+using plot::LegendEntry;
+using plot::Panel;
+using plot::Series;
+
+constexpr double narrow = 352, narrow_height = 200;  // two panels abreast
+constexpr std::size_t most_small_panels = 12;
+
+std::vector<double> first(std::span<const double> values, std::size_t rows) {
+  return {values.begin(),
+          values.begin() + static_cast<std::ptrdiff_t>(std::min(rows, values.size()))};
+}
+
+double greatest(std::span<const double> values) {
+  double size = 0;
+  for (const double value : values) {
+    if (std::isfinite(value)) size = std::max(size, std::abs(value));
+  }
+  return size;
+}
+
+// An entry for each series, when there is something to tell apart.
+std::vector<LegendEntry> entries(std::span<const Series> series) {
+  std::vector<LegendEntry> legend;
+  if (series.size() < 2) return legend;
+  for (const Series& one : series) legend.push_back({one.label, one.colour});
+  return legend;
+}
+
+std::string count_of(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+std::vector<Series> columns_over_time(std::span<const Run> runs, const std::string& column) {
+  const std::vector<std::string> labels = run_labels(runs);
+  std::vector<Series> series;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const TrajectoryTable& table = runs[i].trajectory;
+    if (!table.contains(column)) continue;
+    series.push_back({labels[i], first(table.column("t"), table.rows()),
+                      first(table.column(column), table.rows()), i});
+  }
+  return series;
+}
+
+// A panel for each column, over time, all runs in each; two abreast.
+Figure over_time(std::span<const Run> runs, std::span<const std::string> columns,
+                 std::string caption) {
+  Figure figure;
+  for (const std::string& column :
+       columns.subspan(0, std::min(columns.size(), most_small_panels))) {
+    Panel panel;
+    panel.title = column + " over time";
+    panel.x.label = "t";
+    panel.y.label = column;
+    panel.series = columns_over_time(runs, column);
+    panel.description = count_of(panel.series.size(), "curve") + ".";
+    if (columns.size() > 1) panel.width = narrow, panel.height = narrow_height;
+    if (figure.legend.empty()) figure.legend = entries(panel.series);
+    figure.panels.push_back(std::move(panel));
+  }
+  if (columns.size() > most_small_panels) {
+    caption += " The first " + std::to_string(most_small_panels) + " of " +
+               std::to_string(columns.size()) + ".";
+  }
+  figure.caption = std::move(caption);
+  return figure;
+}
+
+Figure phase_portrait(std::span<const Run> runs, const std::string& q, const std::string& p) {
+  const std::vector<std::string> labels = run_labels(runs);
+  const PlanarBody plane{q, p};
+  Panel panel;
+  panel.title = "Phase portrait";
+  panel.x.label = q;
+  panel.y.label = p;
+  panel.width = 480;
+  panel.height = 360;
+  panel.endpoints = true;
+  bool all = true;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const TrajectoryTable& table = runs[i].trajectory;
+    if (!table.contains(q) || !table.contains(p)) continue;
+    const std::size_t rows = legible_rows(table, std::span(&plane, 1));
+    all = all && rows == table.rows();
+    panel.series.push_back(
+        {labels[i], first(table.column(q), rows), first(table.column(p), rows), i});
+  }
+  panel.description =
+      "The curves (" + q + ", " + p + ") of " + count_of(panel.series.size(), "run") + ".";
+  const std::string part = all ? "" : " Only the first rows of long runs are drawn.";
+  return {{panel}, entries(panel.series), "Phase portrait. ○ start, ● end." + part};
+}
+
+Figure planar_figure(std::span<const Run> runs, std::span<const PlanarBody> bodies) {
+  const std::vector<std::string> labels = run_labels(runs);
+  Figure figure;
+  Interval x, y;
+  bool all = true;
+  double until = 0;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const TrajectoryTable& table = runs[i].trajectory;
+    Panel panel;
+    panel.title = "Trajectories: " + labels[i];
+    panel.heading = runs.size() > 1 ? labels[i] : "";
+    panel.x.label = bodies.size() == 1 ? bodies[0].first : "x";
+    panel.y.label = bodies.size() == 1 ? bodies[0].second : "y";
+    panel.equal_aspect = panel.endpoints = true;
+    std::vector<PlanarBody> present;
+    std::copy_if(bodies.begin(), bodies.end(), std::back_inserter(present),
+                 [&](const PlanarBody& body) {
+                   return table.contains(body.first) && table.contains(body.second);
+                 });
+    if (present.empty() || table.rows() == 0) continue;
+    const std::size_t rows = legible_rows(table, present);
+    all = all && rows == table.rows();
+    until = std::max(until, table.column("t")[rows - 1]);
+    for (std::size_t b = 0; b < present.size(); ++b) {
+      const auto& [first_name, second_name] = present[b];
+      panel.series.push_back({"(" + first_name + ", " + second_name + ")",
+                              first(table.column(first_name), rows),
+                              first(table.column(second_name), rows), b});
+      x.include(panel.series.back().x);
+      y.include(panel.series.back().y);
+    }
+    panel.description = "The paths of " + count_of(present.size(), "point") + " in the plane.";
+    if (figure.legend.empty() && present.size() <= plot::palette().size()) {
+      figure.legend = entries(panel.series);
+    }
+    figure.panels.push_back(std::move(panel));
+  }
+  for (Panel& panel : figure.panels) panel.x.interval = x, panel.y.interval = y;
+  figure.caption = std::string("Trajectories in the plane, ") + (all ? "" : "the beginning, ") +
+                   "t ≤ " + plot::readable(until) + ". ○ start, ● end.";
+  return figure;
+}
+
+// H - H(0).
+std::vector<Series> energy_errors(std::span<const Run> runs) {
+  std::vector<Series> series = columns_over_time(runs, "H");
+  std::erase_if(series, [](const Series& one) { return one.y.empty(); });
+  for (Series& one : series) {
+    const double initial = one.y.front();
+    for (double& value : one.y) value -= initial;
+  }
+  return series;
+}
+
+Panel energy_panel(std::vector<Series> series) {
+  Panel panel;
+  panel.title = "Energy error H − H(0) over time";
+  panel.x.label = "t";
+  panel.y.label = "H − H(0)";
+  for (const Series& one : series) {
+    panel.description += one.label + ": at most " + plot::readable(greatest(one.y), 3) + ". ";
+  }
+  panel.series = std::move(series);
+  return panel;
+}
+
+// The errors that are left when the greatest, a decade or more above all others, are left out; all
+// of them when there is no such gap.
+std::vector<Series> without_greatest(std::vector<Series> errors) {
+  std::vector<double> sizes;
+  for (const Series& error : errors) sizes.push_back(greatest(error.y));
+  std::sort(sizes.begin(), sizes.end(), std::greater<>());
+  const auto gap = std::adjacent_find(
+      sizes.begin(), sizes.end(), [](double above, double below) { return above >= 10 * below; });
+  if (gap != sizes.end() && *gap > 0) {
+    std::erase_if(errors, [&](const Series& error) { return greatest(error.y) >= *gap; });
+  }
+  return errors;
+}
+
+}  // namespace
+
+std::vector<std::string> run_labels(std::span<const Run> runs) {
+  std::multiset<std::string> methods;
+  for (const Run& run : runs) methods.insert(run.summary.at("method"));
+  std::vector<std::string> labels;
+  for (const Run& run : runs) {
+    const std::string method = run.summary.at("method");
+    labels.push_back(methods.count(method) == 1 ? method : method + " — " + run.name);
+  }
+  return labels;
+}
+
+std::vector<PlanarBody> planar_bodies(std::span<const std::string> coordinates) {
+  const auto exists = [&](const std::string& name) {
+    return std::find(coordinates.begin(), coordinates.end(), name) != coordinates.end();
+  };
+  std::vector<PlanarBody> bodies;
+  for (const std::string& name : coordinates) {
+    const std::size_t head = name.find_first_of("[0123456789");
+    if (name.substr(0, head) == "x") {
+      const std::string partner = "y" + name.substr(1);
+      if (exists(partner)) bodies.emplace_back(name, partner);
+    } else if (name.ends_with("[0]") && (name.find("][") != std::string::npos || name == "r[0]") &&
+               !name.starts_with("p_")) {
+      const std::string array = name.substr(0, name.size() - 3);
+      const bool in_space = exists(array + "[3]");
+      if (exists(array + "[1]") && !in_space) bodies.emplace_back(name, array + "[1]");
+    }
+  }
+  return bodies;
+}
+
+std::size_t legible_rows(const TrajectoryTable& trajectory, std::span<const PlanarBody> bodies) {
+  constexpr double longest_box = 8, longest_path = 40;
+  constexpr std::size_t fewest = 50;
+  struct Path {
+    std::span<const double> x, y;
+    double length = 0;
+  };
+  std::vector<Path> paths;
+  for (const auto& [x, y] : bodies) paths.push_back({trajectory.column(x), trajectory.column(y)});
+  Interval width, height;
+  std::size_t legible = 0;
+  for (std::size_t row = 0; row < trajectory.rows(); ++row) {
+    double longest = 0;
+    for (Path& path : paths) {
+      width.include(path.x[row]);
+      height.include(path.y[row]);
+      if (row > 0) {
+        const double step =
+            std::hypot(path.x[row] - path.x[row - 1], path.y[row] - path.y[row - 1]);
+        if (std::isfinite(step)) path.length += step;
+      }
+      longest = std::max(longest, path.length);
+    }
+    const auto [shorter, longer] = std::minmax({width.length(), height.length()});
+    const double diagonal = std::hypot(shorter, longer);
+    if (longer <= longest_box * shorter && longest <= longest_path * diagonal) legible = row + 1;
+  }
+  return legible < fewest ? trajectory.rows() : legible;
+}
+
+std::vector<Figure> motion_figures(std::span<const Run> runs) {
+  if (runs.empty()) return {};
+  const std::vector<std::string> coordinates = runs[0].coordinates();
+  if (coordinates.empty()) return {};
+  const std::string caption = "The coordinates over time.";
+  if (coordinates.size() == 2) {
+    return {phase_portrait(runs, coordinates[0], coordinates[1]),
+            over_time(runs, coordinates, caption)};
+  }
+  const std::vector<PlanarBody> bodies = planar_bodies(coordinates);
+  if (!bodies.empty()) return {planar_figure(runs, bodies)};
+  return {over_time(runs, coordinates, caption)};
+}
+
+double symmetric_log_threshold(std::span<const Series> series) {
+  double smallest = 0, largest = 0;
+  for (const Series& one : series) {
+    const double size = greatest(one.y);
+    if (size > 0 && (smallest == 0 || size < smallest)) smallest = size;
+    largest = std::max(largest, size);
+  }
+  if (largest == 0) return 1e-16;
+  const double power = std::floor(std::log10(smallest)) - 1;
+  const double least = std::floor(std::log10(largest)) - 12;
+  return std::pow(10, std::max(power, least));
+}
+
+std::vector<Figure> energy_figures(std::span<const Run> runs) {
+  const std::vector<Series> errors = energy_errors(runs);
+  if (errors.empty()) return {};
+  Panel all = energy_panel(errors);
+  const double threshold = symmetric_log_threshold(errors);
+  all.y.scale = std::make_shared<plot::SymmetricLogScale>(threshold);
+  std::vector<Figure> figures;
+  const std::string level =
+      plot::power_of_ten(static_cast<int>(std::lround(std::log10(threshold))));
+  figures.push_back(
+      {{all},
+       entries(errors),
+       "Energy error on a symmetric-log axis, linear within ±" + level + " (shaded)."});
+
+  const std::vector<Series> kept = without_greatest(errors);
+  if (kept.size() == errors.size()) return figures;
+  Figure zoom{{}, entries(kept), "The smaller energy errors on a linear axis"};
+  // Beyond some rows to a pixel the oscillation is seen as a band; its beginning shows the
+  // oscillation itself.
+  constexpr std::size_t beginning = 501, many = 2000;
+  const bool is_long =
+      std::any_of(kept.begin(), kept.end(), [](const Series& s) { return s.x.size() > many; });
+  if (is_long) {
+    std::vector<Series> start = kept;
+    for (Series& one : start) one.x = first(one.x, beginning), one.y = first(one.y, beginning);
+    zoom.panels.push_back(energy_panel(std::move(start)));
+    zoom.caption += ": the first " + std::to_string(beginning - 1) + " rows, and all of them";
+  }
+  zoom.panels.push_back(energy_panel(kept));
+  zoom.caption += kept.size() == 1 ? ": " + kept[0].label + "." : ".";
+  figures.push_back(std::move(zoom));
+  return figures;
+}
+
+std::optional<Figure> observable_figure(std::span<const Run> runs) {
+  std::vector<std::string> names;
+  for (const Run& run : runs) {
+    for (const std::string& name : run.observables()) {
+      if (name != "H" && std::find(names.begin(), names.end(), name) == names.end())
+        names.push_back(name);
+    }
+  }
+  if (names.empty()) return std::nullopt;
+  return over_time(runs, names, "The other observables over time.");
+}
+
+std::optional<Figure> constraint_figure(std::span<const Run> runs) {
+  const std::vector<std::string> labels = run_labels(runs);
+  std::vector<Series> series;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const TrajectoryTable& table = runs[i].trajectory;
+    const std::vector<std::string> names = runs[i].constraints();
+    if (names.empty()) continue;
+    std::vector<double> violation(table.rows(), 0);
+    for (const std::string& name : names) {
+      const auto values = table.column(name);
+      for (std::size_t row = 0; row < violation.size(); ++row) {
+        violation[row] =
+            std::isnan(values[row]) ? values[row] : std::max(violation[row], std::abs(values[row]));
+      }
+    }
+    series.push_back({labels[i], first(table.column("t"), table.rows()), std::move(violation), i});
+  }
+  if (series.empty()) return std::nullopt;
+  Panel panel;
+  panel.title = "Constraint violation over time";
+  panel.x.label = "t";
+  panel.y.label = "greatest |constraint|";
+  panel.y.scale = std::make_shared<plot::SymmetricLogScale>(1e-16);
+  panel.y.interval = {0, 1e-15};
+  panel.height = 220;
+  for (const Series& one : series) {
+    panel.y.interval.include(one.y);
+    panel.description += one.label + ": at most " + plot::readable(greatest(one.y), 3) + ". ";
+  }
+  panel.series = series;
+  return Figure{{panel},
+                entries(series),
+                "How far the constraints are from being satisfied; linear within 10⁻¹⁶ (shaded)."};
+}
+
+}  // namespace courant

@@ -1,0 +1,176 @@
+#include "courant/running/consistent_start.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "courant/core/rank_decision.hpp"
+#include "courant/integrators/ladder/constraint_algorithm.hpp"
+
+namespace courant {
+namespace {
+
+using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
+
+std::vector<Index> indices(const Flags& flags) {
+  std::vector<Index> list;
+  for (Index i = 0; i < flags.size(); ++i)
+    if (flags[i]) list.push_back(i);
+  return list;
+}
+
+std::string with_zeros(const Experiment& experiment) {
+  return experiment.initial.x.given.all() ? "" : " (with 0 for what is not given)";
+}
+
+void check_near_manifold(const Experiment& experiment, const InitialGuess& guess) {
+  const Manifold& M = *experiment.model.system->manifold();
+  try {
+    M.project(guess.x);
+  } catch (const std::domain_error& error) {
+    throw ExperimentError("/initial", "no point of " + M.name() + " is near the initial values" +
+                                          with_zeros(experiment) + ": " + error.what());
+  }
+}
+
+void check_finite(const Experiment& experiment, const InitialGuess& guess) {
+  const ImplicitSystem& system = *experiment.model.system;
+  const VectorXd v =
+      guess.v.size() > 0 ? guess.v : VectorXd::Zero(system.manifold()->tangent_dimension());
+  const VectorXd z = guess.z.size() > 0 ? guess.z : system.auxiliary_guess(guess.x, guess.v);
+  const VectorXd residual = system.residual(guess.x, v, z, guess.t);
+  for (Index i = 0; i < residual.size(); ++i)
+    if (!std::isfinite(residual[i]))
+      throw ExperimentError(
+          "/initial", "the equation \"" + system.names().equations[static_cast<std::size_t>(i)] +
+                          "\" is " + std::to_string(residual[i]) + " at the initial values" +
+                          with_zeros(experiment) + "; expected a finite number");
+}
+
+// Names of coordinates that are not given and that neither M_f nor the given velocities and
+// unknowns determine.
+std::vector<std::string> undetermined(const Experiment& experiment,
+                                      const ConstraintLadder& ladder) {
+  if (ladder.verdict != Verdict::regular && ladder.verdict != Verdict::gauge) return {};
+  const InitialValues& initial = experiment.initial;
+  const Manifold& M = *experiment.model.system->manifold();
+  const MatrixXd basis = M.tangent_basis(ladder.point.x);
+  const MatrixXd conormals = ladder.conormals() * basis;
+  const MatrixXd motion = M.frame(ladder.point.x) * basis;
+  const std::vector<Index> given = indices(initial.x.given);
+  // The directions on M_f along which no given value changes.
+  MatrixXd conditions(conormals.rows() + static_cast<Index>(given.size()), basis.cols());
+  conditions.topRows(conormals.rows()) = conormals;
+  for (std::size_t i = 0; i < given.size(); ++i)
+    conditions.row(conormals.rows() + static_cast<Index>(i)) = motion.row(given[i]);
+  const MatrixXd free = motion * kernel(conditions, {.data_error = 1e-9});
+  if (free.cols() <= initial.velocity.given.count() + initial.z.given.count()) return {};
+  std::vector<std::string> names;
+  const auto& coordinates = experiment.model.system->names().coordinates;
+  for (Index i = 0; i < free.rows(); ++i)
+    if (!initial.x.given[i] && free.row(i).norm() > 1e-6)
+      names.push_back(coordinates[static_cast<std::size_t>(i)]);
+  return names;
+}
+
+// The components of v = C ẋ that a part of the velocities ẋ determines.
+Flags components_of(const Flags& velocities, const Manifold& M, const MatrixXd& coframe) {
+  if (M.tangent_dimension() == M.ambient_dimension()) return velocities;  // v = ẋ
+  const double negligible = 1e-9 * coframe.cwiseAbs().maxCoeff();
+  return Flags::NullaryExpr(coframe.rows(), [&](Index i) {
+    bool any = false;
+    for (Index j = 0; j < coframe.cols(); ++j) {
+      if (std::fabs(coframe(i, j)) <= negligible) continue;
+      if (!velocities[j]) return false;
+      any = true;
+    }
+    return any;
+  });
+}
+
+void forget_moves_of_what_was_not_given(ConstraintLadder& ladder, const Experiment& experiment) {
+  const InitialValues& initial = experiment.initial;
+  const ImplicitSystem::Names& names = experiment.model.system->names();
+  std::vector<std::string> given;
+  for (Index i = 0; i < initial.x.given.size(); ++i) {
+    const std::string& name = names.coordinates[static_cast<std::size_t>(i)];
+    if (initial.x.given[i]) given.push_back(name);
+    if (initial.velocity.given[i]) given.push_back(name + "'");
+  }
+  for (Index i = 0; i < initial.z.given.size(); ++i)
+    if (initial.z.given[i]) given.push_back(names.auxiliary[static_cast<std::size_t>(i)]);
+  std::erase_if(ladder.moves, [&](const Movement& move) {
+    return std::find(given.begin(), given.end(), move.name) == given.end();
+  });
+}
+
+}  // namespace
+
+ConstraintLadder consistent_start(const Experiment& experiment) {
+  const auto& system = experiment.model.system;
+  const Manifold& M = *system->manifold();
+  const InitialValues& initial = experiment.initial;
+  InitialGuess guess{.t = experiment.start(), .x = initial.x.values};
+  const MatrixXd coframe = M.coframe(guess.x);
+  if (initial.velocity.given.any()) guess.v = coframe * initial.velocity.values;
+  if (initial.z.given.any()) guess.z = initial.z.values;
+  check_near_manifold(experiment, guess);
+  check_finite(experiment, guess);
+
+  ConstraintAlgorithm::Options options;
+  options.metric =
+      initial.x.given.cast<double>().matrix().cwiseProduct(initial.weight).asDiagonal();
+  const ConstraintAlgorithm algorithm(options);
+  const auto run = [&](const Flags& x, const Flags& velocities, const Flags& unknowns) {
+    guess.hold_x = indices(x);
+    guess.hold_v = indices(components_of(velocities, M, coframe));
+    guess.hold_z = indices(unknowns);
+    return algorithm.run(system, guess);
+  };
+  // What is given is kept if it can be; velocities and unknowns give way first, then coordinates.
+  const Flags nothing = Flags::Constant(initial.x.held.size(), false);
+  const bool more_given = initial.velocity.given.any() || initial.z.given.any();
+  ConstraintLadder ladder = run(initial.x.given, initial.velocity.given, initial.z.given);
+  if (ladder.verdict == Verdict::inconsistent && more_given)
+    ladder = run(initial.x.given, initial.velocity.held, initial.z.held);
+  if (ladder.verdict == Verdict::inconsistent) {
+    ladder = run(initial.x.held, initial.velocity.held, initial.z.held);
+    if (ladder.verdict != Verdict::inconsistent && more_given) {
+      // Velocities and unknowns that can be kept at the point that was found.
+      const VectorXd given = guess.x;
+      guess.x = ladder.point.x;
+      const ConstraintLadder kept = run(!nothing, initial.velocity.given, initial.z.given);
+      guess.x = given;
+      if (kept.verdict != Verdict::inconsistent) {
+        const auto moves_of_x = ladder.moves;
+        const double moved = ladder.moved;
+        ladder = kept;
+        ladder.moved = moved;
+        ladder.moves.insert(ladder.moves.begin(), moves_of_x.begin(), moves_of_x.end());
+      }
+    }
+  }
+  const bool any_held = initial.x.held.any() || initial.velocity.held.any() || initial.z.held.any();
+  if (ladder.verdict == Verdict::inconsistent) {
+    forget_moves_of_what_was_not_given(ladder, experiment);
+    if (!any_held) return ladder;
+    guess.hold_x = guess.hold_v = guess.hold_z = {};
+    const ConstraintLadder free = algorithm.run(system, guess);
+    if (free.verdict == Verdict::inconsistent) return free;
+    throw ExperimentError("/hold",
+                          "what is held contradicts the constraints, which are violated by " +
+                              std::to_string(ladder.levels.back().residual) +
+                              "; expected values that satisfy them. " + ladder.reason);
+  }
+  forget_moves_of_what_was_not_given(ladder, experiment);
+  if (const auto missing = undetermined(experiment, ladder); !missing.empty()) {
+    std::string list;
+    for (std::size_t i = 0; i < missing.size() && i < 5; ++i)
+      list += (i == 0 ? "" : ", ") + missing[i];
+    if (missing.size() > 5) list += ", …";
+    throw ExperimentError("/initial",
+                          "nothing determines " + list + "; expected more initial values");
+  }
+  return ladder;
+}
+
+}  // namespace courant

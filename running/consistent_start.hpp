@@ -1,0 +1,18 @@
+// From the initial values of an experiment to a consistent point.
+#pragma once
+
+#include "courant/integrators/ladder/constraint_ladder.hpp"
+#include "courant/reading/experiment.hpp"
+
+namespace courant {
+
+// Runs the constraint algorithm at the initial values: what is not given is found, what is given is
+// kept when it can be (velocities and unknowns before coordinates give way), what is held is kept
+// in any case.
+//
+// Throws ExperimentError where the equations are not finite at the initial values, where held
+// values contradict the constraints, and where a value is missing that nothing determines. An
+// inconsistent system is a finding: its ladder says so.
+ConstraintLadder consistent_start(const Experiment& experiment);
+
+}  // namespace courant

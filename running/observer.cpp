@@ -1,0 +1,128 @@
+#include "courant/running/observer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <utility>
+
+#include "courant/core/derivative.hpp"
+
+namespace courant {
+namespace {
+
+// The variables that quantities are functions of.
+struct Arguments {
+  ExprVector x, v, z;
+  Expr t;
+};
+
+// The same function without z if it does not depend on z though z is in it, as the energy ⟨∂L/∂w,
+// w⟩ - L of L = ⟨α(q), w⟩ - H(q): its derivative by z is round-off at random arguments. There z = 0
+// gives H(q) itself, without cancellation.
+Expr without_idle(const Expr& quantity, const Arguments& at, const Manifold& manifold) {
+  const ExprVector derivative = gradient(quantity, at.z);
+  const Function sizes(
+      "idle", {{"x", at.x}, {"v", at.v}, {"z", at.z}, {"t", ExprVector::Constant(1, at.t)}},
+      (ExprVector(1 + derivative.size()) << quantity, derivative).finished());
+  std::mt19937 generator(1);
+  std::normal_distribution<double> normal;
+  const auto random = [&](Index size) {
+    return VectorXd::NullaryExpr(size, [&] { return normal(generator); }).eval();
+  };
+  for (int trial = 0; trial < 3; ++trial) {
+    const VectorXd found = sizes(
+        {manifold.random_point(generator), random(at.v.size()), random(at.z.size()), random(1)});
+    const double derivatives = found.tail(derivative.size()).cwiseAbs().sum();
+    if (!(derivatives <= 1e-13 * (1.0 + std::abs(found[0])))) return quantity;
+  }
+  return substitute(quantity, at.z, ExprVector::Zero(at.z.size()));
+}
+
+// Whether y depends on some of the variables.
+bool depends(const ExprVector& y, const ExprVector& variables) {
+  return jacobian(y, variables).values.size() > 0;
+}
+
+// The equations that contain nothing but x and t, each with the derivatives that vanish on M_f too.
+std::vector<Expr> constraints(const ImplicitSystem& system,
+                              const std::vector<int>& differentiations, const Arguments& at) {
+  ExprVector vz(at.v.size() + at.z.size()), xt(at.x.size() + 1), rate(at.x.size() + 1);
+  vz << at.v, at.z;
+  xt << at.x, at.t;
+  rate << system.manifold()->frame(at.x) * at.v, Expr(1.0);
+  std::vector<Expr> found;
+  const ExprVector equations = system.residual(at.x, at.v, at.z, at.t);
+  for (Index i = 0; i < equations.size(); ++i) {
+    const ExprVector equation = equations.segment(i, 1);
+    if (equation[0].is_constant() || depends(equation, vz)) continue;
+    found.push_back(equation[0]);
+    const auto index = static_cast<std::size_t>(i);
+    if (index < differentiations.size() && differentiations[index] > 1)
+      found.push_back(tangent(equation, xt, rate)[0]);
+  }
+  return found;
+}
+
+}  // namespace
+
+Observer::Observer(const Experiment& experiment, const ConstraintLadder& ladder, Backend backend)
+    : names_(experiment.model.system->names().coordinates), coordinate_count_(names_.size()) {
+  const ImplicitSystem& system = *experiment.model.system;
+  const Manifold& M = *system.manifold();
+  Graph graph;
+  const Arguments at{graph.variables("x", M.ambient_dimension()),
+                     graph.variables("v", M.tangent_dimension()),
+                     graph.variables("z", system.auxiliary_size()), graph.variable("t")};
+  std::vector<Expr> quantities;
+  const auto add = [&](std::string name, const Expr& quantity) {
+    names_.push_back(std::move(name));
+    quantities.push_back(quantity);
+  };
+  if (const auto energy = system.energy(at.x, at.z, at.t)) add("H", without_idle(*energy, at, M));
+  SymbolTable symbols = experiment.model.symbols(at.x, at.v, at.z, at.t);
+  for (const Observable& observable : experiment.observe) {
+    add(observable.name, evaluate(observable.formula, symbols));
+  }
+  first_constraint_ = names_.size();
+  const std::vector<Expr> zeros = constraints(system, ladder.differentiations, at);
+  for (std::size_t i = 0; i < zeros.size(); ++i)
+    add("constraint[" + std::to_string(i) + "]", zeros[i]);
+  written_count_ = names_.size();
+
+  const SymbolTable closed_forms = experiment.model.vocabulary.symbols({.t = at.t});
+  for (const Expectations::Deviation& deviation : experiment.expect.deviations) {
+    const auto index = static_cast<std::size_t>(
+        std::find(names_.begin(), names_.end(), deviation.quantity) - names_.begin());
+    const Expr quantity = index < coordinate_count_ ? at.x[static_cast<Index>(index)]
+                                                    : quantities[index - coordinate_count_];
+    add(deviation.name, abs(quantity - evaluate(deviation.form, closed_forms)));
+  }
+
+  const ExprVector outputs =
+      Eigen::Map<ExprVector>(quantities.data(), static_cast<Index>(quantities.size()));
+  quantities_ = Function(
+      "observe", {{"x", at.x}, {"v", at.v}, {"z", at.z}, {"t", ExprVector::Constant(1, at.t)}},
+      outputs, {.differentiate = {}, .backend = backend});
+  if (ladder.verdict == Verdict::regular && (depends(outputs, at.v) || depends(outputs, at.z))) {
+    field_ = std::make_unique<VectorField>(experiment.model.system, ladder, backend);
+    evaluate_field_.emplace(*field_);
+  }
+  row_.resize(static_cast<Index>(names_.size()));
+}
+
+const VectorXd& Observer::row(const State& state) {
+  const Index N = state.x.size();
+  row_.head(N) = state.x;
+  const double* v = state.v.data();
+  const double* z = state.z.data();
+  if (evaluate_field_) {
+    (*evaluate_field_)(state.x, rate_, state.t);
+    v = evaluate_field_->v().data();
+    z = evaluate_field_->z().data();
+  }
+  const double* in[] = {state.x.data(), v, z, &state.t};
+  quantities_.value(in, row_.data() + N);
+  return row_;
+}
+
+}  // namespace courant

@@ -1,0 +1,289 @@
+#include "courant/running/run_files.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "courant/running/run_summary_check.hpp"
+
+namespace courant {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// One line, whatever stands in the file or its name.
+[[noreturn]] void refuse(std::string message) {
+  std::replace_if(
+      message.begin(), message.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; },
+      '?');
+  throw RunFileError(message);
+}
+
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
+  refuse(file.string() + ": " + what);
+}
+
+[[noreturn]] void fail(const std::filesystem::path& file, std::size_t line,
+                       const std::string& what) {
+  refuse(file.string() + ":" + std::to_string(line) + ": " + what);
+}
+
+std::ifstream open(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(file)) fail(file, "cannot be read.");
+  return stream;
+}
+
+std::string read_text(const std::filesystem::path& file) {
+  std::ifstream stream = open(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::vector<std::string> split(std::string_view line) {
+  std::vector<std::string> fields;
+  for (std::size_t begin = 0;;) {
+    const std::size_t comma = line.find(',', begin);
+    fields.emplace_back(line.substr(begin, comma - begin));
+    if (comma == std::string_view::npos) return fields;
+    begin = comma + 1;
+  }
+}
+
+// A piece of a file as it may stand in a message: not all of a long one.
+std::string in_quotes(std::string_view text) {
+  return '"' + std::string(text.substr(0, 40)) + (text.size() > 40 ? "…" : "") + '"';
+}
+
+// Appends the numbers of a line to the columns; what is wrong with it otherwise.
+std::optional<std::string> append_row(std::string_view line,
+                                      std::vector<std::vector<double>>& columns) {
+  const char* at = line.data();
+  const char* const end = at + line.size();
+  for (std::size_t field = 0; field < columns.size(); ++field) {
+    double value = 0;
+    const auto [stop, error] = std::from_chars(at, end, value);
+    if (error != std::errc{} || (stop != end && *stop != ',')) {
+      const std::string_view rest(at, static_cast<std::size_t>(end - at));
+      return "field " + std::to_string(field + 1) + " is " +
+             in_quotes(rest.substr(0, rest.find(','))) + ", expected a number.";
+    }
+    const bool last = field + 1 == columns.size();
+    if (last != (stop == end)) {
+      const auto fields = std::count(line.begin(), line.end(), ',') + 1;
+      return "the row has " + std::to_string(fields) + (fields == 1 ? " field" : " fields") +
+             ", expected " + std::to_string(columns.size()) + " as in the header.";
+    }
+    columns[field].push_back(value);
+    at = last ? stop : stop + 1;
+  }
+  return std::nullopt;
+}
+
+// The value of a key in the header of an .npy file, up to the next of `stops`.
+std::string_view npy_entry(std::string_view header, std::string_view key, std::string_view stops) {
+  const std::size_t found = header.find(key);
+  if (found == std::string_view::npos) return {};
+  std::size_t begin = header.find(':', found);
+  if (begin == std::string_view::npos) return {};
+  begin = header.find_first_not_of(' ', begin + 1);
+  if (begin == std::string_view::npos) return {};
+  return header.substr(begin, header.find_first_of(stops, begin) - begin);
+}
+
+}  // namespace
+
+TrajectoryTable::TrajectoryTable(std::vector<std::string> names,
+                                 std::vector<std::vector<double>> columns)
+    : names_(std::move(names)), columns_(std::move(columns)) {
+  const auto reject = [](const std::string& what) {
+    throw std::invalid_argument("TrajectoryTable: " + what);
+  };
+  if (names_.empty() || names_.front() != "t") {
+    reject("the first column is " + (names_.empty() ? "missing" : in_quotes(names_.front())) +
+           ", expected t.");
+  }
+  if (columns_.size() != names_.size()) {
+    reject("there are " + std::to_string(columns_.size()) + " columns, expected " +
+           std::to_string(names_.size()) + " as there are names.");
+  }
+  std::set<std::string_view> seen;
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    if (!seen.insert(names_[i]).second)
+      reject("two columns have the name " + in_quotes(names_[i]) + ".");
+    if (columns_[i].size() != rows()) {
+      reject("column " + in_quotes(names_[i]) + " has " + std::to_string(columns_[i].size()) +
+             " rows, expected " + std::to_string(rows()) + ".");
+    }
+  }
+}
+
+bool TrajectoryTable::contains(std::string_view name) const {
+  return std::find(names_.begin(), names_.end(), name) != names_.end();
+}
+
+std::span<const double> TrajectoryTable::column(std::string_view name) const {
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  if (found == names_.end()) {
+    throw std::invalid_argument("TrajectoryTable::column: there is no column " + in_quotes(name) +
+                                ".");
+  }
+  return columns_[static_cast<std::size_t>(found - names_.begin())];
+}
+
+std::vector<std::string> Run::constraints() const {
+  std::vector<std::string> found;
+  for (const std::string& name : trajectory.names()) {
+    if (name.starts_with("constraint[")) found.push_back(name);
+  }
+  return found;
+}
+
+std::vector<std::string> Run::observables() const {
+  std::vector<std::string> found;
+  const Json known = summary.value("observables", Json::object());
+  for (const std::string& name : trajectory.names()) {
+    if (name == "H" || known.contains(name)) found.push_back(name);
+  }
+  return found;
+}
+
+std::vector<std::string> Run::coordinates() const {
+  const std::vector<std::string> measured = observables();
+  std::vector<std::string> found;
+  for (const std::string& name : trajectory.names()) {
+    const bool other = name == "t" || name.starts_with("constraint[") ||
+                       std::find(measured.begin(), measured.end(), name) != measured.end();
+    if (!other) found.push_back(name);
+  }
+  return found;
+}
+
+Run read_run(const std::filesystem::path& directory) {
+  if (!std::filesystem::is_directory(directory))
+    fail(directory, "is not a folder; expected that of a run.");
+  const auto csv = directory / "trajectory.csv", npy = directory / "trajectory.npy";
+  const auto trajectory = [&] {
+    if (std::filesystem::exists(csv)) return read_trajectory_csv(csv);
+    if (!std::filesystem::exists(npy)) fail(directory, "has no trajectory.csv or trajectory.npy.");
+    const auto names = directory / "columns.json";
+    const Json columns = read_json(names);
+    const bool strings =
+        columns.is_array() &&
+        std::all_of(columns.begin(), columns.end(), [](const Json& c) { return c.is_string(); });
+    if (!strings) fail(names, "is not an array of names.");
+    return read_trajectory_npy(npy, columns.get<std::vector<std::string>>());
+  };
+  // A name even for "." and "runs/a/".
+  const auto whole = std::filesystem::absolute(directory).lexically_normal();
+  const auto name = whole.has_filename() ? whole.filename() : whole.parent_path().filename();
+  const auto summary = directory / "summary.json";
+  Run run{.name = name.string(),
+          .trajectory = trajectory(),
+          .summary = read_json(summary),
+          .experiment = read_json(directory / "experiment.json")};
+  if (const auto defect = summary_defect(run.summary)) fail(summary, *defect);
+  return run;
+}
+
+TrajectoryTable read_trajectory_csv(const std::filesystem::path& file) {
+  std::ifstream stream = open(file);
+  std::string line;
+  if (!std::getline(stream, line) || stream.eof())
+    fail(file, 1, "the header is missing or cut off.");
+  std::vector<std::string> names = split(line);
+  std::vector<std::vector<double>> columns(names.size());
+  for (std::size_t number = 2; std::getline(stream, line); ++number) {
+    if (stream.eof()) fail(file, number, "the row has no line end: the file is cut off.");
+    if (const auto defect = append_row(line, columns)) fail(file, number, *defect);
+  }
+  try {
+    return {std::move(names), std::move(columns)};
+  } catch (const std::invalid_argument& error) {
+    fail(file, 1, error.what());
+  }
+}
+
+TrajectoryTable read_trajectory_npy(const std::filesystem::path& file,
+                                    std::vector<std::string> names) {
+  static_assert(std::endian::native == std::endian::little);
+  const std::string bytes = read_text(file);
+  const auto byte = [&](std::size_t i) {
+    return static_cast<std::size_t>(static_cast<std::uint8_t>(bytes[i]));
+  };
+  if (!bytes.starts_with("\x93NUMPY") || bytes.size() < 12) fail(file, "is not an .npy file.");
+  const bool first_version = byte(6) == 1;
+  const std::size_t start = first_version ? 10 : 12;
+  const std::size_t size =
+      byte(8) + (byte(9) << 8) + (first_version ? 0 : (byte(10) << 16) + (byte(11) << 24));
+  if (bytes.size() < start + size) fail(file, "the header is cut off.");
+
+  const std::string_view header = std::string_view(bytes).substr(start, size);
+  const std::string_view type = npy_entry(header, "'descr'", ",}");
+  if (type != "'<f8'")
+    fail(file, "the numbers are " + in_quotes(type) + ", expected '<f8', float64.");
+  const bool by_column = npy_entry(header, "'fortran_order'", ",}") == "True";
+  const std::string_view shape = npy_entry(header, "'shape'", ")");
+  std::size_t rows = 0, width = 0;
+  const char* const end = shape.data() + shape.size();
+  const auto first =
+      std::from_chars(shape.data() + std::min<std::size_t>(1, shape.size()), end, rows);
+  const char* const second =
+      std::find_if(first.ptr, end, [](char c) { return c >= '0' && c <= '9'; });
+  if (first.ec != std::errc{} || std::from_chars(second, end, width).ec != std::errc{}) {
+    fail(file, "the shape is " + in_quotes(shape) + ", expected (rows, columns).");
+  }
+  if (width != names.size()) {
+    fail(file, "has " + std::to_string(width) + " columns, expected " +
+                   std::to_string(names.size()) + " as in columns.json.");
+  }
+  const std::size_t expected = rows * width * sizeof(double), found = bytes.size() - start - size;
+  if (found != expected) {
+    fail(file, "has " + std::to_string(found) + " bytes of numbers, expected " +
+                   std::to_string(expected) + " for its shape.");
+  }
+  std::vector<std::vector<double>> columns(width, std::vector<double>(rows));
+  const char* at = bytes.data() + start + size;
+  const auto take = [&](double& value) {
+    std::memcpy(&value, at, sizeof(double));
+    at += sizeof(double);
+  };
+  if (by_column) {
+    for (auto& column : columns) std::for_each(column.begin(), column.end(), take);
+  } else {
+    for (std::size_t row = 0; row < rows; ++row) {
+      for (auto& column : columns) take(column[row]);
+    }
+  }
+  try {
+    return {std::move(names), std::move(columns)};
+  } catch (const std::invalid_argument& error) {
+    fail(file, error.what());
+  }
+}
+
+Json read_json(const std::filesystem::path& file) {
+  const std::string text = read_text(file);
+  try {
+    return Json::parse(text);
+  } catch (const Json::parse_error& error) {
+    // byte counts from 1, and is one past the end when the file ends too early.
+    const auto before = static_cast<std::ptrdiff_t>(std::min(error.byte, text.size() + 1)) - 1;
+    const auto lines =
+        std::count(text.begin(), text.begin() + std::max<std::ptrdiff_t>(before, 0), '\n');
+    const std::string_view what = error.what();
+    const std::size_t reason = what.find("syntax error");
+    fail(file, static_cast<std::size_t>(lines) + 1,
+         "is not JSON: " +
+             std::string(reason == std::string_view::npos ? what : what.substr(reason)) + ".");
+  }
+}
+
+}  // namespace courant

@@ -1,0 +1,165 @@
+#include "courant/plotting/figure.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "parsed_markup.hpp"
+
+using namespace courant::plot;
+using namespace courant::test;
+
+namespace {
+
+Series sampled(const std::string& label, int rows, double (*f)(double), std::size_t colour = 0) {
+  Series series{label, {}, {}, colour};
+  for (int i = 0; i < rows; ++i) {
+    series.x.push_back(static_cast<double>(i) / (rows - 1));
+    series.y.push_back(f(series.x.back()));
+  }
+  return series;
+}
+
+std::string only_path(const Tree& drawing, const std::string& style) {
+  const auto paths = find(drawing, "path", style);
+  BOOST_TEST_REQUIRE(paths.size() == 1);
+  return attribute(paths[0], "d");
+}
+
+// The pixel of the axis tick that has this label, along x or y.
+double tick_pixel(const Tree& drawing, const std::string& label, const std::string& anchor) {
+  for (const Tree& text : find(drawing, "text")) {
+    if (text.data() == label && attribute(text, "text-anchor") == anchor) {
+      return anchor == "middle" ? text.get<double>("<xmlattr>.x")
+                                : text.get<double>("<xmlattr>.y") - 4;
+    }
+  }
+  BOOST_FAIL("no tick " << label);
+  return 0;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(figure)
+
+BOOST_AUTO_TEST_CASE(has_exactly_the_series_it_was_given) {
+  Panel panel;
+  panel.title = "Lines";
+  panel.series = {sampled(
+                      "first <1>", 5, [](double x) { return x; }, 0),
+                  sampled(
+                      "second & last", 5, [](double x) { return 1 - x; }, 4)};
+  const Tree drawing = parsed(draw(panel).str());
+  const auto groups = find(drawing, "g", "series");
+  BOOST_TEST_REQUIRE(groups.size() == 2);
+  BOOST_TEST(groups[0].get<std::string>("title") == "first <1>");
+  BOOST_TEST(groups[1].get<std::string>("title") == "second & last");
+  BOOST_TEST(attribute(groups[0], "class") == "series c0");
+  BOOST_TEST(attribute(groups[1], "class") == "series c4");
+  BOOST_TEST(find(drawing, "path").size() == 2);
+  BOOST_TEST(drawing.get<std::string>("svg.title") == "Lines");
+}
+
+BOOST_AUTO_TEST_CASE(curve_passes_where_its_axes_say) {
+  Panel panel;
+  panel.x.label = "t";
+  panel.y.scale = std::make_shared<SymmetricLogScale>(1e-3);
+  panel.series = {{"corner", {0, 1, 2}, {-1e-3, 1e-1, 0}, 0}};
+  const Tree drawing = parsed(draw(panel).str());
+  const auto path = vertices(only_path(drawing, "line"));
+  BOOST_TEST_REQUIRE(path.size() == 3);
+  BOOST_TEST(std::abs(path[1].first - tick_pixel(drawing, "1.0", "middle")) < 0.1);
+  BOOST_TEST(std::abs(path[2].first - tick_pixel(drawing, "2.0", "middle")) < 0.1);
+  BOOST_TEST(std::abs(path[0].second - tick_pixel(drawing, "−10⁻³", "end")) < 0.1);
+  BOOST_TEST(std::abs(path[1].second - tick_pixel(drawing, "10⁻¹", "end")) < 0.1);
+  BOOST_TEST(std::abs(path[2].second - tick_pixel(drawing, "0", "end")) < 0.1);
+  // The linear zone is shaded, from -10⁻³ to 10⁻³.
+  const auto zone = find(drawing, "rect", "linear-zone");
+  BOOST_TEST_REQUIRE(zone.size() == 1);
+  BOOST_TEST(std::abs(zone[0].get<double>("<xmlattr>.y") - tick_pixel(drawing, "10⁻³", "end")) <
+             0.1);
+}
+
+BOOST_AUTO_TEST_CASE(circle_is_round_with_equal_aspect) {
+  Panel panel;
+  panel.equal_aspect = panel.endpoints = true;
+  Series circle{"circle", {}, {}, 0};
+  for (int i = 0; i <= 360; ++i) {
+    circle.x.push_back(5 + 3 * std::cos(i * std::numbers::pi / 180));
+    circle.y.push_back(3 * std::sin(i * std::numbers::pi / 180));
+  }
+  for (const double squeeze : {1.0, 0.05, 20.0}) {
+    panel.series = {circle};
+    for (double& y : panel.series[0].y) y *= squeeze;
+    const Tree drawing = parsed(draw(panel).str());
+    Interval x, y;
+    for (const auto& [px, py] : vertices(only_path(drawing, "line"))) x.include(px), y.include(py);
+    BOOST_TEST(std::abs(y.length() - squeeze * x.length()) < 0.5 * std::max(1.0, squeeze));
+    BOOST_TEST(x.lower >= 0);
+    BOOST_TEST(y.upper <= drawing.get<double>("svg.<xmlattr>.height"));
+    BOOST_TEST(find(drawing, "circle", "start").size() == 1);
+    BOOST_TEST(find(drawing, "circle", "end").size() == 1);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(many_rows_become_a_small_band_that_keeps_the_extrema) {
+  Panel panel;
+  Series series = sampled("wave", 200'001, [](double x) { return std::sin(40'000 * x); });
+  series.y[123'456] = 4;
+  panel.series = {series};
+  const std::string text = draw(panel).str();
+  BOOST_TEST(text.size() < 30'000);
+  const Tree drawing = parsed(text);
+  BOOST_TEST(find(drawing, "path", "line").empty());
+  double highest = 1e9;
+  for (const auto& [x, y] : vertices(only_path(drawing, "band"))) highest = std::min(highest, y);
+  BOOST_TEST(std::abs(highest - tick_pixel(drawing, "4", "end")) < 0.1);
+}
+
+BOOST_AUTO_TEST_CASE(rows_that_are_not_finite_are_gaps) {
+  Panel panel;
+  panel.series = {{"broken", {0, 1, 2, 3, 4}, {0, 1, std::nan(""), 3, INFINITY}, 0}};
+  const std::string data = only_path(parsed(draw(panel).str()), "line");
+  BOOST_TEST(std::count(data.begin(), data.end(), 'M') == 2);
+  BOOST_TEST(vertices(data).size() == 3);
+}
+
+BOOST_AUTO_TEST_CASE(nothing_to_draw_is_an_empty_frame) {
+  Panel panel;
+  panel.endpoints = true;
+  panel.series = {
+      {"empty", {}, {}, 0}, {"one row", {1}, {2}, 1}, {"nowhere", {1}, {std::nan("")}, 2}};
+  const Tree drawing = parsed(draw(panel).str());
+  BOOST_TEST(find(drawing, "g", "series").size() == 3);
+  BOOST_TEST(find(drawing, "circle", "start").size() == 1);
+  panel.series.clear();
+  BOOST_TEST(find(parsed(draw(panel).str()), "g", "axis").size() == 2);
+}
+
+BOOST_AUTO_TEST_CASE(axis_labels_are_set_as_mathematics) {
+  Panel panel;
+  panel.x.label = "p_theta[0] of q";
+  panel.y.label = "energy <x_> a_1";
+  const Tree drawing = parsed(draw(panel).str());
+  std::vector<std::string> italics, subscripts;
+  for (const Tree& span : find(drawing, "tspan")) {
+    if (attribute(span, "dy") == "3") {
+      subscripts.push_back(span.data());
+    } else if (attribute(span, "font-style") == "italic") {
+      italics.push_back(span.data());
+    }
+  }
+  BOOST_TEST(subscripts == (std::vector<std::string>{"theta"}), boost::test_tools::per_element());
+  BOOST_TEST(italics == (std::vector<std::string>{"x", "a", "p", "q"}),
+             boost::test_tools::per_element());
+}
+
+BOOST_AUTO_TEST_CASE(legend_names_what_it_is_given) {
+  const std::vector<LegendEntry> entries = {{"<b>", 0}, {"second", 3}};
+  const auto items = find(parsed(legend(entries).str()), "li");
+  BOOST_TEST_REQUIRE(items.size() == 2);
+  BOOST_TEST(items[0].data().find("<b>") != std::string::npos);
+  BOOST_TEST(attribute(items[1], "class") == "c3");
+}
+
+BOOST_AUTO_TEST_SUITE_END()

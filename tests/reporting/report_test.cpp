@@ -1,0 +1,174 @@
+#include "courant/reporting/report.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <fstream>
+#include <iterator>
+
+#include "../plotting/parsed_markup.hpp"
+#include "../running/vortex_runs.hpp"
+
+using namespace courant;
+using namespace courant::test;
+
+namespace {
+
+// The three methods of Section 6.3 in a folder.
+std::vector<std::filesystem::path> write_methods(const TemporaryFolder& folder, int steps) {
+  std::vector<std::filesystem::path> runs = {folder / "rk2", folder / "method-1",
+                                             folder / "method-2"};
+  write_run(runs[0], rk2_path(steps), "rk2");
+  write_run(runs[1], two_step_path(steps), "discretize-first");
+  write_run(runs[2], one_step_path(steps), "constrain-first");
+  return runs;
+}
+
+std::vector<Run> read(const std::vector<std::filesystem::path>& folders) {
+  std::vector<Run> runs;
+  for (const auto& folder : folders) runs.push_back(read_run(folder));
+  return runs;
+}
+
+// The page as XML, which it is after its document type.
+Tree parsed_page(const std::string& page) { return parsed(page.substr(page.find('\n'))); }
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(report)
+
+BOOST_AUTO_TEST_CASE(page_of_the_three_methods_has_its_figures_and_tables) {
+  const TemporaryFolder folder;
+  const Tree page = parsed_page(report_html(read(write_methods(folder, 300))));
+  BOOST_TEST(page.get<std::string>("html.head.title") == "Point vortices: two leapfrogging pairs");
+  // Trajectories of four vortices by three methods, H - H(0) by three, the spread by three.
+  BOOST_TEST(find(page, "g", "series").size() == 12 + 3 + 3);
+  BOOST_TEST(find(page, "g", "ladder").size() == 1);
+  std::vector<std::string> captions;
+  for (const Tree& table : find(page, "table"))
+    captions.push_back(table.get<std::string>("caption"));
+  BOOST_CHECK(captions == (std::vector<std::string>{"Levels", "Expectations of the experiment",
+                                                    "Observables", "Runs and solver statistics"}));
+  std::vector<std::string> results;
+  for (const std::string style : {"good", "bad"}) {
+    for (const Tree& cell : find(page, "td", style)) results.push_back(cell.data());
+  }
+  BOOST_CHECK(results == (std::vector<std::string>{"✓ passed", "✓ passed", "completed", "completed",
+                                                   "completed", "✗ failed"}));
+  BOOST_TEST(find(page, "details").size() == 3);
+  for (const Tree& drawing : find(page, "svg")) {
+    const bool said = !drawing.get<std::string>("title", "").empty() &&
+                      !drawing.get<std::string>("desc", "").empty();
+    BOOST_TEST((said || attribute(drawing, "aria-hidden") == "true"));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(page_of_long_runs_is_small) {
+  const TemporaryFolder folder;
+  const std::string page = report_html(read(write_methods(folder, 30'000)));
+  BOOST_TEST(page.size() < 300'000);
+  // The energy again without RK2: its beginning, and the whole.
+  BOOST_TEST(find(parsed_page(page), "g", "series").size() == 12 + 3 + 2 + 2 + 3);
+}
+
+BOOST_AUTO_TEST_CASE(page_needs_nothing_else) {
+  const TemporaryFolder folder;
+  std::string page = report_html(read(write_methods(folder, 20)));
+  for (const std::string name : {"http://www.w3.org/2000/svg", "http://www.w3.org/1999/xhtml"}) {
+    for (std::size_t at; (at = page.find(name)) != std::string::npos;) page.erase(at, name.size());
+  }
+  for (const char* outside : {"http", "src=", "href", "url(", "@import", "<script", "<link"}) {
+    BOOST_TEST(page.find(outside) == std::string::npos, outside);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(nothing_in_the_files_becomes_markup) {
+  const std::string evil =
+      "</text></svg><script>alert(1)</script><img src='x' onerror=\"alert(2)\"/>&";
+  const TemporaryFolder folder;
+  const auto run = folder / "<script>alert(0)<";
+  const Path path = rk2_path(20);
+  nlohmann::ordered_json told = summary(path, evil);
+  for (const char* key : {"status", "message", "system", "backend"}) told[key] = evil;
+  told["observables"][evil] = told["observables"]["H"];
+  told["ladder"]["verdict"] = evil;
+  told["expectations"][0]["description"] = evil;
+  told["expectations"][0]["value"] = evil;
+  std::string columns = csv(path);
+  columns.replace(columns.find("spread"), 6, evil);
+  write_text(run / "trajectory.csv", columns);
+  write_text(run / "summary.json", told.dump());
+  write_text(run / "experiment.json", nlohmann::ordered_json{{"title", evil}, {evil, evil}}.dump());
+  const std::string text = report_html(std::vector<Run>{read_run(run)});
+  const Tree page = parsed_page(text);
+  BOOST_TEST(find(page, "script").empty());
+  BOOST_TEST(find(page, "img").empty());
+  BOOST_TEST(text.find("<script") == std::string::npos);
+  BOOST_TEST(text.find("<img") == std::string::npos);
+  BOOST_TEST(page.get<std::string>("html.head.title") == evil);
+  BOOST_TEST(page.get<std::string>("html.body.main.h1") == evil);
+}
+
+BOOST_AUTO_TEST_CASE(expectations_may_be_of_numbers_words_and_lists) {
+  const TemporaryFolder folder;
+  const Path path = rk2_path(5);
+  write_run(folder / "run", path, "rk2");
+  nlohmann::ordered_json told = summary(path, "rk2");
+  told["expectations"] = {
+      {{"description", "verdict"}, {"passed", true}, {"value", "regular"}, {"bound", "regular"}},
+      {{"description", "dim S"}, {"passed", true}, {"value", {16, 8}}, {"bound", nullptr}}};
+  write_text(folder / "run/summary.json", told.dump());
+  const Tree page = parsed_page(report_html(std::vector<Run>{read_run(folder / "run")}));
+  std::vector<std::string> cells;
+  for (const Tree& table : find(page, "table")) {
+    if (table.get<std::string>("caption") != "Expectations of the experiment") continue;
+    for (const Tree& cell : find(table, "td", "number")) cells.push_back(cell.data());
+  }
+  BOOST_CHECK(cells == (std::vector<std::string>{"regular", "regular", "[16,8]", "–"}));
+}
+
+BOOST_AUTO_TEST_CASE(failed_run_is_shown_with_its_message) {
+  const TemporaryFolder folder;
+  const Path path = rk2_path(5);
+  write_run(folder / "run", path, "rk2");
+  nlohmann::ordered_json failed = summary(path, "rk2");
+  failed["status"] = "failed";
+  failed["message"] = "step 6: the vortices 0 and 1 coincide";
+  for (const char* key : {"ladder", "expectations", "solver", "observables", "time"})
+    failed.erase(key);
+  write_text(folder / "run/summary.json", failed.dump());
+  write_text(folder / "run/trajectory.csv", "t,x[0],y[0],H\n0,1,2,nan\n");
+  const Tree page = parsed_page(report_html(std::vector<Run>{read_run(folder / "run")}));
+  const auto messages = find(page, "p", "message");
+  BOOST_TEST_REQUIRE(messages.size() == 1);
+  BOOST_TEST(messages[0].data().find("the vortices 0 and 1 coincide") != std::string::npos);
+  write_text(folder / "run/trajectory.csv", "t,x[0],y[0],H\n");
+  BOOST_CHECK_NO_THROW(report_html(std::vector<Run>{read_run(folder / "run")}));
+  BOOST_CHECK_THROW(report_html({}), std::invalid_argument);
+}
+
+BOOST_AUTO_TEST_CASE(report_is_written_whole_or_not_at_all) {
+  const TemporaryFolder folder;
+  const std::vector<Run> runs = read(write_methods(folder, 10));
+  write_report(runs, folder / "report.html");
+  BOOST_TEST(text_of(folder / "report.html") == report_html(runs));
+  BOOST_TEST(!std::filesystem::exists(folder / "report.html.part"));
+  const auto message = [&](const std::filesystem::path& output) -> std::string {
+    try {
+      write_report(runs, output);
+    } catch (const RunFileError& error) {
+      return error.what();
+    }
+    return "written";
+  };
+  BOOST_TEST(
+      message(folder / "none/report.html").ends_with("none/report.html: cannot be written."));
+  std::filesystem::create_directories(folder / "folder/inside");
+  BOOST_TEST(message(folder / "folder").ends_with("folder: cannot be written."));
+  BOOST_TEST(!std::filesystem::exists(folder / "folder.part"));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,202 @@
+#include "courant/running/consistent_start.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+namespace courant {
+namespace {
+
+// A pendulum with its rod as a constraint: x² + y² = 1, and x v + y w = 0 behind it.
+Json pendulum(const Json& initial) {
+  return {{"system",
+           {{"type", "implicit"},
+            {"coordinates", {"x", "y", "v", "w"}},
+            {"unknowns", {"tension"}},
+            {"equations",
+             {"x' - v", "y' - w", "v' + tension*x", "w' + tension*y + 1", "x^2 + y^2 - 1"}}}},
+          {"initial", initial}};
+}
+
+ConstraintLadder start(const Json& experiment) {
+  return consistent_start(read_experiment(experiment.dump()));
+}
+
+std::string problem(const Json& experiment) {
+  try {
+    start(experiment);
+  } catch (const ExperimentError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+}  // namespace courant
+
+BOOST_AUTO_TEST_SUITE(consistent_start_test)
+
+using namespace courant;
+
+BOOST_AUTO_TEST_CASE(consistent_values_stay) {
+  const ConstraintLadder ladder =
+      start(pendulum({{"x", 0.6}, {"y", -0.8}, {"v", 0.8}, {"w", 0.6}}));
+  BOOST_TEST((ladder.verdict == Verdict::regular));
+  BOOST_TEST((ladder.point.x - (VectorXd(4) << 0.6, -0.8, 0.8, 0.6).finished()).norm() < 1e-12);
+  BOOST_TEST(ladder.moves.empty());
+}
+
+// The velocities of a Lagrangian are unknowns of its equations, too: what is given is where these
+// are evaluated first. At rest none of these Lagrangians has a derivative.
+BOOST_AUTO_TEST_CASE(velocities_of_a_lagrangian_enter_the_first_evaluation) {
+  const auto lagrangian = [](const Json& coordinates, const char* formula, const Json& initial) {
+    return start({{"system",
+                   {{"type", "lagrangian"}, {"coordinates", coordinates}, {"lagrangian", formula}}},
+                  {"initial", initial}});
+  };
+  const ConstraintLadder logarithm = lagrangian({"x"}, "log(x') - x^2/2", {{"x", 1}, {"x'", 0.5}});
+  BOOST_TEST((logarithm.verdict == Verdict::regular));
+  BOOST_TEST(logarithm.point.x[1] == 2.0, boost::test_tools::tolerance(1e-12));  // p = 1 / x'
+  BOOST_TEST(logarithm.point.z[0] == 0.5, boost::test_tools::tolerance(1e-12));
+
+  const ConstraintLadder ray =
+      lagrangian({"x", "y"}, "sqrt(x'^2 + y'^2)", {{"x", 1}, {"y", 0}, {"x'", 3}, {"y'", 4}});
+  BOOST_TEST((ray.verdict == Verdict::gauge));
+  BOOST_TEST((ray.point.x.tail(2) - Eigen::Vector2d(0.6, 0.8)).norm() < 1e-12);
+  BOOST_TEST((ray.point.v.head(2) - Eigen::Vector2d(3.0, 4.0)).norm() < 1e-12);
+
+  const ConstraintLadder particle = lagrangian({"time", "x"}, "-sqrt(time'^2 - x'^2)",
+                                               {{"time", 0}, {"x", 0}, {"time'", 1}, {"x'", 0.6}});
+  BOOST_TEST((particle.verdict == Verdict::gauge));
+  BOOST_TEST((particle.point.x.tail(2) - Eigen::Vector2d(-1.25, 0.75)).norm() < 1e-12);
+
+  const Json no_velocity = {
+      {"system",
+       {{"type", "lagrangian"}, {"coordinates", {"x"}}, {"lagrangian", "log(x') - x^2/2"}}},
+      {"initial", {{"x", 1}}}};
+  BOOST_TEST(problem(no_velocity).find("with 0 for what is not given") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(what_moves_is_told) {
+  const ConstraintLadder ladder = start(pendulum({{"x", 3}, {"y", -4}, {"v", 0}, {"w", 0}}));
+  BOOST_TEST(ladder.point.x[0] == 0.6, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(ladder.point.x[1] == -0.8, boost::test_tools::tolerance(1e-9));
+  BOOST_REQUIRE(ladder.moves.size() == 2u);
+  BOOST_TEST(ladder.moves[0].name == "x");
+  BOOST_TEST(ladder.moves[0].from == 3.0);
+}
+
+BOOST_AUTO_TEST_CASE(what_is_held_stays_and_the_others_move) {
+  Json experiment = pendulum({{"x", 0.5}, {"y", -4}, {"v", 0}, {"w", 0}});
+  experiment["hold"] = {"x"};
+  const ConstraintLadder ladder = start(experiment);
+  BOOST_TEST(ladder.point.x[0] == 0.5);
+  BOOST_TEST(ladder.point.x[1] == -std::sqrt(0.75), boost::test_tools::tolerance(1e-9));
+}
+
+// y = 4 instead of -4 chooses the other of the two points with x = 0.5.
+BOOST_AUTO_TEST_CASE(given_values_choose_the_branch) {
+  Json experiment = pendulum({{"x", 0.5}, {"y", 4}, {"v", 0}, {"w", 0}});
+  experiment["hold"] = {"x"};
+  BOOST_TEST(start(experiment).point.x[1] == std::sqrt(0.75), boost::test_tools::tolerance(1e-9));
+}
+
+// The least 100 (x - 3)² + (y + 4)² on the circle: its gradient is parallel to (x, y).
+BOOST_AUTO_TEST_CASE(weights_say_what_moving_costs) {
+  Json experiment = pendulum({{"x", 3}, {"y", -4}, {"v", 0}, {"w", 0}});
+  experiment["weights"] = {{"x", 100}};
+  const VectorXd x = start(experiment).point.x;
+  BOOST_TEST(std::abs(x[0] * x[0] + x[1] * x[1] - 1) < 1e-12);
+  BOOST_TEST(std::abs(100 * (x[0] - 3) * x[1] - (x[1] + 4) * x[0]) < 1e-5);
+  BOOST_TEST(x[0] > 0.9);
+  experiment["weights"] = {{"tension", 1}, {"x", -1}};
+  BOOST_TEST(
+      problem(experiment).find("/weights/tension: is the weight of something") != std::string::npos,
+      problem(experiment));
+  BOOST_TEST(problem(experiment).find("/weights/x: ") != std::string::npos);
+}
+
+// Three of four coordinates held: the fourth follows from the hidden constraint.
+BOOST_AUTO_TEST_CASE(several_values_are_held) {
+  Json experiment = pendulum({{"x", 0.6}, {"y", -0.8}, {"v", 0.4}, {"w", 7}});
+  experiment["hold"] = {"x", "y", "v"};
+  const ConstraintLadder ladder = start(experiment);
+  BOOST_TEST((ladder.point.x - (VectorXd(4) << 0.6, -0.8, 0.4, 0.3).finished()).norm() < 1e-9);
+  BOOST_REQUIRE_EQUAL(ladder.moves.size(), 1U);
+  BOOST_TEST(ladder.moves[0].name == "w");
+}
+
+BOOST_AUTO_TEST_CASE(what_is_held_against_the_constraints_is_an_error) {
+  Json experiment = pendulum({{"x", 2}, {"y", -4}, {"v", 0}, {"w", 0}});
+  experiment["hold"] = {"x", "y"};
+  BOOST_TEST(problem(experiment).find("/hold: what is held contradicts the constraints") == 0u,
+             problem(experiment));
+}
+
+BOOST_AUTO_TEST_CASE(what_is_missing_is_found_where_it_is_determined) {
+  // w from x v + y w = 0.
+  const ConstraintLadder ladder = start(pendulum({{"x", 0.6}, {"y", -0.8}, {"v", 0.8}}));
+  BOOST_TEST(ladder.point.x[3] == 0.6, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(ladder.moves.empty());
+  const std::string missing = problem(pendulum({{"x", 0.6}, {"y", -0.8}}));
+  BOOST_TEST(missing.find("/initial: nothing determines v, w; expected more initial values") == 0u,
+             missing);
+}
+
+BOOST_AUTO_TEST_CASE(velocities_determine_momenta) {
+  const Json experiment = {
+      {"system",
+       {{"type", "lagrangian"}, {"coordinates", {"q"}}, {"lagrangian", "3*q'^2/2 - q^2"}}},
+      {"initial", {{"q", 1}, {"q'", 0.5}}}};
+  const ConstraintLadder ladder = start(experiment);
+  BOOST_TEST(ladder.point.x[0] == 1.0, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(ladder.point.x[1] == 1.5, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(ladder.moves.empty());
+  Json without = experiment;
+  without["initial"].erase("q'");
+  BOOST_TEST(problem(without).find("/initial: nothing determines p_q") == 0u, problem(without));
+}
+
+BOOST_AUTO_TEST_CASE(a_velocity_that_cannot_be_kept_gives_way) {
+  const Json experiment = {{"system",
+                            {{"type", "lagrangian"},
+                             {"coordinates", {"x", "y"}},
+                             {"lagrangian", "x*y' - x^2/2 - y^2/2"}}},
+                           {"initial", {{"x", 1}, {"y", 0}, {"x'", 7}}}};
+  const ConstraintLadder ladder = start(experiment);
+  BOOST_TEST((ladder.verdict == Verdict::regular));
+  BOOST_TEST(ladder.point.x[0] == 1.0, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(std::abs(ladder.point.v[0]) < 1e-9);  // x' = -y
+  bool told = false;
+  for (const Movement& move : ladder.moves) told = told || move.name == "x'";
+  BOOST_TEST(told);
+}
+
+BOOST_AUTO_TEST_CASE(values_that_are_near_no_point_are_an_error) {
+  const Json experiment = {{"system",
+                            {{"type", "hamiltonian"},
+                             {"manifold", {{"type", "cotangent-bundle"}, {"base", "so3"}}},
+                             {"coordinates", {"R[3][3]"}},
+                             {"hamiltonian", "dot(p_R, p_R)"}}},
+                           {"initial", {{"p_R", {1, 0, 0}}}}};
+  BOOST_TEST(problem(experiment) ==
+             "/initial: no point of CotangentBundle(SpecialOrthogonal3(exponential)) is near the "
+             "initial values (with 0 for what is not given): nearest_rotation: A has determinant "
+             "0.000000; expected one above 0, as near a rotation.");
+}
+
+BOOST_AUTO_TEST_CASE(equations_that_are_not_finite_are_an_error) {
+  const Json experiment = {
+      {"system",
+       {{"type", "hamiltonian"}, {"coordinates", {"q"}}, {"hamiltonian", "p_q^2/2 - 1/q"}}},
+      {"initial", {{"q", 0}, {"p_q", 1}}}};
+  BOOST_TEST(problem(experiment).find("/initial: the equation ") == 0u, problem(experiment));
+}
+
+BOOST_AUTO_TEST_CASE(an_inconsistent_system_is_a_finding) {
+  const Json experiment = {
+      {"system", {{"type", "lagrangian"}, {"coordinates", {"q"}}, {"lagrangian", "q' + q"}}},
+      {"initial", {{"q", 0}}}};
+  BOOST_TEST((start(experiment).verdict == Verdict::inconsistent));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

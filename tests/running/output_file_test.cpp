@@ -1,0 +1,53 @@
+#include "courant/running/output_file.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include "temporary_folder.hpp"
+
+namespace courant {
+
+BOOST_AUTO_TEST_SUITE(output_file)
+
+BOOST_AUTO_TEST_CASE(writes_and_overwrites) {
+  const TemporaryFolder folder;
+  OutputFile file(folder / "a");
+  file.write("hello ");
+  file.write("world");
+  file.overwrite("H");
+  file.close();
+  BOOST_TEST(read_text(folder / "a") == "Hello world");
+}
+
+BOOST_AUTO_TEST_CASE(a_file_is_written_whole_or_not_at_all) {
+  const TemporaryFolder folder;
+  write_file(folder / "a", "old");
+  write_file(folder / "a", "new");
+  BOOST_TEST(read_text(folder / "a") == "new");
+  BOOST_CHECK_THROW(write_file(folder / "none" / "a", "x"), OutputError);
+  // A folder in the way: what was there stays, and nothing half-written is left.
+  std::filesystem::create_directories(folder / "b" / "c");
+  BOOST_CHECK_THROW(write_file(folder / "b", "x"), OutputError);
+  std::size_t entries = 0;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    ++entries;
+  BOOST_TEST(entries == 2u);
+}
+
+BOOST_AUTO_TEST_CASE(a_full_disk_is_an_error) {
+  if (!std::filesystem::exists("/dev/full")) return;
+  OutputFile file("/dev/full");
+  BOOST_CHECK_THROW(file.write("x"), OutputError);
+}
+
+BOOST_AUTO_TEST_CASE(makes_folders) {
+  const TemporaryFolder folder;
+  make_folder(folder / "a" / "b");
+  make_folder(folder / "a" / "b");
+  BOOST_TEST(std::filesystem::is_directory(folder / "a" / "b"));
+  write_text(folder / "file", "");
+  BOOST_CHECK_THROW(make_folder(folder / "file" / "b"), OutputError);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace courant

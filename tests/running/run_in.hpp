@@ -1,0 +1,17 @@
+// A run of an experiment in a folder of the test.
+#pragma once
+
+#include "courant/running/runner.hpp"
+#include "temporary_folder.hpp"
+
+namespace courant {
+
+// In folder/run, by the interpreter.
+inline RunOutcome run_in(const TemporaryFolder& folder, const Json& experiment,
+                         RunOptions options = {}) {
+  options.folder = folder / "run";
+  options.backend = Backend::interpreter;
+  return run(read_experiment(experiment.dump()), options);
+}
+
+}  // namespace courant

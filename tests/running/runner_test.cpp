@@ -1,0 +1,187 @@
+#include "courant/running/runner.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "courant/running/run_files.hpp"
+#include "courant/running/run_folder.hpp"
+#include "run_in.hpp"
+
+namespace courant {
+namespace {
+
+const Json oscillator = Json::parse(R"json({
+  "title": "Oscillator",
+  "system": { "type": "hamiltonian", "coordinates": ["q"], "hamiltonian": "(p_q^2 + q^2)/2" },
+  "initial": { "q": 1, "p_q": 0 },
+  "method": { "type": "discretize-first" },
+  "time": { "step": 0.1, "end": 10 },
+  "observe": { "angle": "atan2(-p_q, q)", "speed": "q'" }
+})json");
+
+// Falls onto q = 0, where the formula for the energy ends: it gets there at t = 4√2/3 = 1.886.
+const Json collision = Json::parse(R"json({
+  "system": { "type": "hamiltonian", "coordinates": ["q"], "hamiltonian": "p_q^2/2 + sqrt(q)" },
+  "initial": { "q": 1, "p_q": 0 },
+  "method": { "type": "discretize-first" },
+  "time": { "step": 0.01, "end": 10 }
+})json");
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(runner)
+
+BOOST_AUTO_TEST_CASE(writes_what_it_computes) {
+  const TemporaryFolder folder;
+  const RunOutcome outcome = run_in(folder, oscillator);
+  BOOST_TEST((outcome.status == RunStatus::completed));
+  const Run run = read_run(folder / "run");
+  BOOST_TEST(run.trajectory.names() ==
+             (std::vector<std::string>{"t", "q", "p_q", "H", "angle", "speed"}));
+  BOOST_REQUIRE(run.trajectory.rows() == 101u);
+  // The midpoint rule turns by 2 atan(h/2) a step; velocities are those at the point, not between
+  // two.
+  const auto q = run.trajectory.column("q"), p = run.trajectory.column("p_q"),
+             speed = run.trajectory.column("speed");
+  for (std::size_t k = 0; k <= 100; ++k) {
+    const double angle = static_cast<double>(k) * 2.0 * std::atan(0.05);
+    BOOST_TEST(std::abs(q[k] - std::cos(angle)) < 1e-13);
+    BOOST_TEST(std::abs(p[k] + std::sin(angle)) < 1e-13);
+    BOOST_TEST(std::abs(speed[k] - p[k]) < 1e-12);
+  }
+  BOOST_TEST(run.trajectory.column("t")[100] == 10.0);
+  BOOST_TEST(outcome.summary["final"]["q"].get<double>() == q[100]);
+  BOOST_TEST(outcome.summary["observables"]["H"]["max_drift"].get<double>() < 1e-14);
+  BOOST_TEST(outcome.summary["steps"] == 100);
+  BOOST_TEST(run.summary.dump() == outcome.summary.dump());
+  BOOST_TEST(run.experiment["output"]["every"] == 1);
+}
+
+BOOST_AUTO_TEST_CASE(rows_are_written_every_so_many_steps_and_at_the_end) {
+  const TemporaryFolder folder;
+  Json experiment = oscillator;
+  experiment["output"] = {{"every", 30}, {"format", "npy"}};
+  experiment["expect"] = {{{"observable", "q"}, {"min", -0.999}}};
+  const RunOutcome outcome = run_in(folder, experiment);
+  const Run run = read_run(folder / "run");
+  const auto t = run.trajectory.column("t");
+  BOOST_TEST(std::vector<double>(t.begin(), t.end()) == (std::vector<double>{0, 3, 6, 9, 10}));
+  // Statistics are over all steps: q falls to -0.9999 between two rows.
+  BOOST_TEST(!outcome.as_expected());
+  BOOST_TEST(outcome.summary["expectations"][0]["value"].get<double>() < -0.999);
+}
+
+BOOST_AUTO_TEST_CASE(expectations_pass_and_fail) {
+  const auto passes = [](const Json& expectation, const Json& experiment = oscillator) {
+    const TemporaryFolder folder;
+    Json expecting = experiment;
+    expecting["expect"] = {expectation};
+    return run_in(folder, expecting).as_expected();
+  };
+  BOOST_TEST(passes({{"observable", "H"}, {"max_drift", 1e-13}, {"max_slope", 1e-14}}));
+  BOOST_TEST(!passes({{"observable", "q"}, {"max_drift", 1.9}}));
+  BOOST_TEST(passes({{"observable", "q"}, {"min_drift", 1.9}}));
+  BOOST_TEST(!passes({{"observable", "H"}, {"min_drift", 1e-3}}));
+  BOOST_TEST(passes({{"observable", "q"}, {"max", 1.0}, {"min", -1.0}}));
+  BOOST_TEST(!passes({{"observable", "q"}, {"max", 0.9}}));
+  BOOST_TEST(passes({{"at", 10}, {"state", {{"q", "cos(200*atan(0.05))"}}}, {"tolerance", 1e-12}}));
+  BOOST_TEST(!passes(
+      {{"at", 10}, {"state", {{"q", "cos(200*atan(0.05)) + 1e-9"}}}, {"tolerance", 1e-12}}));
+  BOOST_TEST(
+      passes({{"state", {{"q", "cos(20*atan(0.05)*t)"}, {"H", 0.5}}}, {"tolerance", 1e-12}}));
+  BOOST_TEST(!passes({{"state", {{"q", "cos(t)"}}}, {"tolerance", 1e-4}}));
+  BOOST_TEST(passes(
+      {{"verdict", "regular"}, {"ladder", {{2, 2}}}, {"index", 0}, {"degrees_of_freedom", 2}}));
+  BOOST_TEST(!passes({{"verdict", "gauge"}}));
+  BOOST_TEST(!passes({{"ladder", {{2, 2}, {1, 1}}}}));
+  BOOST_TEST(!passes({{"verdict", "inconsistent"}}));
+  BOOST_TEST(!passes({{"max_violation", 1.0}}));  // there are no constraints
+}
+
+BOOST_AUTO_TEST_CASE(what_was_computed_before_a_failure_is_on_disk) {
+  const TemporaryFolder folder;
+  Json experiment = collision;
+  experiment["expect"] = {{{"observable", "H"}, {"max_drift", 1e9}}};
+  const RunOutcome outcome = run_in(folder, experiment);
+  BOOST_TEST((outcome.status == RunStatus::failed));
+  BOOST_TEST(outcome.message != "");
+  BOOST_TEST(!outcome.as_expected());  // bounds along a run are for complete ones
+  const Run run = read_run(folder / "run");
+  BOOST_TEST(run.summary["status"] == "failed");
+  const auto steps = run.summary["steps"].get<std::size_t>();
+  BOOST_TEST(run.trajectory.rows() >= steps);
+  BOOST_TEST(steps >= 186u);
+  BOOST_TEST(steps <= 190u);
+}
+
+BOOST_AUTO_TEST_CASE(an_interrupt_ends_a_run_in_order) {
+  const TemporaryFolder folder;
+  std::atomic<bool> stop{true};
+  RunOptions options;
+  options.stop = &stop;
+  const RunOutcome outcome = run_in(folder, oscillator, options);
+  BOOST_TEST((outcome.status == RunStatus::interrupted));
+  BOOST_TEST(read_run(folder / "run").summary["status"] == "interrupted");
+  BOOST_TEST(read_run(folder / "run").trajectory.rows() == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(a_run_is_replaced_only_when_told_so) {
+  const TemporaryFolder folder;
+  run_in(folder, oscillator);
+  const std::string before = read_text(folder / "run" / "summary.json");
+  BOOST_CHECK_THROW(run_in(folder, oscillator), UnusableFolder);
+  BOOST_TEST(read_text(folder / "run" / "summary.json") == before);
+  Json longer = oscillator;
+  longer["time"]["end"] = 20;
+  RunOptions options;
+  options.replace = true;
+  run_in(folder, longer, options);
+  BOOST_TEST(read_run(folder / "run").trajectory.rows() == 201u);
+}
+
+BOOST_AUTO_TEST_CASE(nothing_is_written_for_an_experiment_that_is_wrong) {
+  const TemporaryFolder folder;
+  Json experiment = oscillator;
+  experiment["observe"]["inverse"] = "1/p_q";
+  BOOST_CHECK_THROW(run_in(folder, experiment), ExperimentError);
+  Json unfit = oscillator;
+  unfit["system"]["manifold"] = "euclidean";
+  unfit["system"]["coordinates"] = {"q", "p_q"};
+  unfit["system"]["structure"] = {{"type", "bivector"}, {"matrix", {{0, 1}, {-1, 0}}}};
+  unfit["method"] = {{"type", "constrain-first"}, {"projector", "momentum"}};
+  BOOST_CHECK_THROW(run_in(folder, unfit), ExperimentError);
+  BOOST_TEST(!std::filesystem::exists(folder / "run"));
+}
+
+BOOST_AUTO_TEST_CASE(an_inconsistent_system_has_no_trajectory) {
+  const TemporaryFolder folder;
+  Json experiment = {
+      {"system", {{"type", "lagrangian"}, {"coordinates", {"q"}}, {"lagrangian", "q' + q"}}},
+      {"initial", {{"q", 0}}}};
+  BOOST_TEST((run_in(folder, experiment).status == RunStatus::failed));
+  experiment["expect"] = {{{"verdict", "inconsistent"}}};
+  RunOptions options;
+  options.replace = true;
+  const RunOutcome outcome = run_in(folder, experiment, options);
+  BOOST_TEST((outcome.status == RunStatus::completed));
+  BOOST_TEST(outcome.as_expected());
+  BOOST_TEST(read_run(folder / "run").trajectory.rows() == 0u);
+}
+
+// A time-dependent system, by closed form: q'' = cos(3t) from rest.
+BOOST_AUTO_TEST_CASE(time_may_appear_explicitly) {
+  const TemporaryFolder folder;
+  const Json experiment = {
+      {"system",
+       {{"type", "lagrangian"}, {"coordinates", {"q"}}, {"lagrangian", "q'^2/2 + q*cos(3*t)"}}},
+      {"initial", {{"q", 0}, {"q'", 0}}},
+      {"method", {{"type", "discretize-first"}}},
+      {"time", {{"start", 0}, {"step", 0.001}, {"end", 3}}},
+      {"expect",
+       {{{"state", {{"q", "(1 - cos(3*t))/9"}, {"p_q", "sin(3*t)/3"}}}, {"tolerance", 1e-5}}}}};
+  BOOST_TEST(run_in(folder, experiment).as_expected());
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace courant
