@@ -14,9 +14,8 @@ namespace courant {
 // the graph of the symbols; a constant if only constants are in it.
 //
 //   numbers      1  .5  1e-3  pi  e; names of the table; x[2]  r[i+1][j-1]; velocities x'  r[2]'
-//   signs        ||  &&  < <= > >= == !=  + -  * /  unary - + !  ^   (tightest last, ^ to the
-//   right:
-//                -x^2 = -(x²), 2^-1 = ½, a^b^c = a^(b^c)), parentheses
+//   signs        ||  &&  < <= > >= == !=  + -  * /  unary - + !  ^, and parentheses; tightest
+//                last, and ^ to the right: -x^2 = -(x²), 2^-1 = ½, a^b^c = a^(b^c)
 //   functions    sqrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh abs sign pow,
 //                min max (of two or more), dot(a, b), cross(a, b), norm(a)
 //   sums         sum(i, first, last, term), prod likewise: i is a new name and an integer constant

@@ -25,8 +25,8 @@ enum class Backend {
 // A map f: R^{n_0} × … × R^{n_g} → Rᵐ of named input groups, with its Jacobian by some of them and
 // its truncated Taylor series.
 //
-//   f(in_0, …, in_g) = outputs;   J = ∂f/∂(the groups named in `differentiate`, side by side)   (m
-//   × Σ n_i, sparse pattern known)
+//   f(in_0, …, in_g) = outputs
+//   J = ∂f/∂(the groups named in `differentiate`, side by side)      m × Σ n_i, pattern known
 //
 // Immutable and cheap to copy. It keeps no Expr: the graph it was traced in may be dropped.
 class Function {

@@ -15,8 +15,8 @@ double stumpff(int k, double s);
 
 // The k-th derivative of g(c) = arccos(c) / √(1 - c²), analytic on c > -1; k ≥ 0.
 //
-//   g(cos θ) = θ / sin θ,   g(cosh θ) = θ / sinh θ,   (1 - c²) g_{k+1} = (2k+1) c g_k + k² g_{k-1}
-//   (k ≥ 1)
+//   g(cos θ) = θ / sin θ,   g(cosh θ) = θ / sinh θ
+//   (1 - c²) g_{k+1} = (2k+1) c g_k + k² g_{k-1}      for k ≥ 1
 //
 // A logarithm written with g(⟨x, y⟩) is analytic at y = x, on spheres, rotations and hyperboloids.
 // Infinite at c = -1 (the antipode, where the logarithm is not defined), not a number below.

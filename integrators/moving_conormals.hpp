@@ -7,13 +7,13 @@
 
 namespace courant {
 
-// An orthonormal basis C (n × d) of the annihilator of T_xM_f that turns as little as possible
+// An orthonormal basis N (n × d) of the annihilator of T_xM_f that turns as little as possible
 // while x moves. Where S_f is F(ξ, ξ', …, z, …) = 0 in the chart at x, the conormals are the
 // combinations of dF that contain dξ alone:
 //
 //   c = (∂F/∂ξ)ᵀ w,   (∂F/∂(ξ', …, z, …))ᵀ w = 0
 //
-// Those at the next point are the solutions with Cᵀ c = e_1, …, e_d for the last C, found by
+// Those at the next point are the solutions with Nᵀ c = e_1, …, e_d for the last N, found by
 // Newton's method with a kept factorisation from an extrapolation of the last w, and made
 // orthonormal. Where that fails, and at the first point, by QR decomposition. One object a
 // trajectory; nothing is allocated but by QR decompositions.

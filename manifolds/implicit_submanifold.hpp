@@ -23,8 +23,11 @@ namespace courant {
 // over that distance. Beyond, the result may be off S (point_defect tells) or not a number.
 //
 // projection(y) is P: M → S on expressions, near S: six Gauss–Newton steps
-//   y ↦ R^M_y(-W (A W)⁻¹ c(y)).  P(x) = x and T P = Π on S,
-// and at a distance of a fraction ε of the radius of curvature the result is off S by about ε^64.
+//
+//   y ↦ R^M_y(-W (A W)⁻¹ c(y)).
+//
+// On S it satisfies P(x) = x and T P = Π. At a distance of a fraction ε of the radius of curvature
+// the result is off S by about ε^64.
 //
 // Reference: Absil, Malick, Projection-like retractions on matrix manifolds (2012).
 class ImplicitSubmanifold final : public Manifold {

@@ -14,7 +14,7 @@ struct LawOptions {
   int points = 3;          // at which each law is measured; at least 1
 };
 
-// Every law of `manifold` (M1 to M8 in the comment of Manifold) at random points x, for tangent
+// Every law of `manifold` (M1 to M9 in the comment of Manifold) at random points x, for tangent
 // vectors of length 0, 1e-8, 1e-4, half the injectivity radius and 1 % inside it (where it is
 // infinite: 0.5 and 2). Every defect is relative to the size of what is compared. Independent of
 // the formulas that are measured: derivatives are held against sixth-order differences, the frame

@@ -29,6 +29,8 @@ namespace courant {
 //   M4  R⁻¹(x, R(x, v)) = v,  R(x, R⁻¹(x, y)) = y         for ‖v‖ < r(x)
 //   M5  C E C = C and E C E = E on M, rank n;             E(x) R^Ñ = ker d constraint(x)
 //   M6  every map is smooth at and near v = 0             derivatives are finite and right
+//   M7  s ↦ R(x, s v) are geodesics of a connection       where is_geodesic() claims it
+//   M8  random_point, project and tangent_basis are on M  tangent_basis orthonormal, of n columns
 //   M9  R⁻¹(R(x, v), R(x, w)) is the same at every x      where unit() claims a group
 //
 // Every formula is written once, on Expr; given numbers, the same functions return numbers

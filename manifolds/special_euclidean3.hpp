@@ -9,8 +9,9 @@ namespace courant {
 
 // SE(3) = {(R, r) : R ∈ SO(3), r ∈ R³} with (R, r)(S, s) = (RS, R s + r), left-trivialised.
 //
-//   point (R, r) ∈ R¹², R row after row;   tangent (ω, u) ∈ R⁶ with Ṙ = R ω̂, ṙ = R u (angular and
-//   linear velocity in the body);   covector in (R⁶)* (angular, linear momentum in the body)
+//   point      (R, r) ∈ R¹², R row after row                    N = 12
+//   tangent    (ω, u) ∈ R⁶ with Ṙ = R ω̂, ṙ = R u, the angular and linear velocity in the body
+//   covector   in (R⁶)*, the angular and linear momentum in the body      n = Ñ = 6
 //
 // Retractions, x ↦ x τ(ω, u):
 //   exponential()  τ = (exp ω̂, (1 + c₂ ω̂ + c₃ ω̂²) u), c_k(‖ω‖²) the Stumpff functions; geodesic;

@@ -8,9 +8,10 @@ namespace courant {
 
 // SO(3) = {R ∈ R^{3×3} : RᵀR = 1, det R = 1}, left-trivialised.
 //
-//   point R ∈ R⁹, row after row (R[i][j] = x[3i+j]);   tangent v ∈ R³ with Ṙ = R v̂ (v is the
-//   angular velocity in the body);   covector in (R³)* (angular momentum in the body);   N = 9, n =
-//   Ñ = 3 E v = R v̂,   C Ṙ = (RᵀṘ)^∨, with the skew part taken
+//   point      R ∈ R⁹, row after row: R[i][j] = x[3i+j]         N = 9
+//   tangent    v ∈ R³ with Ṙ = R v̂, the angular velocity in the body      n = Ñ = 3
+//   covector   in (R³)*, the angular momentum in the body
+//   frame      E v = R v̂,   C Ṙ = (RᵀṘ)^∨ of the skew part
 //
 // Retractions:
 //   exponential()  R exp v̂, geodesic (Example 4.10); injective for ‖v‖ < π

@@ -14,8 +14,8 @@ namespace courant {
 // Retractions:
 //   exponential()  R_x(v) = cos‖v‖ x + sin‖v‖/‖v‖ v, geodesic (Example 5.3); injective for ‖v‖ < π;
 //                  inverse θ/sin θ (y - cos θ x), θ = arccos⟨x, y⟩, for y ≠ -x
-//   projective()   R_x(v) = (x + v)/‖x + v‖ for all v, onto the half ⟨x, y⟩ > 0; inverse
-//   y/⟨x, y⟩ - x
+//   projective()   R_x(v) = (x + v)/‖x + v‖ for all v, onto the half ⟨x, y⟩ > 0;
+//                  inverse y/⟨x, y⟩ - x
 //
 // Outside, the inverse of the exponential retraction is not a number at y = -x, and that of the
 // projective one is not the inverse at ⟨x, y⟩ ≤ 0.

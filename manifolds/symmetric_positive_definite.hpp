@@ -11,8 +11,10 @@ namespace courant {
 //   covectors: dual to those entries;   n(n+1)/2 = dim = N = Ñ,   E = C = 1
 //
 // Retraction: the geodesics of the log-Cholesky metric. With the Cholesky factor L of X and the
-// tangent vector L(L⁻¹V L⁻ᵀ)_½ = A of L that V is ( _½ : lower triangle, half the diagonal),
-//   R_X(V) = L⁺L⁺ᵀ,   L⁺ᵢⱼ = Lᵢⱼ + Aᵢⱼ (i > j),   L⁺ᵢᵢ = Lᵢᵢ exp(Aᵢᵢ/Lᵢᵢ)
+// tangent vector A = L(L⁻¹V L⁻ᵀ)_½ of L that V is ( _½ : lower triangle, half the diagonal),
+//
+//   R_X(V) = L⁺L⁺ᵀ,   L⁺ᵢⱼ = Lᵢⱼ + Aᵢⱼ (i > j),   L⁺ᵢᵢ = Lᵢᵢ exp(Aᵢᵢ/Lᵢᵢ),
+//
 // a diffeomorphism of T_XM onto SPD(n), with the inverse in the same closed form. Not invariant
 // under X ↦ GXGᵀ. Outside the manifold not a number. Reference: Z. Lin, Riemannian geometry of
 // symmetric positive definite matrices via Cholesky decomposition (2019).

@@ -10,8 +10,11 @@ namespace courant {
 
 // The ladder of a summary.json as a commutative diagram:
 //
-//   S₀ ⊇ S₁ = S₂        each with its dimension, ∅ where there is none; = where the dimensions
-//   repeat ↓τ   ↓τ   ↓τ M₀ ⊇ M₁ = M₂
+//   S₀ ⊇ S₁ = S₂
+//   ↓τ   ↓τ   ↓τ
+//   M₀ ⊇ M₁ = M₂
+//
+// Each set stands with its dimension, an empty one as ∅; "=" stands where the dimensions repeat.
 plot::Markup ladder_diagram(const nlohmann::ordered_json& ladder);
 
 // The verdict as a sentence: where the algorithm stopped, what S_f is, and what that means for

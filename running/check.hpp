@@ -18,6 +18,10 @@ namespace courant {
 //   method      null without one; claims and what is measured
 //   invariants  {name, rate, scale, invariant}: d/dt along S_f
 //
+// Laws of a method Φ_h, where it claims them:
+//   P1  Φ_{-h} ∘ Φ_h = id
+//   P2  Φ_h*ω = ω
+//
 // Points are the consistent initial point and some around it. Symplecticity is that of one step
 // from there, its differential by differences of order 4, on T M_f. The order is a slope over
 // shorter steps.

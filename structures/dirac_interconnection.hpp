@@ -33,8 +33,8 @@ LinearDirac tensor_product(const LinearDirac& A, const LinearDirac& B);
 
 // A and B joined at the ports (f, e): coordinate ports_of_A[k] of A with ports_of_B[k] of B,
 //
-//   A ∘ B = {(v_A, α_A, v_B, α_B) : (v_A, α_A, f, e) ∈ A and (-f, e, v_B, α_B) ∈ B for some (f,
-//   e)},
+//   A ∘ B = {(v_A, α_A, v_B, α_B) :
+//            (v_A, α_A, f, e) ∈ A and (-f, e, v_B, α_B) ∈ B for some (f, e)},
 //
 // on the coordinates that are left, those of A first, each in their order. Sign: flows count into
 // each part, so what leaves A enters B (f_A = -f_B), and the effort is common (e_A = e_B); then the

@@ -8,9 +8,10 @@
 namespace courant {
 
 // S = {v ∈ TM : (v, α) ∈ D, α ∈ 𝓛} (Section 2.3 of the paper; the general form (D, 𝓛)), as
-// equations
+// equations in x, v and the auxiliary unknowns z = (λ, u), with E the generating family:
 //
-//   membership(x, v, E(x)ᵀ∂_xE(x, λ), u) = 0,   ∂_λE(x, λ) = 0;       auxiliary unknowns z = (λ, u)
+//   membership(x, v, frame(x)ᵀ ∂_xE(x, λ), u) = 0
+//   ∂_λE(x, λ) = 0
 class DiracSystem final : public ImplicitSystem {
  public:
   // Both on the same manifold object; throws std::invalid_argument otherwise. `names` as in

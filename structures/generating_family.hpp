@@ -10,8 +10,9 @@ namespace courant {
 
 // E: M × R^k → R, (x, λ) ↦ E(x, λ, t), which generates
 //
-//   𝓛 = {∂_x E(x, λ) : ∂_λ E(x, λ) = 0} ⊂ T*M            (Section 2.3 of the paper; Morse families:
-//   its reference [4])
+//   𝓛 = {∂_x E(x, λ) : ∂_λ E(x, λ) = 0} ⊂ T*M
+//
+// (Section 2.3 of the paper; Morse families: its reference [4]).
 //
 //   Hamiltonian                       E = H(x), k = 0
 //   Lagrangian, singular or not       E(q, p, w) = ⟨p, w⟩ - L(q, w) on M = T*Q (Section 5.1.1)

@@ -10,12 +10,13 @@
 
 namespace courant {
 
-// The currents i ∈ V = R^E and voltages v ∈ V* of the E elements of a graph with N nodes and c
+// The currents i ∈ V = R^m and voltages v ∈ V* of the m elements of a graph with N nodes and c
 // components that obey Kirchhoff's laws, A the incidence matrix (+1 at the source of an element, -1
 // at its target):
 //
-//   D = {(i, v) : A i = 0, v = Aᵀφ for some potentials φ} = F ⊕ F°,   F = ker A the space of
-//   cycles.
+//   D = {(i, v) : A i = 0, v = Aᵀφ for some potentials φ} = F ⊕ F°
+//
+// with F = ker A the space of cycles.
 //
 // Here the flow is the current, the effort the voltage. That D is Dirac is Tellegen's theorem.
 // A spanning forest (N - c elements: the tree) splits the elements; each other element, a link,

@@ -15,11 +15,10 @@ namespace courant {
 //   D = D^⊥,   that is, dim D = n = dim V and ≪z, w≫ = 0 for all z, w ∈ D.
 //
 // Laws, F_D and F_D^(*) the projections of D on V and V*:
-//   L1  D ∩ V* = F_D°,  D ∩ V = (F_D^(*))°
-//   L2  D is determined by (F_D, ω_D), and by (F_D^(*), Λ_D) (Proposition 2.3 and its dual)
-//   L3  D = {(v, α) : F v + E α = 0} = {(Eᵀλ, Fᵀλ)}
-//   L4  D is the graph of one orthogonal matrix O: v - α = O (v + α) (in bases fixed once and for
-//   all)
+//   V1  D ∩ V* = F_D°,  D ∩ V = (F_D^(*))°
+//   V2  D is determined by (F_D, ω_D), and by (F_D^(*), Λ_D) (Proposition 2.3 and its dual)
+//   V3  D = {(v, α) : F v + E α = 0} = {(Eᵀλ, Fᵀλ)}
+//   V4  D is the graph of one orthogonal matrix O, v - α = O (v + α), in bases that are fixed
 //
 // Signs: α = ω♭(v) = ωᵀ v for a form with matrix ω_ij = ω(e_i, e_j), since ω♭(u)(v) = ω(u, v);
 // v = ♯_Λ(α) = Λ α for a bivector Λ_ij = Λ(eⁱ, eʲ), since ⟨β, ♯_Λ(α)⟩ = Λ(β, α).

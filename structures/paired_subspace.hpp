@@ -13,8 +13,8 @@ double pairing(const Eigen::Ref<const VectorXd>& v1, const Eigen::Ref<const Vect
 
 // A subspace U ⊂ V ⊕ V*, dim V = n, with the orthogonal complement of the pairing:
 //
-//   U^⊥ = {(v, α) : ≪(v, α), (u, β)≫ = 0 for all (u, β) ∈ U},   U isotropic: U ⊂ U^⊥,   U
-//   coisotropic: U^⊥ ⊂ U.
+//   U^⊥ = {(v, α) : ≪(v, α), (u, β)≫ = 0 for all (u, β) ∈ U}
+//   U isotropic: U ⊂ U^⊥,   U coisotropic: U^⊥ ⊂ U
 //
 // A vector v and a covector α are columns of n numbers in dual bases, a pair (v, α) is a column of
 // 2n.

@@ -11,10 +11,11 @@ namespace courant {
 
 // n vortices of strengths Γ_i at (x_i, y_i), q = (x_0, …, x_{n-1}, y_0, …, y_{n-1}) ∈ R²ⁿ:
 //
-//   H(q) = 1/(4π) Σ_{i<j} Γ_i Γ_j log l_ij²,   l_ij² = (x_i - x_j)² + (y_i - y_j)²      (equation
-//   (9), each pair once) α(q) = ½ Σ_i Γ_i (x_i dy_i - y_i dx_i) (equation (8))
+//   H(q) = 1/(4π) Σ_{i<j} Γ_i Γ_j log l_ij²,   l_ij² = (x_i - x_j)² + (y_i - y_j)²
+//   α(q) = ½ Σ_i Γ_i (x_i dy_i - y_i dx_i)
 //
-// smooth where no two vortices are at one place; their equations are (6).
+// H is equation (9) with each pair once, α equation (8); both are smooth where no two vortices are
+// at one place. The equations of motion are (6).
 class PointVortices {
  public:
   // Throws std::invalid_argument if a strength is zero or not finite: its equation would determine

@@ -43,7 +43,7 @@ struct Movement {
   double from = 0.0, to = 0.0;
 };
 
-// A linear combination Σ c · dⁱF_e/dtⁱ / i! of equations and their derivatives, at the point.
+// A linear combination Σ c · dⁱF_e/dtⁱ of equations and their derivatives, at the point.
 struct Combination {
   struct Term {
     Index equation;

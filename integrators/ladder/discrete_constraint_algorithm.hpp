@@ -14,11 +14,16 @@ namespace courant {
 //   S_k = {(x_0, x_1) : there are x_2, …, x_{k+1} with (x_i, x_{i+1}) ∈ S_d for i = 0 … k}
 //   M_k = {x_0 : …},      until the dimensions of both repeat
 //
-// M_k are the points from which k+1 steps can be made. It need not find what ConstraintAlgorithm
-// finds for S: a map that asks for the equations between the points may leave the points themselves
-// free. Verdicts: regular, S_f is the graph of a map x_0 ↦ x_1 on M_f; gauge, x_1 is free in
-// gauge_dimension directions; inconsistent, not_reached as for S. Near the point, where ranks are
-// constant; that they are is not examined.
+// M_k are the points from which k+1 steps can be made. The result need not be that of
+// ConstraintAlgorithm for S: the equations are asked for between the points, so the points
+// themselves may be free. Verdicts:
+//
+//   regular       S_f is the graph of a map x_0 ↦ x_1 on M_f
+//   gauge         x_1 is free in gauge_dimension directions
+//   inconsistent  as for S
+//   not_reached   as for S
+//
+// The result holds near the point if the ranks are constant there, which is not examined.
 class DiscreteConstraintAlgorithm {
  public:
   struct Options {

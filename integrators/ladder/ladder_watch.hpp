@@ -13,13 +13,15 @@ namespace courant {
 // Runs the constraint algorithm again at states of a trajectory and says when the ladder that the
 // method was built on no longer holds:
 //
-//   the dimensions or the verdict are others than at the start, or
-//   a singular value that a rank counts, in the units of the start, falls to zero before the next
-//   state: below 5 % of the largest it has had, to less than half since the last state, and falling
-//   before that. Of the levels where one falls the lowest counts: at higher ones it does so as a
-//   power.
+//   1. the dimensions or the verdict are others than at the start, or
+//   2. a singular value that a rank counts, in the units of the start, falls to zero before the
+//      next state.
 //
-// The second is how a singular configuration looks to steps that do not hit it. One object a run.
+// A value is taken to fall to zero when it is below 5 % of the largest it has had, less than half
+// of what it was at the last state, and was falling before that. Where values fall at several
+// levels the lowest level counts, because at higher levels the same value appears as a power. The
+// second finding is how a singular configuration looks to steps that do not hit it. One object a
+// run.
 class LadderWatch {
  public:
   LadderWatch(std::shared_ptr<const ImplicitSystem> system, const ConstraintLadder& start);

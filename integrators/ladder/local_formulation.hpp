@@ -9,8 +9,8 @@ namespace courant {
 
 // The symbols of F^[k] in the chart ξ ↦ R_{x₀}(B ξ): what a step is composed from.
 //
-//   x(ξ) = R_{x₀}(B ξ),   v(ξ, ξ') = C(x) d/dt x(ξ),   F(x, v, z, t) and its total derivatives by t
-//   along (ξ', ξ'', …; z', z'', …)
+//   x(ξ) = R_{x₀}(B ξ),   v(ξ, ξ') = C(x) d/dt x(ξ)
+//   F(x, v, z, t) and its total derivatives by t along (ξ', ξ'', …; z', z'', …)
 //
 // Where n = Ñ the basis B is the identity, and no parameter.
 //

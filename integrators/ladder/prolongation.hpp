@@ -16,8 +16,8 @@ struct Linearization {
 // Equations F^[0], F^[1], … where F^[k+1] consists of F^[k] and r equations more, in unknowns that
 // grow likewise:
 //
-//   y = (x_0, x_1, z_0, x_2, z_1, …, x_{k+1}, z_k),   x_i ∈ Rⁿ, z_i ∈ R^m;   F^[k]: R^{n +
-//   (k+1)(n+m)} → R^{(k+1) r}
+//   y = (x_0, x_1, z_0, x_2, z_1, …, x_{k+1}, z_k),   x_i ∈ Rⁿ, z_i ∈ R^m
+//   F^[k]: R^{n + (k+1)(n+m)} → R^{(k+1) r}
 //
 // The i-th block of r equations contains x_0 … x_{i+1}, z_0 … z_i only, so that the unknowns and
 // equations of level k are leading parts of those of any higher level. The sets of the ladder are

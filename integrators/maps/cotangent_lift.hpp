@@ -9,14 +9,19 @@ namespace courant {
 // R_d^{T*} = Φ⁻¹ ∘ R̂_d ∘ α_Q: T(T*Q) → T*Q × T*Q for a discretization map R_d: TQ → Q × Q
 // (Proposition 4.11): a symplectomorphism from (T(T*Q), d_Tω_Q) to (T*Q × T*Q, pr₂*ω_Q - pr₁*ω_Q)
 // (Corollary 4.12), so that Hamiltonian and Lagrangian systems give symplectic methods. Here
+//
 //   α_Q: TT*Q → T*TQ, (q, p, q̇, ṗ) ↦ (q, v, p_q, p_v) = (q, q̇, ṗ, p)
-// (the paper prints its inverse).
+//
+// (the paper prints the inverse of α_Q).
 //
 // In coordinates (ṗ, p) = (T R_d)ᵀ(-p₀, p₁) at (q, v), R_d(q, v) = (q₀, q₁): the inverse needs no
-// linear solve. It is the gradient of
-//   φ(q, v) = -⟨p₀, C(q₀) R⁻(q, v)⟩ + ⟨p₁, C(q₁) R⁺(q, v)⟩,     p = ∂_vφ,   ρ = ∂_qφ - ⟨p, T(v, ·)⟩
-//   in the frames of CotangentBundle
-// with T the torsion of the frame. forward solves the same equations, linear in (p₀, p₁).
+// linear solve. In the frames of CotangentBundle, with T the torsion of the frame, it is made of the
+// derivatives of one function,
+//
+//   φ(q, v) = -⟨p₀, C(q₀) R⁻(q, v)⟩ + ⟨p₁, C(q₁) R⁺(q, v)⟩
+//   p = ∂_vφ,   ρ = ∂_qφ - ⟨p, T(v, ·)⟩
+//
+// forward solves the same equations, which are linear in (p₀, p₁).
 class CotangentLift final : public DiscretizationMap {
  public:
   // `base` on the base manifold object of `phase_space`; throws std::invalid_argument otherwise.

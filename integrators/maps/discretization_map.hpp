@@ -10,14 +10,16 @@
 
 namespace courant {
 
-// A smooth map R_d = (R⁻, R⁺): TM → M × M (Definition 4.5). With it one step of S ⊂ TM is (1/h)
-// R_d⁻¹(x₀, x₁) ∈ S.
+// A smooth map R_d = (R⁻, R⁺): TM → M × M (Definition 4.5). With it one step of S ⊂ TM is
+//
+//   (1/h) R_d⁻¹(x₀, x₁) ∈ S.
 //
 // Laws, measured by check_discretization_map:
 //   D1  R_d(0_x) = (x, x)
 //   D2  d/ds (R⁺ - R⁻)(s v) = v at s = 0, in the frame of M
-//   D3  inverse(forward(x, v)) = (x, v) and forward(inverse(x₀, x₁)) = (x₀, x₁), near the diagonal
-//   (Proposition 4.6) D4  the claims order(), is_symmetric() and is_symplectic() hold
+//   D3  inverse(forward(x, v)) = (x, v) and forward(inverse(x₀, x₁)) = (x₀, x₁),
+//       near the diagonal (Proposition 4.6)
+//   D4  the claims order(), is_symmetric() and is_symplectic() hold
 //   D5  forward(x̄, v) = (x₀, x₁) for (x̄, v, x₁) = from_start(x₀, w), near w = 0
 //
 // x, x₀, x₁: points (N); v: tangent vector (Ñ). Immutable. To subclass: override do_forward and the

@@ -2,7 +2,10 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <numbers>
 
+#include "courant/structures/dirac_system.hpp"
+#include "courant/structures/port_hamiltonian_system.hpp"
 #include "ladder_catalogue.hpp"
 
 using namespace courant;
@@ -54,6 +57,29 @@ BOOST_AUTO_TEST_CASE(four_vortices) {
   BOOST_TEST(ladder.differentiations == expected, boost::test_tools::per_element());
   BOOST_TEST(ladder.constraints.size() == 8U);
   check_table("four vortices");
+  // The energy is that of (9), and q' on S_1 is that of (6), dα(q') = -dH.
+  const double strength[] = {1, 1, -1, -1};
+  InitialGuess guess = vortex_guess();
+  for (Index i = 0; i < 4; ++i) {
+    guess.x[8 + i] = -0.5 * strength[i] * guess.x[4 + i];
+    guess.x[12 + i] = 0.5 * strength[i] * guess.x[i];
+  }
+  const ConstraintLadder on_M0 = ConstraintAlgorithm().run(vortices(), guess);
+  BOOST_TEST(on_M0.moved < 1e-14);
+  const VectorXd& x = on_M0.point.x;
+  const auto energy = vortices()->energy(constants(x), constants(on_M0.point.z), 0.0);
+  BOOST_TEST(energy->value() == -0.697421199668691, boost::test_tools::tolerance(1e-13));
+  for (Index i = 0; i < 4; ++i) {
+    double dx = 0.0, dy = 0.0;
+    for (Index j = 0; j < 4; ++j) {
+      if (i == j) continue;
+      const double a = x[i] - x[j], b = x[4 + i] - x[4 + j];
+      dx -= strength[j] * b / (2.0 * std::numbers::pi * (a * a + b * b));
+      dy += strength[j] * a / (2.0 * std::numbers::pi * (a * a + b * b));
+    }
+    BOOST_TEST(on_M0.point.v[i] == dx, boost::test_tools::tolerance(1e-11));
+    BOOST_TEST(on_M0.point.v[4 + i] == dy, boost::test_tools::tolerance(1e-11));
+  }
 }
 
 BOOST_AUTO_TEST_CASE(cartesian_pendulum) { check_table("Cartesian pendulum"); }
@@ -81,20 +107,95 @@ BOOST_AUTO_TEST_CASE(nonholonomic_multipliers) {
 }
 
 // A closed system is an implicit one: Bᵀ∇H = 0 constrains x, and u follows from its derivative.
+// The same ladder from the Dirac structure (27) and from the system of (26).
 BOOST_AUTO_TEST_CASE(remark_7_2) {
-  const ConstraintLadder ladder = known("closed port-Hamiltonian system").problem.ladder();
+  check_table("closed port-Hamiltonian system");
+  const KnownLadder entry = known("closed port-Hamiltonian system");
+  const auto dirac = std::dynamic_pointer_cast<const DiracSystem>(entry.problem.system);
+  BOOST_REQUIRE(dirac);
+  const ExprMatrix column = (ExprMatrix(4, 1) << 0.0, 0.5, 0.0, 1.0).finished();
+  const ExprMatrix J =
+      constants(MatrixXd{{0, 0, 1, 0}, {0, 0, 0, 1}, {-1, 0, 0, 0}, {0, -1, 0, 0}});
+  const auto system = std::make_shared<PortHamiltonianSystem>(
+      PortHamiltonianSystem::Matrices{.J = [J](const ExprVector&) { return J; },
+                                      .R = {},
+                                      .B = [column](const ExprVector&) { return column; },
+                                      .m = 1},
+      dirac->family(), std::nullopt);
+  const ConstraintLadder of_system = Problem{system, entry.problem.guess}.ladder();
+  const ConstraintLadder ladder = entry.problem.ladder();
+  BOOST_TEST((dimensions(of_system) == dimensions(ladder)));
+  BOOST_TEST((of_system.point.x - ladder.point.x).norm() < 1e-12);
+  BOOST_TEST((of_system.point.v - ladder.point.v).norm() < 1e-12);
+  BOOST_TEST((of_system.point.z - ladder.point.z).norm() < 1e-12);
   BOOST_TEST(ladder.levels[0].fibre() == 1);
   BOOST_TEST(ladder.levels[1].fibre() == 0);
   BOOST_TEST(ladder.index == 1);
 }
 
-// 7.2: x_3 + x_1 = 0 and its derivative (u - 2 x_1) + (x_3 + u/2) = 0.
+// 7.2: S_0 is given by (27), M_0 by Bᵀ∇H = x_3 + x_1 = 0, and S_1 by its derivative besides, (u - 2
+// x_1) + (x_3 + u/2) = 0: all of them at the point that was found.
 BOOST_AUTO_TEST_CASE(closed_port_hamiltonian) {
   const ConstraintLadder ladder = known("closed port-Hamiltonian system").problem.ladder();
   const VectorXd& x = ladder.point.x;
   BOOST_TEST(std::abs(x[3] + x[1]) < 1e-14);
   BOOST_TEST(ladder.point.z[0] == (2 * x[1] - x[3]) / 1.5, boost::test_tools::tolerance(1e-12));
   BOOST_TEST(ladder.determined[0]);
+  const double u = ladder.point.z[0];
+  VectorXd v(4);
+  v << x[2], x[3] + 0.5 * u, -x[0] - x[0] * x[0] * x[0], -2.0 * x[1] + u;
+  BOOST_TEST((ladder.point.v - v).norm() < 1e-12);
+  // T M_0 is the kernel of dx_3 + dx_1, which the equations say themselves: no hidden constraint.
+  BOOST_REQUIRE_EQUAL(ladder.constraints.size(), 1U);
+  BOOST_TEST(ladder.constraints[0].level == 0);
+  const VectorXd gradient = ladder.constraints[0].gradient;
+  BOOST_TEST((gradient / gradient[1] - VectorXd{{0.0, 1.0, 0.0, 1.0}}).norm() < 1e-12);
+  BOOST_TEST((dimensions(ladder) == Dimensions{{4, 3}, {3, 3}, {3, 3}}));
+}
+
+// x' = y, y' = z, x = t²: z = 2 is seen in the second derivative of the last equation, less the
+// first of the first and the second itself. Coefficients are of dⁱF/dtⁱ, without a factorial.
+BOOST_AUTO_TEST_CASE(constraints_say_where_they_come_from) {
+  const auto system =
+      flat(3, 0, 3, [](const ExprVector& x, const ExprVector& v, const ExprVector&, const Expr& t) {
+        return equations({v[0] - x[1], v[1] - x[2], x[0] - square(t)});
+      });
+  const ConstraintLadder ladder =
+      ConstraintAlgorithm().run(system, {.t = 0.7, .x = VectorXd{{0.49, 1.4, 2.0}}});
+  BOOST_REQUIRE_EQUAL(ladder.constraints.size(), 3U);
+  for (const PointConstraint& constraint : ladder.constraints) {
+    double coefficient[3][3] = {};
+    for (const Combination::Term& term : constraint.origin.terms)
+      coefficient[term.equation][term.derivative] = term.coefficient;
+    const Index seen = constraint.level;  // x, y, z
+    VectorXd expected = VectorXd::Zero(3);
+    expected[seen] = 1.0;
+    const VectorXd gradient = constraint.gradient;
+    BOOST_TEST((gradient / gradient[seen] - expected).norm() < 1e-12);
+    const double scale = coefficient[2][seen];
+    BOOST_REQUIRE(std::abs(scale) > 1e-6);
+    if (seen == 1)
+      BOOST_TEST(coefficient[0][0] / scale == -1.0, boost::test_tools::tolerance(1e-9));
+    if (seen == 2) {
+      BOOST_TEST(coefficient[0][1] / scale == -1.0, boost::test_tools::tolerance(1e-9));
+      BOOST_TEST(coefficient[1][0] / scale == -1.0, boost::test_tools::tolerance(1e-9));
+    }
+  }
+}
+
+// Two equations contradict each other, and the third has nothing to do with it.
+BOOST_AUTO_TEST_CASE(the_equations_that_contradict_each_other_are_named) {
+  const auto system =
+      flat(2, 0, 3,
+           [](const ExprVector& x, const ExprVector& v, const ExprVector&, const Expr&) {
+             return equations({x[0] - 1.0, v[1] - 1.0, 2.0 * x[0] - 4.0});
+           },
+           {{"x", "y"}, {}, {"first", "bystander", "third"}});
+  const ConstraintLadder ladder = ConstraintAlgorithm().run(system, at({1.3, 0.2}));
+  BOOST_TEST(to_string(ladder.verdict) == "inconsistent");
+  BOOST_TEST(ladder.reason.find("first") != std::string::npos, ladder.reason);
+  BOOST_TEST(ladder.reason.find("third") != std::string::npos, ladder.reason);
+  BOOST_TEST(ladder.reason.find("bystander") == std::string::npos, ladder.reason);
 }
 
 // x'² = x with z = x': two velocities at each point. The velocity and the unknown of the last point

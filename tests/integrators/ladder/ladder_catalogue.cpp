@@ -8,6 +8,7 @@
 #include "courant/manifolds/special_orthogonal3.hpp"
 #include "courant/manifolds/sphere.hpp"
 #include "courant/structures/canonical_symplectic.hpp"
+#include "courant/structures/closed_port_hamiltonian.hpp"
 #include "courant/structures/dirac_system.hpp"
 
 // In the derivations λ is a multiplier, ' the velocity; "fibre" is what is left of the velocity at
@@ -412,13 +413,7 @@ void ports_and_circuits(std::vector<KnownLadder>& table) {
                    1});
   // Closed port-Hamiltonian system x' = J∇H + B u, Bᵀ∇H = 0 (Remark 7.2): u from the derivative.
   table.push_back({"closed port-Hamiltonian system",
-                   {flat(4, 1, 5,
-                         [](V x, V v, V z, T) {
-                           const Expr a = x[0] + square(x[0]) * x[0], b = 2 * x[1] + x[0] * 0.0;
-                           return equations({v[0] - x[2], v[1] - x[3] - z[0] * 0.5, v[2] + a,
-                                             v[3] + b - z[0], x[3] + 0.5 * b});
-                         }),
-                    at({0.3, 0.4, 0.2, 0.1})},
+                   {closed_port_hamiltonian(), at({0.3, 0.4, 0.2, 0.1})},
                    {{4, 3}, {3, 3}, {3, 3}},
                    Verdict::regular,
                    1});
@@ -666,7 +661,7 @@ SystemPointer vortices() {
     for (Index j = 0; j < 4; ++j) {
       kinetic += 0.5 * strength[j] * (q[j] * w[4 + j] - q[4 + j] * w[j]);
       for (Index k = 0; k < j; ++k)
-        H -= strength[j] * strength[k] / (4 * std::numbers::pi) *
+        H += strength[j] * strength[k] / (4 * std::numbers::pi) *
              log(square(q[j] - q[k]) + square(q[4 + j] - q[4 + k]));
     }
     return kinetic - H;
@@ -675,6 +670,28 @@ SystemPointer vortices() {
 
 InitialGuess vortex_guess() {
   return {.x = (VectorXd(16) << -1, 1, -1, 1, 2, 2, -2, -2, VectorXd::Zero(8)).finished()};
+}
+
+SystemPointer closed_port_hamiltonian() {
+  const auto M = std::make_shared<Euclidean>(4);
+  const auto J = [](V) {
+    ExprMatrix matrix = ExprMatrix::Zero(4, 4);
+    matrix(0, 2) = matrix(1, 3) = 1.0;
+    matrix(2, 0) = matrix(3, 1) = -1.0;
+    return matrix;
+  };
+  const auto B = [](V) {
+    ExprMatrix column = ExprMatrix::Zero(4, 1);
+    column(1, 0) = 0.5;
+    column(3, 0) = 1.0;
+    return column;
+  };
+  const auto H = [](V x, T) {
+    return (square(x[2]) + square(x[3])) / 2.0 + square(x[0]) / 2.0 + square(square(x[0])) / 4.0 +
+           square(x[1]);
+  };
+  return std::make_shared<DiracSystem>(std::make_shared<ClosedPortHamiltonian>(M, J, 1, B),
+                                       std::make_shared<Hamiltonian>(M, H));
 }
 
 SystemPointer cartesian_pendulum() {

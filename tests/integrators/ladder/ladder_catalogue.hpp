@@ -30,9 +30,11 @@ SystemPointer flat(Index n, Index m, Index equation_count, FormulaSystem::Formul
                    ImplicitSystem::Names names = {});
 InitialGuess at(std::initializer_list<double> x);
 
-SystemPointer vortices();  // four, Section 6.3
+SystemPointer vortices();  // four, Section 6.3, with H of equation (9)
 InitialGuess vortex_guess();
 SystemPointer cartesian_pendulum();
+// (27) with ports closed: H = (p² + r²)/2 + q²/2 + q⁴/4 + s² on (q, s, p, r), B = ∂_s/2 + ∂_r.
+SystemPointer closed_port_hamiltonian();
 
 std::vector<KnownLadder> errata();     // the six of the errata
 std::vector<KnownLadder> catalogue();  // these and all others

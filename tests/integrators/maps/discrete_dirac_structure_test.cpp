@@ -11,8 +11,6 @@
 #include "courant/manifolds/special_orthogonal3.hpp"
 #include "courant/manifolds/sphere.hpp"
 #include "courant/structures/canonical_symplectic.hpp"
-#include "courant/structures/closed_port_hamiltonian.hpp"
-#include "courant/structures/open_port_hamiltonian.hpp"
 #include "courant/structures/poisson.hpp"
 
 using namespace courant;
@@ -159,38 +157,6 @@ BOOST_AUTO_TEST_CASE(example_5_5) {
     BOOST_TEST((on_sphere.base_point(element.x0, element.x1) - x).norm() < 1e-10);
     BOOST_TEST(residual(on_sphere, element.x0, element.x1, element.alpha) < 1e-10);
   }
-}
-
-// Equations (28) and (30): a pair of points and dH at the base point are in the open structure for
-// the u that moves them, h⟨y, u⟩ = ⟨dH, R_d⁻¹⟩; in the closed one if also Bᵀ dH = 0.
-BOOST_AUTO_TEST_CASE(ports) {
-  const auto M = std::make_shared<Euclidean>(2);
-  const auto map = std::make_shared<Theta>(M, 0.5);
-  const auto J = [](const ExprVector&) {
-    ExprMatrix A = ExprMatrix::Zero(2, 2);
-    A(0, 1) = 1.0;
-    A(1, 0) = -1.0;
-    return A;
-  };
-  const auto B = [](const ExprVector& x) {
-    ExprMatrix column(2, 1);
-    column << Expr(0.0), 1.0 + x[0];
-    return column;
-  };
-  const DiscreteDiracStructure open(std::make_shared<OpenPortHamiltonian>(M, J, 1, B), map);
-  const DiscreteDiracStructure closed(std::make_shared<ClosedPortHamiltonian>(M, J, 1, B), map);
-  const double h = 0.1, u = 0.7;
-  const Eigen::Vector2d middle(0.4, -0.6), dH(1.2, 0.5);
-  const Eigen::Vector2d b(0.0, 1.0 + middle[0]);
-  const Eigen::Vector2d v = h * (Eigen::Vector2d(dH[1], -dH[0]) + b * u);
-  const VectorXd x0 = middle - v / 2.0, x1 = middle + v / 2.0;
-  BOOST_TEST(open.distance(x0, x1, dH, h) < tolerance);
-  BOOST_TEST(std::abs(h * b.dot(dH) * u - dH.dot(v)) < tolerance);
-  BOOST_TEST(closed.distance(x0, x1, dH, h) > 0.1);
-  const Eigen::Vector2d annihilated(1.2, 0.0);
-  const Eigen::Vector2d w = h * (Eigen::Vector2d(0.0, -1.2) + b * u);
-  BOOST_TEST(closed.distance(middle - w / 2.0, middle + w / 2.0, annihilated, h) < tolerance);
-  BOOST_TEST(std::abs(annihilated.dot(w)) < tolerance);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
