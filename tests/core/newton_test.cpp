@@ -169,4 +169,64 @@ BOOST_AUTO_TEST_CASE(slow_is_not_round_off) {
   }
 }
 
+// The second equation is three times the first but for round-off, which must not be scaled up to an
+// equation: the unknowns move as little as they can.
+BOOST_AUTO_TEST_CASE(a_matrix_that_is_singular_up_to_round_off) {
+  Graph graph;
+  const ExprVector y = graph.variables("y", 2);
+  ExprVector F(2);
+  F << 0.1 * y[0] + 0.3 * y[1] - 0.4, 0.3 * y[0] + 0.9 * y[1] - 1.2;
+  Newton newton(Function("dependent", {{"y", y}}, F, {.differentiate = {"y"}}), {}, {});
+  VectorXd at = VectorXd{{1.5, 1.2}};
+  const double* in[] = {at.data()};
+  const double scale = 1.0;
+  BOOST_TEST((newton.solve(at.data(), in, &scale).status == Newton::Status::converged));
+  BOOST_TEST(!newton.is_determined());
+  // The nearest point of y₀ + 3 y₁ = 4 to (1.5, 1.2) is 1.1/10 (1, 3) away.
+  BOOST_TEST(at[0] == 1.39, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(at[1] == 0.87, boost::test_tools::tolerance(1e-9));
+}
+
+// Each block has its own scale: next to 10¹², 10⁻⁸ is not yet found when it is 10⁻²⁰ of that.
+BOOST_AUTO_TEST_CASE(blocks_of_different_sizes_are_all_found) {
+  Graph graph;
+  const ExprVector y = graph.variables("y", 2);
+  ExprVector F(2);
+  F << y[0] - 1e12, square(y[1]) - 2e-16;
+  Newton newton(Function("blocks", {{"y", y}}, F, {.differentiate = {"y"}}), {1, 1}, {});
+  VectorXd at = VectorXd{{9e11, 3e-8}};
+  const double* in[] = {at.data()};
+  const double scales[] = {1e12, 1e-8};
+  BOOST_TEST((newton.solve(at.data(), in, scales).status == Newton::Status::converged));
+  BOOST_TEST(at[0] == 1e12, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(at[1] == std::sqrt(2.0) * 1e-8, boost::test_tools::tolerance(1e-14));
+}
+
+// (y - 1)² + 1.5·10⁻⁸ has no zero. Its least value is 10⁻⁸ of the terms of the equation that it
+// stands in, and steps near it are 10⁻⁴: neither is round-off.
+BOOST_AUTO_TEST_CASE(a_small_residual_is_no_zero) {
+  Graph graph;
+  const ExprVector y = graph.variables("y", 2);
+  ExprVector F(2);
+  F << y[0] - y[1], y[0] - y[1] + square(y[1] - 1.0) + 1.5e-8;
+  Newton newton(Function("no zero", {{"y", y}}, F, {.differentiate = {"y"}}), {}, {});
+  for (const double start : {1.01, 0.997, 1.0005, 0.99981}) {
+    newton.reset();
+    VectorXd at = VectorXd::Constant(2, start);
+    const double* in[] = {at.data()};
+    const double scale = 1.0;
+    BOOST_TEST((newton.solve(at.data(), in, &scale).status != Newton::Status::converged));
+  }
+}
+
+// From 5 Newton's method for log y = 0 goes to -3, where there is no number to go on with.
+BOOST_AUTO_TEST_CASE(an_iterate_that_is_no_number_is_no_zero) {
+  Problem problem = make(1, [](const ExprVector& y, const Expr&) {
+    return ExprVector::Constant(1, log(y[0])).eval();
+  });
+  problem.y[0] = 5.0;
+  Newton newton(problem.function, {}, {});
+  BOOST_TEST((problem.solve(newton, 1.0).status != Newton::Status::converged));
+}
+
 BOOST_AUTO_TEST_SUITE_END()
