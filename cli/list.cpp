@@ -4,35 +4,27 @@
 #include <ostream>
 
 #include "courant/cli/command.hpp"
-#include "courant/cli/text.hpp"
-#include "courant/reading/method_kinds.hpp"
-#include "courant/reading/space.hpp"
-#include "courant/reading/structure_kinds.hpp"
-#include "courant/reading/system_kinds.hpp"
+#include "courant/reading/catalogue.hpp"
 
 namespace courant::cli {
 namespace {
 
-struct Shelf {
-  const char* name;
-  std::vector<KindDescription> kinds;
-};
-
-std::vector<Shelf> catalogue() {
-  return {{"systems", system_kinds().descriptions()},
-          {"manifolds", manifold_kinds().descriptions()},
-          {"structures", structure_kinds().descriptions()},
-          {"methods", method_kinds().descriptions()},
-          {"discretizations", discretization_kinds().descriptions()},
-          {"projectors", projector_kinds().descriptions()}};
-}
-
 void print_json(const Console& console) {
   Json json;
   for (const Shelf& shelf : catalogue()) {
-    json[shelf.name] = Json::array();
-    for (const KindDescription& kind : shelf.kinds)
-      json[shelf.name].push_back({{"type", kind.type}, {"summary", kind.summary}});
+    Json& list = json[shelf.name] = Json::array();
+    for (const KindDescription& kind : shelf.kinds) {
+      Json keys = Json::array();
+      for (const Key& key : kind.keys) {
+        Json entry = {{"key", key.name},
+                      {"takes", key.takes.text},
+                      {"summary", key.summary},
+                      {"required", key.required}};
+        if (!key.otherwise.is_null()) entry["default"] = key.otherwise;
+        keys.push_back(std::move(entry));
+      }
+      list.push_back({{"type", kind.type}, {"summary", kind.summary}, {"keys", keys}});
+    }
   }
   console.out << json.dump(2) << '\n';
 }
@@ -44,21 +36,34 @@ void print_text(const Console& console) {
     for (const KindDescription& kind : shelf.kinds) width = std::max(width, kind.type.size());
   for (const Shelf& shelf : shelves) {
     console.out << shelf.name << '\n';
-    for (const KindDescription& kind : shelf.kinds)
+    for (const KindDescription& kind : shelf.kinds) {
       console.out << "  " << kind.type << std::string(width + 2 - kind.type.size(), ' ')
                   << kind.summary << '\n';
+      for (const Key& key : kind.keys) {
+        console.out << std::string(width + 6, ' ') << '"' << key.name << "\": " << key.summary;
+        if (key.required) console.out << " (required)";
+        if (!key.otherwise.is_null()) console.out << " (default " << key.otherwise.dump() << ')';
+        console.out << '\n';
+      }
+    }
   }
+}
+
+void print_markdown(const Console& console) {
+  for (const Shelf& shelf : catalogue()) console.out << marked_table(shelf) << '\n';
 }
 
 }  // namespace
 
 void add_list(CLI::App& app, Session& session) {
-  auto json = std::make_shared<bool>(false);
+  auto json = std::make_shared<bool>(false), markdown = std::make_shared<bool>(false);
   CLI::App* list = app.add_subcommand("list", "List what an experiment can be made of");
-  list->add_flag("--json", *json, "print JSON");
-  list->callback([&session, json] {
-    session.action = [json](const Console& console) -> int {
-      *json ? print_json(console) : print_text(console);
+  CLI::Option* as_json = list->add_flag("--json", *json, "print JSON");
+  list->add_flag("--markdown", *markdown, "print the tables of docs/experiment-format.md")
+      ->excludes(as_json);
+  list->callback([&session, json, markdown] {
+    session.action = [json, markdown](const Console& console) -> int {
+      *json ? print_json(console) : *markdown ? print_markdown(console) : print_text(console);
       return done;
     };
   });

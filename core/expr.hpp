@@ -228,6 +228,15 @@ struct NumTraits<courant::Expr> : GenericNumTraits<courant::Expr> {
   static Real dummy_precision() { return 1e-12; }
   static int digits10() { return std::numeric_limits<double>::digits10; }
 };
+// Numbers and expressions in one formula: 2.0 * x, x / 2.0, VectorXd + ExprVector.
+template <class Operation>
+struct ScalarBinaryOpTraits<double, courant::Expr, Operation> {
+  using ReturnType = courant::Expr;
+};
+template <class Operation>
+struct ScalarBinaryOpTraits<courant::Expr, double, Operation> {
+  using ReturnType = courant::Expr;
+};
 }  // namespace Eigen
 
 namespace courant {
@@ -242,12 +251,24 @@ template <class A>
 concept ExprMatrixLike =
     std::is_base_of_v<Eigen::MatrixBase<A>, A> && std::is_same_v<typename A::Scalar, Expr>;
 
+template <class A>
+concept NumberMatrixLike =
+    std::is_base_of_v<Eigen::MatrixBase<A>, A> && std::is_same_v<typename A::Scalar, double>;
+
 template <ExprMatrixLike A, ExprMatrixLike B>
 auto operator*(const A& left, const B& right) {
   if constexpr (B::ColsAtCompileTime == 1)
     return product(ExprMatrix(left), ExprVector(right));
   else
     return product(ExprMatrix(left), ExprMatrix(right));
+}
+template <NumberMatrixLike A, ExprMatrixLike B>
+auto operator*(const A& left, const B& right) {
+  return constants(left) * right;
+}
+template <ExprMatrixLike A, NumberMatrixLike B>
+auto operator*(const A& left, const B& right) {
+  return left * constants(right);
 }
 
 }  // namespace courant

@@ -1,24 +1,18 @@
 #include "courant/core/newton.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
 
-#include "courant/core/static_size.hpp"
+#include "courant/core/dense_solver.hpp"
 
 namespace courant {
 namespace {
 
-// Below this ratio of pivots (after scaling the rows) a square matrix is taken as singular.
-// Round-off alone gives about 1e-16 n; a step whose matrix is that near to singular has no
-// meaningful digits to lose.
-constexpr double kSingular = 1e-13;
-
 // Iterates that stop contracting while they move less than this, relative to the scale, move by
-// round-off. Larger than n·eps·condition for every matrix that kSingular lets through in practice,
+// round-off. Larger than n·eps·condition for every matrix that the solver lets through in practice,
 // far below any tolerance a user would set.
 constexpr double kRoundOff = 1e-9;
 
@@ -33,22 +27,6 @@ constexpr double kForget = 0.998;
 
 // Relative changes that are round-off everywhere.
 constexpr double kLeast = 2.0 * std::numeric_limits<double>::epsilon();
-
-// b = A x, for a square A of n rows or (Eigen::Dynamic) any.
-template <int n>
-void multiply(const MatrixXd& A, const VectorXd& x, VectorXd& b) {
-  if constexpr (n == Eigen::Dynamic) {
-    b.noalias() = A * x.head(A.cols());
-  } else {
-    // By numbers, not by packets: F has just been written number by number, and a packet would wait
-    // until that has reached the cache.
-    const double* entry = A.data();
-    double sum[n] = {};
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) sum[i] += *entry++ * x[j];
-    for (int i = 0; i < n; ++i) b[i] = sum[i];
-  }
-}
 
 }  // namespace
 
@@ -69,47 +47,27 @@ Newton::Newton(Function function, std::vector<Index> groups, const Options& opti
     ends_.push_back(std::lower_bound(contained_.begin(), contained_.end(), end) -
                     contained_.begin());
   }
-  const auto rows = static_cast<Index>(contained_.size());
-  inverse_.resize(rows, function_.output_size());
-  const bool square = inverse_.rows() == inverse_.cols();
-  multiply_ =
-      with_static_size(square ? rows : 0, [](auto n) { return &multiply<decltype(n)::value>; });
+  MatrixPattern pattern{.rows = function_.output_size(),
+                        .columns = static_cast<Index>(contained_.size()),
+                        .row = function_.pattern_row(),
+                        .column = {}};
+  for (const Index column : function_.pattern_col())
+    pattern.column.push_back(std::lower_bound(contained_.begin(), contained_.end(), column) -
+                             contained_.begin());
+  solver_ = options_.solver ? options_.solver(pattern) : std::make_unique<DenseSolver>(pattern);
   all_.resize(function_.output_size() + function_.nonzeros());
-  step_.resize(rows);
+  step_.resize(static_cast<Index>(contained_.size()));
   magnitude_.resize(function_.output_size());
 }
 
 bool Newton::factorize(const double* const* in) {
   function_.value_and_jacobian(in, all_.data());
-  MatrixXd J = function_.dense_jacobian(all_)(Eigen::all, contained_);
-  if (!J.allFinite()) return false;
-  if (J.size() == 0) return factorized_ = determined_ = true;
-
-  VectorXd scale = J.rowwise().lpNorm<Eigen::Infinity>();
-  scale = scale.unaryExpr([](double s) { return s > 0 ? 1.0 / s : 1.0; });
-  J = scale.asDiagonal() * J;
-  bool regular = false;
-  if (J.rows() == J.cols()) {
-    const Eigen::PartialPivLU<MatrixXd> lu(J);
-    const VectorXd pivots = lu.matrixLU().diagonal().cwiseAbs();
-    regular = pivots.minCoeff() > kSingular * pivots.maxCoeff();
-    if (regular) inverse_ = lu.inverse();
-  }
-  determined_ = regular;
-  if (!regular) {
-    Eigen::CompleteOrthogonalDecomposition<MatrixXd> cod;
-    cod.setThreshold(1e-11);
-    cod.compute(J);
-    inverse_ = cod.pseudoInverse();
-    determined_ = cod.rank() == J.cols();
-  }
-  inverse_ = inverse_ * scale.asDiagonal();
-  return factorized_ = inverse_.allFinite();
+  return factorized_ = solver_->factorize(all_.data() + function_.output_size());
 }
 
 // y ← y - A F. Returns the largest change of a block relative to its scale.
 double Newton::improve(double* y, const double* scales) {
-  multiply_(inverse_, all_, step_);
+  solver_->solve(all_.data(), step_.data());
   double result = 0.0;
   double total = 0.0;  // not finite if one of the changes is not
   const Index* contained = contained_.data();

@@ -4,15 +4,16 @@
 #include <vector>
 
 #include "courant/core/function.hpp"
+#include "courant/core/linear_solver.hpp"
 
 namespace courant {
 
 // Solves F(y; parameters) = 0 again and again along a trajectory, for a Function F whose group 0 is
 // y and whose Jacobian is by y.
 //
-// Simplified Newton: y ← y - A F(y) with A the inverse (for a matrix that is singular or not
-// square, the pseudo-inverse: least squares of redundant equations, least change of undetermined
-// unknowns) of an earlier Jacobian, kept as long as it contracts well. Convergence is relative to
+// Simplified Newton: y ← y - A F(y) with A the pseudo-inverse of an earlier Jacobian (least squares
+// of redundant equations, least change of undetermined unknowns), as the linear solver keeps it, as
+// long as it contracts well. Convergence is relative to
 // the scale of the unknowns: the error left is estimated from the last change and the contraction,
 // and iterates that only move by round-off are accepted too (an absolute test goes on for ever once
 // the state is large), as are those whose residual is round-off of its terms, or that a matrix made
@@ -31,6 +32,8 @@ class Newton {
     // Contraction above which a new factorisation is worth its price (about ten evaluations for n =
     // 8).
     double slow = 0.2;
+    // What solves the linear systems; empty: DenseSolver.
+    LinearSolver::Maker solver = {};
   };
   enum class Status { converged, diverged, singular };
   struct Result {
@@ -55,7 +58,7 @@ class Newton {
   }
 
   // Whether, by the last factorisation, F determines all the unknowns that it contains.
-  bool is_determined() const { return determined_; }
+  bool is_determined() const { return solver_->is_determined(); }
 
  private:
   bool factorize(const double* const* in);
@@ -67,12 +70,11 @@ class Newton {
   std::vector<Index> contained_;  // unknowns that F contains, ascending
   std::vector<Index> ends_;       // of the groups, in contained_
   Options options_;
-  bool factorized_ = false, determined_ = false;
+  std::unique_ptr<LinearSolver>
+      solver_;  // for a row an equation, a column an unknown of contained_
+  bool factorized_ = false;
   double round_off_ = 0.0;  // by how much iterates moved when they stalled with a new factorisation
-  MatrixXd inverse_;        // A: a row an unknown of contained_
-  // b = A x, made for the size of A.
-  void (*multiply_)(const MatrixXd& A, const VectorXd& x, VectorXd& b);
-  VectorXd all_;  // F and the entries of its Jacobian
+  VectorXd all_;            // F and the entries of its Jacobian
   VectorXd step_;
   VectorXd magnitude_;  // of the terms that each equation is a sum of
 };

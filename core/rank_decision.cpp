@@ -1,7 +1,5 @@
 #include "courant/core/rank_decision.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -11,6 +9,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "courant/core/lu_decomposition.hpp"
+#include "courant/core/qr_decomposition.hpp"
 #include "courant/core/rank_cut.hpp"
 #include "courant/core/singular_value_decomposition.hpp"
 
@@ -54,8 +54,7 @@ MatrixXd complement_and_span(const VectorXd& scale, const MatrixXd& X) {
   std::sort(order.indices().begin(), order.indices().end(),
             [&](int i, int j) { return scale[i] > scale[j]; });
   const MatrixXd sorted = order.transpose() * (scale.asDiagonal() * X);
-  MatrixXd Q = MatrixXd::Identity(n, n);
-  if (k > 0) Q.applyOnTheLeft(Eigen::ColPivHouseholderQR<MatrixXd>(sorted).householderQ());
+  const MatrixXd Q = QrDecomposition::pivoted(sorted).Q();
   MatrixXd result(n, n);
   result << order * Q.rightCols(n - k), order * Q.leftCols(k);
   return result;
@@ -156,7 +155,7 @@ MatrixXd FundamentalSubspaces::pseudo_solve(const Eigen::Ref<const MatrixXd>& B)
                                 std::to_string(decision_.rows) + ".");
   }
   if (rank() == 0) return MatrixXd::Zero(decision_.columns, B.cols());
-  return row_space() * core_.partialPivLu().solve(range().transpose() * B);
+  return row_space() * LuDecomposition(core_).solve(range().transpose() * B);
 }
 
 MatrixXd kernel(const Eigen::Ref<const MatrixXd>& A, const RankOptions& options) {

@@ -1,4 +1,3 @@
-#include <Eigen/QR>
 #include <Eigen/SparseCore>
 #include <SuiteSparseQR.hpp>
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "courant/core/qr_decomposition.hpp"
 #include "courant/core/rank_cut.hpp"
 #include "courant/core/rank_decision.hpp"
 #include "courant/core/singular_value_decomposition.hpp"
@@ -80,10 +80,6 @@ MatrixXd random_block(Index rows, Index columns) {
   return MatrixXd::NullaryExpr(rows, columns, [&] { return normal(generator); });
 }
 
-MatrixXd orthonormal(const MatrixXd& X) {
-  return Eigen::HouseholderQR<MatrixXd>(X).householderQ() * MatrixXd::Identity(X.rows(), X.cols());
-}
-
 // ‖S‖ by the power method; from a random start twelve steps are within a few per cent.
 double norm(const SparseMatrixXd& S) {
   VectorXd x = random_block(S.cols(), 1);
@@ -104,21 +100,20 @@ std::optional<SmallestSingular> smallest_singular(const LongSparseMatrix& R, Ind
   const auto upper = R.triangularView<Eigen::Upper>();
   const LongSparseMatrix transposed = R.transpose();
   const auto lower = transposed.triangularView<Eigen::Lower>();
-  MatrixXd right = orthonormal(random_block(R.cols(), b));
+  MatrixXd right = orthonormalized(random_block(R.cols(), b));
   SmallestSingular result;
   double previous = 0.0;
   for (int step = 0; step < 30; ++step) {
     MatrixXd left = lower.solve(right);
     if (!left.allFinite()) return std::nullopt;
-    left = orthonormal(left);
+    left = orthonormalized(left);
     right = upper.solve(left);
     if (!right.allFinite()) return std::nullopt;
-    right = orthonormal(right);
+    right = orthonormalized(right);
 
     // Of Rᵀ·left, tall, through its triangular factor.
-    const Eigen::HouseholderQR<MatrixXd> qr(transposed * left);
-    const auto [values, U, V] = singular_value_decomposition(
-        qr.matrixQR().topRows(b).triangularView<Eigen::Upper>().toDenseMatrix());
+    const auto [values, U, V] =
+        singular_value_decomposition(QrDecomposition::in_order(transposed * left).R(b));
     result = {values, left * V};
     const double smallest = result.values[b - 1];
     if (std::abs(smallest - previous) <= 0.05 * smallest) break;

@@ -332,10 +332,11 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
                                std::shared_ptr<const DiscretizationMap> map,
                                std::shared_ptr<const Projector> projector, const Options& options)
     : Integrator(std::move(system)), map_(std::move(map)), projector_(std::move(projector)) {
-  if (!map_ || !projector_ || map_->manifold() != this->system()->manifold())
+  if (!map_ || !projector_ || *map_->manifold() != *this->system()->manifold())
     throw std::invalid_argument(
-        "ConstrainFirst::ConstrainFirst: map is not on the manifold of the system; expected the "
-        "same object.");
+        "ConstrainFirst::ConstrainFirst: the system, the map or the projector is missing, or the "
+        "map is not on the manifold of the system.");
+  check_ladder("ConstrainFirst::ConstrainFirst", *this->system(), ladder);
   if (ladder.verdict != Verdict::regular && ladder.verdict != Verdict::gauge)
     throw std::invalid_argument("ConstrainFirst::ConstrainFirst: the ladder's verdict is " +
                                 to_string(ladder.verdict) + "; expected regular or gauge. " +

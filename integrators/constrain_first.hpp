@@ -26,7 +26,7 @@ class ConstrainFirst final : public Integrator {
   };
 
   // `ladder` of `system` (regular, or gauge: then the step of least change is taken); `map` on its
-  // manifold object. Throws std::invalid_argument otherwise.
+  // manifold. Throws std::invalid_argument otherwise.
   ConstrainFirst(std::shared_ptr<const ImplicitSystem> system, const ConstraintLadder& ladder,
                  std::shared_ptr<const DiscretizationMap> map,
                  std::shared_ptr<const Projector> projector, const Options& options);

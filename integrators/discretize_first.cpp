@@ -92,10 +92,10 @@ DiscretizeFirst::DiscretizeFirst(std::shared_ptr<const ImplicitSystem> system,
                                  std::shared_ptr<const DiscretizationMap> map,
                                  const Options& options)
     : Integrator(std::move(system)), map_(std::move(map)) {
-  if (!map_ || map_->manifold() != this->system()->manifold())
+  if (!map_ || *map_->manifold() != *this->system()->manifold())
     throw std::invalid_argument(
-        "DiscretizeFirst::DiscretizeFirst: map is not on the manifold of the system; expected the "
-        "same object.");
+        "DiscretizeFirst::DiscretizeFirst: the map is missing, or it is not on the manifold of the "
+        "system.");
   const ImplicitSystem& S = *this->system();
   const Manifold& M = *S.manifold();
   const Index n = M.dimension();

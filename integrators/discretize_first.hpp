@@ -23,7 +23,7 @@ class DiscretizeFirst final : public Integrator {
     Backend backend = Backend::automatic;
   };
 
-  // `map` on the manifold object of `system`; throws std::invalid_argument otherwise.
+  // `map` on the manifold of `system`; throws std::invalid_argument otherwise.
   DiscretizeFirst(std::shared_ptr<const ImplicitSystem> system,
                   std::shared_ptr<const DiscretizationMap> map, const Options& options);
   DiscretizeFirst(std::shared_ptr<const ImplicitSystem> system,

@@ -36,6 +36,8 @@ class Trajectory final : public Stepper {
     evaluate_.start(state.x, state.v, state.z);
   }
 
+  bool do_keeps_to_manifold() const override { return false; }
+
   void do_step(const State& before, Step& step) override {
     const auto rate = [&](const VectorXd& x, VectorXd& dx, double t) {
       evaluate_(x, dx, t);

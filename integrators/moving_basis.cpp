@@ -1,7 +1,6 @@
 #include "courant/integrators/moving_basis.hpp"
 
-#include <Eigen/SVD>
-
+#include "courant/core/singular_value_decomposition.hpp"
 #include "courant/integrators/ladder/local_formulation.hpp"
 
 namespace courant {
@@ -42,9 +41,9 @@ bool MovingBasis::move_to(const VectorXd& x) {
   projection_.value(in, projected_.data());
   if (make_orthonormal_(projected_, basis_)) return true;
   if (projected_.allFinite()) {
-    const Eigen::JacobiSVD<MatrixXd> svd(projected_, Eigen::ComputeThinU | Eigen::ComputeThinV);
-    if (svd.singularValues().minCoeff() > kRightAngle * svd.singularValues().maxCoeff()) {
-      basis_ = svd.matrixU() * svd.matrixV().transpose();
+    const auto [values, U, V] = singular_value_decomposition(projected_);
+    if (values.minCoeff() > kRightAngle * values.maxCoeff()) {
+      basis_ = U.leftCols(V.cols()) * V.transpose();
       return true;
     }
   }

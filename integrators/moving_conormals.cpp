@@ -1,14 +1,15 @@
 #include "courant/integrators/moving_conormals.hpp"
 
-#include <Eigen/Dense>
+#include <limits>
 
+#include "courant/core/complete_orthogonal_decomposition.hpp"
 #include "courant/core/derivative.hpp"
 
 namespace courant {
 namespace {
 
 // The ladder decided this rank with a gap; here it only has to be found again.
-constexpr double kRankThreshold = 1e-9;
+constexpr double kDataError = 2e-12;
 
 // w is as good as its first error times the contraction when it has moved by no more than this, and
 // counts for x only times the distance from M_f.
@@ -110,14 +111,15 @@ void MovingConormals::find(const double* const* in) {
   VectorXd all(f.output_size() + f.nonzeros());
   f.value_and_jacobian(in, all.data());
   const MatrixXd J = f.dense_jacobian(all);
-  Eigen::ColPivHouseholderQR<MatrixXd> others;
-  others.setThreshold(kRankThreshold);
-  others.compute(J.rightCols(J.cols() - n_));
-  const MatrixXd Q = others.householderQ();
+  if (!J.allFinite()) {  // the solver that asked for this point will find it no better
+    conormals_.setConstant(std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
+  const CompleteOrthogonalDecomposition others(J.rightCols(J.cols() - n_), kDataError);
+  const MatrixXd Q = others.Q();
   const MatrixXd gradients =
       (Q.rightCols(J.rows() - others.rank()).transpose() * J.leftCols(n_)).transpose();
-  const Eigen::ColPivHouseholderQR<MatrixXd> span(gradients);
-  conormals_ = span.householderQ() * MatrixXd::Identity(n_, d_);
+  conormals_ = QrDecomposition::pivoted(gradients).Q(d_);
 }
 
 }  // namespace courant

@@ -1,7 +1,9 @@
 #include "courant/integrators/projector.hpp"
 
-#include <Eigen/Dense>
 #include <stdexcept>
+
+#include "courant/core/complete_orthogonal_decomposition.hpp"
+#include "courant/core/singular_value_decomposition.hpp"
 
 namespace courant {
 namespace {
@@ -10,20 +12,24 @@ namespace {
 // projecting would lose more than half of the digits.
 constexpr double kTransversality = 1e-8;
 
+// Of the directions, next to their lengths: half of the digits again.
+constexpr double kDataError = 2e-11;
+
 }  // namespace
 
 MatrixXd Projector::directions(const VectorXd& x, const MatrixXd& basis,
                                const MatrixXd& conormals) const {
   if (conormals.cols() == 0) return conormals;
   const MatrixXd W = do_directions(x, basis, conormals);
-  Eigen::ColPivHouseholderQR<MatrixXd> qr;
-  qr.setThreshold(kTransversality);
-  qr.compute(W);
-  const MatrixXd orthonormal = qr.householderQ() * MatrixXd::Identity(W.rows(), conormals.cols());
-  const Eigen::ColPivHouseholderQR<MatrixXd> across(conormals.transpose() * orthonormal);
-  const double sine = qr.rank() < conormals.cols()
+  if (W.rows() != conormals.rows())
+    throw std::invalid_argument(
+        "Projector(" + name_ + ")::do_directions: the result has " + std::to_string(W.rows()) +
+        " rows, expected dim M = " + std::to_string(conormals.rows()) + ".");
+  const CompleteOrthogonalDecomposition decomposition(W, kDataError);
+  const MatrixXd orthonormal = decomposition.Q().leftCols(conormals.cols());
+  const double sine = decomposition.rank() < conormals.cols()
                           ? 0.0
-                          : std::abs(across.matrixR()(conormals.cols() - 1, conormals.cols() - 1));
+                          : singular_values(conormals.transpose() * orthonormal).minCoeff();
   if (!(sine > kTransversality))
     throw std::domain_error(
         "Projector(" + name_ + ")::directions: the directions meet T_xM_f, sine of the angle " +

@@ -1,7 +1,8 @@
 #include "courant/integrators/round_off_projection.hpp"
 
-#include <Eigen/Dense>
 #include <limits>
+
+#include "courant/core/complete_orthogonal_decomposition.hpp"
 
 namespace courant {
 
@@ -25,12 +26,12 @@ void RoundOffProjection::apply(VectorXd& x) {
       32.0 * std::numeric_limits<double>::epsilon() * std::max(1.0, x.squaredNorm());
   if (all_.head(count).lpNorm<Eigen::Infinity>() <= negligible) return;
   constraint_.value_and_jacobian(in, all_.data());
+  if (!all_.allFinite()) return;  // who made this x reports it
   // Equations of bundles repeat each other up to round-off: what is 1e-8 of the others is no
   // direction to move in.
-  Eigen::CompleteOrthogonalDecomposition<MatrixXd> decomposition;
-  decomposition.setThreshold(1e-8);
-  decomposition.compute(constraint_.dense_jacobian(all_));
-  x -= decomposition.solve(all_.head(count));
+  constexpr double data_error = 2e-11;
+  x -= CompleteOrthogonalDecomposition(constraint_.dense_jacobian(all_), data_error)
+           .solve(all_.head(count));
 }
 
 }  // namespace courant

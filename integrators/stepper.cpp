@@ -40,6 +40,18 @@ void Stepper::check(const State& state) const {
 }
 
 void Stepper::take_up(State& state, double h) {
+  // A step keeps the distance from the manifold that it begins with, or blows it up.
+  if (!has_stepped_ && do_keeps_to_manifold()) {
+    const double defect = manifold().point_defect(state.x);
+    const double bound = 1e-6 * (1.0 + state.x.squaredNorm());
+    if (!(defect <= bound)) {
+      std::ostringstream message;
+      message << method_ << ": x is not on " << manifold().name()
+              << ", whose equations it violates by " << defect << "; expected at most " << bound
+              << ". Project it first.";
+      throw std::domain_error(message.str());
+    }
+  }
   if (state.v.size() == 0) state.v = VectorXd::Zero(manifold().tangent_dimension());
   if (state.z.size() == 0) state.z = VectorXd::Zero(system_->auxiliary_size());
   is_prepared_ = false;

@@ -45,7 +45,8 @@ class Stepper {
 
   // (t, x) ↦ (t + h, Φ_h(x)). `end`: t + h as the caller's clock has it, so that time does not
   // collect round-off. Throws std::invalid_argument unless the state fits the system and h is
-  // finite and not zero, SolveError if the step cannot be made.
+  // finite and not zero, std::domain_error unless x is on the manifold up to 1e-6 (explicit methods,
+  // which leave it, do not ask), SolveError if the step cannot be made.
   const Step& step(State& state, double h, double end);
   const Step& step(State& state, double h) { return step(state, h, state.t + h); }
 
@@ -91,6 +92,8 @@ class Stepper {
   // The next step begins at this state, which is not where the last one ended; v and z have their
   // sizes.
   virtual void do_prepare(State&, double /*h*/) {}
+  // Whether steps stay on the manifold: then a state off it is refused.
+  virtual bool do_keeps_to_manifold() const { return true; }
   // The next step is of another size: what extrapolates those before is of no use.
   virtual void do_change_step() {}
 

@@ -1,10 +1,10 @@
 #include "courant/integrators/vector_field.hpp"
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
+#include "courant/core/complete_orthogonal_decomposition.hpp"
 #include "courant/core/derivative.hpp"
 #include "courant/integrators/ladder/local_formulation.hpp"
 #include "courant/integrators/step_solver.hpp"
@@ -24,10 +24,12 @@ std::string whereabouts(const Manifold& M, const VectorXd& x) {
 VectorField::VectorField(std::shared_ptr<const ImplicitSystem> system,
                          const ConstraintLadder& ladder, Backend backend)
     : system_(std::move(system)) {
+  if (!system_) throw std::invalid_argument("VectorField::VectorField: system is null.");
   if (ladder.verdict != Verdict::regular)
     throw std::invalid_argument(
         "VectorField::VectorField: the ladder's verdict is " + to_string(ladder.verdict) +
         "; expected regular: S_f is not the graph of a vector field. " + ladder.reason);
+  check_ladder("VectorField::VectorField", *system_, ladder);
   const Manifold& M = *system_->manifold();
   const Index n = M.dimension();
   Graph graph;
@@ -69,12 +71,11 @@ VectorField::VectorField(std::shared_ptr<const ImplicitSystem> system,
   for (Index i = 0; i < all.size(); ++i)
     scale[i] *= std::pow(
         1e-2, order[static_cast<std::size_t>(local.source[static_cast<std::size_t>(i)])]++);
-  Eigen::ColPivHouseholderQR<MatrixXd> rows;
   // The ladder decided this rank with a gap; here it only has to be found again.
-  rows.setThreshold(1e-11);
-  rows.compute((scale.asDiagonal() * J).transpose());
+  constexpr double data_error = 2e-14;
+  const CompleteOrthogonalDecomposition rows((scale.asDiagonal() * J).transpose(), data_error);
   ExprVector kept(rows.rank());
-  for (Index i = 0; i < kept.size(); ++i) kept[i] = all[rows.colsPermutation().indices()[i]];
+  for (Index i = 0; i < kept.size(); ++i) kept[i] = all[rows.order()[static_cast<std::size_t>(i)]];
 
   equations_ = Function("vector field", inputs, kept, {.differentiate = {"y"}, .backend = backend});
   const ExprVector v = at_origin(local.v);

@@ -13,6 +13,7 @@ class Euclidean final : public Manifold {
   bool is_geodesic() const override { return true; }
 
  private:
+  bool do_equals(const Manifold& other) const override { return other.name() == name(); }
   ExprVector do_retract(const ExprVector& x, const ExprVector& v) const override { return x + v; }
   ExprVector do_inverse_retract(const ExprVector& x, const ExprVector& y) const override {
     return y - x;

@@ -20,6 +20,7 @@ class Hyperbolic final : public Manifold {
   bool is_geodesic() const override { return true; }
 
  private:
+  bool do_equals(const Manifold& other) const override { return other.name() == name(); }
   ExprVector do_retract(const ExprVector& x, const ExprVector& v) const override;
   ExprVector do_inverse_retract(const ExprVector& x, const ExprVector& y) const override;
   ExprMatrix do_frame(const ExprVector& x) const override;

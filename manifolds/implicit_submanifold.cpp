@@ -1,12 +1,13 @@
 #include "courant/manifolds/implicit_submanifold.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "courant/core/cholesky_decomposition.hpp"
 #include "courant/core/derivative.hpp"
 #include "courant/core/linear_algebra.hpp"
+#include "courant/core/singular_value_decomposition.hpp"
 
 namespace courant {
 namespace {
@@ -121,15 +122,16 @@ double ImplicitSubmanifold::do_injectivity_radius(const VectorXd& x) const {
   const ExprVector along =
       equations_(surrounding_->chart(constants(x), constants(tangent_basis(x)), xi));
   const auto [A, W] = normal(constants(x));
-  const MatrixXd L = Eigen::LLT<MatrixXd>(values(A * W)).matrixL();
-  const ExprVector scaled = constants(MatrixXd(L.inverse())) * along;
+  const CholeskyDecomposition metric(values(A * W));
+  const ExprVector scaled =
+      constants(metric.solve_lower(MatrixXd::Identity(A.rows(), A.rows()))) * along;
   double square = 0.0;
   for (const Expr& component : scaled) {
     const ExprMatrix hessian = jacobian(gradient(component, xi), xi).dense();
     const MatrixXd at_zero =
         values(substitute(hessian.reshaped(), xi, ExprVector::Zero(dimension())))
             .reshaped(dimension(), dimension());
-    square += std::pow(Eigen::JacobiSVD<MatrixXd>(at_zero).singularValues()[0], 2);
+    square += std::pow(singular_values(at_zero)[0], 2);
   }
   return std::min(surrounding_radius, 0.5 / std::sqrt(square));
 }

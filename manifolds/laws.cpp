@@ -1,10 +1,10 @@
 #include "courant/manifolds/laws.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "courant/core/complete_orthogonal_decomposition.hpp"
 #include "courant/core/derivative.hpp"
 #include "courant/manifolds/measurement.hpp"
 
@@ -23,6 +23,7 @@ class ManifoldLaws {
             rigid_to_first_order(),
             remainder_is_quadratic(),
             stays_on(),
+            radius(),
             left_inverse(),
             right_inverse(),
             frames(),
@@ -31,6 +32,7 @@ class ManifoldLaws {
             derivatives_of_inverse(),
             geodesics(),
             left_invariance(),
+            velocities_along(),
             points_and_vectors()};
   }
 
@@ -102,6 +104,27 @@ class ManifoldLaws {
     return measured.result();
   }
 
+  // Where nothing is said to bound the vectors, those that go round a sphere or a circle are tried.
+  LawResult radius() {
+    auto measured = law("M4 r(x) > 0; where r(x) = ∞, R⁻¹(x, R(x, v)) = v for long v", 1e-6);
+    for (const LawSample& s : samples_)
+      measured.add(
+          [&] {
+            const double radius = M_.injectivity_radius(s.x);
+            if (!(radius > 0.0)) return std::numeric_limits<double>::infinity();
+            double worst = 0.0;
+            if (std::isinf(radius) && M_.dimension() > 0)
+              for (const double length : {4.0, 8.0}) {
+                const VectorXd v = M_.random_tangent(s.x, length, generator_);
+                worst =
+                    std::max(worst, relative(M_.inverse_retract(s.x, M_.retract(s.x, v)) - v, v));
+              }
+            return worst;
+          },
+          describe("x", s.x));
+    return measured.result();
+  }
+
   LawResult left_inverse() const {
     auto measured = law("M4 R⁻¹(x, R(x, v)) = v", 1e-10);
     for_vectors(samples_, [&](const LawSample& s, const VectorXd& v) {
@@ -166,8 +189,7 @@ class ManifoldLaws {
   static Index rank(const MatrixXd& A) {
     if (A.size() == 0) return 0;
     // Frames and constraints are well conditioned at random points: 1e-8 is far from both sides.
-    Eigen::JacobiSVD<MatrixXd> svd(A);
-    return (svd.singularValues().array() > 1e-8 * svd.singularValues()[0]).count();
+    return CompleteOrthogonalDecomposition(A, 2e-11).rank();
   }
 
   // x(t) = R_x(t w), v(t) = Π(x(t)) (v + t u)
@@ -257,6 +279,29 @@ class ManifoldLaws {
               return M_.point_defect(*unit) + relative(seen(s.x) - seen(*unit), seen(s.x));
             },
             describe("x", s.x));
+    return measured.result();
+  }
+
+  LawResult velocities_along() const {
+    auto measured = law("M10 velocity_along(x, v, s) = C(y) dy/ds of y = R(x, s v)", 1e-11);
+    for_vectors(samples_, [&](const LawSample& s, const VectorXd& v) {
+      for (const double along : {0.0, 0.4, 1.0})
+        measured.add(
+            [&] {
+              Graph graph;
+              const ExprVector length = graph.variables("s", 1);
+              const ExprVector x = constants(s.x), w = constants(v);
+              const ExprVector curve = M_.retract(x, ExprVector(length[0] * w));
+              const ExprVector velocity =
+                  M_.coframe(curve) * tangent(curve, length, ExprVector::Ones(1));
+              const auto here = [&](const ExprVector& formula) {
+                return values(substitute(formula, length, ExprVector::Constant(1, along)));
+              };
+              const VectorXd expected = here(velocity);
+              return relative(here(M_.velocity_along(x, w, length[0])) - expected, expected);
+            },
+            describe(s, v));
+    });
     return measured.result();
   }
 

@@ -1,14 +1,35 @@
 #include "courant/manifolds/manifold.hpp"
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
+#include <typeinfo>
 
 #include "courant/core/derivative.hpp"
+#include "courant/core/gauss_newton.hpp"
+#include "courant/core/qr_decomposition.hpp"
 
 namespace courant {
 namespace {
+
+// What an overridden function returned, if it has the size that the class promises.
+template <class Matrix>
+Matrix with_size(Matrix result, const std::string& name, const char* function, Index rows,
+                 Index columns) {
+  if (result.rows() != rows || result.cols() != columns)
+    throw std::invalid_argument(name + "::do_" + function + ": the result is " +
+                                std::to_string(result.rows()) + " × " +
+                                std::to_string(result.cols()) + ", expected " +
+                                std::to_string(rows) + " × " + std::to_string(columns) + ".");
+  return result;
+}
+
+std::string printed(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
 
 VectorXd normal_vector(Index size, std::mt19937& generator) {
   std::normal_distribution<double> normal;
@@ -30,6 +51,10 @@ Manifold::Manifold(std::string name, Index dimension, Index ambient_dimension,
                                 std::to_string(tangent_dimension) + ".");
 }
 
+bool Manifold::operator==(const Manifold& other) const {
+  return this == &other || (typeid(*this) == typeid(other) && do_equals(other));
+}
+
 void Manifold::check_size(const char* function, const char* argument, Index size, Index expected,
                           const char* meaning) const {
   if (size != expected)
@@ -41,23 +66,23 @@ void Manifold::check_size(const char* function, const char* argument, Index size
 ExprVector Manifold::checked_retract(const ExprVector& x, const ExprVector& v) const {
   check_size("retract", "x", x.size(), ambient_dimension_, "ambient_dimension()");
   check_size("retract", "v", v.size(), tangent_dimension_, "tangent_dimension()");
-  return do_retract(x, v);
+  return with_size(do_retract(x, v), name_, "retract", ambient_dimension_, 1);
 }
 
 ExprVector Manifold::checked_inverse_retract(const ExprVector& x, const ExprVector& y) const {
   check_size("inverse_retract", "x", x.size(), ambient_dimension_, "ambient_dimension()");
   check_size("inverse_retract", "y", y.size(), ambient_dimension_, "ambient_dimension()");
-  return do_inverse_retract(x, y);
+  return with_size(do_inverse_retract(x, y), name_, "inverse_retract", tangent_dimension_, 1);
 }
 
 ExprMatrix Manifold::checked_frame(const ExprVector& x) const {
   check_size("frame", "x", x.size(), ambient_dimension_, "ambient_dimension()");
-  return do_frame(x);
+  return with_size(do_frame(x), name_, "frame", ambient_dimension_, tangent_dimension_);
 }
 
 ExprMatrix Manifold::checked_coframe(const ExprVector& x) const {
   check_size("coframe", "x", x.size(), ambient_dimension_, "ambient_dimension()");
-  return do_coframe(x);
+  return with_size(do_coframe(x), name_, "coframe", tangent_dimension_, ambient_dimension_);
 }
 
 ExprMatrix Manifold::checked_projector(const ExprVector& x) const {
@@ -73,7 +98,7 @@ ExprVector Manifold::checked_constraint(const ExprVector& x) const {
 ExprVector Manifold::velocity_along(const ExprVector& x, const ExprVector& v, const Expr& s) const {
   check_size("velocity_along", "x", x.size(), ambient_dimension_, "ambient_dimension()");
   check_size("velocity_along", "v", v.size(), tangent_dimension_, "tangent_dimension()");
-  return do_velocity_along(x, v, s);
+  return with_size(do_velocity_along(x, v, s), name_, "velocity_along", tangent_dimension_, 1);
 }
 
 ExprVector Manifold::differentiated_velocity(const ExprVector& x, const ExprVector& v,
@@ -109,8 +134,7 @@ ExprVector Manifold::do_constraint(const ExprVector&) const {
 MatrixXd Manifold::tangent_basis(const VectorXd& x) const {
   if (dimension_ == tangent_dimension_) return MatrixXd::Identity(dimension_, dimension_);
   const MatrixXd projector = tangent_projector(x);
-  const Eigen::ColPivHouseholderQR<MatrixXd> qr(projector);
-  const MatrixXd basis = qr.householderQ() * MatrixXd::Identity(tangent_dimension_, dimension_);
+  const MatrixXd basis = QrDecomposition::pivoted(projector).Q(dimension_);
   // Zeros that are round-off become zeros: what is computed in the basis would see dependences that
   // are not there.
   return (basis.array().abs() < 1e-15).select(0.0, basis);
@@ -161,35 +185,33 @@ Manifold::Extent Manifold::do_extent_at(const VectorXd& x) const {
 
 VectorXd Manifold::project(const VectorXd& x) const {
   check_size("project", "x", x.size(), ambient_dimension_, "ambient_dimension()");
-  return do_project(x);
+  return with_size(do_project(x), name_, "project", ambient_dimension_, 1);
 }
 
 VectorXd Manifold::do_project(const VectorXd& start) const {
-  VectorXd x = start;
   Graph graph;
   const ExprVector point = graph.variables("x", ambient_dimension_);
   const ExprVector c = constraint(point);
-  if (c.size() == 0) return x;
+  if (c.size() == 0) return start;
   const ExprMatrix d_constraint = jacobian(c, point).dense();
-  double previous = std::numeric_limits<double>::infinity();
-  // Quadratic convergence: 50 iterations are far beyond what a point near M needs.
-  for (int iteration = 0; iteration < 50; ++iteration) {
-    const VectorXd defect = constraint(x);
-    const double size = defect.lpNorm<Eigen::Infinity>();
-    if (size == 0.0 || (size < 1e-12 * (1.0 + x.norm()) && size >= 0.5 * previous)) return x;
-    previous = size;
+  const auto d_constraint_at = [&](const VectorXd& x) {
     MatrixXd J(d_constraint.rows(), d_constraint.cols());
     for (Index j = 0; j < J.cols(); ++j)
       J.col(j) = values(substitute(d_constraint.col(j), point, constants(x)));
-    x -= J.completeOrthogonalDecomposition().solve(defect);
-  }
-  throw std::domain_error(
-      name_ + "::project: no point of the manifold found near x, constraint defect " +
-      std::to_string(previous) + " after 50 iterations; expected 0. Start nearer to the manifold.");
+    return J;
+  };
+  const GaussNewtonResult zero =
+      gauss_newton([&](const VectorXd& x) { return constraint(x); }, d_constraint_at, start,
+                   {.accepted = 1e-12 * (1.0 + start.norm())});
+  if (zero.converged) return zero.y;
+  throw std::domain_error(name_ + "::project: no point of the manifold found near x, constraint " +
+                          "defect " + printed(zero.defect) + " after " +
+                          std::to_string(zero.iterations) +
+                          " iterations; expected 0. Start nearer to the manifold.");
 }
 
 VectorXd Manifold::random_point(std::mt19937& generator) const {
-  return do_random_point(generator);
+  return with_size(do_random_point(generator), name_, "random_point", ambient_dimension_, 1);
 }
 
 VectorXd Manifold::do_random_point(std::mt19937& generator) const {
@@ -209,24 +231,22 @@ VectorXd Manifold::newton_inverse(const VectorXd& x, const VectorXd& y) const {
   const MatrixXd basis = tangent_basis(x);
   const ExprVector image = chart(constants(x), constants(basis), xi);
   const SparseExprMatrix d_image = jacobian(image, xi);
-  VectorXd at = (coframe(x) * (y - x)).transpose() * basis;
-  double previous = std::numeric_limits<double>::infinity();
-  for (int iteration = 0; iteration < 50; ++iteration) {
-    const VectorXd defect = values(substitute(image, xi, constants(at))) - y;
-    const double size = defect.lpNorm<Eigen::Infinity>();
-    if (!std::isfinite(size)) break;
-    if (size == 0.0 || (size < 1e-11 * (1.0 + y.norm()) && size >= 0.5 * previous))
-      return basis * at;
-    previous = size;
+  const auto d_image_at = [&](const VectorXd& at) {
     const VectorXd entries = values(substitute(d_image.values, xi, constants(at)));
     MatrixXd J = MatrixXd::Zero(d_image.rows, d_image.cols);
     for (std::size_t k = 0; k < d_image.row.size(); ++k)
       J(d_image.row[k], d_image.col[k]) = entries[static_cast<Index>(k)];
-    at -= J.completeOrthogonalDecomposition().solve(defect);
-  }
+    return J;
+  };
+  const GaussNewtonResult zero = gauss_newton(
+      [&](const VectorXd& at) {
+        return VectorXd(values(substitute(image, xi, constants(at))) - y);
+      },
+      d_image_at, basis.transpose() * (coframe(x) * (y - x)),
+      {.accepted = 1e-11 * (1.0 + y.norm())});
+  if (zero.converged) return basis * zero.y;
   throw std::domain_error(
-      name_ + "::inverse_retract: y is not reached from x, least defect " +
-      std::to_string(previous) +
+      name_ + "::inverse_retract: y is not reached from x, defect " + printed(zero.defect) +
       " after Newton's method; expected 0. Is y beyond the injectivity radius?");
 }
 

@@ -26,12 +26,13 @@ namespace courant {
 //   M1  R(x, 0) = x                                       for x ∈ M
 //   M2  d/ds R(x, s v) = E(x) v at s = 0                  for v ∈ T_xM
 //   M3  constraint(R(x, v)) = 0                           for ‖v‖ < r(x)
-//   M4  R⁻¹(x, R(x, v)) = v,  R(x, R⁻¹(x, y)) = y         for ‖v‖ < r(x)
+//   M4  R⁻¹(x, R(x, v)) = v,  R(x, R⁻¹(x, y)) = y         for ‖v‖ < r(x), r(x) > 0
 //   M5  C E C = C and E C E = E on M, rank n;             E(x) R^Ñ = ker d constraint(x)
 //   M6  every map is smooth at and near v = 0             derivatives are finite and right
 //   M7  s ↦ R(x, s v) are geodesics of a connection       where is_geodesic() claims it
 //   M8  random_point, project and tangent_basis are on M  tangent_basis orthonormal, of n columns
 //   M9  R⁻¹(R(x, v), R(x, w)) is the same at every x      where unit() claims a group
+//   M10  velocity_along(x, v, s) = C(y) dy/ds             of the curve y = R(x, s v)
 //
 // Every formula is written once, on Expr; given numbers, the same functions return numbers
 // (constants fold). Reference: Absil, Mahony, Sepulchre, Optimization Algorithms on Matrix
@@ -47,6 +48,11 @@ class Manifold {
   Index dimension() const { return dimension_; }     // n
   Index ambient_dimension() const { return ambient_dimension_; }  // N
   Index tangent_dimension() const { return tangent_dimension_; }  // Ñ
+
+  // Whether both are the same set with the same representation and the same maps, so that what is
+  // given on one of them may be used on the other. A manifold equals itself; others have to be of
+  // one class and say so (do_equals).
+  bool operator==(const Manifold& other) const;
 
   // The maps above, on expressions or on numbers. Wrong sizes throw std::invalid_argument. Points
   // and vectors are not checked for being on the manifold or tangent to it (point_defect and
@@ -145,6 +151,9 @@ class Manifold {
   virtual ExprMatrix do_coframe(const ExprVector& x) const = 0;
 
   // May override:
+  // Whether another object of this class is the same manifold; false by default, which is always
+  // safe. Where the name holds all parameters: other.name() == name().
+  virtual bool do_equals(const Manifold&) const { return false; }
   virtual ExprVector do_inverse_retract(const ExprVector& x,
                                         const ExprVector& y) const;  // or has_inverse() → false
   virtual std::optional<VectorXd> do_unit() const { return std::nullopt; }

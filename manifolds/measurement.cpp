@@ -1,12 +1,12 @@
 #include "courant/manifolds/measurement.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <exception>
 #include <limits>
 #include <sstream>
 
+#include "courant/core/complete_orthogonal_decomposition.hpp"
 #include "courant/core/derivative.hpp"
 
 namespace courant {
@@ -23,7 +23,7 @@ double log_log_slope(const std::vector<double>& steps, const std::vector<double>
   const auto count = static_cast<Index>(x.size());
   MatrixXd A = MatrixXd::Ones(count, 2);
   A.col(0) = Eigen::Map<const VectorXd>(x.data(), count);
-  return A.colPivHouseholderQr().solve(Eigen::Map<const VectorXd>(y.data(), count))[0];
+  return CompleteOrthogonalDecomposition(A).solve(Eigen::Map<const VectorXd>(y.data(), count))(0);
 }
 
 CurveFamily::CurveFamily(const Curve& curve, Index data_size) {

@@ -67,6 +67,11 @@ ExprVector Product::do_inverse_retract(const ExprVector& x, const ExprVector& y)
   return v;
 }
 
+bool Product::do_equals(const Manifold& other) const {
+  return std::ranges::equal(factors_, static_cast<const Product&>(other).factors_,
+                            [](const auto& a, const auto& b) { return *a == *b; });
+}
+
 std::optional<VectorXd> Product::do_unit() const {
   VectorXd result(ambient_dimension());
   for (std::size_t i = 0; i < factors_.size(); ++i) {

@@ -30,6 +30,7 @@ class Product final : public Manifold {
   }
 
  private:
+  bool do_equals(const Manifold& other) const override;
   ExprVector do_retract(const ExprVector& x, const ExprVector& v) const override;
   ExprVector do_inverse_retract(const ExprVector& x, const ExprVector& y) const override;
   std::optional<VectorXd> do_unit() const override;

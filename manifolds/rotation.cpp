@@ -1,7 +1,9 @@
 #include "courant/manifolds/rotation.hpp"
 
-#include <Eigen/Dense>
 #include <stdexcept>
+
+#include "courant/core/lu_decomposition.hpp"
+#include "courant/core/singular_value_decomposition.hpp"
 
 namespace courant {
 
@@ -63,12 +65,12 @@ ExprMatrix rotation_of(const ExprVector& quaternion) {
 }
 
 MatrixXd nearest_rotation(const MatrixXd& A) {
-  const double determinant = A.determinant();
+  const double determinant = LuDecomposition(A).determinant();
   if (!(determinant > 0.0))
     throw std::domain_error("nearest_rotation: A has determinant " + std::to_string(determinant) +
                             "; expected one above 0, as near a rotation.");
-  const Eigen::JacobiSVD<MatrixXd> svd(A, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return svd.matrixU() * svd.matrixV().transpose();
+  const auto [values, U, V] = singular_value_decomposition(A);
+  return U * V.transpose();
 }
 
 }  // namespace courant

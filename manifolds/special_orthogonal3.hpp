@@ -28,6 +28,7 @@ class SpecialOrthogonal3 final : public Manifold {
   bool is_geodesic() const override { return retraction_.is_geodesic; }
 
  private:
+  bool do_equals(const Manifold& other) const override { return other.name() == name(); }
   ExprVector do_retract(const ExprVector& x, const ExprVector& v) const override;
   ExprVector do_inverse_retract(const ExprVector& x, const ExprVector& y) const override;
   std::optional<VectorXd> do_unit() const override;

@@ -1,9 +1,9 @@
 #include "courant/manifolds/stiefel.hpp"
 
-#include <Eigen/Dense>
 #include <stdexcept>
 
 #include "courant/core/linear_algebra.hpp"
+#include "courant/core/singular_value_decomposition.hpp"
 #include "courant/manifolds/row_major.hpp"
 
 namespace courant {
@@ -60,11 +60,11 @@ ExprVector Stiefel::do_constraint(const ExprVector& x) const {
 
 VectorXd Stiefel::do_project(const VectorXd& x) const {
   const MatrixXd X = x.reshaped<Eigen::RowMajor>(n_, k_);
-  const Eigen::JacobiSVD<MatrixXd> svd(X, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  if (!(svd.singularValues()[k_ - 1] > 0.0))
+  const auto [sigma, U, V] = singular_value_decomposition(X);
+  if (!(sigma[k_ - 1] > 0.0))
     throw std::domain_error(name() + "::project: x has linearly dependent columns; expected rank " +
                             std::to_string(k_) + ". No frame is nearest to it.");
-  return (svd.matrixU() * svd.matrixV().transpose()).eval().reshaped<Eigen::RowMajor>();
+  return (U.leftCols(k_) * V.transpose()).eval().reshaped<Eigen::RowMajor>();
 }
 
 }  // namespace courant

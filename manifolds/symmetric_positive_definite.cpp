@@ -1,9 +1,9 @@
 #include "courant/manifolds/symmetric_positive_definite.hpp"
 
-#include <Eigen/Dense>
 #include <limits>
 #include <stdexcept>
 
+#include "courant/core/cholesky_decomposition.hpp"
 #include "courant/core/linear_algebra.hpp"
 
 namespace courant {
@@ -81,8 +81,9 @@ ExprMatrix SymmetricPositiveDefinite::do_frame(const ExprVector& x) const {
 }
 
 double SymmetricPositiveDefinite::do_point_defect(const VectorXd& x) const {
-  const Eigen::LLT<MatrixXd> factor(symmetric(x, n_));
-  return factor.info() == Eigen::Success ? 0.0 : std::numeric_limits<double>::infinity();
+  return CholeskyDecomposition(symmetric(x, n_)).is_positive_definite()
+             ? 0.0
+             : std::numeric_limits<double>::infinity();
 }
 
 VectorXd SymmetricPositiveDefinite::do_project(const VectorXd& x) const {

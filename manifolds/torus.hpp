@@ -17,6 +17,7 @@ class Torus final : public Manifold {
   bool is_geodesic() const override { return true; }
 
  private:
+  bool do_equals(const Manifold& other) const override { return other.name() == name(); }
   ExprVector do_retract(const ExprVector& x, const ExprVector& v) const override { return x + v; }
   ExprVector do_inverse_retract(const ExprVector& x, const ExprVector& y) const override;
   std::optional<VectorXd> do_unit() const override { return VectorXd::Zero(dimension()); }

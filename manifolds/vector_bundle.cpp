@@ -1,12 +1,12 @@
 #include "courant/manifolds/vector_bundle.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "courant/core/derivative.hpp"
 #include "courant/core/linear_algebra.hpp"
+#include "courant/core/singular_value_decomposition.hpp"
 
 namespace courant {
 namespace {
@@ -104,7 +104,7 @@ double VectorBundle::turning_rate(const VectorXd& position) const {
   const MatrixXd rate = values(substitute(turning.reshaped(), at, constants(position)))
                             .reshaped(turning.rows(), turning.cols()) *
                         base_->tangent_basis(position);
-  return Eigen::JacobiSVD<MatrixXd>(rate).singularValues()[0];
+  return singular_values(rate)[0];
 }
 
 double VectorBundle::do_injectivity_radius(const VectorXd& x) const {

@@ -55,6 +55,9 @@ class VectorBundle : public Manifold {
   // To subclass, override:
   virtual ExprMatrix fibre_projector(const ExprVector& x) const = 0;  // F, Ñ × Ñ, at x ∈ M
 
+  bool do_equals(const Manifold& other) const override {
+    return *base_ == *static_cast<const VectorBundle&>(other).base_;
+  }
   ExprVector do_retract(const ExprVector& x, const ExprVector& v) const override;
   ExprVector do_inverse_retract(const ExprVector& x, const ExprVector& y) const override;
   ExprMatrix do_frame(const ExprVector& x) const override;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "courant/core/spelling.hpp"
 
@@ -113,11 +114,38 @@ std::optional<std::string> JsonReader::word(const std::vector<std::string>& word
   return std::nullopt;
 }
 
-ObjectReader::ObjectReader(const JsonReader& object) : ObjectReader(object, {}) {}
-
-ObjectReader::ObjectReader(const JsonReader& object, std::vector<std::string> known)
-    : object_(object), known_(std::move(known)) {
+ObjectReader::ObjectReader(const JsonReader& object) : object_(object) {
   if (!object_.value().is_object()) object_.expected("an object");
+}
+
+ObjectReader::ObjectReader(const JsonReader& object, const KindDescription& kind)
+    : ObjectReader(object) {
+  kind_ = &kind;
+  known_ = {"type"};
+  for (const Key& key : kind.keys) known_.push_back(key.name);
+}
+
+const Key* ObjectReader::declared(const std::string& key) const {
+  if (!kind_ || key == "type") return nullptr;
+  if (const Key* found = kind_->find(key)) return found;
+  throw std::logic_error("the kind " + in_quotes(kind_->type) + " reads the key " + in_quotes(key) +
+                         ", which it does not declare");
+}
+
+void ObjectReader::require_all_read() const {
+  if (!kind_ || !object_.value().is_object()) return;
+  for (const Key& key : kind_->keys)
+    if (object_.value().contains(key.name) &&
+        std::find(asked_.begin(), asked_.end(), key.name) == asked_.end())
+      throw std::logic_error("the kind " + in_quotes(kind_->type) + " declares the key " +
+                             in_quotes(key.name) + " and does not read it");
+}
+
+const Json& ObjectReader::declared_default(const std::string& key) const {
+  const Key* known = declared(key);
+  if (!known || known->otherwise.is_null())
+    throw std::logic_error("the key " + in_quotes(key) + " is declared without a default");
+  return known->otherwise;
 }
 
 ObjectReader::~ObjectReader() {
@@ -132,16 +160,22 @@ ObjectReader::~ObjectReader() {
 }
 
 std::optional<JsonReader> ObjectReader::optional(const std::string& key) {
-  known_.push_back(key);
+  const Key* known = declared(key);
+  const bool again = std::find(asked_.begin(), asked_.end(), key) != asked_.end();
+  asked_.push_back(key);
+  if (!kind_) known_.push_back(key);
   if (!object_.value().is_object()) return std::nullopt;
+  const std::string pointer = object_.pointer() + "/" + pointer_token(key);
   const auto found = object_.value().find(key);
-  if (found == object_.value().end()) return std::nullopt;
-  return JsonReader(*found, object_.pointer() + "/" + pointer_token(key), object_.findings());
+  if (found != object_.value().end()) return JsonReader(*found, pointer, object_.findings());
+  if (known && known->required && !again) object_.findings().problem(pointer, "is missing");
+  return std::nullopt;
 }
 
 std::optional<JsonReader> ObjectReader::required(const std::string& key) {
+  const Key* known = declared(key);
   auto value = optional(key);
-  if (!value && object_.value().is_object())
+  if (!value && object_.value().is_object() && !(known && known->required))
     object_.findings().problem(object_.pointer() + "/" + pointer_token(key), "is missing");
   return value;
 }
@@ -173,6 +207,32 @@ std::string ObjectReader::word(const std::string& key, const std::string& value,
   if (const auto given = optional(key)) return given->word(words).value_or(value);
   default_value(key, value);
   return value;
+}
+
+double ObjectReader::number(const std::string& key) {
+  const double otherwise = declared_default(key).get<double>();
+  const auto given = optional(key);
+  if (!given) {
+    default_value(key, otherwise);
+    return otherwise;
+  }
+  const auto value = given->number();
+  if (!value) return otherwise;
+  const Takes& takes = declared(key)->takes;
+  if (*value >= takes.schema.value("minimum", -INFINITY) &&
+      *value <= takes.schema.value("maximum", INFINITY))
+    return *value;
+  given->expected(takes.text);
+  return otherwise;
+}
+
+Index ObjectReader::integer(const std::string& key) {
+  const auto otherwise = declared_default(key).get<Index>();
+  return integer(key, otherwise, declared(key)->takes.schema.at("minimum").get<Index>());
+}
+
+std::string ObjectReader::word(const std::string& key) {
+  return word(key, declared_default(key).get<std::string>(), declared(key)->takes.words);
 }
 
 }  // namespace courant

@@ -9,6 +9,7 @@
 
 #include "courant/core/expr.hpp"
 #include "courant/reading/findings.hpp"
+#include "courant/reading/kind.hpp"
 
 namespace courant {
 
@@ -47,21 +48,24 @@ class JsonReader {
   Findings* findings_;
 };
 
-// An object with known keys. When it goes out of scope, every key that was never asked for is a
-// problem, with the known key that may have been meant.
+// An object with known keys: those of a declaration or, where there is none, those that are asked
+// for. When it goes out of scope, every other key is a problem, with the known key that may have
+// been meant.
 class ObjectReader {
  public:
   // A problem, and no keys, if the value is not an object.
   explicit ObjectReader(const JsonReader& object);
-  // Keys that are already known to be there, and are read elsewhere.
-  ObjectReader(const JsonReader& object, std::vector<std::string> known);
+  // Of a kind, which must outlive the reader. Asking for a key that it does not declare is a
+  // std::logic_error.
+  ObjectReader(const JsonReader& object, const KindDescription& kind);
   ~ObjectReader();
   ObjectReader(const ObjectReader&) = delete;
   ObjectReader& operator=(const ObjectReader&) = delete;
 
   const JsonReader& place() const { return object_; }
 
-  // Nothing if the key is missing, which for `required` is a problem.
+  // Nothing if the key is missing. That is a problem for `required`, and for a key that the kind
+  // declares as required.
   std::optional<JsonReader> optional(const std::string& key);
   std::optional<JsonReader> required(const std::string& key);
 
@@ -75,9 +79,25 @@ class ObjectReader {
   std::string word(const std::string& key, const std::string& value,
                    const std::vector<std::string>& words);
 
+  // The value of a key of a kind that declares it with a default, and a number with the least and
+  // the greatest it may be, an integer with the least, a word with what else it may be. The default
+  // too if the value is not that, which is a problem.
+  double number(const std::string& key);
+  Index integer(const std::string& key);
+  std::string word(const std::string& key);
+  const Json& declared_default(const std::string& key) const;
+
+  // Throws std::logic_error if the object has a key that the kind declares and that nobody asked
+  // for.
+  void require_all_read() const;
+
  private:
+  const Key* declared(const std::string& key) const;
+
   JsonReader object_;
+  const KindDescription* kind_ = nullptr;
   std::vector<std::string> known_;
+  std::vector<std::string> asked_;
 };
 
 }  // namespace courant

@@ -38,11 +38,7 @@ std::optional<DiscretizationChoice> midpoint(ObjectReader&) {
 }
 
 std::optional<DiscretizationChoice> theta_map(ObjectReader& object) {
-  const double theta = object.number("theta", 0.5);
-  if (!(theta >= 0.0 && theta <= 1.0)) {
-    object.optional("theta")->expected("a number from 0 to 1");
-    return std::nullopt;
-  }
+  const double theta = object.number("theta");
   char digits[32];
   const std::string shown(digits, std::to_chars(digits, digits + sizeof digits, theta).ptr);
   return lifted("theta = " + shown,
@@ -111,7 +107,7 @@ std::optional<DiscretizationChoice> cayley(ObjectReader&) {
 
 // A map of the surrounding manifold with its ends projected to a submanifold.
 std::optional<DiscretizationChoice> projected(ObjectReader& object) {
-  const auto map = discretization_kinds().read(object, "map", "midpoint");
+  const auto map = discretization_kinds().read_key(object, "map");
   if (!map) return std::nullopt;
   return lifted("projected " + map->description,
                 [make = map->make](const ManifoldPointer& M) -> MapPointer {
@@ -162,8 +158,8 @@ State start_of_method_1(const MethodSetting& at, const DiscretizationMap& map, b
 }
 
 std::optional<MethodChoice> discretize_first(ObjectReader& object) {
-  const auto map = discretization_kinds().read(object, "discretization", "midpoint");
-  const bool rk2 = object.word("start", "on-manifold", {"on-manifold", "rk2"}) == "rk2";
+  const auto map = discretization_kinds().read_key(object, "discretization");
+  const bool rk2 = object.word("start") == "rk2";
   if (!map) return std::nullopt;
   return MethodChoice{
       "discretize-first, " + map->description + (rk2 ? ", started by rk2" : ""),
@@ -177,8 +173,8 @@ std::optional<MethodChoice> discretize_first(ObjectReader& object) {
 }
 
 std::optional<MethodChoice> constrain_first(ObjectReader& object) {
-  const auto map = discretization_kinds().read(object, "discretization", "midpoint");
-  const auto projector = projector_kinds().read(object, "projector", "orthogonal");
+  const auto map = discretization_kinds().read_key(object, "discretization");
+  const auto projector = projector_kinds().read_key(object, "projector");
   if (!map || !projector) return std::nullopt;
   return MethodChoice{"constrain-first, " + map->description + ", " + projector->description,
                       [map = *map, projector = *projector](const MethodSetting& at) {
@@ -201,33 +197,48 @@ std::optional<MethodChoice> explicit_runge_kutta(ObjectReader& object) {
 
 }  // namespace
 
-const Registry<DiscretizationChoice>& discretization_kinds() {
-  static const Registry<DiscretizationChoice> kinds({
+Registry<DiscretizationChoice>& discretization_kinds() {
+  static Registry<DiscretizationChoice> kinds({
       {{"midpoint", "R_d(x, v) = (R_x(-v/2), R_x(v/2)), symmetric, order 2"}, midpoint},
       {{"exponential", "midpoint, where the retraction is the exponential map"}, exponential},
       {{"chordal", "the symmetric map (2) of spheres, and of products of them"}, chordal},
       {{"spherical-midpoint", "(x√(1-v²/4) - v/2, x√(1-v²/4) + v/2) on spheres, and products"},
        spherical_midpoint},
       {{"cayley", "midpoint of the Cayley transform on so3 and se3, and products"}, cayley},
-      {{"projected", "(P × P) R_d on an implicit submanifold, R_d a \"map\" of the surrounding"},
+      {{"projected",
+        "(P × P) R_d on an implicit submanifold",
+        {default_key("map", takes::kind("discretization"), "midpoint",
+                     "R_d, a map of the surrounding manifold")}},
        projected},
-      {{"theta", "R_d(x, v) = (R_x(-θv), R_x((1-θ)v)) with \"theta\" in [0, 1]"}, theta_map},
+      {{"theta",
+        "R_d(x, v) = (R_x(-θv), R_x((1-θ)v))",
+        {default_key("theta", takes::number(0, 1), 0.5, "θ: 0.5 is symmetric and of order 2")}},
+       theta_map},
   });
   return kinds;
 }
 
-const Registry<ProjectorChoice>& projector_kinds() {
-  static const Registry<ProjectorChoice> kinds({
+Registry<ProjectorChoice>& projector_kinds() {
+  static Registry<ProjectorChoice> kinds({
       {{"orthogonal", "to the nearest point of M_f"}, orthogonal},
       {{"momentum", "on T*Q: q stays, p moves as little as possible"}, momentum},
   });
   return kinds;
 }
 
-const Registry<MethodChoice>& method_kinds() {
-  static const Registry<MethodChoice> kinds({
-      {{"discretize-first", "Method 1: (1/h) R_d⁻¹(x₀, x₁) ∈ S₀"}, discretize_first},
-      {{"constrain-first", "Method 2: the constraint algorithm, then R_d projected to M_f"},
+Registry<MethodChoice>& method_kinds() {
+  const Key map = default_key("discretization", takes::kind("discretization"), "midpoint", "R_d");
+  static Registry<MethodChoice> kinds({
+      {{"discretize-first",
+        "Method 1: (1/h) R_d⁻¹(x₀, x₁) ∈ S₀",
+        {map, default_key("start", takes::word({"on-manifold", "rk2"}), "on-manifold",
+                          "at the consistent point, or with the momentum that makes the first step "
+                          "that of rk2")}},
+       discretize_first},
+      {{"constrain-first",
+        "Method 2: the constraint algorithm, then R_d projected to M_f",
+        {map, default_key("projector", takes::kind("projector"), "orthogonal",
+                          "how points are brought to M_f")}},
        constrain_first},
       {{"rk2", "explicit midpoint rule on S_f, order 2"},
        explicit_runge_kutta<ExplicitRungeKutta::Kind::midpoint>},

@@ -53,8 +53,8 @@ struct ProjectorChoice {
   std::function<std::shared_ptr<const Projector>(std::shared_ptr<const Manifold>)> make;
 };
 
-const Registry<MethodChoice>& method_kinds();
-const Registry<DiscretizationChoice>& discretization_kinds();
-const Registry<ProjectorChoice>& projector_kinds();
+Registry<MethodChoice>& method_kinds();
+Registry<DiscretizationChoice>& discretization_kinds();
+Registry<ProjectorChoice>& projector_kinds();
 
 }  // namespace courant

@@ -18,7 +18,7 @@ std::optional<Model> read_hamiltonian(ObjectReader& system) {
   vocabulary.coordinates = space->coordinates;
   check_definitions(vocabulary, findings);
   const auto structure =
-      structure_kinds().read(system, "structure", "canonical", {space->manifold, vocabulary});
+      structure_kinds().read_key(system, "structure", {space->manifold, vocabulary});
   Graph graph;
   const SymbolTable symbols = vocabulary.symbols(
       {.x = graph.variables("x", vocabulary.coordinates.size()), .t = graph.variable("t")});

@@ -48,7 +48,7 @@ std::optional<Model> read_implicit(ObjectReader& system) {
   Model model;
   Vocabulary& vocabulary = model.vocabulary = read_vocabulary(system);
   SymbolTable taken = vocabulary.symbols({.t = Expr(0.0)});
-  const auto space = read_space(system, "euclidean", vocabulary, taken);
+  const auto space = read_space(system, vocabulary, taken);
   const auto unknowns = system.optional("unknowns");
   const bool named = !unknowns || read_names(*unknowns, taken, vocabulary.unknowns);
   const auto equations_key = system.required("equations");

@@ -11,7 +11,7 @@ std::optional<Model> read_lagrangian(ObjectReader& system) {
   Model model;
   Vocabulary& vocabulary = model.vocabulary = read_vocabulary(system);
   SymbolTable taken = vocabulary.symbols({.t = Expr(0.0)});
-  const auto base = read_space(system, "euclidean", vocabulary, taken);
+  const auto base = read_space(system, vocabulary, taken);
   const auto key = system.required("lagrangian");
   const auto formula = key ? read_formula(*key) : std::nullopt;
   const auto space =

@@ -39,7 +39,7 @@ std::optional<Model> read_point_vortices(ObjectReader& system) {
   Model model;
   Vocabulary& vocabulary = model.vocabulary =
       read_vocabulary(system, {"strengths", "x", "y", "p_x", "p_y"});
-  const std::string form = system.word("form", "lagrangian", {"lagrangian", "hamiltonian"});
+  const std::string form = system.word("form");
   const auto strengths = read_strengths(system, vocabulary.symbols({}));
   if (!strengths) return std::nullopt;
 

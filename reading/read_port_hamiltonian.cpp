@@ -1,5 +1,4 @@
-#include <Eigen/Eigenvalues>
-
+#include "courant/core/symmetric_eigenvalues.hpp"
 #include "courant/reading/space.hpp"
 #include "courant/reading/structure_kinds.hpp"
 #include "courant/reading/system_kinds.hpp"
@@ -18,7 +17,7 @@ bool is_resistive(const Manifold& manifold, const MatrixField& R, const JsonRead
       place.problem("is not symmetric at a random point; expected R = Rᵀ");
       return false;
     }
-    const double least = Eigen::SelfAdjointEigenSolver<MatrixXd>(A).eigenvalues().minCoeff();
+    const double least = symmetric_eigenvalues(A).minCoeff();
     if (least < -1e-12 * size) {
       place.problem("is not positive semidefinite: an eigenvalue at a random point is " +
                     std::to_string(least) + "; expected at least 0");
@@ -52,13 +51,13 @@ std::optional<Model> read_port_hamiltonian(ObjectReader& system) {
   Model model;
   Vocabulary& vocabulary = model.vocabulary = read_vocabulary(system);
   SymbolTable taken = vocabulary.symbols({.t = Expr(0.0)});
-  const auto space = read_space(system, "euclidean", vocabulary, taken);
+  const auto space = read_space(system, vocabulary, taken);
   const auto hamiltonian_key = system.required("hamiltonian");
   const auto hamiltonian = hamiltonian_key ? read_formula(*hamiltonian_key) : std::nullopt;
   const auto J_key = system.required("J");
   const auto R_key = system.optional("R");
   const auto B_key = system.optional("B");
-  const bool open = system.word("ports", "closed", {"open", "closed"}) == "open";
+  const bool open = system.word("ports") == "open";
   const auto inputs_key = open ? system.required("inputs") : system.optional("inputs");
   if (!open && inputs_key)
     inputs_key->problem("is for open ports; expected \"ports\": \"open\" beside it");

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,16 +12,11 @@
 
 namespace courant {
 
-// What a catalogue says of a kind.
-struct KindDescription {
-  std::string type;
-  std::string summary;  // one line
-};
-
-// The kinds of one noun ("manifold", "method"), each with the function that reads its other keys
-// and makes the object. Where an object has no other keys, its type alone is short for it:
-// "midpoint" for
-// {"type": "midpoint"}.
+// The kinds of one noun ("manifold", "method"), each with its declaration and the function that
+// reads its keys and makes the object. Where an object has no other keys, its type alone is short
+// for it: "midpoint" for
+//
+//   {"type": "midpoint"}
 template <class Product, class... Arguments>
 class Registry {
  public:
@@ -32,7 +28,21 @@ class Registry {
 
   explicit Registry(std::vector<Kind> kinds) : kinds_(std::move(kinds)) {}
 
-  // The value of a key that may be missing, or `otherwise`.
+  // One more kind, from now on as good as those that were always there: before the first
+  // experiment is read, and from one thread. Throws std::invalid_argument if the type is taken.
+  void add(Kind kind) {
+    for (const Kind& known : kinds_)
+      if (known.description.type == kind.description.type)
+        throw std::invalid_argument("Registry::add: there is a kind \"" + kind.description.type +
+                                    "\" already; expected another type.");
+    kinds_.push_back(std::move(kind));
+  }
+
+  // The value of a key that may be missing, or its declared default, or `otherwise`.
+  std::optional<Product> read_key(ObjectReader& object, const std::string& key,
+                                  const Arguments&... arguments) const {
+    return read(object, key, object.declared_default(key), arguments...);
+  }
   std::optional<Product> read(ObjectReader& object, const std::string& key, const Json& otherwise,
                               const Arguments&... arguments) const {
     if (const auto given = object.optional(key)) return read(*given, arguments...);
@@ -48,18 +58,20 @@ class Registry {
       value.findings().default_value(value.pointer(), object);
       const Kind* kind = find(value);
       if (!kind) return std::nullopt;
-      ObjectReader reader(JsonReader(object, value.pointer(), value.findings()), {"type"});
-      return kind->read(reader, arguments...);
+      return made(*kind, JsonReader(object, value.pointer(), value.findings()), arguments...);
     }
-    ObjectReader reader(value);
-    const auto type = reader.required("type");
-    const Kind* kind = type ? find(*type) : nullptr;
-    if (!kind) {
-      if (value.value().is_object())  // what else may be there is not known
-        for (const auto& [key, entry] : value.value().items()) reader.optional(key);
+    if (!value.value().is_object()) {
+      value.expected("an object");
       return std::nullopt;
     }
-    return kind->read(reader, arguments...);
+    const auto type = value.value().find("type");
+    const std::string pointer = value.pointer() + "/type";
+    if (type == value.value().end()) {
+      value.findings().problem(pointer, "is missing");
+      return std::nullopt;
+    }
+    const Kind* kind = find(JsonReader(*type, pointer, value.findings()));
+    return kind ? made(*kind, value, arguments...) : std::nullopt;
   }
 
   std::vector<KindDescription> descriptions() const {
@@ -69,6 +81,14 @@ class Registry {
   }
 
  private:
+  static std::optional<Product> made(const Kind& kind, const JsonReader& object,
+                                     const Arguments&... arguments) {
+    ObjectReader reader(object, kind.description);
+    auto product = kind.read(reader, arguments...);
+    if (product) reader.require_all_read();
+    return product;
+  }
+
   const Kind* find(const JsonReader& type) const {
     std::vector<std::string> types;
     for (const Kind& kind : kinds_) types.push_back(kind.description.type);

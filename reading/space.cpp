@@ -30,8 +30,7 @@ std::optional<ManifoldPointer> torus(ObjectReader&, const Vocabulary& vocabulary
 }
 
 std::optional<ManifoldPointer> sphere(ObjectReader& object, const Vocabulary& vocabulary) {
-  const bool projective =
-      object.word("retraction", "exponential", {"exponential", "projective"}) == "projective";
+  const bool projective = object.word("retraction") == "projective";
   return std::make_shared<Sphere>(vocabulary.coordinates.size() - 1,
                                   projective ? Sphere::projective() : Sphere::exponential());
 }
@@ -43,8 +42,7 @@ std::optional<ManifoldPointer> hyperbolic(ObjectReader&, const Vocabulary& vocab
 // SO(3) or SE(3), whose retractions have the same names.
 template <class Group>
 std::optional<ManifoldPointer> read_group(ObjectReader& object) {
-  const bool cayley =
-      object.word("retraction", "exponential", {"exponential", "cayley"}) == "cayley";
+  const bool cayley = object.word("retraction") == "cayley";
   return std::make_shared<Group>(cayley ? Group::cayley() : Group::exponential());
 }
 
@@ -113,7 +111,7 @@ std::optional<ManifoldPointer> product_of(ObjectReader& object, const Vocabulary
 // {equations = 0} in the manifold `surrounding`.
 std::optional<ManifoldPointer> implicit_submanifold(ObjectReader& object,
                                                     const Vocabulary& vocabulary) {
-  const auto surrounding = manifold_kinds().read(object, "surrounding", "euclidean", vocabulary);
+  const auto surrounding = manifold_kinds().read_key(object, "surrounding", vocabulary);
   const auto key = object.required("equations");
   const auto equations = key ? read_formula_vector(*key) : std::nullopt;
   if (!surrounding || !equations) return std::nullopt;
@@ -163,32 +161,54 @@ std::optional<ManifoldPointer> implicit_submanifold(ObjectReader& object,
 // A bundle on a "base".
 template <class Bundle>
 std::optional<ManifoldPointer> bundle_on(ObjectReader& object, const Vocabulary& vocabulary) {
-  const auto base = manifold_kinds().read(object, "base", "euclidean", vocabulary);
+  const auto base = manifold_kinds().read_key(object, "base", vocabulary);
   if (!base) return std::nullopt;
   return std::make_shared<Bundle>(*base);
 }
 
 }  // namespace
 
-const Registry<ManifoldPointer, Vocabulary>& manifold_kinds() {
-  static const Registry<ManifoldPointer, Vocabulary> kinds({
+Registry<ManifoldPointer, Vocabulary>& manifold_kinds() {
+  const auto retraction = [](const char* other) {
+    return default_key("retraction", takes::word({"exponential", other}), "exponential",
+                       "what leads from a tangent vector to a point");
+  };
+  const Key base = default_key("base", takes::kind("manifold"), "euclidean", "Q");
+  static Registry<ManifoldPointer, Vocabulary> kinds({
       {{"euclidean", "Rⁿ, with as many dimensions as there are coordinates"}, euclidean},
       {{"torus", "Tⁿ by n angles"}, torus},
-      {{"sphere", "Sⁿ by unit vectors of Rⁿ⁺¹; \"retraction\" exponential or projective"}, sphere},
-      {{"hyperbolic", "Hⁿ, the hyperboloid x₀² = 1 + x₁² + … in Rⁿ⁺¹, x₀ > 0"}, hyperbolic},
-      {{"so3", "rotations by 3×3 matrices; \"retraction\" exponential or cayley"}, rotations},
-      {{"se3", "rigid motions by a rotation matrix and a vector; \"retraction\" as so3"}, motions},
-      {{"stiefel", "orthonormal k-frames of Rⁿ by n×k matrices"}, stiefel},
-      {{"symmetric-positive-definite", "such n×n matrices by their lower triangle, row after row"},
+      {{"sphere", "Sⁿ by unit vectors of Rⁿ⁺¹: \"xi[3]\" for S²", {retraction("projective")}},
+       sphere},
+      {{"hyperbolic", "Hⁿ, the hyperboloid x₀² = 1 + x₁² + … in Rⁿ⁺¹, x₀ > 0: \"x[3]\" for H²"},
+       hyperbolic},
+      {{"so3",
+        "rotations by 3×3 matrices, \"R[3][3]\"; the momentum p_R[3] is that in the body",
+        {retraction("cayley")}},
+       rotations},
+      {{"se3",
+        "rigid motions, \"R[3][3]\", \"r[3]\", with momenta p_R[3] (angular) and p_r[3] (linear), "
+        "both in the body; or one array of 12 with a momentum of 6",
+        {retraction("cayley")}},
+       motions},
+      {{"stiefel", "orthonormal k-frames of Rⁿ by n×k matrices, \"X[n][k]\""}, stiefel},
+      {{"symmetric-positive-definite",
+        "such n×n matrices by their lower triangle, row after row: \"X[3]\" for 2×2"},
        symmetric_positive_definite},
-      {{"product", "the product of \"factors\", one for each name in \"coordinates\""}, product_of},
+      {{"product",
+        "the product of its factors",
+        {required_key("factors", takes::array_of(takes::kind("manifold")),
+                      "one for each name in the coordinates")}},
+       product_of},
       {{"implicit-submanifold",
-        "where \"equations\" of the coordinates are zero in \"surrounding\""},
+        "where equations hold in a surrounding manifold",
+        {default_key("surrounding", takes::kind("manifold"), "euclidean",
+                     "the manifold around it, with the same coordinates"),
+         required_key("equations", takes::array_of(takes::formula(), 1),
+                      "formulas of the coordinates that are zero on it, with independent "
+                      "gradients")}},
        implicit_submanifold},
-      {{"tangent-bundle", "TQ of a \"base\" Q; the velocity over x is v_x"},
-       bundle_on<TangentBundle>},
-      {{"cotangent-bundle", "T*Q of a \"base\" Q; the momentum of x is p_x"},
-       bundle_on<CotangentBundle>},
+      {{"tangent-bundle", "TQ; the velocity over x is v_x", {base}}, bundle_on<TangentBundle>},
+      {{"cotangent-bundle", "T*Q; the momentum of x is p_x", {base}}, bundle_on<CotangentBundle>},
   });
   return kinds;
 }
@@ -274,6 +294,11 @@ std::optional<Space> cotangent_bundle(const Space& base, SymbolTable& taken,
   Space space{bundle, base.coordinates};
   if (!name_fibres(*bundle, space.coordinates, taken, coordinates)) return std::nullopt;
   return space;
+}
+
+std::optional<Space> read_space(ObjectReader& system, const Vocabulary& vocabulary,
+                                SymbolTable& taken) {
+  return read_space(system, system.declared_default("manifold"), vocabulary, taken);
 }
 
 std::optional<Space> read_space(ObjectReader& system, const Json& otherwise,

@@ -19,11 +19,13 @@ struct Space {
 
 // The kinds of `manifold`. The vocabulary has the coordinates that the experiment declares, for a
 // bundle on its base, and what else formulas of them may contain.
-const Registry<std::shared_ptr<const Manifold>, Vocabulary>& manifold_kinds();
+Registry<std::shared_ptr<const Manifold>, Vocabulary>& manifold_kinds();
 
-// Reads the keys `coordinates` and `manifold` (or `otherwise`, where it is missing), whose formulas
-// may use the parameters and definitions of a vocabulary. `taken` has the names that may not be
-// used again, and gets the new ones.
+// Reads the keys `coordinates` and `manifold`, whose formulas may use the parameters and
+// definitions of a vocabulary. Where there is no `manifold`, it is the declared default, or
+// `otherwise`. `taken` has the names that may not be used again, and gets the new ones.
+std::optional<Space> read_space(ObjectReader& system, const Vocabulary& vocabulary,
+                                SymbolTable& taken);
 std::optional<Space> read_space(ObjectReader& system, const Json& otherwise,
                                 const Vocabulary& vocabulary, SymbolTable& taken);
 

@@ -161,7 +161,7 @@ std::optional<LieAlgebra> read_algebra(ObjectReader& object) {
 }
 
 std::optional<StructurePointer> lie_poisson(ObjectReader& object, const StructureSite& site) {
-  const bool plus = object.word("sign", "minus", {"minus", "plus"}) == "plus";
+  const bool plus = object.word("sign") == "plus";
   const auto algebra = read_algebra(object);
   if (!algebra) return std::nullopt;
   try {
@@ -279,7 +279,7 @@ std::optional<StructurePointer> product_of_parts(ObjectReader& object, const Str
 }
 
 std::optional<StructurePointer> composed_parts(ObjectReader& object, const StructureSite& site) {
-  const Index ports = object.integer("ports", 1, 1);
+  const Index ports = object.integer("ports");
   const auto key = object.required("parts");
   const auto parts = key ? read_parts(*key, site, ports) : std::nullopt;
   if (!parts) return std::nullopt;
@@ -377,34 +377,80 @@ std::optional<Space> read_structure_space(ObjectReader& object, const Vocabulary
   return Space{std::make_shared<Euclidean>(names.size()), names};
 }
 
-const Registry<StructurePointer, StructureSite>& structure_kinds() {
-  static const Registry<StructurePointer, StructureSite> kinds({
-      {{"canonical", "the graph of ω = dq ∧ dp on a cotangent bundle"}, canonical},
-      {{"two-form", "the graph of a two-form given by its \"matrix\" ω of formulas: α = ω(x)ᵀ v"},
+Registry<StructurePointer, StructureSite>& structure_kinds() {
+  const auto matrix = [](const char* summary) {
+    return required_key("matrix", takes::formula_matrix(), summary);
+  };
+  const auto parts = [](const char* name, std::size_t least, std::optional<std::size_t> most) {
+    return required_key(name, takes::array_of(takes::structure_part(), least, most),
+                        "their coordinates together are those of the whole, in order");
+  };
+  // Of the other space of a map.
+  const std::vector<Key> other = {
+      required_key("coordinates", takes::coordinates(), "of the other space"),
+      optional_key("manifold", takes::kind("manifold"), "the other space; as of a system"),
+      required_key("structure", takes::kind("structure"), "on the other space")};
+  const auto with = [](std::vector<Key> keys, const std::vector<Key>& more) {
+    keys.insert(keys.end(), more.begin(), more.end());
+    return keys;
+  };
+  static Registry<StructurePointer, StructureSite> kinds({
+      {{"canonical", "the graph of ω = dq ∧ dp on a cotangent bundle: i_v ω = α"}, canonical},
+      {{"two-form",
+        "the graph of a two-form: α = ω(x)ᵀ v, as ω♭(u)(v) = ω(u, v)",
+        {matrix("ω, skew")}},
        two_form},
-      {{"bivector", "the graph of a bivector given by its \"matrix\" Λ of formulas: v = Λ(x) α"},
-       bivector},
-      {{"distribution", "F ⊕ F°, F by \"forms\" that vanish on it or \"fields\" that span it"},
+      {{"bivector", "the graph of a bivector: v = Λ(x) α", {matrix("Λ, skew")}}, bivector},
+      {{"distribution",
+        "F ⊕ F°: v ∈ F, α ∈ F°",
+        {optional_key("forms", takes::field_rows(), "one-forms that vanish on F"),
+         optional_key("fields", takes::field_rows(), "vector fields that span F")},
+        {{"forms", "fields"}}},
        distribution},
-      {{"restricted-two-form", "a two-form \"matrix\" on the distribution where \"forms\" vanish"},
+      {{"restricted-two-form",
+        "μ v = 0, α = ωᵀ v + μᵀ λ (Theorem 2.4)",
+        {matrix("ω, skew"),
+         required_key("forms", takes::field_rows(), "μ, one-forms that vanish on F")}},
        restricted_two_form},
-      {{"restricted-bivector", "a bivector \"matrix\" on the covectors that vanish on \"fields\""},
+      {{"restricted-bivector",
+        "v = Λ α + Xᵀ λ, X α = 0 (Theorem 2.5)",
+        {matrix("Λ, skew"),
+         required_key("fields", takes::field_rows(), "X, which the covectors vanish on")}},
        restricted_bivector},
       {{"lie-poisson",
-        "the dual of a Lie \"algebra\" so3, se3, so or abelian of \"n\", or of "
-        "structure \"constants\""},
+        "the dual of a Lie algebra: v is the ad*-bracket of α at the point",
+        {optional_key("algebra", takes::word({"so3", "se3", "so", "abelian"}), "one with a name"),
+         optional_key("n", takes::integer(0), "of so(n) and Rⁿ"),
+         optional_key("constants", takes::number_matrices(),
+                      "constants[k][i][j]: the part of [e_i, e_j] along e_k"),
+         optional_key("representation", takes::number_matrices(),
+                      "a matrix for each e_i: the semidirect product with the space they act on"),
+         default_key("sign", takes::word({"minus", "plus"}), "minus", "minus in body coordinates")},
+        {{"algebra", "constants"}}},
        lie_poisson},
-      {{"gauge", "a \"structure\" transformed by a two-form \"matrix\" B: (v, α + B♭v)"},
+      {{"gauge",
+        "a structure transformed by a two-form B: (v, α − Bᵀ v) is in it",
+        {required_key("structure", takes::kind("structure"), "what is transformed"),
+         matrix("B, skew")}},
        gauge_transformed},
-      {{"product", "the product of \"factors\", each a structure on coordinates of its own"},
-       product_of_parts},
-      {{"composed", "two \"parts\" with \"ports\" joined: common efforts, opposite flows"},
+      {{"product", "(v_i, α_i) ∈ D_i in each factor", {parts("factors", 1, {})}}, product_of_parts},
+      {{"composed",
+        "(v_A, f, α_A, e) ∈ A and (v_B, −f, α_B, e) ∈ B for some flows f and efforts e",
+        {default_key("ports", takes::integer(1), 1,
+                     "how many dimensions each part has more, after its coordinates"),
+         parts("parts", 2, 2)}},
        composed_parts},
-      {{"pullback", "a \"structure\" on other \"coordinates\", pulled back by a \"map\" to them"},
+      {{"pullback", "α = φ*β, (Tφ v, β) ∈ a structure at φ(x)",
+        with(other, {required_key("map", takes::formula_vector(),
+                                  "φ to the other space: formulas for its coordinates, then for "
+                                  "their momenta")})},
        pulled_back},
-      {{"pushforward",
-        "a \"structure\" on other \"coordinates\", pushed forward by a \"map\" with a "
-        "\"section\""},
+      {{"pushforward", "v = Tφ w, (w, φ*α) ∈ a structure at σ(x)",
+        with(other, {required_key("map", takes::formula_vector(),
+                                  "φ from the other space: formulas of its coordinates and "
+                                  "momenta"),
+                     required_key("section", takes::formula_vector(),
+                                  "σ to the other space, with φ(σ(x)) = x")})},
        pushed_forward},
   });
   return kinds;

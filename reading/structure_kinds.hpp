@@ -11,7 +11,7 @@
 namespace courant {
 
 // The kinds of `structure`.
-const Registry<std::shared_ptr<const DiracStructure>, StructureSite>& structure_kinds();
+Registry<std::shared_ptr<const DiracStructure>, StructureSite>& structure_kinds();
 
 // The keys `coordinates` and `manifold` of an object with a `structure`, see read_space. The
 // manifold is by default T*Rⁿ for the canonical structure and Rⁿ for others; a product or composed

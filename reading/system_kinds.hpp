@@ -7,7 +7,11 @@
 namespace courant {
 
 // The kinds of `system`: descriptions by formulas, and the catalogue.
-const Registry<Model>& system_kinds();
+Registry<Model>& system_kinds();
+
+// The keys of a system with those that every kind has: `parameters` and `definitions`, which
+// read_vocabulary reads.
+std::vector<Key> system_keys(std::vector<Key> keys);
 
 // One file each, read_<kind>.cpp; the vortices share one.
 std::optional<Model> read_hamiltonian(ObjectReader& system);

@@ -176,9 +176,9 @@ Pullback::Pullback(SmoothMap phi, StructurePointer structure)
                      structure->equation_count() + phi.source()->tangent_dimension()},
       phi_(std::move(phi)),
       structure_(std::move(structure)) {
-  if (phi_.target() != structure_->manifold())
+  if (*phi_.target() != *structure_->manifold())
     throw std::invalid_argument(name() + "::Pullback: phi leads to " + phi_.target()->name() +
-                                "; expected the manifold object of the structure, " +
+                                "; expected the manifold of the structure, " +
                                 structure_->manifold()->name() + ".");
 }
 
@@ -199,12 +199,12 @@ Pushforward::Pushforward(SmoothMap phi, SmoothMap section, StructurePointer stru
       phi_(std::move(phi)),
       section_(std::move(section)),
       structure_(std::move(structure)) {
-  if (phi_.source() != structure_->manifold() || section_.target() != phi_.source() ||
-      section_.source() != phi_.target())
+  if (*phi_.source() != *structure_->manifold() || *section_.target() != *phi_.source() ||
+      *section_.source() != *phi_.target())
     throw std::invalid_argument(
         name() +
         "::Pushforward: phi and section do not fit the structure; expected phi from the "
-        "manifold object of the structure, and section back to it.");
+        "manifold of the structure, and section back to it.");
 }
 
 ExprVector Pushforward::do_membership(const ExprVector& y, const ExprVector& v,

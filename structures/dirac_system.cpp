@@ -9,11 +9,11 @@ const DiracStructure& checked(const std::shared_ptr<const DiracStructure>& struc
                               const std::shared_ptr<const GeneratingFamily>& family) {
   if (!structure || !family)
     throw std::invalid_argument("DiracSystem::DiracSystem: structure or family is null.");
-  if (structure->manifold() != family->manifold())
+  if (*structure->manifold() != *family->manifold())
     throw std::invalid_argument("DiracSystem::DiracSystem: the structure is on " +
                                 structure->manifold()->name() + ", the generating family on " +
                                 family->manifold()->name() +
-                                "; expected one and the same manifold object.");
+                                "; expected one and the same manifold.");
   return *structure;
 }
 

@@ -14,7 +14,7 @@ namespace courant {
 //   ∂_λE(x, λ) = 0
 class DiracSystem final : public ImplicitSystem {
  public:
-  // Both on the same manifold object; throws std::invalid_argument otherwise. `names` as in
+  // Both on the same manifold; throws std::invalid_argument otherwise. `names` as in
   // ImplicitSystem.
   DiracSystem(std::shared_ptr<const DiracStructure> structure,
               std::shared_ptr<const GeneratingFamily> family, Names names = {});

@@ -50,7 +50,9 @@ VectorXd ImplicitSystem::auxiliary_guess(const VectorXd& x, const VectorXd& v) c
   check_size("auxiliary_guess", "x", x.size(), manifold_->ambient_dimension());
   if (v.size() == 0) return VectorXd::Zero(auxiliary_size_);
   check_size("auxiliary_guess", "v", v.size(), manifold_->tangent_dimension());
-  return do_auxiliary_guess(x, v);
+  VectorXd result = do_auxiliary_guess(x, v);
+  check_size("do_auxiliary_guess", "the result", result.size(), auxiliary_size_);
+  return result;
 }
 
 VectorXd ImplicitSystem::do_auxiliary_guess(const VectorXd&, const VectorXd&) const {

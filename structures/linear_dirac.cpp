@@ -1,7 +1,5 @@
 #include "courant/structures/linear_dirac.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <iterator>
 #include <ostream>
@@ -10,6 +8,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "courant/core/lu_decomposition.hpp"
+#include "courant/core/qr_decomposition.hpp"
 #include "courant/core/singular_value_decomposition.hpp"
 #include "courant/structures/blocks.hpp"
 
@@ -65,10 +65,10 @@ Generators generators(const Eigen::Ref<const MatrixXd>& F, const std::string& na
   const MatrixXd Q = of_F.range(), annihilator = of_F.left_kernel();
   MatrixXd graph(2 * r, r);  // of the form in the basis Q: F = Q T, ω = Tᵀ ω' T
   if (r > 0) {
-    const Eigen::PartialPivLU<MatrixXd> transposed((Q.transpose() * F).transpose());
+    const LuDecomposition transposed((Q.transpose() * F).transpose());
     const MatrixXd half = transposed.solve(skew(name, omega));
     graph << MatrixXd::Identity(r, r), skew_part(transposed.solve(half.transpose()));
-    graph = Eigen::HouseholderQR<MatrixXd>(graph).householderQ() * MatrixXd::Identity(2 * r, r);
+    graph = orthonormalized(graph);
   }
   return {beside(Q * graph.topRows(r), MatrixXd::Zero(n, n - r)),
           beside(Q * graph.bottomRows(r), annihilator)};
@@ -126,9 +126,8 @@ MatrixXd random_matrix(Index rows, Index columns, std::mt19937& generator) {
 // The first `count` columns that Gram-Schmidt with pivoting takes, in increasing order.
 std::vector<Index> independent_columns(const MatrixXd& matrix, Index count) {
   if (count == 0) return {};
-  const Eigen::ColPivHouseholderQR<MatrixXd> qr(matrix);
-  const auto& indices = qr.colsPermutation().indices();
-  std::vector<Index> columns(indices.begin(), indices.begin() + count);
+  std::vector<Index> columns = QrDecomposition::pivoted(matrix).order();
+  columns.resize(static_cast<std::size_t>(count));
   std::ranges::sort(columns);
   return columns;
 }
@@ -283,7 +282,7 @@ HybridRepresentation<MatrixXd> LinearDirac::hybrid_representation() const {
       beside(F(Eigen::all, result.effort_driven), E(Eigen::all, result.flow_driven));
   const MatrixXd inputs =
       beside(E(Eigen::all, result.effort_driven), F(Eigen::all, result.flow_driven));
-  result.M = skew_part(-outputs.partialPivLu().solve(inputs));
+  result.M = skew_part(-LuDecomposition(outputs).solve(inputs));
   return result;
 }
 

@@ -17,9 +17,10 @@ ChainArray::ChainArray(std::shared_ptr<const ImplicitSystem> system,
       t_(t),
       origin_(x0) {
   const Manifold& M = *system_->manifold();
-  if (map_->manifold() != system_->manifold())
+  if (*map_->manifold() != *system_->manifold())
     throw std::invalid_argument(
-        "ChainArray: map is on another manifold than the system; expected one manifold object.");
+        "ChainArray: map is on another manifold than the system; expected one and the same "
+        "manifold.");
   if (h == 0.0) throw std::invalid_argument("ChainArray: h is 0; expected a time step.");
   if (x0.size() != M.ambient_dimension())
     throw std::invalid_argument(

@@ -15,17 +15,30 @@ void check_size(const char* argument, Index size, Index expected, bool may_be_em
                                 std::to_string(expected) + ".");
 }
 
+void check_finite(const char* argument, const VectorXd& values) {
+  for (Index i = 0; i < values.size(); ++i)
+    if (!std::isfinite(values[i]))
+      throw std::invalid_argument(std::string("ConstraintAlgorithm::run: entry ") +
+                                  std::to_string(i) + " of " + argument +
+                                  " is not a finite number.");
+}
+
 }  // namespace
 
 ConsistentPoint::ConsistentPoint(std::shared_ptr<const ImplicitSystem> system, InitialGuess guess,
                                  MatrixXd metric)
     : system_(std::move(system)), guess_(std::move(guess)), metric_(std::move(metric)) {
+  if (!system_) throw std::invalid_argument("ConstraintAlgorithm::run: system is null.");
   const Index N = system_->manifold()->ambient_dimension();
   const Index tangent = system_->manifold()->tangent_dimension();
   check_size("x", guess_.x.size(), N, false);
   check_size("v", guess_.v.size(), tangent, true);
   check_size("z", guess_.z.size(), system_->auxiliary_size(), true);
   check_size("metric", metric_.size(), N * N, true);
+  check_finite("x", guess_.x);
+  check_finite("v", guess_.v);
+  check_finite("z", guess_.z);
+  check_finite("t", VectorXd::Constant(1, guess_.t));
   const auto hold = [&](const std::vector<Index>& components, const VectorXd& values, Index offset,
                         const char* name) {
     for (const Index i : components) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "courant/structures/implicit_system.hpp"
+
 namespace courant {
 
 std::string to_string(Verdict verdict) {
@@ -33,6 +35,21 @@ bool ConstraintLadder::is_ambiguous() const {
   return std::any_of(levels.begin(), levels.end(), [](const LadderLevel& level) {
     return !level.is_empty && level.is_ambiguous();
   });
+}
+
+void check_ladder(const std::string& place, const ImplicitSystem& system,
+                  const ConstraintLadder& ladder) {
+  const auto check = [&](const char* what, std::size_t size, Index expected) {
+    if (size != static_cast<std::size_t>(expected))
+      throw std::invalid_argument(place + ": the ladder has " + std::to_string(size) + " " + what +
+                                  ", the system " + std::to_string(expected) +
+                                  "; expected the ladder of this system.");
+  };
+  check("coordinates", static_cast<std::size_t>(ladder.point.x.size()),
+        system.manifold()->ambient_dimension());
+  check("auxiliary unknowns", static_cast<std::size_t>(ladder.point.z.size()),
+        system.auxiliary_size());
+  check("equations", ladder.differentiations.size(), system.equation_count());
 }
 
 }  // namespace courant

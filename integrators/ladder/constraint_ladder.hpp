@@ -99,4 +99,11 @@ struct ConstraintLadder {
   bool is_ambiguous() const;
 };
 
+class ImplicitSystem;
+
+// Throws std::invalid_argument unless the ladder has a point, and that and its equations have the
+// sizes of this system. `place` begins the message.
+void check_ladder(const std::string& place, const ImplicitSystem& system,
+                  const ConstraintLadder& ladder);
+
 }  // namespace courant

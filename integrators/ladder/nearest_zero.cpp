@@ -1,16 +1,20 @@
 #include "courant/integrators/ladder/nearest_zero.hpp"
 
-#include <Eigen/QR>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "courant/core/complete_orthogonal_decomposition.hpp"
+
 namespace courant {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
+
+// Data error of a dense Jacobian: what is next to it above about 10⁻⁹ is divided by.
+constexpr double kNegligible = 2e-12;
 
 // Where dense factorisations are cheaper than sparse ones.
 bool is_small(const SparseMatrixXd& S) { return std::max(S.rows(), S.cols()) <= 200; }
@@ -77,31 +81,30 @@ class DampedInverse {
       const double root = std::sqrt(std::max(mu, 1e-10));
       saddle_.emplace(diagonal(root * cost.cwiseAbs2()), S, root);
     } else if (mu == 0.0) {
-      least_norm_.setThreshold(1e-9);
-      least_norm_.compute(MatrixXd(S * cost.cwiseInverse().asDiagonal()));
+      least_norm_.emplace(MatrixXd(S * cost.cwiseInverse().asDiagonal()), kNegligible);
     } else {
       MatrixXd stacked = MatrixXd::Zero(m_ + n, n);
       stacked.topRows(m_) = S;
       stacked.bottomRows(n).diagonal() = std::sqrt(mu) * cost;
-      damped_.compute(stacked);
+      damped_.emplace(QrDecomposition::in_order(stacked));
     }
   }
 
   // Empty if the factorisation broke down.
   VectorXd step(const VectorXd& g) const {
     if (saddle_) return saddle_->solve(VectorXd::Zero(saddle_->columns()), -g);
-    if (damped_.rows() == 0) return cost_.cwiseInverse().cwiseProduct(least_norm_.solve(-g));
-    VectorXd right = VectorXd::Zero(damped_.rows());
+    if (least_norm_) return cost_.cwiseInverse().asDiagonal() * least_norm_->solve(-g);
+    VectorXd right = VectorXd::Zero(damped_->rows());
     right.head(m_) = -g;
-    return damped_.solve(right);
+    return damped_->solve(right);
   }
 
  private:
   Index m_;
   VectorXd cost_;
   std::optional<SaddlePoint> saddle_;
-  Eigen::CompleteOrthogonalDecomposition<MatrixXd> least_norm_;
-  Eigen::HouseholderQR<MatrixXd> damped_;
+  std::optional<CompleteOrthogonalDecomposition> least_norm_;
+  std::optional<QrDecomposition> damped_;
 };
 
 bool finite(const Linearization& at) {

@@ -50,7 +50,7 @@ CotangentLift::CotangentLift(std::shared_ptr<const CotangentBundle> phase_space,
                         phase_space),
       phase_space_(std::move(phase_space)),
       base_(std::move(base)) {
-  if (!base_ || base_->manifold() != phase_space_->base())
+  if (!base_ || *base_->manifold() != *phase_space_->base())
     throw std::invalid_argument(
         "CotangentLift::CotangentLift: base is not a discretization map on " +
         phase_space_->base()->name() + "; expected one on the base of the phase space.");

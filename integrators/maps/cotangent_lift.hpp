@@ -24,7 +24,7 @@ namespace courant {
 // forward solves the same equations, which are linear in (p₀, p₁).
 class CotangentLift final : public DiscretizationMap {
  public:
-  // `base` on the base manifold object of `phase_space`; throws std::invalid_argument otherwise.
+  // `base` on the base manifold of `phase_space`; throws std::invalid_argument otherwise.
   CotangentLift(std::shared_ptr<const CotangentBundle> phase_space,
                 std::shared_ptr<const DiscretizationMap> base);
 

@@ -8,9 +8,9 @@ namespace courant {
 DiscreteDiracStructure::DiscreteDiracStructure(std::shared_ptr<const DiracStructure> structure,
                                                std::shared_ptr<const DiscretizationMap> map)
     : structure_(std::move(structure)), map_(std::move(map)) {
-  if (!structure_ || !map_ || structure_->manifold() != map_->manifold())
+  if (!structure_ || !map_ || *structure_->manifold() != *map_->manifold())
     throw std::invalid_argument(
-        "DiscreteDiracStructure: structure and map are missing or not on the same manifold object; "
+        "DiscreteDiracStructure: structure and map are missing or not on the same manifold; "
         "expected one manifold for both.");
 }
 

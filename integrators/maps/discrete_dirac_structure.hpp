@@ -17,7 +17,7 @@ namespace courant {
 // is zero on D_d over each x (isotropy). Points: N; α: Ñ, at x. Immutable.
 class DiscreteDiracStructure {
  public:
-  // Both on the same manifold object; throws std::invalid_argument otherwise.
+  // Both on the same manifold; throws std::invalid_argument otherwise.
   DiscreteDiracStructure(std::shared_ptr<const DiracStructure> structure,
                          std::shared_ptr<const DiscretizationMap> map);
 

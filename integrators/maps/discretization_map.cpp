@@ -24,7 +24,10 @@ DiscretizationMap::PointPair<Expr> DiscretizationMap::checked_forward(const Expr
                                                                       const ExprVector& v) const {
   check_size(name_ + "::forward", "x", x.size(), manifold_->ambient_dimension());
   check_size(name_ + "::forward", "v", v.size(), manifold_->tangent_dimension());
-  return do_forward(x, v);
+  PointPair<Expr> result = do_forward(x, v);
+  check_size(name_ + "::do_forward", "the first point", result.first.size(), x.size());
+  check_size(name_ + "::do_forward", "the second point", result.second.size(), x.size());
+  return result;
 }
 
 DiscretizationMap::PointPair<double> DiscretizationMap::numeric_forward(const VectorXd& x,
@@ -37,7 +40,11 @@ DiscretizationMap::TangentVector<Expr> DiscretizationMap::checked_inverse(
     const ExprVector& x0, const ExprVector& x1) const {
   check_size(name_ + "::inverse", "x0", x0.size(), manifold_->ambient_dimension());
   check_size(name_ + "::inverse", "x1", x1.size(), manifold_->ambient_dimension());
-  return has_inverse() ? do_inverse(x0, x1) : DiscretizationMap::do_inverse(x0, x1);
+  TangentVector<Expr> result =
+      has_inverse() ? do_inverse(x0, x1) : DiscretizationMap::do_inverse(x0, x1);
+  check_size(name_ + "::do_inverse", "x", result.x.size(), x0.size());
+  check_size(name_ + "::do_inverse", "v", result.v.size(), manifold_->tangent_dimension());
+  return result;
 }
 
 DiscretizationMap::TangentVector<Expr> DiscretizationMap::do_inverse(const ExprVector&,
@@ -51,7 +58,11 @@ DiscretizationMap::Displacement DiscretizationMap::from_start(const ExprVector& 
                                                               const ExprVector& w) const {
   check_size(name_ + "::from_start", "x0", x0.size(), manifold_->ambient_dimension());
   check_size(name_ + "::from_start", "w", w.size(), manifold_->tangent_dimension());
-  return has_inverse() ? do_from_start(x0, w) : from_start_by_inverse(x0, w);
+  Displacement result = has_inverse() ? do_from_start(x0, w) : from_start_by_inverse(x0, w);
+  check_size(name_ + "::do_from_start", "x", result.x.size(), x0.size());
+  check_size(name_ + "::do_from_start", "v", result.v.size(), w.size());
+  check_size(name_ + "::do_from_start", "the end", result.end.size(), x0.size());
+  return result;
 }
 
 DiscretizationMap::Displacement DiscretizationMap::from_start_by_inverse(

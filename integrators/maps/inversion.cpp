@@ -1,10 +1,10 @@
 #include "courant/integrators/maps/inversion.hpp"
 
-#include <Eigen/Dense>
-#include <cmath>
-#include <limits>
+#include <sstream>
 #include <stdexcept>
 #include <vector>
+
+#include "courant/core/gauss_newton.hpp"
 
 namespace courant {
 
@@ -49,27 +49,29 @@ DiscretizationMap::TangentVector<double> Inversion::operator()(const VectorXd& x
   VectorXd y = VectorXd::Zero(2 * n);
   y.tail(n) = basis.transpose() * (M.coframe(x0) * (x1 - x0));
   y.head(n) = 0.5 * y.tail(n);
-  double previous = std::numeric_limits<double>::infinity();
-  for (int iteration = 0; iteration < 50; ++iteration) {
-    const VectorXd value = image_({y, x0, entries});
-    const VectorXd defect = value.head(2 * N) - target;
-    const double size = defect.size() == 0 ? 0.0 : defect.lpNorm<Eigen::Infinity>();
-    if (!std::isfinite(size)) break;
-    if (size == 0.0 || (size < 1e-11 * (1.0 + target.norm()) && size >= 0.5 * previous))
-      return {value.segment(2 * N, N), value.tail(M.tangent_dimension())};
-    previous = size;
+  const auto defect = [&](const VectorXd& at) {
+    return VectorXd(image_({at, x0, entries}).head(2 * N) - target);
+  };
+  const auto d_image = [&](const VectorXd& at) {
     MatrixXd J(2 * N, 2 * n);
-    series[0].col(0) = y;
+    series[0].col(0) = at;
     for (Index j = 0; j < 2 * n; ++j) {
       series[0].col(1) = VectorXd::Unit(2 * n, j);
       J.col(j) = image_.taylor(series).col(1).head(2 * N);
     }
-    y -= J.completeOrthogonalDecomposition().solve(defect);
+    return J;
+  };
+  const GaussNewtonResult zero =
+      gauss_newton(defect, d_image, y, {.accepted = 1e-11 * (1.0 + target.norm())});
+  if (zero.converged) {
+    const VectorXd value = image_({zero.y, x0, entries});
+    return {value.segment(2 * N, N), value.tail(M.tangent_dimension())};
   }
-  throw std::domain_error(
-      map_.name() + "::inverse: no tangent vector is mapped to (x0, x1), least defect " +
-      std::to_string(previous) +
-      " after Newton's method; expected 0. The points are too far apart for this map.");
+  std::ostringstream message;
+  message << map_.name() << "::inverse: no tangent vector is mapped to (x0, x1), defect "
+          << zero.defect
+          << " after Newton's method; expected 0. The points are too far apart for this map.";
+  throw std::domain_error(message.str());
 }
 
 }  // namespace courant

@@ -28,7 +28,7 @@ ProductMap::ProductMap(std::shared_ptr<const Product> manifold, Factors factors)
                                 std::to_string(product_->factors().size()) +
                                 ", one for each factor of the manifold.");
   for (std::size_t i = 0; i < factors_.size(); ++i)
-    if (!factors_[i] || factors_[i]->manifold() != product_->factors()[i])
+    if (!factors_[i] || *factors_[i]->manifold() != *product_->factors()[i])
       throw std::invalid_argument(name() + "::ProductMap: factor " + std::to_string(i) +
                                   " is not a discretization map on " +
                                   product_->factors()[i]->name() +

@@ -12,7 +12,7 @@ namespace courant {
 // symmetric if every factor is.
 class ProductMap final : public DiscretizationMap {
  public:
-  // factors[i] on the manifold object manifold->factors()[i]; throws std::invalid_argument
+  // factors[i] on the manifold manifold->factors()[i]; throws std::invalid_argument
   // otherwise.
   ProductMap(std::shared_ptr<const Product> manifold,
              std::vector<std::shared_ptr<const DiscretizationMap>> factors);

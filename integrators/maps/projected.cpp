@@ -10,10 +10,10 @@ const DiscretizationMap& checked(const std::shared_ptr<const ImplicitSubmanifold
   if (!submanifold || !map)
     throw std::invalid_argument(std::string("Projected::Projected: ") +
                                 (submanifold ? "surrounding_map" : "submanifold") + " is null.");
-  if (map->manifold() != submanifold->surrounding())
+  if (*map->manifold() != *submanifold->surrounding())
     throw std::invalid_argument("Projected::Projected: surrounding_map is " + map->name() + " on " +
                                 map->manifold()->name() + "; expected a map on the surrounding " +
-                                "manifold object of " + submanifold->name() + ", " +
+                                "manifold of " + submanifold->name() + ", " +
                                 submanifold->surrounding()->name() + ".");
   return *map;
 }

@@ -5,7 +5,9 @@
 #include <set>
 
 #include "../running/temporary_folder.hpp"
+#include "courant/reading/catalogue.hpp"
 #include "courant/reading/experiment.hpp"
+#include "courant/reading/method_kinds.hpp"
 #include "courant/reading/space.hpp"
 #include "courant/reading/structure_kinds.hpp"
 #include "courant/reading/system_kinds.hpp"
@@ -102,7 +104,17 @@ Json with(const std::string& pointer, const Json& value) {
 BOOST_AUTO_TEST_SUITE(schema_and_reader)
 
 BOOST_AUTO_TEST_CASE(the_program_prints_the_file) {
-  BOOST_TEST(cli::schema_text() == read_text("experiments/schema.json"));
+  const Json frame = Json::parse(cli::schema_text());
+  BOOST_TEST(experiment_schema(frame).dump(2) + "\n" == read_text("experiments/schema.json"),
+             "expected what courant schema prints");
+}
+
+// Each table of the kinds as the kinds declare their keys.
+BOOST_AUTO_TEST_CASE(the_documents_have_the_tables) {
+  const std::string text = read_text("docs/experiment-format.md");
+  for (const Shelf& shelf : catalogue())
+    BOOST_TEST(text.find(marked_table(shelf)) != std::string::npos,
+               shelf.name << ": expected the table that courant list --markdown prints");
 }
 
 BOOST_AUTO_TEST_CASE(know_the_same_types) {

@@ -1,6 +1,5 @@
 #include "courant/core/equilibration.hpp"
 
-#include <Eigen/Dense>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <random>

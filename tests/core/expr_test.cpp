@@ -153,6 +153,24 @@ BOOST_AUTO_TEST_CASE(a_formula_on_constants_is_its_numeric_version) {
   BOOST_TEST((values(constants(A)) - A).norm() == 0.0);
 }
 
+BOOST_AUTO_TEST_CASE(numbers_and_expressions_stand_in_one_formula) {
+  Graph graph;
+  const ExprVector x = graph.variables("x", 2);
+  const ExprMatrix X = x * x.transpose();
+  MatrixXd A(2, 2);
+  A << 1.0, 2.0, 3.0, 4.0;
+  const auto same = [](const auto& a, const auto& b) { return (a.array() == b.array()).all(); };
+  BOOST_TEST(same(ExprVector(2.0 * x), ExprVector(Expr(2.0) * x)));
+  BOOST_TEST(same(ExprVector(x * 2.0), ExprVector(x * Expr(2.0))));
+  BOOST_TEST(same(ExprVector(x / 2.0), ExprVector(x / Expr(2.0))));
+  BOOST_TEST(same(ExprMatrix(0.5 * X), ExprMatrix(Expr(0.5) * X)));
+  BOOST_TEST(same(ExprVector(A * x), ExprVector(constants(A) * x)));
+  BOOST_TEST(same(ExprVector(A.transpose() * x.head(2)), ExprVector(constants(A.transpose()) * x)));
+  BOOST_TEST(same(ExprMatrix(A * X), ExprMatrix(constants(A) * X)));
+  BOOST_TEST(same(ExprMatrix(X * A), ExprMatrix(X * constants(A))));
+  BOOST_TEST(same(ExprVector(x + A.col(0)), ExprVector(x + constants(A.col(0)))));
+}
+
 BOOST_AUTO_TEST_CASE(eigen_takes_expressions_as_scalars) {
   Graph graph;
   const ExprVector v = graph.variables("v", 3);

@@ -1,6 +1,5 @@
 #include "courant/core/linear_algebra.hpp"
 
-#include <Eigen/LU>
 #include <boost/test/unit_test.hpp>
 #include <random>
 

@@ -169,6 +169,50 @@ BOOST_AUTO_TEST_CASE(slow_is_not_round_off) {
   }
 }
 
+// A solver of one's own gets the pattern of the Jacobian in the unknowns that the equations have.
+BOOST_AUTO_TEST_CASE(solves_with_the_solver_that_it_is_given) {
+  class Diagonal final : public LinearSolver {
+   public:
+    Diagonal(const MatrixPattern& pattern, int& count) : pattern_(pattern), count_(count) {}
+
+   private:
+    bool do_factorize(const double* entries) override {
+      ++count_;
+      diagonal_.assign(entries, entries + pattern_.row.size());
+      return true;
+    }
+    void do_solve(const double* b, double* x) override {
+      for (std::size_t k = 0; k < diagonal_.size(); ++k)
+        x[pattern_.column[k]] = b[pattern_.row[k]] / diagonal_[k];
+    }
+    bool do_is_determined() const override { return true; }
+    MatrixPattern pattern_;
+    int& count_;
+    std::vector<double> diagonal_;
+  };
+  Problem problem = make(3, [](const ExprVector& y, const Expr& a) {
+    ExprVector F(2);
+    F << exp(y[0]) - a, square(y[2]) - 4.0;  // y[1] is in no equation
+    return F;
+  });
+  problem.y << 0.5, 7.0, 1.5;
+  problem.parameter = 3.0;
+  int factorizations = 0;
+  MatrixPattern seen;
+  Newton newton(problem.function, {}, {.solver = [&](const MatrixPattern& pattern) {
+                  seen = pattern;
+                  return std::make_unique<Diagonal>(pattern, factorizations);
+                }});
+  const auto result = problem.solve(newton);
+  BOOST_TEST((result.status == Newton::Status::converged));
+  BOOST_TEST(seen.rows == 2);
+  BOOST_TEST(seen.columns == 2);
+  BOOST_TEST(factorizations == result.factorizations);
+  BOOST_TEST(std::abs(problem.y[0] - std::log(3.0)) < 1e-15);
+  BOOST_TEST(problem.y[1] == 7.0);
+  BOOST_TEST(std::abs(problem.y[2] - 2.0) < 1e-15);
+}
+
 // The second equation is three times the first but for round-off, which must not be scaled up to an
 // equation: the unknowns move as little as they can.
 BOOST_AUTO_TEST_CASE(a_matrix_that_is_singular_up_to_round_off) {

@@ -1,8 +1,9 @@
 #include "courant/core/singular_value_decomposition.hpp"
 
-#include <Eigen/QR>
 #include <boost/test/unit_test.hpp>
 #include <random>
+
+#include "courant/core/qr_decomposition.hpp"
 
 namespace courant {
 namespace {
@@ -12,10 +13,7 @@ class Random {
   MatrixXd matrix(Eigen::Index m, Eigen::Index n) {
     return MatrixXd::NullaryExpr(m, n, [&] { return normal_(generator_); });
   }
-  MatrixXd orthogonal(Eigen::Index n) {
-    if (n == 0) return MatrixXd(0, 0);
-    return Eigen::HouseholderQR<MatrixXd>(matrix(n, n)).householderQ();
-  }
+  MatrixXd orthogonal(Eigen::Index n) { return orthonormalized(matrix(n, n)); }
   Eigen::Index below(Eigen::Index count) {
     return static_cast<Eigen::Index>(generator_() % static_cast<unsigned long>(count));
   }

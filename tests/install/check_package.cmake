@@ -44,14 +44,31 @@ function(check_tutorial document source output)
   endif()
 endfunction()
 
-file(REMOVE_RECURSE ${PREFIX} ${CONSUMER})
+# configure(<directory> <flags>): the consumer, to be compiled with these flags.
+function(configure directory flags)
+  run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${directory} -G ${GENERATOR}
+      -D CMAKE_PREFIX_PATH=${PREFIX} -D CMAKE_FIND_USE_PACKAGE_REGISTRY=OFF
+      -D CMAKE_BUILD_TYPE=${BUILD_TYPE} -D CMAKE_CXX_FLAGS=${flags}
+      -D CMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
+endfunction()
+
+file(REMOVE_RECURSE ${PREFIX} ${CONSUMER} ${CONSUMER}_native ${CONSUMER}_asan)
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${PREFIX})
-run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${CONSUMER} -G ${GENERATOR}
-    -D CMAKE_PREFIX_PATH=${PREFIX} -D CMAKE_FIND_USE_PACKAGE_REGISTRY=OFF
-    -D CMAKE_BUILD_TYPE=${BUILD_TYPE} -D CMAKE_CXX_FLAGS=${CXX_FLAGS}
-    -D CMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
+configure(${CONSUMER} "${CXX_FLAGS}")
 run(${CMAKE_COMMAND} --build ${CONSUMER})
 run(${CONSUMER}/consumer)
+
+# A program may be compiled with flags that make Eigen align and allocate in another way by itself.
+configure(${CONSUMER}_native "${CXX_FLAGS} -march=native")
+run(${CMAKE_COMMAND} --build ${CONSUMER}_native --target consumer)
+run(${CONSUMER}_native/consumer)
+configure(${CONSUMER}_asan "${CXX_FLAGS} -fsanitize=address")
+run(${CMAKE_COMMAND} --build ${CONSUMER}_asan --target consumer)
+run(${CONSUMER}_asan/consumer)
+
+foreach(example method_2 discretization_map generating_family)
+  run(${CONSUMER}/${example})
+endforeach()
 
 set(docs ${CMAKE_CURRENT_LIST_DIR}/../../docs)
 execute_process(COMMAND ${CONSUMER}/heisenberg OUTPUT_VARIABLE output COMMAND_ECHO NONE

@@ -4,6 +4,7 @@
 
 #include "courant/core/derivative.hpp"
 #include "courant/core/function.hpp"
+#include "courant/manifolds/sphere.hpp"
 
 int main() {
   courant::Graph graph;
@@ -14,5 +15,12 @@ int main() {
   const Eigen::VectorXd force = -gradient({Eigen::Vector2d(0.5, 0.25)});
   const double defect = std::abs(force[0] + std::sin(0.5)) + std::abs(force[1] + 0.25);
   std::cout << "defect of the gradient: " << defect << '\n';
-  return defect <= 1e-15 ? 0 : 1;
+
+  // Matrices that one side allocates and the other one frees or resizes.
+  const courant::Sphere sphere(2);
+  Eigen::MatrixXd basis = sphere.tangent_basis(Eigen::Vector3d(0.6, 0.0, 0.8));
+  const double angle = (basis.transpose() * Eigen::Vector3d(0.6, 0.0, 0.8)).norm();
+  basis.conservativeResize(3, 9);
+  basis = sphere.tangent_basis(Eigen::Vector3d(0.0, 0.0, 1.0));
+  return defect <= 1e-15 && angle <= 1e-15 ? 0 : 1;
 }

@@ -3,7 +3,9 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "courant/manifolds/sphere.hpp"
 #include "courant/tests/integrators/vortices.hpp"
+#include "example_systems.hpp"
 
 BOOST_AUTO_TEST_SUITE(discretize_first)
 
@@ -176,6 +178,26 @@ BOOST_AUTO_TEST_CASE(wrong_arguments_are_refused) {
   BOOST_CHECK_THROW(
       DiscretizeFirst(vortices.system, std::make_shared<Theta>(std::make_shared<Euclidean>(16))),
       std::invalid_argument);
+  BOOST_CHECK_THROW(
+      DiscretizeFirst(nullptr, std::make_shared<Theta>(std::make_shared<Euclidean>(16))),
+      std::invalid_argument);
+}
+
+// |x| = 3 on the unit sphere.
+BOOST_AUTO_TEST_CASE(starts_off_the_manifold_are_refused) {
+  const auto sphere = std::make_shared<Sphere>(2);
+  const auto system = std::make_shared<examples::FormulaSystem>(
+      sphere, 0, 3, [](const ExprVector& x, const ExprVector& v, const ExprVector&, const Expr&) {
+        ExprVector turning(3);
+        turning << -x[1], x[0], 0.0;
+        return ExprVector(v - turning);
+      });
+  const DiscretizeFirst method(system, std::make_shared<Theta>(sphere));
+  const VectorXd x = Eigen::Vector3d(0.6, 0.0, 0.8);
+  BOOST_CHECK_NO_THROW(method.advance({.x = x}, 0.1));
+  BOOST_CHECK_NO_THROW(method.advance({.x = (1.0 + 1e-8) * x}, 0.1));
+  for (const double factor : {3.0, 1.0 + 1e-5, std::nan("")})
+    BOOST_CHECK_THROW(method.advance({.x = factor * x}, 0.1), std::domain_error);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,11 +1,12 @@
 #include "example_systems.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "courant/core/derivative.hpp"
+#include "courant/core/lu_decomposition.hpp"
+#include "courant/core/qr_decomposition.hpp"
 #include "courant/manifolds/euclidean.hpp"
 
 namespace courant::examples {
@@ -100,8 +101,7 @@ Problem transformed(const Problem& problem, std::mt19937& generator) {
   std::normal_distribution<double> normal;
   const auto random_matrix = [&](Index size) {
     const MatrixXd A = MatrixXd::NullaryExpr(size, size, [&] { return normal(generator); });
-    const MatrixXd Q =
-        Eigen::HouseholderQR<MatrixXd>(A).householderQ() * MatrixXd::Identity(size, size);
+    const MatrixXd Q = orthonormalized(A);
     return MatrixXd(Q * VectorXd::NullaryExpr(size, [&] {
                           return std::exp(0.3 * normal(generator));
                         }).asDiagonal());
@@ -109,7 +109,7 @@ Problem transformed(const Problem& problem, std::mt19937& generator) {
   const Index n = guess.x.size(), m = system->auxiliary_size();
   if (!is_flat(problem)) {
     const MatrixXd B = random_matrix(m), C = random_matrix(system->equation_count());
-    if (guess.z.size() > 0) guess.z = B.colPivHouseholderQr().solve(guess.z);
+    if (guess.z.size() > 0) guess.z = LuDecomposition(B).solve(guess.z);
     result.system = std::make_shared<FormulaSystem>(
         system->manifold(), m, system->equation_count(),
         [system, B, C](const ExprVector& x, const ExprVector& v, const ExprVector& z,
@@ -129,8 +129,8 @@ Problem transformed(const Problem& problem, std::mt19937& generator) {
     return ExprVector(constants(x0) + constants(A) * u);
   };
   guess.x = VectorXd::Constant(n, 0.5);
-  if (guess.v.size() > 0) guess.v = A.colPivHouseholderQr().solve(guess.v);
-  if (guess.z.size() > 0) guess.z = B.colPivHouseholderQr().solve(guess.z);
+  if (guess.v.size() > 0) guess.v = LuDecomposition(A).solve(guess.v);
+  if (guess.z.size() > 0) guess.z = LuDecomposition(B).solve(guess.z);
   result.metric = A.transpose() * metric_of(problem) * A;
   result.system = std::make_shared<FormulaSystem>(
       std::make_shared<Euclidean>(n), m, system->equation_count(),

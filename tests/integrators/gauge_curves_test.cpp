@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "courant/core/complete_orthogonal_decomposition.hpp"
 #include "courant/integrators/explicit_runge_kutta.hpp"
 #include "courant/tests/integrators/ladder/ladder_catalogue.hpp"
 
@@ -30,7 +31,7 @@ SystemPointer fixed(const SystemPointer& system, const MatrixXd& directions, con
 double distance(const ConstraintLadder& ladder, const VectorXd& v) {
   const VectorXd difference = v - ladder.point.v;
   const MatrixXd& G = ladder.gauge_directions;
-  return (difference - G * G.colPivHouseholderQr().solve(difference)).norm();
+  return (difference - G * CompleteOrthogonalDecomposition(G).solve(difference)).norm();
 }
 
 std::vector<KnownLadder> gauge_systems() {

@@ -3,7 +3,10 @@
 
 #include <Eigen/Geometry>
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 #include <functional>
+#include <limits>
+#include <optional>
 
 #include "courant/manifolds/sphere.hpp"
 
@@ -29,6 +32,8 @@ class Planted final : public Manifold {
     VectorXd project_offset = VectorXd::Zero(3);
     double project_turn = 0.0;  // about the last axis
     Index dimension = 2;
+    std::optional<VectorXd> unit = std::nullopt;
+    double velocity_factor = 1.0;
   };
   explicit Planted(Parts parts)
       : Manifold("Planted", parts.dimension, 3, 3), parts_(std::move(parts)) {}
@@ -49,6 +54,11 @@ class Planted final : public Manifold {
   ExprMatrix do_coframe(const ExprVector& x) const override { return parts_.coframe(x); }
   ExprVector do_constraint(const ExprVector& x) const override { return parts_.constraint(x); }
   double do_injectivity_radius(const VectorXd&) const override { return parts_.radius; }
+  std::optional<VectorXd> do_unit() const override { return parts_.unit; }
+  ExprVector do_velocity_along(const ExprVector& x, const ExprVector& v,
+                               const Expr& s) const override {
+    return parts_.velocity_factor * differentiated_velocity(x, v, s);
+  }
   VectorXd do_project(const VectorXd& x) const override {
     const Eigen::AngleAxisd turn(parts_.project_turn, Eigen::Vector3d::UnitZ());
     return turn.matrix() * x.normalized() + parts_.project_offset;
@@ -124,6 +134,20 @@ BOOST_AUTO_TEST_CASE(m4_a_radius_that_is_too_large) {
   parts.radius = 4.0;
   BOOST_TEST(fails(parts, "M4 R⁻¹(x, R"));
   BOOST_TEST(!fails(parts, "M4 R(x, R⁻¹"));
+}
+
+BOOST_AUTO_TEST_CASE(m4_a_radius_that_is_no_length) {
+  for (const double radius : {std::numeric_limits<double>::infinity(), -1.0, 0.0, std::nan("")}) {
+    Planted::Parts parts;
+    parts.radius = radius;
+    BOOST_TEST(fails(parts, "M4 r(x)"), radius);
+  }
+  // A retraction that never comes back may have no bound.
+  Planted::Parts parts;
+  parts.retract = Sphere::projective().map;
+  parts.inverse = Sphere::projective().inverse;
+  parts.radius = std::numeric_limits<double>::infinity();
+  BOOST_TEST(!fails(parts, "M4 r(x)"));
 }
 
 // Wrong only at distances between those of the tangent vectors that are tried.
@@ -247,6 +271,45 @@ BOOST_AUTO_TEST_CASE(m7_a_retraction_that_is_not_geodesic) {
   BOOST_TEST(all_passed(check_manifold(Planted(parts))));
   parts.geodesic = true;
   BOOST_TEST(fails(parts, "M7"));
+}
+
+// S² is no group, and no point off a manifold is its unit.
+BOOST_AUTO_TEST_CASE(m9_a_unit_that_is_none) {
+  for (const VectorXd& unit :
+       {VectorXd(Eigen::Vector3d::UnitZ()), VectorXd(VectorXd::Zero(3)),
+        VectorXd(VectorXd::Constant(3, std::nan(""))), VectorXd(VectorXd::Ones(4))}) {
+    Planted::Parts parts;
+    parts.unit = unit;
+    BOOST_TEST(fails(parts, "M9"));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(m10_a_velocity_that_is_not_that_of_the_curve) {
+  Planted::Parts parts;
+  parts.velocity_factor = 1.0 + 1e-9;
+  BOOST_TEST(fails(parts, "M10"));
+  BOOST_TEST(!fails(parts, "M7"));
+}
+
+// Functions whose results have other sizes than the class promises.
+BOOST_AUTO_TEST_CASE(results_of_wrong_sizes_are_refused) {
+  const VectorXd x = Eigen::Vector3d::UnitX(), v = Eigen::Vector3d::UnitY();
+  Planted::Parts parts;
+  parts.frame = [](const ExprVector&) { return ExprMatrix(ExprMatrix::Zero(3, 2)); };
+  BOOST_CHECK_THROW(Planted(parts).frame(x), std::invalid_argument);
+  BOOST_CHECK_THROW(Planted(parts).tangent_projector(x), std::invalid_argument);
+  const auto laws = check_manifold(Planted(parts));
+  BOOST_TEST(!all_passed(laws));
+  BOOST_TEST(laws.front().where.find("do_frame: the result is 3 × 2") != std::string::npos);
+  parts = {};
+  parts.coframe = [](const ExprVector&) { return ExprMatrix(ExprMatrix::Zero(4, 3)); };
+  BOOST_CHECK_THROW(Planted(parts).coframe(x), std::invalid_argument);
+  parts = {};
+  parts.retract = parts.inverse = [](const ExprVector& point, const ExprVector& vector) {
+    return ExprVector(point.head(2) + vector.head(2));
+  };
+  BOOST_CHECK_THROW(Planted(parts).retract(x, v), std::invalid_argument);
+  BOOST_CHECK_THROW(Planted(parts).inverse_retract(x, v), std::invalid_argument);
 }
 
 BOOST_AUTO_TEST_CASE(m8_a_projection_that_moves_points_of_the_manifold) {

@@ -1,6 +1,6 @@
 #include "courant/manifolds/special_euclidean3.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 

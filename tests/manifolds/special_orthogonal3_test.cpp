@@ -1,6 +1,5 @@
 #include "courant/manifolds/special_orthogonal3.hpp"
 
-#include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <boost/test/unit_test.hpp>
 #include <numbers>

@@ -92,9 +92,9 @@ BOOST_AUTO_TEST_CASE(fills_defaults_in) {
 BOOST_AUTO_TEST_CASE(a_registry_reads_objects_and_their_types_alone) {
   const Registry<double> shapes({
       {{"point", ""}, [](ObjectReader&) { return std::optional(0.0); }},
-      {{"square", ""},
+      {{"square", "", {default_key("side", takes::number(), 2.0, "")}},
        [](ObjectReader& object) {
-         const double side = object.number("side", 2.0);
+         const double side = object.number("side");
          return std::optional(side * side);
        }},
   });

@@ -1,4 +1,5 @@
 // The free rigid body, reduced to S² and on T*SO(3), against closed forms.
+#include <Eigen/Geometry>
 #include <boost/math/special_functions/jacobi_elliptic.hpp>
 #include <boost/test/unit_test.hpp>
 

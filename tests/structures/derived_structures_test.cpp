@@ -1,5 +1,5 @@
 // Structures made of other structures, held against the linear algebra of their fibres.
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <array>
 #include <boost/test/unit_test.hpp>
 #include <sstream>

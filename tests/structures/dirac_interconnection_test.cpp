@@ -1,6 +1,5 @@
 #include "courant/structures/dirac_interconnection.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <numeric>

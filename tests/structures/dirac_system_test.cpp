@@ -52,9 +52,12 @@ BOOST_AUTO_TEST_CASE(the_same_system_by_its_bivector) {
           .norm() < 1e-16);
 }
 
-BOOST_AUTO_TEST_CASE(structure_and_family_share_a_manifold_object) {
-  BOOST_CHECK_THROW(DiracSystem(std::make_shared<CanonicalSymplectic>(phase_space()),
-                                std::make_shared<Hamiltonian>(phase_space(), pendulum)),
+BOOST_AUTO_TEST_CASE(structure_and_family_are_on_one_manifold) {
+  const auto structure = std::make_shared<CanonicalSymplectic>(phase_space());
+  BOOST_CHECK_NO_THROW(
+      DiracSystem(structure, std::make_shared<Hamiltonian>(phase_space(), pendulum)));
+  const auto elsewhere = std::make_shared<Euclidean>(2);
+  BOOST_CHECK_THROW(DiracSystem(structure, std::make_shared<Hamiltonian>(elsewhere, pendulum)),
                     std::invalid_argument);
 }
 

@@ -1,6 +1,5 @@
 #include "courant/structures/kirchhoff.hpp"
 
-#include <Eigen/Dense>
 #include <boost/test/unit_test.hpp>
 #include <random>
 

@@ -1,6 +1,5 @@
 #include "courant/structures/paired_subspace.hpp"
 
-#include <Eigen/Dense>
 #include <boost/test/unit_test.hpp>
 #include <random>
 #include <sstream>

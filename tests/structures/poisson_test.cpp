@@ -1,5 +1,6 @@
 #include "courant/structures/poisson.hpp"
 
+#include <Eigen/Geometry>
 #include <boost/test/unit_test.hpp>
 
 #include "courant/manifolds/euclidean.hpp"

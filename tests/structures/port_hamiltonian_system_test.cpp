@@ -1,5 +1,6 @@
 #include "courant/structures/port_hamiltonian_system.hpp"
 
+#include <Eigen/Geometry>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <random>

@@ -1,5 +1,6 @@
 #include "courant/systems/spherical_vortices.hpp"
 
+#include <Eigen/Geometry>
 #include <boost/test/unit_test.hpp>
 #include <numbers>
 #include <random>

@@ -2,8 +2,12 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
+#include "courant/integrators/constrain_first.hpp"
+#include "courant/integrators/maps/theta.hpp"
+#include "courant/integrators/vector_field.hpp"
 #include "courant/structures/dirac_system.hpp"
 #include "courant/structures/port_hamiltonian_system.hpp"
 #include "ladder_catalogue.hpp"
@@ -229,6 +233,35 @@ BOOST_AUTO_TEST_CASE(levels_that_are_not_allowed_are_not_reached) {
   BOOST_TEST(to_string(ladder.verdict) == "not-reached");
   BOOST_TEST(ladder.index == -1);
   BOOST_TEST((dimensions(ladder) == Dimensions{{5, 4}, {4, 3}, {3, 2}, {2, 1}}));
+}
+
+BOOST_AUTO_TEST_CASE(starts_without_meaning_are_refused) {
+  BOOST_CHECK_THROW(ConstraintAlgorithm().run(nullptr, vortex_guess()), std::invalid_argument);
+  const double nan = std::nan("");
+  InitialGuess guess = vortex_guess();
+  guess.x[3] = nan;
+  BOOST_CHECK_THROW(ConstraintAlgorithm().run(vortices(), guess), std::invalid_argument);
+  guess = vortex_guess();
+  guess.v = VectorXd::Constant(16, nan);
+  BOOST_CHECK_THROW(ConstraintAlgorithm().run(vortices(), guess), std::invalid_argument);
+  guess = vortex_guess();
+  guess.t = std::numeric_limits<double>::infinity();
+  BOOST_CHECK_THROW(ConstraintAlgorithm().run(vortices(), guess), std::invalid_argument);
+}
+
+BOOST_AUTO_TEST_CASE(ladders_of_other_systems_are_refused) {
+  const ConstraintLadder ladder = ConstraintAlgorithm().run(vortices(), vortex_guess());
+  BOOST_CHECK_NO_THROW(check_ladder("here", *vortices(), ladder));
+  const KnownLadder other = known("Cartesian pendulum");
+  const auto system = other.problem.system;
+  BOOST_CHECK_THROW(check_ladder("here", *system, ladder), std::invalid_argument);
+  BOOST_CHECK_THROW(check_ladder("here", *system, ConstraintLadder()), std::invalid_argument);
+  BOOST_CHECK_THROW(VectorField(system, ladder, Backend::interpreter), std::invalid_argument);
+  BOOST_CHECK_THROW(VectorField(nullptr, ladder, Backend::interpreter), std::invalid_argument);
+  const auto map = std::make_shared<Theta>(system->manifold());
+  const auto projector = std::make_shared<OrthogonalProjector>();
+  BOOST_CHECK_THROW(ConstrainFirst(system, ladder, map, projector), std::invalid_argument);
+  BOOST_CHECK_THROW(ConstrainFirst(nullptr, ladder, map, projector), std::invalid_argument);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

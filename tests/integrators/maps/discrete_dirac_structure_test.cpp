@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(definition_5_1) {
       discrete.pairing(a.x0, a.x1, a.alpha, elsewhere.x0, elsewhere.x1, elsewhere.alpha),
       std::domain_error);
   BOOST_CHECK_THROW(
-      DiscreteDiracStructure(D, std::make_shared<Theta>(std::make_shared<Sphere>(2), 0.5)),
+      DiscreteDiracStructure(D, std::make_shared<Theta>(std::make_shared<Sphere>(3), 0.5)),
       std::invalid_argument);
 }
 

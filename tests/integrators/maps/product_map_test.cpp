@@ -35,8 +35,10 @@ BOOST_AUTO_TEST_CASE(errors) {
   const auto pair =
       std::make_shared<Product>(std::vector<std::shared_ptr<const Manifold>>{sphere, sphere});
   const auto chordal = std::make_shared<Chordal>(sphere);
-  const auto elsewhere = std::make_shared<Chordal>(std::make_shared<Sphere>(2));
+  const auto elsewhere = std::make_shared<Chordal>(std::make_shared<Sphere>(3));
   BOOST_CHECK_NO_THROW(ProductMap(pair, {chordal, chordal}));
+  BOOST_CHECK_NO_THROW(
+      ProductMap(pair, {chordal, std::make_shared<Chordal>(std::make_shared<Sphere>(2))}));
   BOOST_CHECK_THROW(ProductMap(pair, {chordal}), std::invalid_argument);
   BOOST_CHECK_THROW(ProductMap(pair, {chordal, nullptr}), std::invalid_argument);
   BOOST_CHECK_THROW(ProductMap(pair, {chordal, elsewhere}), std::invalid_argument);

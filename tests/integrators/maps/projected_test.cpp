@@ -212,7 +212,7 @@ BOOST_AUTO_TEST_CASE(errors) {
   BOOST_CHECK_THROW(Projected(nullptr, std::make_shared<Theta>(S->surrounding())),
                     std::invalid_argument);
   BOOST_CHECK_THROW(Projected(S, nullptr), std::invalid_argument);
-  BOOST_CHECK_THROW(Projected(S, std::make_shared<Theta>(std::make_shared<Euclidean>(3))),
+  BOOST_CHECK_THROW(Projected(S, std::make_shared<Theta>(std::make_shared<Euclidean>(4))),
                     std::invalid_argument);
   BOOST_CHECK_THROW(S->projection(ExprVector::Zero(2)), std::invalid_argument);
 }

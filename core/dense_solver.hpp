@@ -1,0 +1,28 @@
+// DenseSolver: linear systems by a kept inverse.
+#pragma once
+
+#include "courant/core/linear_solver.hpp"
+
+namespace courant {
+
+using Eigen::MatrixXd;
+
+// For small systems that are solved many times with one matrix: the inverse is kept (of a matrix
+// that is singular or not square the pseudo-inverse), and multiplied with in a loop whose length
+// the compiler knows, for up to 8 unknowns.
+class DenseSolver final : public LinearSolver {
+ public:
+  explicit DenseSolver(const MatrixPattern& pattern);
+
+ private:
+  bool do_factorize(const double* entries) override;
+  void do_solve(const double* b, double* x) override { multiply_(inverse_, b, x); }
+  bool do_is_determined() const override { return determined_; }
+
+  MatrixPattern pattern_;
+  MatrixXd inverse_;
+  bool determined_ = false;
+  void (*multiply_)(const MatrixXd& A, const double* b, double* x);  // made for the size
+};
+
+}  // namespace courant

@@ -1,0 +1,38 @@
+// P A = L U.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace courant {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// A square matrix A (n × n, n ≥ 0) with its rows exchanged so that each pivot is the largest of its
+// column, as the product of a unit lower triangle L and an upper triangle U.
+//
+// A singular matrix is decomposed too; what is solved with it is then not finite or meaningless.
+// pivot_ratio() tells: it is of the size of the rounding errors for a singular matrix with rows of
+// comparable size.
+class LuDecomposition {
+ public:
+  // Throws std::invalid_argument if A is not square.
+  explicit LuDecomposition(const Eigen::Ref<const MatrixXd>& A);
+
+  Index size() const { return factors_.rows(); }
+
+  // min |u_ii| / max |u_ii|; 1 for n = 0, 0 for a zero matrix.
+  double pivot_ratio() const;
+  double determinant() const;
+
+  // A⁻¹ B, B of size n × k.
+  MatrixXd solve(const Eigen::Ref<const MatrixXd>& B) const;
+  MatrixXd inverse() const;
+
+ private:
+  MatrixXd factors_;  // L below the diagonal, U above
+  Eigen::PermutationMatrix<Eigen::Dynamic> rows_;
+};
+
+}  // namespace courant

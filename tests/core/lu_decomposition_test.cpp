@@ -1,0 +1,55 @@
+#include "courant/core/lu_decomposition.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <random>
+
+BOOST_AUTO_TEST_SUITE(lu_decomposition)
+
+using namespace courant;
+
+namespace {
+
+MatrixXd random_matrix(Index rows, Index columns, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> normal;
+  return MatrixXd::NullaryExpr(rows, columns, [&] { return normal(generator); });
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(solves_and_inverts) {
+  for (const Index n : {0, 1, 2, 5, 40}) {
+    const MatrixXd A = random_matrix(n, n, 1), B = random_matrix(n, 3, 2);
+    const LuDecomposition lu(A);
+    const double bound = 1e-11 * (1.0 + A.norm());
+    BOOST_TEST((A * lu.solve(B) - B).norm() < bound);
+    BOOST_TEST((A * lu.inverse() - MatrixXd::Identity(n, n)).norm() < bound);
+  }
+}
+
+// A zero in the corner needs an exchange, which changes the sign of the determinant.
+BOOST_AUTO_TEST_CASE(determinants_have_the_sign_of_the_exchange) {
+  MatrixXd A(3, 3);
+  A << 0.0, 2.0, 0.0, 3.0, 1.0, 0.0, 0.0, 5.0, 0.5;
+  BOOST_TEST(std::abs(LuDecomposition(A).determinant() + 3.0) < 1e-14);
+  BOOST_TEST(LuDecomposition(MatrixXd(0, 0)).determinant() == 1.0);
+  BOOST_TEST(LuDecomposition(MatrixXd::Zero(2, 2)).determinant() == 0.0);
+}
+
+BOOST_AUTO_TEST_CASE(pivots_tell_singular_matrices) {
+  MatrixXd A = random_matrix(6, 6, 3);
+  BOOST_TEST(LuDecomposition(A).pivot_ratio() > 1e-3);
+  A.row(4) = A.row(1) - 2.0 * A.row(2);
+  BOOST_TEST(LuDecomposition(A).pivot_ratio() < 1e-14);
+  BOOST_TEST(LuDecomposition(MatrixXd::Zero(3, 3)).pivot_ratio() == 0.0);
+  BOOST_TEST(LuDecomposition(MatrixXd(0, 0)).pivot_ratio() == 1.0);
+}
+
+BOOST_AUTO_TEST_CASE(sizes_are_checked) {
+  BOOST_CHECK_THROW(LuDecomposition(MatrixXd::Ones(2, 3)), std::invalid_argument);
+  BOOST_CHECK_THROW(LuDecomposition(MatrixXd::Identity(2, 2)).solve(MatrixXd::Ones(3, 1)),
+                    std::invalid_argument);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
