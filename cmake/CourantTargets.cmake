@@ -9,7 +9,7 @@ set(courant_precompiled <Eigen/Core> <Eigen/SparseCore> <algorithm> <cmath> <fun
 #
 # Uses precompiled headers in a target: those above and the given ones. They are compiled in core and, because JSON is
 # read from there on, once more in reading; the other rooms take them from one of the two (<suffix>: "" or "_tests").
-# The sources of plotting include nothing but the standard library.
+# Plotting knows nothing but the standard library.
 function(courant_precompile target room suffix)
   if(room STREQUAL core)
     target_precompile_headers(${target} PRIVATE ${courant_precompiled} ${ARGN})
@@ -17,7 +17,7 @@ function(courant_precompile target room suffix)
     target_precompile_headers(${target} PRIVATE ${courant_precompiled} <nlohmann/json.hpp> ${ARGN})
   elseif(room MATCHES "^(running|reporting|cli)$")
     target_precompile_headers(${target} REUSE_FROM courant_reading${suffix})
-  elseif(suffix OR NOT room STREQUAL plotting)
+  elseif(NOT room STREQUAL plotting)
     target_precompile_headers(${target} REUSE_FROM courant_core${suffix})
   endif()
 endfunction()

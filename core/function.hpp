@@ -80,6 +80,10 @@ class Function {
   void taylor_with_jacobian(const double* const* in, Index order, double* out) const {
     all_->run_taylor(in, order, out);
   }
+  // With bounds of errors, see Uncertain; the values are those of the call without.
+  void taylor_with_jacobian(const Uncertain* const* in, Index order, Uncertain* out) const {
+    all_->run_taylor(in, order, out);
+  }
 
   // The same with sizes checked (std::invalid_argument).
   VectorXd operator()(std::span<const VectorXd> in) const;

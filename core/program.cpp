@@ -17,10 +17,19 @@ constexpr std::uint32_t kAbsent = std::numeric_limits<std::uint32_t>::max();
 
 // One buffer a thread, grown and never shrunk: evaluation is reentrant between threads and doesn't
 // allocate.
-double* workspace(std::size_t size) {
-  thread_local std::vector<double> buffer;
+template <class Number>
+Number* workspace(std::size_t size) {
+  thread_local std::vector<Number> buffer;
   if (buffer.size() < size) buffer.resize(size);
   return buffer.data();
+}
+
+template <class Number>
+Number constant_number(double value) {
+  if constexpr (std::is_same_v<Number, Uncertain>)
+    return Uncertain::rounded(value);
+  else
+    return value;
 }
 
 // Adds the operations among nodes [begin, end) of a subgraph to `order`, operands first and equal
@@ -171,7 +180,7 @@ Program::Program(std::span<const ExprVector> inputs, const ExprVector& outputs, 
 
 void Program::run(const double* const* in, double* out) const {
   constexpr auto loop = loops<Instruction>(std::make_index_sequence<kOpCount>());
-  double* w = workspace(slots_);
+  double* w = workspace<double>(slots_);
   std::copy(constants_.begin(), constants_.end(), w);
   for (const Load& load : loads_) w[load.slot] = in[load.group][load.index];
   const Instruction* begin = instructions_.data();
@@ -183,13 +192,15 @@ void Program::run(const double* const* in, double* out) const {
   for (const std::uint32_t slot : outputs_) *out++ = w[slot];
 }
 
-void Program::run_taylor(const double* const* in, Index order, double* out) const {
+template <class Number>
+void Program::carry_out_taylor(const Number* const* in, Index order, Number* out) const {
   const auto width = static_cast<std::size_t>(order + 1);
-  double* w = workspace(slots_ * width + static_cast<std::size_t>(taylor::scratch_size(order)));
-  double* scratch = w + slots_ * width;
+  Number* w =
+      workspace<Number>(slots_ * width + static_cast<std::size_t>(taylor::scratch_size(order)));
+  Number* scratch = w + slots_ * width;
   for (std::size_t i = 0; i < constants_.size(); ++i) {
-    std::fill_n(w + i * width, width, 0.0);
-    w[i * width] = constants_[i];
+    std::fill_n(w + i * width, width, Number(0.0));
+    w[i * width] = constant_number<Number>(constants_[i]);
   }
   for (const Load& load : loads_)
     std::copy_n(in[load.group] + load.index * width, width, w + load.slot * width);
@@ -204,6 +215,14 @@ void Program::run_taylor(const double* const* in, Index order, double* out) cons
     std::copy_n(w + slot * width, width, out);
     out += width;
   }
+}
+
+void Program::run_taylor(const double* const* in, Index order, double* out) const {
+  carry_out_taylor(in, order, out);
+}
+
+void Program::run_taylor(const Uncertain* const* in, Index order, Uncertain* out) const {
+  carry_out_taylor(in, order, out);
 }
 
 }  // namespace courant

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "courant/core/expr.hpp"
+#include "courant/core/uncertain.hpp"
 
 namespace courant {
 
@@ -36,6 +37,9 @@ class Program {
   // The same on series: in[g] + j (order+1) holds the coefficients of the j-th number of group g,
   // out + i (order+1) receives those of output i.
   void run_taylor(const double* const* in, Index order, double* out) const;
+  // The same with bounds of errors: those of the inputs, of constants (Uncertain::rounded) and of
+  // every rounding on the way. The values are the same to the last bit.
+  void run_taylor(const Uncertain* const* in, Index order, Uncertain* out) const;
 
   // `void <symbol>(const double *const *in, double *out)` in C, which gives the same bits as run().
   std::string c_source(const std::string& symbol) const;
@@ -53,6 +57,9 @@ class Program {
   struct Load {
     std::uint32_t slot, group, index;
   };
+
+  template <class Number>
+  void carry_out_taylor(const Number* const* in, Index order, Number* out) const;
 
   // Workspace: constants first, then the inputs that are used, then results (slots are reused when
   // their value is dead).

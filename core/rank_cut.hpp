@@ -9,8 +9,11 @@ namespace courant {
 // What singular values are held against.
 struct NoiseLevel {
   double floor;  // ε of RankDecision
-  double
-      top;  // stands for σ₀, above a cut at rank 0: the magnitude, or 1 for an equilibrated matrix
+  // Stands for σ₀, above a cut at rank 0: the magnitude, or 1 for an equilibrated matrix.
+  double top;
+  // Above so many times ε a singular value is a number: 10² where ε is an estimate, 1 where it is a
+  // bound.
+  double number = 1e2;
 };
 
 // For an m × n matrix with this largest singular value.
@@ -20,10 +23,7 @@ NoiseLevel noise_level(Index m, Index n, double largest, const RankOptions& opti
 // data_error.
 double entry_noise(const RankOptions& options);
 
-// Above 10²ε a singular value is a number.
-constexpr double grey_zone = 1e2;
-
-// How many of these singular values count: `values` decreases and has all that are ≤ 10²ε and, if
+// How many of these singular values count: `values` decreases and has all that are no numbers and, if
 // there is one, a value above that.
 Index count_above_cut(const VectorXd& values, const NoiseLevel& noise);
 

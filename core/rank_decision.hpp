@@ -18,6 +18,10 @@ struct RankOptions {
   // is the size that rounding errors are relative to, as 1 for a block of an orthogonal matrix,
   // which may be all noise and must not be scaled up. Dense matrices only.
   double magnitude = 0.0;
+
+  // The norm of a bound of the errors, in the units of the matrix as it is given (with a magnitude
+  // only): then the singular values above it, and above the rounding of the decomposition, count.
+  double error_norm = 0.0;
 };
 
 // The rank r of an m × n matrix A, decided on the singular values σ₁ ≥ σ₂ ≥ … of A with its rows
@@ -40,8 +44,10 @@ struct RankDecision {
   double gap = 0.0;
   double threshold = 0.0;  // between the two: what is above it counts
 
+  bool is_doubtful = true;
+
   Index nullity() const { return columns - rank; }
-  bool ambiguous() const { return gap < 1e3; }
+  bool ambiguous() const { return is_doubtful; }
 };
 
 // One line: rank 3 of 5 × 4, gap 2.1e+14 (0.38 | 6e-17, threshold 2.6e-08)

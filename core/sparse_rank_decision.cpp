@@ -132,7 +132,7 @@ RankDecision decide_rank(const SparseMatrixXd& A, const RankOptions& options) {
   decision.columns = A.cols();
   const double largest = S.nonZeros() > 0 ? norm(S) : 0.0;
   const NoiseLevel noise = noise_level(A.rows(), A.cols(), largest, options);
-  const double number = grey_zone * noise.floor;
+  const double number = noise.number * noise.floor;
   if (S.nonZeros() == 0) {
     conclude(decision, 0, 0.0, 0.0, noise);
     return decision;

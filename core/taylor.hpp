@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "courant/core/expr.hpp"
+#include "courant/core/uncertain.hpp"
 
 namespace courant::taylor {
 
@@ -16,6 +17,9 @@ namespace courant::taylor {
 // no series: their coefficients come out not finite.
 void apply(Op op, std::int32_t k, Index order, const double* a, const double* b, const double* c,
            double* out, double* scratch);
+// The same with bounds of errors; the values are the same to the last bit.
+void apply(Op op, std::int32_t k, Index order, const Uncertain* a, const Uncertain* b,
+           const Uncertain* c, Uncertain* out, Uncertain* scratch);
 
 inline Index scratch_size(Index order) { return 3 * (order + 1); }
 

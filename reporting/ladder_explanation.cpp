@@ -195,6 +195,10 @@ std::vector<std::string> ladder_explanation(const Json& ladder) {
     if (!gauge.empty()) {
       lines.push_back("Gauge: the velocity may be changed at will along");
       for (const Json& direction : gauge) lines.push_back("    " + linear_form(direction, ""));
+      std::string determined;
+      for (const Json& name : ladder.value("determined_velocities", Json::array()))
+        determined += (determined.empty() ? "" : ", ") + name.get<std::string>();
+      if (!determined.empty()) lines.push_back("Determined all the same: " + determined + ".");
     }
     const Json& redundant = ladder.at("redundant");
     if (!redundant.empty()) {
@@ -211,17 +215,18 @@ std::vector<std::string> ladder_explanation(const Json& ladder) {
         (!weakest || level.at("gap").get<double>() < weakest->at("gap").get<double>()))
       weakest = &level;
   if (weakest) {
-    const double gap = weakest->at("gap").get<double>();
     lines.push_back(
         "How sure: dimensions are differences of ranks, and a rank counts the singular values that "
-        "are not zero. In the weakest decision (level " +
+        "exceed the bound of their error. In the weakest decision (level " +
         std::to_string(whole(weakest->at("k"))) + ") the smallest that was counted is " +
         number(weakest->at("smallest_counted").get<double>(), 2) +
-        ", the largest that was taken for "
-        "zero " +
-        number(weakest->at("largest_neglected").get<double>(), 2) +
-        ", and with the noise allowed for the gap is " + number(gap, 2) +
-        (gap < 1e3 ? ": less than 1000, ambiguous. Do not rely on the verdict." : "."));
+        " times the bound, the largest that was taken for zero is " +
+        number(weakest->at("largest_neglected").get<double>(), 2) + " times the bound.");
+  }
+  if (ladder.value("ambiguous", false)) {
+    lines.push_back("Ambiguous: do not rely on the verdict.");
+    for (const Json& doubt : ladder.value("doubts", Json::array()))
+      lines.push_back("    " + doubt.get<std::string>());
   }
   return lines;
 }

@@ -1,6 +1,7 @@
 #include "courant/running/consistent_start.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 #include "courant/core/rank_decision.hpp"
@@ -8,6 +9,12 @@
 
 namespace courant {
 namespace {
+
+std::string scientific(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.3g", value);
+  return buffer;
+}
 
 using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
@@ -158,7 +165,7 @@ ConstraintLadder consistent_start(const Experiment& experiment) {
     if (free.verdict == Verdict::inconsistent) return free;
     throw ExperimentError("/hold",
                           "what is held contradicts the constraints, which are violated by " +
-                              std::to_string(ladder.levels.back().residual) +
+                              scientific(ladder.levels.back().residual) +
                               "; expected values that satisfy them. " + ladder.reason);
   }
   forget_moves_of_what_was_not_given(ladder, experiment);

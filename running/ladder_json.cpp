@@ -55,6 +55,14 @@ void describe(Json& json, const ConstraintLadder& ladder, const ImplicitSystem& 
   json["gauge_directions"] = Json::array();
   for (Index c = 0; c < ladder.gauge_directions.cols(); ++c)
     json["gauge_directions"].push_back(components(ladder.gauge_directions.col(c), system, "'"));
+  // Components of the velocity that gauge freedom leaves as they are.
+  json["determined_velocities"] = Json::array();
+  const auto& names = system.names().coordinates;
+  for (std::size_t i = 0; i < ladder.determined_velocities.size(); ++i)
+    if (ladder.determined_velocities[i])
+      json["determined_velocities"].push_back(ladder.determined_velocities.size() == names.size()
+                                                  ? names[i] + "'"
+                                                  : "v[" + std::to_string(i) + "]");
   json["differentiations"] = Json::object();
   for (std::size_t i = 0; i < ladder.differentiations.size(); ++i)
     if (ladder.differentiations[i] > 0)
@@ -82,6 +90,7 @@ Json ladder_json(const ConstraintLadder& ladder, const ImplicitSystem& system) {
             {"moved", ladder.moved},
             {"moves", Json::array()},
             {"ambiguous", ladder.is_ambiguous()},
+            {"doubts", ladder.doubts},
             {"reason", ladder.reason}};
   for (const LadderLevel& level : ladder.levels) {
     const auto found = [&](const Json& value) { return level.is_empty ? Json() : value; };

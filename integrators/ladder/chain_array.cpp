@@ -64,6 +64,17 @@ std::vector<VectorXd> ChainArray::arguments(const VectorXd& y, Index i) const {
           VectorXd::Constant(1, t_ + (static_cast<double>(i) + map_->stage_time()) * h_)};
 }
 
+// The uncertainties of arguments() where they are those of unknowns; empty where they are roundings.
+std::vector<VectorXd> ChainArray::arguments_error(const VectorXd& uncertainty, Index i) const {
+  const Index n = base_size();
+  return {uncertainty.segment(x_offset(i), n),
+          uncertainty.segment(x_offset(i + 1), n),
+          uncertainty.segment(z_offset(i), auxiliary_size()),
+          VectorXd(),
+          VectorXd(),
+          VectorXd()};
+}
+
 VectorXd ChainArray::do_residual(const VectorXd& y, Index k) const {
   VectorXd value(row_count(k));
   for (Index i = 0; i <= k; ++i)
@@ -71,22 +82,41 @@ VectorXd ChainArray::do_residual(const VectorXd& y, Index k) const {
   return value;
 }
 
-Linearization ChainArray::do_linearize(const VectorXd& y, Index k) const {
-  const Index n = base_size();
-  Linearization result{do_residual(y, k), SparseMatrixXd(row_count(k), y.size())};
-  std::vector<Eigen::Triplet<double>> entries;
+Linearization ChainArray::do_linearize(const VectorXd& y, const VectorXd& uncertainty,
+                                       Index k) const {
+  const Index n = base_size(), r = equation_count();
+  Linearization result;
+  result.value.resize(row_count(k));
+  result.value_error.resize(row_count(k));
+  UncertainEntries entries;
+  std::vector<Uncertain> out(static_cast<std::size_t>(r + link_.nonzeros()));
   for (Index i = 0; i <= k; ++i) {
-    const SparseMatrixXd J = link_.sparse_jacobian(arguments(y, i));
-    for (Index j = 0; j < J.outerSize(); ++j) {
+    std::vector<std::vector<Uncertain>> in;
+    const std::vector<VectorXd> values = arguments(y, i), errors = arguments_error(uncertainty, i);
+    for (std::size_t g = 0; g < values.size(); ++g) {
+      std::vector<Uncertain>& group = in.emplace_back();
+      for (Index j = 0; j < values[g].size(); ++j) {
+        const Uncertain number = Uncertain::rounded(values[g][j]);
+        group.push_back(errors[g].size() == 0 ? number : Uncertain(number.value, errors[g][j]));
+      }
+    }
+    std::vector<const Uncertain*> pointers;
+    for (const auto& group : in) pointers.push_back(group.data());
+    link_.taylor_with_jacobian(pointers.data(), 0, out.data());
+    for (Index e = 0; e < r; ++e) {
+      result.value[i * r + e] = out[static_cast<std::size_t>(e)].value;
+      result.value_error[i * r + e] = out[static_cast<std::size_t>(e)].error;
+    }
+    for (Index e = 0; e < link_.nonzeros(); ++e) {
+      const Index j = link_.pattern_col()[static_cast<std::size_t>(e)];
       const Index column = j < n       ? x_offset(i) + j
                            : j < 2 * n ? x_offset(i + 1) + j - n
                                        : z_offset(i) + j - 2 * n;
-      for (SparseMatrixXd::InnerIterator it(J, j); it; ++it)
-        entries.emplace_back(static_cast<int>(i * equation_count() + it.row()),
-                             static_cast<int>(column), it.value());
+      entries.add(i * r + link_.pattern_row()[static_cast<std::size_t>(e)], column,
+                  out[static_cast<std::size_t>(r + e)]);
     }
   }
-  result.jacobian.setFromTriplets(entries.begin(), entries.end());
+  entries.fill(result, row_count(k), y.size());
   return result;
 }
 

@@ -33,7 +33,9 @@ class ChainArray final : public Prolongation {
 
  private:
   std::vector<VectorXd> arguments(const VectorXd& y, Index i) const;
-  Linearization do_linearize(const VectorXd& y, Index k) const override;
+  std::vector<VectorXd> arguments_error(const VectorXd& uncertainty, Index i) const;
+  Linearization do_linearize(const VectorXd& y, const VectorXd& uncertainty,
+                             Index k) const override;
   VectorXd do_residual(const VectorXd& y, Index k) const override;
 
   std::shared_ptr<const ImplicitSystem> system_;

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "courant/integrators/ladder/ladder_levels.hpp"
+
 namespace courant {
 namespace {
 
@@ -79,13 +81,16 @@ LinearizableMap ConsistentPoint::conditions(const DerivativeArray& array, bool h
           entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(j), it.value());
       Index row = at.value.size();
       at.value.conservativeResize(row + static_cast<Index>(held_.size()));
+      at.value_error.conservativeResize(at.value.size());
       for (const auto& [component, value] : held_) {
         at.value[row] = state.value[component] - value;
+        at.value_error[row] = 4.0 * Uncertain::unit * std::fabs(value);
         for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(by_row, component); it;
              ++it)
           entries.emplace_back(static_cast<int>(row), static_cast<int>(it.col()), it.value());
         ++row;
       }
+      at.error.conservativeResize(row, y.size());  // what is held is known
       at.jacobian.resize(row, y.size());
       at.jacobian.setFromTriplets(entries.begin(), entries.end());
     }
@@ -145,7 +150,10 @@ ConsistentJet ConsistentPoint::recentred(const DerivativeArray& array, const Zer
   if (polished.found) {
     there.zero = polished;
     there.zero.iterations += zero.iterations;
-    there.zero.uncertainty = std::max(polished.uncertainty, zero.uncertainty);
+    // The origin of the chart is no better known than where it was found.
+    const Index n = array.base_size();
+    there.zero.uncertainty.head(n) =
+        there.zero.uncertainty.head(n).cwiseMax(zero.uncertainty.head(n));
   }
   return there;
 }
@@ -156,10 +164,39 @@ ConsistentJet ConsistentPoint::find(const ConsistentJet& from) const {
   if (zero.found) return {from.array, zero};
   const Mobility free = mobility(from, true);
   zero = find_zero(F, from.zero.y, free);
+  // At a point where equations have no linear part, as x² + y² = 1 at 0, no step leads anywhere.
+  if (!zero.found && zero.is_finite) {
+    TangentDisplacement displacements(from.array, from.zero.y,
+                                      free.typical.cwiseMax(from.zero.y.cwiseAbs()));
+    for (const double size : {0.1, 0.3, 1.0}) {
+      const Zero other = find_zero(F, from.zero.y + size * displacements.next(), free);
+      if (other.found || (other.is_finite && !is_contradiction({from.array, other}))) zero = other;
+      if (zero.found) break;
+    }
+  }
   if (!zero.found) return {from.array, zero};
   zero = least_zero(
       F, [&](const VectorXd& y) { return displacement(from.array, y); }, zero, free);
   return recentred(from.array, zero, true);
+}
+
+bool ConsistentPoint::is_contradiction(const ConsistentJet& jet) const {
+  const Linearization at = conditions(jet.array, true)(jet.zero.y);
+  UncertainMatrix J{at.jacobian, at.error}, with_F = J;
+  for (SparseMatrixXd* matrix : {&with_F.value, &with_F.error})
+    matrix->conservativeResize(matrix->rows(), matrix->cols() + 1);
+  for (Index i = 0; i < at.value.size(); ++i) {
+    const bool is_zero = std::fabs(at.value[i]) <= at.value_error[i];
+    if (!is_zero) with_F.value.insert(i, J.cols()) = at.value[i];
+    with_F.error.insert(i, J.cols()) = at.value_error[i] + (is_zero ? std::fabs(at.value[i]) : 0.0);
+  }
+  with_F.value.makeCompressed();
+  with_F.error.makeCompressed();
+  return decide_rank(with_F).rank > decide_rank(J).rank;
+}
+
+ConsistentJet ConsistentPoint::again(const ConsistentJet& jet) const {
+  return recentred(jet.array, jet.zero, true);
 }
 
 ConsistentPoint::Neighbour ConsistentPoint::find_displaced(const ConsistentJet& from,

@@ -31,6 +31,12 @@ class ConsistentPoint {
   ConsistentJet start() const;
   // The zero of F^[k] near `from`, whose jet is of level k.
   ConsistentJet find(const ConsistentJet& from) const;
+  // Whether the linear parts of the equations contradict each other at a jet that is no zero: whether
+  // rank (J | F) exceeds rank J. Elsewhere a search that ended has merely not converged.
+  bool is_contradiction(const ConsistentJet& jet) const;
+  // The same zero found once more, from its point, velocity and unknowns alone: higher coefficients
+  // that the equations leave open lose what the search left in them.
+  ConsistentJet again(const ConsistentJet& jet) const;
   // A zero of F^[k] near `from`, its jet displaced by `displacement`, and how far from there it is
   // (in the chart of `from`).
   struct Neighbour {

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "courant/integrators/ladder/consistent_point.hpp"
 #include "courant/integrators/ladder/ladder_levels.hpp"
+#include "courant/integrators/ladder/obstruction.hpp"
 
 namespace courant {
 namespace {
@@ -83,53 +85,80 @@ std::vector<Movement> movements(const ImplicitSystem& system, const InitialGuess
   return moves;
 }
 
-std::vector<LadderLevel> levels_at(const ConsistentJet& jet, double data_error) {
-  return ladder_levels(jet.array, jet.zero.y, jet.zero.reach,
-                       data_error + 10.0 * jet.zero.uncertainty);
+std::vector<LadderLevel> levels_at(const ConsistentJet& jet) {
+  return ladder_levels(jet.array, jet.zero.y, jet.zero.uncertainty);
 }
 
-// What is singular at a zero of the derivative array, as seen from one point nearby, in words;
-// empty if nothing is. Zeros of constant rank form a manifold whose tangent space is the kernel of
-// the Jacobian: a point at ε in a tangent direction has a zero within O(ε²), and the same ranks
-// there.
-std::string singularity_seen_along(const VectorXd& tangent, const TangentDisplacement& units,
-                                   const ConsistentPoint& consistent, const ConsistentJet& at,
-                                   const std::vector<LadderLevel>& levels, double data_error,
-                                   bool follow) {
-  const auto near = consistent.find_displaced(at, 1e-3 * tangent);
-  if (!near.jet.zero.found) return "";
-  const std::string other = difference(levels, levels_at(near.jet, data_error));
-  if (!other.empty()) return other;
-  // Sparse factors know the kernel to five digits only: too few for what follows.
-  if (!follow || tangent.size() > 200) return "";
-  // How far the zeros are from ε·tangent: quadratic in ε if regular, linear if not. Round-off is
-  // 10⁻⁶; a curvature of 10⁴ makes the first ratio look linear, but not the second.
-  const auto off = [&](double epsilon) {
-    const auto found = consistent.find_displaced(at, epsilon * tangent);
-    return found.jet.zero.found ? units.size(found.correction) : 0.0;
-  };
-  const double off3 = units.size(near.correction), off4 = off(1e-4);
-  if (off4 < 1e-5 || off4 < 0.03 * off3) return "";
-  const double off5 = off(1e-5);
-  const double size = units.size(tangent);
-  if (!(off5 > 1e-6 && off5 > 0.05 * off4) && !(off4 > 1e-4 * size && off5 > 5e-7 * size))
-    return "";
-  return "The equations have solutions in fewer directions than their linear parts: one of the "
-         "constraints has a vanishing gradient here.";
+bool are_certain(const std::vector<LadderLevel>& levels) {
+  return contradictions(levels).empty() &&
+         std::none_of(levels.begin(), levels.end(),
+                      [](const LadderLevel& level) { return level.is_ambiguous(); });
 }
 
-// A neighbour can be misjudged where equations are strongly curved in its direction; a singular
-// point looks singular from everywhere. So the majority of three decides. Ranks are compared; with
-// `follow`, zeros are followed too.
+// The levels at the jet. Where they are doubtful the jet is found once more, and stays what was
+// found if that helps.
+std::vector<LadderLevel> levels_at(const ConsistentPoint& consistent, ConsistentJet& jet) {
+  std::vector<LadderLevel> levels = levels_at(jet);
+  if (are_certain(levels)) return levels;
+  ConsistentJet other = consistent.again(jet);
+  if (!other.zero.found) return levels;
+  std::vector<LadderLevel> second = levels_at(other);
+  if (!are_certain(second)) return levels;
+  jet = std::move(other);
+  return second;
+}
+
+// Which of F^[k] at y, or of its derivatives, are not finite, in words.
+std::string not_finite(const ImplicitSystem& system, const DerivativeArray& array,
+                       const VectorXd& y) {
+  const Index r = system.equation_count();
+  const Linearization at = array.linearize(y);
+  std::vector<bool> is_bad(static_cast<std::size_t>(at.value.size()), false);
+  for (Index i = 0; i < at.value.size(); ++i)
+    is_bad[static_cast<std::size_t>(i)] = !std::isfinite(at.value[i]);
+  for (Index j = 0; j < at.jacobian.outerSize(); ++j)
+    for (SparseMatrixXd::InnerIterator it(at.jacobian, j); it; ++it)
+      if (!std::isfinite(it.value())) is_bad[static_cast<std::size_t>(it.row())] = true;
+  for (Index i = 0; i < at.value.size(); ++i) {
+    if (!is_bad[static_cast<std::size_t>(i)]) continue;
+    const std::string& name = system.names().equations[static_cast<std::size_t>(i % r)];
+    return std::isfinite(at.value[i])
+               ? "The derivatives of " + derivative_of(name, i / r) +
+                     " are not finite at the given values"
+               : derivative_of(name, i / r) + " is not finite at the given values";
+  }
+  return "The equations are not finite at the given values";
+}
+
+// What is singular at a zero of the derivative array, in words; empty if nothing is. Zeros of
+// constant rank form a manifold whose tangent space is the kernel of the Jacobian: a point at ε in
+// a tangent direction has a zero within O(ε²), and the same ranks there. A neighbour can be
+// misjudged where equations are strongly curved in its direction; a singular point looks singular
+// from everywhere. So the majority of three decides. With `follow`, what the Jacobian does not see
+// of the equations is examined too.
 std::string singularity(const ConsistentPoint& consistent, const ConsistentJet& at,
-                        const std::vector<LadderLevel>& levels, double data_error, bool follow) {
+                        const std::vector<LadderLevel>& levels, bool follow) {
   if (at.array.has_constant_jacobian()) return "";
+  constexpr Index dense_limit = 200;
+  std::optional<Obstruction> obstruction;
+  if (follow && at.zero.y.size() <= dense_limit)
+    obstruction.emplace(at.array, at.zero.y, at.zero.uncertainty, levels.back().all.rank);
+  const auto seen_along = [&](const VectorXd& tangent) -> std::string {
+    const auto near = consistent.find_displaced(at, 1e-3 * tangent);
+    if (near.jet.zero.found) {
+      const std::vector<LadderLevel> there = levels_at(near.jet);
+      const std::string other = are_certain(there) ? difference(levels, there) : "";
+      if (!other.empty()) return other;
+    }
+    if (!obstruction || !obstruction->is_seen_along(tangent)) return "";
+    return "The equations have solutions in fewer directions than their linear parts: one of the "
+           "constraints has a vanishing gradient here.";
+  };
   TangentDisplacement tangents(at.array, at.zero.y, at.zero.reach);
   int clean = 0;
   std::string first;
   for (int i = 0; i < 3 && clean < 2; ++i) {
-    const std::string finding = singularity_seen_along(tangents.next(), tangents, consistent, at,
-                                                       levels, data_error, follow);
+    const std::string finding = seen_along(tangents.next());
     if (finding.empty()) {
       ++clean;
       continue;
@@ -149,8 +178,8 @@ void count_differentiations_nearby(ConstraintLadder& ladder, const ConsistentPoi
   for (int i = 0; i < 2; ++i) {
     const auto near = consistent.find_displaced(at, 1e-2 * tangents.next());
     if (!near.jet.zero.found) continue;
-    const std::vector<int> counts =
-        needed_differentiations(near.jet.array, near.jet.zero.y, near.jet.zero.reach, ladder.index);
+    const std::vector<int> counts = needed_differentiations(
+        near.jet.array, near.jet.zero.y, near.jet.zero.uncertainty, ladder.index);
     for (std::size_t e = 0; e < counts.size(); ++e)
       ladder.differentiations[e] = std::max(ladder.differentiations[e], counts[e]);
   }
@@ -168,7 +197,25 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
   for (Index k = 0; k <= options_.max_level && !stopped; ++k) {
     jet.zero.y = jet.array.resized(jet.zero.y, k);
     const ConsistentJet next = consistent.find(jet);
+    if (!next.zero.is_finite) {
+      ladder.reason = not_finite(*system, next.array, next.array.resized(jet.zero.y, k)) +
+                      ": the algorithm stops before level " + std::to_string(k) + ".";
+      jet.zero.y = next.array.resized(jet.zero.y, k);
+      break;
+    }
     if (!next.zero.found) {
+      // Where zeros of the last level are singular, those of this one need not be near.
+      if (k > 0) {
+        jet.zero.y = jet.array.resized(jet.zero.y, k - 1);
+        singular = singularity(consistent, jet, ladder.levels, true);
+        if (!singular.empty()) break;
+      }
+      if (!consistent.is_contradiction(next)) {
+        ladder.reason = "The search for a point of S_" + std::to_string(k) +
+                        " did not converge, and the equations do not contradict each other where "
+                        "it ended.";
+        break;
+      }
       LadderLevel empty;
       empty.k = k;
       empty.is_empty = true;
@@ -182,9 +229,10 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
       break;
     }
     jet = next;
-    ladder.levels = levels_at(jet, options_.data_error);
+    ladder.levels = levels_at(consistent, jet);
+    if (!contradictions(ladder.levels).empty()) break;
     stopped = repeats(ladder.levels);
-    singular = singularity(consistent, jet, ladder.levels, options_.data_error, stopped);
+    singular = singularity(consistent, jet, ladder.levels, stopped);
     if (!singular.empty()) break;
   }
   ladder.point = jet.array.state(jet.zero.y);
@@ -195,20 +243,26 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
     ladder.verdict = Verdict::rank_change;
     ladder.reason = singular;
   }
-  if (ladder.levels.back().is_empty) return ladder;
+  ladder.doubts = contradictions(ladder.levels);
+  if (!ladder.levels.empty() && !ladder.levels.back().is_solved)
+    ladder.doubts.push_back(
+        "The equations do not vanish at the point to round-off: their solutions may be singular "
+        "there.");
+  if (ladder.levels.empty() || ladder.levels.back().is_empty) return ladder;
 
   const LadderLevel& last = ladder.levels.back();
   ladder.degrees_of_freedom = last.dim_M;
   ladder.gauge_dimension = last.fibre();
   if (ladder.verdict == Verdict::rank_change) return ladder;
   if (!stopped) {
-    ladder.reason =
-        "The dimensions still fell at level " + std::to_string(last.k) + ", the highest allowed.";
+    if (ladder.reason.empty())
+      ladder.reason =
+          "The dimensions still fell at level " + std::to_string(last.k) + ", the highest allowed.";
     return ladder;
   }
   ladder.index = last.k - 1;
   ladder.verdict = ladder.gauge_dimension == 0 ? Verdict::regular : Verdict::gauge;
-  describe(ladder, jet.array, jet.zero.y, jet.zero.reach);
+  describe(ladder, jet.array, jet.zero.y, jet.zero.uncertainty);
   count_differentiations_nearby(ladder, consistent, jet);
   return ladder;
 }

@@ -38,9 +38,6 @@ class ConstraintAlgorithm {
     // The metric in which x moves least: N × N, positive semidefinite; empty for the Euclidean one.
     // A zero diagonal entry means that the value was not given.
     MatrixXd metric = MatrixXd();
-    // Relative error of the Jacobian that ranks have to survive. 10⁻¹¹: points are found to about
-    // 12 digits.
-    double data_error = 1e-11;
   };
 
   ConstraintAlgorithm() = default;

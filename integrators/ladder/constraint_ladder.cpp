@@ -32,9 +32,32 @@ MatrixXd ConstraintLadder::conormals() const {
 }
 
 bool ConstraintLadder::is_ambiguous() const {
-  return std::any_of(levels.begin(), levels.end(), [](const LadderLevel& level) {
+  return !doubts.empty() || std::any_of(levels.begin(), levels.end(), [](const LadderLevel& level) {
     return !level.is_empty && level.is_ambiguous();
   });
+}
+
+std::vector<std::string> contradictions(const std::vector<LadderLevel>& levels) {
+  std::vector<std::string> found;
+  const auto name = [](const char* set, const LadderLevel& level) {
+    return std::string("dim ") + set + "_" + std::to_string(level.k);
+  };
+  const LadderLevel* before = nullptr;
+  for (const LadderLevel& level : levels) {
+    if (level.is_empty) continue;
+    if (level.dim_M < 0 || level.fibre() < 0)
+      found.push_back(name("S", level) + " = " + std::to_string(level.dim_S) + " and " +
+                      name("M", level) + " = " + std::to_string(level.dim_M) +
+                      " are no dimensions of a set of tangent vectors and its points.");
+    for (const auto& [set, dimension] :
+         {std::pair("S", &LadderLevel::dim_S), std::pair("M", &LadderLevel::dim_M)})
+      if (before && level.*dimension > before->*dimension)
+        found.push_back(name(set, level) + " = " + std::to_string(level.*dimension) + " exceeds " +
+                        name(set, *before) + " = " + std::to_string(before->*dimension) +
+                        ", but one set contains the other.");
+    before = &level;
+  }
+  return found;
 }
 
 void check_ladder(const std::string& place, const ImplicitSystem& system,

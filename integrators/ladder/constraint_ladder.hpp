@@ -27,6 +27,8 @@ struct LadderLevel {
   Index dim_S = -1;
   Index dim_M = -1;
   double residual = 0.0;  // ‖F^[k]‖_∞ at the point; of an empty level, the least that was found
+  // Whether F^[k] vanishes at the point as far as it is known.
+  bool is_solved = true;
   // The ranks behind the dimensions: of the Jacobian J of F^[k], of its part J_S without the
   // columns (x, v), and J_M without x.
   //   dim S_k = 2n - rank J + rank J_S,   dim M_k = n - rank J + rank J_M
@@ -34,7 +36,9 @@ struct LadderLevel {
 
   Index fibre() const { return dim_S - dim_M; }
   double gap() const { return std::min({all.gap, without_tangent.gap, without_point.gap}); }
-  bool is_ambiguous() const { return gap() < 1e3; }
+  bool is_ambiguous() const {
+    return all.ambiguous() || without_tangent.ambiguous() || without_point.ambiguous();
+  }
 };
 
 // A given value that had to move to be consistent.
@@ -89,15 +93,26 @@ struct ConstraintLadder {
   std::vector<Combination> redundancies;
   // Columns: basis of {w : (x, v + w) ∈ S_f}, Ñ × gauge_dimension.
   MatrixXd gauge_directions;
+  // Whether each component of the velocity (Ñ) is determined by the point: gauge freedom leaves some
+  // of them as they are.
+  std::vector<bool> determined_velocities;
   // Whether each auxiliary unknown (m) is determined by the point of M_f; its value is in point.z.
   std::vector<bool> determined;
 
   // One sentence: why the verdict is what it is.
   std::string reason;
+  // Why the verdict is not certain, a sentence each: what the levels contradict, where two ways to
+  // count disagree.
+  std::vector<std::string> doubts;
 
   const LadderLevel& final_level() const { return levels.back(); }
+  // Whether a rank is doubtful or there are doubts.
   bool is_ambiguous() const;
 };
+
+// What the levels say that no ladder can: dimensions that rise, sets that are larger than the space
+// they are in. A sentence each; none for levels of a ladder.
+std::vector<std::string> contradictions(const std::vector<LadderLevel>& levels);
 
 class ImplicitSystem;
 

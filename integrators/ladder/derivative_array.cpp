@@ -1,7 +1,10 @@
 #include "courant/integrators/ladder/derivative_array.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <stdexcept>
+#include <vector>
 
 #include "courant/core/derivative.hpp"
 #include "courant/integrators/ladder/local_formulation.hpp"
@@ -9,22 +12,62 @@
 namespace courant {
 namespace {
 
-using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+// Series of order k: one a row.
+template <class Number>
+class SeriesTable {
+ public:
+  SeriesTable(Index rows, Index k)
+      : width_(k + 1), numbers_(static_cast<std::size_t>(rows * (k + 1)), Number(0.0)) {}
+  Number& operator()(Index row, Index i) {
+    return numbers_[static_cast<std::size_t>(row * width_ + i)];
+  }
+  Number* data() { return numbers_.data(); }
+  const Number* data() const { return numbers_.data(); }
 
-// Row j: the number a_j as a series of order k.
-RowMajorMatrix constant_series(const VectorXd& a, Index k) {
-  RowMajorMatrix series = RowMajorMatrix::Zero(a.size(), k + 1);
-  series.col(0) = a;
-  return series;
+ private:
+  Index width_;
+  std::vector<Number> numbers_;
+};
+
+// The arguments of F along a jet. `unknown(j)` is the j-th number of the jet; `rounded(a)` is one of
+// the constants x₀, t, `basis` an entry of the basis.
+template <class Number>
+struct Arguments {
+  SeriesTable<Number> xi, rate, z, origin, basis, time;
+
+  template <class Unknown, class Rounded, class Direction>
+  Arguments(const DerivativeArray& array, Index k, const VectorXd& basis_entries,
+            const Unknown& unknown, const Rounded& rounded, const Direction& direction)
+      : xi(array.base_size(), k),
+        rate(array.base_size(), k),
+        z(array.auxiliary_size(), k),
+        origin(array.origin().size(), k),
+        basis(basis_entries.size(), k),
+        time(1, k) {
+    for (Index i = 0; i <= k; ++i) {
+      for (Index j = 0; j < array.base_size(); ++j) {
+        xi(j, i) = unknown(array.x_offset(i) + j);
+        rate(j, i) = static_cast<double>(i + 1) * unknown(array.x_offset(i + 1) + j);
+      }
+      for (Index j = 0; j < array.auxiliary_size(); ++j) z(j, i) = unknown(array.z_offset(i) + j);
+    }
+    for (Index j = 0; j < array.origin().size(); ++j) origin(j, 0) = rounded(array.origin()[j]);
+    for (Index j = 0; j < basis_entries.size(); ++j) basis(j, 0) = direction(basis_entries[j]);
+    time(0, 0) = rounded(array.t());
+    if (k >= 1) time(0, 1) = 1.0;
+  }
+
+  std::array<const Number*, 6> pointers() const {
+    return {xi.data(), rate.data(), z.data(), origin.data(), basis.data(), time.data()};
+  }
+};
+
+// An entry of an orthonormal basis: a few roundings of 1 are lost, except where nothing was computed.
+Uncertain direction(double entry) {
+  return {entry, entry == 0.0 || std::fabs(entry) == 1.0 ? 0.0 : 8.0 * Uncertain::unit};
 }
 
 }  // namespace
-
-// Coefficients 0 … k of the r equations, then of the entries of the Jacobian by (ξ, ξ', z): one
-// number a row.
-struct DerivativeArray::Series {
-  RowMajorMatrix coefficients;
-};
 
 DerivativeArray::DerivativeArray(std::shared_ptr<const ImplicitSystem> system, double t,
                                  const VectorXd& x0)
@@ -88,29 +131,9 @@ VectorXd DerivativeArray::resized(const VectorXd& y, Index k) const {
   return result;
 }
 
-DerivativeArray::Series DerivativeArray::evaluate(const VectorXd& y, Index k,
-                                                  bool with_jacobian) const {
-  const Index n = base_size(), m = auxiliary_size();
-  RowMajorMatrix xi(n, k + 1), rate(n, k + 1), z(m, k + 1);
-  for (Index i = 0; i <= k; ++i) {
-    xi.col(i) = y.segment(x_offset(i), n);
-    rate.col(i) = static_cast<double>(i + 1) * y.segment(x_offset(i + 1), n);
-    z.col(i) = y.segment(z_offset(i), m);
-  }
-  const RowMajorMatrix origin = constant_series(origin_, k);
-  const RowMajorMatrix basis = constant_series(
-      n == basis_.rows() ? VectorXd(0)
-                         : VectorXd(Eigen::Map<const VectorXd>(basis_.data(), basis_.size())),
-      k);
-  RowMajorMatrix time = constant_series(VectorXd::Constant(1, t_), k);
-  if (k >= 1) time(0, 1) = 1.0;
-  const double* in[] = {xi.data(), rate.data(), z.data(), origin.data(), basis.data(), time.data()};
-
-  Series series;
-  series.coefficients.resize(equation_count() + (with_jacobian ? equations_.nonzeros() : 0), k + 1);
-  with_jacobian ? equations_.taylor_with_jacobian(in, k, series.coefficients.data())
-                : equations_.taylor(in, k, series.coefficients.data());
-  return series;
+VectorXd DerivativeArray::basis_entries() const {
+  if (base_size() == basis_.rows()) return VectorXd(0);
+  return Eigen::Map<const VectorXd>(basis_.data(), basis_.size());
 }
 
 VectorXd DerivativeArray::origin_size() const {
@@ -119,51 +142,62 @@ VectorXd DerivativeArray::origin_size() const {
 }
 
 VectorXd DerivativeArray::do_residual(const VectorXd& y, Index k) const {
-  const MatrixXd by_equation = evaluate(y, k, false).coefficients;  // column-major: F_0 first
-  return Eigen::Map<const VectorXd>(by_equation.data(), by_equation.size());
+  const auto as_it_is = [](double number) { return number; };
+  const Arguments<double> in(
+      *this, k, basis_entries(), [&](Index j) { return y[j]; }, as_it_is, as_it_is);
+  SeriesTable<double> series(equation_count(), k);
+  equations_.taylor(in.pointers().data(), k, series.data());
+  VectorXd value(row_count(k));  // F_0 first
+  for (Index i = 0; i <= k; ++i)
+    for (Index e = 0; e < equation_count(); ++e) value[i * equation_count() + e] = series(e, i);
+  return value;
 }
 
-Linearization DerivativeArray::do_linearize(const VectorXd& y, Index k) const {
+Linearization DerivativeArray::do_linearize(const VectorXd& y, const VectorXd& uncertainty,
+                                            Index k) const {
   const Index n = base_size(), r = equation_count();
-  const RowMajorMatrix series = evaluate(y, k, true).coefficients;
-  Linearization result;
-  const MatrixXd values = series.topRows(r);
-  result.value = Eigen::Map<const VectorXd>(values.data(), values.size());
+  const Arguments<Uncertain> in(
+      *this, k, basis_entries(), [&](Index j) { return Uncertain(y[j], uncertainty[j]); },
+      Uncertain::rounded, direction);
+  SeriesTable<Uncertain> series(r + equations_.nonzeros(), k);
+  equations_.taylor_with_jacobian(in.pointers().data(), k, series.data());
 
-  std::vector<Eigen::Triplet<double>> entries;
-  const auto add = [&](Index i, Index equation, Index column, double value) {
-    if (value != 0.0)
-      entries.emplace_back(static_cast<int>(i * r + equation), static_cast<int>(column), value);
-  };
+  Linearization result;
+  result.value.resize(row_count(k));
+  result.value_error.resize(row_count(k));
+  for (Index i = 0; i <= k; ++i) {
+    for (Index e = 0; e < r; ++e) {
+      result.value[i * r + e] = series(e, i).value;
+      result.value_error[i * r + e] = series(e, i).error;
+    }
+  }
+  UncertainEntries entries;
   for (Index e = 0; e < equations_.nonzeros(); ++e) {
     const Index equation = equations_.pattern_row()[static_cast<std::size_t>(e)];
     const Index variable = equations_.pattern_col()[static_cast<std::size_t>(e)];
-    const auto coefficient = series.row(r + e);
     for (Index i = 0; i <= k; ++i) {
       for (Index j = 0; j <= i; ++j) {
+        const Uncertain& coefficient = series(r + e, i - j);
+        const Index row = i * r + equation;
         if (variable < n)
-          add(i, equation, x_offset(j) + variable, coefficient[i - j]);
+          entries.add(row, x_offset(j) + variable, coefficient);
         else if (variable < 2 * n)
-          add(i, equation, x_offset(j + 1) + variable - n,
-              static_cast<double>(j + 1) * coefficient[i - j]);
+          entries.add(row, x_offset(j + 1) + variable - n,
+                      static_cast<double>(j + 1) * coefficient);
         else
-          add(i, equation, z_offset(j) + variable - 2 * n, coefficient[i - j]);
+          entries.add(row, z_offset(j) + variable - 2 * n, coefficient);
       }
     }
   }
-  result.jacobian.resize(row_count(k), y.size());
-  result.jacobian.setFromTriplets(entries.begin(), entries.end());
+  entries.fill(result, row_count(k), y.size());
   return result;
 }
 
 Linearization DerivativeArray::state_map(const VectorXd& y) const {
   const Index n = base_size(), m = auxiliary_size();
   const VectorXd xi = y.head(n), rate = y.segment(n, n), z = y.segment(2 * n, m);
-  const VectorXd basis = n == basis_.rows()
-                             ? VectorXd(0)
-                             : VectorXd(Eigen::Map<const VectorXd>(basis_.data(), basis_.size()));
   const VectorXd time = VectorXd::Constant(1, t_);
-  const std::vector<VectorXd> in = {xi, rate, z, origin_, basis, time};
+  const std::vector<VectorXd> in = {xi, rate, z, origin_, basis_entries(), time};
   const VectorXd point = state_(in);
   const SparseMatrixXd d_point = state_.sparse_jacobian(in);
 

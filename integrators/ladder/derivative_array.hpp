@@ -52,11 +52,11 @@ class DerivativeArray final : public Prolongation {
   bool has_constant_jacobian() const override { return constant_jacobian_; }
 
  private:
-  struct Series;  // F and its first derivatives along a jet
-  Series evaluate(const VectorXd& y, Index k, bool with_jacobian) const;
-  Linearization do_linearize(const VectorXd& y, Index k) const override;
+  Linearization do_linearize(const VectorXd& y, const VectorXd& uncertainty,
+                             Index k) const override;
   VectorXd do_residual(const VectorXd& y, Index k) const override;
   void move_to(double t, const VectorXd& x0);
+  VectorXd basis_entries() const;  // column by column; empty where the basis is the identity
 
   std::shared_ptr<const ImplicitSystem> system_;
   Function equations_;  // (xi, xi', z; x0, basis, t) ↦ F, with Jacobian by the first three

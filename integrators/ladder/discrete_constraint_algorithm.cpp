@@ -73,8 +73,7 @@ ConstraintLadder DiscreteConstraintAlgorithm::run(
       break;
     }
     y = zero.y;
-    ladder.levels =
-        ladder_levels(chain, y, zero.reach, options_.data_error + 10.0 * zero.uncertainty);
+    ladder.levels = ladder_levels(chain, y, zero.uncertainty);
     if (k > 0) {
       const LadderLevel &last = ladder.levels.back(),
                         &before = ladder.levels[ladder.levels.size() - 2];

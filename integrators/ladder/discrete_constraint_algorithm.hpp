@@ -28,7 +28,6 @@ class DiscreteConstraintAlgorithm {
  public:
   struct Options {
     Index max_level = 12;
-    double data_error = 1e-11;  // relative error of the Jacobian that ranks have to survive
   };
 
   DiscreteConstraintAlgorithm() = default;

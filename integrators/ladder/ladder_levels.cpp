@@ -11,14 +11,6 @@
 namespace courant {
 namespace {
 
-// Singular values cost 4 m n min(m, n) operations; from here on sparse factorisation is faster.
-constexpr Index dense_limit = 200;
-
-RankDecision decide(const SparseMatrixXd& A, const RankOptions& options) {
-  if (std::max(A.rows(), A.cols()) <= dense_limit) return decide_rank(MatrixXd(A), options);
-  return decide_rank(A, options);
-}
-
 double factorial(Index i) { return std::tgamma(static_cast<double>(i) + 1.0); }
 
 // The multipliers of a reduced row as a combination of derivatives, with coefficient 1 for the
@@ -41,10 +33,16 @@ Combination combination(const SparseEntries& multipliers, const VectorXd& row_sc
   return result;
 }
 
+// Whether sums are round-off of their terms.
+bool is_negligible(const Eigen::RowVectorXd& size_of_terms, const Eigen::RowVectorXd& sum) {
+  return (sum.array().abs() <= 1e-9 * size_of_terms.array()).all();
+}
+
 enum Group : Index { higher = 0, auxiliary = 1, velocity = 2, position = 3 };
 
 // The Jacobian at y, reduced: jets first, the point last.
-RowReduction reduced(const DerivativeArray& array, const VectorXd& y, const GenericScaling& units) {
+RowReduction reduced(const DerivativeArray& array, const VectorXd& y,
+                     const ComparableJacobian& units) {
   const Index n = array.base_size(), m = array.auxiliary_size(), r = array.equation_count();
   std::vector<Index> row_level, column_group;
   for (Index i = 0; i < array.row_count(array.level_of(y)); ++i) row_level.push_back(i / r);
@@ -54,6 +52,24 @@ RowReduction reduced(const DerivativeArray& array, const VectorXd& y, const Gene
                            : j < 2 * n + m ? auxiliary
                                            : higher);
   return RowReduction(units.scaled, row_level, column_group);
+}
+
+// Where elimination counts other ranks than the singular values, in words; empty where they agree.
+std::string disagreement(const LadderLevel& level, const RowReduction& reduction) {
+  Index count = 0;
+  for (const Group g : {higher, auxiliary, velocity, position}) {
+    for (const RowReduction::Row& row : reduction.group(g))
+      if (row.level <= level.k) ++count;
+    const RankDecision* decision = g == auxiliary  ? &level.without_tangent
+                                   : g == velocity ? &level.without_point
+                                   : g == position ? &level.all
+                                                   : nullptr;
+    if (decision && decision->rank != count)
+      return "At level " + std::to_string(level.k) + " elimination counts rank " +
+             std::to_string(count) + " where singular values count " +
+             std::to_string(decision->rank) + ".";
+  }
+  return "";
 }
 
 std::vector<int> needed_differentiations(const RowReduction& reduction, Index equation_count,
@@ -72,40 +88,54 @@ std::vector<int> needed_differentiations(const RowReduction& reduction, Index eq
 
 }  // namespace
 
+ComparableJacobian::ComparableJacobian(const Prolongation& array, const VectorXd& y,
+                                       const VectorXd& uncertainty) {
+  const Linearization at = array.linearize(y, uncertainty.cwiseMax(Prolongation::rounding(y)));
+  Equilibration<SparseMatrixXd> equilibrated = equilibrate(at.jacobian, 0.0);
+  row_scale = std::move(equilibrated.row_scale);
+  column_scale = std::move(equilibrated.column_scale);
+  scaled = {std::move(equilibrated.scaled),
+            row_scale.asDiagonal() * at.error * column_scale.asDiagonal()};
+}
+
 std::vector<LadderLevel> ladder_levels(const Prolongation& array, const VectorXd& y,
-                                       const VectorXd& reach, double data_error) {
-  // GenericScaling made rows and columns comparable; what is small now is small.
-  const RankOptions options{.data_error = data_error, .magnitude = 1.0};
+                                       const VectorXd& uncertainty) {
   const Index n = array.base_size();
-  const SparseMatrixXd jacobian = GenericScaling(array, y, reach).scaled;
-  const VectorXd residual = array.residual(y);
+  const Linearization at = array.linearize(y, uncertainty.cwiseMax(Prolongation::rounding(y)));
+  const UncertainMatrix jacobian{at.jacobian, at.error};
+  constexpr double solved = 10.0;  // times what rounding and the uncertainty of y make of F
   std::vector<LadderLevel> levels;
   for (Index k = 0; k <= array.level_of(y); ++k) {
     const Index rows = array.row_count(k), columns = array.unknown_count(k);
-    const SparseMatrixXd J = jacobian.topLeftCorner(rows, columns);
+    const auto rank_from = [&](Index first) {
+      return decide_rank(jacobian.block(0, first, rows, columns - first));
+    };
     LadderLevel level;
     level.k = k;
-    level.all = decide(J, options);
-    level.without_tangent = decide(J.rightCols(columns - 2 * n), options);
-    level.without_point = decide(J.rightCols(columns - n), options);
+    level.all = rank_from(0);
+    level.without_tangent = rank_from(2 * n);
+    level.without_point = rank_from(n);
     level.dim_S = 2 * n - level.all.rank + level.without_tangent.rank;
     level.dim_M = n - level.all.rank + level.without_point.rank;
-    level.residual = rows == 0 ? 0.0 : residual.head(rows).lpNorm<Eigen::Infinity>();
+    level.residual = rows == 0 ? 0.0 : at.value.head(rows).lpNorm<Eigen::Infinity>();
+    level.is_solved =
+        (at.value.head(rows).cwiseAbs().array() <= solved * at.value_error.head(rows).array())
+            .all();
     levels.push_back(std::move(level));
   }
   return levels;
 }
 
 std::vector<int> needed_differentiations(const DerivativeArray& array, const VectorXd& y,
-                                         const VectorXd& reach, Index index) {
-  const GenericScaling units(array, y, reach);
+                                         const VectorXd& uncertainty, Index index) {
+  const ComparableJacobian units(array, y, uncertainty);
   return needed_differentiations(reduced(array, y, units), array.equation_count(), index);
 }
 
 void describe(ConstraintLadder& ladder, const DerivativeArray& array, const VectorXd& y,
-              const VectorXd& reach) {
+              const VectorXd& uncertainty) {
   const Index n = array.base_size(), m = array.auxiliary_size(), r = array.equation_count();
-  const GenericScaling units(array, y, reach);
+  const ComparableJacobian units(array, y, uncertainty);
   const RowReduction reduction = reduced(array, y, units);
   const MatrixXd& basis = array.basis();
 
@@ -123,11 +153,15 @@ void describe(ConstraintLadder& ladder, const DerivativeArray& array, const Vect
     ladder.redundancies.push_back(combination(row.multipliers, units.row_scale, r, factor));
   }
 
-  // The velocities that remain free, one for each column without pivot.
-  const std::vector<RowReduction::Row> velocities = reduction.reduced_group(velocity);
+  for (const LadderLevel& level : ladder.levels)
+    if (std::string doubt = disagreement(level, reduction); !doubt.empty())
+      ladder.doubts.push_back(std::move(doubt));
+
+  // The velocities that remain free, one for each column without pivot; columns in the chart.
+  const std::vector<RowReduction::Row>& velocities = reduction.reduced_group(velocity);
   std::vector<bool> free(static_cast<std::size_t>(2 * n + m), true);
   for (const auto& row : velocities) free[static_cast<std::size_t>(row.pivot)] = false;
-  ladder.gauge_directions.resize(basis.rows(), 0);
+  MatrixXd gauge(n, 0);
   for (Index f = n; f < 2 * n; ++f) {
     if (!free[static_cast<std::size_t>(f)]) continue;
     VectorXd direction = VectorXd::Zero(n);
@@ -136,23 +170,32 @@ void describe(ConstraintLadder& ladder, const DerivativeArray& array, const Vect
       for (const auto& [j, value] : row.entries)
         if (j == f)
           direction[row.pivot - n] = -value * units.column_scale[row.pivot] / units.column_scale[f];
-    ladder.gauge_directions.conservativeResize(Eigen::NoChange, ladder.gauge_directions.cols() + 1);
-    ladder.gauge_directions.rightCols(1) = basis * direction;
+    gauge.conservativeResize(Eigen::NoChange, gauge.cols() + 1);
+    gauge.rightCols(1) = direction;
   }
+  ladder.gauge_directions = basis * gauge;
+  ladder.determined_velocities.resize(static_cast<std::size_t>(basis.rows()));
+  for (Index i = 0; i < basis.rows(); ++i)
+    ladder.determined_velocities[static_cast<std::size_t>(i)] =
+        is_negligible(basis.row(i).cwiseAbs() * gauge.cwiseAbs(), ladder.gauge_directions.row(i));
 
-  // An auxiliary unknown is determined if its reduced row contains no other one that is free, and
-  // no free velocity.
-  const std::vector<RowReduction::Row> auxiliaries = reduction.reduced_group(auxiliary);
+  // An auxiliary unknown is determined if its reduced row contains no other one that is free and
+  // does not change along the free velocities.
+  const std::vector<RowReduction::Row>& auxiliaries = reduction.reduced_group(auxiliary);
   for (const auto& row : auxiliaries) free[static_cast<std::size_t>(row.pivot)] = false;
   ladder.determined.assign(static_cast<std::size_t>(m), false);
   for (const auto& row : auxiliaries) {
     bool determined = true;
+    Eigen::RowVectorXd change = Eigen::RowVectorXd::Zero(gauge.cols()), size = change;
     for (const auto& [j, value] : row.entries) {
       if (j >= 2 * n && j != row.pivot && free[static_cast<std::size_t>(j)]) determined = false;
-      if (j >= n && j < 2 * n)
-        for (Index c = 0; c < ladder.gauge_directions.cols(); ++c) determined = false;
+      if (j < n || j >= 2 * n) continue;
+      const Eigen::RowVectorXd term = value / units.column_scale[j] * gauge.row(j - n);
+      change += term;
+      size += term.cwiseAbs();
     }
-    ladder.determined[static_cast<std::size_t>(row.pivot - 2 * n)] = determined;
+    ladder.determined[static_cast<std::size_t>(row.pivot - 2 * n)] =
+        determined && is_negligible(size, change);
   }
 }
 

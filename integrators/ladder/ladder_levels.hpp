@@ -3,30 +3,39 @@
 
 #include <random>
 
+#include "courant/core/uncertain_matrix.hpp"
 #include "courant/integrators/ladder/constraint_ladder.hpp"
 #include "courant/integrators/ladder/prolongation.hpp"
 
 namespace courant {
 
+// The Jacobian of a prolongation at a zero, as far as it is known, with rows and columns comparable:
+// diag(r) J diag(c) equilibrated.
+struct ComparableJacobian {
+  UncertainMatrix scaled;
+  VectorXd row_scale, column_scale;  // r, c
+
+  ComparableJacobian(const Prolongation& array, const VectorXd& y, const VectorXd& uncertainty);
+};
+
 // dim S_k and dim M_k for k = 0 … level of y, at a zero y of the prolongation, with the ranks that
 // they come from: π_A(ker J) has dimension |A| - (rank J - rank J_rest), where J_rest lacks the
-// columns in A. `reach`: sizes of the unknowns; `data_error`: the relative error of the Jacobian
-// that ranks have to survive.
+// columns in A. `uncertainty`: how far from y the zero that is meant may be (see Zero).
 std::vector<LadderLevel> ladder_levels(const Prolongation& array, const VectorXd& y,
-                                       const VectorXd& reach, double data_error);
+                                       const VectorXd& uncertainty);
 
 // How often each equation is differentiated for what the levels up to `index` say about point and
 // velocity, by the left null vectors of the Jacobian at y. An equation whose multiplier happens to
 // vanish at y is not counted: look at more than one point.
 class DerivativeArray;
 std::vector<int> needed_differentiations(const DerivativeArray& array, const VectorXd& y,
-                                         const VectorXd& reach, Index index);
+                                         const VectorXd& uncertainty, Index index);
 
 // Fills in what row reduction of the Jacobian tells: constraints, differentiations, redundancies,
 // gauge directions and determined auxiliary unknowns. `ladder` has its levels and index; y is of
 // the last level.
 void describe(ConstraintLadder& ladder, const DerivativeArray& array, const VectorXd& y,
-              const VectorXd& reach);
+              const VectorXd& uncertainty);
 
 // Random tangent vectors of the zeros at y: δ with J δ = 0, entries of up to a natural unit each.
 class TangentDisplacement {

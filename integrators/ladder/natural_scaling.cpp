@@ -59,9 +59,11 @@ NaturalScaling::NaturalScaling(const Linearization& at, const VectorXd& reach, d
     double& s = inverse_residual[row_component[static_cast<std::size_t>(i)]];
     s = std::max(s, std::abs(at.value[i]) * row_scale[i]);
   }
+  // Scales divided by less than 10⁻²⁹⁰ leave the range of doubles.
+  const double least = std::max(least_size, 1e-290);
   const auto factor = [&](Index component) {
-    if (size[component] > least_size) return size[component];
-    return inverse_residual[component] > least_size ? inverse_residual[component] : 1.0;
+    if (size[component] > least) return size[component];
+    return inverse_residual[component] > least ? inverse_residual[component] : 1.0;
   };
   for (Index i = 0; i < m; ++i) row_scale[i] /= factor(row_component[static_cast<std::size_t>(i)]);
   for (Index j = 0; j < n; ++j)

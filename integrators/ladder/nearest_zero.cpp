@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <random>
 
 #include "courant/core/complete_orthogonal_decomposition.hpp"
 
@@ -115,10 +116,41 @@ bool finite(const Linearization& at) {
   return true;
 }
 
+// Whether every |F_i| is within the bound of its rounding error: nothing is left to improve.
+bool is_rounded(const Linearization& at) {
+  return at.value_error.size() == at.value.size() && at.value_error.allFinite() &&
+         (at.value.cwiseAbs().array() <= at.value_error.array()).all();
+}
+
+// Zero::uncertainty at `at`, in the given units, where leading unknowns of the mobility are frozen.
+VectorXd uncertainty(const Linearization& at, const NaturalScaling& units,
+                     const SparseMatrixXd& frozen, const Mobility& mobility) {
+  constexpr int samples = 3;
+  constexpr double safety = 2.0;
+  const SparseMatrixXd S =
+      units.row_scale.asDiagonal() * at.jacobian * units.column_scale.asDiagonal();
+  VectorXd moved = VectorXd::Zero(S.cols());
+  if (S.size() == 0) return moved;
+  const auto include = [&](const VectorXd& delta) {
+    if (delta.size() > 0 && delta.allFinite()) moved = moved.cwiseMax(delta.cwiseAbs());
+  };
+  const VectorXd g = units.row_scale.cwiseProduct(at.value);
+  if (!g.isZero(0.0)) include(DampedInverse(S, mobility.cost, 0.0).step(g));
+  const VectorXd rounding = at.value_error.size() == g.size()
+                                ? VectorXd(units.row_scale.cwiseProduct(at.value_error))
+                                : VectorXd(VectorXd::Constant(g.size(), eps));
+  const DampedInverse inverse(frozen, mobility.cost, 0.0);
+  std::mt19937 generator(20250614);
+  for (int sample = 0; sample < samples; ++sample)
+    include(inverse.step(
+        rounding.unaryExpr([&](double size) { return generator() % 2 == 0 ? size : -size; })));
+  return safety * units.column_scale.cwiseProduct(moved);
+}
+
 // With `safeguard`, every step has to be an improvement; else full steps are made.
 Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& mobility,
             bool safeguard) {
-  constexpr double least_damping = 1e-12, most_damping = 1e8, accepted = 1e-10;
+  constexpr double least_damping = 1e-12, most_damping = 1e8, accepted = 1e-10, noise = 1e-11;
   const int most_iterations = safeguard ? 100 : 25;
   Zero zero;
   zero.y = start;
@@ -126,7 +158,8 @@ Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& m
   if (mobility.typical.size() > 0) zero.reach = zero.reach.cwiseMax(mobility.typical);
   zero.defect = std::numeric_limits<double>::infinity();
   Linearization at = map(start);
-  if (!finite(at)) return zero;
+  zero.is_finite = finite(at);
+  if (!zero.is_finite) return zero;
 
   SparseMatrixXd magnitude = generic_magnitude(map, start, zero.reach, at);
   double damping = 0.0;
@@ -137,22 +170,20 @@ Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& m
     const VectorXd g = units.row_scale.cwiseProduct(at.value);
     zero.scaled_value = g;
     zero.defect = units.defect(at.value, zero.reach);
-    zero.found = zero.defect <= accepted;
+    const bool rounded = is_rounded(at);
+    zero.found = rounded || zero.defect <= accepted;
     zero.history.push_back(zero.defect);
-    zero.uncertainty = zero.defect;
-    if (zero.defect <= eps || zero.iterations == most_iterations) break;
-
     SparseMatrixXd S = units.row_scale.asDiagonal() * at.jacobian * units.column_scale.asDiagonal();
     S.prune([&](Index, Index column, double) { return column >= mobility.frozen; });
     moves = false;
+    const bool is_done = rounded || zero.defect <= eps || zero.iterations == most_iterations;
     // At the level of rounding a step that does not help is the end; far from it, too long.
-    for (double mu = damping; !moves && mu <= (zero.found ? damping : most_damping);
+    for (double mu = damping; !is_done && !moves && mu <= (zero.found ? damping : most_damping);
          mu = std::max(100.0 * mu, least_damping)) {
       const DampedInverse inverse(S, mobility.cost, mu);
       const VectorXd delta = inverse.step(g);
       if (delta.size() == 0 || !delta.allFinite()) continue;
       if (mu == 0.0) {
-        zero.uncertainty = delta.lpNorm<Eigen::Infinity>();
         const bool stationary = (S * delta + g).squaredNorm() > (1.0 - 1e-6) * g.squaredNorm();
         if (stationary) break;
       }
@@ -177,6 +208,13 @@ Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& m
       damping = mu / 1e6 < least_damping ? 0.0 : mu / 1e6;
       moves = true;
     }
+    if (moves || !zero.found) continue;
+    zero.uncertainty = uncertainty(at, units, S, mobility);
+    // Unknowns that F leaves open collect noise of the iteration. What is proportional to it must
+    // not look like a number.
+    for (Index j = mobility.frozen; j < zero.y.size(); ++j)
+      if (const double size = std::fabs(zero.y[j]); size < noise * units.column_scale[j])
+        zero.uncertainty[j] = std::max(zero.uncertainty[j], size);
   }
   return zero;
 }

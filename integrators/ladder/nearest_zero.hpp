@@ -28,8 +28,11 @@ struct Zero {
   // each other.
   double defect = 0.0;
   VectorXd scaled_value;
-  // The Gauss–Newton step at y in natural units: its estimated error.
-  double uncertainty = 0.0;
+  // Whether F and its derivatives are finite where the search began.
+  bool is_finite = true;
+  // How far from y, entry by entry, the zero that is meant may be: the Gauss–Newton step that was
+  // not made, and steps that roundings of F would make.
+  VectorXd uncertainty;
   VectorXd reach;  // the largest |y_j| that was met, `typical` included
   int iterations = 0;
   std::vector<double> history;  // of defect

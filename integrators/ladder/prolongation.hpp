@@ -4,13 +4,36 @@
 #include <vector>
 
 #include "courant/core/equilibration.hpp"
+#include "courant/core/uncertain.hpp"
 
 namespace courant {
 
-// A map near y by its value and its derivative there.
+// A map near y by its value and its derivative there, with bounds of their errors.
+//
+// An entry of the Jacobian that is not above its bound is no entry of `jacobian`: it is zero as far
+// as anyone can tell, and what chooses scales must not see it. `error` is at least
+// |J_ij - J_ij(exact)| everywhere, at those places too. Both are empty for a map that does not know
+// its errors.
 struct Linearization {
   VectorXd value;
   SparseMatrixXd jacobian;
+  VectorXd value_error = VectorXd();
+  SparseMatrixXd error = SparseMatrixXd();
+};
+
+// The Jacobian of a Linearization from its numbers as they come; those of one place add up.
+class UncertainEntries {
+ public:
+  void add(Index row, Index column, const Uncertain& entry);
+  // Sets jacobian and error of `result`, of this many rows and columns.
+  void fill(Linearization& result, Index rows, Index columns);
+
+ private:
+  struct Entry {
+    Index row, column;
+    Uncertain number;
+  };
+  std::vector<Entry> entries_;
 };
 
 // Equations F^[0], F^[1], … where F^[k+1] consists of F^[k] and r equations more, in unknowns that
@@ -47,8 +70,14 @@ class Prolongation {
   }
   Index z_offset(Index i) const { return 2 * base_size_ + i * (base_size_ + auxiliary_size_); }
 
-  // F^[k](y) and its Jacobian, k = level_of(y).
-  Linearization linearize(const VectorXd& y) const { return do_linearize(y, level_of(y)); }
+  // F^[k](y) and its Jacobian, k = level_of(y), with the bounds of their errors at the point that y
+  // stands for: within `uncertainty` (≥ 0, entry by entry) of y, or, if that is not given, y rounded.
+  Linearization linearize(const VectorXd& y) const { return linearize(y, rounding(y)); }
+  Linearization linearize(const VectorXd& y, const VectorXd& uncertainty) const {
+    return do_linearize(y, uncertainty, level_of(y));
+  }
+  // |y_j| u, and 0 where y_j is a small integer: see Uncertain::rounded.
+  static VectorXd rounding(const VectorXd& y);
   VectorXd residual(const VectorXd& y) const { return do_residual(y, level_of(y)); }
 
   // Whether the Jacobian is the same everywhere; if so, ranks cannot change from point to point.
@@ -59,7 +88,8 @@ class Prolongation {
       : base_size_(base_size), auxiliary_size_(auxiliary_size), equation_count_(equation_count) {}
 
  private:
-  virtual Linearization do_linearize(const VectorXd& y, Index k) const = 0;
+  virtual Linearization do_linearize(const VectorXd& y, const VectorXd& uncertainty,
+                                     Index k) const = 0;
   virtual VectorXd do_residual(const VectorXd& y, Index k) const = 0;
 
   Index base_size_;

@@ -4,9 +4,9 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-namespace courant {
+#include "courant/core/uncertain_matrix.hpp"
 
-using Eigen::Index;
+namespace courant {
 
 // A vector by its entries that are not zero, in the order of their indices.
 using SparseEntries = std::vector<std::pair<Index, double>>;
@@ -23,9 +23,10 @@ using SparseEntries = std::vector<std::pair<Index, double>>;
 // of groups < g: left null vectors of that part of A. Sparse rows are preferred as pivots
 // (Markowitz), with an entry of at least a tenth of the largest that the row has in the group.
 //
-// Entries below 10⁻⁹ of the largest that their row was made of count as zero: A should have
-// comparable rows and columns, and this being elimination its ranks are less certain than a
-// RankDecision. Compare with one.
+// Entries carry bounds of their errors through the elimination, and those within them count as zero;
+// bounds beyond 10⁻⁶ of the largest number that went into a row say nothing. A should have comparable
+// rows and columns, and this being elimination its ranks are less certain than a RankDecision.
+// Compare with one.
 class RowReduction {
  public:
   struct Row {
@@ -36,7 +37,7 @@ class RowReduction {
     SparseEntries multipliers;  // by row of A
   };
 
-  RowReduction(const Eigen::SparseMatrix<double>& A, const std::vector<Index>& row_level,
+  RowReduction(const UncertainMatrix& A, const std::vector<Index>& row_level,
                const std::vector<Index>& column_group);
 
   // The rows with a pivot in this group, in the order in which they were found.
@@ -45,10 +46,12 @@ class RowReduction {
 
   // The same rows with the pivot columns of the other rows of the group eliminated too, each with 1
   // in its pivot: reduced echelon form within the group. Without multipliers.
-  std::vector<Row> reduced_group(Index g) const;
+  const std::vector<Row>& reduced_group(Index g) const {
+    return reduced_groups_[static_cast<std::size_t>(g)];
+  }
 
  private:
-  std::vector<std::vector<Row>> groups_;
+  std::vector<std::vector<Row>> groups_, reduced_groups_;
   std::vector<Row> zero_rows_;
 };
 

@@ -1,0 +1,39 @@
+#include "courant/integrators/ladder/obstruction.hpp"
+
+#include <cmath>
+
+#include "courant/core/singular_value_decomposition.hpp"
+
+namespace courant {
+
+Obstruction::Obstruction(const Prolongation& array, const VectorXd& y, const VectorXd& uncertainty,
+                         Index rank)
+    : array_(array), y_(y), uncertainty_(uncertainty) {
+  const ComparableJacobian at(array, y, uncertainty);
+  const SingularValueDecomposition svd = singular_value_decomposition(MatrixXd(at.scaled.value));
+  row_scale_ = at.row_scale;
+  unseen_ = svd.U.rightCols(svd.U.cols() - rank).transpose() * row_scale_.asDiagonal();
+}
+
+bool Obstruction::is_seen_along(const VectorXd& direction) const {
+  if (unseen_.rows() == 0) return false;
+  // From a thousandth of a unit to a unit: g ~ ε² is above round-off from 10⁻⁶ on, ε³ from 10⁻⁴.
+  constexpr double first = 1.0 / 4096.0, ratio = 4.0, least_power = 2.5;
+  constexpr double measurable = 1e3;    // times the bound of rounding errors
+  constexpr double negligible = 1e-13;  // next to all of F, in comparable units
+  double before = 0.0;
+  for (double epsilon = first; epsilon <= 1.0; epsilon *= ratio) {
+    const VectorXd y = y_ + epsilon * direction;
+    const Linearization there =
+        array_.linearize(y, uncertainty_.cwiseMax(Prolongation::rounding(y)));
+    if (!there.value.allFinite()) return false;
+    const double g = (unseen_ * there.value).norm();
+    const double noise = (unseen_.cwiseAbs() * there.value_error).norm();
+    if (before > 0.0) return std::log(g / before) < least_power * std::log(ratio);
+    const double all = row_scale_.cwiseProduct(there.value).norm();
+    if (g > measurable * noise && g > negligible * all) before = g;
+  }
+  return false;
+}
+
+}  // namespace courant

@@ -1,0 +1,32 @@
+// Whether solutions exist in all directions in which linearized equations have them.
+#pragma once
+
+#include "courant/integrators/ladder/ladder_levels.hpp"
+
+namespace courant {
+
+// How the part of F^[k] that its Jacobian J at a zero y does not see grows along a direction d of the
+// zeros, J d = 0:
+//
+//   g(ε) = ‖Wᵀ F^[k](y + ε d)‖,   the columns of W a basis of {w : wᵀJ = 0}
+//
+// Where the zeros near y are a manifold with tangent space ker J, there is a zero within O(ε²) of
+// y + ε d; there the equations unseen by J vanish, and so do their derivatives unseen by J, so that
+// g(ε) = O(ε³). Where the zeros are singular, as for z² = 0 at 0, g falls like ε²: a combination of
+// the equations has no linear part and does not vanish either.
+class Obstruction {
+ public:
+  // `rank`: of the Jacobian at y. Dense: for up to a few hundred unknowns.
+  Obstruction(const Prolongation& array, const VectorXd& y, const VectorXd& uncertainty,
+              Index rank);
+
+  // Whether g falls like a power below 2.5 at the smallest ε at which it is measurable.
+  bool is_seen_along(const VectorXd& direction) const;
+
+ private:
+  const Prolongation& array_;
+  VectorXd y_, uncertainty_, row_scale_;
+  MatrixXd unseen_;  // Wᵀ diag(r), with the row scales r of the Jacobian
+};
+
+}  // namespace courant
