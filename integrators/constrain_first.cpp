@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "courant/core/derivative.hpp"
-#include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/ladder/local_formulation.hpp"
 #include "courant/integrators/moving_basis.hpp"
 #include "courant/integrators/moving_conormals.hpp"
@@ -55,93 +54,137 @@ std::pair<Index, Index> contained_jets(const LocalFormulation& local, const Expr
 
 class ConstrainFirst::Trajectory final : public Stepper {
  public:
-  Trajectory(const ConstrainFirst& method, const State& initial, double h)
-      : Stepper(initial),
+  explicit Trajectory(const ConstrainFirst& method)
+      : Stepper(method.name(), method.system()),
         method_(method),
-        manifold_(*method.system_->manifold()),
-        n_(manifold_.dimension()),
+        n_(manifold().dimension()),
         d_(method.codimension_),
         rest_((method.blocks_ - 2) * n_ + method.auxiliaries_),
-        constant_directions_(n_ == manifold_.tangent_dimension() &&
+        constant_directions_(n_ == manifold().tangent_dimension() &&
                              method.projector_->has_constant_directions(d_)),
         solver_(method.equations_, {n_, n_, rest_, d_}, method.name()),
         projector_(method.projection_, {n_, n_, rest_, d_}, method.name() + " (projection)"),
         round_off_projection_(method.constraint_),
         predictor_({method.blocks_ * n_, solver_.unknown().size() - method.blocks_ * n_}),
         end_({method.blocks_ * n_, solver_.unknown().size() - method.blocks_ * n_}),
-        shift_({manifold_.tangent_dimension()}),
-        basis_(manifold_, method.basis_, initial.x),
+        shift_({manifold().tangent_dimension()}),
+        basis_(manifold(), method.basis_),
         conormals_(method.conormals_, n_, d_),
         directions_(n_, d_),
         make_orthonormal_(d_),
-        origin_(initial.t),
-        h_(h),
-        start_(VectorXd::Zero(solver_.unknown().size())),
-        near_(manifold_.ambient_dimension()),
+        jets_(VectorXd::Zero(solver_.unknown().size())),
+        start_(jets_),
+        near_(manifold().ambient_dimension()),
         guess_(near_.size()),
-        shifted_(VectorXd::Zero(manifold_.tangent_dimension())),
+        shifted_(VectorXd::Zero(manifold().tangent_dimension())),
         corrected_(shifted_),
-        found_(method.projected_.output_size()) {
-    const Index m = method.system_->auxiliary_size();
-    if (state_.v.size() != manifold_.tangent_dimension())
-      state_.v = VectorXd::Zero(manifold_.tangent_dimension());
-    if (state_.z.size() != m) state_.z = VectorXd::Zero(m);
-    VectorXd& y = projector_.unknown();
-    y.setZero();
-    y.segment(n_, n_) = basis_.matrix().transpose() * state_.v;
-    y.segment(method_.blocks_ * n_, m) = state_.z;
-    near_ = state_.x;
-    project(state_.t);
-    accept(state_.t);
-  }
+        advanced_(method.advance_.output_size()),
+        found_(method.projected_.output_size()) {}
 
  private:
-  void do_step() override {
+  // Onto M_f, where (v, z) and the jets are found.
+  void do_prepare(State& state, double h) override {
+    if (!basis_.move_to(state.x)) forget_motion();
+    VectorXd& y = projector_.unknown();
+    y = jets_;
+    y.segment(n_, n_) = basis_.matrix().transpose() * state.v;
+    y.segment(method_.blocks_ * n_, state.z.size()) = state.z;
+    near_ = state.x;
+    project(state, {state.t, h}, state.t, 0.0, false);
+    accept(near_);
+    take(state);
+  }
+
+  void do_step(const State& before, Step& step) override {
     VectorXd& y = solver_.unknown();
-    const VectorXd& here = projector_.unknown();  // ξ', … and z, … at x_k
-    start_ = here;
-    start_.head(n_).setZero();
-    start_.tail(d_).setZero();
     if (predictor_.is_empty()) {
-      y = start_;
-      y.head(n_) = 0.5 * h_ * here.segment(n_, n_);
+      y = jets_;
+      y.head(n_) = 0.5 * step.h * jets_.segment(n_, n_);
     } else {
       predictor_.predict(y);
     }
-    const double* in[] = {y.data(), state_.x.data(), basis_.data(), directions_.data(),
-                          &h_,      &state_.t};
-    solve(solver_, in);
-    method_.advance_.value(in, near_.data());
+    const double* in[] = {y.data(),           before.x.data(), basis_.data(),
+                          directions_.data(), &step.h,         &before.t};
+    const StepSolver::Attempt attempt{before.t, step.h};
+    solve(solver_, in, before, attempt, jets_);
+    method_.advance_.value(in, advanced_.data());
+    const Index N = before.x.size();
+    near_ = advanced_.head(N);
     if (!near_.allFinite())
-      throw SolveError(SolveError::Reason::left_domain, state_.t, statistics_.steps + 1, {},
-                       method_.name() + ": step " + std::to_string(statistics_.steps + 1) +
-                           " leads to a state that is not finite.");
+      throw SolveError(SolveError::Reason::left_domain, method(), before.t, step.h,
+                       "leads to a state that is not finite.");
+    step.stage.t = before.t + method_.map_->stage_time() * step.h;
+    step.stage.x = advanced_.segment(N, N);
+    step.stage.v = advanced_.tail(before.v.size());
+    step.stage.z = y.segment(method_.blocks_ * n_, before.z.size());
     round_off_projection_.apply(near_);
-    if (!solver_.is_determined()) predictor_.limit_degree(Predictor::kUndetermined);
-    predictor_.record(y);
 
     projector_.unknown() = y;
-    const double t = origin_ + static_cast<double>(statistics_.steps + 1) * h_;
-    project(t);
-    record();
-    accept(t);
+    project(before, attempt, step.after.t, y.tail(d_).norm(), true);
+    step.after.v.resize(before.v.size());
+    step.after.z.resize(before.z.size());
+    take(step.after);
   }
 
-  void solve(StepSolver& solver, const double* const* in) {
-    const double size = largest(state_.x);
-    const double scales[] = {size, size / std::fabs(h_), auxiliary_scale(largest(state_.z), size),
-                             size};
-    solver.solve(in, scales, start_, state_, statistics_);
+  void do_keep(const State& before, const Step&) override {
+    if (!solver_.is_determined()) predictor_.limit_degree(Predictor::kUndetermined);
+    predictor_.record(solver_.unknown());
+    record();
+    accept(before.x);
+  }
+
+  void do_discard() override {
+    basis_.discard();
+    conormals_.discard();
+    if (last_directions_.size() > 0) directions_ = last_directions_;
+    is_turned_ = false;
+  }
+
+  void do_change_step() override { forget_motion(); }
+
+  void do_forget() override {
+    solver_.forget();
+    projector_.forget();
+    forget_motion();
+    basis_.forget();
+    conormals_.forget();
+    directions_.setZero();
+    last_directions_.resize(0, 0);
+    is_aimed_ = is_turned_ = false;
+    turning_ = std::numeric_limits<double>::infinity();
+    jets_.setZero();
+    shifted_.setZero();
+  }
+
+  std::unique_ptr<Stepper> do_fresh() const override {
+    return std::make_unique<Trajectory>(method_);
+  }
+
+  void forget_motion() {
+    predictor_.forget();
+    end_.forget();
+    shift_.forget();
+  }
+
+  void solve(StepSolver& solver, const double* const* in, const State& before,
+             const StepSolver::Attempt& attempt, const VectorXd& start) {
+    const double size = largest(before.x);
+    const double scales[] = {size, size / std::fabs(attempt.h),
+                             auxiliary_scale(largest(before.z), size), size};
+    solver.solve(
+        in, scales, [&] { solver.unknown() = start; }, attempt, statistics_);
   }
 
   // The point of M_f that P takes near_ to; leaves its unknowns in projector_, its basis and W
   // behind. Before, projector_ has those of the step.
-  void project(double t) {
+  // `far`: how far the step was from M_f; `goes_on`: whether this is a step like the last ones.
+  void project(const State& before, const StepSolver::Attempt& attempt, double t, double far,
+               bool goes_on) {
     VectorXd& y = projector_.unknown();
     y.head(n_).setZero();
     y.tail(d_).setZero();
     guess_ = near_;
-    if (!shift_.is_empty()) {
+    if (goes_on && !shift_.is_empty()) {
       shift_.predict(shifted_);
       const double* in[] = {near_.data(), shifted_.data()};
       method_.shift_.value(in, guess_.data());
@@ -151,22 +194,22 @@ class ConstrainFirst::Trajectory final : public Stepper {
     for (int iteration = 0; iteration < kMaxProjections; ++iteration) {
       move_basis(guess_, y);
       start_ = y;
-      if (iteration == 0 && !end_.is_empty()) {
+      if (iteration == 0 && goes_on && !end_.is_empty()) {
         end_.predict(y);
         y.head(n_).setZero();
       }
-      aim(guess_, y, t);
+      aim(guess_, y, t, attempt);
       aimed_ = y;
       const double* in[] = {y.data(),           guess_.data(), basis_.data(),
                             directions_.data(), near_.data(),  &t};
-      solve(projector_, in);
+      solve(projector_, in, before, attempt, start_);
       method_.projected_.value(in, found_.data());
       const double moved = largest(y.head(n_));
       const double size = largest(found_.head(guess_.size()));
       if (d_ == 0 || constant_directions_) return;
       // P does not depend on W once x no longer moves with it.
       if (iteration == 0) {
-        const double distance = std::max(y.tail(d_).norm(), solver_.unknown().tail(d_).norm());
+        const double distance = std::max(y.tail(d_).norm(), far);
         const double change = std::max(moved, size * jet_change(aimed_, y));
         if (kSafety * turning_ * distance * change <= kTolerance * size) return;
       } else {
@@ -179,9 +222,8 @@ class ConstrainFirst::Trajectory final : public Stepper {
       y.head(n_).setZero();
       previous = moved;
     }
-    throw SolveError(SolveError::Reason::diverged, state_.t, statistics_.steps + 1, {},
-                     method_.name() + ": the projection onto M_f does not converge in step " +
-                         std::to_string(statistics_.steps + 1) + "; the step is too large.");
+    throw SolveError(SolveError::Reason::diverged, method(), attempt.time, attempt.h,
+                     "is too large: the projection onto M_f does not converge.");
   }
 
   // By how much ξ', … and z, … differ, relative to their size: W is computed with them.
@@ -193,31 +235,30 @@ class ConstrainFirst::Trajectory final : public Stepper {
     return std::max(change(n_, n_), rest_ == 0 ? 0.0 : change(2 * n_, rest_));
   }
 
-  void move_basis(const VectorXd& x) {
-    if (basis_.move_to(x)) return;
-    predictor_.forget();
-    end_.forget();
-  }
-
   // The same vectors in the basis at x.
   void move_basis(const VectorXd& x, VectorXd& y) {
-    if (n_ == manifold_.tangent_dimension()) return;
+    if (n_ == manifold().tangent_dimension()) return;
     vectors_.noalias() =
         basis_.matrix() * y.head(method_.blocks_ * n_).reshaped(n_, method_.blocks_);
-    move_basis(x);
+    if (!basis_.move_to(x)) is_turned_ = true;
     y.head(method_.blocks_ * n_).reshaped(n_, method_.blocks_).noalias() =
         basis_.matrix().transpose() * vectors_;
   }
 
   // W at x, with columns near those of the last step, so that μ and the kept factorisations go on.
-  void aim(const VectorXd& x, const VectorXd& y, double t) {
+  void aim(const VectorXd& x, const VectorXd& y, double t, const StepSolver::Attempt& attempt) {
     if (d_ == 0 || (constant_directions_ && is_aimed_)) return;
     const double* in[] = {y.data(), x.data(), basis_.data(), &t};
     conormals_.move_to(in);
     if (method_.projector_->is_orthogonal()) {
       directions_ = conormals_.matrix();
     } else {
-      directions_ = method_.projector_->directions(x, basis_.matrix(), conormals_.matrix());
+      try {
+        directions_ = method_.projector_->directions(x, basis_.matrix(), conormals_.matrix());
+      } catch (const std::domain_error& error) {
+        throw SolveError(SolveError::Reason::singular, method(), attempt.time, attempt.h,
+                         std::string("cannot be projected. ") + error.what());
+      }
       if (last_directions_.size() > 0) {
         turned_ = directions_ * (directions_.transpose() * last_directions_);
         make_orthonormal_(turned_, directions_);
@@ -238,28 +279,38 @@ class ConstrainFirst::Trajectory final : public Stepper {
     shift_.record(corrected_);
   }
 
-  void accept(double t) {
-    const Index tangent = manifold_.tangent_dimension();
+  // What the projection found, as a state.
+  void take(State& state) const {
+    const Index N = near_.size();
+    state.x = found_.head(N);
+    state.v = found_.segment(N, state.v.size());
+    state.z = found_.tail(state.z.size());
+  }
+
+  // The next step begins where the projection ended; the last one began at x.
+  void accept(const VectorXd& x) {
     if (d_ > 0 && !constant_directions_) {
-      const double moved = (found_.head(state_.x.size()) - state_.x).norm();
-      if (last_directions_.size() > 0 && moved > 1e-7 * largest(state_.x)) {
+      const double moved = (found_.head(x.size()) - x).norm();
+      if (last_directions_.size() > 0 && moved > 1e-7 * largest(x)) {
         const double turning = (directions_ - last_directions_).norm() / moved;
         turning_ = std::isfinite(turning_) ? std::max(turning, 0.9 * turning_) : turning;
       }
       last_directions_ = directions_;
       conormals_.keep();
     }
-    state_.x = found_.head(state_.x.size());
-    state_.v = found_.segment(state_.x.size(), tangent);
-    state_.z = found_.tail(state_.z.size());
-    state_.t = t;
-    move_basis(state_.x);
+    if (!basis_.move_to(found_.head(x.size()))) is_turned_ = true;
+    basis_.keep();
+    if (is_turned_) forget_motion();
+    is_turned_ = false;
+    jets_ = projector_.unknown();
+    jets_.head(n_).setZero();
+    jets_.tail(d_).setZero();
   }
 
   const ConstrainFirst method_;  // its functions are shared, not copied
-  const Manifold& manifold_;
   Index n_, d_, rest_;
   bool constant_directions_, is_aimed_ = false;
+  bool is_turned_ = false;  // the basis was made afresh
   StepSolver solver_, projector_;
   RoundOffProjection round_off_projection_;
   Predictor predictor_;  // of the unknowns of the step
@@ -272,25 +323,26 @@ class ConstrainFirst::Trajectory final : public Stepper {
   // ‖ΔW‖ / ‖Δx‖ of the last steps; unknown before the first
   double turning_ = std::numeric_limits<double>::infinity();
   MatrixXd vectors_;
-  double origin_, h_;
-  VectorXd start_, aimed_, near_, guess_, foreseen_, shifted_, corrected_, found_;
+  VectorXd jets_;  // ξ', … and z, … at x_k; ξ and μ are zero
+  VectorXd start_, aimed_, near_, guess_, foreseen_, shifted_, corrected_, advanced_, found_;
 };
 
 ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
                                const ConstraintLadder& ladder,
                                std::shared_ptr<const DiscretizationMap> map,
                                std::shared_ptr<const Projector> projector, const Options& options)
-    : system_(std::move(system)), map_(std::move(map)), projector_(std::move(projector)) {
-  if (!system_ || !map_ || !projector_ || *map_->manifold() != *system_->manifold())
+    : Integrator(std::move(system)), map_(std::move(map)), projector_(std::move(projector)) {
+  if (!map_ || !projector_ || *map_->manifold() != *this->system()->manifold())
     throw std::invalid_argument(
         "ConstrainFirst::ConstrainFirst: the system, the map or the projector is missing, or the "
         "map is not on the manifold of the system.");
-  check_ladder("ConstrainFirst::ConstrainFirst", *system_, ladder);
+  check_ladder("ConstrainFirst::ConstrainFirst", *this->system(), ladder);
   if (ladder.verdict != Verdict::regular && ladder.verdict != Verdict::gauge)
     throw std::invalid_argument("ConstrainFirst::ConstrainFirst: the ladder's verdict is " +
                                 to_string(ladder.verdict) + "; expected regular or gauge. " +
                                 ladder.reason);
-  const Manifold& M = *system_->manifold();
+  const ImplicitSystem& S = *this->system();
+  const Manifold& M = *S.manifold();
   const Index n = M.dimension();
   codimension_ = n - ladder.degrees_of_freedom;
   gauge_dimension_ = ladder.gauge_dimension;
@@ -304,7 +356,7 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
   const ExprVector mu = graph.variables("mu", codimension_);
   const ExprVector shift =
       Eigen::Map<const ExprMatrix>(directions.data(), n, codimension_) * mu;  // W μ
-  const LocalFormulation local(graph, *system_, x0, basis, t[0], ladder.differentiations);
+  const LocalFormulation local(graph, S, x0, basis, t[0], ladder.differentiations);
   const ExprVector equations = local.nonzero_equations();
   const auto [blocks, orders] = contained_jets(local, equations);
   blocks_ = blocks;
@@ -332,7 +384,8 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
   equations_ =
       Function("constrain-first", step, join({ExprVector(basis.transpose() * at_start), staged}),
                {.differentiate = {"y"}, .backend = options.backend});
-  advance_ = Function("advance", step, ends.second, {.backend = options.backend});
+  advance_ = Function("advance", step, join({ends.second, local.x, local.v}),
+                      {.backend = options.backend});
 
   // The projection.
   const ExprVector near = graph.variables("near", M.ambient_dimension());
@@ -357,9 +410,8 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
                         {.backend = options.backend});
 }
 
-std::unique_ptr<Stepper> ConstrainFirst::start(const State& initial, double h) const {
-  check_start("ConstrainFirst", *system_, initial, h);
-  return std::make_unique<Trajectory>(*this, initial, h);
+std::unique_ptr<Stepper> ConstrainFirst::do_stepper() const {
+  return std::make_unique<Trajectory>(*this);
 }
 
 }  // namespace courant

@@ -46,12 +46,12 @@ class ConstrainFirst final : public Integrator {
     return codimension_ == 0 ? map_->is_symplectic() : std::nullopt;
   }
   bool is_native() const override { return equations_.is_native(); }
-  std::unique_ptr<Stepper> start(const State& initial, double h) const override;
 
  private:
   class Trajectory;
 
-  std::shared_ptr<const ImplicitSystem> system_;
+  std::unique_ptr<Stepper> do_stepper() const override;
+
   std::shared_ptr<const DiscretizationMap> map_;
   std::shared_ptr<const Projector> projector_;
   Index codimension_;  // d = dim M - dim M_f
@@ -59,7 +59,7 @@ class ConstrainFirst final : public Integrator {
   Index blocks_;        // tangent blocks of the unknowns: ξ, ξ', …
   Index auxiliaries_;   // z, z', …
   Function equations_;  // (ξ, ξ', …, z, …, μ); x₀, basis, W, h, t  ↦ residual of the step
-  Function advance_;    // the same ↦ R_d⁺(x̄, h v)
+  Function advance_;    // the same ↦ R_d⁺(x̄, h v), x̄, v
   Function projection_;  // (ξ, ξ', …, z, …, μ); x_guess, basis, W, x_near, t ↦ residual of x ∈ M_f,
                          // R_x(W μ) = x_near
   Function projected_;   // the same ↦ x, v, z

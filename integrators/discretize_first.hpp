@@ -35,24 +35,18 @@ class DiscretizeFirst final : public Integrator {
   bool is_symmetric() const override { return map_->is_symmetric(); }
   std::optional<bool> is_symplectic() const override { return map_->is_symplectic(); }
   bool is_native() const override { return equations_.is_native(); }
-  std::unique_ptr<Stepper> start(const State& initial, double h) const override;
 
  private:
   class Trajectory;
 
-  std::shared_ptr<const ImplicitSystem> system_;
+  std::unique_ptr<Stepper> do_stepper() const override;
+
   std::shared_ptr<const DiscretizationMap> map_;
   Function equations_;        // y; x₀, basis, h, t ↦ residual
-  Function advance_;          // the same ↦ x₁, v, z
+  Function advance_;          // the same ↦ x₁, v, x̄
   Function basis_;            // of MovingBasis
   Function constraint_;       // of RoundOffProjection
   Index tangent_blocks_ = 1;  // leading blocks of y that are coordinates of tangent vectors at x₀
 };
-
-// Throws std::invalid_argument unless the state fits the system and h is finite and not zero,
-// std::domain_error unless x is on the manifold up to 1e-6.
-// `method` is named in the message.
-void check_start(const std::string& method, const ImplicitSystem& system, const State& initial,
-                 double h);
 
 }  // namespace courant

@@ -7,8 +7,6 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 #include <stdexcept>
 
-#include "courant/integrators/discretize_first.hpp"
-
 namespace courant {
 namespace {
 
@@ -28,56 +26,57 @@ class Midpoint : public Generic<2, 2> {
 template <class Method>
 class Trajectory final : public Stepper {
  public:
-  Trajectory(std::shared_ptr<const VectorField> field, const State& initial, double h,
-             std::string name)
-      : Stepper(initial),
-        field_(std::move(field)),
-        evaluate_(*field_),
-        name_(std::move(name)),
-        origin_(initial.t),
-        h_(h) {
-    const Manifold& M = *field_->system().manifold();
-    if (state_.v.size() != M.tangent_dimension()) state_.v = VectorXd::Zero(M.tangent_dimension());
-    if (state_.z.size() != field_->system().auxiliary_size())
-      state_.z = VectorXd::Zero(field_->system().auxiliary_size());
-  }
+  Trajectory(std::shared_ptr<const VectorField> field, const std::string& name)
+      : Stepper(name, field->system()), field_(std::move(field)), evaluate_(*field_) {}
 
  private:
-  void do_step() override {
-    next_ = state_.x;
-    const auto rate = [this](const VectorXd& x, VectorXd& dx, double t) { evaluate_(x, dx, t); };
-    try {
-      method_.do_step(rate, next_, state_.t, h_);
-    } catch (const std::domain_error& error) {
-      fail(SolveError::Reason::singular, error.what());
-    }
-    if (!next_.allFinite()) fail(SolveError::Reason::left_domain, "the next state is not finite.");
-    state_.x = next_;
-    state_.v = evaluate_.v();
-    state_.z = evaluate_.z();
-    state_.t = origin_ + static_cast<double>(statistics_.steps + 1) * h_;
+  // The method may keep the rate at the end of its last step for the next one.
+  void do_prepare(State& state, double) override {
+    method_ = Method();
+    evaluate_.start(state.x, state.v, state.z);
   }
 
-  [[noreturn]] void fail(SolveError::Reason reason, const std::string& message) const {
-    throw SolveError(reason, state_.t, statistics_.steps + 1, {},
-                     name_ + ": step " + std::to_string(statistics_.steps + 1) + ": " + message);
+  bool do_keeps_to_manifold() const override { return false; }
+
+  void do_step(const State& before, Step& step) override {
+    const auto rate = [&](const VectorXd& x, VectorXd& dx, double t) {
+      evaluate_(x, dx, t);
+      step.stage.t = t;
+      step.stage.x = x;
+    };
+    step.after.x = before.x;
+    try {
+      method_.do_step(rate, step.after.x, before.t, step.h);
+    } catch (const std::domain_error& error) {
+      throw SolveError(SolveError::Reason::singular, method(), before.t, step.h,
+                       std::string("cannot be made: ") + error.what());
+    }
+    step.after.v = step.stage.v = evaluate_.v();
+    step.after.z = step.stage.z = evaluate_.z();
+  }
+
+  void do_keep(const State&, const Step&) override { evaluate_.keep(); }
+  void do_discard() override {
+    method_ = Method();
+    evaluate_.discard();
+  }
+  void do_forget() override {
+    method_ = Method();
+    evaluate_.forget();
+  }
+  std::unique_ptr<Stepper> do_fresh() const override {
+    return std::make_unique<Trajectory>(field_, method());
   }
 
   std::shared_ptr<const VectorField> field_;
   VectorField::Evaluation evaluate_;
-  std::string name_;
   Method method_;
-  double origin_, h_;
-  VectorXd next_;
 };
 
 }  // namespace
 
 ExplicitRungeKutta::ExplicitRungeKutta(std::shared_ptr<const VectorField> field, Kind kind)
-    : field_(std::move(field)), kind_(kind) {
-  if (!field_)
-    throw std::invalid_argument("ExplicitRungeKutta::ExplicitRungeKutta: field is null.");
-}
+    : Integrator(field ? field->system() : nullptr), field_(std::move(field)), kind_(kind) {}
 
 std::string ExplicitRungeKutta::name() const {
   switch (kind_) {
@@ -103,21 +102,20 @@ int ExplicitRungeKutta::order() const {
   return 5;
 }
 
-std::unique_ptr<Stepper> ExplicitRungeKutta::start(const State& initial, double h) const {
-  check_start("ExplicitRungeKutta", field_->system(), initial, h);
+std::unique_ptr<Stepper> ExplicitRungeKutta::do_stepper() const {
   switch (kind_) {
     case Kind::midpoint:
-      return std::make_unique<Trajectory<Midpoint>>(field_, initial, h, name());
+      return std::make_unique<Trajectory<Midpoint>>(field_, name());
     case Kind::classical:
       return std::make_unique<
-          Trajectory<odeint::runge_kutta4<VectorXd, double, VectorXd, double, Algebra>>>(
-          field_, initial, h, name());
+          Trajectory<odeint::runge_kutta4<VectorXd, double, VectorXd, double, Algebra>>>(field_,
+                                                                                         name());
     case Kind::dormand_prince:
       break;
   }
   return std::make_unique<
-      Trajectory<odeint::runge_kutta_dopri5<VectorXd, double, VectorXd, double, Algebra>>>(
-      field_, initial, h, name());
+      Trajectory<odeint::runge_kutta_dopri5<VectorXd, double, VectorXd, double, Algebra>>>(field_,
+                                                                                           name());
 }
 
 }  // namespace courant

@@ -23,9 +23,10 @@ class ExplicitRungeKutta final : public Integrator {
   bool is_symmetric() const override { return false; }
   std::optional<bool> is_symplectic() const override { return false; }
   bool is_native() const override { return field_->is_native(); }
-  std::unique_ptr<Stepper> start(const State& initial, double h) const override;
 
  private:
+  std::unique_ptr<Stepper> do_stepper() const override;
+
   std::shared_ptr<const VectorField> field_;
   Kind kind_;
 };

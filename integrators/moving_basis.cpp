@@ -22,15 +22,21 @@ Function MovingBasis::projection(const Manifold& manifold, Backend backend) {
   return Function("basis", {{"x", x}, {"basis", entries}}, projected, {.backend = backend});
 }
 
-MovingBasis::MovingBasis(const Manifold& manifold, Function projection, const VectorXd& x)
+MovingBasis::MovingBasis(const Manifold& manifold, Function projection)
     : manifold_(manifold),
       projection_(std::move(projection)),
-      basis_(manifold.tangent_basis(x)),
+      basis_(MatrixXd::Identity(manifold.tangent_dimension(), manifold.dimension())),
+      kept_(basis_),
       projected_(basis_),
       make_orthonormal_(basis_.cols()) {}
 
 bool MovingBasis::move_to(const VectorXd& x) {
   if (projection_.output_size() == 0) return true;
+  if (!is_set_) {
+    basis_ = manifold_.tangent_basis(x);
+    is_set_ = true;
+    return false;
+  }
   const double* in[] = {x.data(), basis_.data()};
   projection_.value(in, projected_.data());
   if (make_orthonormal_(projected_, basis_)) return true;

@@ -19,18 +19,23 @@ class MovingBasis {
   static Function projection(const Manifold& manifold, Backend backend);
 
   // `manifold` has to outlive it.
-  MovingBasis(const Manifold& manifold, Function projection, const VectorXd& x);
+  MovingBasis(const Manifold& manifold, Function projection);
 
-  // Whether B went on from the last one; where the new tangent space is at right angles to the old
-  // one it is made afresh, and coordinates in it have nothing to do with those before.
+  // Whether B went on from the last one; at the first point, and where the new tangent space is at
+  // right angles to the old one, it is made afresh, and coordinates in it have nothing to do with
+  // those before.
   bool move_to(const VectorXd& x);
+  void keep() { kept_ = basis_; }
+  void discard() { basis_ = kept_; }  // back to what keep() left
+  void forget() { is_set_ = false; }
   const MatrixXd& matrix() const { return basis_; }
   const double* data() const { return basis_.data(); }
 
  private:
   const Manifold& manifold_;
   Function projection_;
-  MatrixXd basis_, projected_;
+  MatrixXd basis_, kept_, projected_;
+  bool is_set_ = false;
   NearestOrthonormal make_orthonormal_;
 };
 

@@ -74,6 +74,20 @@ void MovingConormals::keep() {
   predictor_.record(weights_);
 }
 
+void MovingConormals::discard() {
+  conormals_ = kept_;
+  is_moving_ = is_continued_ = false;
+}
+
+void MovingConormals::forget() {
+  is_found_ = is_continued_ = is_moving_ = false;
+  newton_.reset();
+  predictor_.forget();
+  weights_.setZero();
+  kept_.setZero();
+  conormals_.setZero();
+}
+
 bool MovingConormals::continue_to(const double* const* in) {
   if (!is_moving_ && !predictor_.is_empty()) predictor_.predict(weights_);
   is_moving_ = true;

@@ -37,6 +37,8 @@ class MovingConormals {
   // repeated while a point is sought.
   void move_to(const double* const* in);
   void keep();
+  void discard();  // back to what keep() left
+  void forget();
   const MatrixXd& matrix() const { return conormals_; }
 
  private:

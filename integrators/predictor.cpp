@@ -37,6 +37,13 @@ void Predictor::record(const VectorXd& y) {
   steps_to_choice_ = count_ < kKept ? 1 : kStepsBetweenChoices;
 }
 
+void Predictor::forget() {
+  for (Group& group : groups_) group.weights.setZero();
+  history_.setZero();
+  newest_ = count_ = steps_to_choice_ = 0;
+  limit_ = kMaxDegree;
+}
+
 void Predictor::limit_degree(int degree) {
   if (degree >= limit_) return;
   limit_ = degree;

@@ -29,7 +29,7 @@ class Predictor {
 
   void predict(VectorXd& y) const;  // needs a recorded unknown
   void record(const VectorXd& y);   // the unknown of a step that was made
-  void forget() { count_ = 0; }     // as if nothing had been recorded
+  void forget();                    // as if nothing had been recorded
   bool is_empty() const { return count_ == 0; }
   // From now on no degree above `degree`.
   void limit_degree(int degree);

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "courant/core/newton.hpp"
-#include "courant/integrators/integrator.hpp"
-#include "courant/manifolds/manifold.hpp"
+#include "courant/integrators/stepper.hpp"
 
 namespace courant {
 
@@ -22,13 +21,36 @@ class StepSolver {
   const VectorXd& unknown() const { return y_; }
   bool is_determined() const { return newton_.is_determined(); }  // as of Newton
 
-  // On return unknown() solves the equations; in[0] is its place. `start` is where a second try
-  // begins if the first fails.
-  void solve(const double* const* in, const double* scales, const VectorXd& start,
-             const State& last, SolverStatistics& statistics);
+  // On return unknown() solves the equations; in[0] is its place. `begin` puts there what a second
+  // try begins with if the first fails. `attempt` is named in the message of a SolveError.
+  struct Attempt {
+    double time, h;
+  };
+  template <class Begin>
+  void solve(const double* const* in, const double* scales, const Begin& begin,
+             const Attempt& attempt, SolverStatistics& statistics) {
+    if (converges(in, scales, statistics)) return;
+    ++statistics.failures;
+    newton_.reset();
+    begin();
+    if (converges(in, scales, statistics)) return;
+    newton_.reset();
+    fail(attempt);
+  }
+  // The kept factorisation.
+  void forget() { newton_.reset(); }
 
  private:
+  bool converges(const double* const* in, const double* scales, SolverStatistics& statistics) {
+    result_ = newton_.solve(y_.data(), in, scales);
+    statistics.iterations += result_.iterations;
+    statistics.factorizations += result_.factorizations;
+    return result_.status == Newton::Status::converged;
+  }
+  [[noreturn]] void fail(const Attempt& attempt) const;
+
   Newton newton_;
+  Newton::Result result_;
   VectorXd y_;
   std::string method_;
 };

@@ -52,10 +52,10 @@ VectorField::VectorField(std::shared_ptr<const ImplicitSystem> system,
 
   // Values at the ladder's point, by the jet's leading coefficients; the other jets start at zero.
   const MatrixXd B = M.tangent_basis(ladder.point.x);
+  order_ = static_cast<Index>(local.xi.size()) - 1;
   start_ = VectorXd::Zero(y.size());
   start_.head(n) = B.transpose() * ladder.point.v;
-  start_.segment(static_cast<Index>(local.xi.size() - 1) * n, system_->auxiliary_size()) =
-      ladder.point.z;
+  start_.segment(order_ * n, system_->auxiliary_size()) = ladder.point.z;
 
   const ExprVector all = at_origin(local.equations);
   const Function full("vector field", inputs, all, {.differentiate = {"y"}});
@@ -89,17 +89,35 @@ VectorField::Evaluation::Evaluation(const VectorField& field)
     : field_(field),
       newton_(field.equations_, {}, {}),
       y_(field.start_),
+      kept_(y_),
       out_(field.rate_.output_size()),
       v_(VectorXd::Zero(field.system_->manifold()->tangent_dimension())),
-      z_(VectorXd::Zero(field.system_->auxiliary_size())) {}
+      z_(VectorXd::Zero(field.system_->auxiliary_size())),
+      basis_(*field.system_->manifold(), field.basis_) {}
+
+void VectorField::Evaluation::start(const VectorXd& x, const VectorXd& v, const VectorXd& z) {
+  basis_.move_to(x);
+  const Index n = basis_.matrix().cols();
+  y_.head(n) = basis_.matrix().transpose() * v;
+  y_.segment(field_.order_ * n, z.size()) = z;
+  kept_ = y_;
+}
+
+void VectorField::Evaluation::discard() {
+  newton_.reset();
+  y_ = kept_;
+}
+
+void VectorField::Evaluation::forget() {
+  newton_.reset();
+  basis_.forget();
+  kept_ = y_ = field_.start_;
+}
 
 void VectorField::Evaluation::operator()(const VectorXd& x, VectorXd& rate, double t) {
   const Manifold& M = *field_.system_->manifold();
-  if (basis_)
-    basis_->move_to(x);
-  else
-    basis_.emplace(M, field_.basis_, x);
-  const double* in[] = {y_.data(), x.data(), basis_->data(), &t};
+  basis_.move_to(x);
+  const double* in[] = {y_.data(), x.data(), basis_.data(), &t};
   const double scale = largest(y_);
   auto result = newton_.solve(y_.data(), in, &scale);
   if (result.status != Newton::Status::converged) {

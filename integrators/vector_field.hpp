@@ -1,8 +1,6 @@
 // VectorField: S_f as the graph of a vector field.
 #pragma once
 
-#include <optional>
-
 #include "courant/core/function.hpp"
 #include "courant/core/newton.hpp"
 #include "courant/integrators/ladder/constraint_ladder.hpp"
@@ -23,7 +21,7 @@ class VectorField {
   VectorField(std::shared_ptr<const ImplicitSystem> system, const ConstraintLadder& ladder,
               Backend backend);
 
-  const ImplicitSystem& system() const { return *system_; }
+  const std::shared_ptr<const ImplicitSystem>& system() const { return system_; }
   bool is_native() const { return equations_.is_native(); }
 
   // Evaluates along a trajectory, each time starting from the last values; not shared between
@@ -32,6 +30,13 @@ class VectorField {
    public:
     // `field` has to outlive it.
     explicit Evaluation(const VectorField& field);
+    // The next evaluation starts from v and z at x, the one after forget() from those at the
+    // ladder's point.
+    void start(const VectorXd& x, const VectorXd& v, const VectorXd& z);
+    void forget();
+    // Back to the values that the last keep() found.
+    void keep() { kept_ = y_; }
+    void discard();
     // ẋ = E(x) v, size N. Throws std::domain_error if (v, z, jets) are not found.
     void operator()(const VectorXd& x, VectorXd& rate, double t);
     const VectorXd& v() const { return v_; }
@@ -40,12 +45,13 @@ class VectorField {
    private:
     const VectorField& field_;
     Newton newton_;
-    VectorXd y_, out_, v_, z_;
-    std::optional<MovingBasis> basis_;  // from the first point on
+    VectorXd y_, kept_, out_, v_, z_;
+    MovingBasis basis_;
   };
 
  private:
   std::shared_ptr<const ImplicitSystem> system_;
+  Index order_ = 0;     // of the highest jet ξ^(order)
   VectorXd start_;      // (ξ', …, z, …) at the ladder's point
   Function equations_;  // y = (ξ', …, z, …); x, basis, t ↦ the equations kept
   Function rate_;       // the same ↦ ẋ, v, z

@@ -147,15 +147,14 @@ std::shared_ptr<const Integrator> explicit_method(const MethodSetting& at,
 // leads.
 State start_of_method_1(const MethodSetting& at, const DiscretizationMap& map, bool rk2) {
   if (!rk2) return at.initial;
-  const auto stepper =
-      explicit_method(at, ExplicitRungeKutta::Kind::midpoint)->start(at.initial, at.step);
-  stepper->step();
+  const State next =
+      explicit_method(at, ExplicitRungeKutta::Kind::midpoint)->advance(at.initial, at.step);
   const auto bundle = std::dynamic_pointer_cast<const CotangentBundle>(at.system->manifold());
   if (!bundle)
     throw std::invalid_argument(
         "the start \"rk2\" is for cotangent bundles, but the system is on " +
         at.system->manifold()->name() + "; expected \"on-manifold\"");
-  return matched_start(*at.system, map, at.initial, bundle->position(stepper->state().x), at.step);
+  return matched_start(*at.system, map, at.initial, bundle->position(next.x), at.step);
 }
 
 std::optional<MethodChoice> discretize_first(ObjectReader& object) {

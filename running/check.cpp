@@ -258,17 +258,16 @@ class Check {
   VectorXd stepped(const Integrator& integrator, const VectorXd& x, double h, int steps) const {
     State start = initial_;
     start.x = x;
-    const auto stepper = integrator.start(start, h);
-    for (int i = 0; i < steps; ++i) stepper->step();
-    return stepper->state().x;
+    return integrator.advance(start, h, steps).x;
   }
 
   // Points on trajectories, where invariants are looked at.
   double gather_states(const Integrator& integrator) {
-    const auto stepper = integrator.start(initial_, step_);
+    const auto stepper = integrator.stepper();
+    State state = initial_;
     for (int i = 0; i < 4; ++i) {
-      stepper->step();
-      states_.push_back(stepper->state().x);
+      stepper->step(state, step_);
+      states_.push_back(state.x);
     }
     return 0.0;
   }
@@ -276,12 +275,8 @@ class Check {
   double scale() const { return std::max(initial_.x.norm(), 1e-300); }
 
   double symmetry_defect(const Integrator& integrator) const {
-    const auto there = integrator.start(initial_, step_);
-    there->step();
-    State state = there->state();
-    const auto back = integrator.start(state, -step_);
-    back->step();
-    return manifold_.separation(back->state().x, initial_.x) / scale();
+    const State there = integrator.advance(initial_, step_);
+    return manifold_.separation(integrator.advance(there, -step_).x, initial_.x) / scale();
   }
 
   // Slope of |x(h; 2^k steps) - x(h; 2^{k+1} steps)|: nothing where the steps are exact.

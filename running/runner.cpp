@@ -128,8 +128,14 @@ class Run {
 
   void integrate(const PreparedMethod& method, TrajectoryWriter& writer) {
     const TimeSpan& time = *experiment_.time;
-    const auto stepper = method.integrator->start(method.initial, time.step);
-    record(stepper->state(), 0, time.steps, writer);
+    const auto stepper = method.integrator->stepper();
+    State state = method.initial;
+    try {
+      stepper->prepare(state, time.step);
+    } catch (const SolveError& error) {
+      return fail(error.what());
+    }
+    record(state, 0, time.steps, writer);
     const auto begin = Clock::now();
     auto shown = begin;
     std::optional<LadderWatch> watch;
@@ -140,7 +146,7 @@ class Run {
       if (!finding.empty()) fail("Stopped after step " + std::to_string(k) + ". " + finding);
       return finding.empty();
     };
-    still_holds(stepper->state(), 0);
+    still_holds(state, 0);
     try {
       for (long k = 1; k <= time.steps; ++k) {
         if (options_.stop && options_.stop->load(std::memory_order_relaxed)) {
@@ -148,9 +154,9 @@ class Run {
           message_ = "Interrupted after step " + std::to_string(k - 1) + ".";
           break;
         }
-        stepper->step();
-        record(stepper->state(), k, time.steps, writer);
-        if (!still_holds(stepper->state(), k)) break;
+        stepper->step(state, time.step, time.time(k));
+        record(state, k, time.steps, writer);
+        if (!still_holds(state, k)) break;
         if (!options_.on_progress) continue;
         if (const auto now = Clock::now();
             now - shown > std::chrono::milliseconds(100) || k == time.steps) {

@@ -5,14 +5,19 @@
 
 namespace courant {
 
-// Where a trajectory is: x ∈ M at time t, with the tangent vector and the auxiliary unknowns of the
-// last step there (v: Ñ, z: m; estimates of those at x, used to start the next iteration and to
-// evaluate what depends on them).
+// Where a trajectory is: x ∈ M at time t, with a tangent vector and auxiliary unknowns there (v: Ñ,
+// z: m). v and z are what the last step knows of them; the next step starts its iteration from
+// them, and they say which solution is meant where several are possible. Both may be empty: zero.
 struct State {
   double t = 0.0;
   VectorXd x = {};
   VectorXd v = {};
   VectorXd z = {};
+
+  void swap(State& other);
 };
+
+// Whether all numbers are the same, bit by bit.
+bool operator==(const State& a, const State& b);
 
 }  // namespace courant

@@ -66,11 +66,10 @@ int main() {
   const VectorXd start = plane->retract(Eigen::Vector3d(1.0, 0.0, 0.0), Eigen::Vector3d(0, 1, 0));
   // How far the method is from the rotation by the angle 1 after so many steps.
   const auto error = [&](int steps) {
-    const auto trajectory = method.start({0.0, start, {}, {}}, 1.0 / steps);
-    for (int k = 0; k < steps; ++k) trajectory->step();
+    const VectorXd end = method.advance({.x = start}, 1.0 / steps, steps).x;
     const double radius = start[1];
     const Eigen::Vector3d exact(start[0], radius * std::cos(1.0), radius * std::sin(1.0));
-    return (trajectory->state().x - exact).norm();
+    return (end - exact).norm();
   };
   const double ratio = error(20) / error(40);
   std::cout << "half the step, error divided by " << ratio << '\n';

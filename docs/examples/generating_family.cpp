@@ -43,9 +43,7 @@ int main() {
 
   const auto lift = std::make_shared<CotangentLift>(phase_space, std::make_shared<Theta>(base));
   const DiscretizeFirst method(system, lift);
-  const auto trajectory = method.start(ladder.point, 0.01);
-  for (int k = 0; k < 100; ++k) trajectory->step();
-  const VectorXd end = trajectory->state().x;
+  const VectorXd end = method.advance(ladder.point, 0.01, 100).x;
   std::cout << "at t = 1: position " << end[0] << ", velocity " << end[1] << '\n';
   // The costates are those of the exact solution; the position has the error of the midpoint rule.
   const bool as_known = ladder.verdict == Verdict::regular &&

@@ -108,9 +108,7 @@ double geodesic_error(double step_count) {
 
   const double period = 2.0 * std::numbers::pi;  // p_2 = 1: the plane curve is a circle of radius 1
   const VectorXd start = (VectorXd(6) << 0, 0, 0, 1, 0, 1).finished();
-  const auto stepper = method.start({.x = start}, period / step_count);
-  for (int k = 0; k < step_count; ++k) stepper->step();
-  const VectorXd& end = stepper->state().x;
+  const VectorXd end = method.advance({.x = start}, period / step_count, step_count).x;
   return std::hypot(end[0], end[1]) + std::abs(std::abs(end[2]) - std::numbers::pi);
 }
 

@@ -57,9 +57,7 @@ int main() {
   for (const auto& projector : projectors) {
     const ConstrainFirst method(system, ladder, map, projector);
     const auto error = [&](int steps) {
-      const auto trajectory = method.start(ladder.point, 1.0 / steps);
-      for (int k = 0; k < steps; ++k) trajectory->step();
-      const VectorXd& x = trajectory->state().x;
+      const VectorXd x = method.advance(ladder.point, 1.0 / steps, steps).x;
       // On M_f to round-off, whatever the step.
       as_known = as_known && std::hypot(x[2] + x[1] / 2.0, x[3] - x[0] / 2.0) < 1e-14;
       return std::hypot(x[0] - std::cos(1.0), x[1] - std::sin(1.0));

@@ -42,11 +42,12 @@ void check(const Formula& L, const VectorXd& x0, double theta, double h, double 
   const DiscretizeFirst method(
       system, std::make_shared<CotangentLift>(M, std::make_shared<Theta>(M->base(), theta)));
   const DiscreteLagrangian discrete(L, n, theta, h);
-  const auto stepper = method.start({t0, x0, {}, {}}, h);
+  const auto stepper = method.stepper();
+  State state{.t = t0, .x = x0};
   VectorXd before = x0, last_slope;
   for (int k = 0; k < 5; ++k) {
-    stepper->step();
-    const VectorXd after = stepper->state().x;
+    stepper->step(state, h, t0 + (k + 1) * h);
+    const VectorXd after = state.x;
     const double t = t0 + k * h;
     const VectorXd D1 = discrete.D1(before.head(n), after.head(n), t);
     const VectorXd D2 = discrete.D2(before.head(n), after.head(n), t);

@@ -49,13 +49,14 @@ BOOST_AUTO_TEST_CASE(method_1_evaluates_at_its_stage) {
   const auto system = rate();
   for (const double value : {0.0, 0.3, 0.5, 1.0}) {
     const DiscretizeFirst method(system, theta(*system, value));
-    const auto stepper = method.start({kStart, VectorXd::Constant(1, 0.4), {}, {}}, kStep);
+    const auto stepper = method.stepper();
+    State state{.t = kStart, .x = VectorXd::Constant(1, 0.4)};
     double expected = 0.4;
     for (int k = 0; k < 3; ++k) {
-      stepper->step();
+      stepper->step(state, kStep, kStart + (k + 1) * kStep);
       expected += kStep * std::cos(kStart + (k + value) * kStep);
-      BOOST_TEST(stepper->state().x[0] == expected, boost::test_tools::tolerance(1e-14));
-      BOOST_TEST(stepper->state().t == kStart + (k + 1) * kStep);
+      BOOST_TEST(state.x[0] == expected, boost::test_tools::tolerance(1e-14));
+      BOOST_TEST(state.t == kStart + (k + 1) * kStep);
     }
   }
 }
@@ -67,17 +68,19 @@ BOOST_AUTO_TEST_CASE(method_2_evaluates_at_its_stage_and_projects_at_the_ends) {
   for (const double value : {0.0, 0.3, 0.5, 1.0}) {
     const ConstrainFirst method(system, ladder(system, x0), theta(*system, value),
                                 std::make_shared<OrthogonalProjector>());
-    const auto stepper = method.start({kStart, x0, {}, {}}, kStep);
-    BOOST_TEST((stepper->state().x - x0).norm() < 1e-14);
+    const auto stepper = method.stepper();
+    State state{.t = kStart, .x = x0};
+    stepper->prepare(state, kStep);
+    BOOST_TEST((state.x - x0).norm() < 1e-14);
     double expected = 0.4;
     for (int k = 0; k < 3; ++k) {
-      stepper->step();
-      const VectorXd& x = stepper->state().x;
+      stepper->step(state, kStep, kStart + (k + 1) * kStep);
+      const VectorXd& x = state.x;
       expected += kStep * std::cos(kStart + (k + value) * kStep);
       BOOST_TEST(x[0] == expected, boost::test_tools::tolerance(1e-13));
       const double t = kStart + (k + 1) * kStep;
       BOOST_TEST(x[2] == t * t * x[1], boost::test_tools::tolerance(1e-13));
-      BOOST_TEST(stepper->state().t == t);
+      BOOST_TEST(state.t == t);
     }
   }
 }
@@ -88,8 +91,9 @@ BOOST_AUTO_TEST_CASE(method_2_starts_at_its_own_time) {
   const VectorXd x0 = VectorXd{{0.4, 1.0, kStart * kStart}};
   const ConstrainFirst method(system, ladder(system, x0), theta(*system, 0.5),
                               std::make_shared<OrthogonalProjector>());
-  const auto stepper = method.start({kStart, x0 + VectorXd{{0.0, 0.0, 0.1}}, {}, {}}, kStep);
-  const VectorXd& x = stepper->state().x;
+  State state{.t = kStart, .x = x0 + VectorXd{{0.0, 0.0, 0.1}}};
+  method.stepper()->prepare(state, kStep);
+  const VectorXd& x = state.x;
   BOOST_TEST(x[2] == kStart * kStart * x[1], boost::test_tools::tolerance(1e-13));
   BOOST_TEST(x[0] == 0.4);
 }
@@ -102,11 +106,9 @@ BOOST_AUTO_TEST_CASE(explicit_methods_evaluate_at_their_nodes) {
       std::make_shared<VectorField>(system, ladder(system, w0), Backend::interpreter);
   using Kind = ExplicitRungeKutta::Kind;
   const auto end = [&](Kind kind) {
-    const auto stepper = ExplicitRungeKutta(field, kind).start({kStart, w0, {}, {}}, kStep);
-    stepper->step();
-    stepper->step();
-    BOOST_TEST(stepper->state().t == kStart + 2.0 * kStep);
-    return stepper->state().x[0];
+    const State state = ExplicitRungeKutta(field, kind).advance({.t = kStart, .x = w0}, kStep, 2);
+    BOOST_TEST(state.t == kStart + 2.0 * kStep);
+    return state.x[0];
   };
   const auto f = [](double steps) { return std::cos(kStart + steps * kStep); };
   BOOST_TEST(end(Kind::midpoint) == 0.4 + kStep * (f(0.5) + f(1.5)),

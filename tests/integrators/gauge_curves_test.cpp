@@ -72,10 +72,8 @@ BOOST_AUTO_TEST_CASE(a_curve_through_any_point_of_s_f_stays_in_it) {
       if (start.verdict != Verdict::regular) continue;
 
       const auto field = std::make_shared<VectorField>(regular, start, Backend::interpreter);
-      const auto stepper =
-          ExplicitRungeKutta(field, ExplicitRungeKutta::Kind::classical).start(start.point, 0.005);
-      for (int k = 0; k < 20; ++k) stepper->step();
-      const State& end = stepper->state();
+      const State end = ExplicitRungeKutta(field, ExplicitRungeKutta::Kind::classical)
+                            .advance(start.point, 0.005, 20);
       BOOST_TEST((end.x - ladder.point.x).norm() > 1e-4);
       VectorField::Evaluation evaluate(*field);
       VectorXd rate;

@@ -15,7 +15,9 @@ using namespace courant;
 namespace {
 
 MovingBasis basis_at(const Manifold& M, const VectorXd& x) {
-  return MovingBasis(M, MovingBasis::projection(M, Backend::interpreter), x);
+  MovingBasis basis(M, MovingBasis::projection(M, Backend::interpreter));
+  basis.move_to(x);
+  return basis;
 }
 
 // How far B is from an orthonormal basis of T_xM.

@@ -112,9 +112,7 @@ VectorXd start() {
 }
 
 VectorXd one_step(const Integrator& method, double h) {
-  const auto stepper = method.start({0.0, start(), {}, {}}, h);
-  stepper->step();
-  return stepper->state().x;
+  return method.advance({.x = start()}, h).x;
 }
 
 VectorXd stacked(const Vector4d& a, const Vector4d& b) {
@@ -206,11 +204,12 @@ BOOST_AUTO_TEST_CASE(equations_39_to_43) {
   for (Index a = 0; a < 2; ++a)
     BOOST_TEST(defects(mu(q).col(a) * lambda[a] - dH_dq(q, p)).norm() > 1e-6);
 
-  const auto stepper = method.start({0.0, x0, {}, {}}, h);
+  const auto stepper = method.stepper();
+  State state{.x = x0};
   double violation = 0.0;
   for (int k = 0; k < 1000; ++k) {
-    stepper->step();
-    const VectorXd& x = stepper->state().x;
+    stepper->step(state, h);
+    const VectorXd& x = state.x;
     violation = std::max(violation, constraints(x.head(4), x.tail(4)).norm());
   }
   BOOST_TEST(violation < 1e-13);

@@ -120,9 +120,7 @@ MatrixXd derivative(const Map& map, const VectorXd& x0, double delta = 1e-2) {
 }
 
 inline VectorXd one_step(const Integrator& method, const VectorXd& x0, double h) {
-  const auto stepper = method.start({0.0, x0, {}, {}}, h);
-  stepper->step();
-  return stepper->state().x;
+  return method.advance({.x = x0}, h).x;
 }
 
 }  // namespace courant::vortices

@@ -25,20 +25,23 @@ using Quantity = std::function<double(const VectorXd& x)>;
 
 std::vector<Record> run(const test::Problem& problem, const Json& method, double h,
                         const std::vector<Quantity>& quantities, long steps = kMillion) {
-  const auto stepper = problem.start(method, h, Backend::automatic);
+  const PreparedMethod prepared = problem.prepare(method, h, Backend::automatic);
+  const auto stepper = prepared.integrator->stepper();
+  State state = prepared.initial;
+  stepper->prepare(state, h);
   std::vector<Record> records(quantities.size());
   std::vector<double> first, moment(quantities.size());
-  for (const Quantity& quantity : quantities) first.push_back(quantity(stepper->state().x));
+  for (const Quantity& quantity : quantities) first.push_back(quantity(state.x));
   double square = 0.0;
 
   for (long k = 1; k <= steps; ++k) {
-    stepper->step();
+    stepper->step(state, h);
     if (k % 100 != 0) continue;
 
     const double centred = static_cast<double>(k) - 0.5 * (static_cast<double>(steps) + 100.0);
     square += centred * centred;
     for (std::size_t i = 0; i < quantities.size(); ++i) {
-      const double change = quantities[i](stepper->state().x) - first[i];
+      const double change = quantities[i](state.x) - first[i];
       records[i].drift = std::max(records[i].drift, std::abs(change));
       moment[i] += centred * change;
     }

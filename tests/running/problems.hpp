@@ -20,14 +20,8 @@ struct Problem {
   // The last state of `steps` steps over `time` by the method that this JSON describes.
   VectorXd end(const Json& method, double time, long steps) const {
     const double h = time / static_cast<double>(steps);
-    const auto stepper = start(method, h);
-    for (long k = 0; k < steps; ++k) stepper->step();
-    return stepper->state().x;
-  }
-  std::unique_ptr<Stepper> start(const Json& method, double h,
-                                 Backend backend = Backend::interpreter) const {
-    const PreparedMethod prepared = prepare(method, h, backend);
-    return prepared.integrator->start(prepared.initial, h);
+    const PreparedMethod prepared = prepare(method, h);
+    return prepared.integrator->advance(prepared.initial, h, steps).x;
   }
   PreparedMethod prepare(const Json& method, double h,
                          Backend backend = Backend::interpreter) const {

@@ -22,11 +22,7 @@ double symplecticity_defect(const Integrator& method, const CotangentBundle& M, 
     result << q, M.base()->coframe(q).transpose() * p;
     return result;
   };
-  const auto step = [&](const VectorXd& y) {
-    const auto stepper = method.start({.x = y}, h);
-    stepper->step();
-    return stepper->state().x;
-  };
+  const auto step = [&](const VectorXd& y) { return method.advance({.x = y}, h).x; };
   // Along s ↦ R_x(s a), by differences of order 8.
   const auto derivatives = [&](const VectorXd& a) {
     constexpr double kWeights[] = {4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0};

@@ -182,7 +182,7 @@ BOOST_AUTO_TEST_CASE(s_0_is_the_image_of_the_lagrangian_submanifold_under_sharp)
     const VectorXd q = random(6, generator), w = random(6, generator);
     VectorXd x(12);
     x << q, -0.5 * strengths.cwiseProduct(q.tail(3)), 0.5 * strengths.cwiseProduct(q.head(3));
-    const auto& family = *system->family();
+    const auto& family = *std::dynamic_pointer_cast<const DiracSystem>(system)->family();
     BOOST_TEST(values(family.stationarity(constants(x), constants(w), 0.0)).norm() < 1e-14);
     const VectorXd alpha = values(family.differential(constants(x), constants(w), 0.0));
     BOOST_TEST(system->residual(x, sharp * alpha, w, 0.0).norm() < 1e-13 * (1.0 + alpha.norm()));

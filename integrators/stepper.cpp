@@ -1,0 +1,138 @@
+#include "courant/integrators/stepper.hpp"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace courant {
+namespace {
+
+// A stage of a composition begins at most so many lengths of its last step away from where that
+// ended: the coefficients of compositions lie between 0.1 and 2. A state farther off belongs to
+// another curve.
+constexpr double kNear = 16.0;
+
+void check_size(const std::string& method, const char* part, Index size, Index expected,
+                bool may_be_empty) {
+  if (size == expected || (may_be_empty && size == 0)) return;
+  throw std::invalid_argument(method + ": " + part + " has " + std::to_string(size) +
+                              " entries, expected " + std::to_string(expected) +
+                              (may_be_empty ? " or none." : "."));
+}
+
+}  // namespace
+
+Stepper::Stepper(std::string method, std::shared_ptr<const ImplicitSystem> system)
+    : method_(std::move(method)), system_(std::move(system)) {}
+
+void Stepper::check(double h) const {
+  if (std::isfinite(h) && h != 0.0) return;
+  std::ostringstream message;
+  message << method_ << ": h is " << h << "; expected a finite number other than zero.";
+  throw std::invalid_argument(message.str());
+}
+
+void Stepper::check(const State& state) const {
+  check_size(method_, "x", state.x.size(), manifold().ambient_dimension(), false);
+  check_size(method_, "v", state.v.size(), manifold().tangent_dimension(), true);
+  check_size(method_, "z", state.z.size(), system_->auxiliary_size(), true);
+}
+
+void Stepper::take_up(State& state, double h) {
+  // A step keeps the distance from the manifold that it begins with, or blows it up.
+  if (!has_stepped_ && do_keeps_to_manifold()) {
+    const double defect = manifold().point_defect(state.x);
+    const double bound = 1e-6 * (1.0 + state.x.squaredNorm());
+    if (!(defect <= bound)) {
+      std::ostringstream message;
+      message << method_ << ": x is not on " << manifold().name()
+              << ", whose equations it violates by " << defect << "; expected at most " << bound
+              << ". Project it first.";
+      throw std::domain_error(message.str());
+    }
+  }
+  if (state.v.size() == 0) state.v = VectorXd::Zero(manifold().tangent_dimension());
+  if (state.z.size() == 0) state.z = VectorXd::Zero(system_->auxiliary_size());
+  is_prepared_ = false;
+  do_prepare(state, h);
+  is_prepared_ = true;
+}
+
+// Whether the state may lie on the curve of the last steps.
+bool Stepper::is_near_last(const State& state) const {
+  const auto largest = [](const VectorXd& x) {
+    return x.size() == 0 ? 0.0 : x.lpNorm<Eigen::Infinity>();
+  };
+  return std::fabs(state.t - step_.after.t) <= kNear * std::fabs(step_.h) &&
+         largest(state.x - step_.after.x) <= kNear * largest(step_.after.x - step_.before.x);
+}
+
+void Stepper::prepare(State& state, double h) {
+  check(h);
+  check(state);
+  if (is_prepared_ && state == step_.after) return;
+  forget();
+  State prepared = state;
+  take_up(prepared, h);
+  step_.after = state = prepared;
+}
+
+const Step& Stepper::step(State& state, double h, double end) {
+  check(h);
+  const bool goes_on = is_prepared_ && state == step_.after;
+  if (!goes_on) {
+    check(state);
+    if (has_stepped_ && !is_near_last(state)) forget();
+    trial_.before = state;
+    take_up(trial_.before, h);
+  }
+  if (has_stepped_ && h != step_.h) do_change_step();
+  const State& before = goes_on ? step_.after : trial_.before;
+  trial_.h = h;
+  trial_.after.t = end;
+  const long failures = statistics_.failures;
+  try {
+    do_step(before, trial_);
+    const State& after = trial_.after;
+    if (!after.x.allFinite() || !after.v.allFinite() || !after.z.allFinite())
+      throw SolveError(SolveError::Reason::left_domain, method_, state.t, h,
+                       "leads to a state that is not finite.");
+  } catch (...) {
+    do_discard();
+    // What was kept of the states before has made place for this one.
+    if (!goes_on) forget();
+    throw;
+  }
+  do_keep(before, trial_);
+  ++statistics_.steps;
+  if (statistics_.failures > failures) ++statistics_.second_attempts;
+  if (goes_on) trial_.before.swap(step_.after);
+  step_.swap(trial_);
+  has_stepped_ = true;
+  state = step_.after;
+  return step_;
+}
+
+State Stepper::between(double s) {
+  if (!has_stepped_) throw std::logic_error(method_ + ": between: no step has been made.");
+  if (!(s >= 0.0 && s <= 1.0)) {
+    std::ostringstream message;
+    message << method_ << ": between: s is " << s << "; expected a number from 0 to 1.";
+    throw std::invalid_argument(message.str());
+  }
+  if (s == 0.0) return step_.before;
+  if (s == 1.0) return step_.after;
+  if (!between_) between_ = do_fresh();
+  between_->forget();
+  State state = step_.before;
+  between_->step(state, s * step_.h);
+  return state;
+}
+
+void Stepper::forget() {
+  has_stepped_ = is_prepared_ = false;
+  do_forget();
+}
+
+}  // namespace courant

@@ -1,0 +1,113 @@
+// Stepper: the workspace of a one-step method.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "courant/integrators/solve_error.hpp"
+#include "courant/integrators/step.hpp"
+#include "courant/structures/implicit_system.hpp"
+
+namespace courant {
+
+struct SolverStatistics {
+  long steps = 0;
+  long iterations = 0;
+  long factorizations = 0;
+  long failures = 0;         // iterations that failed and were begun again
+  long second_attempts = 0;  // steps that were made in more than one attempt
+};
+
+// What a one-step method keeps from step to step in order to be quick: extrapolations,
+// factorisations, bases that move along. The state belongs to the caller:
+//
+//   State state = …;
+//   const auto stepper = integrator.stepper();
+//   for (long k = 1; k <= steps; ++k) stepper->step(state, h, t0 + k * h);
+//
+// Laws:
+//   W1  a step depends on (state, h) alone, up to round-off: a fresh stepper makes the same step
+//   W2  after forget() it does so to the last bit
+//   W3  a step that throws leaves the state as it was, and the steps after it are those that would
+//       have been made without it (factorisations are made anew, so up to round-off)
+//
+// One stepper a thread. States may be of one trajectory or of several, steps of any size and sign;
+// quick are sequences of equal steps along a smooth curve, those of the stages of a composition
+// (each with a stepper of its own) included.
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+
+  // Brings a state to where steps of about the size h begin: what is not given of v and z becomes
+  // zero; a method on M_f moves x there and finds v and z. Steps begin with this where the state is
+  // not the one that the last step ended at. Throws as step does.
+  void prepare(State& state, double h);
+
+  // (t, x) ↦ (t + h, Φ_h(x)). `end`: t + h as the caller's clock has it, so that time does not
+  // collect round-off. Throws std::invalid_argument unless the state fits the system and h is
+  // finite and not zero, std::domain_error unless x is on the manifold up to 1e-6 (explicit methods,
+  // which leave it, do not ask), SolveError if the step cannot be made.
+  const Step& step(State& state, double h, double end);
+  const Step& step(State& state, double h) { return step(state, h, state.t + h); }
+
+  // The last step; a reference to the same object always.
+  const Step& last() const { return step_; }
+
+  // The curve of the last step: Φ_{sh} of the state before, for 0 ≤ s ≤ 1. Of the method's order,
+  // on M_f where the method is; each point costs what a step costs. Throws std::logic_error before
+  // the first step, std::invalid_argument for s outside [0, 1], SolveError.
+  State between(double s);
+
+  // As if no step had been made; the statistics go on.
+  void forget();
+
+  const SolverStatistics& statistics() const { return statistics_; }
+
+ protected:
+  // `method` is named in messages.
+  Stepper(std::string method, std::shared_ptr<const ImplicitSystem> system);
+
+  const ImplicitSystem& system() const { return *system_; }
+  const Manifold& manifold() const { return *system_->manifold(); }
+  const std::string& method() const { return method_; }
+
+  SolverStatistics statistics_;
+
+ private:
+  // To subclass, override:
+  // From `before`, which is where the last step ended or prepared, by step.h to the time
+  // step.after.t: writes the rest of step.after, and step.stage. Throws SolveError. What is kept
+  // for later steps stays as it is until do_keep.
+  virtual void do_step(const State& before, Step& step) = 0;
+  // The step that was just made stands.
+  virtual void do_keep(const State& before, const Step& step) = 0;
+  // As after construction.
+  virtual void do_forget() = 0;
+  // A stepper of the same method.
+  virtual std::unique_ptr<Stepper> do_fresh() const = 0;
+
+  // May override:
+  // The step does not stand, or was not made.
+  virtual void do_discard() {}
+  // The next step begins at this state, which is not where the last one ended; v and z have their
+  // sizes.
+  virtual void do_prepare(State&, double /*h*/) {}
+  // Whether steps stay on the manifold: then a state off it is refused.
+  virtual bool do_keeps_to_manifold() const { return true; }
+  // The next step is of another size: what extrapolates those before is of no use.
+  virtual void do_change_step() {}
+
+  void check(double h) const;
+  void check(const State& state) const;
+  void take_up(State& state, double h);
+  bool is_near_last(const State& state) const;
+
+  std::string method_;
+  std::shared_ptr<const ImplicitSystem> system_;
+  Step step_, trial_;
+  bool has_stepped_ = false;  // since the last forget()
+  bool is_prepared_ = false;  // for a step from step_.after
+  std::unique_ptr<Stepper> between_;
+};
+
+}  // namespace courant
