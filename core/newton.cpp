@@ -30,14 +30,22 @@ constexpr double kLeast = 2.0 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
-Newton::Newton(Function function, std::vector<Index> groups, const Options& options)
-    : function_(std::move(function)), groups_(std::move(groups)), options_(options) {
-  const Index size = function_.input_size(0);
-  if (groups_.empty()) groups_.push_back(size);
-  if (std::accumulate(groups_.begin(), groups_.end(), Index{0}) != size ||
-      function_.jacobian_cols() != size)
-    throw std::invalid_argument("Newton: the groups and the Jacobian of " + function_.name() +
-                                " do not fit its " + std::to_string(size) + " unknowns.");
+Newton::Newton(EquationSystem system, std::vector<Index> groups, const Options& options)
+    : system_(std::move(system)), function_(system_.left()), options_(options) {
+  if (groups.empty()) groups.push_back(system_.size());
+  if (std::accumulate(groups.begin(), groups.end(), Index{0}) != system_.size())
+    throw std::invalid_argument("Newton: the groups do not fit the " +
+                                std::to_string(system_.size()) + " unknowns of " + system_.name() +
+                                ".");
+  const std::vector<Index>& kept = system_.kept();
+  auto first = kept.begin();
+  Index end_of_group = 0;
+  for (const Index group : groups) {
+    end_of_group += group;
+    const auto last = std::lower_bound(first, kept.end(), end_of_group);
+    groups_.push_back(last - first);
+    first = last;
+  }
   contained_ = function_.pattern_col();
   std::sort(contained_.begin(), contained_.end());
   contained_.erase(std::unique(contained_.begin(), contained_.end()), contained_.end());
@@ -58,6 +66,10 @@ Newton::Newton(Function function, std::vector<Index> groups, const Options& opti
   all_.resize(function_.output_size() + function_.nonzeros());
   step_.resize(static_cast<Index>(contained_.size()));
   magnitude_.resize(function_.output_size());
+  if (!system_.is_reduced()) return;
+  in_.resize(static_cast<std::size_t>(function_.input_count()));
+  kept_.resize(std::ssize(kept));
+  given_.resize(std::ssize(system_.eliminated()));
 }
 
 bool Newton::factorize(const double* const* in) {
@@ -109,6 +121,21 @@ bool Newton::is_rounded(const double* y, const double* scales) {
 }
 
 Newton::Result Newton::solve(double* y, const double* const* in, const double* scales) {
+  if (!system_.is_reduced()) return solve_kept(y, in, scales);
+  std::copy_n(in, in_.size(), in_.begin());
+  in_[0] = kept_.data();
+  for (Index i = 0; i < kept_.size(); ++i)
+    kept_[i] = y[system_.kept()[static_cast<std::size_t>(i)]];
+  const Result result = solve_kept(kept_.data(), in_.data(), scales);
+  system_.given().value(in_.data(), given_.data());
+  for (Index i = 0; i < kept_.size(); ++i)
+    y[system_.kept()[static_cast<std::size_t>(i)]] = kept_[i];
+  for (Index i = 0; i < given_.size(); ++i)
+    y[system_.eliminated()[static_cast<std::size_t>(i)]] = given_[i];
+  return result;
+}
+
+Newton::Result Newton::solve_kept(double* y, const double* const* in, const double* scales) {
   Result result;
   const auto residual = all_.head(function_.output_size());
   double previous = std::numeric_limits<double>::infinity();

@@ -3,13 +3,13 @@
 
 #include <vector>
 
-#include "courant/core/function.hpp"
+#include "courant/core/equation_system.hpp"
 #include "courant/core/linear_solver.hpp"
 
 namespace courant {
 
-// Solves F(y; parameters) = 0 again and again along a trajectory, for a Function F whose group 0 is
-// y and whose Jacobian is by y.
+// Solves F(y; parameters) = 0 again and again along a trajectory, for those unknowns that the system
+// keeps; the others follow.
 //
 // Simplified Newton: y ← y - A F(y) with A the pseudo-inverse of an earlier Jacobian (least squares
 // of redundant equations, least change of undetermined unknowns), as the linear solver keeps it, as
@@ -44,8 +44,8 @@ class Newton {
   };
 
   // `groups`: sizes of consecutive blocks of y that are measured by their own scale (empty: one
-  // block). Throws std::invalid_argument if they don't add up or F has no Jacobian by its group 0.
-  Newton(Function function, std::vector<Index> groups, const Options& options);
+  // block). Throws std::invalid_argument if they don't add up.
+  Newton(EquationSystem system, std::vector<Index> groups, const Options& options);
 
   // in[0] is where y is read and written; in[1] … are the parameters. scales[g]: a typical size of
   // block g (its current values count too). On failure y holds the last iterate.
@@ -57,24 +57,31 @@ class Newton {
     round_off_ = 0.0;
   }
 
+  // The unknowns that solve() starts from; it writes the others without reading them.
+  const std::vector<Index>& kept() const { return system_.kept(); }
+
   // Whether, by the last factorisation, F determines all the unknowns that it contains.
   bool is_determined() const { return solver_->is_determined(); }
 
  private:
+  Result solve_kept(double* u, const double* const* in, const double* scales);
   bool factorize(const double* const* in);
   double improve(double* y, const double* scales);
   bool is_rounded(const double* y, const double* scales);
 
-  Function function_;
-  std::vector<Index> groups_;
-  std::vector<Index> contained_;  // unknowns that F contains, ascending
+  EquationSystem system_;
+  const Function function_;       // of the unknowns that are kept
+  std::vector<Index> groups_;     // their sizes among those
+  std::vector<Index> contained_;  // kept unknowns that F contains, ascending
   std::vector<Index> ends_;       // of the groups, in contained_
   Options options_;
   std::unique_ptr<LinearSolver>
       solver_;  // for a row an equation, a column an unknown of contained_
   bool factorized_ = false;
   double round_off_ = 0.0;  // by how much iterates moved when they stalled with a new factorisation
-  VectorXd all_;            // F and the entries of its Jacobian
+  std::vector<const double*> in_;
+  VectorXd kept_, given_;  // unknowns
+  VectorXd all_;           // F and the entries of its Jacobian
   VectorXd step_;
   VectorXd magnitude_;  // of the terms that each equation is a sum of
 };

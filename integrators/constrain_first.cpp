@@ -65,8 +65,9 @@ class ConstrainFirst::Trajectory final : public Stepper {
         solver_(method.equations_, {n_, n_, rest_, d_}, method.name()),
         projector_(method.projection_, {n_, n_, rest_, d_}, method.name() + " (projection)"),
         round_off_projection_(method.constraint_),
-        predictor_({method.blocks_ * n_, solver_.unknown().size() - method.blocks_ * n_}),
-        end_({method.blocks_ * n_, solver_.unknown().size() - method.blocks_ * n_}),
+        predictor_(predicted_groups(), solver_.kept()),
+        end_(constant_directions_ ? Predictor(predicted_groups(), projector_.kept())
+                                  : Predictor(predicted_groups())),
         shift_({manifold().tangent_dimension()}),
         basis_(manifold(), method.basis_),
         conormals_(method.conormals_, n_, d_),
@@ -158,6 +159,11 @@ class ConstrainFirst::Trajectory final : public Stepper {
 
   std::unique_ptr<Stepper> do_fresh() const override {
     return std::make_unique<Trajectory>(method_);
+  }
+
+  std::vector<Index> predicted_groups() const {
+    const Index tangent = method_.blocks_ * n_;
+    return {tangent, solver_.unknown().size() - tangent};
   }
 
   void forget_motion() {
@@ -314,7 +320,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
   StepSolver solver_, projector_;
   RoundOffProjection round_off_projection_;
   Predictor predictor_;  // of the unknowns of the step
-  Predictor end_;        // of those of the projection
+  Predictor end_;        // of those of the projection; of all of them where W depends on them
   Predictor shift_;      // of the vector at near_ that leads to x
   MovingBasis basis_;    // B at x_k
   MovingConormals conormals_;
@@ -381,9 +387,18 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
       substitute(equations, t, ExprVector::Constant(1, t[0] + Expr(map_->stage_time()) * h[0]));
   const std::vector<Function::Input> step = {
       {"y", y}, {"x0", x0}, {"basis", basis_entries}, {"W", directions}, {"h", h}, {"t", t}};
-  equations_ =
-      Function("constrain-first", step, join({ExprVector(basis.transpose() * at_start), staged}),
-               {.differentiate = {"y"}, .backend = options.backend});
+  // ξ and μ are displacements of the state, ξ' its rate; the rest converges with them.
+  std::vector<int> coarseness(static_cast<std::size_t>(y.size()), 2);
+  std::fill_n(coarseness.begin(), n, 0);
+  std::fill_n(coarseness.begin() + n, n, 1);
+  std::fill_n(coarseness.end() - codimension_, codimension_, 0);
+  // Of what is not determined the solver takes the least change, in all unknowns.
+  const bool eliminates = gauge_dimension_ == 0;
+  equations_ = EquationSystem("constrain-first", step,
+                              join({ExprVector(basis.transpose() * at_start), staged}),
+                              {.backend = options.backend,
+                               .eliminates = eliminates,
+                               .elimination = {.never_zero = h, .coarseness = coarseness}});
   advance_ = Function("advance", step, join({ends.second, local.x, local.v}),
                       {.backend = options.backend});
 
@@ -393,9 +408,11 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
   const ExprVector distance = M.coframe(x0) * ExprVector(M.retract(local.x, along) - near);
   const std::vector<Function::Input> at_end = {
       {"y", y}, {"x0", x0}, {"basis", basis_entries}, {"W", directions}, {"near", near}, {"t", t}};
-  projection_ =
-      Function("projection", at_end, join({ExprVector(basis.transpose() * distance), equations}),
-               {.differentiate = {"y"}, .backend = options.backend});
+  projection_ = EquationSystem("projection", at_end,
+                               join({ExprVector(basis.transpose() * distance), equations}),
+                               {.backend = options.backend,
+                                .eliminates = eliminates,
+                                .elimination = {.coarseness = coarseness}});
   const ExprVector s = graph.variables("s", M.tangent_dimension());
   shift_ = Function("shift", {{"near", near}, {"s", s}},
                     M.retract(near, ExprVector(M.tangent_projector(near) * s)),

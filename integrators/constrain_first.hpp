@@ -1,7 +1,7 @@
 // Method 2: the continuous constraint algorithm first, then a discretization on M_f.
 #pragma once
 
-#include "courant/core/function.hpp"
+#include "courant/core/equation_system.hpp"
 #include "courant/integrators/integrator.hpp"
 #include "courant/integrators/ladder/constraint_ladder.hpp"
 #include "courant/integrators/maps/discretization_map.hpp"
@@ -56,12 +56,13 @@ class ConstrainFirst final : public Integrator {
   std::shared_ptr<const Projector> projector_;
   Index codimension_;  // d = dim M - dim M_f
   Index gauge_dimension_;
-  Index blocks_;        // tangent blocks of the unknowns: ξ, ξ', …
-  Index auxiliaries_;   // z, z', …
-  Function equations_;  // (ξ, ξ', …, z, …, μ); x₀, basis, W, h, t  ↦ residual of the step
-  Function advance_;    // the same ↦ R_d⁺(x̄, h v), x̄, v
-  Function projection_;  // (ξ, ξ', …, z, …, μ); x_guess, basis, W, x_near, t ↦ residual of x ∈ M_f,
-                         // R_x(W μ) = x_near
+  Index blocks_;              // tangent blocks of the unknowns: ξ, ξ', …
+  Index auxiliaries_;         // z, z', …
+  EquationSystem equations_;  // (ξ, ξ', …, z, …, μ); x₀, basis, W, h, t  ↦ residual of the step
+  Function advance_;          // the same ↦ R_d⁺(x̄, h v), x̄, v
+  EquationSystem
+      projection_;  // (ξ, ξ', …, z, …, μ); x_guess, basis, W, x_near, t ↦ residual of x ∈ M_f,
+                    // R_x(W μ) = x_near
   Function projected_;   // the same ↦ x, v, z
   Function basis_;       // of MovingBasis
   Function constraint_;  // of RoundOffProjection

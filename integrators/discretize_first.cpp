@@ -20,7 +20,7 @@ class DiscretizeFirst::Trajectory final : public Stepper {
         m_(system().auxiliary_size()),
         blocks_(method.tangent_blocks_),
         solver_(method.equations_, {blocks_ * n_, m_}, method.name()),
-        predictor_({blocks_ * n_, m_}),
+        predictor_({blocks_ * n_, m_}, solver_.kept()),
         basis_(manifold(), method.basis_),
         next_(method.advance_.output_size()) {}
 
@@ -139,8 +139,11 @@ DiscretizeFirst::DiscretizeFirst(std::shared_ptr<const ImplicitSystem> system,
       {"y", y}, {"x0", x0}, {"basis", basis_parameters(M, basis)}, {"h", h}, {"t", t}};
   ExprVector advanced(x1.size() + v.size() + stage.size());
   advanced << x1, v, stage;
-  equations_ = Function("discretize-first", inputs, residual,
-                        {.differentiate = {"y"}, .backend = options.backend});
+  std::vector<int> coarseness(static_cast<std::size_t>(y.size()), 0);
+  std::fill(coarseness.end() - z.size(), coarseness.end(), 1);
+  equations_ = EquationSystem(
+      "discretize-first", inputs, residual,
+      {.backend = options.backend, .elimination = {.never_zero = h, .coarseness = coarseness}});
   advance_ = Function("advance", inputs, advanced, {.backend = options.backend});
   basis_ = MovingBasis::projection(M, options.backend);
   constraint_ = RoundOffProjection::constraint(M, options.backend);

@@ -1,7 +1,7 @@
 // Method 1: discretize first.
 #pragma once
 
-#include "courant/core/function.hpp"
+#include "courant/core/equation_system.hpp"
 #include "courant/integrators/integrator.hpp"
 #include "courant/integrators/maps/discretization_map.hpp"
 #include "courant/structures/implicit_system.hpp"
@@ -42,7 +42,7 @@ class DiscretizeFirst final : public Integrator {
   std::unique_ptr<Stepper> do_stepper() const override;
 
   std::shared_ptr<const DiscretizationMap> map_;
-  Function equations_;        // y; x₀, basis, h, t ↦ residual
+  EquationSystem equations_;  // y; x₀, basis, h, t ↦ residual
   Function advance_;          // the same ↦ x₁, v, x̄
   Function basis_;            // of MovingBasis
   Function constraint_;       // of RoundOffProjection

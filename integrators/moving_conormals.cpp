@@ -39,9 +39,9 @@ MovingConormals::Functions MovingConormals::trace(Graph& graph, const ExprVector
   inputs.insert(inputs.begin(), {{"w", w}, {"unit", unit}});
   inputs.push_back({"C", entries});
   result.equations =
-      Function("conormal equations", inputs,
-               Eigen::Map<ExprVector>(equations.data(), static_cast<Index>(equations.size())),
-               {.differentiate = {"w"}, .backend = backend});
+      EquationSystem("conormal equations", inputs,
+                     Eigen::Map<ExprVector>(equations.data(), static_cast<Index>(equations.size())),
+                     {.backend = backend});
   result.conormal = Function("conormal", inputs, conormal, {.backend = backend});
   return result;
 }

@@ -24,7 +24,7 @@ class MovingConormals {
     // (ξ, ξ', …, z, …); x₀, basis, t  ↦  F, with Jacobian.
     Function constraints;
     // w; e, (ξ, …), x₀, basis, C, t  ↦  (∂F/∂(ξ', …))ᵀ w, Cᵀ (∂F/∂ξ)ᵀ w - e, with Jacobian by w.
-    Function equations;
+    EquationSystem equations;
     Function conormal;  // the same ↦ (∂F/∂ξ)ᵀ w
   };
   // `jets`: the variables (ξ, ξ', …, z, …), the first n of them ξ; `parameters`: x₀, basis, t.

@@ -3,33 +3,48 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace courant {
 namespace {
 
 constexpr int kStepsBetweenChoices = 32;
 
+std::vector<Index> all_of(const std::vector<Index>& groups) {
+  std::vector<Index> places(
+      static_cast<std::size_t>(std::accumulate(groups.begin(), groups.end(), Index{0})));
+  std::iota(places.begin(), places.end(), Index{0});
+  return places;
+}
+
 }  // namespace
 
-Predictor::Predictor(const std::vector<Index>& groups) {
-  Index end = 0;
+Predictor::Predictor(const std::vector<Index>& groups, std::vector<Index> places)
+    : places_(std::move(places)) {
+  Index end = 0, first = 0;
   for (const Index size : groups) {
-    groups_.push_back({.begin = end, .end = end + size});
     end += size;
+    const Index last = std::lower_bound(places_.begin(), places_.end(), end) - places_.begin();
+    groups_.push_back({.begin = first, .end = last});
+    first = last;
   }
-  history_.setZero(kKept, end);
+  history_.setZero(kKept, std::ssize(places_));
 }
+
+Predictor::Predictor(const std::vector<Index>& groups) : Predictor(groups, all_of(groups)) {}
 
 void Predictor::predict(VectorXd& y) const {
   for (const Group& group : groups_) {
     const auto weights = group.weights.segment<kKept>(kKept - newest_);
-    for (Index i = group.begin; i < group.end; ++i) y[i] = history_.col(i).dot(weights);
+    for (Index i = group.begin; i < group.end; ++i)
+      y[places_[static_cast<std::size_t>(i)]] = history_.col(i).dot(weights);
   }
 }
 
 void Predictor::record(const VectorXd& y) {
   newest_ = (newest_ + 1) % kKept;
-  history_.row(newest_) = y;
+  for (Index i = 0; i < history_.cols(); ++i)
+    history_(newest_, i) = y[places_[static_cast<std::size_t>(i)]];
   if (count_ == 0) steps_to_choice_ = 0;
   count_ = std::min(count_ + 1, kKept);
   if (--steps_to_choice_ > 0) return;

@@ -25,9 +25,12 @@ class Predictor {
   // its round-off grows like steps^{d + 1/2}.
   static constexpr int kUndetermined = 1;
 
-  explicit Predictor(const std::vector<Index>& groups);  // sizes
+  // `groups`: their sizes. Only the unknowns at these places, ascending, are looked at.
+  Predictor(const std::vector<Index>& groups, std::vector<Index> places);
+  // All of them.
+  explicit Predictor(const std::vector<Index>& groups);
 
-  void predict(VectorXd& y) const;  // needs a recorded unknown
+  void predict(VectorXd& y) const;  // needs a recorded unknown; writes those at its places
   void record(const VectorXd& y);   // the unknown of a step that was made
   void forget();                    // as if nothing had been recorded
   bool is_empty() const { return count_ == 0; }
@@ -39,7 +42,7 @@ class Predictor {
   static constexpr int kKept = kMaxDegree + 1 + kJudged;
 
   struct Group {
-    Index begin, end;
+    Index begin, end;  // in places_
     // Of the unknowns that are -m mod kKept steps old, twice over: at kKept - newest_ begin the
     // weights of the rows.
     Eigen::Matrix<double, 2 * kKept, 1> weights = Eigen::Matrix<double, 2 * kKept, 1>::Zero();
@@ -49,7 +52,8 @@ class Predictor {
   int best_degree(const Group& group) const;
   static void set_degree(Group& group, int degree);
 
-  std::vector<Group> groups_;
+  std::vector<Group> groups_;  // of places
+  std::vector<Index> places_;
   // A ring: a row an unknown, the newest in row newest_.
   Eigen::Matrix<double, kKept, Eigen::Dynamic> history_;
   int newest_ = 0;

@@ -4,9 +4,10 @@
 
 namespace courant {
 
-StepSolver::StepSolver(const Function& equations, std::vector<Index> groups, std::string method)
+StepSolver::StepSolver(const EquationSystem& equations, std::vector<Index> groups,
+                       std::string method)
     : newton_(equations, std::move(groups), {}),
-      y_(VectorXd::Zero(equations.input_size(0))),
+      y_(VectorXd::Zero(equations.size())),
       method_(std::move(method)) {}
 
 void StepSolver::fail(const Attempt& attempt) const {

@@ -14,12 +14,13 @@ namespace courant {
 // object a trajectory.
 class StepSolver {
  public:
-  // `equations`: group 0 the unknown y, further groups the parameters. `groups` as in Newton.
-  StepSolver(const Function& equations, std::vector<Index> groups, std::string method);
+  // `groups` as in Newton.
+  StepSolver(const EquationSystem& equations, std::vector<Index> groups, std::string method);
 
   VectorXd& unknown() { return y_; }
   const VectorXd& unknown() const { return y_; }
-  bool is_determined() const { return newton_.is_determined(); }  // as of Newton
+  const std::vector<Index>& kept() const { return newton_.kept(); }  // as of Newton
+  bool is_determined() const { return newton_.is_determined(); }     // as of Newton
 
   // On return unknown() solves the equations; in[0] is its place. `begin` puts there what a second
   // try begins with if the first fails. `attempt` is named in the message of a SolveError.
