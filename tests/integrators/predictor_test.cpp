@@ -28,6 +28,20 @@ VectorXd two(double first, double second) { return Eigen::Vector2d(first, second
 
 BOOST_AUTO_TEST_SUITE(predictor)
 
+// Unknowns at other places are neither read nor written.
+BOOST_AUTO_TEST_CASE(places) {
+  Predictor predictor({2, 2}, {1, 2}), alone({1, 1});
+  for (int k = 0; k < 30; ++k) {
+    const double a = std::sin(0.1 * k), b = k % 3;
+    predictor.record(Eigen::Vector4d(std::nan(""), a, b, std::nan("")));
+    alone.record(two(a, b));
+    VectorXd y = VectorXd::Constant(4, 7.0), expected = two(0.0, 0.0);
+    predictor.predict(y);
+    alone.predict(expected);
+    BOOST_TEST(y == (VectorXd(4) << 7.0, expected, 7.0).finished());
+  }
+}
+
 // A polynomial is continued exactly as soon as one more unknown than its degree is known.
 BOOST_AUTO_TEST_CASE(polynomials) {
   for (int degree = 0; degree <= Predictor::kMaxDegree; ++degree) {
