@@ -95,7 +95,8 @@ double Newton::improve(double* y, const double* scales) {
       size = std::max(size, std::fabs(unknown));
       total += change;
     }
-    if (moved > 0.0) result = std::max(result, moved / size);
+    // A block of scale 0 that ends at 0 has moved by all of itself.
+    if (moved > 0.0) result = std::max(result, size > 0.0 ? moved / size : 1.0);
   }
   return std::isfinite(total) ? result : std::numeric_limits<double>::infinity();
 }

@@ -62,6 +62,16 @@ BOOST_AUTO_TEST_CASE(large_states_stop_at_round_off) {
   BOOST_TEST(result.iterations <= 6);
 }
 
+// A body at rest at the origin: there is no scale, and noise of 10⁻³⁰ goes to zero in one iteration.
+BOOST_AUTO_TEST_CASE(zero_is_reached_from_noise) {
+  Problem problem =
+      make(2, [](const ExprVector& y, const Expr&) { return ExprVector(2.0 * y + 0.0 * y); });
+  problem.y = Eigen::Vector2d(3e-30, -1e-30);
+  Newton newton(problem.function, {}, {});
+  BOOST_TEST((problem.solve(newton, 0.0).status == Newton::Status::converged));
+  BOOST_TEST(problem.y.isZero(0.0));
+}
+
 // y = 10⁻⁷ would be the solution, but 2 + 10⁻⁹ y has steps of 4·10⁻⁷ in y.
 BOOST_AUTO_TEST_CASE(nearly_singular_equations_stop_at_round_off) {
   Problem problem = make(1, [](const ExprVector& y, const Expr&) {
