@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "courant/core/derivative.hpp"
+#include "courant/core/qr_decomposition.hpp"
 #include "courant/integrators/ladder/local_formulation.hpp"
 #include "courant/integrators/moving_basis.hpp"
 #include "courant/integrators/moving_conormals.hpp"
@@ -50,6 +51,24 @@ std::pair<Index, Index> contained_jets(const LocalFormulation& local, const Expr
   return {last(local.xi, 2), last(local.z, 1)};
 }
 
+// W if it is the same at every x, as for momenta that positions determine; empty otherwise.
+MatrixXd fixed_directions(const Manifold& M, const Projector& projector,
+                          const ConstraintLadder& ladder) {
+  const Index n = M.dimension(), d = n - ladder.degrees_of_freedom;
+  if (d == 0 || n != M.tangent_dimension() || !projector.has_constant_directions(d)) return {};
+  const MatrixXd W = projector.directions(ladder.point.x, MatrixXd::Identity(n, n),
+                                          orthonormalized(ladder.conormals().transpose()));
+  // Unit vectors where their span is the same: formulas become simpler.
+  constexpr double round_off = 1e-12;
+  const MatrixXd onto = W * W.transpose(), rounded = onto.array().round();
+  if ((onto - rounded).norm() > round_off) return W;
+  MatrixXd units(n, d);
+  Index column = 0;
+  for (Index i = 0; i < n; ++i)
+    if (rounded(i, i) == 1.0) units.col(column++) = VectorXd::Unit(n, i);
+  return units;
+}
+
 }  // namespace
 
 class ConstrainFirst::Trajectory final : public Stepper {
@@ -60,8 +79,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
         n_(manifold().dimension()),
         d_(method.codimension_),
         rest_((method.blocks_ - 2) * n_ + method.auxiliaries_),
-        constant_directions_(n_ == manifold().tangent_dimension() &&
-                             method.projector_->has_constant_directions(d_)),
+        constant_directions_(method.fixed_directions_.size() > 0),
         solver_(method.equations_, {n_, n_, rest_, d_}, method.name()),
         projector_(method.projection_, {n_, n_, rest_, d_}, method.name() + " (projection)"),
         round_off_projection_(method.constraint_),
@@ -151,7 +169,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
     conormals_.forget();
     directions_.setZero();
     last_directions_.resize(0, 0);
-    is_aimed_ = is_turned_ = false;
+    is_turned_ = false;
     turning_ = std::numeric_limits<double>::infinity();
     jets_.setZero();
     shifted_.setZero();
@@ -253,7 +271,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
 
   // W at x, with columns near those of the last step, so that μ and the kept factorisations go on.
   void aim(const VectorXd& x, const VectorXd& y, double t, const StepSolver::Attempt& attempt) {
-    if (d_ == 0 || (constant_directions_ && is_aimed_)) return;
+    if (d_ == 0 || constant_directions_) return;
     const double* in[] = {y.data(), x.data(), basis_.data(), &t};
     conormals_.move_to(in);
     if (method_.projector_->is_orthogonal()) {
@@ -270,7 +288,6 @@ class ConstrainFirst::Trajectory final : public Stepper {
         make_orthonormal_(turned_, directions_);
       }
     }
-    is_aimed_ = true;
   }
 
   // What the next projection starts from.
@@ -315,7 +332,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
 
   const ConstrainFirst method_;  // its functions are shared, not copied
   Index n_, d_, rest_;
-  bool constant_directions_, is_aimed_ = false;
+  bool constant_directions_;
   bool is_turned_ = false;  // the basis was made afresh
   StepSolver solver_, projector_;
   RoundOffProjection round_off_projection_;
@@ -360,8 +377,12 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
   const ExprVector h = graph.variables("h", 1);
   const ExprVector directions = graph.variables("W", n * codimension_);
   const ExprVector mu = graph.variables("mu", codimension_);
-  const ExprVector shift =
-      Eigen::Map<const ExprMatrix>(directions.data(), n, codimension_) * mu;  // W μ
+  fixed_directions_ = fixed_directions(M, *projector_, ladder);
+  const ExprMatrix W =
+      fixed_directions_.size() > 0
+          ? constants(fixed_directions_)
+          : ExprMatrix(Eigen::Map<const ExprMatrix>(directions.data(), n, codimension_));
+  const ExprVector shift = W * mu;
   const LocalFormulation local(graph, S, x0, basis, t[0], ladder.differentiations);
   const ExprVector equations = local.nonzero_equations();
   const auto [blocks, orders] = contained_jets(local, equations);
@@ -373,8 +394,7 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
   const ExprVector y = join({jets, mu});
   const ExprVector basis_entries = basis_parameters(M, basis);
 
-  const bool aims_once = n == M.tangent_dimension() &&
-                         (codimension_ == 0 || projector_->has_constant_directions(codimension_));
+  const bool aims_once = codimension_ == 0 || fixed_directions_.size() > 0;
   conormals_ = MovingConormals::trace(graph, equations, jets, n, codimension_,
                                       {{"x0", x0}, {"basis", basis_entries}, {"t", t}},
                                       aims_once ? Backend::interpreter : options.backend);
@@ -388,9 +408,8 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
   const std::vector<Function::Input> step = {
       {"y", y}, {"x0", x0}, {"basis", basis_entries}, {"W", directions}, {"h", h}, {"t", t}};
   // ξ and μ are displacements of the state, ξ' its rate; the rest converges with them.
-  std::vector<int> coarseness(static_cast<std::size_t>(y.size()), 2);
-  std::fill_n(coarseness.begin(), n, 0);
-  std::fill_n(coarseness.begin() + n, n, 1);
+  std::vector<int> coarseness(static_cast<std::size_t>(y.size()), 1);
+  std::fill_n(coarseness.begin(), 2 * n, 0);
   std::fill_n(coarseness.end() - codimension_, codimension_, 0);
   // Of what is not determined the solver takes the least change, in all unknowns.
   const bool eliminates = gauge_dimension_ == 0;

@@ -69,6 +69,7 @@ class ConstrainFirst final : public Integrator {
   Function shift_;       // (near, s) ↦ R_near(Π s)
   Function corrected_shift_;  // (near, s, x₀, x) ↦ what leads to x if s leads to x₀, to first order
   MovingConormals::Functions conormals_;
+  MatrixXd fixed_directions_;  // W, where it is the same at every x; else empty
 };
 
 }  // namespace courant
