@@ -12,6 +12,7 @@
 #include "courant/integrators/nearest_orthonormal.hpp"
 #include "courant/integrators/predictor.hpp"
 #include "courant/integrators/round_off_projection.hpp"
+#include "courant/integrators/step_names.hpp"
 #include "courant/integrators/step_solver.hpp"
 
 namespace courant {
@@ -350,6 +351,93 @@ class ConstrainFirst::Trajectory final : public Stepper {
   VectorXd start_, aimed_, near_, guess_, foreseen_, shifted_, corrected_, advanced_, found_;
 };
 
+// The formulas of a step and of the projection that follows it.
+struct ConstrainFirst::Trace {
+  explicit Trace(const ConstrainFirst& method) {
+    const ImplicitSystem& S = *method.system();
+    const DiscretizationMap& map = *method.map_;
+    const Manifold& M = *S.manifold();
+    const Index n = M.dimension(), d = method.codimension_;
+    step.graph = std::make_shared<Graph>();
+    Graph& graph = *step.graph;
+    x0 = graph.variables("x0", M.ambient_dimension());
+    const ExprMatrix basis = basis_variables(graph, M);
+    basis_entries = basis_parameters(M, basis);
+    t = graph.variables("t", 1);
+    const ExprVector h = graph.variables("h", 1);
+    const ExprVector directions = graph.variables("W", n * d);
+    const ExprVector mu = graph.variables("mu", d);
+    const ExprMatrix W = method.fixed_directions_.size() > 0
+                             ? constants(method.fixed_directions_)
+                             : ExprMatrix(Eigen::Map<const ExprMatrix>(directions.data(), n, d));
+    const ExprVector shift = W * mu;
+    const LocalFormulation local(graph, S, x0, basis, t[0], method.differentiations_);
+    constraints = local.nonzero_equations();
+    const auto [tangents, orders] = contained_jets(local, constraints);
+    blocks = tangents;
+    std::vector<ExprVector> parts(local.xi.begin(), local.xi.begin() + blocks);
+    parts.insert(parts.end(), local.z.begin(), local.z.begin() + orders);
+    jets = join(parts);
+    auxiliaries = jets.size() - blocks * n;
+    const ExprVector y = join({jets, mu});
+
+    const StepNames names(S);
+    std::vector<std::string> unknowns = names.tangent("Δ", 0);
+    for (Index k = 1; k < blocks; ++k) append(unknowns, names.tangent("", k));
+    for (Index k = 0; k < orders; ++k) append(unknowns, names.auxiliary(k));
+    append(unknowns, StepNames::numbered("mu", d));
+    const std::vector<std::string> constraint_names = names.equations(local);
+
+    step.name = method.name();
+    const auto ends = map.forward(local.x, ExprVector(h[0] * local.v));
+    const ExprVector moved = M.chart(x0, basis, shift);
+    const ExprVector at_start = M.coframe(x0) * ExprVector(ends.first - moved);
+    const ExprVector staged =
+        substitute(constraints, t, ExprVector::Constant(1, t[0] + Expr(map.stage_time()) * h[0]));
+    step.inputs = {{"y", y},          {"x0", x0}, {"basis", basis_entries},
+                   {"W", directions}, {"h", h},   {"t", t}};
+    step.input_names = {unknowns,      S.names().coordinates,
+                        names.basis(), StepNames::numbered("W", n * d),
+                        {"h"},         {"t"}};
+    step.equations = join({ExprVector(basis.transpose() * at_start), staged});
+    step.equation_names = names.tangent("start of ", 0);
+    append(step.equation_names, constraint_names);
+    advanced = join({ends.second, local.x, local.v});
+    // Of what is not determined the solver takes the least change, in all unknowns.
+    step.eliminates = method.gauge_dimension_ == 0;
+    // ξ and μ are displacements of the state, ξ' its rate; the rest converges with them.
+    step.elimination.never_zero = h;
+    auto& coarseness = step.elimination.coarseness;
+    coarseness.assign(static_cast<std::size_t>(y.size()), 1);
+    std::fill_n(coarseness.begin(), 2 * n, 0);
+    std::fill_n(coarseness.rbegin(), d, 0);
+
+    projection = step;
+    projection.name = method.name() + ", projection";
+    near = graph.variables("near", M.ambient_dimension());
+    const ExprVector along = M.tangent_projector(local.x) * ExprVector(basis * shift);
+    const ExprVector distance = M.coframe(x0) * ExprVector(M.retract(local.x, along) - near);
+    projection.inputs[4] = {"near", near};
+    projection.input_names[4] = StepNames::each("near ", S.names().coordinates);
+    projection.equations = join({ExprVector(basis.transpose() * distance), constraints});
+    projection.equation_names = names.tangent("projection of ", 0);
+    append(projection.equation_names, constraint_names);
+    projection.elimination.never_zero = {};
+    projected = join({local.x, local.v, local.z[0]});
+
+    s = graph.variables("s", M.tangent_dimension());
+    shifted = M.retract(near, ExprVector(M.tangent_projector(near) * s));
+    x = graph.variables("x", M.ambient_dimension());
+    corrected = M.tangent_projector(near) * s + M.coframe(near) * ExprVector(x - x0);
+  }
+
+  StepFormulas step, projection;
+  Index blocks, auxiliaries;
+  ExprVector x0, basis_entries, t, near, s, x;  // parameters
+  ExprVector constraints, jets;                 // S_f, and its unknowns (ξ, ξ', …, z, …)
+  ExprVector advanced, projected, shifted, corrected;
+};
+
 ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
                                const ConstraintLadder& ladder,
                                std::shared_ptr<const DiscretizationMap> map,
@@ -359,91 +447,41 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
     throw std::invalid_argument(
         "ConstrainFirst::ConstrainFirst: the system, the map or the projector is missing, or the "
         "map is not on the manifold of the system.");
-  check_ladder("ConstrainFirst::ConstrainFirst", *this->system(), ladder);
   if (ladder.verdict != Verdict::regular && ladder.verdict != Verdict::gauge)
     throw std::invalid_argument("ConstrainFirst::ConstrainFirst: the ladder's verdict is " +
                                 to_string(ladder.verdict) + "; expected regular or gauge. " +
                                 ladder.reason);
-  const ImplicitSystem& S = *this->system();
-  const Manifold& M = *S.manifold();
-  const Index n = M.dimension();
-  codimension_ = n - ladder.degrees_of_freedom;
+  check_ladder("ConstrainFirst::ConstrainFirst", *this->system(), ladder);
+  const Manifold& M = *this->system()->manifold();
+  codimension_ = M.dimension() - ladder.degrees_of_freedom;
   gauge_dimension_ = ladder.gauge_dimension;
-
-  Graph graph;
-  const ExprVector x0 = graph.variables("x0", M.ambient_dimension());
-  const ExprMatrix basis = basis_variables(graph, M);
-  const ExprVector t = graph.variables("t", 1);
-  const ExprVector h = graph.variables("h", 1);
-  const ExprVector directions = graph.variables("W", n * codimension_);
-  const ExprVector mu = graph.variables("mu", codimension_);
+  differentiations_ = ladder.differentiations;
   fixed_directions_ = fixed_directions(M, *projector_, ladder);
-  const ExprMatrix W =
-      fixed_directions_.size() > 0
-          ? constants(fixed_directions_)
-          : ExprMatrix(Eigen::Map<const ExprMatrix>(directions.data(), n, codimension_));
-  const ExprVector shift = W * mu;
-  const LocalFormulation local(graph, S, x0, basis, t[0], ladder.differentiations);
-  const ExprVector equations = local.nonzero_equations();
-  const auto [blocks, orders] = contained_jets(local, equations);
-  blocks_ = blocks;
-  std::vector<ExprVector> parts(local.xi.begin(), local.xi.begin() + blocks);
-  parts.insert(parts.end(), local.z.begin(), local.z.begin() + orders);
-  const ExprVector jets = join(parts);
-  auxiliaries_ = jets.size() - blocks_ * n;
-  const ExprVector y = join({jets, mu});
-  const ExprVector basis_entries = basis_parameters(M, basis);
 
-  const bool aims_once = codimension_ == 0 || fixed_directions_.size() > 0;
-  conormals_ = MovingConormals::trace(graph, equations, jets, n, codimension_,
-                                      {{"x0", x0}, {"basis", basis_entries}, {"t", t}},
-                                      aims_once ? Backend::interpreter : options.backend);
-
-  // The step.
-  const auto ends = map_->forward(local.x, ExprVector(h[0] * local.v));
-  const ExprVector moved = M.chart(x0, basis, shift);
-  const ExprVector at_start = M.coframe(x0) * ExprVector(ends.first - moved);
-  const ExprVector staged =
-      substitute(equations, t, ExprVector::Constant(1, t[0] + Expr(map_->stage_time()) * h[0]));
-  const std::vector<Function::Input> step = {
-      {"y", y}, {"x0", x0}, {"basis", basis_entries}, {"W", directions}, {"h", h}, {"t", t}};
-  // ξ and μ are displacements of the state, ξ' its rate; the rest converges with them.
-  std::vector<int> coarseness(static_cast<std::size_t>(y.size()), 1);
-  std::fill_n(coarseness.begin(), 2 * n, 0);
-  std::fill_n(coarseness.end() - codimension_, codimension_, 0);
-  // Of what is not determined the solver takes the least change, in all unknowns.
-  const bool eliminates = gauge_dimension_ == 0;
-  equations_ = EquationSystem("constrain-first", step,
-                              join({ExprVector(basis.transpose() * at_start), staged}),
-                              {.backend = options.backend,
-                               .eliminates = eliminates,
-                               .elimination = {.never_zero = h, .coarseness = coarseness}});
-  advance_ = Function("advance", step, join({ends.second, local.x, local.v}),
-                      {.backend = options.backend});
-
-  // The projection.
-  const ExprVector near = graph.variables("near", M.ambient_dimension());
-  const ExprVector along = M.tangent_projector(local.x) * ExprVector(basis * shift);
-  const ExprVector distance = M.coframe(x0) * ExprVector(M.retract(local.x, along) - near);
-  const std::vector<Function::Input> at_end = {
-      {"y", y}, {"x0", x0}, {"basis", basis_entries}, {"W", directions}, {"near", near}, {"t", t}};
-  projection_ = EquationSystem("projection", at_end,
-                               join({ExprVector(basis.transpose() * distance), equations}),
-                               {.backend = options.backend,
-                                .eliminates = eliminates,
-                                .elimination = {.coarseness = coarseness}});
-  const ExprVector s = graph.variables("s", M.tangent_dimension());
-  shift_ = Function("shift", {{"near", near}, {"s", s}},
-                    M.retract(near, ExprVector(M.tangent_projector(near) * s)),
-                    {.backend = options.backend});
-  const ExprVector x = graph.variables("x", M.ambient_dimension());
-  corrected_shift_ = Function("corrected shift", {{"near", near}, {"s", s}, {"x0", x0}, {"x", x}},
-                              M.tangent_projector(near) * s + M.coframe(near) * ExprVector(x - x0),
-                              {.backend = options.backend});
+  const Trace trace(*this);
+  const Function::Options compiled = {.backend = options.backend};
+  blocks_ = trace.blocks;
+  auxiliaries_ = trace.auxiliaries;
+  equations_ = trace.step.compile(options.backend);
+  advance_ = Function("advance", trace.step.inputs, trace.advanced, compiled);
+  projection_ = trace.projection.compile(options.backend);
+  projected_ = Function("projected", trace.projection.inputs, trace.projected, compiled);
+  shift_ = Function("shift", {{"near", trace.near}, {"s", trace.s}}, trace.shifted, compiled);
+  corrected_shift_ = Function(
+      "corrected shift", {{"near", trace.near}, {"s", trace.s}, {"x0", trace.x0}, {"x", trace.x}},
+      trace.corrected, compiled);
+  const bool is_never_aimed = codimension_ == 0 || fixed_directions_.size() > 0;
+  conormals_ = MovingConormals::trace(
+      *trace.step.graph, trace.constraints, trace.jets, M.dimension(), codimension_,
+      {{"x0", trace.x0}, {"basis", trace.basis_entries}, {"t", trace.t}},
+      is_never_aimed ? Backend::interpreter : options.backend);
   basis_ = MovingBasis::projection(M, options.backend);
   constraint_ = RoundOffProjection::constraint(M, options.backend);
-  projected_ = Function("projected", at_end, join({local.x, local.v, local.z[0]}),
-                        {.backend = options.backend});
+}
+
+std::vector<StepFormulas> ConstrainFirst::do_formulas() const {
+  const Trace trace(*this);
+  return {trace.step, trace.projection};
 }
 
 std::unique_ptr<Stepper> ConstrainFirst::do_stepper() const {

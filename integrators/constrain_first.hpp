@@ -49,12 +49,15 @@ class ConstrainFirst final : public Integrator {
 
  private:
   class Trajectory;
+  struct Trace;
 
   std::unique_ptr<Stepper> do_stepper() const override;
+  std::vector<StepFormulas> do_formulas() const override;
 
   std::shared_ptr<const DiscretizationMap> map_;
   std::shared_ptr<const Projector> projector_;
-  Index codimension_;  // d = dim M - dim M_f
+  std::vector<int> differentiations_;  // of each equation of the system
+  Index codimension_;                  // d = dim M - dim M_f
   Index gauge_dimension_;
   Index blocks_;              // tangent blocks of the unknowns: ξ, ξ', …
   Index auxiliaries_;         // z, z', …

@@ -6,6 +6,7 @@
 #include "courant/integrators/moving_basis.hpp"
 #include "courant/integrators/predictor.hpp"
 #include "courant/integrators/round_off_projection.hpp"
+#include "courant/integrators/step_names.hpp"
 #include "courant/integrators/step_solver.hpp"
 
 namespace courant {
@@ -88,6 +89,75 @@ class DiscretizeFirst::Trajectory final : public Stepper {
   VectorXd next_;
 };
 
+// The formulas of a step.
+struct DiscretizeFirst::Trace {
+  explicit Trace(const DiscretizeFirst& method) {
+    const ImplicitSystem& S = *method.system();
+    const DiscretizationMap& map = *method.map_;
+    const Manifold& M = *S.manifold();
+    const Index n = M.dimension();
+    formulas.name = method.name();
+    formulas.graph = std::make_shared<Graph>();
+    Graph& graph = *formulas.graph;
+    const ExprVector x0 = graph.variables("x0", M.ambient_dimension());
+    const ExprMatrix basis = basis_variables(graph, M);
+    const ExprVector h = graph.variables("h", 1);
+    const ExprVector t = graph.variables("t", 1);
+    const ExprVector z = graph.variables("z", S.auxiliary_size());
+    const Expr stage_time = t[0] + Expr(map.stage_time()) * h[0];
+    const Expr rate = 1.0 / h[0];
+
+    const StepNames names(S);
+    std::vector<std::string> unknowns = names.tangent("Δ", 0);
+    ExprVector y, x1, v, stage;
+    if (map.has_inverse()) {
+      const ExprVector xi = graph.variables("xi", n);
+      const auto middle = map.from_start(x0, basis * xi);
+      x1 = middle.end;
+      stage = middle.x;
+      v = middle.v * rate;
+      formulas.equations = reduced_residual(S, basis, middle.x, v, z, stage_time);
+      formulas.equation_names = names.equations(formulas.equations.size());
+      y.resize(n + z.size());
+      y << xi, z;
+    } else {
+      const ExprVector xi = graph.variables("xi", n);
+      const ExprVector eta = graph.variables("eta", n);
+      const ExprVector x = M.chart(x0, basis, xi);
+      const ExprVector displacement = M.tangent_projector(x) * (basis * eta).eval();
+      const auto ends = map.forward(x, displacement);
+      x1 = ends.second;
+      stage = x;
+      v = displacement * rate;
+      const ExprVector at_start = M.coframe(x0) * (ends.first - x0).eval();
+      const ExprVector equations = reduced_residual(S, basis, x, v, z, stage_time);
+      formulas.equations.resize(n + equations.size());
+      formulas.equations << basis.transpose() * at_start, equations;
+      formulas.equation_names = names.tangent("start of ", 0);
+      append(formulas.equation_names, names.equations(equations.size()));
+      append(unknowns, names.tangent("h ", 1));
+      y.resize(2 * n + z.size());
+      y << xi, eta, z;
+      tangent_blocks = 2;
+    }
+    append(unknowns, S.names().auxiliary);
+    formulas.inputs = {
+        {"y", y}, {"x0", x0}, {"basis", basis_parameters(M, basis)}, {"h", h}, {"t", t}};
+    formulas.input_names = {
+        std::move(unknowns), S.names().coordinates, names.basis(), {"h"}, {"t"}};
+    // z converges with the displacements.
+    formulas.elimination.never_zero = h;
+    formulas.elimination.coarseness.assign(static_cast<std::size_t>(y.size()), 0);
+    std::fill_n(formulas.elimination.coarseness.rbegin(), z.size(), 1);
+    advanced.resize(x1.size() + v.size() + stage.size());
+    advanced << x1, v, stage;
+  }
+
+  StepFormulas formulas;
+  ExprVector advanced;  // x₁, v, x̄
+  Index tangent_blocks = 1;
+};
+
 DiscretizeFirst::DiscretizeFirst(std::shared_ptr<const ImplicitSystem> system,
                                  std::shared_ptr<const DiscretizationMap> map,
                                  const Options& options)
@@ -96,58 +166,17 @@ DiscretizeFirst::DiscretizeFirst(std::shared_ptr<const ImplicitSystem> system,
     throw std::invalid_argument(
         "DiscretizeFirst::DiscretizeFirst: the map is missing, or it is not on the manifold of the "
         "system.");
-  const ImplicitSystem& S = *this->system();
-  const Manifold& M = *S.manifold();
-  const Index n = M.dimension();
-  Graph graph;
-  const ExprVector x0 = graph.variables("x0", M.ambient_dimension());
-  const ExprMatrix basis = basis_variables(graph, M);
-  const ExprVector h = graph.variables("h", 1);
-  const ExprVector t = graph.variables("t", 1);
-  const ExprVector z = graph.variables("z", S.auxiliary_size());
-  const Expr stage_time = t[0] + Expr(map_->stage_time()) * h[0];
-
-  const Expr rate = 1.0 / h[0];
-  ExprVector y, residual, x1, v, stage;
-  if (map_->has_inverse()) {
-    const ExprVector xi = graph.variables("xi", n);
-    const auto middle = map_->from_start(x0, basis * xi);
-    x1 = middle.end;
-    stage = middle.x;
-    v = middle.v * rate;
-    residual = reduced_residual(S, basis, middle.x, v, z, stage_time);
-    y.resize(n + z.size());
-    y << xi, z;
-  } else {
-    const ExprVector xi = graph.variables("xi", n);
-    const ExprVector eta = graph.variables("eta", n);
-    const ExprVector x = M.chart(x0, basis, xi);
-    const ExprVector displacement = M.tangent_projector(x) * (basis * eta).eval();
-    const auto ends = map_->forward(x, displacement);
-    x1 = ends.second;
-    stage = x;
-    v = displacement * rate;
-    const ExprVector at_start = M.coframe(x0) * (ends.first - x0).eval();
-    const ExprVector equations = reduced_residual(S, basis, x, v, z, stage_time);
-    residual.resize(n + equations.size());
-    residual << basis.transpose() * at_start, equations;
-    y.resize(2 * n + z.size());
-    y << xi, eta, z;
-    tangent_blocks_ = 2;
-  }
-  const std::vector<Function::Input> inputs = {
-      {"y", y}, {"x0", x0}, {"basis", basis_parameters(M, basis)}, {"h", h}, {"t", t}};
-  ExprVector advanced(x1.size() + v.size() + stage.size());
-  advanced << x1, v, stage;
-  std::vector<int> coarseness(static_cast<std::size_t>(y.size()), 0);
-  std::fill(coarseness.end() - z.size(), coarseness.end(), 1);
-  equations_ = EquationSystem(
-      "discretize-first", inputs, residual,
-      {.backend = options.backend, .elimination = {.never_zero = h, .coarseness = coarseness}});
-  advance_ = Function("advance", inputs, advanced, {.backend = options.backend});
+  const Trace trace(*this);
+  tangent_blocks_ = trace.tangent_blocks;
+  equations_ = trace.formulas.compile(options.backend);
+  advance_ =
+      Function("advance", trace.formulas.inputs, trace.advanced, {.backend = options.backend});
+  const Manifold& M = *this->system()->manifold();
   basis_ = MovingBasis::projection(M, options.backend);
   constraint_ = RoundOffProjection::constraint(M, options.backend);
 }
+
+std::vector<StepFormulas> DiscretizeFirst::do_formulas() const { return {Trace(*this).formulas}; }
 
 std::unique_ptr<Stepper> DiscretizeFirst::do_stepper() const {
   return std::make_unique<Trajectory>(*this);

@@ -38,8 +38,10 @@ class DiscretizeFirst final : public Integrator {
 
  private:
   class Trajectory;
+  struct Trace;
 
   std::unique_ptr<Stepper> do_stepper() const override;
+  std::vector<StepFormulas> do_formulas() const override;
 
   std::shared_ptr<const DiscretizationMap> map_;
   EquationSystem equations_;  // y; x₀, basis, h, t ↦ residual

@@ -5,7 +5,9 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
+#include "courant/integrators/step_formulas.hpp"
 #include "courant/integrators/stepper.hpp"
 
 namespace courant {
@@ -26,6 +28,10 @@ class Integrator {
   virtual std::optional<bool> is_symplectic() const { return std::nullopt; }
   virtual bool is_native() const = 0;  // whether compiled C code evaluates the step
 
+  // The equations that a step solves, one after the other; none for a method that solves none, or has
+  // no formulas to show.
+  std::vector<StepFormulas> formulas() const { return do_formulas(); }
+
   std::unique_ptr<Stepper> stepper() const { return do_stepper(); }
 
   // Φ_h applied `count` times, by a stepper of its own. Throws as Stepper::step does.
@@ -44,6 +50,8 @@ class Integrator {
  private:
   // To subclass, override:
   virtual std::unique_ptr<Stepper> do_stepper() const = 0;
+  // May override:
+  virtual std::vector<StepFormulas> do_formulas() const { return {}; }
 
   std::shared_ptr<const ImplicitSystem> system_;
 };

@@ -1,0 +1,40 @@
+// StepFormulas: the equations that a step solves, as formulas.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "courant/core/equation_system.hpp"
+#include "courant/structures/implicit_system.hpp"
+
+namespace courant {
+
+// F(y; p) = 0 for the unknowns y of a step, with names: what a solver is compiled from, and what explains
+// or exports it.
+struct StepFormulas {
+  std::string name;
+  std::shared_ptr<Graph> graph;         // of all the expressions
+  std::vector<Function::Input> inputs;  // y, then the groups of p
+  ExprVector equations;
+  std::vector<std::vector<std::string>> input_names;  // of each variable of each group
+  std::vector<std::string> equation_names;
+  bool eliminates = true;
+  Elimination::Options elimination;
+
+  EquationSystem compile(Backend backend) const;
+};
+
+// "q''" for the second derivative of q.
+std::string derivative_name(const std::string& name, Index order);
+
+// What elimination takes out of the equations and why, and what it leaves, in lines of at most `width`
+// columns, long formulas cut off:
+//
+//   constrain-first: 48 equations for 48 unknowns
+//     q' = 2*Δq/h                  from: start of q
+//     …
+//   8 equations are left, for Δq, …
+std::string explanation(const StepFormulas& formulas, std::size_t width = 100);
+
+}  // namespace courant

@@ -1,0 +1,80 @@
+#include "courant/integrators/step_formulas.hpp"
+
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <sstream>
+
+#include "courant/tests/integrators/vortices.hpp"
+
+namespace courant {
+namespace {
+
+using vortices::Degenerate;
+
+std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> result;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) result.push_back(line);
+  return result;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::unique_ptr<Integrator> method_2(const Degenerate& vortices) {
+  return vortices.method_2(vortices::positions(),
+                           std::make_shared<MomentumProjector>(vortices.phase_space));
+}
+
+BOOST_AUTO_TEST_SUITE(step_formulas_test)
+
+// Of Method 2's unknowns those of the scheme (15) are left, one for each position coordinate, and the
+// projection p = α(q) is explicit.
+BOOST_AUTO_TEST_CASE(vortices_are_left_with_the_unknowns_of_their_scheme) {
+  const Degenerate vortices = vortices::lagrangian_form();
+  const auto formulas = method_2(vortices)->formulas();
+  BOOST_TEST_REQUIRE(formulas.size() == 2);
+  const EquationSystem step = formulas[0].compile(Backend::interpreter),
+                       projection = formulas[1].compile(Backend::interpreter);
+  BOOST_TEST(step.size() == 48);
+  BOOST_TEST(step.kept().size() == 8);
+  BOOST_TEST(step.left().output_size() == 8);
+  BOOST_TEST(projection.kept().size() == 0);
+
+  const auto method_1 = vortices.method_1()->formulas();
+  BOOST_TEST_REQUIRE(method_1.size() == 1);
+  BOOST_TEST(method_1[0].compile(Backend::interpreter).kept().size() == 8);
+}
+
+BOOST_AUTO_TEST_CASE(names_fit_the_unknowns_and_equations) {
+  const Degenerate vortices = vortices::lagrangian_form();
+  for (const StepFormulas& formulas : method_2(vortices)->formulas()) {
+    BOOST_TEST_REQUIRE(formulas.input_names.size() == formulas.inputs.size());
+    for (std::size_t g = 0; g < formulas.inputs.size(); ++g)
+      BOOST_TEST(std::ssize(formulas.input_names[g]) == formulas.inputs[g].variables.size());
+    BOOST_TEST(std::ssize(formulas.equation_names) == formulas.equations.size());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_explanation_names_what_goes_and_what_stays) {
+  const Degenerate vortices = vortices::lagrangian_form();
+  const auto formulas = method_2(vortices)->formulas();
+  const std::string text = explanation(formulas[0]);
+  BOOST_TEST(contains(text, "constrain-first: 48 equations for 48 unknowns"));
+  BOOST_TEST(contains(text, "8 equations are left, for "));
+  const auto all = lines(text);
+  BOOST_TEST(all.size() == 1 + 40 + 1);
+  for (const std::string& line : all) {
+    const auto is_start = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };
+    BOOST_TEST(std::count_if(line.begin(), line.end(), is_start) <= 100, line);
+  }
+  const std::string& name = vortices.system->names().coordinates[0];
+  BOOST_TEST(contains(text, "  " + name + "' = "), text);
+  BOOST_TEST(contains(text, "from: start of " + name), text);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace
+}  // namespace courant
