@@ -22,33 +22,30 @@ class DiscretizeFirst::Trajectory final : public Stepper {
         solver_(method.equations_, {blocks_ * n_, m_}, method.name()),
         predictor_({blocks_ * n_, m_}),
         basis_(manifold(), method.basis_),
-        next_(method.advance_.output_size()) {}
+        next_(method.advance_.output_size()),
+        kept_(next_) {}
 
  private:
   void do_prepare(State& state, double) override { move_basis(state.x); }
 
-  void do_step(const State& before, Step& step) override {
+  void do_step(const State& before, double h, State& after) override {
     VectorXd& y = solver_.unknown();
-    const auto begin = [&] { begin_from(before, step.h, y); };
+    const auto begin = [&] { begin_from(before, h, y); };
     if (predictor_.is_empty())
       begin();
     else
       predictor_.predict(y);
-    const double* in[] = {y.data(), before.x.data(), basis_.data(), &step.h, &before.t};
+    const double* in[] = {y.data(), before.x.data(), basis_.data(), &h, &before.t};
     const double size = largest(before.x);
     const double scales[] = {size, auxiliary_scale(largest(before.z), size)};
-    solver_.solve(in, scales, begin, {before.t, step.h}, statistics_);
+    solver_.solve(in, scales, begin, {before.t, h}, statistics_);
 
     method_.advance_.value(in, next_.data());
     const Index N = before.x.size(), tangent = before.v.size();
-    step.after.x = next_.head(N);
-    step.after.v = next_.segment(N, tangent);
-    step.after.z = y.tail(m_);
-    step.stage.t = before.t + method_.map_->stage_time() * step.h;
-    step.stage.x = next_.tail(N);
-    step.stage.v = step.after.v;
-    step.stage.z = step.after.z;
-    projection_.apply(step.after.x);
+    after.x = next_.head(N);
+    after.v = next_.segment(N, tangent);
+    after.z = y.tail(m_);
+    projection_.apply(after.x);
   }
 
   // The displacement of the velocity that is known, half of it where the middle point is sought.
@@ -59,10 +56,22 @@ class DiscretizeFirst::Trajectory final : public Stepper {
     y.tail(m_) = before.z;
   }
 
-  void do_keep(const State&, const Step& step) override {
+  void do_keep(const State&, const State& after) override {
     if (!solver_.is_determined()) predictor_.limit_degree(Predictor::kUndetermined);
     predictor_.record(solver_.unknown());
-    move_basis(step.after.x);
+    move_basis(after.x);
+    if (!method_.map_->has_inverse()) kept_.swap(next_);
+  }
+
+  void do_stage(Step& step) const override {
+    step.stage = step.after;
+    step.stage.t = step.before.t + method_.map_->stage_time() * step.h;
+    if (method_.map_->has_inverse()) {
+      const double* in[] = {step.before.x.data(), step.after.x.data()};
+      method_.stage_.value(in, step.stage.x.data());
+    } else {
+      step.stage.x = kept_.tail(step.after.x.size());
+    }
   }
 
   void do_change_step() override { predictor_.forget(); }
@@ -85,7 +94,7 @@ class DiscretizeFirst::Trajectory final : public Stepper {
   StepSolver solver_;
   Predictor predictor_;
   MovingBasis basis_;  // at the state
-  VectorXd next_;
+  VectorXd next_, kept_;  // what advance_ gives for the step that is made, and the last that stands
 };
 
 DiscretizeFirst::DiscretizeFirst(std::shared_ptr<const ImplicitSystem> system,
@@ -108,12 +117,11 @@ DiscretizeFirst::DiscretizeFirst(std::shared_ptr<const ImplicitSystem> system,
   const Expr stage_time = t[0] + Expr(map_->stage_time()) * h[0];
 
   const Expr rate = 1.0 / h[0];
-  ExprVector y, residual, x1, v, stage;
+  ExprVector y, residual, x1, v, stage(0);
   if (map_->has_inverse()) {
     const ExprVector xi = graph.variables("xi", n);
     const auto middle = map_->from_start(x0, basis * xi);
     x1 = middle.end;
-    stage = middle.x;
     v = middle.v * rate;
     residual = reduced_residual(S, basis, middle.x, v, z, stage_time);
     y.resize(n + z.size());
@@ -142,6 +150,10 @@ DiscretizeFirst::DiscretizeFirst(std::shared_ptr<const ImplicitSystem> system,
   equations_ = Function("discretize-first", inputs, residual,
                         {.differentiate = {"y"}, .backend = options.backend});
   advance_ = Function("advance", inputs, advanced, {.backend = options.backend});
+  if (map_->has_inverse()) {
+    const ExprVector end = graph.variables("x1", M.ambient_dimension());
+    stage_ = Function("stage", {{"x0", x0}, {"x1", end}}, map_->inverse(x0, end).x);
+  }
   basis_ = MovingBasis::projection(M, options.backend);
   constraint_ = RoundOffProjection::constraint(M, options.backend);
 }

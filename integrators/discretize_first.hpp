@@ -43,7 +43,8 @@ class DiscretizeFirst final : public Integrator {
 
   std::shared_ptr<const DiscretizationMap> map_;
   Function equations_;        // y; x₀, basis, h, t ↦ residual
-  Function advance_;          // the same ↦ x₁, v, x̄
+  Function advance_;          // the same ↦ x₁, v, and x̄ unless the map has an inverse
+  Function stage_;            // x₀, x₁ ↦ x̄ where it has
   Function basis_;            // of MovingBasis
   Function constraint_;       // of RoundOffProjection
   Index tangent_blocks_ = 1;  // leading blocks of y that are coordinates of tangent vectors at x₀
