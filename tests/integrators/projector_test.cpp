@@ -146,6 +146,22 @@ BOOST_AUTO_TEST_CASE(nearest_in_a_metric) {
   BOOST_TEST((W - V * (V.transpose() * W)).norm() < 1e-12);
 }
 
+// W = g β for the momentum part β of a conormal: g given, or diag(u²) of units.
+BOOST_AUTO_TEST_CASE(momenta_move_along_g_beta) {
+  const Euclidean space(4);
+  const Vector4d conormal = Vector4d(0.3, -0.5, 0.8, 0.2).normalized();
+  const auto defect = [&](const MomentumProjector& projector, const Vector4d& expected) {
+    const VectorXd W = projector.directions(VectorXd::Zero(4), MatrixXd::Identity(4, 4), conormal);
+    return 1.0 - std::abs(W.dot(expected.normalized()));
+  };
+  const MomentumProjector in_units(space, {2, 3}, {}, Vector4d(1.0, 1.0, 2.0, 0.5));
+  BOOST_TEST(defect(in_units, Vector4d(0.0, 0.0, 4.0 * 0.8, 0.25 * 0.2)) < 1e-14);
+  const MomentumProjector in_metric(space, {2, 3}, [](const ExprVector&) -> ExprMatrix {
+    return constants(MatrixXd(Eigen::Matrix2d{{3.0, 1.0}, {1.0, 2.0}}));
+  });
+  BOOST_TEST(defect(in_metric, Vector4d(0.0, 0.0, 3.0 * 0.8 + 0.2, 0.8 + 2.0 * 0.2)) < 1e-14);
+}
+
 // Where momenta are small numbers the momentum part of a conormal is small or large, and the
 // directions are a complement all the same.
 BOOST_AUTO_TEST_CASE(transversality_does_not_depend_on_units) {
