@@ -33,7 +33,7 @@ class Trajectory final : public Stepper {
   // The method may keep the rate at the end of its last step for the next one.
   void do_prepare(State& state, double) override {
     method_ = Method();
-    evaluate_.start(state.x, state.v, state.z);
+    evaluate_.start(state);
   }
 
   bool do_keeps_to_manifold() const override { return false; }
