@@ -105,6 +105,9 @@ void print_outcome(const Console& console, const RunOutcome& outcome,
                 << shown(solver.at("factorizations_per_step"), 3) << " factorizations a step, "
                 << shown(summary.at("steps_per_second"), 3) << " steps/s ("
                 << summary.at("backend").get<std::string>() << ")\n";
+  if (const long again = solver.value("second_attempts", 0L); again > 0)
+    console.out << "  " << again << (again == 1 ? " step" : " steps")
+                << " needed a second attempt.\n";
   print_expectations(console, outcome);
   console.out << "\n  " << summary.at("status").get<std::string>() << "; files in "
               << folder.string() << '\n'

@@ -115,42 +115,47 @@ class ConstrainFirst::Trajectory final : public Stepper {
     take(state);
   }
 
-  void do_step(const State& before, Step& step) override {
+  void do_step(const State& before, double h, State& after) override {
     VectorXd& y = solver_.unknown();
     if (predictor_.is_empty()) {
       y = jets_;
-      y.head(n_) = 0.5 * step.h * jets_.segment(n_, n_);
+      y.head(n_) = 0.5 * h * jets_.segment(n_, n_);
     } else {
       predictor_.predict(y);
     }
     const double* in[] = {y.data(),           before.x.data(), basis_.data(),
-                          directions_.data(), &step.h,         &before.t};
-    const StepSolver::Attempt attempt{before.t, step.h};
+                          directions_.data(), &h,              &before.t};
+    const StepSolver::Attempt attempt{before.t, h};
     solve(solver_, in, before, attempt, jets_);
     method_.advance_.value(in, advanced_.data());
     const Index N = before.x.size();
     near_ = advanced_.head(N);
     if (!near_.allFinite())
-      throw SolveError(SolveError::Reason::left_domain, method(), before.t, step.h,
+      throw SolveError(SolveError::Reason::left_domain, method(), before.t, h,
                        "leads to a state that is not finite.");
-    step.stage.t = before.t + method_.map_->stage_time() * step.h;
-    step.stage.x = advanced_.segment(N, N);
-    step.stage.v = advanced_.tail(before.v.size());
-    step.stage.z = y.segment(method_.blocks_ * n_, before.z.size());
     round_off_projection_.apply(near_);
 
     projector_.unknown() = y;
-    project(before, attempt, step.after.t, y.tail(d_).norm(), true);
-    step.after.v.resize(before.v.size());
-    step.after.z.resize(before.z.size());
-    take(step.after);
+    project(before, attempt, after.t, y.tail(d_).norm(), true);
+    after.v.resize(before.v.size());
+    after.z.resize(before.z.size());
+    take(after);
   }
 
-  void do_keep(const State& before, const Step&) override {
+  void do_keep(const State& before, const State&) override {
     if (!solver_.is_determined()) predictor_.limit_degree(Predictor::kUndetermined);
     predictor_.record(solver_.unknown());
     record();
     accept(before.x);
+    stage_ = advanced_.tail(before.x.size() + before.v.size());
+    stage_z_ = solver_.unknown().segment(method_.blocks_ * n_, before.z.size());
+  }
+
+  void do_stage(Step& step) const override {
+    step.stage.t = step.before.t + method_.map_->stage_time() * step.h;
+    step.stage.x = stage_.head(step.before.x.size());
+    step.stage.v = stage_.tail(step.before.v.size());
+    step.stage.z = stage_z_;
   }
 
   void do_discard() override {
@@ -349,6 +354,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
   MatrixXd vectors_;
   VectorXd jets_;  // ξ', … and z, … at x_k; ξ and μ are zero
   VectorXd start_, aimed_, near_, guess_, foreseen_, shifted_, corrected_, advanced_, found_;
+  VectorXd stage_, stage_z_;  // (x̄, v) and z of the last step that stands
 };
 
 // The formulas of a step and of the projection that follows it.

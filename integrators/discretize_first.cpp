@@ -23,33 +23,30 @@ class DiscretizeFirst::Trajectory final : public Stepper {
         solver_(method.equations_, {blocks_ * n_, m_}, method.name()),
         predictor_({blocks_ * n_, m_}, solver_.kept()),
         basis_(manifold(), method.basis_),
-        next_(method.advance_.output_size()) {}
+        next_(method.advance_.output_size()),
+        kept_(next_) {}
 
  private:
   void do_prepare(State& state, double) override { move_basis(state.x); }
 
-  void do_step(const State& before, Step& step) override {
+  void do_step(const State& before, double h, State& after) override {
     VectorXd& y = solver_.unknown();
-    const auto begin = [&] { begin_from(before, step.h, y); };
+    const auto begin = [&] { begin_from(before, h, y); };
     if (predictor_.is_empty())
       begin();
     else
       predictor_.predict(y);
-    const double* in[] = {y.data(), before.x.data(), basis_.data(), &step.h, &before.t};
+    const double* in[] = {y.data(), before.x.data(), basis_.data(), &h, &before.t};
     const double size = largest(before.x);
     const double scales[] = {size, auxiliary_scale(largest(before.z), size)};
-    solver_.solve(in, scales, begin, {before.t, step.h}, statistics_);
+    solver_.solve(in, scales, begin, {before.t, h}, statistics_);
 
     method_.advance_.value(in, next_.data());
     const Index N = before.x.size(), tangent = before.v.size();
-    step.after.x = next_.head(N);
-    step.after.v = next_.segment(N, tangent);
-    step.after.z = y.tail(m_);
-    step.stage.t = before.t + method_.map_->stage_time() * step.h;
-    step.stage.x = next_.tail(N);
-    step.stage.v = step.after.v;
-    step.stage.z = step.after.z;
-    projection_.apply(step.after.x);
+    after.x = next_.head(N);
+    after.v = next_.segment(N, tangent);
+    after.z = y.tail(m_);
+    projection_.apply(after.x);
   }
 
   // The displacement of the velocity that is known, half of it where the middle point is sought.
@@ -60,10 +57,22 @@ class DiscretizeFirst::Trajectory final : public Stepper {
     y.tail(m_) = before.z;
   }
 
-  void do_keep(const State&, const Step& step) override {
+  void do_keep(const State&, const State& after) override {
     if (!solver_.is_determined()) predictor_.limit_degree(Predictor::kUndetermined);
     predictor_.record(solver_.unknown());
-    move_basis(step.after.x);
+    move_basis(after.x);
+    if (!method_.map_->has_inverse()) kept_.swap(next_);
+  }
+
+  void do_stage(Step& step) const override {
+    step.stage = step.after;
+    step.stage.t = step.before.t + method_.map_->stage_time() * step.h;
+    if (method_.map_->has_inverse()) {
+      const double* in[] = {step.before.x.data(), step.after.x.data()};
+      method_.stage_.value(in, step.stage.x.data());
+    } else {
+      step.stage.x = kept_.tail(step.after.x.size());
+    }
   }
 
   void do_change_step() override { predictor_.forget(); }
@@ -85,8 +94,8 @@ class DiscretizeFirst::Trajectory final : public Stepper {
   Index n_, m_, blocks_;
   StepSolver solver_;
   Predictor predictor_;
-  MovingBasis basis_;  // at the state
-  VectorXd next_;
+  MovingBasis basis_;     // at the state
+  VectorXd next_, kept_;  // what advance_ gives for the step that is made, and the last that stands
 };
 
 // The formulas of a step.
@@ -109,12 +118,11 @@ struct DiscretizeFirst::Trace {
 
     const StepNames names(S);
     std::vector<std::string> unknowns = names.tangent("Δ", 0);
-    ExprVector y, x1, v, stage;
+    ExprVector y, x1, v, stage(0);
     if (map.has_inverse()) {
       const ExprVector xi = graph.variables("xi", n);
       const auto middle = map.from_start(x0, basis * xi);
       x1 = middle.end;
-      stage = middle.x;
       v = middle.v * rate;
       formulas.equations = reduced_residual(S, basis, middle.x, v, z, stage_time);
       formulas.equation_names = names.equations(formulas.equations.size());
@@ -154,7 +162,7 @@ struct DiscretizeFirst::Trace {
   }
 
   StepFormulas formulas;
-  ExprVector advanced;  // x₁, v, x̄
+  ExprVector advanced;  // x₁, v, and x̄ unless the map has an inverse
   Index tangent_blocks = 1;
 };
 
@@ -172,6 +180,11 @@ DiscretizeFirst::DiscretizeFirst(std::shared_ptr<const ImplicitSystem> system,
   advance_ =
       Function("advance", trace.formulas.inputs, trace.advanced, {.backend = options.backend});
   const Manifold& M = *this->system()->manifold();
+  if (map_->has_inverse()) {
+    const ExprVector& x0 = trace.formulas.inputs[1].variables;
+    const ExprVector end = trace.formulas.graph->variables("x1", M.ambient_dimension());
+    stage_ = Function("stage", {{"x0", x0}, {"x1", end}}, map_->inverse(x0, end).x);
+  }
   basis_ = MovingBasis::projection(M, options.backend);
   constraint_ = RoundOffProjection::constraint(M, options.backend);
 }

@@ -33,7 +33,14 @@ class DiscretizeFirst final : public Integrator {
   std::string name() const override { return "discretize-first"; }
   int order() const override { return map_->order(); }
   bool is_symmetric() const override { return map_->is_symmetric(); }
-  std::optional<bool> is_symplectic() const override { return map_->is_symplectic(); }
+  // A symplectic map takes the Lagrangian submanifold S to one of T*Q × T*Q, the graph of a
+  // symplectic map (Section 5.1.1): a claim about the two together. Of other systems, those with
+  // damping say, nothing is known.
+  std::optional<bool> is_symplectic() const override {
+    if (map_->is_symplectic().value_or(false) && system()->is_lagrangian().value_or(false))
+      return true;
+    return std::nullopt;
+  }
   bool is_native() const override { return equations_.is_native(); }
 
  private:
@@ -45,7 +52,8 @@ class DiscretizeFirst final : public Integrator {
 
   std::shared_ptr<const DiscretizationMap> map_;
   EquationSystem equations_;  // y; x₀, basis, h, t ↦ residual
-  Function advance_;          // the same ↦ x₁, v, x̄
+  Function advance_;          // the same ↦ x₁, v, and x̄ unless the map has an inverse
+  Function stage_;            // x₀, x₁ ↦ x̄ where it has
   Function basis_;            // of MovingBasis
   Function constraint_;       // of RoundOffProjection
   Index tangent_blocks_ = 1;  // leading blocks of y that are coordinates of tangent vectors at x₀

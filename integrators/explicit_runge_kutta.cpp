@@ -33,29 +33,33 @@ class Trajectory final : public Stepper {
   // The method may keep the rate at the end of its last step for the next one.
   void do_prepare(State& state, double) override {
     method_ = Method();
-    evaluate_.start(state.x, state.v, state.z);
+    evaluate_.start(state);
   }
 
   bool do_keeps_to_manifold() const override { return false; }
 
-  void do_step(const State& before, Step& step) override {
+  void do_step(const State& before, double h, State& after) override {
     const auto rate = [&](const VectorXd& x, VectorXd& dx, double t) {
       evaluate_(x, dx, t);
-      step.stage.t = t;
-      step.stage.x = x;
+      stage_.t = t;
+      stage_.x = x;
     };
-    step.after.x = before.x;
+    after.x = before.x;
     try {
-      method_.do_step(rate, step.after.x, before.t, step.h);
+      method_.do_step(rate, after.x, before.t, h);
     } catch (const std::domain_error& error) {
-      throw SolveError(SolveError::Reason::singular, method(), before.t, step.h,
+      throw SolveError(SolveError::Reason::singular, method(), before.t, h,
                        std::string("cannot be made: ") + error.what());
     }
-    step.after.v = step.stage.v = evaluate_.v();
-    step.after.z = step.stage.z = evaluate_.z();
+    after.v = stage_.v = evaluate_.v();
+    after.z = stage_.z = evaluate_.z();
   }
 
-  void do_keep(const State&, const Step&) override { evaluate_.keep(); }
+  void do_keep(const State&, const State&) override {
+    evaluate_.keep();
+    kept_stage_.swap(stage_);
+  }
+  void do_stage(Step& step) const override { step.stage = kept_stage_; }
   void do_discard() override {
     method_ = Method();
     evaluate_.discard();
@@ -71,6 +75,7 @@ class Trajectory final : public Stepper {
   std::shared_ptr<const VectorField> field_;
   VectorField::Evaluation evaluate_;
   Method method_;
+  State stage_, kept_stage_;  // of the step that is made, and of the last that stands
 };
 
 }  // namespace

@@ -12,13 +12,6 @@ struct Step {
   // (x̄, v, z) at time t̄: where the system was evaluated to make the step; of several such points
   // the last.
   State stage = {};
-
-  void swap(Step& other) {
-    std::swap(h, other.h);
-    before.swap(other.before);
-    after.swap(other.after);
-    stage.swap(other.stage);
-  }
 };
 
 }  // namespace courant

@@ -26,8 +26,7 @@ void check_size(const std::string& method, const char* part, Index size, Index e
 Stepper::Stepper(std::string method, std::shared_ptr<const ImplicitSystem> system)
     : method_(std::move(method)), system_(std::move(system)) {}
 
-void Stepper::check(double h) const {
-  if (std::isfinite(h) && h != 0.0) return;
+void Stepper::refuse(double h) const {
   std::ostringstream message;
   message << method_ << ": h is " << h << "; expected a finite number other than zero.";
   throw std::invalid_argument(message.str());
@@ -64,38 +63,37 @@ bool Stepper::is_near_last(const State& state) const {
   const auto largest = [](const VectorXd& x) {
     return x.size() == 0 ? 0.0 : x.lpNorm<Eigen::Infinity>();
   };
-  return std::fabs(state.t - step_.after.t) <= kNear * std::fabs(step_.h) &&
-         largest(state.x - step_.after.x) <= kNear * largest(step_.after.x - step_.before.x);
+  return std::fabs(state.t - last_->after.t) <= kNear * std::fabs(last_->h) &&
+         largest(state.x - last_->after.x) <= kNear * largest(last_->after.x - last_->before.x);
 }
 
 void Stepper::prepare(State& state, double h) {
-  check(h);
+  if (!std::isfinite(h) || h == 0.0) refuse(h);
   check(state);
-  if (is_prepared_ && state == step_.after) return;
+  if (is_prepared_ && state == last_->after) return;
   forget();
   State prepared = state;
   take_up(prepared, h);
-  step_.after = state = prepared;
+  last_->after = state = prepared;
 }
 
-const Step& Stepper::step(State& state, double h, double end) {
-  check(h);
-  const bool goes_on = is_prepared_ && state == step_.after;
+void Stepper::step(State& state, double h, double end) {
+  if (!std::isfinite(h) || h == 0.0) refuse(h);
+  const bool goes_on = is_prepared_ && state == last_->after;
   if (!goes_on) {
     check(state);
     if (has_stepped_ && !is_near_last(state)) forget();
-    trial_.before = state;
-    take_up(trial_.before, h);
+    trial_->before = state;
+    take_up(trial_->before, h);
   }
-  if (has_stepped_ && h != step_.h) do_change_step();
-  const State& before = goes_on ? step_.after : trial_.before;
-  trial_.h = h;
-  trial_.after.t = end;
+  if (has_stepped_ && h != last_->h) do_change_step();
+  State& before = goes_on ? last_->after : trial_->before;
+  State& after = trial_->after;
   const long failures = statistics_.failures;
+  after.t = end;
   try {
-    do_step(before, trial_);
-    const State& after = trial_.after;
-    if (!after.x.allFinite() || !after.v.allFinite() || !after.z.allFinite())
+    do_step(before, h, after);
+    if (!is_finite(after))
       throw SolveError(SolveError::Reason::left_domain, method_, state.t, h,
                        "leads to a state that is not finite.");
   } catch (...) {
@@ -104,14 +102,23 @@ const Step& Stepper::step(State& state, double h, double end) {
     if (!goes_on) forget();
     throw;
   }
-  do_keep(before, trial_);
+  do_keep(before, after);
   ++statistics_.steps;
   if (statistics_.failures > failures) ++statistics_.second_attempts;
-  if (goes_on) trial_.before.swap(step_.after);
-  step_.swap(trial_);
+  if (goes_on) trial_->before.swap(before);
+  trial_->h = h;
+  std::swap(last_, trial_);
   has_stepped_ = true;
-  state = step_.after;
-  return step_;
+  has_stage_ = false;
+  state = last_->after;
+}
+
+const Step& Stepper::last() {
+  if (has_stepped_ && !has_stage_) {
+    do_stage(*last_);
+    has_stage_ = true;
+  }
+  return *last_;
 }
 
 State Stepper::between(double s) {
@@ -121,12 +128,12 @@ State Stepper::between(double s) {
     message << method_ << ": between: s is " << s << "; expected a number from 0 to 1.";
     throw std::invalid_argument(message.str());
   }
-  if (s == 0.0) return step_.before;
-  if (s == 1.0) return step_.after;
+  if (s == 0.0) return last_->before;
+  if (s == 1.0) return last_->after;
   if (!between_) between_ = do_fresh();
   between_->forget();
-  State state = step_.before;
-  between_->step(state, s * step_.h);
+  State state = last_->before;
+  between_->step(state, s * last_->h);
   return state;
 }
 

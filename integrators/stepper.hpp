@@ -47,11 +47,12 @@ class Stepper {
   // collect round-off. Throws std::invalid_argument unless the state fits the system and h is
   // finite and not zero, std::domain_error unless x is on the manifold up to 1e-6 (explicit methods,
   // which leave it, do not ask), SolveError if the step cannot be made.
-  const Step& step(State& state, double h, double end);
-  const Step& step(State& state, double h) { return step(state, h, state.t + h); }
+  void step(State& state, double h, double end);
+  void step(State& state, double h) { step(state, h, state.t + h); }
 
-  // The last step; a reference to the same object always.
-  const Step& last() const { return step_; }
+  // The last step; before the first one, `after` is the state that was prepared. Valid until the
+  // next step is made.
+  const Step& last();
 
   // The curve of the last step: Φ_{sh} of the state before, for 0 ≤ s ≤ 1. Of the method's order,
   // on M_f where the method is; each point costs what a step costs. Throws std::logic_error before
@@ -66,6 +67,8 @@ class Stepper {
  protected:
   // `method` is named in messages.
   Stepper(std::string method, std::shared_ptr<const ImplicitSystem> system);
+  Stepper(const Stepper&) = delete;
+  Stepper& operator=(const Stepper&) = delete;
 
   const ImplicitSystem& system() const { return *system_; }
   const Manifold& manifold() const { return *system_->manifold(); }
@@ -75,12 +78,14 @@ class Stepper {
 
  private:
   // To subclass, override:
-  // From `before`, which is where the last step ended or prepared, by step.h to the time
-  // step.after.t: writes the rest of step.after, and step.stage. Throws SolveError. What is kept
-  // for later steps stays as it is until do_keep.
-  virtual void do_step(const State& before, Step& step) = 0;
+  // From `before`, which is where the last step ended or prepared, by h to the time after.t: writes
+  // the rest of `after`, whose v and z have any sizes. Throws SolveError. What is kept for later
+  // steps, and the stage of the last one, stay as they are until do_keep.
+  virtual void do_step(const State& before, double h, State& after) = 0;
   // The step that was just made stands.
-  virtual void do_keep(const State& before, const Step& step) = 0;
+  virtual void do_keep(const State& before, const State& after) = 0;
+  // Writes step.stage of the last step that stands.
+  virtual void do_stage(Step& step) const = 0;
   // As after construction.
   virtual void do_forget() = 0;
   // A stepper of the same method.
@@ -97,16 +102,18 @@ class Stepper {
   // The next step is of another size: what extrapolates those before is of no use.
   virtual void do_change_step() {}
 
-  void check(double h) const;
+  [[noreturn]] void refuse(double h) const;
   void check(const State& state) const;
   void take_up(State& state, double h);
   bool is_near_last(const State& state) const;
 
   std::string method_;
   std::shared_ptr<const ImplicitSystem> system_;
-  Step step_, trial_;
+  Step steps_[2];
+  Step *last_ = &steps_[0], *trial_ = &steps_[1];
   bool has_stepped_ = false;  // since the last forget()
-  bool is_prepared_ = false;  // for a step from step_.after
+  bool has_stage_ = false;    // last_ has that of its step
+  bool is_prepared_ = false;  // for a step from last_->after
   std::unique_ptr<Stepper> between_;
 };
 

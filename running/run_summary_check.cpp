@@ -92,8 +92,10 @@ Kind summary_kind() {
                                   {"max_drift", number}});
   const Kind expectation = record(
       {{"description", text, true}, {"passed", truth, true}, {"value", plain}, {"bound", plain}});
-  const Kind solver = record(
-      {{"iterations_per_step", number}, {"factorizations_per_step", number}, {"failures", number}});
+  const Kind solver = record({{"iterations_per_step", number},
+                              {"factorizations_per_step", number},
+                              {"failures", number},
+                              {"second_attempts", number}});
   return record({{"status", text, true},
                  {"message", text},
                  {"system", text, true},

@@ -13,6 +13,7 @@
 #include "courant/running/observer.hpp"
 #include "courant/running/quantity_statistics.hpp"
 #include "courant/running/run_folder.hpp"
+#include "courant/running/run_watchers.hpp"
 #include "courant/running/trajectory_writer.hpp"
 
 namespace courant {
@@ -45,11 +46,7 @@ class Run {
         options_(options),
         ladder_(consistent_start(experiment)),
         ladder_json_(ladder_json(ladder_, *experiment.model.system)),
-        observer_(experiment, ladder_, options.backend) {
-    if (experiment.time)
-      for (const double moment : experiment.expect.times)
-        moments_due_.emplace(*experiment.time->step_at(moment), moment);
-  }
+        observer_(experiment, ladder_, options.backend) {}
 
   RunOutcome operator()() {
     if (options_.on_ladder) options_.on_ladder(ladder_json_);
@@ -66,10 +63,11 @@ class Run {
     columns.resize(observer_.written_count());
     columns.insert(columns.begin(), "t");
     const auto writer = make_trajectory_writer(experiment_.output.format, folder.path(), columns);
+    make_watchers(*writer);
     if (method)
-      integrate(*method, *writer);
+      integrate(*method);
     else if (consistent)
-      record(ladder_.point, 0, 0, *writer);
+      goes_on({.after = ladder_.point}, 0, 0);
     writer->flush();
 
     RunOutcome outcome{status_, message_, {}, expectations()};
@@ -96,11 +94,13 @@ class Run {
   std::optional<PreparedMethod> prepare() {
     if (!experiment_.method) return std::nullopt;
     try {
-      PreparedMethod method = experiment_.method->prepare({.system = experiment_.model.system,
-                                                           .ladder = ladder_,
-                                                           .initial = ladder_.point,
-                                                           .step = experiment_.time->step,
-                                                           .backend = options_.backend});
+      PreparedMethod method =
+          experiment_.method->prepare({.system = experiment_.model.system,
+                                       .ladder = ladder_,
+                                       .initial = ladder_.point,
+                                       .step = experiment_.time->step,
+                                       .backend = options_.backend,
+                                       .vocabulary = &experiment_.model.vocabulary});
       backend_ = method.integrator->is_native() ? "native" : "interpreter";
       return method;
     } catch (const std::invalid_argument& error) {
@@ -113,20 +113,47 @@ class Run {
     return std::nullopt;
   }
 
-  // A state of the run: its row, where rows are due, and what is kept of it.
-  void record(const State& state, long k, long last, TrajectoryWriter& writer) {
-    const double t = experiment_.time ? experiment_.time->time(k) : state.t;
-    const VectorXd& row = observer_.row(state);
-    statistics_.add(t, row);
-    if (k % experiment_.output.every == 0 || k == last)
-      writer.append(t, row.head(static_cast<Index>(observer_.written_count())));
-    for (auto [due, end] = moments_due_.equal_range(k); due != end; ++due)
-      for (std::size_t i = 0; i < observer_.names().size(); ++i)
-        moments_[due->second][observer_.names()[i]] = row[static_cast<Index>(i)];
-    steps_ = k;
+  // All that is told of the states of the run, in this order. What ends the run is told last.
+  void make_watchers(TrajectoryWriter& writer) {
+    watchers_.push_back(keep_statistics(statistics_));
+    watchers_.push_back(write_rows(writer, experiment_.output.every,
+                                   static_cast<Index>(observer_.written_count())));
+    if (experiment_.time && !experiment_.expect.times.empty()) {
+      std::multimap<long, double> due;
+      for (const double moment : experiment_.expect.times)
+        due.emplace(*experiment_.time->step_at(moment), moment);
+      watchers_.push_back(keep_rows(std::move(due), rows_at_times_));
+    }
+    if (options_.on_progress && experiment_.time)
+      watchers_.push_back(show_progress(options_.on_progress, [this] { return energy_drift(); }));
+    if (experiment_.examine > 0 && experiment_.time) {
+      ladder_watch_.emplace(experiment_.model.system, ladder_);
+      watchers_.push_back(examine_ladder(*ladder_watch_, experiment_.examine));
+    }
+    if (options_.stop) watchers_.push_back(stop_when(*options_.stop));
   }
 
-  void integrate(const PreparedMethod& method, TrajectoryWriter& writer) {
+  // Whether the run goes on from this state, which is that after step k.
+  bool goes_on(const Step& step, long k, long steps) {
+    const State& state = step.after;
+    const double t = experiment_.time ? experiment_.time->time(k) : state.t;
+    const RunMoment moment{
+        .k = k, .steps = steps, .t = t, .row = observer_.row(state), .step = step};
+    steps_ = k;
+    std::optional<RunEnd> end;
+    const auto tell = [&](RunWatcher& watcher) {
+      if (auto its_end = watcher.watch(moment); its_end && !end) end = std::move(its_end);
+    };
+    for (const auto& watcher : watchers_) tell(*watcher);
+    for (RunWatcher* watcher : options_.watchers) tell(*watcher);
+    if (end) {
+      status_ = end->status;
+      message_ = end->message;
+    }
+    return !end;
+  }
+
+  void integrate(const PreparedMethod& method) {
     const TimeSpan& time = *experiment_.time;
     const auto stepper = method.integrator->stepper();
     State state = method.initial;
@@ -135,37 +162,15 @@ class Run {
     } catch (const SolveError& error) {
       return fail(error.what());
     }
-    record(state, 0, time.steps, writer);
     const auto begin = Clock::now();
-    auto shown = begin;
-    std::optional<LadderWatch> watch;
-    if (experiment_.examine > 0) watch.emplace(experiment_.model.system, ladder_);
-    const auto still_holds = [&](const State& state, long k) {
-      if (!watch || k % experiment_.examine != 0) return true;
-      const std::string finding = watch->examine(state);
-      if (!finding.empty()) fail("Stopped after step " + std::to_string(k) + ". " + finding);
-      return finding.empty();
-    };
-    still_holds(state, 0);
+    bool going = goes_on(stepper->last(), 0, time.steps);
     try {
-      for (long k = 1; k <= time.steps; ++k) {
-        if (options_.stop && options_.stop->load(std::memory_order_relaxed)) {
-          status_ = RunStatus::interrupted;
-          message_ = "Interrupted after step " + std::to_string(k - 1) + ".";
-          break;
-        }
+      for (long k = 1; going && k <= time.steps; ++k) {
         stepper->step(state, time.step, time.time(k));
-        record(state, k, time.steps, writer);
-        if (!still_holds(state, k)) break;
-        if (!options_.on_progress) continue;
-        if (const auto now = Clock::now();
-            now - shown > std::chrono::milliseconds(100) || k == time.steps) {
-          shown = now;
-          options_.on_progress({k, time.steps, seconds_since(begin), energy_drift()});
-        }
+        going = goes_on(stepper->last(), k, time.steps);
       }
     } catch (const SolveError& error) {
-      fail(error.what() + (watch ? watch->decline() : ""));
+      fail(error.what() + (ladder_watch_ ? ladder_watch_->decline() : ""));
     }
     wall_seconds_ = seconds_since(begin);
     solver_ = stepper->statistics();
@@ -186,7 +191,9 @@ class Run {
   std::vector<ExpectationResult> expectations() const {
     RunRecord record;
     record.completed = status_ == RunStatus::completed && !statistics_.empty();
-    record.moments = moments_;
+    for (const auto& [time, row] : rows_at_times_)
+      for (std::size_t i = 0; i < observer_.names().size(); ++i)
+        record.moments[time][observer_.names()[i]] = row[static_cast<Index>(i)];
     record.ladder = ladder_json_;
     if (!statistics_.empty()) {
       for (std::size_t i = 0; i < observer_.names().size(); ++i)
@@ -247,7 +254,8 @@ class Run {
     json["solver"] = {
         {"iterations_per_step", per(static_cast<double>(solver_.iterations), steps)},
         {"factorizations_per_step", per(static_cast<double>(solver_.factorizations), steps)},
-        {"failures", solver_.failures}};
+        {"failures", solver_.failures},
+        {"second_attempts", solver_.second_attempts}};
     json["backend"] = backend_;
     json["wall_seconds"] = wall_seconds_;
     json["steps_per_second"] = per(steps, wall_seconds_);
@@ -259,12 +267,13 @@ class Run {
   const ConstraintLadder ladder_;
   const Json ladder_json_;
   Observer observer_;
-  std::multimap<long, double> moments_due_;
 
   RunStatus status_ = RunStatus::completed;
   std::string message_;
   QuantityStatistics statistics_;
-  decltype(RunRecord::moments) moments_;
+  std::map<double, VectorXd> rows_at_times_;
+  std::optional<LadderWatch> ladder_watch_;
+  std::vector<std::unique_ptr<RunWatcher>> watchers_;
   long steps_ = 0;
   SolverStatistics solver_;
   std::string backend_ = "interpreter";

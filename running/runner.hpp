@@ -8,15 +8,9 @@
 #include <vector>
 
 #include "courant/reading/experiment.hpp"
+#include "courant/running/run_watchers.hpp"
 
 namespace courant {
-
-// Where a run is, for whoever watches it.
-struct Progress {
-  long step = 0, steps = 0;
-  double seconds = 0.0;       // since the first step
-  double energy_drift = 0.0;  // H - H(0); NaN without an energy
-};
 
 struct RunOptions {
   std::filesystem::path folder;
@@ -25,9 +19,8 @@ struct RunOptions {
   const std::atomic<bool>* stop = nullptr;            // set by someone else: the run is interrupted
   std::function<void(const Json& ladder)> on_ladder;  // once the constraint algorithm has finished
   std::function<void(const Progress&)> on_progress;   // some ten times a second
+  std::vector<RunWatcher*> watchers = {};             // are told of every state too
 };
-
-enum class RunStatus { completed, failed, interrupted };
 
 struct RunOutcome {
   RunStatus status = RunStatus::failed;

@@ -20,4 +20,7 @@ struct State {
 // Whether all numbers are the same, bit by bit.
 bool operator==(const State& a, const State& b);
 
+// Whether all of x, v and z are finite.
+bool is_finite(const State& state);
+
 }  // namespace courant

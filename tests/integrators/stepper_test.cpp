@@ -109,7 +109,8 @@ BOOST_AUTO_TEST_CASE(w1_a_step_depends_on_state_and_size_alone) {
       for (int k = 0; k < 60; ++k) {
         const double h = at.h * sizes[k % 10];
         const State fresh = at.method->advance(state, h);
-        const Step& step = stepper->step(state, h);
+        stepper->step(state, h);
+        const Step& step = stepper->last();
         BOOST_TEST(distance(fresh, state) < at.round_off);
         BOOST_TEST(state.t == fresh.t);
         BOOST_TEST(step.h == h);
@@ -205,8 +206,8 @@ BOOST_AUTO_TEST_CASE(the_curve_of_the_last_step) {
       BOOST_TEST(middle.t == stepper->last().before.t + 0.4 * at.h);
       BOOST_TEST(distance(at.method->advance(stepper->last().before, 0.4 * at.h), middle) <
                  at.round_off);
-      BOOST_TEST(distance(at.method->advance(other, at.h), stepper->step(state, at.h).after) <
-                 at.round_off);
+      stepper->step(state, at.h);
+      BOOST_TEST(distance(at.method->advance(other, at.h), state) < at.round_off);
       if (!at.keeps_its_order) continue;
       // Errors of one step against many small ones: order + 1.
       std::vector<double> sizes, errors;
@@ -241,7 +242,8 @@ BOOST_AUTO_TEST_CASE(what_a_step_knows) {
   for (const auto& method : methods) {
     const auto stepper = method->stepper();
     State state{.t = 2.0, .x = VectorXd::Constant(1, 5.0)};
-    const Step& step = stepper->step(state, 0.4, 2.4);
+    stepper->step(state, 0.4, 2.4);
+    const Step& step = stepper->last();
     const double v = std::cos(2.1);
     BOOST_TEST(step.before.t == 2.0);
     BOOST_TEST(step.before.x[0] == 5.0);

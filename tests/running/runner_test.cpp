@@ -125,6 +125,52 @@ BOOST_AUTO_TEST_CASE(an_interrupt_ends_a_run_in_order) {
   BOOST_TEST(read_run(folder / "run").trajectory.rows() == 1u);
 }
 
+// Ends the run after a step of its choice.
+class Recorder final : public RunWatcher {
+ public:
+  explicit Recorder(long last) : last_(last) {}
+  std::optional<RunEnd> watch(const RunMoment& moment) override {
+    steps.push_back(moment.step);
+    times.push_back(moment.t);
+    rows.push_back(moment.row);
+    if (moment.k != last_) return std::nullopt;
+    return RunEnd{RunStatus::failed, "Enough."};
+  }
+  std::vector<Step> steps;
+  std::vector<double> times;
+  std::vector<VectorXd> rows;
+
+ private:
+  long last_;
+};
+
+BOOST_AUTO_TEST_CASE(watchers_are_told_of_every_state_and_may_end_the_run) {
+  const TemporaryFolder folder;
+  Recorder first(3), second(-1);
+  RunOptions options;
+  options.watchers = {&first, &second};
+  const RunOutcome outcome = run_in(folder, oscillator, options);
+  BOOST_TEST((outcome.status == RunStatus::failed));
+  BOOST_TEST(outcome.message == "Enough.");
+  BOOST_TEST(outcome.summary["steps"] == 3);
+  const Run run = read_run(folder / "run");
+  BOOST_TEST(run.trajectory.rows() == 4u);
+  BOOST_TEST(second.steps.size() == 4u);  // it was told of the last state too
+  BOOST_TEST_REQUIRE(first.steps.size() == 4u);
+  const std::string coordinate = run.coordinates().front();
+  for (std::size_t k = 0; k < 4; ++k) {
+    BOOST_TEST(first.rows[k][0] == run.trajectory.column(coordinate)[k]);
+    BOOST_TEST(first.steps[k].after.x[0] == first.rows[k][0]);
+    BOOST_TEST(first.times[k] == first.steps[k].after.t);
+    if (k > 0) BOOST_TEST((first.steps[k].before.x == first.steps[k - 1].after.x));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(steps_with_a_second_attempt_are_counted) {
+  const TemporaryFolder folder;
+  BOOST_TEST(run_in(folder, oscillator).summary["solver"]["second_attempts"] == 0);
+}
+
 BOOST_AUTO_TEST_CASE(a_run_is_replaced_only_when_told_so) {
   const TemporaryFolder folder;
   run_in(folder, oscillator);

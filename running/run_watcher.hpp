@@ -1,0 +1,37 @@
+// RunWatcher: what is told of every state of a run.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "courant/integrators/step.hpp"
+
+namespace courant {
+
+enum class RunStatus { completed, failed, interrupted };
+
+// Why a run ends before its last step.
+struct RunEnd {
+  RunStatus status = RunStatus::failed;
+  std::string message = {};
+};
+
+// A state of a run, k = 0, 1, …, steps.
+struct RunMoment {
+  long k = 0, steps = 0;
+  double t = 0.0;
+  const VectorXd& row;  // what is measured there, in the order of Observer::names()
+  const Step& step;     // ends at the state, which is step.after; of no meaning otherwise at k = 0
+};
+
+// The writer of the trajectory, statistics, the watch over the ladder, progress: all that a run
+// does with its states. Each gets every state, in the order of time; a run that one of them ends is
+// told to the others first.
+class RunWatcher {
+ public:
+  virtual ~RunWatcher() = default;
+  // Why the run ends with this state; nothing if it goes on.
+  virtual std::optional<RunEnd> watch(const RunMoment& moment) = 0;
+};
+
+}  // namespace courant

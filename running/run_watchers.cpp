@@ -1,0 +1,132 @@
+#include "courant/running/run_watchers.hpp"
+
+#include <chrono>
+#include <utility>
+
+namespace courant {
+namespace {
+
+class Statistics final : public RunWatcher {
+ public:
+  explicit Statistics(QuantityStatistics& statistics) : statistics_(statistics) {}
+  std::optional<RunEnd> watch(const RunMoment& moment) override {
+    statistics_.add(moment.t, moment.row);
+    return std::nullopt;
+  }
+
+ private:
+  QuantityStatistics& statistics_;
+};
+
+class Rows final : public RunWatcher {
+ public:
+  Rows(TrajectoryWriter& writer, long every, Index count)
+      : writer_(writer), every_(every), count_(count) {}
+  std::optional<RunEnd> watch(const RunMoment& moment) override {
+    if (moment.k % every_ == 0 || moment.k == moment.steps)
+      writer_.append(moment.t, moment.row.head(count_));
+    return std::nullopt;
+  }
+
+ private:
+  TrajectoryWriter& writer_;
+  long every_;
+  Index count_;
+};
+
+class RowsAtTimes final : public RunWatcher {
+ public:
+  RowsAtTimes(std::multimap<long, double> due, std::map<double, VectorXd>& rows)
+      : due_(std::move(due)), rows_(rows) {}
+  std::optional<RunEnd> watch(const RunMoment& moment) override {
+    for (auto [at, end] = due_.equal_range(moment.k); at != end; ++at)
+      rows_[at->second] = moment.row;
+    return std::nullopt;
+  }
+
+ private:
+  std::multimap<long, double> due_;
+  std::map<double, VectorXd>& rows_;
+};
+
+class Examination final : public RunWatcher {
+ public:
+  Examination(LadderWatch& watch, long every) : watch_(watch), every_(every) {}
+  std::optional<RunEnd> watch(const RunMoment& moment) override {
+    if (moment.k % every_ != 0) return std::nullopt;
+    const std::string finding = watch_.examine(moment.step.after);
+    if (finding.empty()) return std::nullopt;
+    return RunEnd{RunStatus::failed,
+                  "Stopped after step " + std::to_string(moment.k) + ". " + finding};
+  }
+
+ private:
+  LadderWatch& watch_;
+  long every_;
+};
+
+class Display final : public RunWatcher {
+ public:
+  Display(std::function<void(const Progress&)> show, std::function<double()> energy_drift)
+      : show_(std::move(show)), energy_drift_(std::move(energy_drift)) {}
+  std::optional<RunEnd> watch(const RunMoment& moment) override {
+    const auto now = Clock::now();
+    if (moment.k == 0) {
+      begin_ = shown_ = now;
+    } else if (now - shown_ > std::chrono::milliseconds(100) || moment.k == moment.steps) {
+      shown_ = now;
+      const std::chrono::duration<double> seconds = now - begin_;
+      show_({moment.k, moment.steps, seconds.count(), energy_drift_()});
+    }
+    return std::nullopt;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::function<void(const Progress&)> show_;
+  std::function<double()> energy_drift_;
+  Clock::time_point begin_, shown_;
+};
+
+class Stop final : public RunWatcher {
+ public:
+  explicit Stop(const std::atomic<bool>& stop) : stop_(stop) {}
+  std::optional<RunEnd> watch(const RunMoment& moment) override {
+    if (moment.k == moment.steps || !stop_.load(std::memory_order_relaxed)) return std::nullopt;
+    return RunEnd{RunStatus::interrupted,
+                  "Interrupted after step " + std::to_string(moment.k) + "."};
+  }
+
+ private:
+  const std::atomic<bool>& stop_;
+};
+
+}  // namespace
+
+std::unique_ptr<RunWatcher> keep_statistics(QuantityStatistics& statistics) {
+  return std::make_unique<Statistics>(statistics);
+}
+
+std::unique_ptr<RunWatcher> write_rows(TrajectoryWriter& writer, long every, Index count) {
+  return std::make_unique<Rows>(writer, every, count);
+}
+
+std::unique_ptr<RunWatcher> keep_rows(std::multimap<long, double> due,
+                                      std::map<double, VectorXd>& rows) {
+  return std::make_unique<RowsAtTimes>(std::move(due), rows);
+}
+
+std::unique_ptr<RunWatcher> examine_ladder(LadderWatch& watch, long every) {
+  return std::make_unique<Examination>(watch, every);
+}
+
+std::unique_ptr<RunWatcher> show_progress(std::function<void(const Progress&)> show,
+                                          std::function<double()> energy_drift) {
+  return std::make_unique<Display>(std::move(show), std::move(energy_drift));
+}
+
+std::unique_ptr<RunWatcher> stop_when(const std::atomic<bool>& stop) {
+  return std::make_unique<Stop>(stop);
+}
+
+}  // namespace courant

@@ -1,0 +1,45 @@
+// The watchers that a run of an experiment has.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "courant/integrators/ladder/ladder_watch.hpp"
+#include "courant/running/quantity_statistics.hpp"
+#include "courant/running/run_watcher.hpp"
+#include "courant/running/trajectory_writer.hpp"
+
+namespace courant {
+
+// Where a run is, for whoever watches it.
+struct Progress {
+  long step = 0, steps = 0;
+  double seconds = 0.0;       // since the first step
+  double energy_drift = 0.0;  // H - H(0); NaN without an energy
+};
+
+// What they are given has to outlive them.
+
+std::unique_ptr<RunWatcher> keep_statistics(QuantityStatistics& statistics);
+
+// Every `every`-th row and the last; its first `count` numbers.
+std::unique_ptr<RunWatcher> write_rows(TrajectoryWriter& writer, long every, Index count);
+
+// rows[t] becomes the row after step k for the pairs (k, t) in `due`.
+std::unique_ptr<RunWatcher> keep_rows(std::multimap<long, double> due,
+                                      std::map<double, VectorXd>& rows);
+
+// Ends the run with what the watch finds at every `every`-th state.
+std::unique_ptr<RunWatcher> examine_ladder(LadderWatch& watch, long every);
+
+// Some ten times a second, and after the last step.
+std::unique_ptr<RunWatcher> show_progress(std::function<void(const Progress&)> show,
+                                          std::function<double()> energy_drift);
+
+// Interrupts the run once `stop` is set.
+std::unique_ptr<RunWatcher> stop_when(const std::atomic<bool>& stop);
+
+}  // namespace courant
