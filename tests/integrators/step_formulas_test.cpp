@@ -70,8 +70,9 @@ BOOST_AUTO_TEST_CASE(an_explanation_names_what_goes_and_what_stays) {
     BOOST_TEST(std::count_if(line.begin(), line.end(), is_start) <= 100, line);
   }
   const std::string& name = vortices.system->names().coordinates[0];
-  BOOST_TEST(contains(text, "  " + name + "' = "), text);
-  BOOST_TEST(contains(text, "from: start of " + name), text);
+  BOOST_TEST(contains(text, "  Δ" + name + " = "), text);
+  BOOST_TEST(contains(text, "from: start of " + name + "\n"), text);
+  BOOST_TEST(contains(text, "left, for " + name + "', "), text);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
