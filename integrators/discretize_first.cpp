@@ -93,7 +93,7 @@ class DiscretizeFirst::Trajectory final : public Stepper {
   Index n_, m_, blocks_;
   StepSolver solver_;
   Predictor predictor_;
-  MovingBasis basis_;  // at the state
+  MovingBasis basis_;     // at the state
   VectorXd next_, kept_;  // what advance_ gives for the step that is made, and the last that stands
 };
 
