@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "courant/core/complete_orthogonal_decomposition.hpp"
+#include "courant/core/message.hpp"
 #include "courant/core/singular_value_decomposition.hpp"
 
 namespace courant {
@@ -31,9 +32,10 @@ MatrixXd Projector::directions(const VectorXd& x, const MatrixXd& basis,
                           ? 0.0
                           : singular_values(conormals.transpose() * orthonormal).minCoeff();
   if (!(sine > kTransversality))
-    throw std::domain_error(
-        "Projector(" + name_ + ")::directions: the directions meet T_xM_f, sine of the angle " +
-        std::to_string(sine) + "; expected a complement of it. Use the orthogonal projector.");
+    throw std::domain_error("Projector(" + name_ +
+                            ")::directions: the directions of the projector \"" + name_ +
+                            "\" meet T_xM_f, sine of the angle " + number_text(sine) +
+                            "; expected a complement of it. Use the orthogonal projector.");
   return orthonormal;
 }
 

@@ -6,6 +6,7 @@
 
 #include "courant/core/complete_orthogonal_decomposition.hpp"
 #include "courant/core/derivative.hpp"
+#include "courant/core/message.hpp"
 #include "courant/manifolds/measurement.hpp"
 
 namespace courant {
@@ -146,7 +147,7 @@ class ManifoldLaws {
               return M_.separation(M_.retract(s.x, v), y) / (1.0 + y.norm()) +
                      M_.tangent_defect(s.x, v);
             },
-            describe("x", s.x) + ", y at distance " + std::to_string(distance));
+            describe("x", s.x) + ", y at distance " + number_text(distance));
       }
     return measured.result();
   }

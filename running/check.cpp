@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "courant/core/derivative.hpp"
+#include "courant/core/message.hpp"
 #include "courant/integrators/maps/laws.hpp"
 #include "courant/integrators/vector_field.hpp"
 #include "courant/manifolds/measurement.hpp"
@@ -198,7 +199,7 @@ class Check {
                                             .step = experiment_.time->step,
                                             .backend = Backend::interpreter});
     } catch (const std::invalid_argument& error) {
-      throw ExperimentError("/method", error.what());
+      throw ExperimentError("/method", without_place(error.what()));
     }
     if (method->map) {
       const auto* lift = dynamic_cast<const CotangentLift*>(method->map.get());
