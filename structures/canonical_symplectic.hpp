@@ -17,6 +17,7 @@ class CanonicalSymplectic final : public DiracStructure {
  public:
   explicit CanonicalSymplectic(std::shared_ptr<const CotangentBundle> phase_space);
 
+  bool is_canonical() const override { return true; }
   Index tangent_blocks() const override { return 1; }
 
  private:
