@@ -123,8 +123,8 @@ class ConstrainFirst::Trajectory final : public Stepper {
     } else {
       predictor_.predict(y);
     }
-    const double* in[] = {y.data(),           before.x.data(), basis_.data(),
-                          directions_.data(), &h,              &before.t};
+    const double* in[] = {y.data(), before.x.data(), basis_.data(), directions_.data(),
+                          &h,       &before.t};
     const StepSolver::Attempt attempt{before.t, h};
     solve(solver_, in, before, attempt, jets_);
     method_.advance_.value(in, advanced_.data());

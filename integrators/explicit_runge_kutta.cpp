@@ -7,6 +7,8 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 #include <stdexcept>
 
+#include "courant/core/message.hpp"
+
 namespace courant {
 namespace {
 
@@ -49,7 +51,7 @@ class Trajectory final : public Stepper {
       method_.do_step(rate, after.x, before.t, h);
     } catch (const std::domain_error& error) {
       throw SolveError(SolveError::Reason::singular, method(), before.t, h,
-                       std::string("cannot be made: ") + error.what());
+                       "cannot be made: " + without_place(error.what()));
     }
     after.v = stage_.v = evaluate_.v();
     after.z = stage_.z = evaluate_.z();

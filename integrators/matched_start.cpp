@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "courant/core/message.hpp"
 #include "courant/core/newton.hpp"
 #include "courant/manifolds/cotangent_bundle.hpp"
 
@@ -42,10 +43,10 @@ State matched_start(const ImplicitSystem& system, const DiscretizationMap& map,
   // Redundant equations are solved by least squares: that they are solved has to be seen.
   const double residual = largest(equations({solution}));
   if (result.status != Newton::Status::converged || !(residual <= 1e-9 * (1.0 + largest(solution))))
-    throw SolveError(
-        SolveError::Reason::diverged, "matched_start", initial.t, h,
-        "leads to the second position from no momentum; start on the manifold instead.",
-        {residual});
+    throw SolveError(SolveError::Reason::diverged, "matched_start", initial.t, h,
+                     "leads to the second position from no momentum, residual " +
+                         number_text(residual) + "; start on the manifold instead.",
+                     {residual});
   State state = initial;
   state.x.tail(n) = solution.head(n);
   return state;

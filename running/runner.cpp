@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "courant/core/message.hpp"
 #include "courant/integrators/ladder/ladder_watch.hpp"
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/ladder_json.hpp"
@@ -46,7 +47,13 @@ class Run {
         options_(options),
         ladder_(consistent_start(experiment)),
         ladder_json_(ladder_json(ladder_, *experiment.model.system)),
-        observer_(experiment, ladder_, options.backend) {}
+        observer_(experiment, ladder_, options.backend) {
+    if (observer_.constraint_count() == 0 && ladder_.verdict != Verdict::inconsistent)
+      for (const std::string& pointer : experiment.expect.violations)
+        throw ExperimentError(pointer,
+                              "tests nothing: the system has no constraints, no equations in "
+                              "coordinates and t alone; expected another expectation");
+  }
 
   RunOutcome operator()() {
     if (options_.on_ladder) options_.on_ladder(ladder_json_);
@@ -83,11 +90,16 @@ class Run {
   }
 
   void check_finite(const State& state) {
-    const VectorXd& row = observer_.row(state);
+    VectorXd row;
+    try {
+      row = observer_.row(state);
+    } catch (const std::domain_error& error) {
+      throw ExperimentError("/initial", without_place(error.what()));
+    }
     for (Index i = 0; i < static_cast<Index>(observer_.written_count()); ++i)
       if (!std::isfinite(row[i]))
         throw ExperimentError("/initial", observer_.names()[static_cast<std::size_t>(i)] + " is " +
-                                              std::to_string(row[i]) +
+                                              number_text(row[i]) +
                                               " at the initial point; expected a finite number");
   }
 
@@ -104,11 +116,11 @@ class Run {
       backend_ = method.integrator->is_native() ? "native" : "interpreter";
       return method;
     } catch (const std::invalid_argument& error) {
-      throw ExperimentError("/method", error.what());
+      throw ExperimentError("/method", without_place(error.what()));
     } catch (const std::runtime_error& error) {
-      fail(error.what());
+      fail(without_place(error.what()));
     } catch (const std::domain_error& error) {
-      fail(error.what());
+      fail((steps_ == 0 ? "/method: " : "") + without_place(error.what()));
     }
     return std::nullopt;
   }
@@ -157,20 +169,18 @@ class Run {
     const TimeSpan& time = *experiment_.time;
     const auto stepper = method.integrator->stepper();
     State state = method.initial;
+    const auto begin = Clock::now();
     try {
       stepper->prepare(state, time.step);
-    } catch (const SolveError& error) {
-      return fail(error.what());
-    }
-    const auto begin = Clock::now();
-    bool going = goes_on(stepper->last(), 0, time.steps);
-    try {
+      bool going = goes_on(stepper->last(), 0, time.steps);
       for (long k = 1; going && k <= time.steps; ++k) {
         stepper->step(state, time.step, time.time(k));
         going = goes_on(stepper->last(), k, time.steps);
       }
     } catch (const SolveError& error) {
       fail(error.what() + (ladder_watch_ ? ladder_watch_->decline() : ""));
+    } catch (const std::domain_error& error) {
+      fail((steps_ == 0 ? "/method: " : "") + without_place(error.what()));
     }
     wall_seconds_ = seconds_since(begin);
     solver_ = stepper->statistics();
