@@ -2,6 +2,8 @@
 
 #include <random>
 
+#include "courant/core/message.hpp"
+
 namespace courant {
 namespace {
 
@@ -100,7 +102,7 @@ bool is_skew(const Manifold& manifold, const MatrixField& field, const JsonReade
       };
       place.problem("is not skew-symmetric: at a random point entry " + entry(i, j) +
                     (i == j ? " is " : " and entry " + entry(j, i) + " add up to ") +
-                    std::to_string(i == j ? A(i, i) : A(i, j) + A(j, i)) + "; expected 0");
+                    number_text(i == j ? A(i, i) : A(i, j) + A(j, i)) + "; expected 0");
       return false;
     }
   }
