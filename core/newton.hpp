@@ -63,7 +63,8 @@ class Newton {
  private:
   bool factorize(const double* const* in);
   double improve(double* y, const double* scales);
-  bool is_rounded(const double* y, const double* scales);
+  bool is_rounded(const double* y, const double* scales, double few);
+  bool is_solved(const double* y, const double* scales);
 
   Function function_;
   std::vector<Index> groups_;

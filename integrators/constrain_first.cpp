@@ -1,5 +1,6 @@
 #include "courant/integrators/constrain_first.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -62,7 +63,8 @@ class ConstrainFirst::Trajectory final : public Stepper {
         rest_((method.blocks_ - 2) * n_ + method.auxiliaries_),
         constant_directions_(n_ == manifold().tangent_dimension() &&
                              method.projector_->has_constant_directions(d_)),
-        solver_(method.equations_, {n_, n_, rest_, d_}, method.name()),
+        solver_(method.equations_, {n_, n_, rest_, d_}, method.name(),
+                {.displacements = n_, .shifts = d_, .h = 4}),
         projector_(method.projection_, {n_, n_, rest_, d_}, method.name() + " (projection)"),
         round_off_projection_(method.constraint_),
         predictor_({method.blocks_ * n_, solver_.unknown().size() - method.blocks_ * n_}),
@@ -97,16 +99,18 @@ class ConstrainFirst::Trajectory final : public Stepper {
 
   void do_step(const State& before, double h, State& after) override {
     VectorXd& y = solver_.unknown();
-    if (predictor_.is_empty()) {
+    const auto begin = [&] {
       y = jets_;
       y.head(n_) = 0.5 * h * jets_.segment(n_, n_);
-    } else {
+    };
+    if (predictor_.is_empty())
+      begin();
+    else
       predictor_.predict(y);
-    }
     const double* in[] = {y.data(), before.x.data(), basis_.data(), directions_.data(),
                           &h,       &before.t};
     const StepSolver::Attempt attempt{before.t, h};
-    solve(solver_, in, before, attempt, jets_);
+    solver_.solve_connected(in, scales(before, h).data(), begin, attempt, statistics_);
     method_.advance_.value(in, advanced_.data());
     const Index N = before.x.size();
     near_ = advanced_.head(N);
@@ -125,6 +129,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
   void do_keep(const State& before, const State&) override {
     if (!solver_.is_determined()) predictor_.limit_degree(Predictor::kUndetermined);
     predictor_.record(solver_.unknown());
+    solver_.keep();
     record();
     accept(before.x);
     stage_ = advanced_.tail(before.x.size() + before.v.size());
@@ -171,13 +176,10 @@ class ConstrainFirst::Trajectory final : public Stepper {
     shift_.forget();
   }
 
-  void solve(StepSolver& solver, const double* const* in, const State& before,
-             const StepSolver::Attempt& attempt, const VectorXd& start) {
+  // Of the groups of unknowns.
+  static std::array<double, 4> scales(const State& before, double h) {
     const double size = largest(before.x);
-    const double scales[] = {size, size / std::fabs(attempt.h),
-                             auxiliary_scale(largest(before.z), size), size};
-    solver.solve(
-        in, scales, [&] { solver.unknown() = start; }, attempt, statistics_);
+    return {size, size / std::fabs(h), auxiliary_scale(largest(before.z), size), size};
   }
 
   // The point of M_f that P takes near_ to; leaves its unknowns in projector_, its basis and W
@@ -207,7 +209,8 @@ class ConstrainFirst::Trajectory final : public Stepper {
       aimed_ = y;
       const double* in[] = {y.data(),           guess_.data(), basis_.data(),
                             directions_.data(), near_.data(),  &t};
-      solve(projector_, in, before, attempt, start_);
+      projector_.solve(
+          in, scales(before, attempt.h).data(), [&] { y = start_; }, attempt, statistics_);
       method_.projected_.value(in, found_.data());
       const double moved = largest(y.head(n_));
       const double size = largest(found_.head(guess_.size()));

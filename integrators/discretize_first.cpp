@@ -19,7 +19,8 @@ class DiscretizeFirst::Trajectory final : public Stepper {
         n_(manifold().dimension()),
         m_(system().auxiliary_size()),
         blocks_(method.tangent_blocks_),
-        solver_(method.equations_, {blocks_ * n_, m_}, method.name()),
+        solver_(method.equations_, {blocks_ * n_, m_}, method.name(),
+                {.displacements = blocks_ * n_, .h = 3}),
         predictor_({blocks_ * n_, m_}),
         basis_(manifold(), method.basis_),
         next_(method.advance_.output_size()),
@@ -38,7 +39,7 @@ class DiscretizeFirst::Trajectory final : public Stepper {
     const double* in[] = {y.data(), before.x.data(), basis_.data(), &h, &before.t};
     const double size = largest(before.x);
     const double scales[] = {size, auxiliary_scale(largest(before.z), size)};
-    solver_.solve(in, scales, begin, {before.t, h}, statistics_);
+    solver_.solve_connected(in, scales, begin, {before.t, h}, statistics_);
 
     method_.advance_.value(in, next_.data());
     const Index N = before.x.size(), tangent = before.v.size();
@@ -59,6 +60,7 @@ class DiscretizeFirst::Trajectory final : public Stepper {
   void do_keep(const State&, const State& after) override {
     if (!solver_.is_determined()) predictor_.limit_degree(Predictor::kUndetermined);
     predictor_.record(solver_.unknown());
+    solver_.keep();
     move_basis(after.x);
     if (!method_.map_->has_inverse()) kept_.swap(next_);
   }
