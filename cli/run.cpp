@@ -58,7 +58,7 @@ int run_experiment(const Console& console, const Arguments& arguments,
   if (outcome.status != RunStatus::completed)
     print_error(console, arguments.file + ": " + outcome.message);
   if (outcome.status == RunStatus::interrupted) return interrupted;
-  if (outcome.status == RunStatus::failed) return failed;
+  if (outcome.status == RunStatus::failed || outcome.status == RunStatus::not_finite) return failed;
   report_failures(console, arguments.file, outcome);
   return outcome.as_expected() ? done : failed;
 }

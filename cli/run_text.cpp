@@ -109,6 +109,11 @@ void print_outcome(const Console& console, const RunOutcome& outcome,
   if (const long again = solver.value("second_attempts", 0L); again > 0)
     console.out << "  " << again << (again == 1 ? " step" : " steps")
                 << " needed a second attempt.\n";
+  if (const long looked_at = solver.value("confirmations", 0L); looked_at > 0)
+    console.out << "  " << looked_at << (looked_at == 1 ? " step was" : " steps were")
+                << " confirmed by continuation in h.\n";
+  for (const Json& warning : summary.value("warnings", Json::array()))
+    console.out << "\n  Warning: " << warning.get<std::string>() << '\n';
   print_expectations(console, outcome);
   console.out << "\n  " << summary.at("status").get<std::string>() << "; files in "
               << folder.string() << '\n'

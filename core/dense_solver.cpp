@@ -1,5 +1,7 @@
 #include "courant/core/dense_solver.hpp"
 
+#include <cmath>
+
 #include "courant/core/complete_orthogonal_decomposition.hpp"
 #include "courant/core/lu_decomposition.hpp"
 #include "courant/core/static_size.hpp"
@@ -40,11 +42,31 @@ DenseSolver::DenseSolver(const MatrixPattern& pattern)
       multiply_(with_static_size(pattern.rows == pattern.columns ? pattern.rows : 0,
                                  [](auto n) { return &multiply<decltype(n)::value>; })) {}
 
+// The columns are those of unknowns in units of their own: a small one is no dependent one. So the
+// rank is that of A C, whose columns are of one size. Where it leaves unknowns open, those of least
+// change are found in the units that they have.
+void DenseSolver::pseudo_invert(const MatrixXd& A) {
+  VectorXd C = A.colwise().lpNorm<Eigen::Infinity>();
+  C = C.unaryExpr([](double size) { return size > 0.0 ? std::exp2(-std::ilogb(size)) : 1.0; });
+  const MatrixXd scaled = A * C.asDiagonal();
+  const CompleteOrthogonalDecomposition decomposition(scaled, kDataError);
+  determined_ = decomposition.rank() == A.cols();
+  if (!determined_) {
+    const CompleteOrthogonalDecomposition as_it_is(A, kDataError);
+    if (as_it_is.rank() == decomposition.rank()) {
+      inverse_ = as_it_is.pseudo_inverse();
+      return;
+    }
+  }
+  inverse_ = C.asDiagonal() * decomposition.pseudo_inverse();
+}
+
 bool DenseSolver::do_factorize(const double* entries) {
   MatrixXd A = MatrixXd::Zero(pattern_.rows, pattern_.columns);
   for (std::size_t k = 0; k < pattern_.row.size(); ++k)
     A(pattern_.row[k], pattern_.column[k]) = entries[k];
   determined_ = false;
+  orientation_ = 0;
   if (!A.allFinite()) return false;
   if (A.size() == 0) return determined_ = true;
 
@@ -54,13 +76,12 @@ bool DenseSolver::do_factorize(const double* entries) {
   if (A.rows() == A.cols()) {
     const LuDecomposition lu(A);
     determined_ = lu.pivot_ratio() > kSingular;
-    if (determined_) inverse_ = lu.inverse();
+    if (determined_) {
+      inverse_ = lu.inverse();
+      orientation_ = lu.orientation();
+    }
   }
-  if (!determined_) {
-    const CompleteOrthogonalDecomposition decomposition(A, kDataError);
-    inverse_ = decomposition.pseudo_inverse();
-    determined_ = decomposition.rank() == A.cols();
-  }
+  if (!determined_) pseudo_invert(A);
   inverse_ = inverse_ * scale.asDiagonal();
   return inverse_.allFinite();
 }

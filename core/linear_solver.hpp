@@ -38,12 +38,16 @@ class LinearSolver {
   void solve(const double* b, double* x) { do_solve(b, x); }
   // Whether A determines all of x: its columns are independent.
   bool is_determined() const { return do_is_determined(); }
+  // The sign of det A; 0 if it is not known, or A is not square or singular.
+  int orientation() const { return do_orientation(); }
 
  private:
   // To subclass, override:
   virtual bool do_factorize(const double* entries) = 0;
   virtual void do_solve(const double* b, double* x) = 0;
   virtual bool do_is_determined() const = 0;
+  // May override: 0 is what is not known.
+  virtual int do_orientation() const { return 0; }
 };
 
 }  // namespace courant

@@ -29,6 +29,12 @@ double LuDecomposition::determinant() const {
   return result;
 }
 
+int LuDecomposition::orientation() const {
+  int result = size() == 0 ? 1 : static_cast<int>(rows_.determinant());
+  for (const double pivot : factors_.diagonal()) result *= pivot > 0.0 ? 1 : pivot < 0.0 ? -1 : 0;
+  return result;
+}
+
 MatrixXd LuDecomposition::solve(const Eigen::Ref<const MatrixXd>& B) const {
   if (B.rows() != size())
     throw std::invalid_argument("LuDecomposition::solve: B has " + std::to_string(B.rows()) +

@@ -25,6 +25,7 @@ class LuDecomposition {
   // min |u_ii| / max |u_ii|; 1 for n = 0, 0 for a zero matrix.
   double pivot_ratio() const;
   double determinant() const;
+  int orientation() const;  // the sign of the determinant, which does not overflow
 
   // A⁻¹ B, B of size n × k.
   MatrixXd solve(const Eigen::Ref<const MatrixXd>& B) const;

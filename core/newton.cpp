@@ -25,6 +25,11 @@ constexpr double kStagnant = 0.9;
 // Round-off is measured with a new factorisation, and again when this has made it too small.
 constexpr double kForget = 0.998;
 
+// Residuals below these parts of their terms are rounding errors.
+constexpr double kRounded = 16.0 * std::numeric_limits<double>::epsilon();
+// Above these, after iterations that do not move any more, something is not solved.
+constexpr double kSolved = 1e-9;
+
 // Relative changes that are round-off everywhere.
 constexpr double kLeast = 2.0 * std::numeric_limits<double>::epsilon();
 
@@ -101,9 +106,9 @@ double Newton::improve(double* y, const double* scales) {
   return std::isfinite(total) ? result : std::numeric_limits<double>::infinity();
 }
 
-// Whether every residual is round-off: of the terms J_ij y_j, where an unknown that is an increment
+// Whether every residual is at most so many parts: of the terms J_ij y_j, where an unknown that is an increment
 // belongs to a sum of the size of its block's scale.
-bool Newton::is_rounded(const double* y, const double* scales) {
+bool Newton::is_rounded(const double* y, const double* scales, double few) {
   magnitude_.setZero();
   const Index rows = magnitude_.size();
   const auto& row = function_.pattern_row();
@@ -115,10 +120,16 @@ bool Newton::is_rounded(const double* y, const double* scales) {
     const double size = std::max(std::fabs(y[column[k]]), std::min(scales[g], scales[0]));
     magnitude_[row[k]] += std::fabs(all_[rows + static_cast<Index>(k)]) * size;
   }
-  constexpr double few = 16.0 * std::numeric_limits<double>::epsilon();
   for (Index i = 0; i < rows; ++i)
     if (!(std::fabs(all_[i]) <= few * magnitude_[i])) return false;
   return true;
+}
+
+// Whether small changes mean small residuals. A matrix that is not square, or singular, sees some
+// directions only; one that is old may have lost others.
+bool Newton::is_solved(const double* y, const double* scales) {
+  if (solver_->is_determined() && function_.output_size() == step_.size()) return true;
+  return is_rounded(y, scales, kSolved);
 }
 
 Newton::Result Newton::solve(double* y, const double* const* in, const double* scales) {
@@ -161,13 +172,21 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
       result.residuals.push_back(residual.size() == 0 ? 0.0 : residual.lpNorm<Eigen::Infinity>());
       return result;
     }
+    // With a matrix of this solve least squares are at their least, solved or not.
+    const auto accepted = [&] { return fresh || is_solved(y, scales); };
     if (moved <= options_.tolerance) {
+      if (!accepted()) {
+        if (refactorize()) continue;
+        result.status = Status::singular;
+        return result;
+      }
       result.status = Status::converged;
       return result;
     }
     if (compared > 0) {
       contraction = moved / previous;
-      if (contraction < 0.5 && contraction * moved <= (1.0 - contraction) * options_.tolerance) {
+      if (contraction < 0.5 && contraction * moved <= (1.0 - contraction) * options_.tolerance &&
+          accepted()) {
         result.status = Status::converged;
         return result;
       }
@@ -175,10 +194,10 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
       const bool stalled = contraction > 0.5;
       const bool stagnant = fresh && compared == 1 && contraction > kStagnant && moved <= kShort;
       const bool rounded =
-          stalled && (moved > kRoundOff ? stagnant || is_rounded(y, scales)
+          stalled && (moved > kRoundOff ? stagnant || is_rounded(y, scales, kRounded)
                                         : fresh || moved <= std::max(kLeast, 2 * round_off_));
       const bool slow = contraction > options_.slow && moved > 1e3 * options_.tolerance;
-      if ((slow && !fresh) || (stalled && !rounded)) {
+      if ((slow && !fresh) || (stalled && !rounded) || (rounded && !accepted())) {
         if (!refactorize()) {
           result.status = Status::singular;
           return result;

@@ -67,7 +67,8 @@ class Newton {
   Result solve_kept(double* u, const double* const* in, const double* scales);
   bool factorize(const double* const* in);
   double improve(double* y, const double* scales);
-  bool is_rounded(const double* y, const double* scales);
+  bool is_rounded(const double* y, const double* scales, double few);
+  bool is_solved(const double* y, const double* scales);
 
   EquationSystem system_;
   const Function function_;       // of the unknowns that are kept

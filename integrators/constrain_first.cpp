@@ -1,5 +1,6 @@
 #include "courant/integrators/constrain_first.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -81,11 +82,12 @@ class ConstrainFirst::Trajectory final : public Stepper {
         d_(method.codimension_),
         rest_((method.blocks_ - 2) * n_ + method.auxiliaries_),
         constant_directions_(method.fixed_directions_.size() > 0),
-        solver_(method.equations_, {n_, n_, rest_, d_}, method.name()),
+        solver_(method.equations_, {n_, n_, rest_, d_}, method.name(), method.whole_,
+                {.displacements = n_, .shifts = d_, .h = 4}),
         projector_(method.projection_, {n_, n_, rest_, d_}, method.name() + " (projection)"),
         round_off_projection_(method.constraint_),
-        predictor_(predicted_groups(), solver_.kept()),
-        end_(constant_directions_ ? Predictor(predicted_groups(), projector_.kept())
+        predictor_(predicted_groups(), solver_.predicted()),
+        end_(constant_directions_ ? Predictor(predicted_groups(), projector_.predicted())
                                   : Predictor(predicted_groups())),
         shift_({manifold().tangent_dimension()}),
         basis_(manifold(), method.basis_),
@@ -117,16 +119,18 @@ class ConstrainFirst::Trajectory final : public Stepper {
 
   void do_step(const State& before, double h, State& after) override {
     VectorXd& y = solver_.unknown();
-    if (predictor_.is_empty()) {
+    const auto begin = [&] {
       y = jets_;
       y.head(n_) = 0.5 * h * jets_.segment(n_, n_);
-    } else {
+    };
+    if (predictor_.is_empty())
+      begin();
+    else
       predictor_.predict(y);
-    }
     const double* in[] = {y.data(), before.x.data(), basis_.data(), directions_.data(),
                           &h,       &before.t};
     const StepSolver::Attempt attempt{before.t, h};
-    solve(solver_, in, before, attempt, jets_);
+    solver_.solve_connected(in, scales(before, h).data(), begin, attempt, statistics_);
     method_.advance_.value(in, advanced_.data());
     const Index N = before.x.size();
     near_ = advanced_.head(N);
@@ -145,6 +149,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
   void do_keep(const State& before, const State&) override {
     if (!solver_.is_determined()) predictor_.limit_degree(Predictor::kUndetermined);
     predictor_.record(solver_.unknown());
+    solver_.keep();
     record();
     accept(before.x);
     stage_ = advanced_.tail(before.x.size() + before.v.size());
@@ -196,13 +201,10 @@ class ConstrainFirst::Trajectory final : public Stepper {
     shift_.forget();
   }
 
-  void solve(StepSolver& solver, const double* const* in, const State& before,
-             const StepSolver::Attempt& attempt, const VectorXd& start) {
+  // Of the groups of unknowns.
+  static std::array<double, 4> scales(const State& before, double h) {
     const double size = largest(before.x);
-    const double scales[] = {size, size / std::fabs(attempt.h),
-                             auxiliary_scale(largest(before.z), size), size};
-    solver.solve(
-        in, scales, [&] { solver.unknown() = start; }, attempt, statistics_);
+    return {size, size / std::fabs(h), auxiliary_scale(largest(before.z), size), size};
   }
 
   // The point of M_f that P takes near_ to; leaves its unknowns in projector_, its basis and W
@@ -232,7 +234,8 @@ class ConstrainFirst::Trajectory final : public Stepper {
       aimed_ = y;
       const double* in[] = {y.data(),           guess_.data(), basis_.data(),
                             directions_.data(), near_.data(),  &t};
-      solve(projector_, in, before, attempt, start_);
+      projector_.solve(
+          in, scales(before, attempt.h).data(), [&] { y = start_; }, attempt, statistics_);
       method_.projected_.value(in, found_.data());
       const double moved = largest(y.head(n_));
       const double size = largest(found_.head(guess_.size()));
@@ -469,6 +472,7 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
   blocks_ = trace.blocks;
   auxiliaries_ = trace.auxiliaries;
   equations_ = trace.step.compile(options.backend);
+  whole_ = equations_.is_reduced() ? trace.step.whole() : equations_.left();
   advance_ = Function("advance", trace.step.inputs, trace.advanced, compiled);
   projection_ = trace.projection.compile(options.backend);
   projected_ = Function("projected", trace.projection.inputs, trace.projected, compiled);

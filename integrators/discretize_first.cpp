@@ -20,8 +20,9 @@ class DiscretizeFirst::Trajectory final : public Stepper {
         n_(manifold().dimension()),
         m_(system().auxiliary_size()),
         blocks_(method.tangent_blocks_),
-        solver_(method.equations_, {blocks_ * n_, m_}, method.name()),
-        predictor_({blocks_ * n_, m_}, solver_.kept()),
+        solver_(method.equations_, {blocks_ * n_, m_}, method.name(), method.whole_,
+                {.displacements = blocks_ * n_, .h = 3}),
+        predictor_({blocks_ * n_, m_}, solver_.predicted()),
         basis_(manifold(), method.basis_),
         next_(method.advance_.output_size()),
         kept_(next_) {}
@@ -39,7 +40,7 @@ class DiscretizeFirst::Trajectory final : public Stepper {
     const double* in[] = {y.data(), before.x.data(), basis_.data(), &h, &before.t};
     const double size = largest(before.x);
     const double scales[] = {size, auxiliary_scale(largest(before.z), size)};
-    solver_.solve(in, scales, begin, {before.t, h}, statistics_);
+    solver_.solve_connected(in, scales, begin, {before.t, h}, statistics_);
 
     method_.advance_.value(in, next_.data());
     const Index N = before.x.size(), tangent = before.v.size();
@@ -60,6 +61,7 @@ class DiscretizeFirst::Trajectory final : public Stepper {
   void do_keep(const State&, const State& after) override {
     if (!solver_.is_determined()) predictor_.limit_degree(Predictor::kUndetermined);
     predictor_.record(solver_.unknown());
+    solver_.keep();
     move_basis(after.x);
     if (!method_.map_->has_inverse()) kept_.swap(next_);
   }
@@ -177,6 +179,7 @@ DiscretizeFirst::DiscretizeFirst(std::shared_ptr<const ImplicitSystem> system,
   const Trace trace(*this);
   tangent_blocks_ = trace.tangent_blocks;
   equations_ = trace.formulas.compile(options.backend);
+  whole_ = equations_.is_reduced() ? trace.formulas.whole() : equations_.left();
   advance_ =
       Function("advance", trace.formulas.inputs, trace.advanced, {.backend = options.backend});
   const Manifold& M = *this->system()->manifold();

@@ -11,9 +11,10 @@ namespace courant {
 class SolveError : public std::runtime_error {
  public:
   enum class Reason {
-    diverged,     // no solution was found
-    singular,     // a matrix or a value is not finite
-    left_domain,  // the step leads to a state that is not finite
+    diverged,      // no solution was found
+    singular,      // a matrix or a value is not finite
+    left_domain,   // the step leads to a state that is not finite
+    disconnected,  // no solution was found that is connected to the state
   };
   // The message is "<method>: the step of <h> from t = <time> <what happened>".
   SolveError(Reason reason, const std::string& method, double time, double h,

@@ -72,6 +72,10 @@ EquationSystem StepFormulas::compile(Backend backend) const {
                         {.backend = backend, .eliminates = eliminates, .elimination = elimination});
 }
 
+Function StepFormulas::whole() const {
+  return Function(name, inputs, equations, {.differentiate = {inputs[0].name}});
+}
+
 std::string derivative_name(const std::string& name, Index order) {
   return name + std::string(static_cast<std::size_t>(order), '\'');
 }

@@ -23,6 +23,8 @@ struct StepFormulas {
   Elimination::Options elimination;
 
   EquationSystem compile(Backend backend) const;
+  // y; p ↦ F with its Jacobian by y, interpreted.
+  Function whole() const;
 };
 
 // "q''" for the second derivative of q.

@@ -1,8 +1,29 @@
 #include "courant/integrators/step_solver.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace courant {
+namespace {
+
+// A displacement that is predicted up to this part of its size, or up to such a part of the
+// coordinates, needs no confirmation. Its size is the largest of the last steps, of which each
+// forgets so much: at a turning point of a coordinate a displacement is small.
+constexpr double kPredicted = 0.05;
+constexpr double kNegligible = 1e-10;
+constexpr double kForgotten = 0.98;
+
+// What two ways to the same solution may differ by.
+constexpr double kSame = 1e-3;
+
+// Two digits of x, towards zero.
+double rounded_down(double x) {
+  const double unit = std::pow(10.0, std::floor(std::log10(std::fabs(x))) - 1.0);
+  return std::trunc(x / unit) * unit;
+}
+
+}  // namespace
 
 StepSolver::StepSolver(const EquationSystem& equations, std::vector<Index> groups,
                        std::string method)
@@ -10,12 +31,86 @@ StepSolver::StepSolver(const EquationSystem& equations, std::vector<Index> group
       y_(VectorXd::Zero(equations.size())),
       method_(std::move(method)) {}
 
+StepSolver::StepSolver(const EquationSystem& equations, std::vector<Index> groups,
+                       std::string method, const Function& whole,
+                       const StepContinuation::Layout& layout)
+    : StepSolver(equations, std::move(groups), std::move(method)) {
+  continuation_.emplace(whole, layout);
+  usual_ = VectorXd::Zero(layout.displacements);
+}
+
+std::vector<Index> StepSolver::predicted() const {
+  std::vector<Index> places = newton_.kept();
+  for (Index i = 0; i < usual_.size(); ++i) places.push_back(i);
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  return places;
+}
+
+void StepSolver::keep() {
+  is_trusted_ = is_good_;
+  for (Index i = 0; i < usual_.size(); ++i)
+    usual_[i] = std::max(std::fabs(y_[i]), kForgotten * usual_[i]);
+}
+
+bool StepSolver::is_as_predicted(double size) const {
+  for (Index i = 0; i < usual_.size(); ++i) {
+    const double change = std::fabs(y_[i] - other_[i]);
+    if (!(change <=
+          std::max(kPredicted * std::max(std::fabs(y_[i]), usual_[i]), kNegligible * size)))
+      return false;
+  }
+  return true;
+}
+
+bool StepSolver::is_same(double size) const {
+  const Index count = usual_.size();
+  const double least = count == 0 ? 0.0 : kSame * y_.head(count).lpNorm<Eigen::Infinity>();
+  for (Index i = 0; i < count; ++i) {
+    const double change = std::fabs(y_[i] - other_[i]);
+    if (!(change <= kSame * (std::fabs(y_[i]) + least) + kNegligible * size)) return false;
+  }
+  return true;
+}
+
+// unknown() is what the state predicts; other_ is what the iteration found if it converged.
+void StepSolver::connect(bool converged, const double* const* in, const double* scales,
+                         const Attempt& attempt, SolverStatistics& statistics) {
+  ++statistics.confirmations;
+  const auto [arrived, reached, iterations] = continuation_->follow(y_, in, scales[0]);
+  statistics.iterations += iterations;
+  statistics.factorizations += iterations;
+  if (arrived && converged && is_same(scales[0])) {
+    y_.swap(other_);
+    return;
+  }
+  newton_.reset();
+  if (!arrived) {
+    if (reached == 0.0) fail(attempt);
+    std::ostringstream message;
+    message << "has no solution that is connected to the state: the one that is ends at a step of "
+            << reached * attempt.h << ". A step of " << rounded_down(0.9 * reached * attempt.h)
+            << " would do.";
+    throw SolveError(SolveError::Reason::disconnected, method_, attempt.time, attempt.h,
+                     message.str());
+  }
+  ++statistics.failures;
+  other_ = y_;
+  if (converges(in, scales, statistics) && is_same(scales[0])) return;
+  newton_.reset();
+  fail(attempt);
+}
+
 void StepSolver::fail(const Attempt& attempt) const {
   if (result_.status == Newton::Status::singular)
     throw SolveError(SolveError::Reason::singular, method_, attempt.time, attempt.h,
                      "has a matrix that is not finite; the state is at or near a singular point.",
                      result_.residuals);
   std::ostringstream message;
+  if (result_.status == Newton::Status::converged)
+    throw SolveError(SolveError::Reason::disconnected, method_, attempt.time, attempt.h,
+                     "has a solution that cannot be followed from the state, and may be a wrong "
+                     "one; the step is too large, or the state is at or near a singular point.");
   message << "did not converge in " << result_.iterations << " iterations, residual "
           << (result_.residuals.empty() ? 0.0 : result_.residuals.back())
           << "; the step is too large, or the state comes near a singular point.";

@@ -2,10 +2,12 @@
 // clear failure.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "courant/core/newton.hpp"
+#include "courant/integrators/step_continuation.hpp"
 #include "courant/integrators/stepper.hpp"
 
 namespace courant {
@@ -16,11 +18,16 @@ class StepSolver {
  public:
   // `groups` as in Newton.
   StepSolver(const EquationSystem& equations, std::vector<Index> groups, std::string method);
+  // The same for the equations of a step of h; `whole`: all of them, for all unknowns.
+  StepSolver(const EquationSystem& equations, std::vector<Index> groups, std::string method,
+             const Function& whole, const StepContinuation::Layout& layout);
 
   VectorXd& unknown() { return y_; }
   const VectorXd& unknown() const { return y_; }
-  const std::vector<Index>& kept() const { return newton_.kept(); }  // as of Newton
-  bool is_determined() const { return newton_.is_determined(); }     // as of Newton
+  // The unknowns that a prediction has to fill in: those that the iteration begins with, and the
+  // displacements that the solution is compared with. Ascending.
+  std::vector<Index> predicted() const;
+  bool is_determined() const { return newton_.is_determined(); }  // as of Newton
 
   // On return unknown() solves the equations; in[0] is its place. `begin` puts there what a second
   // try begins with if the first fails. `attempt` is named in the message of a SolveError.
@@ -38,8 +45,29 @@ class StepSolver {
     newton_.reset();
     fail(attempt);
   }
-  // The kept factorisation.
-  void forget() { newton_.reset(); }
+  // The solution that is connected to the state. One close to what unknown() predicted is taken for
+  // it, if the last step was predicted as well: every displacement right to a twentieth of its size.
+  // Else it is the one that StepContinuation finds; `begin` puts into unknown() what the state alone
+  // predicts.
+  template <class Begin>
+  void solve_connected(const double* const* in, const double* scales, const Begin& begin,
+                       const Attempt& attempt, SolverStatistics& statistics) {
+    other_ = y_;
+    const bool converged = converges(in, scales, statistics);
+    is_good_ = converged && is_as_predicted(scales[0]);
+    if (is_good_ && is_trusted_) return;
+    other_ = y_;
+    begin();
+    connect(converged, in, scales, attempt, statistics);
+  }
+  // The step that was solved stands.
+  void keep();
+  // The kept factorisation, and the sizes of displacements.
+  void forget() {
+    newton_.reset();
+    usual_.setZero();
+    is_trusted_ = true;
+  }
 
  private:
   bool converges(const double* const* in, const double* scales, SolverStatistics& statistics) {
@@ -48,11 +76,20 @@ class StepSolver {
     statistics.factorizations += result_.factorizations;
     return result_.status == Newton::Status::converged;
   }
+  bool is_as_predicted(double size) const;
+  bool is_same(double size) const;
+  void connect(bool converged, const double* const* in, const double* scales,
+               const Attempt& attempt, SolverStatistics& statistics);
   [[noreturn]] void fail(const Attempt& attempt) const;
 
   Newton newton_;
   Newton::Result result_;
   VectorXd y_;
+  VectorXd other_;  // the prediction, or another solution
+  std::optional<StepContinuation> continuation_;
+  VectorXd usual_;          // sizes of displacements
+  bool is_good_ = false;    // the prediction of this step
+  bool is_trusted_ = true;  // that of the last one was good
   std::string method_;
 };
 

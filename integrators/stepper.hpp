@@ -16,6 +16,7 @@ struct SolverStatistics {
   long factorizations = 0;
   long failures = 0;         // iterations that failed and were begun again
   long second_attempts = 0;  // steps that were made in more than one attempt
+  long confirmations = 0;    // solutions that were looked at by continuation in h
 };
 
 // What a one-step method keeps from step to step in order to be quick: extrapolations,

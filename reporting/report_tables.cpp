@@ -88,6 +88,7 @@ Markup runs_table(std::span<const Run> runs, std::span<const std::string> labels
   numbers("factorisations a step", {"solver", "factorizations_per_step"}, 3);
   numbers("solver failures", {"solver", "failures"}, 6);
   numbers("steps with a second attempt", {"solver", "second_attempts"}, 6);
+  numbers("steps confirmed by continuation", {"solver", "confirmations"}, 6);
   row("backend", [](const Run& run) { return words(shown(find(run.summary, {"backend"}), 6)); });
   numbers("wall time in seconds", {"wall_seconds"}, 3);
   numbers("steps a second", {"steps_per_second"}, 3);

@@ -95,9 +95,11 @@ Kind summary_kind() {
   const Kind solver = record({{"iterations_per_step", number},
                               {"factorizations_per_step", number},
                               {"failures", number},
-                              {"second_attempts", number}});
+                              {"second_attempts", number},
+                              {"confirmations", number}});
   return record({{"status", text, true},
                  {"message", text},
+                 {"warnings", array_of(text)},
                  {"system", text, true},
                  {"method", text, true},
                  {"steps", number, true},

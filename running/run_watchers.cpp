@@ -1,6 +1,7 @@
 #include "courant/running/run_watchers.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 namespace courant {
@@ -31,6 +32,21 @@ class Rows final : public RunWatcher {
  private:
   TrajectoryWriter& writer_;
   long every_;
+  Index count_;
+};
+
+class Finiteness final : public RunWatcher {
+ public:
+  Finiteness(std::optional<NotFinite>& found, Index count) : found_(found), count_(count) {}
+  std::optional<RunEnd> watch(const RunMoment& moment) override {
+    for (Index i = 0; i < count_ && !found_; ++i)
+      if (!std::isfinite(moment.row[i]))
+        found_ = NotFinite{.t = moment.t, .value = moment.row[i], .column = i};
+    return std::nullopt;
+  }
+
+ private:
+  std::optional<NotFinite>& found_;
   Index count_;
 };
 
@@ -109,6 +125,10 @@ std::unique_ptr<RunWatcher> keep_statistics(QuantityStatistics& statistics) {
 
 std::unique_ptr<RunWatcher> write_rows(TrajectoryWriter& writer, long every, Index count) {
   return std::make_unique<Rows>(writer, every, count);
+}
+
+std::unique_ptr<RunWatcher> find_not_finite(std::optional<NotFinite>& found, Index count) {
+  return std::make_unique<Finiteness>(found, count);
 }
 
 std::unique_ptr<RunWatcher> keep_rows(std::multimap<long, double> due,

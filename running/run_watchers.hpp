@@ -28,6 +28,13 @@ std::unique_ptr<RunWatcher> keep_statistics(QuantityStatistics& statistics);
 // Every `every`-th row and the last; its first `count` numbers.
 std::unique_ptr<RunWatcher> write_rows(TrajectoryWriter& writer, long every, Index count);
 
+// The first value that is not finite among the first `count` of a row goes into `found`.
+struct NotFinite {
+  double t = 0.0, value = 0.0;
+  Index column = 0;
+};
+std::unique_ptr<RunWatcher> find_not_finite(std::optional<NotFinite>& found, Index count);
+
 // rows[t] becomes the row after step k for the pairs (k, t) in `due`.
 std::unique_ptr<RunWatcher> keep_rows(std::multimap<long, double> due,
                                       std::map<double, VectorXd>& rows);

@@ -10,6 +10,7 @@
 #include "courant/core/message.hpp"
 #include "courant/integrators/ladder/ladder_watch.hpp"
 #include "courant/running/consistent_start.hpp"
+#include "courant/running/energy_watch.hpp"
 #include "courant/running/ladder_json.hpp"
 #include "courant/running/observer.hpp"
 #include "courant/running/quantity_statistics.hpp"
@@ -34,6 +35,8 @@ const char* word(RunStatus status) {
       return "failed";
     case RunStatus::interrupted:
       return "interrupted";
+    case RunStatus::not_finite:
+      return "not-finite";
   }
   return "";
 }
@@ -130,6 +133,8 @@ class Run {
     watchers_.push_back(keep_statistics(statistics_));
     watchers_.push_back(write_rows(writer, experiment_.output.every,
                                    static_cast<Index>(observer_.written_count())));
+    watchers_.push_back(
+        find_not_finite(not_finite_, static_cast<Index>(observer_.written_count())));
     if (experiment_.time && !experiment_.expect.times.empty()) {
       std::multimap<long, double> due;
       for (const double moment : experiment_.expect.times)
@@ -157,6 +162,7 @@ class Run {
       if (auto its_end = watcher.watch(moment); its_end && !end) end = std::move(its_end);
     };
     for (const auto& watcher : watchers_) tell(*watcher);
+    if (energy_watch_) tell(*energy_watch_);
     for (RunWatcher* watcher : options_.watchers) tell(*watcher);
     if (end) {
       status_ = end->status;
@@ -165,10 +171,23 @@ class Run {
     return !end;
   }
 
+  // H at states that other steps lead to has an observer of its own, made when it is needed.
+  void watch_energy(const PreparedMethod& method) {
+    const auto H = energy();
+    if (!H) return;
+    const auto energy_of = [this, H,
+                            other = std::shared_ptr<Observer>()](const State& state) mutable {
+      if (!other) other = std::make_shared<Observer>(experiment_, ladder_, Backend::interpreter);
+      return other->row(state)[*H];
+    };
+    energy_watch_.emplace(method.integrator, energy_of, *H);
+  }
+
   void integrate(const PreparedMethod& method) {
     const TimeSpan& time = *experiment_.time;
     const auto stepper = method.integrator->stepper();
     State state = method.initial;
+    watch_energy(method);
     const auto begin = Clock::now();
     try {
       stepper->prepare(state, time.step);
@@ -184,6 +203,14 @@ class Run {
     }
     wall_seconds_ = seconds_since(begin);
     solver_ = stepper->statistics();
+    if (status_ == RunStatus::completed && not_finite_) {
+      status_ = RunStatus::not_finite;
+      message_ = observer_.names()[static_cast<std::size_t>(not_finite_->column)] + " is " +
+                 number_text(not_finite_->value) + " at t = " + number_text(not_finite_->t) +
+                 ", and maybe later.";
+    }
+    if (energy_watch_ && !energy_watch_->finding().empty())
+      warnings_.push_back(energy_watch_->finding());
   }
 
   std::optional<Index> energy() const {
@@ -200,7 +227,8 @@ class Run {
 
   std::vector<ExpectationResult> expectations() const {
     RunRecord record;
-    record.completed = status_ == RunStatus::completed && !statistics_.empty();
+    record.completed = (status_ == RunStatus::completed || status_ == RunStatus::not_finite) &&
+                       !statistics_.empty();
     for (const auto& [time, row] : rows_at_times_)
       for (std::size_t i = 0; i < observer_.names().size(); ++i)
         record.moments[time][observer_.names()[i]] = row[static_cast<Index>(i)];
@@ -229,6 +257,7 @@ class Run {
     Json json{
         {"status", word(status_)},
         {"message", message_},
+        {"warnings", warnings_},
         {"title", experiment_.title},
         {"system", experiment_.model.description},
         {"method", experiment_.method ? experiment_.method->description : "constraint algorithm"},
@@ -265,7 +294,8 @@ class Run {
         {"iterations_per_step", per(static_cast<double>(solver_.iterations), steps)},
         {"factorizations_per_step", per(static_cast<double>(solver_.factorizations), steps)},
         {"failures", solver_.failures},
-        {"second_attempts", solver_.second_attempts}};
+        {"second_attempts", solver_.second_attempts},
+        {"confirmations", solver_.confirmations}};
     json["backend"] = backend_;
     json["wall_seconds"] = wall_seconds_;
     json["steps_per_second"] = per(steps, wall_seconds_);
@@ -280,9 +310,12 @@ class Run {
 
   RunStatus status_ = RunStatus::completed;
   std::string message_;
+  std::vector<std::string> warnings_;
   QuantityStatistics statistics_;
   std::map<double, VectorXd> rows_at_times_;
+  std::optional<NotFinite> not_finite_;
   std::optional<LadderWatch> ladder_watch_;
+  std::optional<EnergyWatch> energy_watch_;
   std::vector<std::unique_ptr<RunWatcher>> watchers_;
   long steps_ = 0;
   SolverStatistics solver_;

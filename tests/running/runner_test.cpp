@@ -242,6 +242,47 @@ BOOST_AUTO_TEST_CASE(steps_with_a_second_attempt_are_counted) {
   BOOST_TEST(run_in(folder, oscillator).summary["solver"]["second_attempts"] == 0);
 }
 
+BOOST_AUTO_TEST_CASE(an_observable_that_is_not_a_number_is_said) {
+  const TemporaryFolder folder;
+  Json experiment = oscillator;
+  experiment["observe"] = {{"n", "sqrt(q + 0.5)"}};
+  const RunOutcome outcome = run_in(folder, experiment);
+  BOOST_TEST((outcome.status == RunStatus::not_finite));
+  BOOST_TEST(outcome.message == "n is nan at t = 2.1, and maybe later.");
+  const Run run = read_run(folder / "run");
+  BOOST_TEST(run.summary["status"] == "not-finite");
+  BOOST_TEST(run.trajectory.rows() == 101u);  // the motion goes on
+}
+
+// The implicit midpoint on the index-2 pendulum in Cartesian coordinates is unstable: constraints
+// hold at the middle of steps only, and H grows by any amount.
+BOOST_AUTO_TEST_CASE(a_change_of_energy_that_the_order_does_not_explain_is_said) {
+  const TemporaryFolder folder;
+  Json pendulum = Json::parse(R"json({
+    "system": { "type": "implicit", "coordinates": ["x", "y", "v", "w"], "unknowns": ["l"],
+      "equations": ["x' - v", "y' - w", "v' - l*x", "w' - l*y + 1", "x^2 + y^2 - 1"],
+      "energy": "(v^2 + w^2)/2 + y" },
+    "initial": { "x": 0.6, "y": -0.8, "v": 0.4, "w": 0.3 },
+    "method": { "type": "discretize-first" },
+    "time": { "step": 0.1, "end": 10 }
+  })json");
+  const RunOutcome outcome = run_in(folder, pendulum);
+  const Json& H = outcome.summary["observables"]["H"];
+  BOOST_TEST(H["max_drift"] > 1.0);
+  BOOST_TEST(outcome.summary["warnings"].size() == 1u);
+  // What it explains is not said.
+  for (const double step : {0.2, 0.02}) {
+    Json right = oscillator;
+    right["time"]["step"] = step;
+    const TemporaryFolder other;
+    BOOST_TEST(run_in(other, right).summary["warnings"].empty());
+    right["system"]["hamiltonian"] = "p_q^2/2 - cos(q) + q^4/10";
+    right["method"] = {{"type", "rk2"}};
+    const TemporaryFolder third;
+    BOOST_TEST(run_in(third, right).summary["warnings"].empty());
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_run_is_replaced_only_when_told_so) {
   const TemporaryFolder folder;
   run_in(folder, oscillator);

@@ -1,0 +1,156 @@
+#include "courant/integrators/step_continuation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "courant/core/dense_solver.hpp"
+
+namespace courant {
+namespace {
+
+// Iterations that contract to a quarter in the second one do so because there is a solution within
+// 4/3 of the first correction, and no other (Kantorovich).
+constexpr double kContraction = 0.25;
+constexpr int kMostIterations = 12;
+
+// Displacements are found to so many of their digits; what is left is up to the iteration that
+// takes over. Those that are round-off of the coordinates count as found.
+constexpr double kTolerance = 1e-7;
+constexpr double kRoundOff = 1e-13;
+
+// A displacement is measured by its own size, but not by less than these parts of the largest one
+// and of the coordinates.
+constexpr double kLeastOfAll = 1e-6;
+constexpr double kLeastOfState = 1e-8;
+
+// Where the curve begins: a step this much shorter is still none for which there is a solution.
+constexpr double kShortest = 1e-12;
+// The curve ends where σ can grow by less than this part.
+constexpr double kEnd = 1e-4;
+// The sign of the determinant is that at so much of the step.
+constexpr double kBeginning = 1e-3;
+
+}  // namespace
+
+StepContinuation::StepContinuation(Function equations, const Layout& layout)
+    : equations_(std::move(equations)), layout_(layout), contained_(equations_.pattern_col()) {
+  std::ranges::sort(contained_);
+  contained_.erase(std::unique(contained_.begin(), contained_.end()), contained_.end());
+  MatrixPattern pattern{.rows = equations_.output_size(),
+                        .columns = static_cast<Index>(contained_.size()),
+                        .row = equations_.pattern_row(),
+                        .column = {}};
+  for (const Index column : equations_.pattern_col())
+    pattern.column.push_back(std::ranges::lower_bound(contained_, column) - contained_.begin());
+  solver_ = std::make_unique<DenseSolver>(pattern);
+  in_.resize(static_cast<std::size_t>(equations_.input_count()));
+  all_.resize(equations_.output_size() + equations_.nonzeros());
+  step_.resize(static_cast<Index>(contained_.size()));
+}
+
+void StepContinuation::set(const VectorXd& u, double sigma, VectorXd& y) const {
+  y = u;
+  y.head(layout_.displacements) *= sigma;
+  y.tail(layout_.shifts) *= sigma;
+}
+
+// The largest change of a displacement, next to its size.
+double StepContinuation::moved(double sigma, double size) const {
+  double largest = 0.0, total = 0.0;
+  for (std::size_t k = 0; k < contained_.size(); ++k) {
+    const double change = std::fabs(step_[static_cast<Index>(k)]);
+    total += change;
+    if (contained_[k] < layout_.displacements)
+      largest = std::max(largest, change + sigma * std::fabs(u_[contained_[k]]));
+  }
+  const double least = std::max(kLeastOfAll * largest, kLeastOfState * size);
+  double result = 0.0;
+  for (std::size_t k = 0; k < contained_.size(); ++k) {
+    const double change = std::fabs(step_[static_cast<Index>(k)]);
+    if (contained_[k] >= layout_.displacements || !(change > kRoundOff * size)) continue;
+    const double before = sigma * u_[contained_[k]];
+    const double after = before - step_[static_cast<Index>(k)];
+    result = std::max(result, change / (std::max(std::fabs(before), std::fabs(after)) + least));
+  }
+  return std::isfinite(total) ? result : std::numeric_limits<double>::infinity();
+}
+
+bool StepContinuation::converges(double sigma, const double* const* in, double size,
+                                 Result& result) {
+  const double h = sigma * h_;
+  std::copy_n(in, in_.size(), in_.begin());
+  in_[0] = y_.data();
+  in_[static_cast<std::size_t>(layout_.h)] = &h;
+  double previous = std::numeric_limits<double>::infinity();
+  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+    ++result.iterations;
+    set(u_, sigma, y_);
+    equations_.value_and_jacobian(in_.data(), all_.data());
+    if (!all_.allFinite() || !solver_->factorize(all_.data() + equations_.output_size()))
+      return false;
+    solver_->solve(all_.data(), step_.data());
+    const double change = moved(sigma, size);
+    if (!std::isfinite(change)) return false;
+    if (iteration > 0 && change > kTolerance && change > kContraction * previous) return false;
+    for (std::size_t k = 0; k < contained_.size(); ++k) {
+      const Index i = contained_[k];
+      const bool shrinks = i < layout_.displacements || i >= u_.size() - layout_.shifts;
+      u_[i] -= shrinks ? step_[static_cast<Index>(k)] / sigma : step_[static_cast<Index>(k)];
+    }
+    if (change > kTolerance) {
+      previous = change;
+      continue;
+    }
+    const int orientation = solver_->orientation();
+    if (orientation * orientation_ < 0) return false;
+    if (orientation_ == 0) orientation_ = orientation;
+    return u_.allFinite();
+  }
+  return false;
+}
+
+StepContinuation::Result StepContinuation::follow(VectorXd& y, const double* const* in,
+                                                  double size) {
+  Result result;
+  h_ = *in[layout_.h];
+  u_ = point_ = last_ = y;
+  // The sign of the determinant where the curve begins.
+  orientation_ = 0;
+  {
+    const double h = kBeginning * h_;
+    std::copy_n(in, in_.size(), in_.begin());
+    set(u_, kBeginning, y_);
+    in_[0] = y_.data();
+    in_[static_cast<std::size_t>(layout_.h)] = &h;
+    equations_.value_and_jacobian(in_.data(), all_.data());
+    if (all_.allFinite() && solver_->factorize(all_.data() + equations_.output_size()))
+      orientation_ = solver_->orientation();
+  }
+  double sigma = 0.0, before = 0.0;  // of point_ and last_
+  double length = 1.0;
+  while (sigma < 1.0) {
+    const double next = sigma + length >= 1.0 ? 1.0 : sigma + length;
+    u_ = point_;
+    if (before > 0.0) u_ += (point_ - last_) * ((next - sigma) / (sigma - before));
+    const long iterations = result.iterations;
+    if (converges(next, in, size, result)) {
+      last_ = point_;
+      before = sigma;
+      point_ = u_;
+      sigma = next;
+      length *= result.iterations - iterations <= 3 ? 3.0 : 1.5;
+      length = std::min(length, 1.0 - sigma);
+    } else {
+      length *= sigma == 0.0 ? 0.125 : 0.4;
+      if (sigma == 0.0 ? length < kShortest : length < kEnd * sigma) break;
+    }
+  }
+  result.arrived = sigma == 1.0;
+  result.reached = sigma;
+  set(point_, sigma, y);
+  return result;
+}
+
+}  // namespace courant

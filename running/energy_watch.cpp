@@ -1,0 +1,61 @@
+#include "courant/running/energy_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "courant/core/message.hpp"
+
+namespace courant {
+namespace {
+
+// Changes below this part of |H| are not looked at, and the next look is at a change so many times
+// as large.
+constexpr double kLeast = 1e-6;
+constexpr double kFurther = 4.0;
+
+// A method of order 1 has a third; errors that do not fall at all, one or more.
+constexpr double kConvergent = 0.6;
+
+}  // namespace
+
+EnergyWatch::EnergyWatch(std::shared_ptr<const Integrator> integrator,
+                         std::function<double(const State&)> energy, Index column)
+    : integrator_(std::move(integrator)), energy_(std::move(energy)), column_(column) {}
+
+std::optional<RunEnd> EnergyWatch::watch(const RunMoment& moment) {
+  const double H = moment.row[column_];
+  if (moment.k == 0) initial_ = H;
+  largest_ = std::max(largest_, std::fabs(H));
+  const double change = std::fabs(H - initial_);
+  if (!finding_.empty() || moment.k == 0 ||
+      !(change > std::max(kFurther * looked_at_, kLeast * largest_)))
+    return std::nullopt;
+  looked_at_ = change;
+  if (!is_explained(moment.step))
+    finding_ = "H has changed by " + number_text(H - initial_) +
+               " at t = " + number_text(moment.t) +
+               ", and shorter steps would not change it less: not the method's order explains it. "
+               "The trajectory may be wrong from there on.";
+  return std::nullopt;
+}
+
+bool EnergyWatch::is_explained(const Step& step) const {
+  double end[3];
+  try {
+    int parts = 1;
+    for (double& H : end) {
+      H = energy_(integrator_->advance(step.before, step.h / parts, parts));
+      parts *= 3;
+    }
+  } catch (const std::runtime_error&) {  // a shorter step that cannot be made says nothing
+    return true;
+  } catch (const std::domain_error&) {
+    return true;
+  }
+  const double first = std::fabs(end[0] - end[1]), second = std::fabs(end[1] - end[2]);
+  return !(second > kConvergent * first && second > kLeast * largest_);
+}
+
+}  // namespace courant

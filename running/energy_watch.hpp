@@ -1,0 +1,38 @@
+// EnergyWatch: changes of the energy that the method does not explain.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "courant/integrators/integrator.hpp"
+#include "courant/running/run_watcher.hpp"
+
+namespace courant {
+
+// Whenever |H - H(0)| has grown to four times what it was at the last look, the last step is made
+// again in one, three and nine parts. What a method of order p does to H on the way differs
+// between these by less and less, about 3^-p times as much each time. Where it does not, H changes
+// by something else than the error of the method: an unstable method, a solution that has been left.
+// H need not be conserved. Costs a few dozen steps a run. Looks no further after a finding.
+class EnergyWatch final : public RunWatcher {
+ public:
+  // `energy`: H of a state that a step ended at; `column`: of H in the rows.
+  EnergyWatch(std::shared_ptr<const Integrator> integrator,
+              std::function<double(const State&)> energy, Index column);
+
+  std::optional<RunEnd> watch(const RunMoment& moment) override;
+  // Empty, or a sentence about the first such step.
+  const std::string& finding() const { return finding_; }
+
+ private:
+  bool is_explained(const Step& step) const;
+
+  std::shared_ptr<const Integrator> integrator_;
+  std::function<double(const State&)> energy_;
+  Index column_;
+  double initial_ = 0.0, largest_ = 0.0, looked_at_ = 0.0;
+  std::string finding_;
+};
+
+}  // namespace courant

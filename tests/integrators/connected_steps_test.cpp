@@ -1,0 +1,247 @@
+// Steps whose equations have several solutions.
+#include <Eigen/Dense>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "courant/integrators/constrain_first.hpp"
+#include "courant/integrators/discretize_first.hpp"
+#include "courant/integrators/ladder/constraint_algorithm.hpp"
+#include "courant/integrators/maps/theta.hpp"
+#include "courant/manifolds/euclidean.hpp"
+#include "courant/tests/integrators/example_systems.hpp"
+
+BOOST_AUTO_TEST_SUITE(connected_steps)
+
+using namespace courant;
+using examples::FormulaSystem;
+
+namespace {
+
+// ẋ = f(x), and step sizes from harmless ones to where the connected solution ends.
+struct Case {
+  std::string name;
+  std::function<ExprVector(const ExprVector&)> formula;
+  std::function<VectorXd(const VectorXd&)> value;
+  VectorXd start;
+  std::vector<double> steps;
+};
+
+template <class F>
+Case make(const std::string& name, F f, const std::vector<double>& start,
+          const std::vector<double>& steps) {
+  return {name, [f](const ExprVector& x) { return ExprVector(f(x)); },
+          [f](const VectorXd& x) { return VectorXd(f(x)); },
+          Eigen::Map<const VectorXd>(start.data(), static_cast<Index>(start.size())), steps};
+}
+
+template <class V>
+V vector(const std::initializer_list<typename V::Scalar>& entries) {
+  V result(static_cast<Index>(entries.size()));
+  Index i = 0;
+  for (const auto& entry : entries) result[i++] = entry;
+  return result;
+}
+
+std::vector<Case> cases() {
+  using std::cos, std::exp, std::log, std::sin, std::sqrt;
+  std::vector<Case> all;
+  const std::vector<double> usual = {0.01, 0.1, 0.5, 1.0, 3.0};
+#define ROOTS_1(name, start, formula)        \
+  all.push_back(make(                        \
+      name,                                  \
+      [](const auto& y) {                    \
+        using V = std::decay_t<decltype(y)>; \
+        const typename V::Scalar x = y[0];   \
+        return vector<V>({formula});         \
+      },                                     \
+      {start}, usual))
+  ROOTS_1("parabola down", 0.0, 1.0 - 100.0 * x * x);
+  ROOTS_1("parabola down, from below", -0.05, 1.0 - 100.0 * x * x);
+  ROOTS_1("parabola up", 0.5, x * x);
+  ROOTS_1("blow-up", 0.0, 1.0 + x * x);
+  ROOTS_1("cubic decay", 1.5, -x * x * x);
+  ROOTS_1("cubic growth", 0.4, x * x * x);
+  ROOTS_1("double well", 0.1, x - x * x * x);
+  ROOTS_1("steep double well", 0.3, 30.0 * (x - x * x * x));
+  ROOTS_1("waves", 0.2, sin(20.0 * x));
+  ROOTS_1("waves on a slope", 0.2, 1.0 + 2.0 * cos(15.0 * x));
+  ROOTS_1("exponential decay", 1.0, -exp(5.0 * x));
+  ROOTS_1("exponential growth", -1.0, exp(2.0 * x));
+  ROOTS_1("logistic", 0.1, 20.0 * x * (1.0 - x));
+  ROOTS_1("quartic", 0.3, x * x - 4.0 * x * x * x * x);
+  ROOTS_1("bump", 0.0, 1.0 / (0.01 + x * x));
+  ROOTS_1("stiff and wavy", 0.7, -40.0 * x + 30.0 * sin(3.0 * x));
+#undef ROOTS_1
+  all.push_back(make("pendulum",
+                     [](const auto& x) {
+                       return vector<std::decay_t<decltype(x)>>({x[1], -9.81 * sin(x[0])});
+                     },
+                     {2.0, 0.5}, {0.05, 0.2, 0.6, 1.0, 2.0}));
+  all.push_back(make(
+      "van der Pol",
+      [](const auto& x) {
+        return vector<std::decay_t<decltype(x)>>({x[1], 50.0 * (1.0 - x[0] * x[0]) * x[1] - x[0]});
+      },
+      {2.0, 0.0}, {0.01, 0.05, 0.2, 0.5, 1.0}));
+  all.push_back(make(
+      "predators",
+      [](const auto& x) {
+        return vector<std::decay_t<decltype(x)>>({x[0] * (1.0 - x[1]), 3.0 * x[1] * (x[0] - 1.0)});
+      },
+      {0.5, 2.0}, {0.05, 0.2, 0.5, 1.0, 2.0}));
+  all.push_back(make("Robertson",
+                     [](const auto& x) {
+                       return vector<std::decay_t<decltype(x)>>(
+                           {-0.04 * x[0] + 1e4 * x[1] * x[2],
+                            0.04 * x[0] - 1e4 * x[1] * x[2] - 3e7 * x[1] * x[1],
+                            3e7 * x[1] * x[1]});
+                     },
+                     {1.0, 0.0, 0.0}, {0.001, 0.01, 0.04, 0.1, 0.4}));
+  return all;
+}
+
+// The end of the curve of ξ = σ h f(x + ξ/2) from σ = 0, in many small steps; nothing where it turns
+// back. Differences for derivatives.
+std::optional<VectorXd> reference(const Case& at, const VectorXd& x, double h) {
+  const Index n = x.size();
+  VectorXd xi = VectorXd::Zero(n), previous = xi;
+  const auto residual = [&](const VectorXd& y, double sigma) {
+    return VectorXd(y - sigma * h * at.value(x + 0.5 * y));
+  };
+  double sigma = 0.0, length = 1e-8;
+  while (sigma < 1.0) {
+    const double next = std::min(1.0, sigma + length);
+    VectorXd y = sigma > 0.0 ? VectorXd(xi * (next / sigma)) : xi;
+    bool found = false;
+    double first = 0.0;
+    for (int iteration = 0; iteration < 8 && !found; ++iteration) {
+      MatrixXd J(n, n);
+      for (Index j = 0; j < n; ++j) {
+        VectorXd up = y, down = y;
+        const double d = 1e-6 * (std::fabs(x[j]) + 1e-3);
+        up[j] += d;
+        down[j] -= d;
+        J.col(j) = (residual(up, next) - residual(down, next)) / (2.0 * d);
+      }
+      const Eigen::PartialPivLU<MatrixXd> lu(J);
+      if (!(lu.determinant() > 0.0)) break;
+      const VectorXd change = lu.solve(residual(y, next));
+      y -= change;
+      double moved = 0.0;
+      for (Index i = 0; i < n; ++i)
+        moved =
+            std::max(moved, std::fabs(change[i]) / (std::fabs(y[i]) + 0.01 * std::fabs(x[i]) +
+                                                    1e-3 * y.lpNorm<Eigen::Infinity>() + 1e-14));
+      if (iteration == 0) first = moved;
+      if (!(first < 0.02)) break;
+      found = moved < 1e-9;
+    }
+    if (found) {
+      xi = y;
+      sigma = next;
+      length = 1.3 * (next - sigma) + 1.3 * length;
+    } else {
+      length *= 0.5;
+      if (length < 1e-9 * sigma || length < 1e-16) return std::nullopt;
+    }
+  }
+  return VectorXd(x + xi);
+}
+
+std::shared_ptr<const ImplicitSystem> system_of(const Case& at) {
+  const Index n = at.start.size();
+  return std::make_shared<FormulaSystem>(
+      std::make_shared<Euclidean>(n), 0, n,
+      [formula = at.formula](const ExprVector& x, const ExprVector& v, const ExprVector&,
+                             const Expr&) { return ExprVector(v - formula(x)); });
+}
+
+}  // namespace
+
+// Every step that is made is the connected one, and where there is one it is found.
+BOOST_AUTO_TEST_CASE(steps_with_several_solutions) {
+  int made = 0, refused = 0;
+  for (const Case& at : cases()) {
+    const auto system = system_of(at);
+    const auto map = std::make_shared<Theta>(system->manifold());
+    const ConstraintLadder ladder = ConstraintAlgorithm().run(system, {.x = at.start});
+    BOOST_TEST_REQUIRE(to_string(ladder.verdict) == "regular", at.name);
+    const std::shared_ptr<const Integrator> methods[] = {
+        std::make_shared<DiscretizeFirst>(system, map),
+        std::make_shared<ConstrainFirst>(system, ladder, map,
+                                         std::make_shared<OrthogonalProjector>())};
+    for (const auto& method : methods)
+      for (const double h : at.steps) {
+        const auto stepper = method->stepper();
+        State state = ladder.point;
+        for (int k = 0; k < 25; ++k) {
+          BOOST_TEST_CONTEXT(at.name << ", " << method->name() << ", h = " << h << ", step " << k) {
+            const auto right = reference(at, state.x, h);
+            try {
+              stepper->step(state, h);
+              ++made;
+              BOOST_TEST(right.has_value(), "the curve ends before the step");
+              if (right)
+                BOOST_TEST((*right - state.x).cwiseAbs().maxCoeff() <
+                           1e-6 * (1.0 + right->cwiseAbs().maxCoeff()));
+            } catch (const SolveError& error) {
+              ++refused;
+              BOOST_TEST(!right.has_value(), error.what());
+              k = 25;
+            }
+          }
+          if (state.x.lpNorm<Eigen::Infinity>() > 1e3) break;
+        }
+      }
+  }
+  BOOST_TEST(made > 3000);
+  BOOST_TEST(refused > 10);
+}
+
+// ẋ = 1 - 100 x², h = 1.
+BOOST_AUTO_TEST_CASE(the_right_root_of_two) {
+  const Case at = cases().front();
+  const auto system = system_of(at);
+  const DiscretizeFirst method(system, std::make_shared<Theta>(system->manifold()));
+  BOOST_TEST(method.advance({.x = at.start}, 1.0, 3).x[0] == 0.15424542,
+             boost::test_tools::tolerance(1e-7));
+}
+
+// ẋ = 1 + x² from 0 by the midpoint: ξ = h (1 + ξ²/4) has solutions up to h = 1.
+BOOST_AUTO_TEST_CASE(a_step_that_is_too_long_is_refused_and_one_that_would_do_is_named) {
+  const Case at = cases()[3];
+  const auto system = system_of(at);
+  const DiscretizeFirst method(system, std::make_shared<Theta>(system->manifold()));
+  State state{.x = at.start};
+  try {
+    method.advance(state, 1.5);
+    BOOST_TEST(false, "1.5 was accepted");
+  } catch (const SolveError& error) {
+    BOOST_TEST((error.reason() == SolveError::Reason::disconnected));
+    const std::string text = error.what();
+    const auto found = text.find("A step of ");
+    BOOST_TEST_REQUIRE(found != std::string::npos, text);
+    const double shorter = std::stod(text.substr(found + 10));
+    BOOST_TEST(shorter > 0.8);
+    BOOST_TEST(shorter < 1.0);
+    const double xi = method.advance(state, shorter).x[0];
+    BOOST_TEST(xi == 2.0 * (1.0 - std::sqrt(1.0 - shorter * shorter)) / shorter,
+               boost::test_tools::tolerance(1e-12));
+  }
+}
+
+// Where the prediction is good nothing is confirmed.
+BOOST_AUTO_TEST_CASE(costs_nothing_where_the_prediction_is_good) {
+  const Case at = cases()[16];
+  const auto system = system_of(at);
+  const DiscretizeFirst method(system, std::make_shared<Theta>(system->manifold()));
+  const auto stepper = method.stepper();
+  State state{.x = at.start};
+  for (int k = 0; k < 2000; ++k) stepper->step(state, 0.01);
+  BOOST_TEST(stepper->statistics().confirmations <= 4);
+  BOOST_TEST(stepper->statistics().second_attempts == 0);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,33 @@
+// Law P5 along 10⁴ steps: a step is that of a fresh stepper, whatever was done before.
+#include <boost/test/unit_test.hpp>
+
+#include "courant/manifolds/manifold.hpp"
+#include "integrator_catalogue.hpp"
+
+using namespace courant;
+
+BOOST_AUTO_TEST_SUITE(fresh_steps_long_test)
+
+BOOST_AUTO_TEST_CASE(of_every_integrator_of_the_catalogue) {
+  for (const auto& [name, integrator, setting, both_ways] : test::integrator_catalogue()) {
+    if (setting.is_gauge) continue;
+    const Manifold& M = *integrator->system()->manifold();
+    const auto stepper = integrator->stepper();
+    State state = setting.initial;
+    double worst = 0.0;
+    long made = 0;
+    try {
+      for (; made < 10000; ++made) {
+        const State fresh = integrator->advance(state, setting.step);
+        stepper->step(state, setting.step);
+        worst = std::max(worst, M.separation(fresh.x, state.x) / (1.0 + state.x.norm()));
+      }
+    } catch (const SolveError& error) {
+      BOOST_TEST(false, name << ": " << error.what());
+    }
+    BOOST_TEST(made == 10000, name);
+    BOOST_TEST(worst < 1e-10, name << ": " << worst);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
