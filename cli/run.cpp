@@ -19,6 +19,7 @@ struct Arguments {
   Backend backend = Backend::automatic;
   bool force = false;
   bool resume = false;
+  bool explain = false;
   bool quiet = false;
 };
 
@@ -43,7 +44,10 @@ int run_experiment(const Console& console, const Arguments& arguments,
                      .replace = arguments.force,
                      .stop = console.stop,
                      .on_ladder = {},
+                     .on_method = {},
                      .on_progress = {}};
+  if (arguments.explain)
+    options.on_method = [&](const Integrator& method) { print_explanation(console, method); };
   std::optional<ProgressBar> bar;
   if (!arguments.quiet) {
     options.on_ladder = [&](const Json& ladder) { print_opening(console, experiment, ladder); };
@@ -82,6 +86,8 @@ void add_run(CLI::App& app, Session& session) {
       ->type_name("NAME");
   run->add_flag("--force", arguments->force, "replace a run that is in the folder already");
   run->add_flag("--resume", arguments->resume)->group("");  // not listed: it cannot be done yet
+  run->add_flag("--explain", arguments->explain,
+                "say which equations a step solves, and which unknowns they give explicitly");
   run->add_flag("--quiet", arguments->quiet, "print errors only");
   run->callback([&session, arguments] {
     if (arguments->resume)

@@ -94,6 +94,13 @@ void print_opening(const Console& console, const Experiment& experiment, const J
   out << std::flush;
 }
 
+void print_explanation(const Console& console, const Integrator& method) {
+  const std::vector<StepFormulas> formulas = method.formulas();
+  if (formulas.empty())
+    console.out << method.name() << " solves no equations of its own in a step.\n\n";
+  for (const StepFormulas& equations : formulas) console.out << explanation(equations) << '\n';
+}
+
 void print_outcome(const Console& console, const RunOutcome& outcome,
                    const std::filesystem::path& folder) {
   const Json& summary = outcome.summary;

@@ -5,12 +5,16 @@
 
 #include "courant/cli/command.hpp"
 #include "courant/cli/text.hpp"
+#include "courant/integrators/integrator.hpp"
 #include "courant/running/runner.hpp"
 
 namespace courant::cli {
 
 // What is run, and what the constraint algorithm found.
 void print_opening(const Console& console, const Experiment& experiment, const Json& ladder);
+
+// The equations that a step solves, which unknowns they give explicitly, and which are left.
+void print_explanation(const Console& console, const Integrator& method);
 
 // How it went: paths in the plane, observables, solver, expectations, where the files are.
 void print_outcome(const Console& console, const RunOutcome& outcome,

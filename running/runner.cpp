@@ -117,6 +117,7 @@ class Run {
                                        .backend = options_.backend,
                                        .vocabulary = &experiment_.model.vocabulary});
       backend_ = method.integrator->is_native() ? "native" : "interpreter";
+      if (options_.on_method) options_.on_method(*method.integrator);
       return method;
     } catch (const std::invalid_argument& error) {
       throw ExperimentError("/method", without_place(error.what()));

@@ -18,6 +18,7 @@ struct RunOptions {
   bool replace = false;                               // a run that is in the folder already
   const std::atomic<bool>* stop = nullptr;            // set by someone else: the run is interrupted
   std::function<void(const Json& ladder)> on_ladder;  // once the constraint algorithm has finished
+  std::function<void(const Integrator&)> on_method = {};  // once it is made ready
   std::function<void(const Progress&)> on_progress;   // some ten times a second
   std::vector<RunWatcher*> watchers = {};             // are told of every state too
 };

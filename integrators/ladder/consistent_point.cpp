@@ -1,11 +1,13 @@
 #include "courant/integrators/ladder/consistent_point.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 
 #include "courant/integrators/ladder/ladder_levels.hpp"
+#include "courant/integrators/ladder/natural_scaling.hpp"
 
 namespace courant {
 namespace {
@@ -41,6 +43,10 @@ ConsistentPoint::ConsistentPoint(std::shared_ptr<const ImplicitSystem> system, I
   check_finite("v", guess_.v);
   check_finite("z", guess_.z);
   check_finite("t", VectorXd::Constant(1, guess_.t));
+  const auto M = system_->manifold();
+  array_.emplace(system_, guess_.t,
+                 M->point_defect(guess_.x) == 0.0 ? guess_.x : M->project(guess_.x));
+  if (M->dimension() == N) drop_round_off();
   const auto hold = [&](const std::vector<Index>& components, const VectorXd& values, Index offset,
                         const char* name) {
     for (const Index i : components) {
@@ -58,15 +64,36 @@ ConsistentPoint::ConsistentPoint(std::shared_ptr<const ImplicitSystem> system, I
   if (guess_.z.size() == 0) guess_.z = system_->auxiliary_guess(guess_.x, guess_.v);
 }
 
+// A user who computes cos(π/2) means 0; equations that hold at a point with zeros would hold nowhere
+// near it otherwise.
+void ConsistentPoint::drop_round_off() {
+  constexpr double round_off = 8.0 * std::numeric_limits<double>::epsilon();
+  const Index n = array_->base_size();
+  const VectorXd y = array_->jet(guess_.v, guess_.z);
+  VectorXd reach = y.cwiseAbs();
+  reach.head(n) = array_->origin_size();
+  Linearization at = array_->linearize(y);
+  if (!is_finite(at)) return;
+  const SparseMatrixXd magnitude = generic_magnitude(
+      [&](const VectorXd& there) { return array_->linearize(there); }, y, reach, at);
+  at.value.setZero();
+  // Where all numbers are small the largest is a unit, so that it stays.
+  const NaturalScaling units({at.value, magnitude}, reach, 0.0);
+  const auto drop = [&](VectorXd& values, Index first) {
+    for (Index i = 0; i < values.size(); ++i)
+      if (std::fabs(values[i]) <= round_off * units.column_scale[first + i]) values[i] = 0.0;
+  };
+  drop(guess_.x, 0);
+  drop(guess_.v, n);
+  drop(guess_.z, 2 * n);
+  array_ = array_->at(guess_.t, guess_.x);
+}
+
 ConsistentJet ConsistentPoint::start() const {
-  const VectorXd x = system_->manifold()->point_defect(guess_.x) == 0.0
-                         ? guess_.x
-                         : system_->manifold()->project(guess_.x);
-  const DerivativeArray array(system_, guess_.t, x);
   Zero zero;
-  zero.y = array.jet(guess_.v, guess_.z);
+  zero.y = array_->jet(guess_.v, guess_.z);
   zero.reach = zero.y.cwiseAbs();
-  return {array, zero};
+  return {*array_, zero};
 }
 
 LinearizableMap ConsistentPoint::conditions(const DerivativeArray& array, bool hold) const {
@@ -106,7 +133,8 @@ Mobility ConsistentPoint::mobility(const ConsistentJet& from, bool x_is_free) co
   result.cost = VectorXd::Constant(size, 0.03);
   result.cost.head(n).setOnes();
   result.typical = from.array.resized(from.zero.reach, from.array.level_of(from.zero.y));
-  result.typical.head(n) = result.typical.head(n).cwiseMax(from.array.origin_size());
+  result.offset = from.array.origin_size();
+  result.typical.head(n) = result.typical.head(n).cwiseMax(result.offset);
   if (x_is_free)
     result.admits = [extent = system_->manifold()->extent_at(from.array.origin()),
                      basis = from.array.basis()](const VectorXd& y) {

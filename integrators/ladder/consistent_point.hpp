@@ -27,7 +27,8 @@ class ConsistentPoint {
   ConsistentPoint(std::shared_ptr<const ImplicitSystem> system, InitialGuess guess,
                   MatrixXd metric);
 
-  // The given values as a jet of level 0; x is brought to the manifold.
+  // The given values as a jet of level 0; x is brought to the manifold. On Rⁿ given numbers that are
+  // round-off next to the units of the problem, as the cosine of a right angle, are 0.
   ConsistentJet start() const;
   // The zero of F^[k] near `from`, whose jet is of level k.
   ConsistentJet find(const ConsistentJet& from) const;
@@ -54,9 +55,12 @@ class ConsistentPoint {
   Quadratic displacement(const DerivativeArray& array, const VectorXd& y) const;
   ConsistentJet recentred(const DerivativeArray& array, const Zero& zero, bool hold) const;
 
+  void drop_round_off();
+
   std::shared_ptr<const ImplicitSystem> system_;
   InitialGuess guess_;
   MatrixXd metric_;
+  std::optional<DerivativeArray> array_;        // at the given point
   std::vector<std::pair<Index, double>> held_;  // row of (x, v, z), value
 };
 

@@ -108,14 +108,6 @@ class DampedInverse {
   std::optional<QrDecomposition> damped_;
 };
 
-bool finite(const Linearization& at) {
-  if (!at.value.allFinite()) return false;
-  for (Index j = 0; j < at.jacobian.outerSize(); ++j)
-    for (SparseMatrixXd::InnerIterator it(at.jacobian, j); it; ++it)
-      if (!std::isfinite(it.value())) return false;
-  return true;
-}
-
 // Whether every |F_i| is within the bound of its rounding error: nothing is left to improve.
 bool is_rounded(const Linearization& at) {
   return at.value_error.size() == at.value.size() && at.value_error.allFinite() &&
@@ -158,7 +150,7 @@ Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& m
   if (mobility.typical.size() > 0) zero.reach = zero.reach.cwiseMax(mobility.typical);
   zero.defect = std::numeric_limits<double>::infinity();
   Linearization at = map(start);
-  zero.is_finite = finite(at);
+  zero.is_finite = is_finite(at);
   if (!zero.is_finite) return zero;
 
   SparseMatrixXd magnitude = generic_magnitude(map, start, zero.reach, at);
@@ -190,7 +182,7 @@ Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& m
       const VectorXd y = zero.y + units.column_scale.cwiseProduct(delta);
       if (mobility.admits && !mobility.admits(y)) continue;
       Linearization next = map(y);
-      if (!finite(next)) continue;
+      if (!is_finite(next)) continue;
       const VectorXd residual = units.row_scale.cwiseProduct(next.value);
       if (residual.norm() >= (1.0 - 1e-3) * g.norm() && (safeguard || zero.found)) {
         // A residual may grow where equations are curved and the next step be shorter all the same
@@ -210,16 +202,26 @@ Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& m
     }
     if (moves || !zero.found) continue;
     zero.uncertainty = uncertainty(at, units, S, mobility);
-    // Unknowns that F leaves open collect noise of the iteration. What is proportional to it must
-    // not look like a number.
-    for (Index j = mobility.frozen; j < zero.y.size(); ++j)
-      if (const double size = std::fabs(zero.y[j]); size < noise * units.column_scale[j])
+    // Unknowns that F leaves open collect noise of the iteration, and given ones bring that of the
+    // computation that they come from. What is proportional to it must not look like a number.
+    for (Index j = 0; j < zero.y.size(); ++j) {
+      const double offset = j < mobility.offset.size() ? mobility.offset[j] : 0.0;
+      if (const double size = std::fabs(zero.y[j]) + offset; size < noise * units.column_scale[j])
         zero.uncertainty[j] = std::max(zero.uncertainty[j], size);
+    }
   }
   return zero;
 }
 
 }  // namespace
+
+bool is_finite(const Linearization& at) {
+  if (!at.value.allFinite()) return false;
+  for (Index j = 0; j < at.jacobian.outerSize(); ++j)
+    for (SparseMatrixXd::InnerIterator it(at.jacobian, j); it; ++it)
+      if (!std::isfinite(it.value())) return false;
+  return true;
+}
 
 Zero find_zero(const LinearizableMap& map, const VectorXd& start, const Mobility& mobility) {
   const Zero careful = search(map, start, mobility, true);

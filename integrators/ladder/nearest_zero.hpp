@@ -15,9 +15,13 @@ struct Mobility {
   Index frozen = 0;               // so many leading unknowns do not move at all
   VectorXd typical = VectorXd();  // sizes |y_j| below which a change of y_j is round-off in the
                                   // map; may be 0
+  VectorXd offset = VectorXd();   // sizes of what the map adds to leading unknowns
   // Whether y may be gone to, as the domain of a chart allows; empty: anything may.
   std::function<bool(const VectorXd& y)> admits = {};
 };
+
+// Whether F and its derivatives are.
+bool is_finite(const Linearization& at);
 
 // A zero y of a map, or where its search ended: found starts as false.
 struct Zero {
