@@ -61,6 +61,15 @@ void DenseSolver::pseudo_invert(const MatrixXd& A) {
   inverse_ = C.asDiagonal() * decomposition.pseudo_inverse();
 }
 
+void DenseSolver::do_settle(double* x, Index first) {
+  // The entries of a projection are known to about the error that the rank was decided with.
+  constexpr double known = 1e-9;
+  const Index size = open_.cols() - first;
+  if (determined_ || size <= 0 || open_.topRows(first).norm() > known) return;
+  Eigen::Map<VectorXd> rest(x + first, size);
+  rest -= (open_.bottomRightCorner(size, size) * rest).eval();
+}
+
 bool DenseSolver::do_factorize(const double* entries) {
   MatrixXd A = MatrixXd::Zero(pattern_.rows, pattern_.columns);
   for (std::size_t k = 0; k < pattern_.row.size(); ++k)
@@ -81,7 +90,10 @@ bool DenseSolver::do_factorize(const double* entries) {
       orientation_ = lu.orientation();
     }
   }
-  if (!determined_) pseudo_invert(A);
+  if (!determined_) {
+    pseudo_invert(A);
+    if (!determined_) open_ = MatrixXd::Identity(A.cols(), A.cols()) - inverse_ * A;
+  }
   inverse_ = inverse_ * scale.asDiagonal();
   return inverse_.allFinite();
 }

@@ -18,11 +18,13 @@ class DenseSolver final : public LinearSolver {
   bool do_factorize(const double* entries) override;
   void do_solve(const double* b, double* x) override { multiply_(inverse_, b, x); }
   bool do_is_determined() const override { return determined_; }
+  void do_settle(double* x, Index first) override;
   int do_orientation() const override { return orientation_; }
   void pseudo_invert(const MatrixXd& A);
 
   MatrixPattern pattern_;
   MatrixXd inverse_;
+  MatrixXd open_;  // I - A⁺ A where A leaves unknowns open
   bool determined_ = false;
   int orientation_ = 0;
   void (*multiply_)(const MatrixXd& A, const double* b, double* x);  // made for the size

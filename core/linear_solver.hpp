@@ -38,6 +38,9 @@ class LinearSolver {
   void solve(const double* b, double* x) { do_solve(b, x); }
   // Whether A determines all of x: its columns are independent.
   bool is_determined() const { return do_is_determined(); }
+  // Takes from x_first, x_{first+1}, … what A leaves open: x ← A⁺ A x. Nothing is done if A leaves
+  // unknowns before `first` open too.
+  void settle(double* x, Index first) { do_settle(x, first); }
   // The sign of det A; 0 if it is not known, or A is not square or singular.
   int orientation() const { return do_orientation(); }
 
@@ -46,6 +49,8 @@ class LinearSolver {
   virtual bool do_factorize(const double* entries) = 0;
   virtual void do_solve(const double* b, double* x) = 0;
   virtual bool do_is_determined() const = 0;
+  // May override, if A may leave unknowns open:
+  virtual void do_settle(double* /*x*/, Index /*first*/) {}
   // May override: 0 is what is not known.
   virtual int do_orientation() const { return 0; }
 };

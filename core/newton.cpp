@@ -132,6 +132,16 @@ bool Newton::is_solved(const double* y, const double* scales) {
   return is_rounded(y, scales, kSolved);
 }
 
+void Newton::settle(VectorXd& y, Index first) {
+  if (!factorized_ || solver_->is_determined()) return;
+  for (std::size_t k = 0; k < contained_.size(); ++k)
+    step_[static_cast<Index>(k)] = y[contained_[k]];
+  const auto begin = std::ranges::lower_bound(contained_, first);
+  solver_->settle(step_.data(), begin - contained_.begin());
+  for (std::size_t k = 0; k < contained_.size(); ++k)
+    y[contained_[k]] = step_[static_cast<Index>(k)];
+}
+
 Newton::Result Newton::solve(double* y, const double* const* in, const double* scales) {
   if (!system_.is_reduced()) return solve_kept(y, in, scales);
   std::copy_n(in, in_.size(), in_.begin());

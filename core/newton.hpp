@@ -51,6 +51,10 @@ class Newton {
   // block g (its current values count too). On failure y holds the last iterate.
   Result solve(double* y, const double* const* in, const double* scales);
 
+  // Takes from the unknowns from `first` on what the last factorisation leaves open: predictions of
+  // it would grow without bounds.
+  void settle(VectorXd& y, Index first);
+
   // Forgets the kept factorisation.
   void reset() {
     factorized_ = false;

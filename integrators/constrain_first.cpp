@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "courant/core/derivative.hpp"
+#include "courant/core/message.hpp"
 #include "courant/core/qr_decomposition.hpp"
 #include "courant/integrators/ladder/local_formulation.hpp"
 #include "courant/integrators/moving_basis.hpp"
@@ -127,6 +128,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
       begin();
     else
       predictor_.predict(y);
+    solver_.settle(2 * n_);
     const double* in[] = {y.data(), before.x.data(), basis_.data(), directions_.data(),
                           &h,       &before.t};
     const StepSolver::Attempt attempt{before.t, h};
@@ -140,7 +142,12 @@ class ConstrainFirst::Trajectory final : public Stepper {
     round_off_projection_.apply(near_);
 
     projector_.unknown() = y;
-    project(before, attempt, after.t, y.tail(d_).norm(), true);
+    try {
+      project(before, attempt, after.t, y.tail(d_).norm(), true);
+    } catch (const std::domain_error& error) {
+      throw SolveError(SolveError::Reason::singular, method(), before.t, h,
+                       "cannot be projected: " + without_place(error.what()));
+    }
     after.v.resize(before.v.size());
     after.z.resize(before.z.size());
     take(after);
@@ -229,8 +236,9 @@ class ConstrainFirst::Trajectory final : public Stepper {
       if (iteration == 0 && goes_on && !end_.is_empty()) {
         end_.predict(y);
         y.head(n_).setZero();
+        projector_.settle(2 * n_);
       }
-      aim(guess_, y, t, attempt);
+      aim(guess_, y, t);
       aimed_ = y;
       const double* in[] = {y.data(),           guess_.data(), basis_.data(),
                             directions_.data(), near_.data(),  &t};
@@ -279,19 +287,14 @@ class ConstrainFirst::Trajectory final : public Stepper {
   }
 
   // W at x, with columns near those of the last step, so that μ and the kept factorisations go on.
-  void aim(const VectorXd& x, const VectorXd& y, double t, const StepSolver::Attempt& attempt) {
+  void aim(const VectorXd& x, const VectorXd& y, double t) {
     if (d_ == 0 || constant_directions_) return;
     const double* in[] = {y.data(), x.data(), basis_.data(), &t};
     conormals_.move_to(in);
     if (method_.projector_->is_orthogonal()) {
       directions_ = conormals_.matrix();
     } else {
-      try {
-        directions_ = method_.projector_->directions(x, basis_.matrix(), conormals_.matrix());
-      } catch (const std::domain_error& error) {
-        throw SolveError(SolveError::Reason::singular, method(), attempt.time, attempt.h,
-                         std::string("cannot be projected. ") + error.what());
-      }
+      directions_ = method_.projector_->directions(x, basis_.matrix(), conormals_.matrix());
       if (last_directions_.size() > 0) {
         turned_ = directions_ * (directions_.transpose() * last_directions_);
         make_orthonormal_(turned_, directions_);

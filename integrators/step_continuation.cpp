@@ -14,23 +14,27 @@ namespace {
 // 4/3 of the first correction, and no other (Kantorovich).
 constexpr double kContraction = 0.25;
 constexpr int kMostIterations = 12;
+// That alone finds other solutions too. A prediction is followed if it is wrong by no more than this
+// part of a displacement.
+constexpr double kNear = 0.1;
 
-// Displacements are found to so many of their digits; what is left is up to the iteration that
-// takes over. Those that are round-off of the coordinates count as found.
-constexpr double kTolerance = 1e-7;
+// An iteration that changes displacements by less has found them to twice as many digits; what is
+// left is up to the iteration that takes over. Changes that are round-off of the coordinates count
+// as found.
+constexpr double kTolerance = 1e-4;
 constexpr double kRoundOff = 1e-13;
 
 // A displacement is measured by its own size, but not by less than these parts of the largest one
 // and of the coordinates.
-constexpr double kLeastOfAll = 1e-6;
+constexpr double kLeastOfAll = 1e-3;
 constexpr double kLeastOfState = 1e-8;
 
-// Where the curve begins: a step this much shorter is still none for which there is a solution.
+// The curve begins with two points at so much of the step and twice as much, which say where it
+// goes; or at less, down to this.
+constexpr double kBeginning = 1e-3;
 constexpr double kShortest = 1e-12;
 // The curve ends where σ can grow by less than this part.
 constexpr double kEnd = 1e-4;
-// The sign of the determinant is that at so much of the step.
-constexpr double kBeginning = 1e-3;
 
 }  // namespace
 
@@ -77,7 +81,7 @@ double StepContinuation::moved(double sigma, double size) const {
   return std::isfinite(total) ? result : std::numeric_limits<double>::infinity();
 }
 
-bool StepContinuation::converges(double sigma, const double* const* in, double size,
+bool StepContinuation::converges(double sigma, const double* const* in, double size, double near,
                                  Result& result) {
   const double h = sigma * h_;
   std::copy_n(in, in_.size(), in_.begin());
@@ -92,7 +96,7 @@ bool StepContinuation::converges(double sigma, const double* const* in, double s
       return false;
     solver_->solve(all_.data(), step_.data());
     const double change = moved(sigma, size);
-    if (!std::isfinite(change)) return false;
+    if (!std::isfinite(change) || (iteration == 0 && change > near)) return false;
     if (iteration > 0 && change > kTolerance && change > kContraction * previous) return false;
     for (std::size_t k = 0; k < contained_.size(); ++k) {
       const Index i = contained_[k];
@@ -113,38 +117,35 @@ bool StepContinuation::converges(double sigma, const double* const* in, double s
 
 StepContinuation::Result StepContinuation::follow(VectorXd& y, const double* const* in,
                                                   double size) {
+  constexpr double anywhere = std::numeric_limits<double>::infinity();
   Result result;
   h_ = *in[layout_.h];
-  u_ = point_ = last_ = y;
-  // The sign of the determinant where the curve begins.
+  point_ = last_ = y;
   orientation_ = 0;
-  {
-    const double h = kBeginning * h_;
-    std::copy_n(in, in_.size(), in_.begin());
-    set(u_, kBeginning, y_);
-    in_[0] = y_.data();
-    in_[static_cast<std::size_t>(layout_.h)] = &h;
-    equations_.value_and_jacobian(in_.data(), all_.data());
-    if (all_.allFinite() && solver_->factorize(all_.data() + equations_.output_size()))
-      orientation_ = solver_->orientation();
-  }
   double sigma = 0.0, before = 0.0;  // of point_ and last_
+  for (double first = kBeginning; sigma == 0.0 && first > kShortest; first *= 0.125) {
+    u_ = y;
+    if (!converges(first, in, size, anywhere, result)) continue;
+    last_ = u_;
+    if (!converges(2.0 * first, in, size, anywhere, result)) continue;
+    point_ = u_;
+    before = first;
+    sigma = 2.0 * first;
+  }
   double length = 1.0;
-  while (sigma < 1.0) {
+  while (sigma > 0.0 && sigma < 1.0) {
     const double next = sigma + length >= 1.0 ? 1.0 : sigma + length;
-    u_ = point_;
-    if (before > 0.0) u_ += (point_ - last_) * ((next - sigma) / (sigma - before));
+    u_ = point_ + (point_ - last_) * ((next - sigma) / (sigma - before));
     const long iterations = result.iterations;
-    if (converges(next, in, size, result)) {
+    if (converges(next, in, size, kNear, result)) {
       last_ = point_;
       before = sigma;
       point_ = u_;
       sigma = next;
       length *= result.iterations - iterations <= 3 ? 3.0 : 1.5;
-      length = std::min(length, 1.0 - sigma);
     } else {
-      length *= sigma == 0.0 ? 0.125 : 0.4;
-      if (sigma == 0.0 ? length < kShortest : length < kEnd * sigma) break;
+      length = 0.3 * (next - sigma);
+      if (length < kEnd * sigma) break;
     }
   }
   result.arrived = sigma == 1.0;

@@ -13,12 +13,12 @@ namespace courant {
 // the end of the curve σ ↦ y(σ), G(y(σ); σ h) = 0, that begins at the state for σ → 0. This follows
 // the curve up to σ = 1, or to where it turns back or ends.
 //
-// Newton's method with a matrix made afresh in each iteration has to contract to a quarter at once,
-// from the prediction by the last two points; the sign of the determinant stays the same, so that a
-// turning point is not stepped over. Else the step in σ is shortened. The first prediction is the
-// velocity of the state, and the first try is σ = 1: where the step is short next to the curvature
-// of its equations, three or four iterations are all. Not seen is a pair of turning points between
-// two points on the curve. One object a trajectory.
+// It begins with two points at a thousandth of the step or less, and goes on by extrapolation of the
+// last two. A prediction must be right to a tenth, Newton's method with a matrix made afresh in each
+// iteration has to contract to a quarter at once, and the sign of the determinant stays the same, so
+// that a turning point is not stepped over. Else the step in σ is shortened; the first one tried
+// leads to σ = 1. Not seen is a pair of turning points between two points on the curve. One object
+// a trajectory.
 class StepContinuation {
  public:
   // Group 0 of `equations` is y, whose first `displacements` entries are displacements from the
@@ -40,8 +40,9 @@ class StepContinuation {
   Result follow(VectorXd& y, const double* const* in, double size);
 
  private:
-  // Newton's method from u_, for σ. False: not near.
-  bool converges(double sigma, const double* const* in, double size, Result& result);
+  // Newton's method from u_, for σ. False: it does not contract, or its first change is more than
+  // `near`.
+  bool converges(double sigma, const double* const* in, double size, double near, Result& result);
   void set(const VectorXd& u, double sigma, VectorXd& y) const;
   double moved(double sigma, double size) const;
 

@@ -46,20 +46,22 @@ class StepSolver {
     fail(attempt);
   }
   // The solution that is connected to the state. One close to what unknown() predicted is taken for
-  // it, if the last step was predicted as well: every displacement right to a twentieth of its size.
-  // Else it is the one that StepContinuation finds; `begin` puts into unknown() what the state alone
-  // predicts.
+  // it, every displacement right to a twentieth of its size, if the matrix of an earlier step led
+  // there, or the last step was predicted as well. Else it is the one that StepContinuation finds;
+  // `begin` puts into unknown() what the state alone predicts.
   template <class Begin>
   void solve_connected(const double* const* in, const double* scales, const Begin& begin,
                        const Attempt& attempt, SolverStatistics& statistics) {
     other_ = y_;
     const bool converged = converges(in, scales, statistics);
     is_good_ = converged && is_as_predicted(scales[0]);
-    if (is_good_ && is_trusted_) return;
+    if (is_good_ && (is_trusted_ || result_.factorizations == 0)) return;
     other_ = y_;
     begin();
     connect(converged, in, scales, attempt, statistics);
   }
+  // As of Newton, for what unknown() predicts.
+  void settle(Index first) { newton_.settle(y_, first); }
   // The step that was solved stands.
   void keep();
   // The kept factorisation, and the sizes of displacements.

@@ -47,7 +47,8 @@ class Stepper {
   // (t, x) ↦ (t + h, Φ_h(x)). `end`: t + h as the caller's clock has it, so that time does not
   // collect round-off. Throws std::invalid_argument unless the state fits the system and h is
   // finite and not zero, std::domain_error unless x is on the manifold up to 1e-6 (explicit methods,
-  // which leave it, do not ask), SolveError if the step cannot be made.
+  // which leave it, do not ask) and has directions to project in, SolveError if the step cannot be
+  // made.
   void step(State& state, double h, double end);
   void step(State& state, double h) { step(state, h, state.t + h); }
 

@@ -113,7 +113,7 @@ std::optional<VectorXd> reference(const Case& at, const VectorXd& x, double h) {
   double sigma = 0.0, length = 1e-8;
   while (sigma < 1.0) {
     const double next = std::min(1.0, sigma + length);
-    VectorXd y = sigma > 0.0 ? VectorXd(xi * (next / sigma)) : xi;
+    VectorXd y = sigma > 0.0 ? VectorXd(xi * (next / sigma)) : VectorXd(next * h * at.value(x));
     bool found = false;
     double first = 0.0;
     for (int iteration = 0; iteration < 8 && !found; ++iteration) {
