@@ -134,12 +134,16 @@ bool Newton::is_solved(const double* y, const double* scales) {
 
 void Newton::settle(VectorXd& y, Index first) {
   if (!factorized_ || solver_->is_determined()) return;
-  for (std::size_t k = 0; k < contained_.size(); ++k)
-    step_[static_cast<Index>(k)] = y[contained_[k]];
-  const auto begin = std::ranges::lower_bound(contained_, first);
-  solver_->settle(step_.data(), begin - contained_.begin());
-  for (std::size_t k = 0; k < contained_.size(); ++k)
-    y[contained_[k]] = step_[static_cast<Index>(k)];
+  const auto unknown = [&](std::size_t k) -> double& {
+    return y[system_.kept()[static_cast<std::size_t>(contained_[k])]];
+  };
+  Index begin = 0;
+  for (std::size_t k = 0; k < contained_.size(); ++k) {
+    step_[static_cast<Index>(k)] = unknown(k);
+    if (system_.kept()[static_cast<std::size_t>(contained_[k])] < first) ++begin;
+  }
+  solver_->settle(step_.data(), begin);
+  for (std::size_t k = 0; k < contained_.size(); ++k) unknown(k) = step_[static_cast<Index>(k)];
 }
 
 Newton::Result Newton::solve(double* y, const double* const* in, const double* scales) {

@@ -52,6 +52,7 @@ StepContinuation::StepContinuation(Function equations, const Layout& layout)
   in_.resize(static_cast<std::size_t>(equations_.input_count()));
   all_.resize(equations_.output_size() + equations_.nonzeros());
   step_.resize(static_cast<Index>(contained_.size()));
+  y_.resize(equations_.input_size(0));
 }
 
 void StepContinuation::set(const VectorXd& u, double sigma, VectorXd& y) const {
