@@ -51,8 +51,7 @@ void print_ladder(const Console& console, const Experiment& experiment, const Js
   }
 }
 
-// Remark 6.1 on the system, the discretization map and the step of an
-// experiment.
+// Remark 6.1 on the system, the discretization map and the step of an experiment.
 Json discrete_ladder(const Experiment& experiment, const ConstraintLadder& start) {
   if (!experiment.method || !experiment.time)
     throw ExperimentError("/method",

@@ -44,8 +44,8 @@ std::string derivative(int order, const std::string& equation) {
   return "d^" + std::to_string(order) + "/dt^" + std::to_string(order) + " [" + equation + "]";
 }
 
-// The highest derivatives first: they are what the constraint is made of, the
-// others what removes the rest.
+// The highest derivatives first: they are what the constraint is made of, the others what removes
+// the rest.
 std::string sources(const Json& terms) {
   std::vector<std::pair<int, std::string>> list;
   for (const Json& term : terms)
@@ -87,8 +87,7 @@ void explain_velocities(const Json& ladder, int k, std::vector<std::string>& lin
   tell_rest(count, lines);
 }
 
-// What S_k adds: each equation in velocities, and what becomes of it with those
-// of S_{k-1}.
+// What S_k adds: each equation in velocities, and what becomes of it with those of S_{k-1}.
 void explain_steps(const std::vector<const Json*>& steps, int k, std::vector<std::string>& lines) {
   for (std::size_t i = 0; i < steps.size() && i < most; ++i) {
     const std::string derivative = steps[i]->at("derivative"), result = steps[i]->at("result");
@@ -195,8 +194,7 @@ void explain_contradiction(const Json& ladder, std::vector<std::string>& lines) 
   lines.push_back("That cannot be: S" + subscript(end) + " is empty.");
 }
 
-// "Three constraints: two primary …" and what is left when gauge is counted
-// off.
+// "Three constraints: two primary …" and what is left when gauge is counted off.
 void explain_freedom(const Json& ladder, std::vector<std::string>& lines) {
   const int index = whole(ladder.at("index")), dim_M = whole(ladder.at("degrees_of_freedom"));
   lines.push_back("Degrees of freedom: " + std::to_string(dim_M) + ", the dimension of M" +

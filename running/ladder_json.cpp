@@ -103,8 +103,8 @@ void describe(Json& json, const ConstraintLadder& ladder, const ImplicitSystem& 
   for (std::size_t i = 0; i < ladder.differentiations.size(); ++i)
     if (ladder.differentiations[i] > 0)
       json["differentiations"][system.names().equations[i]] = ladder.differentiations[i];
-  // Dependences among the equations themselves; those of derivatives follow
-  // from them or say that a constraint is kept.
+  // Dependences among the equations themselves; those of derivatives follow from them or say that a
+  // constraint is kept.
   json["redundant"] = Json::array();
   for (const Combination& combination : ladder.redundancies) {
     bool algebraic = true;

@@ -48,8 +48,8 @@ class Elimination {
       if (!is_zero(equation)) equations_.push_back(equation);
   }
 
-  // Solves for unknowns while it can; what is left without unknowns and is not
-  // identically zero is returned, and taken off.
+  // Solves for unknowns while it can; what is left without unknowns and is not identically zero is
+  // returned, and taken off.
   std::vector<Expr> constraints() {
     while (solve_one()) {
     }
@@ -127,8 +127,8 @@ class Elimination {
     return all;
   }
 
-  // Solves the equation with fewest unknowns for one that is linear in it;
-  // constant coefficients first. False if there is none.
+  // Solves the equation with fewest unknowns for one that is linear in it; constant coefficients
+  // first. False if there is none.
   bool solve_one() {
     std::size_t best_equation = equations_.size();
     Index best_unknown = -1;
@@ -228,8 +228,7 @@ class Derivation {
       return;
     }
     if (!(size > 0.0) || !(std::abs(value) < 1e-8 * size * (1.0 + ladder_.point.x.norm()))) {
-      // Where there is no consistent point, constraints need not hold at the
-      // one that was found.
+      // Where there is no consistent point, constraints need not hold at the one that was found.
       if (ladder_.index >= 0 || !(size > 0.0)) return;
     }
     g -= known_ * (known_.transpose() * g);
@@ -308,8 +307,7 @@ std::vector<std::string> velocity_names(const ImplicitSystem& system) {
     for (const std::string& name : coordinates) names.push_back(name + "'");
     return names;
   }
-  // On a cotangent bundle the fibre has as many components as the velocity of
-  // the base.
+  // On a cotangent bundle the fibre has as many components as the velocity of the base.
   const std::size_t half = size / 2;
   const bool has_momenta =
       size % 2 == 0 && half < coordinates.size() &&
