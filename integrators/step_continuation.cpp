@@ -50,6 +50,7 @@ StepContinuation::StepContinuation(Function equations, const Layout& layout)
     pattern.column.push_back(std::ranges::lower_bound(contained_, column) - contained_.begin());
   solver_ = std::make_unique<DenseSolver>(pattern);
   in_.resize(static_cast<std::size_t>(equations_.input_count()));
+  y_.resize(equations_.input_size(0));
   all_.resize(equations_.output_size() + equations_.nonzeros());
   step_.resize(static_cast<Index>(contained_.size()));
   y_.resize(equations_.input_size(0));
