@@ -22,10 +22,15 @@ void print_levels(const Console& console, const Experiment& experiment, const Js
   for (const std::string& line : ladder_text_diagram(ladder)) out << "  " << line << '\n';
   out << "\n  (dim S, dim M): " << ladder_line(ladder) << "\n\n";
   TextTable table({"k", "dim S", "dim M", "fibre", "gap", "residual"});
+  // What is left of equations that are solved is round-off.
+  const auto residual = [](const Json& level) {
+    constexpr double nothing = 1e-20;
+    const Json& value = level.at("residual");
+    return value.is_number() && value.get<double>() < nothing ? "0" : shown(value, 2);
+  };
   for (const Json& level : ladder.at("levels"))
     table.add({shown(level.at("k")), shown(level.at("dim_S")), shown(level.at("dim_M")),
-               shown(level.at("fibre")), shown(level.at("gap"), 2),
-               shown(level.at("residual"), 2)});
+               shown(level.at("fibre")), shown(level.at("gap"), 2), residual(level)});
   table.print(out);
   out << '\n';
 }

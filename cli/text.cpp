@@ -15,8 +15,8 @@ std::size_t width(const std::string& text) {
       std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
-// The words of a text; those of a formula that stand in parentheses together, and a sign with what
-// follows it, unless that is longer than `longest`.
+// The words of a text; those of a formula that stand in parentheses together, and a sign and = with
+// what follows, unless that is longer than `longest`.
 std::vector<std::string> pieces(const std::string& text, std::size_t longest) {
   std::vector<std::string> result;
   std::string piece;
@@ -24,7 +24,9 @@ std::vector<std::string> pieces(const std::string& text, std::size_t longest) {
   std::vector<std::string> words;
   const auto finish = [&] {
     if (piece.empty()) return;
-    if (width(piece) > longest)
+    if (piece.starts_with("= ") && !result.empty() && longest > 0)
+      result.back() += " " + piece;
+    else if (width(piece) > longest)
       result.insert(result.end(), words.begin() + static_cast<std::ptrdiff_t>(begin), words.end());
     else
       result.push_back(piece);
@@ -37,7 +39,7 @@ std::vector<std::string> pieces(const std::string& text, std::size_t longest) {
     words.push_back(word);
     piece += (piece.empty() ? "" : " ") + word;
     depth += std::ranges::count(word, '(') - std::ranges::count(word, ')');
-    if (depth <= 0 && word != "+" && word != "-") finish();
+    if (depth <= 0 && word != "+" && word != "-" && word != "=") finish();
   }
   finish();
   return result;

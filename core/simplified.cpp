@@ -1,16 +1,14 @@
 #include "courant/core/simplified.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <map>
-#include <numbers>
 #include <stdexcept>
 #include <unordered_map>
 #include <utility>
 
 #include "courant/core/subgraph.hpp"
+#include "courant/core/written_number.hpp"
 
 namespace courant {
 namespace {
@@ -47,47 +45,6 @@ Monomial power(Monomial a, int k) {
   if (k == 0) return {};
   for (auto& [factor, exponent] : a) exponent *= k;
   return a;
-}
-
-std::string digits(double value) {
-  char buffer[40];
-  const std::string shortest(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
-  if (shortest.size() <= 7) return shortest;
-  std::snprintf(buffer, sizeof buffer, "%.6g", value);
-  return buffer;
-}
-
-// A positive number as factors above and below a fraction line.
-struct Number {
-  std::string above, below;  // "" stands for 1
-};
-
-bool near(double a, double b) { return std::fabs(a - b) <= 4e-15 * std::fabs(b); }
-
-// n/d with small n, d; none if there are none.
-std::optional<std::pair<int, int>> fraction(double value) {
-  for (int d = 1; d <= 24; ++d) {
-    const double n = value * d;
-    if (n > 0.5 && n < 100.5 && near(n, std::round(n)))
-      return std::pair(static_cast<int>(n + 0.5), d);
-  }
-  return std::nullopt;
-}
-
-Number written(double value) {
-  const auto text = [](int n) { return n == 1 ? std::string() : std::to_string(n); };
-  if (value == 1.0) return {};
-  const std::string decimal = digits(value);
-  double read = 0.0;
-  std::from_chars(decimal.data(), decimal.data() + decimal.size(), read);
-  if (read == value && decimal.size() <= 5) return {decimal, ""};
-  if (const auto f = fraction(value)) return {text(f->first), text(f->second)};
-  const auto times_pi = [](const std::string& n) { return n.empty() ? "pi" : n + "*pi"; };
-  if (const auto f = fraction(value * std::numbers::pi))
-    return {text(f->first), times_pi(text(f->second))};
-  if (const auto f = fraction(value / std::numbers::pi))
-    return {times_pi(text(f->first)), text(f->second)};
-  return {decimal, ""};
 }
 
 class Simplifier {
@@ -240,7 +197,7 @@ class Simplifier {
   }
 
   std::string text(const Monomial& monomial, double size) const {
-    const Number number = written(size);
+    const WrittenNumber number = written_number(size);
     std::string above = number.above, below = number.below;
     int count_below = below.empty() ? 0 : below.find('*') == std::string::npos ? 1 : 2;
     for (const auto& [factor, exponent] : monomial) {
@@ -278,7 +235,7 @@ class Simplifier {
   }
 
   void count(std::size_t terms = 1) const {
-    constexpr std::size_t most = 30000;  // some milliseconds
+    constexpr std::size_t most = 10000;  // some milliseconds
     if ((work_ += terms) > most) throw TooLarge();
   }
 
@@ -328,7 +285,7 @@ class Simplifier {
       for (const auto& [term, coefficient] : relation) {
         if (term.empty()) continue;
         const auto found = sum.find(product(multiplier, term));
-        all = all && found != sum.end() && near(found->second, scale * coefficient);
+        all = all && found != sum.end() && is_same_number(found->second, scale * coefficient);
       }
       if (!all) continue;
       for (const auto& [term, coefficient] : relation) {

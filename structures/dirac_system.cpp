@@ -1,5 +1,6 @@
 #include "courant/structures/dirac_system.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace courant {
@@ -17,6 +18,36 @@ const DiracStructure& checked(const std::shared_ptr<const DiracStructure>& struc
   return *structure;
 }
 
+// Of multipliers and equations that nobody named: lambda, and the velocity that an equation is that
+// of.
+ImplicitSystem::Names completed(ImplicitSystem::Names names, const DiracStructure& structure,
+                                const GeneratingFamily& family) {
+  const auto parameters = static_cast<std::size_t>(family.parameter_size());
+  if (names.auxiliary.empty()) {
+    std::vector<std::string> multipliers(parameters, "lambda");
+    for (const std::string& port : structure.port_names())
+      multipliers.push_back(port.starts_with("u[") && structure.is_dirac() ? "lambda" : port);
+    const auto count = std::ranges::count(multipliers, "lambda");
+    std::size_t number = 0;
+    for (std::string& name : multipliers)
+      if (name == "lambda" && count > 1) name += "[" + std::to_string(number++) + "]";
+    const bool is_taken = std::ranges::any_of(multipliers, [&](const std::string& name) {
+      return std::ranges::count(names.coordinates, name) > 0;
+    });
+    if (!is_taken) names.auxiliary = std::move(multipliers);
+  }
+  const auto size = static_cast<std::size_t>(structure.manifold()->tangent_dimension());
+  if (names.equations.empty() && structure.tangent_blocks() > 0 &&
+      names.coordinates.size() == size) {
+    for (const std::string& name : names.coordinates)
+      names.equations.push_back("equation of " + name + "'");
+    const std::size_t all = static_cast<std::size_t>(structure.equation_count()) + parameters;
+    for (std::size_t i = size; i < all; ++i)
+      names.equations.push_back("equation " + std::to_string(i + 1));
+  }
+  return names;
+}
+
 }  // namespace
 
 DiracSystem::DiracSystem(std::shared_ptr<const DiracStructure> structure,
@@ -24,7 +55,8 @@ DiracSystem::DiracSystem(std::shared_ptr<const DiracStructure> structure,
     // Braces evaluate from left to right: the check comes first.
     : ImplicitSystem{checked(structure, family).manifold(),
                      family->parameter_size() + structure->port_size(),
-                     structure->equation_count() + family->parameter_size(), std::move(names)},
+                     structure->equation_count() + family->parameter_size(),
+                     completed(std::move(names), *structure, *family)},
       structure_(std::move(structure)),
       family_(std::move(family)) {}
 

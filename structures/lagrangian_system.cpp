@@ -22,6 +22,12 @@ std::shared_ptr<const DiracSystem> lagrangian_system(
     names.equations.insert(names.equations.end(), momentum_rates.begin(), momentum_rates.end());
     names.equations.insert(names.equations.end(), legendre.begin(), legendre.end());
   }
+  // On a group the velocity has components of its own, beside those of the momentum.
+  const auto N = static_cast<std::size_t>(Q.ambient_dimension());
+  if (names.auxiliary.empty() && coordinates.size() > N)
+    for (std::size_t i = N; i < coordinates.size(); ++i)
+      names.auxiliary.push_back("v_" +
+                                coordinates[i].substr(coordinates[i].starts_with("p_") ? 2 : 0));
   return std::make_shared<DiracSystem>(
       std::make_shared<CanonicalSymplectic>(phase_space),
       std::make_shared<Lagrangian>(phase_space, std::move(lagrangian)), std::move(names));

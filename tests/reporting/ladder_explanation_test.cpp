@@ -187,6 +187,18 @@ BOOST_AUTO_TEST_CASE(formulas_on_curved_spaces) {
   BOOST_TEST(body["velocities"]["p_R[0]'"]["formula"] == "-p_R[1]*p_R[2]/6");
 }
 
+// Nobody named the angular velocity, which is the unknown of a Lagrangian on SO(3).
+BOOST_AUTO_TEST_CASE(names_on_a_group) {
+  const Json body =
+      ladder({{"system",
+               {{"type", "lagrangian"},
+                {"manifold", "so3"},
+                {"coordinates", {"R[3][3]"}},
+                {"lagrangian", "sum(i, 0, 2, sum(j, 0, 2, R[i][j]'^2))/4"}}},
+              {"initial", {{"R", {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {"p_R", {0, 0.2, 0.3}}}}});
+  BOOST_TEST(body["unknowns"].contains("v_R[0]"), body["unknowns"]);
+}
+
 BOOST_AUTO_TEST_CASE(a_ladder_up_to_a_level) {
   const Json whole = pendulum(), part = up_to_level(whole, 1);
   BOOST_TEST(part["levels"].size() == 2U);
