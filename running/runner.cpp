@@ -15,6 +15,7 @@
 #include "courant/running/quantity_statistics.hpp"
 #include "courant/running/run_folder.hpp"
 #include "courant/running/trajectory_writer.hpp"
+#include "courant/running/undefined_formula.hpp"
 
 namespace courant {
 namespace {
@@ -90,6 +91,13 @@ class Run {
     message_ = std::move(message);
   }
 
+  // What a step that failed says, and which formula has no value where it was to lead.
+  std::string words_of(const SolveError& error, const State& state) const {
+    const std::string what = error.what();
+    const std::string why = undefined_ahead(experiment_, ladder_, state, experiment_.time->step);
+    return why.empty() ? what : what.substr(0, what.rfind("; ")) + ": " + why + ".";
+  }
+
   void check_finite(const State& state) {
     VectorXd row;
     try {
@@ -98,10 +106,15 @@ class Run {
       throw ExperimentError("/initial", without_place(error.what()));
     }
     for (Index i = 0; i < static_cast<Index>(observer_.written_count()); ++i)
-      if (!std::isfinite(row[i]))
-        throw ExperimentError("/initial", observer_.names()[static_cast<std::size_t>(i)] + " is " +
-                                              number_text(row[i]) +
-                                              " at the initial point; expected a finite number");
+      if (!std::isfinite(row[i])) {
+        const std::string where = "at the initial point";
+        const std::string why = undefined_formula(experiment_, state, where);
+        throw ExperimentError("/initial", !why.empty()
+                                              ? why
+                                              : observer_.names()[static_cast<std::size_t>(i)] +
+                                                    " is " + number_text(row[i]) + ' ' + where +
+                                                    "; expected a finite number");
+      }
   }
 
   std::optional<PreparedMethod> prepare() {
@@ -173,7 +186,7 @@ class Run {
         }
       }
     } catch (const SolveError& error) {
-      fail(error.what() + (watch ? watch->decline() : ""));
+      fail(words_of(error, stepper->state()) + (watch ? watch->decline() : ""));
     } catch (const std::domain_error& error) {
       fail((steps_ == 0 ? "/method: " : "") + without_place(error.what()));
     }
