@@ -49,6 +49,15 @@ int command(const std::vector<std::string>& arguments, const Console& console) {
   add_list(app, session);
   add_schema(app, session);
   add_report(app, session);
+  add_cache(app, session);
+  app.footer(
+      "Environment:\n"
+      "  COURANT_CC     the C compiler that makes native code of formulas (default: cc)\n"
+      "  COURANT_CACHE  the folder in which that is kept (default: ~/.cache/courant)\n"
+      "  NO_COLOR       no colours on the terminal\n\n"
+      "`courant COMMAND --help` lists the options of a command. Exit status: 0 done; 2 the "
+      "command\n"
+      "line or the experiment is wrong; 3 the numerics or an expectation failed; 130 interrupted.");
   try {
     if (!arguments.empty())
       if (const std::string what = unknown_command(arguments[0], app); !what.empty())

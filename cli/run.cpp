@@ -8,6 +8,7 @@
 #include "courant/cli/experiment_file.hpp"
 #include "courant/cli/progress_bar.hpp"
 #include "courant/cli/run_text.hpp"
+#include "courant/core/native.hpp"
 #include "courant/running/runner.hpp"
 
 namespace courant::cli {
@@ -52,6 +53,9 @@ int run_experiment(const Console& console, const Arguments& arguments,
       options.on_progress = [&](const Progress& progress) { bar->show(progress); };
     }
   }
+  if (arguments.backend == Backend::automatic && !arguments.quiet)
+    if (const std::string defect = native_compiler_defect(); !defect.empty())
+      print_error(console, "formulas are interpreted, which is slower: " + defect);
   const RunOutcome outcome = run(experiment, options);
   bar.reset();
   if (!arguments.quiet) print_outcome(console, outcome, options.folder);
@@ -72,8 +76,10 @@ void add_run(CLI::App& app, Session& session) {
   run->add_option("FILE", arguments->file, "the experiment, or - for standard input")->required();
   run->add_option("-o", arguments->folder, "where the files go (default: runs/<name of FILE>)")
       ->type_name("DIR");
-  run->add_option("--backend", arguments->backend,
-                  "what evaluates formulas: auto, native or interpreter")
+  run->add_option(
+         "--backend", arguments->backend,
+         "what evaluates formulas: native code, made by a C compiler; the interpreter, slower "
+         "and without a compiler; or auto, native where it is worth while")
       ->transform(CLI::CheckedTransformer(
                       std::map<std::string, Backend>{{"auto", Backend::automatic},
                                                      {"native", Backend::native},
