@@ -20,8 +20,9 @@ const ImplicitSystem& existing(const std::shared_ptr<const ImplicitSystem>& syst
 ChainArray::ChainArray(std::shared_ptr<const ImplicitSystem> system,
                        std::shared_ptr<const DiscretizationMap> map, double h, double t,
                        const VectorXd& x0)
-    : Prolongation(existing(system, map).manifold()->dimension(), system->auxiliary_size(),
-                   system->equation_count()),
+    // The order in which arguments are evaluated is open: each asks.
+    : Prolongation(existing(system, map).manifold()->dimension(),
+                   existing(system, map).auxiliary_size(), existing(system, map).equation_count()),
       system_(std::move(system)),
       map_(std::move(map)),
       h_(h),
