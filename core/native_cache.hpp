@@ -23,7 +23,8 @@ class NativeCache {
   struct Entry {
     std::string name;
     std::uintmax_t bytes = 0;
-    std::filesystem::file_time_type used;  // within a day
+    // Within a day.
+    std::filesystem::file_time_type used = std::filesystem::file_time_type::min();
   };
   struct Limits {
     std::uintmax_t bytes = std::uintmax_t{512} << 20;
