@@ -3,11 +3,13 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <ostream>
 
 #include "courant/cli/command.hpp"
 #include "courant/cli/experiment_file.hpp"
 #include "courant/cli/text.hpp"
+#include "courant/cli/waiting.hpp"
 #include "courant/core/message.hpp"
 
 namespace courant::cli {
@@ -140,7 +142,9 @@ void add_check(CLI::App& app, Session& session) {
   check->callback([&session, arguments] {
     session.action = [arguments](const Console& console) {
       return with_experiment(console, arguments->file, [&](const Experiment& experiment) -> int {
+        std::optional<Waiting> waiting(std::in_place, console, "laws");
         const Json report = check_experiment(experiment);
+        waiting.reset();
         if (arguments->json)
           console.out << report.dump(2) << '\n';
         else

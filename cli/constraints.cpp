@@ -1,12 +1,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <ostream>
 #include <sstream>
 
 #include "courant/cli/command.hpp"
 #include "courant/cli/experiment_file.hpp"
 #include "courant/cli/text.hpp"
+#include "courant/cli/waiting.hpp"
 #include "courant/core/message.hpp"
 #include "courant/reporting/ladder_diagram.hpp"
 #include "courant/reporting/ladder_explanation.hpp"
@@ -87,7 +89,9 @@ void add_constraints(CLI::App& app, Session& session) {
   constraints->callback([&session, arguments] {
     session.action = [arguments](const Console& console) {
       return with_experiment(console, arguments->file, [&](const Experiment& experiment) -> int {
+        std::optional<Waiting> waiting(std::in_place, console, "constraint algorithm");
         const Json ladder = ladder_json(consistent_start(experiment), *experiment.model.system);
+        waiting.reset();
         if (arguments->json)
           console.out << ladder.dump(2) << '\n';
         else

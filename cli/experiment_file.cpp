@@ -3,7 +3,7 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <istream>
 #include <new>
 #include <optional>
 #include <system_error>
@@ -14,12 +14,23 @@
 namespace courant::cli {
 namespace {
 
+constexpr std::size_t kLargest = std::size_t{16} << 20;  // bytes; a device may have no end
+
+std::optional<std::string> read_text(const Console& console, const std::string& file,
+                                     std::istream& stream) {
+  std::string text(kLargest + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (text.size() <= kLargest) return text;
+  print_error(console, file + ": is larger than 16 MB; expected an experiment");
+  return std::nullopt;
+}
+
 std::optional<std::string> read_text(const Console& console, const std::string& file) {
-  if (file == "-") return std::string(std::istreambuf_iterator<char>(console.in), {});
+  if (file == "-") return read_text(console, file, console.in);
   std::ifstream stream(file, std::ios::binary);
   const int error = errno;
-  if (stream && !std::filesystem::is_directory(file))
-    return std::string(std::istreambuf_iterator<char>(stream), {});
+  if (stream && !std::filesystem::is_directory(file)) return read_text(console, file, stream);
   print_error(console, file + ": cannot be read: " +
                            (stream ? "is a folder" : std::generic_category().message(error)));
   return std::nullopt;

@@ -8,6 +8,7 @@
 #include "courant/cli/experiment_file.hpp"
 #include "courant/cli/progress_bar.hpp"
 #include "courant/cli/run_text.hpp"
+#include "courant/cli/waiting.hpp"
 #include "courant/core/native.hpp"
 #include "courant/running/runner.hpp"
 
@@ -46,8 +47,13 @@ int run_experiment(const Console& console, const Arguments& arguments,
                      .on_ladder = {},
                      .on_progress = {}};
   std::optional<ProgressBar> bar;
+  std::optional<Waiting> waiting(std::in_place, console, "constraint algorithm");
+  options.on_ladder = [&](const Json& ladder) {
+    waiting.reset();
+    if (console.heeds_stop) *console.heeds_stop = true;
+    if (!arguments.quiet) print_opening(console, experiment, ladder);
+  };
   if (!arguments.quiet) {
-    options.on_ladder = [&](const Json& ladder) { print_opening(console, experiment, ladder); };
     if (console.is_terminal) {
       bar.emplace(console.err);
       options.on_progress = [&](const Progress& progress) { bar->show(progress); };
@@ -58,6 +64,7 @@ int run_experiment(const Console& console, const Arguments& arguments,
       print_error(console, "formulas are interpreted, which is slower: " + defect);
   const RunOutcome outcome = run(experiment, options);
   bar.reset();
+  if (console.heeds_stop) *console.heeds_stop = false;
   if (!arguments.quiet) print_outcome(console, outcome, options.folder);
   if (outcome.status != RunStatus::completed)
     print_error(console, arguments.file + ": " + outcome.message);

@@ -97,6 +97,7 @@ Experiment read_experiment(std::string_view text) {
   {
     ObjectReader object(JsonReader(document, "", findings));
     if (const auto schema = object.optional("$schema")) schema->text();
+    if (const auto run = object.optional("$run")) run->text();
     experiment.title = object.text("title", "");
     if (const auto description = object.optional("description")) description->text();
     const auto system = object.required("system");
