@@ -79,25 +79,30 @@ void add_constraints(CLI::App& app, Session& session) {
   struct Arguments {
     std::string file;
     bool json = false;
+    std::vector<std::string> settings;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* constraints = app.add_subcommand(
       "constraints", "Run the constraint algorithm at the initial point of an experiment");
   constraints->add_option("FILE", arguments->file, "the experiment, or - for standard input")
       ->required();
+  add_settings(*constraints, arguments->settings);
   constraints->add_flag("--json", arguments->json, "print JSON");
   constraints->callback([&session, arguments] {
     session.action = [arguments](const Console& console) {
-      return with_experiment(console, arguments->file, [&](const Experiment& experiment) -> int {
-        std::optional<Waiting> waiting(std::in_place, console, "constraint algorithm");
-        const Json ladder = ladder_json(consistent_start(experiment), *experiment.model.system);
-        waiting.reset();
-        if (arguments->json)
-          console.out << ladder.dump(2) << '\n';
-        else
-          print_ladder(console, experiment, ladder);
-        return done;
-      });
+      return with_experiment(
+          console, arguments->file,
+          [&](const Experiment& experiment) -> int {
+            std::optional<Waiting> waiting(std::in_place, console, "constraint algorithm");
+            const Json ladder = ladder_json(consistent_start(experiment), *experiment.model.system);
+            waiting.reset();
+            if (arguments->json)
+              console.out << ladder.dump(2) << '\n';
+            else
+              print_ladder(console, experiment, ladder);
+            return done;
+          },
+          arguments->settings);
     };
   });
 }

@@ -22,6 +22,7 @@ struct Arguments {
   bool force = false;
   bool resume = false;
   bool quiet = false;
+  std::vector<std::string> settings;
 };
 
 std::filesystem::path folder_of(const Arguments& arguments) {
@@ -93,6 +94,7 @@ void add_run(CLI::App& app, Session& session) {
                                                      {"interpreter", Backend::interpreter}})
                       .description(""))
       ->type_name("NAME");
+  add_settings(*run, arguments->settings);
   run->add_flag("--force", arguments->force, "replace a run that is in the folder already");
   run->add_flag("--resume", arguments->resume)->group("");  // not listed: it cannot be done yet
   run->add_flag("--quiet", arguments->quiet, "print errors only");
@@ -101,9 +103,12 @@ void add_run(CLI::App& app, Session& session) {
       throw CLI::ValidationError("--resume",
                                  "runs cannot be continued yet; --force starts from the beginning");
     session.action = [arguments](const Console& console) {
-      return with_experiment(console, arguments->file, [&](const Experiment& experiment) {
-        return run_experiment(console, *arguments, experiment);
-      });
+      return with_experiment(
+          console, arguments->file,
+          [&](const Experiment& experiment) {
+            return run_experiment(console, *arguments, experiment);
+          },
+          arguments->settings);
     };
   });
 }
