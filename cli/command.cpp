@@ -63,10 +63,14 @@ int command(const std::vector<std::string>& arguments, const Console& console) {
       if (const std::string what = unknown_command(arguments[0], app); !what.empty())
         return refuse(console, what, wrong);
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
-    return session.action(console);
+    const int status = session.action(console);
+    console.out.flush();
+    if (!console.out)
+      return refuse(console, "what was printed is lost: standard output cannot be written", failed);
+    return status;
   } catch (const CLI::Success& help) {
     app.exit(help, console.out, console.err);
-    return done;
+    return console.out.flush() ? done : failed;
   } catch (const CLI::ParseError& error) {
     return refuse(console, std::string(error.what()) + "; see `courant --help`", wrong);
   } catch (const UnusableFolder& error) {

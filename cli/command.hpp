@@ -25,6 +25,8 @@ struct Console {
   bool colour = false;                      // of out
   bool unicode = true;                      // of out
   const std::atomic<bool>* stop = nullptr;  // set by an interrupt
+  // Set by the command while it looks at `stop`; at other times an interrupt ends the program.
+  std::atomic<bool>* heeds_stop = nullptr;
 };
 
 // One line on console.err, `courant: …`, whatever stands in `what`.

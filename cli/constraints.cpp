@@ -1,12 +1,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <ostream>
 #include <sstream>
 
 #include "courant/cli/command.hpp"
 #include "courant/cli/experiment_file.hpp"
 #include "courant/cli/text.hpp"
+#include "courant/cli/waiting.hpp"
 #include "courant/core/message.hpp"
 #include "courant/reporting/ladder_diagram.hpp"
 #include "courant/reporting/ladder_explanation.hpp"
@@ -77,23 +79,30 @@ void add_constraints(CLI::App& app, Session& session) {
   struct Arguments {
     std::string file;
     bool json = false;
+    std::vector<std::string> settings;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* constraints = app.add_subcommand(
       "constraints", "Run the constraint algorithm at the initial point of an experiment");
   constraints->add_option("FILE", arguments->file, "the experiment, or - for standard input")
       ->required();
+  add_settings(*constraints, arguments->settings);
   constraints->add_flag("--json", arguments->json, "print JSON");
   constraints->callback([&session, arguments] {
     session.action = [arguments](const Console& console) {
-      return with_experiment(console, arguments->file, [&](const Experiment& experiment) -> int {
-        const Json ladder = ladder_json(consistent_start(experiment), *experiment.model.system);
-        if (arguments->json)
-          console.out << ladder.dump(2) << '\n';
-        else
-          print_ladder(console, experiment, ladder);
-        return done;
-      });
+      return with_experiment(
+          console, arguments->file,
+          [&](const Experiment& experiment) -> int {
+            std::optional<Waiting> waiting(std::in_place, console, "constraint algorithm");
+            const Json ladder = ladder_json(consistent_start(experiment), *experiment.model.system);
+            waiting.reset();
+            if (arguments->json)
+              console.out << ladder.dump(2) << '\n';
+            else
+              print_ladder(console, experiment, ladder);
+            return done;
+          },
+          arguments->settings);
     };
   });
 }

@@ -8,6 +8,7 @@
 #include "courant/cli/experiment_file.hpp"
 #include "courant/cli/progress_bar.hpp"
 #include "courant/cli/run_text.hpp"
+#include "courant/cli/waiting.hpp"
 #include "courant/core/native.hpp"
 #include "courant/running/runner.hpp"
 
@@ -21,6 +22,7 @@ struct Arguments {
   bool force = false;
   bool resume = false;
   bool quiet = false;
+  std::vector<std::string> settings;
 };
 
 std::filesystem::path folder_of(const Arguments& arguments) {
@@ -46,8 +48,13 @@ int run_experiment(const Console& console, const Arguments& arguments,
                      .on_ladder = {},
                      .on_progress = {}};
   std::optional<ProgressBar> bar;
+  std::optional<Waiting> waiting(std::in_place, console, "constraint algorithm");
+  options.on_ladder = [&](const Json& ladder) {
+    waiting.reset();
+    if (console.heeds_stop) *console.heeds_stop = true;
+    if (!arguments.quiet) print_opening(console, experiment, ladder);
+  };
   if (!arguments.quiet) {
-    options.on_ladder = [&](const Json& ladder) { print_opening(console, experiment, ladder); };
     if (console.is_terminal) {
       bar.emplace(console.err);
       options.on_progress = [&](const Progress& progress) { bar->show(progress); };
@@ -58,6 +65,7 @@ int run_experiment(const Console& console, const Arguments& arguments,
       print_error(console, "formulas are interpreted, which is slower: " + defect);
   const RunOutcome outcome = run(experiment, options);
   bar.reset();
+  if (console.heeds_stop) *console.heeds_stop = false;
   if (!arguments.quiet) print_outcome(console, outcome, options.folder);
   if (outcome.status != RunStatus::completed)
     print_error(console, arguments.file + ": " + outcome.message);
@@ -86,6 +94,7 @@ void add_run(CLI::App& app, Session& session) {
                                                      {"interpreter", Backend::interpreter}})
                       .description(""))
       ->type_name("NAME");
+  add_settings(*run, arguments->settings);
   run->add_flag("--force", arguments->force, "replace a run that is in the folder already");
   run->add_flag("--resume", arguments->resume)->group("");  // not listed: it cannot be done yet
   run->add_flag("--quiet", arguments->quiet, "print errors only");
@@ -94,9 +103,12 @@ void add_run(CLI::App& app, Session& session) {
       throw CLI::ValidationError("--resume",
                                  "runs cannot be continued yet; --force starts from the beginning");
     session.action = [arguments](const Console& console) {
-      return with_experiment(console, arguments->file, [&](const Experiment& experiment) {
-        return run_experiment(console, *arguments, experiment);
-      });
+      return with_experiment(
+          console, arguments->file,
+          [&](const Experiment& experiment) {
+            return run_experiment(console, *arguments, experiment);
+          },
+          arguments->settings);
     };
   });
 }

@@ -94,7 +94,8 @@ Kind summary_kind() {
       {{"description", text, true}, {"passed", truth, true}, {"value", plain}, {"bound", plain}});
   const Kind solver = record(
       {{"iterations_per_step", number}, {"factorizations_per_step", number}, {"failures", number}});
-  return record({{"status", text, true},
+  return record({{"id", text},
+                 {"status", text, true},
                  {"message", text},
                  {"system", text, true},
                  {"method", text, true},

@@ -69,6 +69,10 @@ class Run {
       fail("The system is inconsistent near the initial values. " + ladder_.reason);
     }
     const RunFolder folder(options_.folder, options_.replace, experiment_.document);
+    id_ = folder.id();
+    Json begun = summary({});
+    begun["status"] = "running";
+    folder.write_summary(begun);
     std::vector<std::string> columns = observer_.names();
     columns.resize(observer_.written_count());
     columns.insert(columns.begin(), "t");
@@ -233,6 +237,7 @@ class Run {
 
   Json summary(const std::vector<ExpectationResult>& expectations) const {
     Json json{
+        {"id", id_},
         {"status", word(status_)},
         {"message", message_},
         {"title", experiment_.title},
@@ -284,6 +289,7 @@ class Run {
   Observer observer_;
   std::multimap<long, double> moments_due_;
 
+  std::string id_;
   RunStatus status_ = RunStatus::completed;
   std::string message_;
   QuantityStatistics statistics_;
@@ -302,6 +308,7 @@ bool RunOutcome::as_expected() const {
 }
 
 RunOutcome run(const Experiment& experiment, const RunOptions& options) {
+  RunFolder::check(options.folder, options.replace);
   return Run(experiment, options)();
 }
 

@@ -181,6 +181,35 @@ BOOST_AUTO_TEST_CASE(an_interrupt_is_status_130) {
   BOOST_TEST(read_run(folder / "run").summary["status"] == "interrupted");
 }
 
+BOOST_AUTO_TEST_CASE(set_changes_a_value) {
+  const TemporaryFolder folder;
+  const std::string runs = (folder / "run").string();
+  const Answer answer =
+      courant_command({"run", "-", "-o", runs, "--quiet", "--backend", "interpreter", "--set",
+                       "/time/step=pi/8", "--set", "/time/end=2*pi", "--set", "/method=rk4",
+                       "--set", "/initial/q=3", "--set", "/expect=[]"},
+                      oscillator);
+  BOOST_TEST(answer.status == 0, answer.err);
+  const Run run = read_run(runs);
+  BOOST_TEST(run.trajectory.rows() == 17u);
+  BOOST_TEST(run.trajectory.column("q")[0] == 3.0);
+  BOOST_TEST(run.experiment["time"]["step"] == "pi/8");
+  BOOST_TEST(run.experiment["method"]["type"] == "rk4");
+  const Answer ladder =
+      courant_command({"constraints", "-", "--json", "--set", "/initial/p_q=0.5"}, oscillator);
+  BOOST_TEST(nlohmann::json::parse(ladder.out)["consistent_point"]["p_q"] == 0.5);
+  for (const auto& [setting, message] :
+       {std::pair("/sistem/x=1", "--set /sistem/x: there is no such place"),
+        std::pair("time=1", "--set time: is not a change"),
+        std::pair("/time/step", "--set /time/step: is not a change"),
+        std::pair("/time/step=two", "/time/step: column 1: unknown name \"two\""),
+        std::pair("/a~=1", "--set /a~: is not a JSON pointer")}) {
+    const Answer wrong = courant_command({"constraints", "-", "--set", setting}, oscillator);
+    BOOST_TEST(wrong.status == 2);
+    BOOST_TEST(wrong.err.starts_with("courant: -: " + std::string(message)), wrong.err);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(constraints_prints_the_ladder) {
   const std::string text =
       R"json({"system": {"type": "lagrangian", "coordinates": ["x", "y"], "lagrangian": "x*y' - x^2/2 - y^2/2"},
