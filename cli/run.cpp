@@ -48,7 +48,8 @@ int run_experiment(const Console& console, const Arguments& arguments,
                      .on_ladder = {},
                      .on_progress = {}};
   std::optional<ProgressBar> bar;
-  std::optional<Waiting> waiting(std::in_place, console, "constraint algorithm");
+  std::optional<Waiting> waiting;
+  if (!arguments.quiet) waiting.emplace(console, "constraint algorithm");
   options.on_ladder = [&](const Json& ladder) {
     waiting.reset();
     if (console.heeds_stop) *console.heeds_stop = true;

@@ -113,7 +113,7 @@ class Builder final : public nlohmann::json_sax<Json> {
       document = std::move(value);
     else if (Json& parent = levels_.back().value; parent.is_array())
       parent.push_back(std::move(value));
-    else if (levels_.back().keys.count(key) == 1)
+    else
       append(parent, key, std::move(value));
   }
 
