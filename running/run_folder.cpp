@@ -31,7 +31,7 @@ Json json_in(const fs::path& file) {
   return Json::parse(stream, nullptr, false);
 }
 
-bool exists(const fs::path& file) {
+bool file_exists(const fs::path& file) {
   std::error_code error;
   return fs::exists(file, error);
 }
@@ -60,7 +60,7 @@ std::string new_id() {
 std::vector<fs::path> replaceable(const fs::path& path, bool replace) {
   std::vector<fs::path> found;
   for (const char* name : kFiles)
-    if (exists(path / name)) found.push_back(path / name);
+    if (file_exists(path / name)) found.push_back(path / name);
   if (found.empty()) return found;
   if (!is_of_a_run(path))
     refuse(found.front(), "is there already, and no run wrote it; expected another folder (-o)");
@@ -78,7 +78,7 @@ constexpr const char* kInUse =
 void RunFolder::check(const fs::path& path, bool replace) {
   std::error_code error;
   fs::path nearest = fs::absolute(path, error).lexically_normal();
-  while (!exists(nearest) && nearest.has_relative_path()) nearest = nearest.parent_path();
+  while (!file_exists(nearest) && nearest.has_relative_path()) nearest = nearest.parent_path();
   const bool is_there = nearest == fs::absolute(path, error).lexically_normal();
   if (!fs::is_directory(nearest, error))
     refuse(path, "the folder cannot be made: " +

@@ -19,7 +19,7 @@ class DiracSystem final : public ImplicitSystem {
   DiracSystem(std::shared_ptr<const DiracStructure> structure,
               std::shared_ptr<const GeneratingFamily> family, Names names = {});
 
-  const std::shared_ptr<const DiracStructure>& structure() const { return structure_; }
+  std::shared_ptr<const DiracStructure> structure() const override { return structure_; }
   const std::shared_ptr<const GeneratingFamily>& family() const { return family_; }
   Index tangent_blocks() const override { return structure_->tangent_blocks(); }
   // S = ♯_ω(𝓛): where the structure is canonical, S is as Lagrangian as 𝓛 is.
