@@ -3,11 +3,13 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <ostream>
 
 #include "courant/cli/command.hpp"
 #include "courant/cli/experiment_file.hpp"
 #include "courant/cli/text.hpp"
+#include "courant/cli/waiting.hpp"
 #include "courant/core/message.hpp"
 
 namespace courant::cli {
@@ -124,25 +126,83 @@ void print_report(const Console& console, const Json& report) {
       << '\n';
 }
 
+// Whether something is so, in a sentence; where it is not known, nothing is said.
+void say(std::vector<std::string>& words, const Json& claim, const char* is, const char* is_not) {
+  if (claim.is_boolean()) words.push_back(claim.get<bool>() ? is : is_not);
+}
+
+std::string sentence(const std::string& subject, const std::vector<std::string>& words) {
+  std::string text = "  " + subject;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? " " : i + 1 == words.size() ? " and " : ", ") + words[i];
+  return text + ".\n";
+}
+
+// What fails, and the rest in a few words.
+void print_brief(const Console& console, const Json& report) {
+  std::ostream& out = console.out;
+  std::vector<std::pair<std::string, std::vector<const Json*>>> subjects;
+  for (const Json& check : report.at("checks")) {
+    const auto subject = check.at("subject").get<std::string>();
+    if (subjects.empty() || subjects.back().first != subject) subjects.push_back({subject, {}});
+    subjects.back().second.push_back(&check);
+  }
+  for (const auto& [subject, checks] : subjects) {
+    std::size_t held = 0;
+    for (const Json* check : checks) held += check->at("passed").get<bool>() ? 1 : 0;
+    out << "  " << subject << ": "
+        << (held == checks.size() ? "all " + std::to_string(held)
+                                  : std::to_string(held) + " of " + std::to_string(checks.size()))
+        << " laws hold\n";
+    for (const Json* check : checks)
+      if (!check->at("passed").get<bool>())
+        out << "    " << check->at("statement").get<std::string>() << "\n      is off by "
+            << shown(check->at("defect"), 2) << ", allowed " << shown(check->at("bound"), 2)
+            << ", at " << check->at("where").get<std::string>() << '\n';
+  }
+  for (const Json& structure : report.at("structures")) {
+    std::vector<std::string> words;
+    say(words, structure.at("dirac"), "is Dirac", "is not Dirac");
+    if (structure.contains("integrable"))
+      say(words, structure.at("integrable"), "integrable", "not integrable");
+    out << sentence("The structure " + structure.at("name").get<std::string>(), words);
+  }
+  if (const Json& method = report.at("method"); !method.is_null()) {
+    std::vector<std::string> words{"has order " + shown(method.at("order"))};
+    say(words, method.at("symmetric"), "is symmetric", "is not symmetric");
+    say(words, method.at("symplectic"), "is symplectic", "is not symplectic");
+    out << sentence("The method " + method.at("name").get<std::string>(), words);
+  }
+  out << "  " << (report.at("passed").get<bool>() ? "All laws hold." : "Some laws do not hold.")
+      << '\n';
+}
+
 }  // namespace
 
 void add_check(CLI::App& app, Session& session) {
   struct Arguments {
     std::string file;
     bool json = false;
+    bool brief = false;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* check = app.add_subcommand(
       "check",
       "Check the laws of an experiment's manifold, structure and method, and say what they are");
   check->add_option("FILE", arguments->file, "the experiment, or - for standard input")->required();
-  check->add_flag("--json", arguments->json, "print JSON");
+  CLI::Option* const json = check->add_flag("--json", arguments->json, "print JSON");
+  check->add_flag("--brief", arguments->brief, "print what fails, and a summary in words")
+      ->excludes(json);
   check->callback([&session, arguments] {
     session.action = [arguments](const Console& console) {
       return with_experiment(console, arguments->file, [&](const Experiment& experiment) -> int {
+        std::optional<Waiting> waiting(std::in_place, console, "laws");
         const Json report = check_experiment(experiment);
+        waiting.reset();
         if (arguments->json)
           console.out << report.dump(2) << '\n';
+        else if (arguments->brief)
+          print_brief(console, report);
         else
           print_report(console, report);
         return report.at("passed").get<bool>() ? done : failed;

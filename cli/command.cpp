@@ -51,15 +51,28 @@ int command(const std::vector<std::string>& arguments, const Console& console) {
   add_schema(app, session);
   add_report(app, session);
   add_tour(app, session);
+  add_cache(app, session);
+  app.footer(
+      "Environment:\n"
+      "  COURANT_CC     the C compiler that makes native code of formulas (default: cc)\n"
+      "  COURANT_CACHE  the folder in which that is kept (default: ~/.cache/courant)\n"
+      "  NO_COLOR       no colours on the terminal\n\n"
+      "`courant COMMAND --help` lists the options of a command. Exit status: 0 done; 2 the "
+      "command\n"
+      "line or the experiment is wrong; 3 the numerics or an expectation failed; 130 interrupted.");
   try {
     if (!arguments.empty())
       if (const std::string what = unknown_command(arguments[0], app); !what.empty())
         return refuse(console, what, wrong);
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
-    return session.action(console);
+    const int status = session.action(console);
+    console.out.flush();
+    if (!console.out)
+      return refuse(console, "what was printed is lost: standard output cannot be written", failed);
+    return status;
   } catch (const CLI::Success& help) {
     app.exit(help, console.out, console.err);
-    return done;
+    return console.out.flush() ? done : failed;
   } catch (const CLI::ParseError& error) {
     return refuse(console, std::string(error.what()) + "; see `courant --help`", wrong);
   } catch (const UnusableFolder& error) {

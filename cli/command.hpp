@@ -25,6 +25,8 @@ struct Console {
   bool colour = false;                      // of out
   bool unicode = true;                      // of out
   const std::atomic<bool>* stop = nullptr;  // set by an interrupt
+  // Set by the command while it looks at `stop`; at other times an interrupt ends the program.
+  std::atomic<bool>* heeds_stop = nullptr;
 };
 
 // One line on console.err, `courant: …`, whatever stands in `what`.
@@ -43,6 +45,7 @@ void add_check(CLI::App& app, Session& session);
 void add_list(CLI::App& app, Session& session);
 void add_schema(CLI::App& app, Session& session);
 void add_report(CLI::App& app, Session& session);
+void add_cache(CLI::App& app, Session& session);
 void add_tour(CLI::App& app, Session& session);
 
 // The command: `arguments` without the name of the program. Errors go to console.err, one line

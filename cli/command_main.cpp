@@ -12,11 +12,17 @@
 
 namespace {
 
-std::atomic<bool> interrupt_requested{false};
+std::atomic<bool> interrupt_requested{false}, interrupt_heeded{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "set by a signal handler");
 
-// The first interrupt ends the run in order; a second one ends the program.
+// The first interrupt ends a run in order; a second one, or the first where there is nothing to be
+// kept, ends the program.
 void on_interrupt(int signal) {
+  if (!interrupt_heeded) {
+    constexpr char message[] = "\ncourant: interrupted\n";
+    [[maybe_unused]] const auto written = write(STDERR_FILENO, message, sizeof message - 1);
+    _exit(courant::cli::interrupted);
+  }
   interrupt_requested = true;
   std::signal(signal, SIG_DFL);
 }
@@ -39,8 +45,7 @@ bool is_utf8() {
 }  // namespace
 
 int courant::command_main(int argc, char** argv) {
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, on_interrupt);
   const bool out_is_terminal = isatty(STDOUT_FILENO) == 1;
   const courant::cli::Console console{
       .in = std::cin,
@@ -50,6 +55,7 @@ int courant::command_main(int argc, char** argv) {
       .colour = out_is_terminal && !set("NO_COLOR"),
       .unicode = is_utf8() || !out_is_terminal,
       .stop = &interrupt_requested,
+      .heeds_stop = &interrupt_heeded,
   };
   return courant::cli::command(std::vector<std::string>(argv + 1, argv + argc), console);
 }

@@ -1,10 +1,12 @@
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 #include <ostream>
 
 #include "courant/cli/command.hpp"
 #include "courant/cli/experiment_file.hpp"
 #include "courant/cli/text.hpp"
+#include "courant/cli/waiting.hpp"
 #include "courant/core/message.hpp"
 #include "courant/integrators/ladder/discrete_constraint_algorithm.hpp"
 #include "courant/reporting/ladder_diagram.hpp"
@@ -98,12 +100,14 @@ void add_constraints(CLI::App& app, Session& session) {
     std::string file;
     bool json = false, discrete = false;
     Index level = -1;
+    std::vector<std::string> settings;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* constraints = app.add_subcommand(
       "constraints", "Run the constraint algorithm at the initial point of an experiment");
   constraints->add_option("FILE", arguments->file, "the experiment, or - for standard input")
       ->required();
+  add_settings(*constraints, arguments->settings);
   constraints->add_flag("--json", arguments->json, "print JSON");
   CLI::Option* level =
       constraints->add_option("--level", arguments->level, "stop at this level of the ladder")
@@ -114,20 +118,25 @@ void add_constraints(CLI::App& app, Session& session) {
       ->excludes(level);
   constraints->callback([&session, arguments] {
     session.action = [arguments](const Console& console) {
-      return with_experiment(console, arguments->file, [&](const Experiment& experiment) -> int {
-        const ConstraintLadder start = consistent_start(experiment);
-        const Json whole = ladder_json(start, *experiment.model.system);
-        const Json ladder = arguments->discrete     ? discrete_ladder(experiment, start)
-                            : arguments->level >= 0 ? up_to_level(whole, arguments->level)
-                                                    : whole;
-        if (arguments->json)
-          console.out << ladder.dump(2) << '\n';
-        else if (arguments->discrete)
-          print_discrete(console, experiment, ladder, whole);
-        else
-          print_ladder(console, experiment, ladder);
-        return done;
-      });
+      return with_experiment(
+          console, arguments->file,
+          [&](const Experiment& experiment) -> int {
+            std::optional<Waiting> waiting(std::in_place, console, "constraint algorithm");
+            const ConstraintLadder start = consistent_start(experiment);
+            const Json whole = ladder_json(start, *experiment.model.system);
+            const Json ladder = arguments->discrete     ? discrete_ladder(experiment, start)
+                                : arguments->level >= 0 ? up_to_level(whole, arguments->level)
+                                                        : whole;
+            waiting.reset();
+            if (arguments->json)
+              console.out << ladder.dump(2) << '\n';
+            else if (arguments->discrete)
+              print_discrete(console, experiment, ladder, whole);
+            else
+              print_ladder(console, experiment, ladder);
+            return done;
+          },
+          arguments->settings);
     };
   });
 }

@@ -3,16 +3,28 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "courant/cli/command.hpp"
 #include "courant/reading/experiment.hpp"
 
+namespace CLI {
+class App;
+}
+
 namespace courant::cli {
+
+// The option --set of a subcommand, which may be given several times.
+void add_settings(CLI::App& command, std::vector<std::string>& settings);
 
 // Reads the experiment from the file, or from standard input if that is "-", and does with it what
 // the subcommand does; returns its exit status. What is wrong with the experiment, found on reading
 // it or later, is said in a line `courant: FILE: /pointer: …` for each problem.
+//
+// `settings` are changes of the experiment, each `/json/pointer=VALUE`: VALUE is JSON or, where it
+// is not, a text. The place of a value may be new if what it is in is there.
 int with_experiment(const Console& console, const std::string& file,
-                    const std::function<int(const Experiment&)>& action);
+                    const std::function<int(const Experiment&)>& action,
+                    const std::vector<std::string>& settings = {});
 
 }  // namespace courant::cli

@@ -7,6 +7,7 @@
 
 #include "courant/cli/command.hpp"
 #include "courant/cli/text.hpp"
+#include "courant/core/message.hpp"
 #include "courant/plotting/terminal_plot.hpp"
 #include "courant/reporting/report_figures.hpp"
 
@@ -45,6 +46,10 @@ void print_comparison(const Console& console, const std::vector<Run>& runs) {
                std::to_string(passed) + " of " + std::to_string(expectations.size())});
   }
   table.print(console.out, "");
+  for (const Run& run : runs)
+    if (run.summary.at("status") == "running")
+      console.out << printable(run.name) << ": " << run.summary.at("message").get<std::string>()
+                  << '\n';
 }
 
 // |H - H(0)| of the runs that have an energy.

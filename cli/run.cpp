@@ -8,6 +8,8 @@
 #include "courant/cli/experiment_file.hpp"
 #include "courant/cli/progress_bar.hpp"
 #include "courant/cli/run_text.hpp"
+#include "courant/cli/waiting.hpp"
+#include "courant/core/native.hpp"
 #include "courant/running/runner.hpp"
 
 namespace courant::cli {
@@ -21,6 +23,7 @@ struct Arguments {
   bool resume = false;
   bool explain = false;
   bool quiet = false;
+  std::vector<std::string> settings;
 };
 
 std::filesystem::path folder_of(const Arguments& arguments) {
@@ -49,15 +52,25 @@ int run_experiment(const Console& console, const Arguments& arguments,
   if (arguments.explain)
     options.on_method = [&](const Integrator& method) { print_explanation(console, method); };
   std::optional<ProgressBar> bar;
+  std::optional<Waiting> waiting;
+  if (!arguments.quiet) waiting.emplace(console, "constraint algorithm");
+  options.on_ladder = [&](const Json& ladder) {
+    waiting.reset();
+    if (console.heeds_stop) *console.heeds_stop = true;
+    if (!arguments.quiet) print_opening(console, experiment, ladder);
+  };
   if (!arguments.quiet) {
-    options.on_ladder = [&](const Json& ladder) { print_opening(console, experiment, ladder); };
     if (console.is_terminal) {
       bar.emplace(console.err);
       options.on_progress = [&](const Progress& progress) { bar->show(progress); };
     }
   }
+  if (arguments.backend == Backend::automatic && !arguments.quiet)
+    if (const std::string defect = native_compiler_defect(); !defect.empty())
+      print_error(console, "formulas are interpreted, which is slower: " + defect);
   const RunOutcome outcome = run(experiment, options);
   bar.reset();
+  if (console.heeds_stop) *console.heeds_stop = false;
   if (!arguments.quiet) print_outcome(console, outcome, options.folder);
   if (outcome.status != RunStatus::completed)
     print_error(console, arguments.file + ": " + outcome.message);
@@ -76,14 +89,17 @@ void add_run(CLI::App& app, Session& session) {
   run->add_option("FILE", arguments->file, "the experiment, or - for standard input")->required();
   run->add_option("-o", arguments->folder, "where the files go (default: runs/<name of FILE>)")
       ->type_name("DIR");
-  run->add_option("--backend", arguments->backend,
-                  "what evaluates formulas: auto, native or interpreter")
+  run->add_option(
+         "--backend", arguments->backend,
+         "what evaluates formulas: native code, made by a C compiler; the interpreter, slower "
+         "and without a compiler; or auto, native where it is worth while")
       ->transform(CLI::CheckedTransformer(
                       std::map<std::string, Backend>{{"auto", Backend::automatic},
                                                      {"native", Backend::native},
                                                      {"interpreter", Backend::interpreter}})
                       .description(""))
       ->type_name("NAME");
+  add_settings(*run, arguments->settings);
   run->add_flag("--force", arguments->force, "replace a run that is in the folder already");
   run->add_flag("--resume", arguments->resume)->group("");  // not listed: it cannot be done yet
   run->add_flag("--explain", arguments->explain,
@@ -94,9 +110,12 @@ void add_run(CLI::App& app, Session& session) {
       throw CLI::ValidationError("--resume",
                                  "runs cannot be continued yet; --force starts from the beginning");
     session.action = [arguments](const Console& console) {
-      return with_experiment(console, arguments->file, [&](const Experiment& experiment) {
-        return run_experiment(console, *arguments, experiment);
-      });
+      return with_experiment(
+          console, arguments->file,
+          [&](const Experiment& experiment) {
+            return run_experiment(console, *arguments, experiment);
+          },
+          arguments->settings);
     };
   });
 }

@@ -3,22 +3,22 @@
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <spawn.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
-#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <system_error>
 #include <vector>
+
+#include "courant/core/message.hpp"
+#include "courant/core/native_cache.hpp"
 
 extern char** environ;
 
@@ -72,68 +72,9 @@ std::vector<std::string> flags(std::size_t source_size) {
   return result;
 }
 
-// 128 bits: FNV-1a from two starting points.
-std::string content_hash(const std::string& content) {
-  std::string digits;
-  for (std::uint64_t hash : {0xCBF29CE484222325ULL, 0x84222325CBF29CE4ULL}) {
-    for (const char c : content) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3ULL;
-    for (int shift = 60; shift >= 0; shift -= 4)
-      digits += "0123456789abcdef"[(hash >> shift) & 0xF];
-  }
-  return digits;
-}
-
 std::string read(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-// A new directory, gone with its object, whatever is in it.
-class TemporaryDirectory {
- public:
-  // Throws std::system_error if it cannot be made in `parent`.
-  explicit TemporaryDirectory(const fs::path& parent)
-      : path_((parent / "compile-XXXXXX").string()) {
-    if (mkdtemp(path_.data()) == nullptr)
-      throw std::system_error(
-          errno, std::generic_category(),
-          "NativeLibrary::compile: no directory can be made in " + parent.string());
-  }
-  ~TemporaryDirectory() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryDirectory(const TemporaryDirectory&) = delete;
-  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-
-  fs::path path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
-// The cache directory, made if need be; empty if there is none that this process may write to and
-// nobody else.
-fs::path cache_directory() {
-  fs::path directory = environment("COURANT_CACHE");
-  if (directory.empty()) {
-    const fs::path base = environment("XDG_CACHE_HOME");
-    const fs::path home = environment("HOME");
-    if (base.is_absolute())
-      directory = base / "courant";
-    else if (home.is_absolute())
-      directory = home / ".cache" / "courant";
-    else
-      return {};
-  }
-  std::error_code error;
-  directory = fs::absolute(directory, error);
-  fs::create_directories(directory.parent_path(), error);
-  mkdir(directory.c_str(), 0700);
-  struct stat status {};
-  const bool ours = stat(directory.c_str(), &status) == 0 && S_ISDIR(status.st_mode) &&
-                    status.st_uid == geteuid() && (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
-  return ours && access(directory.c_str(), W_OK | X_OK) == 0 ? directory : fs::path();
 }
 
 fs::path temporary_directory() {
@@ -183,6 +124,16 @@ void* load(const fs::path& object) { return dlopen(object.c_str(), RTLD_NOW | RT
 
 }  // namespace
 
+std::string native_compiler_defect() {
+  try {
+    NativeLibrary::compile("int courant_nothing;\n");
+    return "";
+  } catch (const std::runtime_error& error) {
+    const std::string what = without_place(error.what());
+    return what.substr(0, what.find('\n'));
+  }
+}
+
 bool native_compiler_available() { return !find_program(compiler_name()).empty(); }
 
 std::shared_ptr<const NativeLibrary> NativeLibrary::compile(const std::string& c_source) {
@@ -196,28 +147,19 @@ std::shared_ptr<const NativeLibrary> NativeLibrary::compile(const std::string& c
   for (const std::string& option : options) content += " " + option;
   content += " */\n" + c_source;
 
-  const fs::path cache = cache_directory();
-  const fs::path entry = cache / content_hash(content);
-  const fs::path cached_source = entry.string() + ".c";
-  const fs::path cached_object = entry.string() + ".so";
+  const auto cache = NativeCache::open();
   const auto owned = [](void* handle) {
     return std::shared_ptr<const NativeLibrary>(new NativeLibrary(handle));
   };
-  std::error_code unreadable;
-  if (!cache.empty() && fs::exists(cached_object, unreadable) && read(cached_source) == content)
-    if (void* handle = load(cached_object))
-      return owned(handle);  // one that doesn't load is made anew
+  if (const auto cached = cache ? cache->find(content) : std::nullopt)
+    if (void* handle = load(*cached)) return owned(handle);  // one that doesn't load is made anew
 
-  const TemporaryDirectory work(cache.empty() ? temporary_directory() : cache);
+  const CompilationFolder work(cache ? cache->folder() : temporary_directory());
   const fs::path source = work.path() / "source.c";
   fs::path object = work.path() / "object.so";
   std::ofstream(source, std::ios::binary) << content;
   run_compiler(compiler, options, source, object);
-  if (!cache.empty()) {
-    fs::rename(source, cached_source);
-    fs::rename(object, cached_object);
-    object = cached_object;
-  }
+  if (cache) object = cache->add(content, source, object);
   if (void* handle = load(object)) return owned(handle);
   throw std::runtime_error(std::string("NativeLibrary::compile: the object does not load: ") +
                            dlerror());

@@ -9,14 +9,14 @@ namespace courant {
 // Whether there is a C compiler: the program that $COURANT_CC names, else cc.
 bool native_compiler_available();
 
+// What hinders native code, in one line: no compiler, or one that fails. Empty if nothing does.
+std::string native_compiler_defect();
+
 // A shared object made from C source by the machine's C compiler; unloaded with the last owner.
 //
 // Arithmetic in it gives the bits that this program gives: no contraction, no fast math.
-// Objects are cached by content (source, compiler, flags) in $COURANT_CACHE, else
-// $XDG_CACHE_HOME/courant, else
-// ~/.cache/courant; entries appear by an atomic rename, so that threads and programs may share the
-// cache. A directory that cannot be written to, belongs to somebody else, or may be written to by
-// others, is not used; the object is then made in a temporary directory and forgotten.
+// Objects are kept in the NativeCache; where there is none, the object is made in a temporary
+// directory and forgotten.
 class NativeLibrary {
  public:
   // Throws std::runtime_error, with what the compiler said, if there is no compiler or it fails.

@@ -14,16 +14,31 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
+// A number, or a formula of constants such as "2*pi/100"; NaN, and a problem, if it is neither.
+double read_constant(const JsonReader& value, const SymbolTable& constants) {
+  const auto formula = read_formula(value);
+  if (!formula) return kUnknown;
+  const auto number = evaluate_constants({{}, {*formula}}, constants, value.findings());
+  return number ? (*number)[0] : kUnknown;
+}
+
 // The number of steps must be whole: a last step of another size would be another method.
-std::optional<TimeSpan> read_time(const JsonReader& value) {
+std::optional<TimeSpan> read_time(const JsonReader& value, const SymbolTable& constants) {
   ObjectReader object(value);
   TimeSpan time;
-  time.start = object.number("start", 0.0);
+  if (const auto start_key = object.optional("start"))
+    time.start = read_constant(*start_key, constants);
+  else
+    object.default_value("start", 0.0);
   const auto step_key = object.required("step");
-  time.step = step_key ? step_key->positive_number().value_or(kUnknown) : kUnknown;
+  time.step = step_key ? read_constant(*step_key, constants) : kUnknown;
+  if (time.step <= 0.0) {
+    step_key->expected("a number greater than 0");
+    time.step = kUnknown;
+  }
   const auto end_key = object.required("end");
-  const double end = end_key ? end_key->number().value_or(kUnknown) : kUnknown;
-  if (std::isnan(time.step) || std::isnan(end)) return std::nullopt;
+  const double end = end_key ? read_constant(*end_key, constants) : kUnknown;
+  if (std::isnan(time.start) || std::isnan(time.step) || std::isnan(end)) return std::nullopt;
   const double steps = (end - time.start) / time.step;
   if (!(steps >= 0.0 && steps <= 1e15)) {
     end_key->expected("a time after the start, at most 1e15 steps later");
@@ -91,12 +106,16 @@ std::vector<std::string> quantities(const Model& model,
 }  // namespace
 
 Experiment read_experiment(std::string_view text) {
-  const Json document = parse_json(text);
+  return read_experiment_document(parse_json(text));
+}
+
+Experiment read_experiment_document(const Json& document) {
   Findings findings;
   Experiment experiment;
   {
     ObjectReader object(JsonReader(document, "", findings));
     if (const auto schema = object.optional("$schema")) schema->text();
+    if (const auto run = object.optional("$run")) run->text();
     experiment.title = object.text("title", "");
     if (const auto description = object.optional("description")) description->text();
     const auto system = object.required("system");
@@ -106,7 +125,8 @@ Experiment read_experiment(std::string_view text) {
     const auto method = object.optional("method");
     if (method) experiment.method = method_kinds().read(*method);
     const auto time = object.optional("time");
-    if (time) experiment.time = read_time(*time);
+    if (time)
+      experiment.time = read_time(*time, model ? model->vocabulary.symbols({}) : SymbolTable());
     if (method && !time) object.required("time");
     if (time && !method) object.required("method");
     experiment.examine = static_cast<long>(object.integer("examine", 0, 0));

@@ -43,5 +43,7 @@ struct Experiment {
 
 // Reads the text of a file. Throws ExperimentError with everything that is wrong with it.
 Experiment read_experiment(std::string_view text);
+// The same for what such a text says.
+Experiment read_experiment_document(const Json& document);
 
 }  // namespace courant

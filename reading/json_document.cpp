@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -55,8 +56,8 @@ class Builder final : public nlohmann::json_sax<Json> {
   bool end_array() override { return close(); }
 
   bool key(string_t& name) override {
-    const Level& level = levels_.back();
-    if (level.value.contains(name))
+    Level& level = levels_.back();
+    if (!level.keys.insert(name).second)
       problems.push_back({level.pointer + "/" + pointer_token(name), "is there twice"});
     key_ = std::move(name);
     return true;
@@ -77,7 +78,8 @@ class Builder final : public nlohmann::json_sax<Json> {
   struct Level {
     Json value;
     std::string pointer;
-    std::string key;  // in its parent
+    std::string key;                            // in its parent
+    std::unordered_set<std::string> keys = {};  // the object itself searches in order
   };
 
   bool leaf(Json value) {
@@ -112,7 +114,13 @@ class Builder final : public nlohmann::json_sax<Json> {
     else if (Json& parent = levels_.back().value; parent.is_array())
       parent.push_back(std::move(value));
     else
-      parent[key] = std::move(value);
+      append(parent, key, std::move(value));
+  }
+
+  // A key that is new: the object need not look for it.
+  static void append(Json& object, const std::string& key, Json value) {
+    auto& entries = object.get_ref<Json::object_t&>();
+    static_cast<Json::object_t::Container&>(entries).emplace_back(key, std::move(value));
   }
 
   std::string_view text_;

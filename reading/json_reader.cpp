@@ -165,13 +165,18 @@ const Json& ObjectReader::declared_default(const std::string& key) const {
 
 ObjectReader::~ObjectReader() {
   if (!object_.value().is_object()) return;
+  constexpr int most = 20;
+  int unknown = 0;
   for (const auto& [key, value] : object_.value().items()) {
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+    if (++unknown > most) continue;
     const std::string meant = did_you_mean(key, known_);
     object_.findings().problem(
         object_.pointer() + "/" + pointer_token(key),
         "unknown key" + (meant.empty() ? "; expected " + listed(known_) : meant));
   }
+  if (unknown > most)
+    object_.problem("has " + std::to_string(unknown - most) + " more unknown keys");
 }
 
 std::optional<JsonReader> ObjectReader::optional(const std::string& key) {

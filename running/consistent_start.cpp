@@ -6,6 +6,7 @@
 #include "courant/core/message.hpp"
 #include "courant/core/rank_decision.hpp"
 #include "courant/integrators/ladder/constraint_algorithm.hpp"
+#include "courant/running/undefined_formula.hpp"
 
 namespace courant {
 namespace {
@@ -41,11 +42,15 @@ void check_finite(const Experiment& experiment, const InitialGuess& guess) {
   const VectorXd z = guess.z.size() > 0 ? guess.z : system.auxiliary_guess(guess.x, guess.v);
   const VectorXd residual = system.residual(guess.x, v, z, guess.t);
   for (Index i = 0; i < residual.size(); ++i)
-    if (!std::isfinite(residual[i]))
-      throw ExperimentError(
-          "/initial", "the equation \"" + system.names().equations[static_cast<std::size_t>(i)] +
-                          "\" is " + number_text(residual[i]) + " at the initial values" +
-                          with_zeros(experiment) + "; expected a finite number");
+    if (!std::isfinite(residual[i])) {
+      const std::string where = "at the initial values" + with_zeros(experiment);
+      const std::string why =
+          undefined_formula(experiment, {.t = guess.t, .x = guess.x, .v = v, .z = z}, where);
+      throw ExperimentError("/initial", !why.empty() ? why
+                                                     : equation_in_words(system, i) + " is " +
+                                                           number_text(residual[i]) + ' ' + where +
+                                                           "; expected a finite number");
+    }
 }
 
 // Names of coordinates that are not given and that neither M_f nor the given velocities and

@@ -11,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include "courant/running/run_folder.hpp"
 #include "courant/running/run_summary_check.hpp"
 
 namespace courant {
@@ -166,34 +167,59 @@ std::vector<std::string> Run::coordinates() const {
   return found;
 }
 
+namespace {
+
+// The id of a run in its summary and experiment, and its last state in summary and trajectory.
+void check_one_run(const Run& run, const std::filesystem::path& experiment,
+                   const std::filesystem::path& trajectory) {
+  if (!run.summary.contains("id") || !run.experiment.is_object()) return;
+  if (run.experiment.value("$run", Json()) != run.summary["id"])
+    fail(experiment, "is of another run than summary.json.");
+  if (run.summary["status"] != "completed" || run.trajectory.rows() == 0) return;
+  for (const auto& [name, value] : run.summary.value("final", Json::object()).items())
+    if (value.is_number() && run.trajectory.contains(name) &&
+        run.trajectory.column(name).back() != value.get<double>())
+      fail(trajectory, "is of another run than summary.json: " + name + " ends elsewhere.");
+}
+
+}  // namespace
+
 Run read_run(const std::filesystem::path& directory) {
   if (!std::filesystem::is_directory(directory))
     fail(directory, "is not a folder; expected that of a run.");
   const auto csv = directory / "trajectory.csv", npy = directory / "trajectory.npy";
+  const auto summary = directory / "summary.json", experiment = directory / "experiment.json";
+  if (!std::filesystem::exists(csv) && !std::filesystem::exists(npy))
+    fail(directory, "has no trajectory.csv or trajectory.npy.");
+  Json summary_json = read_json(summary);
+  if (const auto defect = summary_defect(summary_json)) fail(summary, *defect);
+  const bool ended = summary_json["status"] != "running";
+  if (!ended)
+    summary_json["message"] = RunFolder::is_in_use(directory)
+                                  ? "The run has not ended yet."
+                                  : "The run did not end: it was killed.";
   const auto trajectory = [&] {
-    if (std::filesystem::exists(csv)) return read_trajectory_csv(csv);
-    if (!std::filesystem::exists(npy)) fail(directory, "has no trajectory.csv or trajectory.npy.");
+    if (std::filesystem::exists(csv)) return read_trajectory_csv(csv, !ended);
     const auto names = directory / "columns.json";
     const Json columns = read_json(names);
     const bool strings =
         columns.is_array() &&
         std::all_of(columns.begin(), columns.end(), [](const Json& c) { return c.is_string(); });
     if (!strings) fail(names, "is not an array of names.");
-    return read_trajectory_npy(npy, columns.get<std::vector<std::string>>());
+    return read_trajectory_npy(npy, columns.get<std::vector<std::string>>(), !ended);
   };
   // A name even for "." and "runs/a/".
   const auto whole = std::filesystem::absolute(directory).lexically_normal();
   const auto name = whole.has_filename() ? whole.filename() : whole.parent_path().filename();
-  const auto summary = directory / "summary.json";
   Run run{.name = name.string(),
           .trajectory = trajectory(),
-          .summary = read_json(summary),
-          .experiment = read_json(directory / "experiment.json")};
-  if (const auto defect = summary_defect(run.summary)) fail(summary, *defect);
+          .summary = std::move(summary_json),
+          .experiment = read_json(experiment)};
+  check_one_run(run, experiment, std::filesystem::exists(csv) ? csv : npy);
   return run;
 }
 
-TrajectoryTable read_trajectory_csv(const std::filesystem::path& file) {
+TrajectoryTable read_trajectory_csv(const std::filesystem::path& file, bool torn) {
   std::ifstream stream = open(file);
   std::string line;
   if (!std::getline(stream, line) || stream.eof())
@@ -201,6 +227,7 @@ TrajectoryTable read_trajectory_csv(const std::filesystem::path& file) {
   std::vector<std::string> names = split(line);
   std::vector<std::vector<double>> columns(names.size());
   for (std::size_t number = 2; std::getline(stream, line); ++number) {
+    if (stream.eof() && torn) break;
     if (stream.eof()) fail(file, number, "the row has no line end: the file is cut off.");
     if (const auto defect = append_row(line, columns)) fail(file, number, *defect);
   }
@@ -212,7 +239,7 @@ TrajectoryTable read_trajectory_csv(const std::filesystem::path& file) {
 }
 
 TrajectoryTable read_trajectory_npy(const std::filesystem::path& file,
-                                    std::vector<std::string> names) {
+                                    std::vector<std::string> names, bool torn) {
   static_assert(std::endian::native == std::endian::little);
   const std::string bytes = read_text(file);
   const auto byte = [&](std::size_t i) {
@@ -245,7 +272,7 @@ TrajectoryTable read_trajectory_npy(const std::filesystem::path& file,
                    std::to_string(names.size()) + " as in columns.json.");
   }
   const std::size_t expected = rows * width * sizeof(double), found = bytes.size() - start - size;
-  if (found != expected) {
+  if (torn ? found < expected : found != expected) {
     fail(file, "has " + std::to_string(found) + " bytes of numbers, expected " +
                    std::to_string(expected) + " for its shape.");
   }

@@ -53,13 +53,16 @@ struct Run {
 };
 
 // Reads trajectory.csv, or trajectory.npy with columns.json (an array of names), summary.json and
-// experiment.json. Throws RunFileError.
+// experiment.json. Of a run that did not end, which was killed or goes on, the rows that are whole
+// are read, and the summary has a message that says so. Throws RunFileError, also where the files are
+// of several runs.
 Run read_run(const std::filesystem::path& directory);
 
 // The parts, each usable alone. Throw RunFileError.
-TrajectoryTable read_trajectory_csv(const std::filesystem::path& file);
+// `torn`: the last row may be cut off, and is then left out.
+TrajectoryTable read_trajectory_csv(const std::filesystem::path& file, bool torn = false);
 TrajectoryTable read_trajectory_npy(const std::filesystem::path& file,
-                                    std::vector<std::string> names);
+                                    std::vector<std::string> names, bool torn = false);
 nlohmann::ordered_json read_json(const std::filesystem::path& file);
 
 }  // namespace courant

@@ -1,37 +1,126 @@
 #include "courant/running/run_folder.hpp"
 
-#include <string>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <fstream>
+#include <random>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 namespace courant {
 namespace {
 
-void write_json(const std::filesystem::path& file, const Json& json) {
+namespace fs = std::filesystem;
+
+// What a run and its report write; experiment.json and summary.json tell whose they are.
+constexpr std::array kFiles = {"summary.json",     "trajectory.csv",     "trajectory.npy",
+                               "columns.json",     "experiment.json",    "report.html",
+                               "summary.json.new", "experiment.json.new"};
+
+void write_json(const fs::path& file, const Json& json) {
   write_file(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
+Json json_in(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return Json::parse(stream, nullptr, false);
+}
+
+bool file_exists(const fs::path& file) {
+  std::error_code error;
+  return fs::exists(file, error);
+}
+
+// Whether the files are those of a run: its summary says so, or its experiment where it was killed
+// before there was one.
+bool is_of_a_run(const fs::path& folder) {
+  const Json summary = json_in(folder / "summary.json");
+  if (summary.is_object()) return summary.contains("status") && summary.contains("ladder");
+  const Json experiment = json_in(folder / "experiment.json");
+  return experiment.is_object() && experiment.contains("$run");
+}
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& what) {
+  throw UnusableFolder(path.string() + ": " + what);
+}
+
+std::string new_id() {
+  std::random_device random;
+  std::string id;
+  for (int i = 0; i < 16; ++i) id += "0123456789abcdef"[random() % 16];
+  return id;
+}
+
+// The files of an earlier run, if they may be replaced.
+std::vector<fs::path> replaceable(const fs::path& path, bool replace) {
+  std::vector<fs::path> found;
+  for (const char* name : kFiles)
+    if (file_exists(path / name)) found.push_back(path / name);
+  if (found.empty()) return found;
+  if (!is_of_a_run(path))
+    refuse(found.front(), "is there already, and no run wrote it; expected another folder (-o)");
+  if (!replace)
+    refuse(path,
+           "there is a run in this folder; expected another folder (-o), or --force to replace it");
+  return found;
+}
+
+constexpr const char* kInUse =
+    "another run is being written to this folder; expected another folder (-o)";
+
 }  // namespace
 
-RunFolder::RunFolder(std::filesystem::path path, bool replace, const Json& experiment)
-    : path_(std::move(path)) {
+void RunFolder::check(const fs::path& path, bool replace) {
+  std::error_code error;
+  fs::path nearest = fs::absolute(path, error).lexically_normal();
+  while (!file_exists(nearest) && nearest.has_relative_path()) nearest = nearest.parent_path();
+  const bool is_there = nearest == fs::absolute(path, error).lexically_normal();
+  if (!fs::is_directory(nearest, error))
+    refuse(path, "the folder cannot be made: " +
+                     std::generic_category().message(static_cast<int>(std::errc::not_a_directory)));
+  if (access(nearest.c_str(), W_OK | X_OK) != 0)
+    refuse(path, (is_there ? "cannot be written: " : "the folder cannot be made: ") +
+                     std::generic_category().message(errno));
+  if (!is_there) return;
+  if (is_in_use(path)) refuse(path, kInUse);
+  replaceable(path, replace);
+}
+
+bool RunFolder::is_in_use(const fs::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool locked = flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(descriptor);
+  return locked;
+}
+
+RunFolder::RunFolder(fs::path path, bool replace, Json experiment)
+    : path_(std::move(path)), id_(new_id()) {
   try {
     make_folder(path_);
-    for (const char* name : {"summary.json", "trajectory.csv", "trajectory.npy", "columns.json",
-                             "experiment.json", "report.html"}) {
+    lock_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+      refuse(path_, kInUse);
+    for (const fs::path& file : replaceable(path_, replace)) {
       std::error_code error;
-      if (!std::filesystem::exists(path_ / name, error)) continue;
-      if (!replace)
-        throw OutputError(path_.string() +
-                          ": there is a run in this folder; expected another folder (-o), or "
-                          "--force to replace it");
-      std::filesystem::remove(path_ / name, error);
-      if (error)
-        throw OutputError((path_ / name).string() + ": cannot be replaced: " + error.message());
+      fs::remove(file, error);
+      if (error) refuse(file, "cannot be replaced: " + error.message());
     }
+    experiment["$run"] = id_;
     write_json(path_ / "experiment.json", experiment);
   } catch (const OutputError& error) {
+    if (lock_ >= 0) ::close(lock_);
     throw UnusableFolder(error.what());
   }
+}
+
+RunFolder::~RunFolder() {
+  if (lock_ >= 0) ::close(lock_);
 }
 
 void RunFolder::write_summary(const Json& summary) const {

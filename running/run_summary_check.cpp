@@ -104,7 +104,8 @@ Kind summary_kind() {
                               {"failures", number},
                               {"second_attempts", number},
                               {"confirmations", number}});
-  return record({{"status", text, true},
+  return record({{"id", text},
+                 {"status", text, true},
                  {"message", text},
                  {"warnings", array_of(text)},
                  {"system", text, true},

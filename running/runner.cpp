@@ -17,6 +17,7 @@
 #include "courant/running/run_folder.hpp"
 #include "courant/running/run_watchers.hpp"
 #include "courant/running/trajectory_writer.hpp"
+#include "courant/running/undefined_formula.hpp"
 
 namespace courant {
 namespace {
@@ -69,6 +70,10 @@ class Run {
       fail("The system is inconsistent near the initial values. " + ladder_.reason);
     }
     const RunFolder folder(options_.folder, options_.replace, experiment_.document);
+    id_ = folder.id();
+    Json begun = summary({});
+    begun["status"] = "running";
+    folder.write_summary(begun);
     std::vector<std::string> columns = observer_.names();
     columns.resize(observer_.written_count());
     columns.insert(columns.begin(), "t");
@@ -92,6 +97,13 @@ class Run {
     message_ = std::move(message);
   }
 
+  // What a step that failed says, and which formula has no value where it was to lead.
+  std::string words_of(const SolveError& error, const State& state) const {
+    const std::string what = error.what();
+    const std::string why = undefined_ahead(experiment_, ladder_, state, experiment_.time->step);
+    return why.empty() ? what : what.substr(0, what.rfind("; ")) + ": " + why + ".";
+  }
+
   void check_finite(const State& state) {
     VectorXd row;
     try {
@@ -100,10 +112,15 @@ class Run {
       throw ExperimentError("/initial", without_place(error.what()));
     }
     for (Index i = 0; i < static_cast<Index>(observer_.written_count()); ++i)
-      if (!std::isfinite(row[i]))
-        throw ExperimentError("/initial", observer_.names()[static_cast<std::size_t>(i)] + " is " +
-                                              number_text(row[i]) +
-                                              " at the initial point; expected a finite number");
+      if (!std::isfinite(row[i])) {
+        const std::string where = "at the initial point";
+        const std::string why = undefined_formula(experiment_, state, where);
+        throw ExperimentError("/initial", !why.empty()
+                                              ? why
+                                              : observer_.names()[static_cast<std::size_t>(i)] +
+                                                    " is " + number_text(row[i]) + ' ' + where +
+                                                    "; expected a finite number");
+      }
   }
 
   std::optional<PreparedMethod> prepare() {
@@ -198,7 +215,7 @@ class Run {
         going = goes_on(stepper->last(), k, time.steps);
       }
     } catch (const SolveError& error) {
-      fail(error.what() + (ladder_watch_ ? ladder_watch_->decline() : ""));
+      fail(words_of(error, state) + (ladder_watch_ ? ladder_watch_->decline() : ""));
     } catch (const std::domain_error& error) {
       fail((steps_ == 0 ? "/method: " : "") + without_place(error.what()));
     }
@@ -256,6 +273,7 @@ class Run {
 
   Json summary(const std::vector<ExpectationResult>& expectations) const {
     Json json{
+        {"id", id_},
         {"status", word(status_)},
         {"message", message_},
         {"warnings", warnings_},
@@ -309,6 +327,7 @@ class Run {
   const Json ladder_json_;
   Observer observer_;
 
+  std::string id_;
   RunStatus status_ = RunStatus::completed;
   std::string message_;
   std::vector<std::string> warnings_;
@@ -332,6 +351,7 @@ bool RunOutcome::as_expected() const {
 }
 
 RunOutcome run(const Experiment& experiment, const RunOptions& options) {
+  RunFolder::check(options.folder, options.replace);
   return Run(experiment, options)();
 }
 

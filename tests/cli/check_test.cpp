@@ -148,6 +148,19 @@ BOOST_AUTO_TEST_CASE(exit_status) {
   BOOST_TEST(irregular.out.find("Some laws do not hold.") != std::string::npos);
 }
 
+// Failures and words: no codes of laws.
+BOOST_AUTO_TEST_CASE(brief_is_a_few_lines) {
+  const Answer brief = answer({"check", "experiments/pendulum.json", "--brief"});
+  BOOST_TEST(brief.status == 0);
+  for (const char* part : {"manifold: all ", " laws hold\n", " is Dirac and integrable.\n",
+                           "has order 2, is symmetric and is symplectic.\n", "All laws hold.\n"})
+    BOOST_TEST(brief.out.find(part) != std::string::npos, part << " is not in\n" << brief.out);
+  BOOST_TEST(std::count(brief.out.begin(), brief.out.end(), '\n') < 15);
+  for (const char* code : {" R1 ", " S2 ", " D3 "})
+    BOOST_TEST(brief.out.find(code) == std::string::npos);
+  BOOST_TEST(answer({"check", "experiments/pendulum.json", "--brief", "--json"}).status == 2);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
 
 }  // namespace courant

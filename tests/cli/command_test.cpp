@@ -1,9 +1,11 @@
 #include "courant/cli/command.hpp"
 
 #include <boost/test/unit_test.hpp>
+#include <cstdlib>
 #include <sstream>
 
 #include "../running/temporary_folder.hpp"
+#include "courant/core/native.hpp"
 #include "courant/running/run_files.hpp"
 
 namespace courant {
@@ -179,6 +181,35 @@ BOOST_AUTO_TEST_CASE(an_interrupt_is_status_130) {
   BOOST_TEST(read_run(folder / "run").summary["status"] == "interrupted");
 }
 
+BOOST_AUTO_TEST_CASE(set_changes_a_value) {
+  const TemporaryFolder folder;
+  const std::string runs = (folder / "run").string();
+  const Answer answer =
+      courant_command({"run", "-", "-o", runs, "--quiet", "--backend", "interpreter", "--set",
+                       "/time/step=pi/8", "--set", "/time/end=2*pi", "--set", "/method=rk4",
+                       "--set", "/initial/q=3", "--set", "/expect=[]"},
+                      oscillator);
+  BOOST_TEST(answer.status == 0, answer.err);
+  const Run run = read_run(runs);
+  BOOST_TEST(run.trajectory.rows() == 17u);
+  BOOST_TEST(run.trajectory.column("q")[0] == 3.0);
+  BOOST_TEST(run.experiment["time"]["step"] == "pi/8");
+  BOOST_TEST(run.experiment["method"]["type"] == "rk4");
+  const Answer ladder =
+      courant_command({"constraints", "-", "--json", "--set", "/initial/p_q=0.5"}, oscillator);
+  BOOST_TEST(nlohmann::json::parse(ladder.out)["consistent_point"]["p_q"] == 0.5);
+  for (const auto& [setting, message] :
+       {std::pair("/sistem/x=1", "--set /sistem/x: there is no such place"),
+        std::pair("time=1", "--set time: is not a change"),
+        std::pair("/time/step", "--set /time/step: is not a change"),
+        std::pair("/time/step=two", "/time/step: column 1: unknown name \"two\""),
+        std::pair("/a~=1", "--set /a~: is not a JSON pointer")}) {
+    const Answer wrong = courant_command({"constraints", "-", "--set", setting}, oscillator);
+    BOOST_TEST(wrong.status == 2);
+    BOOST_TEST(wrong.err.starts_with("courant: -: " + std::string(message)), wrong.err);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(constraints_prints_the_ladder) {
   const std::string text =
       R"json({"system": {"type": "lagrangian", "coordinates": ["x", "y"], "lagrangian": "x*y' - x^2/2 - y^2/2"},
@@ -219,6 +250,42 @@ BOOST_AUTO_TEST_CASE(report_compares_runs) {
   BOOST_TEST(answer.out.find("discretize-first, midpoint") != std::string::npos);
   BOOST_TEST(std::filesystem::exists(folder / "page.html"));
   BOOST_TEST(courant_command({"report", (folder / "none").string()}).status == 2);
+}
+
+BOOST_AUTO_TEST_CASE(cache_lists_and_clears, *boost::unit_test::precondition([](auto) {
+                       return native_compiler_available();
+                     })) {
+  const TemporaryFolder folder;
+  setenv("COURANT_CACHE", (folder / "cache").c_str(), 1);
+  const Answer before = courant_command({"cache"});
+  BOOST_TEST(before.status == 0);
+  BOOST_TEST(before.out.find(": 0 entries, 0 kB") != std::string::npos, before.out);
+  courant_command({"run", "-", "-o", (folder / "run").string(), "--backend", "native"}, oscillator);
+  BOOST_TEST(courant_command({"cache"}).out.find("today") != std::string::npos);
+  BOOST_TEST(courant_command({"cache", "--clear"}).out == before.out);
+  BOOST_TEST(std::filesystem::is_empty(folder / "cache"));
+  unsetenv("COURANT_CACHE");
+}
+
+// Once, with the reason; who asked for the interpreter, or for silence, is not told.
+BOOST_AUTO_TEST_CASE(falling_back_to_the_interpreter_is_said) {
+  const TemporaryFolder folder;
+  setenv("COURANT_CC", "no-such-compiler", 1);
+  const Answer answer = courant_command({"run", "-", "-o", (folder / "a").string()}, oscillator);
+  BOOST_TEST(answer.status == 0);
+  BOOST_TEST(answer.err ==
+             "courant: formulas are interpreted, which is slower: no C compiler: no-such-compiler "
+             "is not found. Install one, name one in COURANT_CC, or use the interpreter.\n");
+  const Answer asked = courant_command(
+      {"run", "-", "-o", (folder / "b").string(), "--backend", "interpreter"}, oscillator);
+  BOOST_TEST(asked.err == "");
+  unsetenv("COURANT_CC");
+}
+
+BOOST_AUTO_TEST_CASE(help_says_what_the_environment_does) {
+  const std::string help = courant_command({"--help"}).out;
+  for (const char* word : {"COURANT_CC", "COURANT_CACHE", "cache", "Exit status"})
+    BOOST_TEST(help.find(word) != std::string::npos, help);
 }
 
 BOOST_AUTO_TEST_CASE(wrong_command_lines_are_status_2) {

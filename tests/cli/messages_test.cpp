@@ -95,6 +95,16 @@ BOOST_AUTO_TEST_CASE(the_place_is_that_of_the_wrong_value) {
            std::pair("submanifold_without_start", "/initial: no point of "),
            std::pair("decide_rank", "/initial: the constraint algorithm fails at"),
            std::pair("momentum_projector_no_summary", "/method: the directions of the projector"),
+           std::pair("implicit_of_nan",
+                     "/initial: sqrt(x - 2) in the equation \"x'-sqrt(x-2)\" has no value at the "
+                     "initial values: the argument of sqrt is -1, expected at least 0"),
+           std::pair("hamiltonian_outside_its_domain",
+                     "/initial: log(q - 2) in the energy H has no value at the initial point: the "
+                     "argument of log is -1, expected more than 0"),
+           std::pair("observable_outside_its_domain",
+                     "/initial: sqrt(q - 2) in the observable \"n\" has no value at"),
+           std::pair("lagrangian_leaves_its_domain",
+                     "rk4: step 1: no velocity found at t = 0.05: "),
            std::pair("vacuous_expectation", "/expect/0/max_drift: tests nothing"),
            std::pair("max_violation_nan", "/expect/0/max_violation: tests nothing"),
            std::pair("expectation_that_fails",

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "courant/core/function.hpp"
+#include "courant/core/native_cache.hpp"
 #include "operation_catalogue.hpp"
 #include "random_expressions.hpp"
 
@@ -192,13 +193,87 @@ BOOST_FIXTURE_TEST_CASE(an_entry_of_another_source_is_not_used, Cache) {
   BOOST_TEST(call(*NativeLibrary::compile(constant_function(1.0))) == 1.0);
 }
 
-BOOST_FIXTURE_TEST_CASE(a_cache_that_others_may_write_to_is_not_used, Cache) {
-  // What a stranger could put there: the right source beside the wrong object.
-  NativeLibrary::compile(constant_function(2.0));
-  const fs::path wrong = folder() / "wrong.so";
-  fs::rename(objects().at(0), wrong);
+// A full disk or a crash leaves half of an object, and loading that ends the program (SIGBUS).
+BOOST_FIXTURE_TEST_CASE(an_object_that_was_cut_off_is_made_anew, Cache) {
   NativeLibrary::compile(constant_function(1.0));
-  fs::rename(wrong, objects().at(0));
+  const fs::path object = objects().at(0);
+  const auto size = fs::file_size(object);
+  for (const auto length : {size / 2, size - 1, std::uintmax_t{0}}) {
+    fs::resize_file(object, length);
+    BOOST_TEST(call(*NativeLibrary::compile(constant_function(1.0))) == 1.0);
+    BOOST_TEST(fs::file_size(object) == size);
+  }
+  fs::remove(fs::path(object).replace_extension(".sum"));
+  BOOST_TEST(call(*NativeLibrary::compile(constant_function(1.0))) == 1.0);
+}
+
+BOOST_FIXTURE_TEST_CASE(what_is_old_or_too_much_is_pruned, Cache) {
+  for (const double value : {1.0, 2.0, 3.0}) NativeLibrary::compile(constant_function(value));
+  const auto cache = NativeCache::open();
+  BOOST_REQUIRE(cache);
+  const auto entries = cache->entries();
+  BOOST_REQUIRE(entries.size() == 3);
+  const auto age = [&](const std::string& name, int days) {
+    for (const char* extension : {".c", ".so", ".sum"})
+      fs::last_write_time(path() / (name + extension),
+                          fs::file_time_type::clock::now() - std::chrono::hours(24 * days));
+  };
+  age(entries[0].name, 100);
+  age(entries[1].name, 10);
+  cache->prune({});
+  BOOST_TEST(cache->entries().size() == 2);
+  cache->prune({.bytes = entries[0].bytes + 10});  // room for one
+  BOOST_REQUIRE(cache->entries().size() == 1);
+  BOOST_TEST(cache->entries()[0].name == entries[2].name);
+  cache->clear();
+  BOOST_TEST(fs::is_empty(path()));
+}
+
+// An entry that is used is young.
+BOOST_FIXTURE_TEST_CASE(what_is_used_is_kept, Cache) {
+  NativeLibrary::compile(constant_function(1.0));
+  for (const auto& file : fs::directory_iterator(path()))
+    fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::hours(24 * 80));
+  NativeLibrary::compile(constant_function(1.0));
+  NativeCache::open()->prune({.age = std::chrono::hours(24 * 60)});
+  BOOST_TEST(NativeCache::open()->entries().size() == 1);
+}
+
+BOOST_FIXTURE_TEST_CASE(what_a_killed_compilation_left_is_removed, Cache) {
+  const auto cache = NativeCache::open();
+  const fs::path left = path() / "courant-compile-abcdef";
+  fs::create_directory(left);
+  std::ofstream(left / "source.c") << "half";
+  const CompilationFolder in_use(path());
+  for (const fs::path& folder : {left, in_use.path()})
+    fs::last_write_time(folder, fs::file_time_type::clock::now() - std::chrono::hours(1));
+  cache->prune({});
+  BOOST_TEST(!fs::exists(left));
+  BOOST_TEST(fs::exists(in_use.path()));
+}
+
+BOOST_FIXTURE_TEST_CASE(a_compiler_that_does_not_work_is_a_defect, Cache) {
+  BOOST_TEST(native_compiler_defect() == "");
+  setenv("COURANT_CC", "/bin/false", 1);
+  BOOST_TEST(native_compiler_defect() == "/bin/false failed:");
+  setenv("COURANT_CC", "no-such-compiler", 1);
+  BOOST_TEST(native_compiler_defect().starts_with("no C compiler: no-such-compiler is not found."));
+}
+
+BOOST_FIXTURE_TEST_CASE(a_cache_that_others_may_write_to_is_not_used, Cache) {
+  // What a stranger could put there: the right source beside the wrong object and its sum.
+  NativeLibrary::compile(constant_function(2.0));
+  const auto with = [](fs::path file, const char* extension) {
+    return file.replace_extension(extension);
+  };
+  const fs::path wrong = objects().at(0);
+  for (const char* extension : {".so", ".sum"})
+    fs::rename(with(wrong, extension), with(folder() / "wrong", extension));
+  fs::remove(with(wrong, ".c"));
+  NativeLibrary::compile(constant_function(1.0));
+  const fs::path right = objects().at(0);
+  for (const char* extension : {".so", ".sum"})
+    fs::rename(with(folder() / "wrong", extension), with(right, extension));
   BOOST_TEST(call(*NativeLibrary::compile(constant_function(1.0))) ==
              2.0);  // such an entry would be believed
   fs::permissions(path(), fs::perms::group_write, fs::perm_options::add);

@@ -215,4 +215,44 @@ BOOST_AUTO_TEST_CASE(incomplete_folders_are_refused) {
   BOOST_TEST(said().ends_with("columns.json: is not an array of names."));
 }
 
+// A kill leaves a summary that says "running", and perhaps half of a row.
+BOOST_AUTO_TEST_CASE(a_run_that_did_not_end_is_read_as_far_as_it_got) {
+  const TemporaryFolder folder;
+  write_run(folder / "run", rk2_path(3), "rk2");
+  const std::string rows = read_text(folder / "run/trajectory.csv");
+  write_text(folder / "run/trajectory.csv", rows.substr(0, rows.size() - 7));
+  BOOST_TEST(refusal([&] { read_run(folder / "run"); }).find("cut off") != std::string::npos);
+  auto summary = nlohmann::ordered_json::parse(read_text(folder / "run/summary.json"));
+  summary["status"] = "running";
+  write_text(folder / "run/summary.json", summary.dump());
+  const Run run = read_run(folder / "run");
+  BOOST_TEST(run.trajectory.rows() == 3u);
+  BOOST_TEST(run.summary["message"] == "The run did not end: it was killed.");
+
+  const std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 2), }";
+  write_text(folder / "a.npy", npy(header, {0, 1, 2, 3, 4}));
+  BOOST_TEST(refusal([&] { read_trajectory_npy(folder / "a.npy", {"t", "q"}); }) != "accepted");
+  BOOST_TEST(read_trajectory_npy(folder / "a.npy", {"t", "q"}, true).rows() == 2u);
+}
+
+BOOST_AUTO_TEST_CASE(files_of_two_runs_are_refused) {
+  const TemporaryFolder folder;
+  write_run(folder / "run", rk2_path(3), "rk2");
+  auto summary = nlohmann::ordered_json::parse(read_text(folder / "run/summary.json"));
+  auto experiment = nlohmann::ordered_json::parse(read_text(folder / "run/experiment.json"));
+  summary["id"] = "a";
+  experiment["$run"] = "a";
+  summary["status"] = "completed";
+  const auto said = [&] {
+    write_text(folder / "run/summary.json", summary.dump());
+    write_text(folder / "run/experiment.json", experiment.dump());
+    return refusal([&] { read_run(folder / "run"); });
+  };
+  BOOST_TEST(said() == "accepted");
+  summary["final"]["x[0]"] = 17.0;
+  BOOST_TEST(said().ends_with("is of another run than summary.json: x[0] ends elsewhere."));
+  experiment["$run"] = "b";
+  BOOST_TEST(said().ends_with("experiment.json: is of another run than summary.json."));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -169,6 +169,24 @@ BOOST_AUTO_TEST_CASE(an_expectation_that_fails_says_what_is_and_by_how_much) {
   BOOST_TEST(finding({{"ladder", {{3, 3}}}}) == "is [[2,2]]; expected [[3,3]]");
 }
 
+// The particle falls to where sqrt(x) ends.
+BOOST_AUTO_TEST_CASE(a_step_out_of_a_domain_names_the_function_and_the_equation) {
+  const TemporaryFolder folder;
+  const RunOutcome outcome = run_in(
+      folder,
+      {{"system",
+        {{"type", "lagrangian"}, {"coordinates", {"x"}}, {"lagrangian", "x'^2/2 - sqrt(x)"}}},
+       {"initial", {{"x", 0.01}, {"x'", -1}}},
+       {"method", "rk4"},
+       {"time", {{"step", 0.1}, {"end", 10}}}});
+  BOOST_TEST((outcome.status == RunStatus::failed));
+  for (const char* part :
+       {"sqrt(x) in the equation \"p_x' = dL/dx\" has no value ahead of the state: ",
+        "the argument of sqrt is -"})
+    BOOST_TEST(outcome.message.find(part) != std::string::npos, outcome.message);
+  BOOST_TEST(outcome.message.find("singular") == std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(what_was_computed_before_a_failure_is_on_disk) {
   const TemporaryFolder folder;
   Json experiment = collision;

@@ -1,0 +1,120 @@
+#include "courant/running/undefined_formula.hpp"
+
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include "courant/core/undefined.hpp"
+#include "courant/integrators/vector_field.hpp"
+
+namespace courant {
+namespace {
+
+// The formulas of an experiment in variables that have the names of its words.
+class Formulas {
+ public:
+  Formulas(const Experiment& experiment, bool with_quantities) : system_(*experiment.model.system) {
+    const ImplicitSystem::Names& names = system_.names();
+    const Manifold& M = *system_.manifold();
+    for (const std::string& name : names.coordinates) add(name);
+    const ExprVector x = variables_;
+    const bool plain = M.tangent_dimension() == M.ambient_dimension();
+    for (Index i = 0; i < M.tangent_dimension(); ++i)
+      add(plain ? names.coordinates[static_cast<std::size_t>(i)] + "'"
+                : "v[" + std::to_string(i) + "]");
+    const ExprVector v = variables_.tail(M.tangent_dimension());
+    for (const std::string& name : names.auxiliary) add(name);
+    const ExprVector z = variables_.tail(system_.auxiliary_size());
+    const Expr t = add("t");
+
+    const ExprVector equations = system_.residual(x, v, z, t);
+    for (Index i = 0; i < equations.size(); ++i)
+      add("in " + equation_in_words(system_, i), equations[i]);
+    if (!with_quantities) return;
+    if (const auto energy = system_.energy(x, z, t)) add("in the energy H", *energy);
+    const SymbolTable symbols = experiment.model.symbols(x, v, z, t);
+    for (const Observable& observable : experiment.observe)
+      add("in the observable \"" + observable.name + '"', evaluate(observable.formula, symbols));
+  }
+
+  std::string undefined_at(const State& state, const std::string& where) const {
+    VectorXd values = VectorXd::Zero(variables_.size());
+    Index offset = 0;
+    const auto fill = [&](const VectorXd& part, Index size) {
+      if (part.size() == size) values.segment(offset, size) = part;
+      offset += size;
+    };
+    fill(state.x, system_.manifold()->ambient_dimension());
+    fill(state.v, system_.manifold()->tangent_dimension());
+    fill(state.z, system_.auxiliary_size());
+    values[offset] = state.t;
+    const auto found = find_undefined(
+        Eigen::Map<const ExprVector>(expressions_.data(), static_cast<Index>(expressions_.size())),
+        variables_, values);
+    if (!found) return "";
+    return found->formula + ' ' + places_[static_cast<std::size_t>(found->output)] +
+           " has no value " + where + ": " + found->reason;
+  }
+
+ private:
+  Expr add(const std::string& name) {
+    variables_.conservativeResize(variables_.size() + 1);
+    return variables_[variables_.size() - 1] = graph_.variable(name);
+  }
+  void add(std::string place, const Expr& expression) {
+    places_.push_back(std::move(place));
+    expressions_.push_back(expression);
+  }
+
+  const ImplicitSystem& system_;
+  Graph graph_;
+  ExprVector variables_;
+  std::vector<Expr> expressions_;
+  std::vector<std::string> places_;
+};
+
+}  // namespace
+
+std::string undefined_formula(const Experiment& experiment, const State& state,
+                              const std::string& where) {
+  return Formulas(experiment, true).undefined_at(state, where);
+}
+
+std::string equation_in_words(const ImplicitSystem& system, Index equation) {
+  const std::string& name = system.names().equations[static_cast<std::size_t>(equation)];
+  if (name == "equation[" + std::to_string(equation) + "]")
+    return "equation " + std::to_string(equation + 1);
+  return "the equation \"" + name + '"';
+}
+
+std::string undefined_ahead(const Experiment& experiment, const ConstraintLadder& ladder,
+                            const State& state, double h) {
+  const Formulas formulas(experiment, false);
+  const Manifold& M = *experiment.model.system->manifold();
+  State ahead = state;
+  VectorXd rate = VectorXd::Zero(state.x.size());
+  if (state.v.size() == M.tangent_dimension())
+    rate = values(ExprVector(M.frame(constants(state.x)) * constants(state.v)));
+  std::unique_ptr<const VectorField> field;
+  std::optional<VectorField::Evaluation> velocity;
+  if (ladder.verdict == Verdict::regular) {
+    field = std::make_unique<VectorField>(experiment.model.system, ladder, Backend::interpreter);
+    velocity.emplace(*field);
+  }
+  constexpr int steps = 8;
+  for (int k = 0; k < steps; ++k) {
+    ahead.x += 2.0 * h / steps * rate;
+    ahead.t += 2.0 * h / steps;
+    if (std::string found = formulas.undefined_at(ahead, "ahead of the state"); !found.empty())
+      return found;
+    try {
+      if (velocity) (*velocity)(ahead.x, rate, ahead.t);
+    } catch (const std::domain_error&) {
+      break;  // the velocity has none of the reasons that are looked for
+    }
+  }
+  return "";
+}
+
+}  // namespace courant

@@ -1,0 +1,29 @@
+// Which formula of an experiment has no value at a state.
+#pragma once
+
+#include <string>
+
+#include "courant/integrators/ladder/constraint_ladder.hpp"
+#include "courant/reading/experiment.hpp"
+
+namespace courant {
+
+// In words, the first equation, energy or observable that has no value at the state, and the
+// function in it that has none:
+//
+//   sqrt(x - 2) in the equation "x' - sqrt(x-2)" has no value <where>: the argument of sqrt is -1,
+//   expected at least 0
+//
+// Empty if all of them have one.
+std::string undefined_formula(const Experiment& experiment, const State& state,
+                              const std::string& where);
+
+// The name of an equation in a sentence: the equation "x' - y", equation 2 where it has no name.
+std::string equation_in_words(const ImplicitSystem& system, Index equation);
+
+// The same as undefined_formula for the equations at the states to which the velocity leads within
+// two steps of size h: why a step could not be solved.
+std::string undefined_ahead(const Experiment& experiment, const ConstraintLadder& ladder,
+                            const State& state, double h);
+
+}  // namespace courant
