@@ -210,7 +210,9 @@ class ConstrainFirst::Trajectory final : public Stepper {
 
   // Of the groups of unknowns.
   static std::array<double, 4> scales(const State& before, double h) {
-    const double size = largest(before.x);
+    // A start at zero, as of a circuit at rest, has the size of its first step.
+    const double given = largest(before.x);
+    const double size = given > 0.0 ? given : std::fabs(h) * largest(before.v);
     return {size, size / std::fabs(h), auxiliary_scale(largest(before.z), size), size};
   }
 

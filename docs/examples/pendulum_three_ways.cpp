@@ -21,10 +21,8 @@ double by_its_angle() {
         return square(x[1]) / 2.0 - cos(x[0]);
       }));
   const auto map = std::make_shared<CotangentLift>(phase_space, std::make_shared<Theta>(Q));
-  const auto stepper =
-      DiscretizeFirst(system, map).start({.x = VectorXd{{start_angle, 0.0}}}, end_time / steps);
-  for (int k = 0; k < steps; ++k) stepper->step();
-  return stepper->state().x[0];
+  const State start{.x = VectorXd{{start_angle, 0.0}}};
+  return DiscretizeFirst(system, map).advance(start, end_time / steps, steps).x[0];
 }
 
 // E(q, p, λ) = |p|²/2 + q₁ + λ (|q|² - 1)/2: a Hamiltonian and the length of the rod, with the
@@ -56,9 +54,7 @@ double with_a_rod() {
               ladder.point.z[0]);
   const auto map = std::make_shared<CotangentLift>(phase_space, std::make_shared<Theta>(Q));
   const ConstrainFirst method(system, ladder, map, std::make_shared<OrthogonalProjector>());
-  const auto stepper = method.start(ladder.point, end_time / steps);
-  for (int k = 0; k < steps; ++k) stepper->step();
-  const VectorXd& x = stepper->state().x;
+  const VectorXd x = method.advance(ladder.point, end_time / steps, steps).x;
   return std::atan2(x[0], -x[1]);
 }
 
@@ -74,10 +70,10 @@ double as_a_port_hamiltonian_system() {
   const auto energy = std::make_shared<Hamiltonian>(
       M, [](const ExprVector& x, const Expr&) { return square(x[1]) / 2.0 - cos(x[0]); });
   const auto system = std::make_shared<PortHamiltonianSystem>(matrices, energy, std::nullopt);
-  const auto stepper = DiscretizeFirst(system, std::make_shared<Theta>(M))
-                           .start({.x = VectorXd{{start_angle, 0.0}}}, end_time / steps);
-  for (int k = 0; k < steps; ++k) stepper->step();
-  return stepper->state().x[0];
+  const State start{.x = VectorXd{{start_angle, 0.0}}};
+  return DiscretizeFirst(system, std::make_shared<Theta>(M))
+      .advance(start, end_time / steps, steps)
+      .x[0];
 }
 
 int main() {
