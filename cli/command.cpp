@@ -49,6 +49,7 @@ int command(const std::vector<std::string>& arguments, const Console& console) {
   add_check(app, session);
   add_list(app, session);
   add_schema(app, session);
+  add_import(app, session);
   add_report(app, session);
   add_tour(app, session);
   add_cache(app, session);
