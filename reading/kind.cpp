@@ -50,6 +50,14 @@ Takes formula() { return {"a formula", reference("formula")}; }
 Takes formulas() { return {"a formula, an array or a matrix of them", reference("formulas")}; }
 Takes formula_vector() { return {"an array of formulas", reference("formulaVector")}; }
 Takes formula_matrix() { return {"a matrix of formulas, by rows", reference("formulaMatrix")}; }
+Takes components() {
+  return {"formulas, or an object of them by coordinate",
+          {{"anyOf", {reference("formulas"), reference("definitions")}}}};
+}
+Takes form_matrix() {
+  return {"a matrix of formulas, by rows, or \"canonical\"",
+          {{"anyOf", {reference("formulaMatrix"), {{"const", "canonical"}}}}}};
+}
 Takes field_rows() { return {"rows of formulas", reference("fieldRows")}; }
 Takes number_matrices() { return {"an array of matrices of numbers", reference("numberMatrices")}; }
 Takes coordinates() { return {"names", reference("coordinates")}; }

@@ -28,6 +28,8 @@ Takes formula();
 Takes formulas();        // a formula, an array or a matrix of them
 Takes formula_vector();  // an array
 Takes formula_matrix();  // by rows
+Takes components();      // formulas, or an object of them by coordinate
+Takes form_matrix();     // a matrix, or "canonical"
 Takes field_rows();      // vector fields or one-forms, one a row
 Takes number_matrices();
 Takes coordinates();  // names and arrays of names, at least one

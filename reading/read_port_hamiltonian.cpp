@@ -66,7 +66,7 @@ std::optional<Model> read_port_hamiltonian(ObjectReader& system) {
   vocabulary.coordinates = space->coordinates;
   const StructureSite site{space->manifold, vocabulary};
   const Index n = space->manifold->tangent_dimension();
-  const auto J = read_matrix_field(*J_key, site, n, n);
+  const auto J = read_skew_matrix(*J_key, site, SkewMatrix::bivector);
   const auto R = R_key ? read_matrix_field(*R_key, site, n, n) : std::nullopt;
   std::optional<MatrixField> B;
   Index m = 0;
@@ -79,8 +79,7 @@ std::optional<Model> read_port_hamiltonian(ObjectReader& system) {
     B = [n](const ExprVector&) { return ExprMatrix(ExprMatrix::Zero(n, 0)); };
   }
   if (!J || !B || (R_key && !R)) return std::nullopt;
-  const bool right =
-      is_skew(*space->manifold, *J, *J_key) && (!R || is_resistive(*space->manifold, *R, *R_key));
+  const bool right = !R || is_resistive(*space->manifold, *R, *R_key);
   const JsonReader& ports_place = B_key ? *B_key : system.place();
   if (!append_name(vocabulary.unknowns, "u", m, taken, ports_place)) return std::nullopt;
   check_definitions(vocabulary, findings);
