@@ -41,9 +41,12 @@ class ConstrainFirst final : public Integrator {
   // With gauge freedom the step of least change is not that of the way back.
   bool is_symmetric() const override { return gauge_dimension_ == 0 && map_->is_symmetric(); }
   // M_f with the pulled-back form is in general not preserved (Proposition 6.3): known only where
-  // there is nothing to constrain.
+  // there is nothing to constrain, and the system is Lagrangian.
   std::optional<bool> is_symplectic() const override {
-    return codimension_ == 0 ? map_->is_symplectic() : std::nullopt;
+    if (codimension_ == 0 && map_->is_symplectic().value_or(false) &&
+        system_->is_lagrangian().value_or(false))
+      return true;
+    return std::nullopt;
   }
   bool is_native() const override { return equations_.is_native(); }
   std::unique_ptr<Stepper> start(const State& initial, double h) const override;

@@ -33,7 +33,14 @@ class DiscretizeFirst final : public Integrator {
   std::string name() const override { return "discretize-first"; }
   int order() const override { return map_->order(); }
   bool is_symmetric() const override { return map_->is_symmetric(); }
-  std::optional<bool> is_symplectic() const override { return map_->is_symplectic(); }
+  // A symplectic map takes the Lagrangian submanifold S to one of T*Q × T*Q, the graph of a
+  // symplectic map (Section 5.1.1): a claim about the two together. Of other systems, those with
+  // damping say, nothing is known.
+  std::optional<bool> is_symplectic() const override {
+    if (map_->is_symplectic().value_or(false) && system_->is_lagrangian().value_or(false))
+      return true;
+    return std::nullopt;
+  }
   bool is_native() const override { return equations_.is_native(); }
   std::unique_ptr<Stepper> start(const State& initial, double h) const override;
 

@@ -1,8 +1,13 @@
 #include "courant/integrators/projector.hpp"
 
+#include <cmath>
+#include <sstream>
 #include <stdexcept>
 
-#include "courant/core/complete_orthogonal_decomposition.hpp"
+#include "courant/core/derivative.hpp"
+#include "courant/core/linear_algebra.hpp"
+#include "courant/core/lu_decomposition.hpp"
+#include "courant/core/qr_decomposition.hpp"
 #include "courant/core/singular_value_decomposition.hpp"
 
 namespace courant {
@@ -12,50 +17,197 @@ namespace {
 // projecting would lose more than half of the digits.
 constexpr double kTransversality = 1e-8;
 
-// Of the directions, next to their lengths: half of the digits again.
-constexpr double kDataError = 2e-11;
+// x ↦ a matrix of that size; empty if there is no formula.
+Function compiled(const char* name, const Manifold& manifold,
+                  const Projector::MatrixFormula& formula, Index size) {
+  if (!formula) return {};
+  Graph graph;
+  const ExprVector x = graph.variables("x", manifold.ambient_dimension());
+  const ExprMatrix matrix = formula(x);
+  if (matrix.rows() != size || matrix.cols() != size)
+    throw std::invalid_argument(std::string(name) + ": metric is " + std::to_string(matrix.rows()) +
+                                " × " + std::to_string(matrix.cols()) + "; expected " +
+                                std::to_string(size) + " × " + std::to_string(size) + ".");
+  return Function("metric", {{"x", x}}, matrix.reshaped());
+}
+
+MatrixXd value_at(const Function& metric, const VectorXd& x, Index size) {
+  return metric({x}).reshaped(size, size);
+}
+
+MatrixXd rows_of(const MatrixXd& matrix, const std::vector<Index>& rows) {
+  return matrix(rows, Eigen::all);
+}
+
+// How much two subspaces of the same dimension, one of vectors and one of covectors, see of each
+// other: 0 if some vector is annihilated, 1 if they are the same. Columns span them.
+double least_pairing(const MatrixXd& vectors, const MatrixXd& covectors) {
+  const Index d = covectors.cols();
+  const auto orthonormal = [d](const MatrixXd& A, double least) -> MatrixXd {
+    const auto qr = QrDecomposition::pivoted(A.colwise().normalized());
+    const VectorXd pivots = qr.diagonal().cwiseAbs();
+    if (pivots.size() < d || !(pivots[d - 1] > least)) return MatrixXd();
+    return qr.Q(d);
+  };
+  // Covectors are known to be independent, however small some of them look in their units.
+  const MatrixXd V = orthonormal(vectors, kTransversality), C = orthonormal(covectors, 1e-13);
+  if (V.size() == 0 || C.size() == 0) return 0.0;
+  return singular_values(C.transpose() * V).minCoeff();
+}
+
+const CotangentBundle& checked(const std::shared_ptr<const CotangentBundle>& phase_space) {
+  if (!phase_space)
+    throw std::invalid_argument("MomentumProjector::MomentumProjector: phase_space is null.");
+  return *phase_space;
+}
 
 }  // namespace
 
+Projector::Projector(std::string name, VectorXd units)
+    : name_(std::move(name)), units_(std::move(units)) {
+  for (const double unit : units_)
+    if (!(unit > 0.0) || !std::isfinite(unit)) {
+      std::ostringstream message;
+      message << "Projector(" << name_ << ")::Projector: a unit is " << unit
+              << "; expected positive numbers.";
+      throw std::invalid_argument(message.str());
+    }
+}
+
 MatrixXd Projector::directions(const VectorXd& x, const MatrixXd& basis,
                                const MatrixXd& conormals) const {
-  if (conormals.cols() == 0) return conormals;
+  const Index d = conormals.cols();
+  if (d == 0) return conormals;
   const MatrixXd W = do_directions(x, basis, conormals);
   if (W.rows() != conormals.rows())
     throw std::invalid_argument(
         "Projector(" + name_ + ")::do_directions: the result has " + std::to_string(W.rows()) +
         " rows, expected dim M = " + std::to_string(conormals.rows()) + ".");
-  const CompleteOrthogonalDecomposition decomposition(W, kDataError);
-  const MatrixXd orthonormal = decomposition.Q().leftCols(conormals.cols());
-  const double sine = decomposition.rank() < conormals.cols()
-                          ? 0.0
-                          : singular_values(conormals.transpose() * orthonormal).minCoeff();
-  if (!(sine > kTransversality))
-    throw std::domain_error(
-        "Projector(" + name_ + ")::directions: the directions meet T_xM_f, sine of the angle " +
-        std::to_string(sine) + "; expected a complement of it. Use the orthogonal projector.");
-  return orthonormal;
+  // Pairings of vectors with covectors do not depend on units, but lengths do: both are looked at
+  // as numbers of the order of 1. Of B with n < Ñ the coordinates have the units of its entries.
+  double sine;
+  if (units_.size() == 0) {
+    sine = least_pairing(W, conormals);
+  } else {
+    const VectorXd size =
+        (basis.cwiseAbs2().transpose() * units_.cwiseAbs2()).cwiseSqrt();  // of coordinates
+    sine = least_pairing(size.cwiseInverse().asDiagonal() * W, size.asDiagonal() * conormals);
+  }
+  if (!(sine > kTransversality)) {
+    std::ostringstream message;
+    message << "Projector(" << name_
+            << ")::directions: the directions meet T_xM_f, sine of the angle " << sine
+            << "; expected a complement of it. Use the orthogonal projector.";
+    throw std::domain_error(message.str());
+  }
+  return QrDecomposition::pivoted(W.colwise().normalized()).Q(d);
 }
 
-MatrixXd OrthogonalProjector::do_directions(const VectorXd&, const MatrixXd&,
+OrthogonalProjector::OrthogonalProjector(const Manifold& manifold, const MatrixFormula& metric)
+    : Projector("orthogonal"),
+      metric_(compiled("OrthogonalProjector::OrthogonalProjector", manifold, metric,
+                       manifold.tangent_dimension())) {}
+
+MatrixXd OrthogonalProjector::do_directions(const VectorXd& x, const MatrixXd& basis,
                                             const MatrixXd& conormals) const {
-  return conormals;
+  if (is_orthogonal()) return conormals;
+  const Index size = basis.rows();
+  if (metric_.output_size() > 0) {
+    const MatrixXd G = basis.transpose() * value_at(metric_, x, size) * basis;
+    return LuDecomposition(G).solve(conormals);
+  }
+  if (basis.isIdentity(0.0)) return units().cwiseAbs2().asDiagonal() * conormals;
+  const MatrixXd G = basis.transpose() * units().cwiseAbs2().cwiseInverse().asDiagonal() * basis;
+  return LuDecomposition(G).solve(conormals);
 }
 
-MomentumProjector::MomentumProjector(std::shared_ptr<const CotangentBundle> phase_space,
-                                     Metric metric)
-    : Projector("momentum"), phase_space_(std::move(phase_space)), metric_(std::move(metric)) {
-  if (!phase_space_)
-    throw std::invalid_argument("MomentumProjector::MomentumProjector: phase_space is null.");
+MomentumProjector::MomentumProjector(const std::shared_ptr<const CotangentBundle>& phase_space,
+                                     const MatrixFormula& metric, VectorXd units)
+    : MomentumProjector(checked(phase_space), momenta_of(checked(phase_space)), metric,
+                        std::move(units)) {
+  momentum_dimension_ = phase_space->base()->dimension();
+}
+
+MomentumProjector::MomentumProjector(const Manifold& manifold, std::vector<Index> momenta,
+                                     const MatrixFormula& metric, VectorXd units)
+    : Projector("momentum", std::move(units)),
+      momenta_(std::move(momenta)),
+      momentum_dimension_(static_cast<Index>(momenta_.size())),
+      metric_(compiled("MomentumProjector::MomentumProjector", manifold, metric,
+                       static_cast<Index>(momenta_.size()))) {
+  for (const Index i : momenta_)
+    if (i < 0 || i >= manifold.tangent_dimension())
+      throw std::invalid_argument("MomentumProjector::MomentumProjector: a momentum is entry " +
+                                  std::to_string(i) + " of tangent vectors; expected 0 to " +
+                                  std::to_string(manifold.tangent_dimension() - 1) + ".");
+}
+
+std::vector<Index> MomentumProjector::momenta_of(const CotangentBundle& phase_space) {
+  const Index n = phase_space.base()->tangent_dimension();
+  std::vector<Index> result;
+  for (Index i = 0; i < n; ++i) result.push_back(n + i);
+  return result;
+}
+
+Projector::MatrixFormula MomentumProjector::kinetic_metric(
+    const std::shared_ptr<const ImplicitSystem>& system, const std::vector<Index>& momenta,
+    const VectorXd& x) {
+  // ∂²H/∂p² along the frame, with 1 across M, where there is nothing to be moved.
+  const auto inverse_metric = [system, momenta](const ExprVector& at) -> ExprMatrix {
+    const Manifold& M = *system->manifold();
+    Graph graph;
+    const ExprVector y = graph.variables("x", at.size());
+    const ExprVector z = graph.variables("z", system->auxiliary_size());
+    const Expr t = graph.variable("t");
+    const auto energy = system->energy(y, z, t);
+    if (!energy) return {};
+    const ExprMatrix E = M.frame(y);
+    const auto k = static_cast<Index>(momenta.size());
+    const ExprVector slope = E.transpose() * gradient(*energy, y);
+    ExprVector selected(k);
+    for (Index i = 0; i < k; ++i) selected[i] = slope[momenta[static_cast<std::size_t>(i)]];
+    const ExprMatrix along = jacobian(selected, y).dense() * E;
+    const ExprMatrix projector = M.tangent_projector(y);
+    ExprMatrix result(k, k);
+    for (Index i = 0; i < k; ++i)
+      for (Index j = 0; j < k; ++j) {
+        const Index row = momenta[static_cast<std::size_t>(i)],
+                    column = momenta[static_cast<std::size_t>(j)];
+        result(i, j) = along(i, column) + Expr(i == j ? 1.0 : 0.0) - projector(row, column);
+      }
+    ExprVector other(z.size() + 1);
+    other << z, t;
+    const ExprVector entries = result.reshaped();
+    if (jacobian(entries, other).values.size() > 0) return {};
+    const ExprVector moved = substitute(entries, y, at);
+    return moved.reshaped(k, k);
+  };
+  const auto metric = [inverse_metric](const ExprVector& at) -> ExprMatrix {
+    const ExprMatrix inverse = inverse_metric(at);
+    return solve(inverse, ExprMatrix::Identity(inverse.rows(), inverse.cols()));
+  };
+  const auto k = static_cast<Index>(momenta.size());
+  const ExprMatrix inverse = inverse_metric(constants(x));
+  if (k == 0 || inverse.rows() != k) return {};
+  try {
+    const MatrixXd g = values(metric(constants(x))), G = values(inverse);
+    if (!g.allFinite() || !G.allFinite()) return {};
+    if (!((G * g - MatrixXd::Identity(k, k)).norm() < 1e-8)) return {};
+  } catch (const std::domain_error&) {
+    return {};
+  }
+  return metric;
 }
 
 MatrixXd MomentumProjector::do_directions(const VectorXd& x, const MatrixXd& basis,
                                           const MatrixXd& conormals) const {
-  const Index n = phase_space_->base()->tangent_dimension();
-  const MatrixXd momentum_part = basis.bottomRows(n) * conormals;  // β: vectors at q
-  MatrixXd covectors = momentum_part;
-  if (metric_) covectors = values(metric_(constants(phase_space_->position(x)))) * momentum_part;
-  return basis.bottomRows(n).transpose() * covectors;
+  const MatrixXd momentum_basis = rows_of(basis, momenta_);
+  MatrixXd covectors = momentum_basis * conormals;  // β: vectors at q
+  if (metric_.output_size() > 0)
+    covectors = value_at(metric_, x, covectors.rows()) * covectors;
+  else if (units().size() > 0)
+    covectors = units()(momenta_).cwiseAbs2().asDiagonal() * covectors;
+  return momentum_basis.transpose() * covectors;
 }
 
 }  // namespace courant

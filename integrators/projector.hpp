@@ -4,8 +4,11 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "courant/core/function.hpp"
 #include "courant/manifolds/cotangent_bundle.hpp"
+#include "courant/structures/implicit_system.hpp"
 
 namespace courant {
 
@@ -15,9 +18,19 @@ namespace courant {
 //   P(R_x(B W(x) μ)) = x   for x ∈ M_f and small μ ∈ R^d,   d = dim M - dim M_f
 //
 // The columns of W(x) (n × d, in coordinates with respect to a basis B of T_xM) span a complement
-// of T_xM_f. Immutable. To subclass: override do_directions.
+// of T_xM_f.
+//
+// Laws, measured by check_projector at points x of M_f:
+//   J1  W(x) has d orthonormal columns, a complement of T_xM_f
+//   J2  the span of W(x) does not depend on the bases of T_xM and of the conormals
+//   J3  the claims is_orthogonal() and has_constant_directions() hold
+//
+// Immutable. To subclass: override do_directions.
 class Projector {
  public:
+  // A matrix of formulas of the point.
+  using MatrixFormula = std::function<ExprMatrix(const ExprVector& x)>;
+
   virtual ~Projector() = default;
 
   const std::string& name() const { return name_; }
@@ -30,51 +43,76 @@ class Projector {
 
   // An orthonormal W(x). x: N; basis: Ñ × n, orthonormal; conormals: n × d, an orthonormal basis of
   // the annihilator of T_xM_f in the coordinates of that basis. Throws std::domain_error if the
-  // directions are no complement of T_xM_f.
+  // directions are no complement of T_xM_f, as seen in the units.
   MatrixXd directions(const VectorXd& x, const MatrixXd& basis, const MatrixXd& conormals) const;
 
  protected:
-  explicit Projector(std::string name) : name_(std::move(name)) {}
+  // `units`: typical sizes of the Ñ numbers of a tangent vector, all positive, or empty for 1.
+  // Throws std::invalid_argument where one is not.
+  explicit Projector(std::string name, VectorXd units = {});
+  const VectorXd& units() const { return units_; }
 
  private:
   virtual MatrixXd do_directions(const VectorXd& x, const MatrixXd& basis,
                                  const MatrixXd& conormals) const = 0;
 
   std::string name_;
+  VectorXd units_;
 };
 
-// The nearest point, in the Euclidean metric of the tangent representation: W is normal to T_xM_f.
-// Moves onto any M_f; the default.
+// The nearest point in a metric G on T_xM, in the tangent representation (Ñ × Ñ): W is G-orthogonal
+// to T_xM_f, BᵀGB W = C for conormals C. Moves onto any M_f; the default.
+//
+// G is the Euclidean one; or diag(1/u²) for units u, where a point counts as near if it is so next
+// to what is typical of each coordinate, and nothing depends on units of measurement; or given.
 class OrthogonalProjector final : public Projector {
  public:
-  OrthogonalProjector() : Projector("orthogonal") {}
-  bool is_orthogonal() const override { return true; }
+  OrthogonalProjector() : OrthogonalProjector(VectorXd()) {}
+  explicit OrthogonalProjector(VectorXd units) : Projector("orthogonal", std::move(units)) {}
+  // G by formulas; symmetric and positive definite on T_xM.
+  OrthogonalProjector(const Manifold& manifold, const MatrixFormula& metric);
+  bool is_orthogonal() const override { return metric_.output_size() == 0 && units().size() == 0; }
 
  private:
   MatrixXd do_directions(const VectorXd& x, const MatrixXd& basis,
                          const MatrixXd& conormals) const override;
+
+  Function metric_;  // x ↦ G, or empty
 };
 
-// On T*Q: q stays, p moves as little as possible in the metric g^{ij} (Section 8.2; for M_f = Im α,
-// Section 6.2, it is p ↦ α(q)). W = {(0, g β) : β ∈ the momentum parts of the conormals}: for
-// μ_i^a(q) g^{ij} p_j = 0 it is the span of the μ^a. Position constraints can't be met by moving p:
-// std::domain_error.
+// For points (q, p): q stays, p moves as little as possible in the metric g^{ij} (Section 8.2; for
+// M_f = Im α, Section 6.2, it is p ↦ α(q)). W = {(0, g β) : β ∈ the momentum parts of the
+// conormals}: for μ_i^a(q) g^{ij} p_j = 0 it is the span of the μ^a. Position constraints can't be
+// met by moving p: std::domain_error.
 class MomentumProjector final : public Projector {
  public:
-  using Metric = std::function<ExprMatrix(const ExprVector& q)>;  // g_{ij}(q), Ñ_Q × Ñ_Q
-  explicit MomentumProjector(std::shared_ptr<const CotangentBundle> phase_space,
-                             Metric metric = {});
+  // `metric`: g_{ij} (Ñ_Q × Ñ_Q); without one diag(u²) of the momenta's units u.
+  explicit MomentumProjector(const std::shared_ptr<const CotangentBundle>& phase_space,
+                             const MatrixFormula& metric = {}, VectorXd units = {});
+  // Any manifold: `momenta` are the entries of a tangent vector that may move, `metric` is k × k
+  // for k of them. Throws std::invalid_argument if an index is out of range.
+  MomentumProjector(const Manifold& manifold, std::vector<Index> momenta,
+                    const MatrixFormula& metric = {}, VectorXd units = {});
+
+  // Half of the tangent representation: the momenta of a cotangent bundle.
+  static std::vector<Index> momenta_of(const CotangentBundle& phase_space);
+  // g_{ij} = (∂²H/∂p²)⁻¹ of the kinetic energy, where `system` has an energy H whose second
+  // derivatives by these momenta are regular at x and depend on the point alone; empty otherwise.
+  static MatrixFormula kinetic_metric(const std::shared_ptr<const ImplicitSystem>& system,
+                                      const std::vector<Index>& momenta, const VectorXd& x);
+
   // All of T*_qQ if every momentum is determined by q.
   bool has_constant_directions(Index codimension) const override {
-    return codimension == phase_space_->base()->dimension();
+    return codimension == momentum_dimension_;
   }
 
  private:
   MatrixXd do_directions(const VectorXd& x, const MatrixXd& basis,
                          const MatrixXd& conormals) const override;
 
-  std::shared_ptr<const CotangentBundle> phase_space_;
-  Metric metric_;
+  std::vector<Index> momenta_;
+  Index momentum_dimension_;
+  Function metric_;  // x ↦ g, or empty
 };
 
 }  // namespace courant

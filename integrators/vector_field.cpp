@@ -1,5 +1,6 @@
 #include "courant/integrators/vector_field.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -22,10 +23,11 @@ std::string whereabouts(const Manifold& M, const VectorXd& x) {
 }  // namespace
 
 VectorField::VectorField(std::shared_ptr<const ImplicitSystem> system,
-                         const ConstraintLadder& ladder, Backend backend)
+                         const ConstraintLadder& ladder, Backend backend, Freedom freedom)
     : system_(std::move(system)) {
   if (!system_) throw std::invalid_argument("VectorField::VectorField: system is null.");
-  if (ladder.verdict != Verdict::regular)
+  if (ladder.verdict != Verdict::regular &&
+      !(freedom == Freedom::gauge && ladder.verdict == Verdict::gauge))
     throw std::invalid_argument(
         "VectorField::VectorField: the ladder's verdict is " + to_string(ladder.verdict) +
         "; expected regular: S_f is not the graph of a vector field. " + ladder.reason);
@@ -54,8 +56,8 @@ VectorField::VectorField(std::shared_ptr<const ImplicitSystem> system,
   const MatrixXd B = M.tangent_basis(ladder.point.x);
   start_ = VectorXd::Zero(y.size());
   start_.head(n) = B.transpose() * ladder.point.v;
-  start_.segment(static_cast<Index>(local.xi.size() - 1) * n, system_->auxiliary_size()) =
-      ladder.point.z;
+  z_offset_ = static_cast<Index>(local.xi.size() - 1) * n;
+  start_.segment(z_offset_, system_->auxiliary_size()) = ladder.point.z;
 
   const ExprVector all = at_origin(local.equations);
   const Function full("vector field", inputs, all, {.differentiate = {"y"}});
@@ -76,8 +78,18 @@ VectorField::VectorField(std::shared_ptr<const ImplicitSystem> system,
   const CompleteOrthogonalDecomposition rows((scale.asDiagonal() * J).transpose(), data_error);
   ExprVector kept(rows.rank());
   for (Index i = 0; i < kept.size(); ++i) kept[i] = all[rows.order()[static_cast<std::size_t>(i)]];
+  std::vector<Index> others(rows.order().begin() + rows.rank(), rows.order().end());
+  std::sort(others.begin(), others.end());
+  std::vector<Expr> left_out;
+  for (const Index row : others)
+    if (::courant::jacobian(ExprVector(all.segment(row, 1)), y).values.size() > 0)
+      left_out.push_back(all[row]);
 
   equations_ = Function("vector field", inputs, kept, {.differentiate = {"y"}, .backend = backend});
+  left_out_ =
+      Function("left out", inputs,
+               Eigen::Map<const ExprVector>(left_out.data(), static_cast<Index>(left_out.size())),
+               {.backend = backend});
   const ExprVector v = at_origin(local.v);
   ExprVector rate(x.size() + v.size() + local.z[0].size());
   rate << M.frame(x) * v, v, local.z[0];
@@ -91,14 +103,33 @@ VectorField::Evaluation::Evaluation(const VectorField& field)
       y_(field.start_),
       out_(field.rate_.output_size()),
       v_(VectorXd::Zero(field.system_->manifold()->tangent_dimension())),
-      z_(VectorXd::Zero(field.system_->auxiliary_size())) {}
+      z_(VectorXd::Zero(field.system_->auxiliary_size())),
+      left_out_(VectorXd::Zero(field.left_out_count())) {}
 
-void VectorField::Evaluation::operator()(const VectorXd& x, VectorXd& rate, double t) {
-  const Manifold& M = *field_.system_->manifold();
+void VectorField::Evaluation::move_to(const VectorXd& x) {
   if (basis_)
     basis_->move_to(x);
   else
-    basis_.emplace(M, field_.basis_, x);
+    basis_.emplace(*field_.system_->manifold(), field_.basis_, x);
+}
+
+void VectorField::Evaluation::operator()(const VectorXd& x, VectorXd& rate, double t) {
+  move_to(x);
+  solve(x, rate, t);
+}
+
+void VectorField::Evaluation::operator()(const State& state, VectorXd& rate) {
+  move_to(state.x);
+  newton_.reset();
+  y_ = field_.start_;
+  const MatrixXd& B = basis_->matrix();
+  if (state.v.size() == B.rows()) y_.head(B.cols()) = B.transpose() * state.v;
+  if (state.z.size() == z_.size()) y_.segment(field_.z_offset_, z_.size()) = state.z;
+  solve(state.x, rate, state.t);
+}
+
+void VectorField::Evaluation::solve(const VectorXd& x, VectorXd& rate, double t) {
+  const Manifold& M = *field_.system_->manifold();
   const double* in[] = {y_.data(), x.data(), basis_->data(), &t};
   const double scale = largest(y_);
   auto result = newton_.solve(y_.data(), in, &scale);
@@ -111,6 +142,7 @@ void VectorField::Evaluation::operator()(const VectorXd& x, VectorXd& rate, doub
     throw std::domain_error("VectorField::operator(): no velocity found at t = " +
                             std::to_string(t) + "; the state " + whereabouts(M, x) + ".");
   field_.rate_.value(in, out_.data());
+  field_.left_out_.value(in, left_out_.data());
   rate = out_.head(x.size());
   v_ = out_.segment(x.size(), v_.size());
   z_ = out_.tail(z_.size());

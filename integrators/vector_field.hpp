@@ -16,15 +16,21 @@ namespace courant {
 //
 // Off M_f, where the stages of a Runge–Kutta method fall, it is an extension of the field: as many
 // independent equations for (v, z, jets) as there are such unknowns are kept, chosen at the
-// ladder's point; those that hold x alone, the constraints, are not used.
+// ladder's point; those that hold x alone, the constraints, are not used. What they leave is the
+// violation of the constraints at x.
 class VectorField {
  public:
-  // Throws std::invalid_argument unless the ladder is regular.
+  // Which ladders there is a field for: with gauge freedom it is one of many, that nearest to the
+  // last velocity that was evaluated.
+  enum class Freedom { none, gauge };
+  // Throws std::invalid_argument unless the ladder is regular, or gauge where that is allowed.
   VectorField(std::shared_ptr<const ImplicitSystem> system, const ConstraintLadder& ladder,
-              Backend backend);
+              Backend backend, Freedom freedom = Freedom::none);
 
   const ImplicitSystem& system() const { return *system_; }
   bool is_native() const { return equations_.is_native(); }
+  // How many equations are left out, of those that contain v, z or jets.
+  Index left_out_count() const { return left_out_.output_size(); }
 
   // Evaluates along a trajectory, each time starting from the last values; not shared between
   // threads.
@@ -34,21 +40,32 @@ class VectorField {
     explicit Evaluation(const VectorField& field);
     // ẋ = E(x) v, size N. Throws std::domain_error if (v, z, jets) are not found.
     void operator()(const VectorXd& x, VectorXd& rate, double t);
+    // The same at a state, starting from its v and z: with gauge freedom, or where there are
+    // several branches, the velocity near those.
+    void operator()(const State& state, VectorXd& rate);
     const VectorXd& v() const { return v_; }
     const VectorXd& z() const { return z_; }
+    // What the equations that are left out are at the x of the last evaluation: with constraints
+    // that the equations hold only through v, z and jets, their violation; 0 on M_f.
+    const VectorXd& left_out() const { return left_out_; }
 
    private:
+    void move_to(const VectorXd& x);
+    void solve(const VectorXd& x, VectorXd& rate, double t);
+
     const VectorField& field_;
     Newton newton_;
-    VectorXd y_, out_, v_, z_;
+    VectorXd y_, out_, v_, z_, left_out_;
     std::optional<MovingBasis> basis_;  // from the first point on
   };
 
  private:
   std::shared_ptr<const ImplicitSystem> system_;
   VectorXd start_;      // (ξ', …, z, …) at the ladder's point
+  Index z_offset_;      // of z in it
   Function equations_;  // y = (ξ', …, z, …); x, basis, t ↦ the equations kept
   Function rate_;       // the same ↦ ẋ, v, z
+  Function left_out_;   // the same ↦ the equations of y that are not kept
   Function basis_;      // of MovingBasis
 };
 

@@ -117,26 +117,6 @@ std::optional<DiscretizationChoice> projected(ObjectReader& object) {
                 });
 }
 
-std::optional<ProjectorChoice> orthogonal(ObjectReader&) {
-  return ProjectorChoice{"orthogonal projector", [](const ManifoldPointer&) {
-                           return std::make_shared<OrthogonalProjector>();
-                         }};
-}
-
-std::optional<ProjectorChoice> momentum(ObjectReader&) {
-  return ProjectorChoice{"momentum projector",
-                         [](const ManifoldPointer& manifold) -> std::shared_ptr<const Projector> {
-                           const auto bundle =
-                               std::dynamic_pointer_cast<const CotangentBundle>(manifold);
-                           if (!bundle)
-                             throw std::invalid_argument(
-                                 "the momentum projector is for cotangent bundles, but the "
-                                 "system is on " +
-                                 manifold->name() + "; expected \"orthogonal\"");
-                           return std::make_shared<MomentumProjector>(bundle);
-                         }};
-}
-
 std::shared_ptr<const Integrator> explicit_method(const MethodSetting& at,
                                                   ExplicitRungeKutta::Kind kind) {
   return std::make_shared<ExplicitRungeKutta>(
@@ -177,16 +157,16 @@ std::optional<MethodChoice> constrain_first(ObjectReader& object) {
   const auto map = discretization_kinds().read_key(object, "discretization");
   const auto projector = projector_kinds().read_key(object, "projector");
   if (!map || !projector) return std::nullopt;
-  return MethodChoice{"constrain-first, " + map->description + ", " + projector->description,
-                      [map = *map, projector = *projector](const MethodSetting& at) {
-                        const auto& manifold = at.system->manifold();
-                        const auto on_manifold = map.make(manifold);
-                        return PreparedMethod{
-                            std::make_shared<ConstrainFirst>(
-                                at.system, at.ladder, on_manifold, projector.make(manifold),
-                                ConstrainFirst::Options{.backend = at.backend}),
-                            at.initial, on_manifold};
-                      }};
+  return MethodChoice{
+      "constrain-first, " + map->description + ", " + projector->description,
+      [map = *map, projector = *projector](const MethodSetting& at) {
+        const auto& manifold = at.system->manifold();
+        const auto on_manifold = map.make(manifold);
+        return PreparedMethod{
+            std::make_shared<ConstrainFirst>(at.system, at.ladder, on_manifold, projector.make(at),
+                                             ConstrainFirst::Options{.backend = at.backend}),
+            at.initial, on_manifold};
+      }};
 }
 
 template <ExplicitRungeKutta::Kind kind>
@@ -215,14 +195,6 @@ Registry<DiscretizationChoice>& discretization_kinds() {
         "R_d(x, v) = (R_x(-θv), R_x((1-θ)v))",
         {default_key("theta", takes::number(0, 1), 0.5, "θ: 0.5 is symmetric and of order 2")}},
        theta_map},
-  });
-  return kinds;
-}
-
-Registry<ProjectorChoice>& projector_kinds() {
-  static Registry<ProjectorChoice> kinds({
-      {{"orthogonal", "to the nearest point of M_f"}, orthogonal},
-      {{"momentum", "on T*Q: q stays, p moves as little as possible"}, momentum},
   });
   return kinds;
 }

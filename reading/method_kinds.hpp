@@ -11,6 +11,7 @@
 #include "courant/integrators/maps/discretization_map.hpp"
 #include "courant/integrators/projector.hpp"
 #include "courant/reading/registry.hpp"
+#include "courant/reading/vocabulary.hpp"
 #include "courant/structures/implicit_system.hpp"
 
 namespace courant {
@@ -22,6 +23,7 @@ struct MethodSetting {
   State initial;
   double step = 0.0;
   Backend backend = Backend::automatic;
+  const Vocabulary* vocabulary = nullptr;  // the names for formulas of the method, if it has any
 };
 
 // The method, the initial state moved to where it wants to start, and the discretization map, of
@@ -47,10 +49,10 @@ struct DiscretizationChoice {
 };
 
 // The choice of a projector; `make` throws std::invalid_argument where it does not fit the
-// manifold.
+// manifold, ExperimentError where its formulas or names do not fit the system.
 struct ProjectorChoice {
   std::string description;
-  std::function<std::shared_ptr<const Projector>(std::shared_ptr<const Manifold>)> make;
+  std::function<std::shared_ptr<const Projector>(const MethodSetting&)> make;
 };
 
 Registry<MethodChoice>& method_kinds();

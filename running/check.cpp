@@ -3,15 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <sstream>
 
 #include "courant/core/derivative.hpp"
+#include "courant/integrators/integrator_laws.hpp"
+#include "courant/integrators/ladder/ladder_laws.hpp"
 #include "courant/integrators/maps/laws.hpp"
 #include "courant/integrators/vector_field.hpp"
 #include "courant/manifolds/measurement.hpp"
 #include "courant/running/consistent_start.hpp"
 #include "courant/structures/closed_port_hamiltonian.hpp"
-#include "courant/structures/dirac_interconnection.hpp"
 #include "courant/structures/dirac_system.hpp"
 #include "courant/structures/integrability.hpp"
 #include "courant/structures/laws.hpp"
@@ -73,6 +75,8 @@ class Check {
       add_laws(checks, "structure", proposition_7_1(*structure));
       structures.push_back(describe(name, *structure));
     }
+    add_laws(checks, "family", family_laws());
+    add_laws(checks, "ladder", check_ladder(ladder_, manifold_.dimension()));
     const Json method = check_method(checks);
     const bool passed = std::ranges::all_of(
         checks, [](const Json& check) { return check.at("passed").get<bool>(); });
@@ -114,6 +118,15 @@ class Check {
     const auto& names = system_.names().coordinates;
     for (Index i = 0; i < x.size(); ++i) json[names[static_cast<std::size_t>(i)]] = x[i];
     return json;
+  }
+
+  // Of the submanifold 𝓛, at the consistent initial point.
+  std::vector<LawResult> family_laws() const {
+    const auto* system = dynamic_cast<const DiracSystem*>(&system_);
+    const State& point = ladder_.point;
+    if (!system || ladder_.verdict == Verdict::inconsistent || !point.z.allFinite()) return {};
+    const FamilyPoint at{point.x, point.z.head(system->family()->parameter_size()), point.t};
+    return check_generating_family(*system->family(), std::span(&at, 1));
   }
 
   // Of port-Hamiltonian structures.
@@ -196,7 +209,8 @@ class Check {
                                             .ladder = ladder_,
                                             .initial = ladder_.point,
                                             .step = experiment_.time->step,
-                                            .backend = Backend::interpreter});
+                                            .backend = Backend::interpreter,
+                                            .vocabulary = &experiment_.model.vocabulary});
     } catch (const std::invalid_argument& error) {
       throw ExperimentError("/method", error.what());
     }
@@ -206,161 +220,41 @@ class Check {
                lift ? check_cotangent_lift(*lift) : check_discretization_map(*method->map));
     }
     const Integrator& integrator = *method->integrator;
-    initial_ = method->initial;
-    step_ = experiment_.time->step;
-    const auto attempt = [](const auto& measure) -> std::optional<decltype(measure())> {
-      try {
-        return measure();
-      } catch (const std::exception&) {
-        return std::nullopt;
-      }
-    };
+    const auto all = structures();
+    const IntegratorSetting setting{
+        .system = experiment_.model.system,
+        .initial = method->initial,
+        .step = experiment_.time->step,
+        .conormals = ladder_.conormals(),
+        .is_gauge = ladder_.gauge_dimension > 0,
+        .structure = !all.empty() && all.front().second->is_dirac() ? all.front().second : nullptr};
+    const IntegratorReport report = check_integrator(integrator, setting);
+    states_ = report.states;
+    add_laws(checks, "method", report.laws);
     const auto json_of = [](const std::optional<double>& value) {
       return value ? number(*value) : Json();
     };
-    attempt([&] { return gather_states(integrator); });
-    const auto asymmetry = attempt([&] { return symmetry_defect(integrator); });
-    const auto order = attempt([&] { return measured_order(integrator); });
-    if (asymmetry && integrator.is_symmetric())
-      add_laws(checks, "method",
-               {{integrator.name(), "P1 Φ_{-h} ∘ Φ_h = id", *asymmetry, 1e-9, where()}});
-    const auto step = attempt([&] { return differential(integrator, step_); });
-    const auto preserved = attempt([&] { return structure_defect(step.value()); });
-    std::optional<double> bent;
-    std::optional<bool> symplectic;
-    if (const StructurePointer form = symplectic_structure()) {
-      bent = attempt([&] { return symplecticity_defect(form, step.value()); });
-      // A small step of a method of high order can look symplectic: a longer one tells.
-      if (bent && *bent > symplectic_bound)
-        symplectic = false;
-      else if (bent && integrator.is_symplectic())
-        symplectic = *integrator.is_symplectic();
-      else if (bent)
-        if (const auto longer = attempt(
-                [&] { return symplecticity_defect(form, differential(integrator, 8.0 * step_)); }))
-          symplectic = *longer <= symplectic_bound;
-      if (bent && integrator.is_symplectic().value_or(false))
-        add_laws(checks, "method",
-                 {{integrator.name(), "P2 Φ_h*ω = ω", *bent, symplectic_bound, where()}});
-    }
     return {{"name", integrator.name()},
             {"order", integrator.order()},
-            {"measured_order", json_of(order)},
+            {"measured_order", json_of(report.order)},
             {"symmetric", integrator.is_symmetric()},
-            {"symmetry_defect", json_of(asymmetry)},
-            {"symplectic", symplectic ? Json(*symplectic) : Json()},
-            {"symplecticity_defect", json_of(bent)},
-            {"structure_defect", json_of(preserved)}};
+            {"symmetry_defect", json_of(report.asymmetry)},
+            {"symplectic", is_symplectic(integrator, setting, report)},
+            {"symplecticity_defect", json_of(report.symplecticity)},
+            {"structure_defect", json_of(report.preservation)}};
   }
 
-  std::string where() const { return courant::describe("x", initial_.x); }
-
-  VectorXd stepped(const Integrator& integrator, const VectorXd& x, double h, int steps) const {
-    State start = initial_;
-    start.x = x;
-    const auto stepper = integrator.start(start, h);
-    for (int i = 0; i < steps; ++i) stepper->step();
-    return stepper->state().x;
-  }
-
-  // Points on trajectories, where invariants are looked at.
-  double gather_states(const Integrator& integrator) {
-    const auto stepper = integrator.start(initial_, step_);
-    for (int i = 0; i < 4; ++i) {
-      stepper->step();
-      states_.push_back(stepper->state().x);
-    }
-    return 0.0;
-  }
-
-  double scale() const { return std::max(initial_.x.norm(), 1e-300); }
-
-  double symmetry_defect(const Integrator& integrator) const {
-    const auto there = integrator.start(initial_, step_);
-    there->step();
-    State state = there->state();
-    const auto back = integrator.start(state, -step_);
-    back->step();
-    return manifold_.separation(back->state().x, initial_.x) / scale();
-  }
-
-  // Slope of |x(h; 2^k steps) - x(h; 2^{k+1} steps)|: nothing where the steps are exact.
-  double measured_order(const Integrator& integrator) const {
-    std::vector<double> steps, errors;
-    VectorXd coarse = stepped(integrator, initial_.x, step_ / 2.0, 2);
-    for (int count = 4; count <= 64; count *= 2) {
-      const VectorXd fine = stepped(integrator, initial_.x, step_ / count, count);
-      steps.push_back(1.0 / count);
-      errors.push_back((fine - coarse).norm() / scale());
-      coarse = fine;
-    }
-    return log_log_slope(steps, errors, 1e-13);
-  }
-
-  // The structure, where it is the graph of a symplectic form at the initial point.
-  StructurePointer symplectic_structure() const {
-    const auto all = structures();
-    const Index n = manifold_.dimension();
-    if (all.empty() || n == 0) return nullptr;
-    const PairedSubspace D = all.front().second->fibre(initial_.x);
-    if (!D.is_dirac()) return nullptr;
-    const bool symplectic = D.vector_range().cols() == n && D.covector_range().cols() == n;
-    return symplectic ? all.front().second : nullptr;
-  }
-
-  // ω_D at x as a matrix in the basis of T_xM.
-  static MatrixXd form_at(const DiracStructure& structure, const VectorXd& x) {
-    const auto [F, omega] = structure.linear(x).form();
-    return F * omega * F.transpose();
-  }
-
-  // One step from the initial point, y = Φ_h(x), with TΦ_h on T M_f: the columns of `image` are the
-  // images of those of `tangent`, in the bases of T_xM and T_yM.
-  struct Differential {
-    VectorXd y;
-    MatrixXd tangent, image;
-  };
-  Differential differential(const Integrator& integrator, double h) const {
-    const VectorXd& x = initial_.x;
-    const MatrixXd basis = manifold_.tangent_basis(x);
-    Differential result;
-    result.tangent = kernel(ladder_.conormals() * basis, {.data_error = 1e-9});
-    result.y = stepped(integrator, x, h, 1);
-    const MatrixXd back =
-        manifold_.tangent_basis(result.y).transpose() * manifold_.coframe(result.y);
-    const double epsilon = 1e-3 * scale();
-    result.image.resize(basis.cols(), result.tangent.cols());
-    for (Index k = 0; k < result.tangent.cols(); ++k) {
-      const VectorXd direction = basis * result.tangent.col(k);
-      const auto at = [&](double s) {
-        return stepped(integrator, manifold_.retract(x, (s * epsilon * direction).eval()), h, 1);
-      };
-      const VectorXd velocity =
-          (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * epsilon);
-      result.image.col(k) = back * velocity;
-    }
-    return result;
-  }
-
-  // |Φ_h*ω - ω| next to |ω|, on T M_f at the initial point.
-  double symplecticity_defect(const StructurePointer& structure, const Differential& step) const {
-    const auto& [y, tangent, image] = step;
-    const MatrixXd before = tangent.transpose() * form_at(*structure, initial_.x) * tangent;
-    const MatrixXd after = image.transpose() * form_at(*structure, y) * image;
-    if (before.size() == 0 || before.norm() == 0.0)
-      throw std::domain_error("the form vanishes on the constraint set");
-    return (after - before).norm() / before.norm();
-  }
-
-  // The distance of (Φ_h)_! D_x, the forward image, from D_y: 0 where the step preserves D. Only
-  // where there are no constraints.
-  double structure_defect(const Differential& step) const {
-    const auto all = structures();
-    if (all.empty() || ladder_.degrees_of_freedom != manifold_.dimension())
-      throw std::domain_error("no structure, or constraints");
-    const auto& [y, tangent, image] = step;
-    const DiracStructure& D = *all.front().second;
-    return distance(forward_image(image * tangent.transpose(), D.linear(initial_.x)), D.linear(y));
+  // Whether steps are symplectic, as claimed or as measured; null where there is no form.
+  static Json is_symplectic(const Integrator& integrator, const IntegratorSetting& setting,
+                            const IntegratorReport& report) {
+    if (!report.symplecticity) return Json();
+    if (*report.symplecticity > symplectic_bound) return false;
+    if (integrator.is_symplectic()) return *integrator.is_symplectic();
+    // A small step of a method of high order can look symplectic: a longer one tells.
+    IntegratorSetting longer = setting;
+    longer.step *= 8.0;
+    const auto defect = check_integrator(integrator, longer).symplecticity;
+    return defect ? Json(*defect <= symplectic_bound) : Json();
   }
 
   // d/dt of the energy and of the observables of x alone, along S_f, at the points of M_f that the
@@ -427,8 +321,6 @@ class Check {
   ConstraintLadder ladder_;
   std::vector<VectorXd> points_;
   std::vector<VectorXd> states_ = {};
-  State initial_ = {};
-  double step_ = 0.0;
 };
 
 }  // namespace

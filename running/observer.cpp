@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "courant/core/derivative.hpp"
+#include "courant/core/rank_decision.hpp"
 
 namespace courant {
 namespace {
@@ -44,23 +45,48 @@ bool depends(const ExprVector& y, const ExprVector& variables) {
 }
 
 // The equations that contain nothing but x and t, each with the derivatives that vanish on M_f too.
-std::vector<Expr> constraints(const ImplicitSystem& system,
-                              const std::vector<int>& differentiations, const Arguments& at) {
+struct Constraints {
+  std::vector<Expr> zeros;
+  std::vector<Expr> equations;  // those of zeros that are no derivatives
+};
+Constraints constraints(const ImplicitSystem& system, const std::vector<int>& differentiations,
+                        const Arguments& at) {
   ExprVector vz(at.v.size() + at.z.size()), xt(at.x.size() + 1), rate(at.x.size() + 1);
   vz << at.v, at.z;
   xt << at.x, at.t;
   rate << system.manifold()->frame(at.x) * at.v, Expr(1.0);
-  std::vector<Expr> found;
+  Constraints found;
   const ExprVector equations = system.residual(at.x, at.v, at.z, at.t);
   for (Index i = 0; i < equations.size(); ++i) {
     const ExprVector equation = equations.segment(i, 1);
     if (equation[0].is_constant() || depends(equation, vz)) continue;
-    found.push_back(equation[0]);
+    found.zeros.push_back(equation[0]);
+    found.equations.push_back(equation[0]);
     const auto index = static_cast<std::size_t>(i);
     if (index < differentiations.size() && differentiations[index] > 1)
-      found.push_back(tangent(equation, xt, rate)[0]);
+      found.zeros.push_back(tangent(equation, xt, rate)[0]);
   }
   return found;
+}
+
+// Whether M_f has more constraints than these: whether its codimension is higher than the rank of
+// the equations among them, plus one for each derivative.
+bool are_some_missing(const Constraints& found, const ConstraintLadder& ladder,
+                      const Manifold& manifold, const Arguments& at) {
+  if (ladder.verdict != Verdict::regular && ladder.verdict != Verdict::gauge) return false;
+  const Index codimension = manifold.dimension() - ladder.degrees_of_freedom;
+  const auto count = static_cast<Index>(found.equations.size());
+  Index rank = static_cast<Index>(found.zeros.size()) - count;
+  if (count > 0) {
+    const ExprVector equations = Eigen::Map<const ExprVector>(found.equations.data(), count);
+    const Function function("constraints", {{"x", at.x}, {"t", ExprVector::Constant(1, at.t)}},
+                            equations, {.differentiate = {"x"}});
+    const VectorXd& x = ladder.point.x;
+    const MatrixXd gradients = function.jacobian({x, VectorXd::Constant(1, ladder.point.t)}) *
+                               manifold.frame(x) * manifold.tangent_basis(x);
+    rank += decide_rank(gradients, {.data_error = 1e-11}).rank;
+  }
+  return rank < codimension;
 }
 
 }  // namespace
@@ -84,9 +110,18 @@ Observer::Observer(const Experiment& experiment, const ConstraintLadder& ladder,
     add(observable.name, evaluate(observable.formula, symbols));
   }
   first_constraint_ = names_.size();
-  const std::vector<Expr> zeros = constraints(system, ladder.differentiations, at);
-  for (std::size_t i = 0; i < zeros.size(); ++i)
-    add("constraint[" + std::to_string(i) + "]", zeros[i]);
+  auto add_constraint = [&, count = 0](const Expr& zero) mutable {
+    add("constraint[" + std::to_string(count++) + "]", zero);
+  };
+  const Constraints found = constraints(system, ladder.differentiations, at);
+  for (const Expr& zero : found.zeros) add_constraint(zero);
+  ExprVector left_out(0);
+  if (are_some_missing(found, ladder, M, at)) {
+    field_ = std::make_unique<VectorField>(experiment.model.system, ladder, backend,
+                                           VectorField::Freedom::gauge);
+    left_out = graph.variables("left_out", field_->left_out_count());
+    for (const Expr& zero : left_out) add_constraint(zero);
+  }
   written_count_ = names_.size();
 
   const SymbolTable closed_forms = experiment.model.vocabulary.symbols({.t = at.t});
@@ -100,13 +135,18 @@ Observer::Observer(const Experiment& experiment, const ConstraintLadder& ladder,
 
   const ExprVector outputs =
       Eigen::Map<ExprVector>(quantities.data(), static_cast<Index>(quantities.size()));
-  quantities_ = Function(
-      "observe", {{"x", at.x}, {"v", at.v}, {"z", at.z}, {"t", ExprVector::Constant(1, at.t)}},
-      outputs, {.differentiate = {}, .backend = backend});
-  if (ladder.verdict == Verdict::regular && (depends(outputs, at.v) || depends(outputs, at.z))) {
+  quantities_ = Function("observe",
+                         {{"x", at.x},
+                          {"v", at.v},
+                          {"z", at.z},
+                          {"t", ExprVector::Constant(1, at.t)},
+                          {"left_out", left_out}},
+                         outputs, {.differentiate = {}, .backend = backend});
+  is_field_ =
+      ladder.verdict == Verdict::regular && (depends(outputs, at.v) || depends(outputs, at.z));
+  if (is_field_ && !field_)
     field_ = std::make_unique<VectorField>(experiment.model.system, ladder, backend);
-    evaluate_field_.emplace(*field_);
-  }
+  if (field_) evaluate_field_.emplace(*field_);
   row_.resize(static_cast<Index>(names_.size()));
 }
 
@@ -115,12 +155,19 @@ const VectorXd& Observer::row(const State& state) {
   row_.head(N) = state.x;
   const double* v = state.v.data();
   const double* z = state.z.data();
+  const double* left_out = nullptr;
   if (evaluate_field_) {
-    (*evaluate_field_)(state.x, rate_, state.t);
+    if (is_field_)
+      (*evaluate_field_)(state.x, rate_, state.t);
+    else
+      (*evaluate_field_)(state, rate_);
+    left_out = evaluate_field_->left_out().data();
+  }
+  if (is_field_) {
     v = evaluate_field_->v().data();
     z = evaluate_field_->z().data();
   }
-  const double* in[] = {state.x.data(), v, z, &state.t};
+  const double* in[] = {state.x.data(), v, z, &state.t, left_out};
   quantities_.value(in, row_.data() + N);
   return row_;
 }

@@ -18,8 +18,12 @@ namespace courant {
 //
 // constraint[i] are the equations of the system that contain nothing but x and t, and the total
 // time derivatives of those which the constraint algorithm differentiated more than once: zero on
-// M_f. Where something depends on v or z, and S_f is the graph of a vector field, that is evaluated
-// at the state's x: a step knows v and z at some point between two states. One object a trajectory.
+// M_f. Where these are not all constraints that M_f has (its codimension is higher than the rank of
+// their gradients), the others are seen only through v or z: they are what is left of the equations
+// of S_f that VectorField leaves out, with the velocity that the others give at x. So there is a
+// constraint[i] wherever M_f is not M. Where something depends on v or z, and S_f is the graph of a
+// vector field, that is evaluated at the state's x: a step knows v and z at some point between two
+// states. One object a trajectory.
 class Observer {
  public:
   Observer(const Experiment& experiment, const ConstraintLadder& ladder, Backend backend);
@@ -37,8 +41,9 @@ class Observer {
  private:
   std::vector<std::string> names_;
   std::size_t coordinate_count_, first_constraint_, written_count_;
-  Function quantities_;  // x, v, z, t ↦ all but the coordinates
+  Function quantities_;  // x, v, z, t, what the field leaves out ↦ all but the coordinates
   std::unique_ptr<const VectorField> field_;
+  bool is_field_ = false;  // whether v and z are those of the field, not those of the state
   std::optional<VectorField::Evaluation> evaluate_field_;
   VectorXd rate_, row_;
 };

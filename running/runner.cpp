@@ -96,11 +96,13 @@ class Run {
   std::optional<PreparedMethod> prepare() {
     if (!experiment_.method) return std::nullopt;
     try {
-      PreparedMethod method = experiment_.method->prepare({.system = experiment_.model.system,
-                                                           .ladder = ladder_,
-                                                           .initial = ladder_.point,
-                                                           .step = experiment_.time->step,
-                                                           .backend = options_.backend});
+      PreparedMethod method =
+          experiment_.method->prepare({.system = experiment_.model.system,
+                                       .ladder = ladder_,
+                                       .initial = ladder_.point,
+                                       .step = experiment_.time->step,
+                                       .backend = options_.backend,
+                                       .vocabulary = &experiment_.model.vocabulary});
       backend_ = method.integrator->is_native() ? "native" : "interpreter";
       return method;
     } catch (const std::invalid_argument& error) {

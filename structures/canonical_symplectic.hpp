@@ -17,6 +17,7 @@ class CanonicalSymplectic final : public DiracStructure {
  public:
   explicit CanonicalSymplectic(std::shared_ptr<const CotangentBundle> phase_space);
 
+  bool is_canonical() const override { return true; }
   Index tangent_blocks() const override { return 1; }
   // ω at a point x of T*Q, ω_ij = ω(e_i, e_j) (2Ñ × 2Ñ), and the bivector whose graph D is as well:
   // α = ωᵀ v, v = Λ α.

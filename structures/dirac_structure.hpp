@@ -44,6 +44,8 @@ class DiracStructure {
 
   // The claim: a Dirac structure, or (false) a subbundle that is only coisotropic.
   virtual bool is_dirac() const { return true; }
+  // The claim: the graph of ω_Q, on M = T*Q.
+  virtual bool is_canonical() const { return false; }
   // How many leading blocks of Ñ equations are tangent vectors or covectors at x by construction,
   // so that where n < Ñ only n combinations of a block say something. 0 is always right; more makes
   // what is built on the structure see no equations that repeat others.

@@ -47,6 +47,11 @@ class DiracSystem final : public ImplicitSystem {
   const std::shared_ptr<const GeneratingFamily>& family() const { return family_; }
   const Exterior& exterior() const { return exterior_; }
   Index tangent_blocks() const override { return structure_->tangent_blocks(); }
+  // S = ♯_ω(𝓛): where the structure is canonical, S is as Lagrangian as 𝓛 is.
+  std::optional<bool> is_lagrangian() const override {
+    const bool closed = !exterior_.source && !exterior_.constraint;
+    return closed && structure_->is_canonical() ? family_->is_morse() : std::nullopt;
+  }
 
  private:
   ExprVector do_residual(const ExprVector& x, const ExprVector& v, const ExprVector& z,

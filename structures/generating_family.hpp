@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "courant/manifolds/cotangent_bundle.hpp"
 
@@ -19,14 +20,26 @@ namespace courant {
 //   holonomic constraints             E(x, λ) = H(x) + ⟨λ, φ(x)⟩
 //   optimal control (Pontryagin)      E(q, p, u) = ⟨p, f(q, u)⟩ - ℓ(q, u)
 //
-// 𝓛 is Lagrangian where the rank of ∂_λ(∂_x E, ∂_λ E) is k; nothing here needs that. Immutable.
-// To subclass: override do_value.
+// 𝓛 is a Lagrangian submanifold where the rank of ∂_λ(∂_x E, ∂_λ E) is k on it: the condition of a
+// Morse family. Nothing here needs that.
+//
+// Laws, measured by check_generating_family at points of 𝓛:
+//   G1  differential and stationarity are the derivatives of value
+//   G2  the rank of ∂_λ(∂_x E, ∂_λ E) is k, if is_morse() claims it
+//
+// Immutable. To subclass: override do_value.
 class GeneratingFamily {
  public:
   virtual ~GeneratingFamily() = default;
 
   const std::shared_ptr<const Manifold>& manifold() const { return manifold_; }
   Index parameter_size() const { return parameter_size_; }  // k
+
+  // The claim: the rank of ∂_λ(∂_x E, ∂_λ E) is k on 𝓛, which is then a Lagrangian submanifold. No
+  // value: unknown.
+  virtual std::optional<bool> is_morse() const {
+    return parameter_size_ == 0 ? std::optional(true) : std::nullopt;
+  }
 
   // E(x, λ, t); x: N, λ: k.
   Expr value(const ExprVector& x, const ExprVector& lambda, const Expr& t) const;
@@ -82,6 +95,8 @@ class Lagrangian final : public GeneratingFamily {
  public:
   using Formula = std::function<Expr(const ExprVector& q, const ExprVector& w, const Expr& t)>;
   Lagrangian(std::shared_ptr<const CotangentBundle> phase_space, Formula lagrangian);
+  // ∂_p ∂_w E is the identity.
+  std::optional<bool> is_morse() const override { return true; }
 
  private:
   Expr do_value(const ExprVector& x, const ExprVector& w, const Expr& t) const override;

@@ -40,6 +40,11 @@ class ImplicitSystem {
   // DiracStructure.
   virtual Index tangent_blocks() const { return 0; }
 
+  // The claim: on M = T*Q, S is a Lagrangian submanifold of (TT*Q, d_Tω_Q), at any time: what
+  // Hamiltonian and Lagrangian systems are, and what a symplectic map makes symplectic steps of. No
+  // value: unknown.
+  virtual std::optional<bool> is_lagrangian() const { return std::nullopt; }
+
   // F(x, v, z, t), size r; x: N, v: Ñ, z: m. Throws std::invalid_argument on wrong sizes.
   ExprVector residual(const ExprVector& x, const ExprVector& v, const ExprVector& z,
                       const Expr& t) const;

@@ -169,4 +169,64 @@ std::vector<LawResult> check_structure(const DiracStructure& structure, const La
   return check_structure(structure, points, options);
 }
 
+std::vector<LawResult> check_generating_family(const GeneratingFamily& family,
+                                               std::span<const FamilyPoint> points) {
+  const Manifold& M = *family.manifold();
+  const Index n = M.dimension(), k = family.parameter_size();
+  Graph graph;
+  const ExprVector x = graph.variables("x", M.ambient_dimension());
+  const ExprVector lambda = graph.variables("lambda", k), t = graph.variables("t", 1);
+  const std::vector<Function::Input> inputs = {{"x", x}, {"lambda", lambda}, {"t", t}};
+  const Function value("value", inputs, ExprVector::Constant(1, family.value(x, lambda, t[0])));
+  const ExprVector d_x = family.differential(x, lambda, t[0]);
+  const ExprVector d_lambda = family.stationarity(x, lambda, t[0]);
+  ExprVector both(d_x.size() + d_lambda.size());
+  both << d_x, d_lambda;
+  const Function derivatives("derivatives", inputs, both, {.differentiate = {"lambda"}});
+  const std::string subject = "GeneratingFamily on " + M.name();
+
+  LawMeasurement first(subject, "G1 differential and stationarity are the derivatives of value",
+                       1e-7);
+  LawMeasurement morse(subject, "G2 the rank of ∂_λ(∂_x E, ∂_λ E) is k, as said (less by)", 0.0);
+  for (const FamilyPoint& at : points) {
+    const std::string where = describe("x", at.x) + ", " + describe("λ", at.lambda);
+    const VectorXd time = VectorXd::Constant(1, at.t);
+    const MatrixXd basis = M.tangent_basis(at.x);
+    first.add(
+        [&] {
+          const VectorXd exact = derivatives({at.x, at.lambda, time});
+          VectorXd expected(n + k), measured(n + k);
+          expected << basis.transpose() * exact.head(d_x.size()), exact.tail(k);
+          const double step = 1e-2;
+          for (Index j = 0; j < n + k; ++j) {
+            const auto moved = [&](double s) {
+              VectorXd y = at.x, mu = at.lambda;
+              if (j < n)
+                y = M.retract(at.x, VectorXd(s * basis.col(j)));
+              else
+                mu[j - n] += s;
+              return value({y, mu, time})[0];
+            };
+            const auto slope = [&](double s) { return moved(s * step) - moved(-s * step); };
+            measured[j] = (45.0 * slope(1) - 9.0 * slope(2) + slope(3)) / (60.0 * step);
+          }
+          return relative(measured - expected, expected);
+        },
+        where);
+    if (family.is_morse().value_or(false))
+      morse.add(
+          [&] {
+            if (k == 0) return 0.0;
+            const MatrixXd J = derivatives.jacobian({at.x, at.lambda, time});
+            MatrixXd condition(n + k, k);
+            condition << basis.transpose() * J.topRows(d_x.size()), J.bottomRows(k);
+            return static_cast<double>(k - decide_rank(condition, {.data_error = 1e-11}).rank);
+          },
+          where);
+  }
+  std::vector<LawResult> results{first.result()};
+  if (family.is_morse().value_or(false)) results.push_back(morse.result());
+  return results;
+}
+
 }  // namespace courant

@@ -1,4 +1,4 @@
-// The laws of DiracStructure, measured.
+// The laws of DiracStructure and of GeneratingFamily, measured.
 #pragma once
 
 #include <span>
@@ -6,6 +6,7 @@
 
 #include "courant/manifolds/laws.hpp"
 #include "courant/structures/dirac_structure.hpp"
+#include "courant/structures/generating_family.hpp"
 
 namespace courant {
 
@@ -21,5 +22,16 @@ std::vector<LawResult> check_structure(const DiracStructure& structure,
                                        const LawOptions& options = {});
 std::vector<LawResult> check_structure(const DiracStructure& structure,
                                        const LawOptions& options = {});
+
+// A point of 𝓛: ∂_λE(x, λ, t) = 0.
+struct FamilyPoint {
+  VectorXd x, lambda;
+  double t = 0.0;
+};
+
+// Every law of `family` (G1, G2 in the comment of GeneratingFamily) at the points. Derivatives are
+// held against differences of order 6 of the value alone.
+std::vector<LawResult> check_generating_family(const GeneratingFamily& family,
+                                               std::span<const FamilyPoint> points);
 
 }  // namespace courant

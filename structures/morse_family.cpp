@@ -2,8 +2,6 @@
 
 #include <stdexcept>
 
-#include "courant/core/derivative.hpp"
-
 namespace courant {
 
 MorseFamily::MorseFamily(std::shared_ptr<const Manifold> manifold, Index k, Formula formula,
@@ -32,27 +30,6 @@ std::shared_ptr<const MorseFamily> pontryagin_family(
                                       std::to_string(p.size()) + ", a tangent vector.");
         return p.dot(f) - problem.cost_multiplier * problem.cost(q, u, t);
       });
-}
-
-RankDecision morse_rank(const GeneratingFamily& family, const VectorXd& x, const VectorXd& lambda,
-                        double t) {
-  const Manifold& M = *family.manifold();
-  const Index k = family.parameter_size(), n = M.tangent_dimension();
-  Graph graph;
-  const ExprVector parameters = graph.variables("lambda", k);
-  ExprVector derivatives(n + k);
-  derivatives << family.differential(constants(x), parameters, Expr(t)),
-      family.stationarity(constants(x), parameters, Expr(t));
-  const ExprMatrix hessian = jacobian(derivatives, parameters).dense();
-  const ExprVector entries =
-      substitute(ExprVector(Eigen::Map<const ExprVector>(hessian.data(), hessian.size())),
-                 parameters, constants(lambda));
-  MatrixXd A(n + k, k);
-  A.reshaped() = values(entries);
-  const MatrixXd basis = M.tangent_basis(x);
-  MatrixXd B(basis.cols() + k, k);
-  B << basis.transpose() * A.topRows(n), A.bottomRows(k);
-  return decide_rank(B.transpose(), {.data_error = 1e-12});
 }
 
 }  // namespace courant

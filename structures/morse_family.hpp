@@ -1,18 +1,18 @@
-// MorseFamily: a generating family by a formula, and the condition that makes it one.
+// MorseFamily: a generating family by a formula.
 #pragma once
 
-#include "courant/core/rank_decision.hpp"
 #include "courant/structures/generating_family.hpp"
 
 namespace courant {
 
-// Any E(x, λ, t) with λ ∈ R^k.
+// Any E(x, λ, t) with λ ∈ R^k that satisfies the rank condition, which is claimed: law G2.
 class MorseFamily final : public GeneratingFamily {
  public:
   using Formula = std::function<Expr(const ExprVector& x, const ExprVector& lambda, const Expr& t)>;
   // What `energy` returns; E itself if `energy` is empty.
   MorseFamily(std::shared_ptr<const Manifold> manifold, Index k, Formula formula,
               Formula energy = {});
+  std::optional<bool> is_morse() const override { return true; }
 
  private:
   Expr do_value(const ExprVector& x, const ExprVector& lambda, const Expr& t) const override {
@@ -38,12 +38,5 @@ struct ControlProblem {
 };
 std::shared_ptr<const MorseFamily> pontryagin_family(
     const std::shared_ptr<const CotangentBundle>& phase_space, const ControlProblem& problem);
-
-// The rank of the k × (n + k) matrix ∂_λ(∂_xE, ∂_λE), with ∂_x in the coordinates of an orthonormal
-// basis of T_xM. E is a Morse family at (x, λ), and 𝓛 an immersed Lagrangian submanifold of T*M
-// there, if it is k (Section 2.3 of the paper, its reference [4]). Throws std::domain_error where a
-// derivative is not finite.
-RankDecision morse_rank(const GeneratingFamily& family, const VectorXd& x, const VectorXd& lambda,
-                        double t);
 
 }  // namespace courant

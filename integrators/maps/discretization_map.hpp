@@ -17,10 +17,13 @@ namespace courant {
 // Laws, measured by check_discretization_map:
 //   D1  R_d(0_x) = (x, x)
 //   D2  d/ds (R⁺ - R⁻)(s v) = v at s = 0, in the frame of M
-//   D3  inverse(forward(x, v)) = (x, v) and forward(inverse(x₀, x₁)) = (x₀, x₁),
-//       near the diagonal (Proposition 4.6)
+//   D3  inverse(forward(x, v)) = (x, v) for ‖v‖ < domain_radius(), and
+//       forward(inverse(x₀, x₁)) = (x₀, x₁) near the diagonal (Proposition 4.6)
 //   D4  the claims order(), is_symmetric() and is_symplectic() hold
 //   D5  forward(x̄, v) = (x₀, x₁) for (x̄, v, x₁) = from_start(x₀, w), near w = 0
+//   D6  stage_time() is an eigenvalue of K, R⁻(s v) = x - s K v + O(s²): time takes part as a
+//       coordinate would
+//   D7  R_d(g x, v) = g R_d(x, v), if is_left_invariant() claims it
 //
 // x, x₀, x₁: points (N); v: tangent vector (Ñ). Immutable. To subclass: override do_forward and the
 // claims.

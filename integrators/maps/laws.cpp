@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "courant/core/derivative.hpp"
+#include "courant/core/singular_value_decomposition.hpp"
 #include "courant/integrators/maps/inversion.hpp"
 #include "courant/integrators/maps/symplecticity.hpp"
 #include "courant/manifolds/measurement.hpp"
@@ -21,8 +22,9 @@ ExprVector joined(const ExprVector& a, const ExprVector& b) {
   return result;
 }
 
-// A nonlinear vector field on M, f(x) = Π(x) A sin(x + b), one step of a discretization map on it,
-// and its flow by the classical Runge–Kutta method on ẋ = E f with many small steps.
+// A nonlinear vector field on M that depends on time, f(x, t) = Π(x) A sin(x + b + c t), one step
+// of a discretization map on it, from t = 0, and its flow by the classical Runge–Kutta method on ẋ
+// = E f with many small steps.
 class OneStep {
  public:
   OneStep(const DiscretizationMap& map, const VectorXd& x0, std::mt19937& generator)
@@ -32,21 +34,23 @@ class OneStep {
     const Index N = M_.ambient_dimension();
     MatrixXd A = MatrixXd::NullaryExpr(M_.tangent_dimension(), N, random);
     A /= A.norm();
-    const VectorXd b = VectorXd::NullaryExpr(N, random);
-    const auto field = [&](const ExprVector& x) -> ExprVector {
-      const ExprVector wave =
-          (x + constants(b)).unaryExpr([](const Expr& angle) { return sin(angle); });
+    const VectorXd b = VectorXd::NullaryExpr(N, random), c = VectorXd::NullaryExpr(N, random);
+    const auto field = [&](const ExprVector& x, const Expr& t) -> ExprVector {
+      const ExprVector angles = x + constants(b) + t * constants(c);
+      const ExprVector wave = angles.unaryExpr([](const Expr& angle) { return sin(angle); });
       return M_.tangent_projector(x) * (constants(A) * wave);
     };
     Graph graph;
-    const ExprVector x = graph.variables("x", N);
-    flow_ = Function("flow", {{"x", x}}, M_.frame(x) * field(x));
+    const ExprVector x = graph.variables("x", N), t = graph.variables("t", 1);
+    flow_ = Function("flow", {{"x", x}, {"t", t}}, M_.frame(x) * field(x, t[0]));
 
     const MatrixXd basis = M_.tangent_basis(x0);
     const ExprVector xi = graph.variables("xi", M_.dimension());
     const ExprVector h = graph.variables("h", 1);
     const ExprVector base_point = M_.chart(constants(x0), constants(basis), xi);
-    const auto [first, second] = map.forward(base_point, ExprVector(h[0] * field(base_point)));
+    const Expr stage = Expr(map.stage_time()) * h[0];
+    const auto [first, second] =
+        map.forward(base_point, ExprVector(h[0] * field(base_point, stage)));
     const MatrixXd into_chart = basis.transpose() * M_.coframe(x0);
     step_ = Function("step", {{"xi", xi}, {"h", h}},
                      joined(constants(into_chart) * (first - constants(x0)), second));
@@ -73,10 +77,13 @@ class OneStep {
     const double h = time / kSteps;
     VectorXd x = x0_;
     for (int i = 0; i < kSteps; ++i) {
-      const VectorXd k1 = flow_({x});
-      const VectorXd k2 = flow_({x + h / 2 * k1});
-      const VectorXd k3 = flow_({x + h / 2 * k2});
-      const VectorXd k4 = flow_({x + h * k3});
+      const auto f = [&](const VectorXd& y, double part) {
+        return flow_({y, VectorXd::Constant(1, (i + part) * h)});
+      };
+      const VectorXd k1 = f(x, 0.0);
+      const VectorXd k2 = f(x + h / 2 * k1, 0.5);
+      const VectorXd k3 = f(x + h / 2 * k2, 0.5);
+      const VectorXd k4 = f(x + h * k3, 1.0);
       x += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
     }
     return x;
@@ -103,12 +110,14 @@ class DiscretizationMapLaws {
   std::vector<LawResult> run() {
     std::vector<LawResult> results = {
         zero_section(),  difference_to_first_order(), stays_on(), left_inverse(),
-        right_inverse(), derivatives_of_forward(),    order(),    symmetry()};
+        right_inverse(), derivatives_of_forward(),    order(),    symmetry(),
+        stage_time()};
     if (map_.has_inverse()) {
       results.push_back(derivatives_of_inverse());
       results.push_back(from_start());
     }
     if (map_.is_symplectic().has_value()) results.push_back(symplectic());
+    if (map_.is_left_invariant()) results.push_back(left_invariance());
     return results;
   }
 
@@ -296,6 +305,56 @@ class DiscretizationMapLaws {
     for_vectors(samples_, [&](const LawSample& s, const VectorXd& v) {
       measured.add([&] { return asymmetry(s.x, v) / (1.0 + s.x.norm()); }, describe(s, v));
     });
+    return measured.result();
+  }
+
+  // R⁻(x, s v) = x - s K v + O(s²): time, which is to go along as a coordinate of its own would,
+  // has its stage where some coordinate has it, at an eigenvalue of K.
+  LawResult stage_time() const {
+    auto measured = law("D6 stage_time() is an eigenvalue of -d/ds R⁻(x, s v) at s = 0", 1e-11);
+    for (const LawSample& s : samples_)
+      measured.add(
+          [&] {
+            const Index n = M_.dimension();
+            if (n == 0) return 0.0;
+            const MatrixXd basis = M_.tangent_basis(s.x);
+            Graph graph;
+            const ExprVector xi = graph.variables("xi", n);
+            const auto [x0, x1] = map_.forward(constants(s.x), ExprVector(constants(basis) * xi));
+            const ExprVector entries = jacobian(x0, xi).dense().reshaped();
+            const MatrixXd slope =
+                values(substitute(entries, xi, ExprVector::Zero(n))).reshaped(x0.size(), n);
+            const MatrixXd K = -(basis.transpose() * M_.coframe(s.x) * slope);
+            const MatrixXd off = K - map_.stage_time() * MatrixXd::Identity(n, n);
+            return singular_values(off)[n - 1];
+          },
+          describe("x", s.x));
+    return measured.result();
+  }
+
+  // R_d(g x, v) = g R_d(x, v) without the multiplication of the group: the vectors from x to R⁻ and
+  // from there to R⁺ are the same at every x (M9 of Manifold).
+  LawResult left_invariance() const {
+    auto measured = law("D7 left invariant, as said: R_d(g x, v) = g R_d(x, v)", 1e-10);
+    const auto unit = M_.unit();
+    if (!unit) {
+      measured.add(kInfinity, M_.name() + " is no group with left-trivialised vectors");
+      return measured.result();
+    }
+    const auto seen_from = [&](const VectorXd& x, const VectorXd& v) {
+      const auto [x0, x1] = map_.forward(x, v);
+      VectorXd seen(2 * v.size());
+      seen << M_.inverse_retract(x, x0), M_.inverse_retract(x0, x1);
+      return seen;
+    };
+    for (const LawSample& s : samples_)
+      for (const double length : {1e-4, 0.4 * std::min(1.0, s.radius)})
+        measured.add(
+            [&] {
+              const VectorXd v = length * s.w, there = seen_from(*unit, v);
+              return relative(seen_from(s.x, v) - there, there);
+            },
+            describe(s, length * s.w));
     return measured.result();
   }
 

@@ -8,11 +8,11 @@
 
 namespace courant {
 
-// Every law of `map` (D1 to D4 in the comment of DiscretizationMap), measured as check_manifold
+// Every law of `map` (D1 to D7 in the comment of DiscretizationMap), measured as check_manifold
 // does, with tangent vectors of the same lengths (where the injectivity radius is infinite: 0.5 and
-// 1). The order is the slope of the error of one step on a nonlinear random vector field against a
-// reference solution, less one. Claims are held against measurement in both directions: a map that
-// is symmetric and says that it is not fails too.
+// 1). The order is the slope of the error of one step on a nonlinear random vector field that
+// depends on time against a reference solution, less one. Claims are held against measurement in
+// both directions: a map that is symmetric and says that it is not fails too.
 std::vector<LawResult> check_discretization_map(const DiscretizationMap& map,
                                                 const LawOptions& options = {});
 

@@ -56,6 +56,10 @@ int ProductMap::order() const {
   return result;
 }
 
+double ProductMap::stage_time() const {
+  return factors_.empty() ? DiscretizationMap::stage_time() : factors_.front()->stage_time();
+}
+
 bool ProductMap::is_symmetric() const {
   return std::ranges::all_of(factors_, [](const auto& factor) { return factor->is_symmetric(); });
 }

@@ -9,7 +9,8 @@
 namespace courant {
 
 // R_d = R_d¹ × … × R_d^k on M₁ × … × M_k: each factor by its own map. The order is the least one;
-// symmetric if every factor is.
+// symmetric if every factor is. The stage time is that of the first factor: where factors differ,
+// none is right for all of them.
 class ProductMap final : public DiscretizationMap {
  public:
   // factors[i] on the manifold manifold->factors()[i]; throws std::invalid_argument
@@ -20,6 +21,7 @@ class ProductMap final : public DiscretizationMap {
   double domain_radius() const override;
   bool has_inverse() const override;
   int order() const override;
+  double stage_time() const override;
   bool is_symmetric() const override;
   bool is_left_invariant() const override;
 

@@ -38,7 +38,8 @@ struct Problem {
                             .ladder = ladder,
                             .initial = ladder.point,
                             .step = h,
-                            .backend = backend});
+                            .backend = backend,
+                            .vocabulary = &experiment.model.vocabulary});
   }
 
   // The order that the method shows against `exact` (some coordinates of the end, after `time`).

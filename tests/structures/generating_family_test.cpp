@@ -12,6 +12,8 @@
 #include "courant/manifolds/sphere.hpp"
 #include "courant/structures/canonical_symplectic.hpp"
 #include "courant/structures/dirac_system.hpp"
+#include "courant/structures/laws.hpp"
+#include "courant/structures/poisson.hpp"
 
 BOOST_AUTO_TEST_SUITE(generating_family)
 
@@ -129,6 +131,81 @@ BOOST_AUTO_TEST_CASE(parameters_are_guessed_from_the_velocity) {
   BOOST_TEST((system.auxiliary_guess(x, v) - v.head(2)).norm() == 0.0);
   BOOST_TEST((system.auxiliary_guess(x, VectorXd()) - VectorXd::Zero(2)).norm() == 0.0);
   BOOST_CHECK_THROW(system.auxiliary_guess(x, x.head(3)), std::invalid_argument);
+}
+
+namespace {
+
+// E(x, λ) = c x λ + λ³/3 + x²/2 + d |x - 0.301| on the line: ∂_λE = c x + λ², and
+// ∂_λ(∂_xE, ∂_λE) = (c, 2λ) has rank 0 at λ = 0 if c = 0.
+class Cubic final : public GeneratingFamily {
+ public:
+  explicit Cubic(double coupling, double kink = 0.0)
+      : GeneratingFamily(std::make_shared<Euclidean>(1), 1), coupling_(coupling), kink_(kink) {}
+  std::optional<bool> is_morse() const override { return true; }
+
+ private:
+  Expr do_value(const ExprVector& x, const ExprVector& lambda, const Expr&) const override {
+    const Expr cube = lambda[0] * lambda[0] * lambda[0] / 3.0;
+    return coupling_ * x[0] * lambda[0] + cube + 0.5 * square(x[0]) + kink_ * abs(x[0] - 0.301);
+  }
+  double coupling_, kink_;
+};
+
+bool passes(const GeneratingFamily& family, const FamilyPoint& at, const std::string& law) {
+  for (const LawResult& result : check_generating_family(family, std::span(&at, 1)))
+    if (result.law.starts_with(law)) return result.passed();
+  return false;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(laws_hold) {
+  const auto M = std::make_shared<CotangentBundle>(std::make_shared<Sphere>(2));
+  std::mt19937 generator(4);
+  std::vector<FamilyPoint> points;
+  for (int i = 0; i < 3; ++i) {
+    const VectorXd x = M->random_point(generator);
+    points.push_back({x, M->base()->random_tangent(M->position(x), 0.7, generator)});
+  }
+  const Lagrangian singular(
+      M, [](const ExprVector& q, const ExprVector& w, const Expr&) { return q[0] * w[1] - q[2]; });
+  const Lagrangian regular(M, [](const ExprVector& q, const ExprVector& w, const Expr& t) {
+    return 0.5 * w.squaredNorm() - q[2] * cos(t);
+  });
+  for (const Lagrangian* family : {&singular, &regular}) {
+    const auto results = check_generating_family(*family, points);
+    BOOST_TEST(results.size() == 2U);
+    for (const LawResult& result : results) BOOST_TEST(result.passed(), result);
+  }
+  const Hamiltonian hamiltonian(M, [](const ExprVector& x, const Expr&) { return x[0] * x[4]; });
+  for (FamilyPoint& point : points) point.lambda.resize(0);
+  for (const LawResult& result : check_generating_family(hamiltonian, points))
+    BOOST_TEST(result.passed(), result);
+}
+
+BOOST_AUTO_TEST_CASE(laws_reject_what_is_planted) {
+  const FamilyPoint at{VectorXd::Zero(1), VectorXd::Zero(1)};
+  BOOST_TEST(passes(Cubic(1.0), at, "G2"));
+  BOOST_TEST(!passes(Cubic(0.0), at, "G2"));  // no Morse family, though it says so
+  const FamilyPoint near_a_kink{VectorXd::Constant(1, 0.3), VectorXd::Zero(1)};
+  BOOST_TEST(passes(Cubic(1.0), near_a_kink, "G1"));
+  BOOST_TEST(!passes(Cubic(1.0, 1e-3), near_a_kink, "G1"));
+}
+
+BOOST_AUTO_TEST_CASE(claims_of_a_family_and_of_its_system) {
+  const auto M = std::make_shared<CotangentBundle>(std::make_shared<Euclidean>(1));
+  const auto lagrangian = std::make_shared<Lagrangian>(
+      M, [](const ExprVector&, const ExprVector& w, const Expr&) { return w.squaredNorm(); });
+  const auto canonical = std::make_shared<CanonicalSymplectic>(M);
+  BOOST_TEST(DiracSystem(canonical, lagrangian).is_lagrangian().value_or(false));
+  // The same form as a bivector is not known to be canonical; damping makes a system of another
+  // kind.
+  const auto bivector = std::make_shared<Poisson>(M, [](const ExprVector&) {
+    ExprMatrix J = ExprMatrix::Zero(2, 2);
+    J(0, 1) = 1.0, J(1, 0) = -1.0;
+    return J;
+  });
+  BOOST_TEST(!DiracSystem(bivector, lagrangian).is_lagrangian().has_value());
 }
 
 BOOST_AUTO_TEST_CASE(wrong_sizes_are_refused) {

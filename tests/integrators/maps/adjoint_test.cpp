@@ -2,9 +2,12 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/maps/chordal.hpp"
 #include "courant/integrators/maps/theta.hpp"
+#include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/special_orthogonal3.hpp"
+#include "courant/tests/integrators/example_systems.hpp"
 
 using namespace courant;
 
@@ -37,6 +40,25 @@ BOOST_AUTO_TEST_CASE(of_the_adjoint_is_the_map) {
   BOOST_TEST((twice.forward(x, v).first - map->forward(x, v).first).norm() == 0.0);
   BOOST_TEST((twice.forward(x, v).second - map->forward(x, v).second).norm() == 0.0);
   BOOST_TEST(twice.name() == "Adjoint(Adjoint(Theta(0.2)))");
+}
+
+// A step h of the adjoint undoes a step -h, where the system depends on time too: q̈ = t².
+BOOST_AUTO_TEST_CASE(of_explicit_euler_with_time) {
+  const auto plane = std::make_shared<Euclidean>(2);
+  const auto system = std::make_shared<examples::FormulaSystem>(
+      plane, 0, 2, [](const ExprVector& x, const ExprVector& v, const ExprVector&, const Expr& t) {
+        return (ExprVector(2) << v[0] - x[1], v[1] - square(t)).finished();
+      });
+  const auto euler = std::make_shared<Theta>(plane, 0.0);
+  const DiscretizeFirst there(system, euler), back(system, std::make_shared<Adjoint>(euler));
+  const State start{0.7, Eigen::Vector2d(0.3, -0.4), {}, {}};
+  const double h = 0.25;
+  const auto step = there.start(start, h);
+  step->step();
+  BOOST_TEST(step->state().x[1] == -0.4 + h * 0.49, boost::test_tools::tolerance(1e-14));
+  const auto undo = back.start(step->state(), -h);
+  undo->step();
+  BOOST_TEST((undo->state().x - start.x).norm() < 1e-14);
 }
 
 BOOST_AUTO_TEST_CASE(a_null_map_is_an_error) {

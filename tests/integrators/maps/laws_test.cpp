@@ -3,8 +3,10 @@
 
 #include <boost/test/unit_test.hpp>
 #include <functional>
+#include <limits>
 
 #include "courant/integrators/maps/chordal.hpp"
+#include "courant/integrators/maps/spherical_midpoint.hpp"
 #include "courant/integrators/maps/theta.hpp"
 #include "courant/manifolds/special_orthogonal3.hpp"
 
@@ -25,12 +27,18 @@ class Planted final : public DiscretizationMap {
     bool symmetric;
     std::optional<bool> symplectic;
     Start start = {};
+    double stage_time = 0.5;
+    bool left_invariant = false;
+    double domain_radius = std::numeric_limits<double>::infinity();
   };
   Planted(std::shared_ptr<const Manifold> manifold, Parts parts)
       : DiscretizationMap("Planted", std::move(manifold)), parts_(std::move(parts)) {}
   int order() const override { return parts_.order; }
   bool is_symmetric() const override { return parts_.symmetric; }
   std::optional<bool> is_symplectic() const override { return parts_.symplectic; }
+  double stage_time() const override { return parts_.stage_time; }
+  bool is_left_invariant() const override { return parts_.left_invariant; }
+  double domain_radius() const override { return parts_.domain_radius; }
 
  private:
   PointPair<Expr> do_forward(const ExprVector& x, const ExprVector& v) const override {
@@ -51,7 +59,10 @@ Planted::Parts parts_of(const DiscretizationMap& map) {
           .inverse = [&](const ExprVector& x, const ExprVector& y) { return map.inverse(x, y); },
           .order = map.order(),
           .symmetric = map.is_symmetric(),
-          .symplectic = map.is_symplectic()};
+          .symplectic = map.is_symplectic(),
+          .stage_time = map.stage_time(),
+          .left_invariant = map.is_left_invariant(),
+          .domain_radius = map.domain_radius()};
 }
 
 bool fails(const DiscretizationMap& map, const Planted::Parts& parts, const std::string& law) {
@@ -189,6 +200,43 @@ BOOST_AUTO_TEST_CASE(d4_symplecticity_off_a_cotangent_bundle) {
   auto parts = parts_of(chordal());
   parts.symplectic = true;
   BOOST_TEST(fails(chordal(), parts, "D4 is_symplectic"));
+}
+
+// Wherever the order is one, a stage at another time keeps it: D6 sees what D4 cannot.
+BOOST_AUTO_TEST_CASE(d6_a_stage_at_another_time) {
+  const Theta explicit_euler(chordal().manifold(), 0.0);
+  auto parts = parts_of(explicit_euler);
+  BOOST_TEST(!fails(explicit_euler, parts, "D6"));
+  parts.stage_time = 0.5;
+  BOOST_TEST(fails(explicit_euler, parts, "D6"));
+  BOOST_TEST(!fails(explicit_euler, parts, "D4 measured order"));
+  parts = parts_of(chordal());
+  parts.stage_time = 0.4;
+  BOOST_TEST(fails(chordal(), parts, "D6"));
+  BOOST_TEST(fails(chordal(), parts, "D4 measured order"));
+}
+
+BOOST_AUTO_TEST_CASE(d7_invariance_that_is_wrongly_claimed) {
+  const Theta midpoint(std::make_shared<SpecialOrthogonal3>());
+  auto parts = parts_of(midpoint);
+  BOOST_TEST(parts.left_invariant);
+  BOOST_TEST(!fails(midpoint, parts, "D7"));
+  // Of second order in v, by as much as the point tells.
+  parts.forward = [&](const ExprVector& x, const ExprVector& v) {
+    return midpoint.forward(x, ExprVector((1.0 + 1e-3 * x[0] * v.squaredNorm()) * v));
+  };
+  BOOST_TEST(fails(midpoint, parts, "D7"));
+  parts = parts_of(chordal());
+  parts.left_invariant = true;  // on a manifold that is no group
+  BOOST_TEST(fails(chordal(), parts, "D7"));
+}
+
+BOOST_AUTO_TEST_CASE(d3_a_domain_that_is_too_large) {
+  const SphericalMidpoint midpoint(std::make_shared<Sphere>(2));
+  auto parts = parts_of(midpoint);
+  BOOST_TEST(!fails(midpoint, parts, "D3"));
+  parts.domain_radius = std::numeric_limits<double>::infinity();
+  BOOST_TEST(fails(midpoint, parts, "D3"));
 }
 
 // The lift without the torsion of the frame: right on vector spaces, wrong on a group.

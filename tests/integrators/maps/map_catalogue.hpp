@@ -76,6 +76,10 @@ inline std::vector<MapPointer> base_map_catalogue() {
           projected(ellipsoid(), 0.3),
           projected(spherical_circle(), 0.5),
           make<Adjoint>(make<Theta>(rotations, 0.2)),
+          make<Adjoint>(make<Theta>(space, 0.0)),
+          make<ProductMap>(
+              make<Product>(std::vector<ManifoldPointer>{space, rotations}),
+              std::vector<MapPointer>{make<Theta>(space, 0.0), make<Theta>(rotations, 0.0)}),
           make<Adjoint>(make<Chordal>(sphere)),
           make<ProductMap>(pair, std::vector<MapPointer>{make<Chordal>(sphere),
                                                          make<CayleyMidpoint>(rotations)}),

@@ -1,0 +1,333 @@
+#include "courant/integrators/integrator_laws.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+
+#include "courant/core/rank_decision.hpp"
+#include "courant/manifolds/measurement.hpp"
+#include "courant/structures/dirac_interconnection.hpp"
+
+namespace courant {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// A symplectic form is preserved to about ten digits where it is preserved: differences of order 4
+// know differentials no better.
+constexpr double kSymplectic = 1e-8;
+// Two ways to the same state: they differ by what Newton's method leaves and by round-off.
+constexpr double kSame = 1e-9;
+// The order may be off by so much. Errors below the floor, next to the state, are round-off.
+constexpr double kOrder = 0.15, kFloor = 1e-12;
+
+class IntegratorLaws {
+ public:
+  IntegratorLaws(const Integrator& integrator, const IntegratorSetting& setting,
+                 const IntegratorLawOptions& options)
+      : integrator_(integrator),
+        setting_(setting),
+        options_(options),
+        M_(*setting.system->manifold()),
+        scale_(std::max(setting.initial.x.norm(), 1e-300)) {}
+
+  IntegratorReport run() {
+    attempt([&] { return gather_states(); });
+    report_.order = finite(attempt([&] { return measured_order(setting_.step); }));
+    report_.asymmetry = attempt([&] { return asymmetry(); });
+    order_law();
+    symmetry_law();
+    symplecticity_laws();
+    restart_law();
+    backward_law();
+    failure_law();
+    empty_law();
+    time_law();
+    return std::move(report_);
+  }
+
+ private:
+  LawMeasurement law(const std::string& text, double bound) const {
+    return LawMeasurement(integrator_.name() + " on " + M_.name(), text, bound);
+  }
+  void add(const LawMeasurement& measured) { report_.laws.push_back(measured.result()); }
+  std::string where() const { return describe("x", setting_.initial.x); }
+
+  static std::optional<double> attempt(const std::function<double()>& measure) {
+    try {
+      return measure();
+    } catch (const std::exception&) {
+      return std::nullopt;
+    }
+  }
+  static std::optional<double> finite(std::optional<double> value) {
+    return value && std::isfinite(*value) ? value : std::nullopt;
+  }
+
+  // The state after so many steps of h by one stepper.
+  State advanced(const State& from, double h, int steps) const {
+    const auto stepper = integrator_.start(from, h);
+    for (int i = 0; i < steps; ++i) stepper->step();
+    return stepper->state();
+  }
+  double separation(const State& a, const State& b) const {
+    return M_.separation(a.x, b.x) / scale_;
+  }
+
+  double gather_states() {
+    const auto stepper = integrator_.start(setting_.initial, setting_.step);
+    for (int i = 0; i < 4; ++i) {
+      stepper->step();
+      report_.states.push_back(stepper->state().x);
+    }
+    return 0.0;
+  }
+
+  // Slope of the distance between 2^k and 2^{k+1} steps over the time h. Infinite where the steps
+  // are exact, or so good that fewer than three errors are more than round-off.
+  double measured_order(double h) const {
+    std::vector<double> steps, errors;
+    State coarse = advanced(setting_.initial, h / 2.0, 2);
+    for (int count = 4; count <= 64; count *= 2) {
+      const State fine = advanced(setting_.initial, h / count, count);
+      steps.push_back(1.0 / count);
+      errors.push_back(separation(fine, coarse));
+      coarse = fine;
+    }
+    const auto above = std::ranges::count_if(errors, [](double error) { return error > kFloor; });
+    return above < 3 ? kInfinity : log_log_slope(steps, errors, kFloor);
+  }
+
+  double asymmetry() const {
+    const State there = advanced(setting_.initial, setting_.step, 1);
+    return separation(advanced(there, -setting_.step, 1), setting_.initial);
+  }
+
+  // The order measured with h next to the claim. Infinite, which is exact, is a defect of both_ways
+  // only: what is measured there is to be seen.
+  double order_defect(double h) const {
+    if (M_.dimension() == 0 || setting_.is_gauge) return 0.0;
+    const double order = measured_order(h);
+    if (std::isinf(order)) return options_.both_ways ? kInfinity : 0.0;
+    const double low = integrator_.order() - order;
+    return options_.both_ways ? std::abs(low) : std::max(0.0, low);
+  }
+
+  void order_law() {
+    auto measured = law("P1 measured order is order() = " + std::to_string(integrator_.order()) +
+                            (options_.both_ways ? "" : " or more"),
+                        kOrder);
+    measured.add([&] { return order_defect(setting_.step); }, where());
+    add(measured);
+  }
+
+  void backward_law() {
+    auto measured = law("P6 a step h < 0 goes back in time, with the order claimed", kOrder);
+    measured.add(
+        [&] {
+          const State before = advanced(setting_.initial, -setting_.step, 1);
+          if (!(before.t - setting_.initial.t < 0.0) != (setting_.step < 0.0)) return kInfinity;
+          return order_defect(-setting_.step);
+        },
+        where());
+    add(measured);
+  }
+
+  void symmetry_law() {
+    if (integrator_.is_symmetric()) {
+      auto measured = law("P2 Φ_{-h} ∘ Φ_h = id, as said", kSame);
+      measured.add([&] { return asymmetry(); }, where());
+      add(measured);
+    } else if (options_.both_ways && M_.dimension() > 0) {
+      auto measured = law("P2 not symmetric, as said", 0.0);
+      measured.add([&] { return std::max(0.0, 1e-9 - asymmetry()); }, where());
+      add(measured);
+    }
+  }
+
+  // One step from the initial point, y = Φ_h(x), with TΦ_h on T M_f: the columns of `image` are the
+  // images of those of `tangent`, in the bases of T_xM and T_yM.
+  struct Differential {
+    VectorXd y;
+    MatrixXd tangent, image;
+  };
+  Differential differential(double h) const {
+    const VectorXd& x = setting_.initial.x;
+    const MatrixXd basis = M_.tangent_basis(x);
+    const auto step_from = [&](const VectorXd& from) {
+      State start = setting_.initial;
+      start.x = from;
+      return advanced(start, h, 1).x;
+    };
+    Differential result;
+    result.tangent = setting_.conormals.rows() == 0
+                         ? MatrixXd(MatrixXd::Identity(basis.cols(), basis.cols()))
+                         : kernel(setting_.conormals * basis, {.data_error = 1e-9});
+    result.y = step_from(x);
+    const MatrixXd back = M_.tangent_basis(result.y).transpose() * M_.coframe(result.y);
+    const double epsilon = 1e-3 * scale_;
+    result.image.resize(basis.cols(), result.tangent.cols());
+    for (Index k = 0; k < result.tangent.cols(); ++k) {
+      const VectorXd direction = basis * result.tangent.col(k);
+      const auto at = [&](double s) {
+        return step_from(M_.retract(x, VectorXd(s * epsilon * direction)));
+      };
+      const VectorXd velocity =
+          (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * epsilon);
+      result.image.col(k) = back * velocity;
+    }
+    return result;
+  }
+
+  // ω_D at x as a matrix in the basis of T_xM.
+  MatrixXd form_at(const VectorXd& x) const {
+    const auto [F, omega] = setting_.structure->linear(x).form();
+    return F * omega * F.transpose();
+  }
+
+  double symplecticity_defect(const Differential& step) const {
+    const auto& [y, tangent, image] = step;
+    const MatrixXd before = tangent.transpose() * form_at(setting_.initial.x) * tangent;
+    const MatrixXd after = image.transpose() * form_at(y) * image;
+    if (before.size() == 0 || before.norm() == 0.0)
+      throw std::domain_error("the form vanishes on the constraint set");
+    return (after - before).norm() / before.norm();
+  }
+
+  double preservation_defect(const Differential& step) const {
+    const auto& [y, tangent, image] = step;
+    const DiracStructure& D = *setting_.structure;
+    return distance(forward_image(image * tangent.transpose(), D.linear(setting_.initial.x)),
+                    D.linear(y));
+  }
+
+  // The structure is the graph of a symplectic form.
+  bool has_form() const {
+    const Index n = M_.dimension();
+    if (!setting_.structure || n == 0) return false;
+    const PairedSubspace D = setting_.structure->fibre(setting_.initial.x);
+    return D.is_dirac() && D.vector_range().cols() == n && D.covector_range().cols() == n;
+  }
+
+  void symplecticity_laws() {
+    const bool claimed = integrator_.is_symplectic().value_or(false);
+    std::optional<Differential> step;
+    attempt([&] {
+      step = differential(setting_.step);
+      return 0.0;
+    });
+    if (step && has_form())
+      report_.symplecticity = attempt([&] { return symplecticity_defect(*step); });
+    if (step && setting_.structure && setting_.conormals.rows() == 0)
+      report_.preservation = attempt([&] { return preservation_defect(*step); });
+    if (!claimed) return;
+    auto symplectic = law("P3 Φ_h*ω = ω, as said", kSymplectic);
+    if (report_.symplecticity)
+      symplectic.add(*report_.symplecticity, where());
+    else if (M_.dimension() == 0)
+      symplectic.add(0.0, where());
+    else
+      symplectic.add(kInfinity, where() + ": no symplectic form, or no step, to measure it with");
+    add(symplectic);
+    if (!report_.preservation) return;
+    auto preserves = law("P4 Φ_h preserves D, as said", kSymplectic);
+    preserves.add(*report_.preservation, where());
+    add(preserves);
+  }
+
+  void restart_law() {
+    auto measured = law("P5 going on is the same as starting again from the state", kSame);
+    if (setting_.is_gauge) return;
+    measured.add(
+        [&] {
+          const auto stepper = integrator_.start(setting_.initial, setting_.step);
+          double worst = 0.0;
+          for (int i = 0; i < 20; ++i) {
+            const State again = advanced(stepper->state(), setting_.step, 1);
+            stepper->step();
+            worst = std::max(worst, separation(again, stepper->state()));
+          }
+          return worst;
+        },
+        where());
+    add(measured);
+  }
+
+  // With steps that grow until one fails; nothing fails for a method that can make any step.
+  void failure_law() {
+    auto measured = law("P7 a step that fails throws SolveError and keeps the state", 0.0);
+    for (const double factor : {1e3, 1e8, 1e150}) {
+      measured.add(
+          [&] {
+            const auto stepper = integrator_.start(setting_.initial, factor * setting_.step);
+            const State before = stepper->state();
+            for (int attempts = 0; attempts < 2; ++attempts) {
+              try {
+                stepper->step();
+              } catch (const SolveError&) {
+                if (!is_same(before, stepper->state())) return kInfinity;
+                continue;
+              }
+              return stepper->state().x.allFinite() ? 0.0 : kInfinity;
+            }
+            return 0.0;
+          },
+          "a step " + describe("h", VectorXd::Constant(1, factor * setting_.step)));
+    }
+    add(measured);
+  }
+  static bool is_same(const State& a, const State& b) {
+    return a.t == b.t && a.x == b.x && a.v == b.v && a.z == b.z;
+  }
+
+  void empty_law() {
+    if (setting_.is_gauge || !options_.both_ways) return;
+    auto measured = law("P8 v and z of the initial state may be empty", kSame);
+    measured.add(
+        [&] {
+          State bare = setting_.initial;
+          bare.v.resize(0);
+          bare.z.resize(0);
+          return separation(advanced(bare, setting_.step, 1),
+                            advanced(setting_.initial, setting_.step, 1));
+        },
+        where());
+    add(measured);
+  }
+
+  void time_law() {
+    auto measured = law("P9 the time after k steps is t₀ + k h, and k are counted", 1e-14);
+    measured.add(
+        [&] {
+          const auto stepper = integrator_.start(setting_.initial, setting_.step);
+          double worst = 0.0;
+          for (int k = 1; k <= 10; ++k) {
+            stepper->step();
+            const double t = setting_.initial.t + k * setting_.step;
+            worst = std::max(worst, std::abs(stepper->state().t - t) / (1.0 + std::abs(t)));
+            if (stepper->statistics().steps != k) return kInfinity;
+          }
+          return worst;
+        },
+        where());
+    add(measured);
+  }
+
+  const Integrator& integrator_;
+  const IntegratorSetting& setting_;
+  const IntegratorLawOptions& options_;
+  const Manifold& M_;
+  double scale_;
+  IntegratorReport report_;
+};
+
+}  // namespace
+
+IntegratorReport check_integrator(const Integrator& integrator, const IntegratorSetting& setting,
+                                  const IntegratorLawOptions& options) {
+  return IntegratorLaws(integrator, setting, options).run();
+}
+
+}  // namespace courant

@@ -1,0 +1,210 @@
+#include "integrator_catalogue.hpp"
+
+#include "courant/integrators/constrain_first.hpp"
+#include "courant/integrators/discretize_first.hpp"
+#include "courant/integrators/explicit_runge_kutta.hpp"
+#include "courant/integrators/ladder/constraint_algorithm.hpp"
+#include "courant/integrators/maps/adjoint.hpp"
+#include "courant/integrators/maps/cayley_midpoint.hpp"
+#include "courant/integrators/maps/chordal.hpp"
+#include "courant/integrators/maps/cotangent_lift.hpp"
+#include "courant/integrators/maps/theta.hpp"
+#include "courant/integrators/projector.hpp"
+#include "courant/manifolds/euclidean.hpp"
+#include "courant/manifolds/special_orthogonal3.hpp"
+#include "courant/manifolds/sphere.hpp"
+#include "courant/structures/canonical_symplectic.hpp"
+#include "courant/structures/dirac_system.hpp"
+#include "example_systems.hpp"
+
+namespace courant::test {
+namespace {
+
+using examples::equations;
+using V = const ExprVector&;
+using T = const Expr&;
+using MapPointer = std::shared_ptr<const DiscretizationMap>;
+
+std::shared_ptr<const CotangentBundle> cotangent(std::shared_ptr<const Manifold> Q) {
+  return std::make_shared<CotangentBundle>(std::move(Q));
+}
+MapPointer lift(const std::shared_ptr<const CotangentBundle>& M, MapPointer base) {
+  return std::make_shared<CotangentLift>(M, std::move(base));
+}
+std::shared_ptr<const DiracSystem> hamiltonian(const std::shared_ptr<const CotangentBundle>& M,
+                                               Hamiltonian::Formula H) {
+  return std::make_shared<DiracSystem>(std::make_shared<CanonicalSymplectic>(M),
+                                       std::make_shared<Hamiltonian>(M, std::move(H)));
+}
+
+// A setting at the ladder's point.
+class Site {
+ public:
+  Site(std::string name, std::shared_ptr<const ImplicitSystem> system, InitialGuess guess,
+       double step, std::vector<IntegratorEntry>& table)
+      : name_(std::move(name)),
+        system_(std::move(system)),
+        ladder_(ConstraintAlgorithm().run(system_, guess)),
+        step_(step),
+        table_(table) {}
+  Site(std::string name, std::shared_ptr<const ImplicitSystem> system, ConstraintLadder ladder,
+       double step, std::vector<IntegratorEntry>& table)
+      : name_(std::move(name)),
+        system_(std::move(system)),
+        ladder_(std::move(ladder)),
+        step_(step),
+        table_(table) {}
+
+  void method_1(const std::string& map_name, const MapPointer& map) const {
+    add("discretize-first, " + map_name, std::make_shared<DiscretizeFirst>(system_, map));
+  }
+  void method_2(const std::string& map_name, const MapPointer& map,
+                std::shared_ptr<const Projector> projector) const {
+    add("constrain-first, " + map_name,
+        std::make_shared<ConstrainFirst>(system_, ladder_, map, std::move(projector)));
+  }
+  // High orders may want longer steps, whose errors are far from round-off.
+  void explicit_methods(double longer = 1.0) const {
+    const auto field = std::make_shared<VectorField>(system_, ladder_, Backend::interpreter);
+    for (const auto kind : {ExplicitRungeKutta::Kind::midpoint, ExplicitRungeKutta::Kind::classical,
+                            ExplicitRungeKutta::Kind::dormand_prince}) {
+      const auto method = std::make_shared<ExplicitRungeKutta>(field, kind);
+      add(method->name(), method, method->order() > 4 ? longer * step_ : step_);
+      table_.back().both_ways = kind != ExplicitRungeKutta::Kind::dormand_prince;
+    }
+  }
+
+ private:
+  void add(const std::string& method, std::shared_ptr<const Integrator> integrator) const {
+    add(method, std::move(integrator), step_);
+  }
+  void add(const std::string& method, std::shared_ptr<const Integrator> integrator,
+           double step) const {
+    const auto* dirac = dynamic_cast<const DiracSystem*>(system_.get());
+    table_.push_back({method + ": " + name_,
+                      std::move(integrator),
+                      {.system = system_,
+                       .initial = ladder_.point,
+                       .step = step,
+                       .conormals = ladder_.conormals(),
+                       .is_gauge = ladder_.gauge_dimension > 0,
+                       .structure = dirac ? dirac->structure() : nullptr}});
+  }
+
+  std::string name_;
+  std::shared_ptr<const ImplicitSystem> system_;
+  ConstraintLadder ladder_;
+  double step_;
+  std::vector<IntegratorEntry>& table_;
+};
+
+void on_vector_spaces(std::vector<IntegratorEntry>& table) {
+  const auto line = std::make_shared<Euclidean>(1);
+  const auto M = cotangent(line);
+  // q̈ = -sin q - q²/2 - q³/2 + cos 3t: no symmetry in q or in time, and bounded.
+  const auto driven = hamiltonian(M, [](V x, T t) {
+    const Expr cube = x[0] * square(x[0]);
+    return 0.5 * square(x[1]) - cos(x[0]) + cube / 6.0 + cube * x[0] / 8.0 - x[0] * cos(3.0 * t);
+  });
+  const Site pendulum("driven pendulum", driven, {.t = 0.3, .x = Eigen::Vector2d(0.7, -0.4)}, 0.2,
+                      table);
+  pendulum.method_1("midpoint", lift(M, std::make_shared<Theta>(line)));
+  pendulum.method_1("theta = 0", lift(M, std::make_shared<Theta>(line, 0.0)));
+  pendulum.method_1("theta = 0.3", lift(M, std::make_shared<Theta>(line, 0.3)));
+  pendulum.method_1("midpoint of T*R, no lift", std::make_shared<Theta>(M));
+  pendulum.method_1("adjoint of theta = 0",
+                    std::make_shared<Adjoint>(lift(M, std::make_shared<Theta>(line, 0.0))));
+  pendulum.method_2("midpoint", lift(M, std::make_shared<Theta>(line)),
+                    std::make_shared<OrthogonalProjector>());
+  pendulum.explicit_methods(3.0);
+
+  // With damping: the map is symplectic, the system is not Lagrangian.
+  const auto damped = std::make_shared<examples::FormulaSystem>(M, 0, 2, [](V x, V v, V, T) {
+    return equations({v[0] - x[1], v[1] + sin(x[0]) + 0.3 * x[1]});
+  });
+  Site("damped pendulum", damped, {.x = Eigen::Vector2d(0.7, -0.4)}, 0.2, table)
+      .method_1("midpoint", lift(M, std::make_shared<Theta>(line)));
+}
+
+void with_constraints(std::vector<IntegratorEntry>& table) {
+  // The pendulum in Cartesian coordinates, with a spring: index 2.
+  const auto space = std::make_shared<Euclidean>(4);
+  const auto rod = std::make_shared<examples::FormulaSystem>(space, 1, 5, [](V x, V v, V z, T) {
+    return equations({v[0] - x[2], v[1] - x[3], v[2] + z[0] * x[0] + square(x[0]),
+                      v[3] + z[0] * x[1] + 1.0, square(x[0]) + square(x[1]) - 1.0});
+  });
+  const Site pendulum("Cartesian pendulum", rod, {.x = Eigen::Vector4d(0.6, -0.8, 0.24, 0.18)}, 0.1,
+                      table);
+  pendulum.method_2("midpoint", std::make_shared<Theta>(space),
+                    std::make_shared<OrthogonalProjector>());
+  pendulum.method_2("theta = 0.3", std::make_shared<Theta>(space, 0.3),
+                    std::make_shared<OrthogonalProjector>());
+  pendulum.method_2("midpoint, in units", std::make_shared<Theta>(space),
+                    std::make_shared<OrthogonalProjector>(Eigen::Vector4d(1.0, 1.0, 3.0, 3.0)));
+  pendulum.explicit_methods(4.0);
+
+  // x' = p, p' = -∇V + λ (-y, 0, 1), z' = y x'
+  const auto M = std::make_shared<Euclidean>(6);
+  const auto particle = std::make_shared<examples::FormulaSystem>(M, 1, 7, [](V x, V v, V z, T) {
+    return equations({v[0] - x[3], v[1] - x[4], v[2] - x[5], v[3] + x[0] + z[0] * x[1],
+                      v[4] + x[1] + square(x[0]), v[5] - z[0], x[5] - x[1] * x[3]});
+  });
+  const Site nonholonomic("nonholonomic particle", particle,
+                          {.x = (VectorXd(6) << 0.3, 0.7, 0.2, 1.0, 0.4, 0.7).finished()}, 0.1,
+                          table);
+  nonholonomic.method_1("midpoint", std::make_shared<Theta>(M));
+  nonholonomic.method_2("midpoint, momentum", std::make_shared<Theta>(M),
+                        std::make_shared<MomentumProjector>(*M, std::vector<Index>{3, 4, 5}));
+}
+
+void on_manifolds(std::vector<IntegratorEntry>& table) {
+  const auto sphere = std::make_shared<Sphere>(2);
+  const auto M = cotangent(sphere);
+  const auto spherical = hamiltonian(M, [](V x, T) {
+    return 0.5 * (square(x[3]) + square(x[4]) + square(x[5])) + x[2] + 0.3 * x[0] * x[1];
+  });
+  const Site pendulum("spherical pendulum", spherical,
+                      {.x = (VectorXd(6) << 0.6, 0.0, -0.8, 0.4, 0.5, 0.3).finished()}, 0.1, table);
+  pendulum.method_1("chordal", lift(M, std::make_shared<Chordal>(sphere)));
+  pendulum.method_1("theta = 1", lift(M, std::make_shared<Theta>(sphere, 1.0)));
+
+  const auto rotations = std::make_shared<SpecialOrthogonal3>();
+  const auto N = cotangent(rotations);
+  const auto top = hamiltonian(N, [](V x, T) {
+    return 0.5 * (square(x[9]) + square(x[10]) / 2.0 + square(x[11]) / 3.0) + x[8] + 0.2 * x[1];
+  });
+  VectorXd x(12);
+  x << 1, 0, 0, 0, 0.6, -0.8, 0, 0.8, 0.6, 0.3, -0.5, 0.9;
+  Site("heavy top", top, {.x = x}, 0.1, table)
+      .method_1("cayley", lift(N, std::make_shared<CayleyMidpoint>(rotations)));
+}
+
+// Nothing moves: M is a point.
+void on_a_point(std::vector<IntegratorEntry>& table) {
+  const auto point = std::make_shared<Euclidean>(0);
+  const auto nothing = std::make_shared<examples::FormulaSystem>(
+      point, 0, 0, [](V, V, V, T) { return ExprVector(0); });
+  ConstraintLadder ladder;
+  ladder.verdict = Verdict::regular;
+  ladder.index = 0;
+  ladder.degrees_of_freedom = 0;
+  ladder.point = {0.0, VectorXd(0), VectorXd(0), VectorXd(0)};
+  const Site site("a point", nothing, ladder, 0.1, table);
+  site.method_1("midpoint", std::make_shared<Theta>(point));
+  site.method_2("midpoint", std::make_shared<Theta>(point),
+                std::make_shared<OrthogonalProjector>());
+  site.explicit_methods();
+}
+
+}  // namespace
+
+std::vector<IntegratorEntry> integrator_catalogue() {
+  std::vector<IntegratorEntry> table;
+  on_vector_spaces(table);
+  with_constraints(table);
+  on_manifolds(table);
+  on_a_point(table);
+  return table;
+}
+
+}  // namespace courant::test

@@ -1,0 +1,178 @@
+#include <Eigen/Dense>
+#include <boost/test/unit_test.hpp>
+
+#include "courant/running/runner.hpp"
+#include "problems.hpp"
+
+namespace courant {
+namespace {
+
+// Section 8 with two constraints and a metric that is not constant, gⁱʲ = diag(1, 1/(1 + q₀²), 0.7,
+// 1.2), V = ‖q‖²/2 + 0.3 q₀q₁, μ¹ = dq₂ - q₁dq₀, μ² = dq₃ - q₀dq₁, as equations with momenta in a
+// unit of one's own: p is `unit` times what is written p.
+Json nonholonomic(double unit) {
+  return {{"system",
+           {{"type", "implicit"},
+            {"parameters", {{"s", unit}}},
+            {"coordinates", {"q[4]", "p[4]"}},
+            {"unknowns", {"l[2]"}},
+            {"definitions", {{"v", {"s*p[0]", "s*p[1]/(1 + q[0]^2)", "0.7*s*p[2]", "1.2*s*p[3]"}}}},
+            {"equations",
+             {"q[0]' - v[0]", "q[1]' - v[1]", "q[2]' - v[2]", "q[3]' - v[3]",
+              "s*p[0]' + q[0] + 0.3*q[1] - q[0]*v[1]^2 + q[1]*l[0]",
+              "s*p[1]' + q[1] + 0.3*q[0] + q[0]*l[1]", "s*p[2]' + q[2] - l[0]",
+              "s*p[3]' + q[3] - l[1]", "v[2] - q[1]*v[0]", "v[3] - q[0]*v[1]"}},
+            {"energy",
+             "(s^2*p[0]^2 + s^2*p[1]^2/(1 + q[0]^2) + 0.7*s^2*p[2]^2 + 1.2*s^2*p[3]^2 + "
+             "dot(q, q))/2 + 0.3*q[0]*q[1]"}}},
+          {"initial", {{"q", {0.5, 0.8, -0.3, 0.6}}, {"p[0]", 0.9 / unit}, {"p[1]", -0.7 / unit}}}};
+}
+
+using Eigen::Matrix4d;
+using Eigen::Vector2d;
+using Eigen::Vector4d;
+using Columns = Eigen::Matrix<double, 4, 2>;
+
+Matrix4d inverse_metric(const Vector4d& q) {
+  return Vector4d(1.0, 1.0 / (1.0 + q[0] * q[0]), 0.7, 1.2).asDiagonal();
+}
+Vector4d dH_dq(const Vector4d& q, const Vector4d& p) {
+  const double s = 1.0 + q[0] * q[0];
+  return q + Vector4d(0.3 * q[1] - q[0] * p[1] * p[1] / (s * s), 0.3 * q[0], 0.0, 0.0);
+}
+Columns mu(const Vector4d& q) {
+  Columns columns = Columns::Zero();
+  columns.col(0) << -q[1], 0.0, 1.0, 0.0;
+  columns.col(1) << 0.0, -q[0], 0.0, 1.0;
+  return columns;
+}
+Vector2d constraints(const Vector4d& q, const Vector4d& p) {
+  return mu(q).transpose() * inverse_metric(q) * p;
+}
+Vector4d projected(const Vector4d& q, const Vector4d& p) {
+  const Eigen::Matrix2d C = mu(q).transpose() * inverse_metric(q) * mu(q);
+  return p - mu(q) * C.inverse() * constraints(q, p);
+}
+
+// How far a step is from (39) to (43): the middle of q̇ = gⁱʲp and of the constraint, and the ends
+// of p by 𝒫, with the λ that fits best.
+double defect_of_39_to_43(const VectorXd& x0, const VectorXd& x1, double h) {
+  const Vector4d q0 = x0.head(4), p0 = x0.tail(4), q1 = x1.head(4), p1 = x1.tail(4);
+  const Vector4d q = 0.5 * (q0 + q1), p = inverse_metric(q).inverse() * (q1 - q0) / h;
+  const auto ends = [&](const Vector4d& force) {
+    VectorXd result(8);
+    result << projected(q0, p - h / 2 * force) - p0, projected(q1, p + h / 2 * force) - p1;
+    return result;
+  };
+  const VectorXd known = ends(-dH_dq(q, p));
+  MatrixXd A(8, 2);
+  for (Index a = 0; a < 2; ++a) A.col(a) = ends(mu(q).col(a) - dH_dq(q, p)) - known;
+  const Vector2d lambda = A.householderQr().solve(-known);
+  return (A * lambda + known).norm() + constraints(q, p).norm();
+}
+
+Json method(const Json& projector) {
+  return {{"type", "constrain-first"}, {"projector", projector}};
+}
+Json pair(const char* position, const char* momentum) {
+  return Json::array({Json::array({position, momentum})});
+}
+const Json kPairs = pair("q", "p");
+
+std::string problem_of(const Json& experiment, const Json& projector) {
+  try {
+    test::problem(experiment).prepare(method(projector), 0.1);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(projector_kinds_test)
+
+// The metric of the kinetic energy by default; given, it is the same; another one is not.
+BOOST_AUTO_TEST_CASE(equations_39_to_43_from_json) {
+  const test::Problem nonholonomic_motion = test::problem(nonholonomic(1.0));
+  const double h = 0.1;
+  const VectorXd x0 = nonholonomic_motion.ladder.point.x;
+  const auto defect = [&](const Json& projector) {
+    return defect_of_39_to_43(x0, nonholonomic_motion.end(method(projector), h, 1), h);
+  };
+  BOOST_TEST(defect({{"type", "momentum"}, {"pairs", kPairs}}) < 1e-13);
+  const Json given = {
+      {"type", "momentum"},
+      {"pairs", kPairs},
+      {"metric", {{1, 0, 0, 0}, {0, "1 + q[0]^2", 0, 0}, {0, 0, "1/0.7", 0}, {0, 0, 0, "1/1.2"}}}};
+  BOOST_TEST(defect(given) < 1e-13);
+  BOOST_TEST(defect({{"type", "momentum"}, {"pairs", kPairs}, {"metric", "euclidean"}}) > 1e-6);
+  BOOST_TEST(defect("orthogonal") > 1e-6);
+}
+
+// Neither projector depends on the unit of the momenta, unless it is told to measure numbers.
+BOOST_AUTO_TEST_CASE(units_of_momenta_do_not_matter) {
+  const auto end = [](double unit, const Json& projector) {
+    VectorXd x = test::problem(nonholonomic(unit)).end(method(projector), 0.5, 5);
+    x.tail(4) *= unit;
+    return x;
+  };
+  for (const Json& projector :
+       {Json("orthogonal"), Json{{"type", "momentum"}, {"pairs", kPairs}}}) {
+    const VectorXd expected = end(1.0, projector);
+    for (const double unit : {1e-3, 1e3})
+      BOOST_TEST((end(unit, projector) - expected).norm() < 1e-6,
+                 projector << " moves by " << (end(unit, projector) - expected).norm()
+                           << " where the unit is " << unit);
+  }
+  const Json numbers = {{"type", "orthogonal"}, {"metric", "euclidean"}};
+  BOOST_TEST((end(1e3, numbers) - end(1.0, numbers)).norm() > 1e-5);
+}
+
+BOOST_AUTO_TEST_CASE(weights_and_metrics_say_the_same) {
+  const test::Problem motion = test::problem(nonholonomic(1.0));
+  const auto end = [&](const Json& projector) { return motion.end(method(projector), 0.5, 5); };
+  Json metric = Json::array();
+  for (int i = 0; i < 8; ++i) {
+    Json row = Json::array();
+    for (int j = 0; j < 8; ++j) row.push_back(i != j ? 0 : i < 4 ? 25 : 1);
+    metric.push_back(row);
+  }
+  const VectorXd weighted = end({{"type", "orthogonal"}, {"weights", {{"q", 25}}}});
+  BOOST_TEST((weighted - end({{"type", "orthogonal"}, {"metric", metric}})).norm() < 1e-12);
+  BOOST_TEST((weighted - end({{"type", "orthogonal"}, {"metric", "euclidean"}})).norm() > 1e-7);
+}
+
+BOOST_AUTO_TEST_CASE(what_is_wrong_is_said_where_it_is) {
+  const Json system = nonholonomic(1.0);
+  const auto begins = [&](const Json& projector, const std::string& start) {
+    const std::string text = problem_of(system, projector);
+    BOOST_TEST(text.find(start) == 0u, text);
+  };
+  begins("momentum", "the momentum projector moves momenta, but the system is on Euclidean(8)");
+  begins({{"type", "momentum"}, {"pairs", pair("q", "P")}}, "/method/projector/pairs/0: ");
+  begins({{"type", "momentum"}, {"pairs", pair("q", "p[1]")}},
+         "/method/projector/pairs/0: pairs 4 numbers with 1");
+  begins({{"type", "momentum"}, {"pairs", pair("q", "p'")}},
+         "/method/projector/pairs/0: \"p'\" is a velocity");
+  begins({{"type", "momentum"}, {"pairs", Json::array()}}, "/method/projector/pairs: ");
+  begins({{"type", "momentum"}, {"pairs", kPairs}, {"metric", {{1, 0}, {0, 1}}}},
+         "/method/projector/metric: is no 4 × 4 matrix");
+  begins({{"type", "orthogonal"}, {"weights", {{"z", 2}}}}, "/method/projector/weights/z: ");
+  begins({{"type", "orthogonal"}, {"weights", {{"q", -2}}}}, "/method/projector/weights/q: ");
+  begins({{"type", "orthogonal"}, {"weights", {{"q", 2}}}, {"metric", "euclidean"}},
+         "/method/projector/weights: are given beside a metric");
+  begins({{"type", "orthogonal"}, {"metric", "kinetic"}}, "/method/projector/metric: ");
+  Json indefinite = Json::array();
+  for (int i = 0; i < 4; ++i) {
+    Json row = Json::array();
+    for (int j = 0; j < 4; ++j) row.push_back(i != j ? 0 : i - 1);
+    indefinite.push_back(row);
+  }
+  begins({{"type", "momentum"}, {"pairs", kPairs}, {"metric", indefinite}},
+         "/method/projector/metric: is not symmetric and positive definite");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace courant
