@@ -8,6 +8,7 @@
 #include "courant/cli/command.hpp"
 #include "courant/cli/experiment_file.hpp"
 #include "courant/cli/text.hpp"
+#include "courant/core/message.hpp"
 
 namespace courant::cli {
 namespace {
@@ -84,7 +85,7 @@ void print_structure(std::ostream& out, const Json& structure) {
 
 void print_report(const Console& console, const Json& report) {
   std::ostream& out = console.out;
-  if (const std::string title = report.at("title"); !title.empty()) out << title << '\n';
+  if (const std::string title = report.at("title"); !title.empty()) out << printable(title) << '\n';
   const auto system = report.at("system").get<std::string>();
   const std::string home = " on " + report.at("manifold").get<std::string>();
   out << "  " << system << (system.ends_with(home) ? "" : home) << "\n\n";

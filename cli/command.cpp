@@ -2,8 +2,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <new>
 #include <ostream>
 
+#include "courant/core/message.hpp"
 #include "courant/core/spelling.hpp"
 #include "courant/running/run_files.hpp"
 #include "courant/running/run_folder.hpp"
@@ -12,7 +14,7 @@ namespace courant::cli {
 namespace {
 
 int refuse(const Console& console, const std::string& what, Status status) {
-  console.err << "courant: " << what << '\n';
+  print_error(console, what);
   return status;
 }
 
@@ -30,6 +32,10 @@ std::string unknown_command(const std::string& word, const CLI::App& app) {
 }
 
 }  // namespace
+
+void print_error(const Console& console, const std::string& what) {
+  console.err << "courant: " << printable(what) << '\n';
+}
 
 int command(const std::vector<std::string>& arguments, const Console& console) {
   Session session{console};
@@ -58,8 +64,10 @@ int command(const std::vector<std::string>& arguments, const Console& console) {
     return refuse(console, error.what(), wrong);
   } catch (const RunFileError& error) {
     return refuse(console, error.what(), wrong);
+  } catch (const std::bad_alloc&) {
+    return refuse(console, "this takes more memory than there is", failed);
   } catch (const std::exception& error) {
-    return refuse(console, error.what(), failed);
+    return refuse(console, without_place(error.what()), failed);
   }
 }
 

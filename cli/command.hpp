@@ -27,6 +27,9 @@ struct Console {
   const std::atomic<bool>* stop = nullptr;  // set by an interrupt
 };
 
+// One line on console.err, `courant: …`, whatever stands in `what`.
+void print_error(const Console& console, const std::string& what);
+
 // A subcommand adds itself to the application, and `action` when it was chosen: what to do, and the
 // exit status of that.
 struct Session {

@@ -7,6 +7,7 @@
 #include "courant/cli/command.hpp"
 #include "courant/cli/experiment_file.hpp"
 #include "courant/cli/text.hpp"
+#include "courant/core/message.hpp"
 #include "courant/reporting/ladder_diagram.hpp"
 #include "courant/reporting/ladder_explanation.hpp"
 #include "courant/running/consistent_start.hpp"
@@ -42,7 +43,7 @@ void print_wrapped(std::ostream& out, const std::string& text, const std::string
 
 void print_ladder(const Console& console, const Experiment& experiment, const Json& ladder) {
   std::ostream& out = console.out;
-  if (!experiment.title.empty()) out << experiment.title << '\n';
+  if (!experiment.title.empty()) out << printable(experiment.title) << '\n';
   out << "  " << experiment.model.description << "\n\n";
   for (const std::string& line : ladder_text_diagram(ladder)) out << "  " << line << '\n';
   out << "\n  (dim S, dim M): " << ladder_line(ladder) << "\n\n";

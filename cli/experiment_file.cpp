@@ -4,9 +4,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <new>
 #include <optional>
-#include <ostream>
 #include <system_error>
+
+#include "courant/core/message.hpp"
+#include "courant/running/output_file.hpp"
 
 namespace courant::cli {
 namespace {
@@ -17,16 +20,16 @@ std::optional<std::string> read_text(const Console& console, const std::string& 
   const int error = errno;
   if (stream && !std::filesystem::is_directory(file))
     return std::string(std::istreambuf_iterator<char>(stream), {});
-  console.err << "courant: " << file << ": cannot be read: "
-              << (stream ? "is a folder" : std::generic_category().message(error)) << '\n';
+  print_error(console, file + ": cannot be read: " +
+                           (stream ? "is a folder" : std::generic_category().message(error)));
   return std::nullopt;
 }
 
 void report_problems(const Console& console, const std::string& file,
                      const ExperimentError& error) {
   for (const Problem& problem : error.problems())
-    console.err << "courant: " << file << ": " << problem.where
-                << (problem.where.empty() ? "" : ": ") << problem.what << '\n';
+    print_error(console,
+                file + ": " + problem.where + (problem.where.empty() ? "" : ": ") + problem.what);
 }
 
 }  // namespace
@@ -40,7 +43,14 @@ int with_experiment(const Console& console, const std::string& file,
   } catch (const ExperimentError& error) {
     report_problems(console, file, error);
     return wrong;
+  } catch (const OutputError&) {
+    throw;  // says which file
+  } catch (const std::bad_alloc&) {
+    print_error(console, file + ": takes more memory than there is");
+  } catch (const std::exception& error) {
+    print_error(console, file + ": " + without_place(error.what()));
   }
+  return failed;
 }
 
 }  // namespace courant::cli

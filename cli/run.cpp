@@ -32,8 +32,8 @@ std::filesystem::path folder_of(const Arguments& arguments) {
 void report_failures(const Console& console, const std::string& file, const RunOutcome& outcome) {
   for (const ExpectationResult& result : outcome.expectations)
     if (!result.passed)
-      console.err << "courant: " << file << ": " << result.pointer << ": " << result.description
-                  << ": is " << shown(result.value) << ", expected " << shown(result.bound) << '\n';
+      print_error(console,
+                  file + ": " + result.pointer + ": " + result.description + ": " + result.finding);
 }
 
 int run_experiment(const Console& console, const Arguments& arguments,
@@ -56,7 +56,7 @@ int run_experiment(const Console& console, const Arguments& arguments,
   bar.reset();
   if (!arguments.quiet) print_outcome(console, outcome, options.folder);
   if (outcome.status != RunStatus::completed)
-    console.err << "courant: " << arguments.file << ": " << outcome.message << '\n';
+    print_error(console, arguments.file + ": " + outcome.message);
   if (outcome.status == RunStatus::interrupted) return interrupted;
   if (outcome.status == RunStatus::failed) return failed;
   report_failures(console, arguments.file, outcome);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <ostream>
 
+#include "courant/core/message.hpp"
 #include "courant/plotting/terminal_plot.hpp"
 #include "courant/reporting/ladder_diagram.hpp"
 #include "courant/reporting/report_figures.hpp"
@@ -80,7 +81,7 @@ void print_expectations(const Console& console, const RunOutcome& outcome) {
 
 void print_opening(const Console& console, const Experiment& experiment, const Json& ladder) {
   std::ostream& out = console.out;
-  if (!experiment.title.empty()) out << experiment.title << '\n';
+  if (!experiment.title.empty()) out << printable(experiment.title) << '\n';
   out << "  " << experiment.model.description << '\n';
   if (experiment.method)
     out << "  " << experiment.method->description << ", " << experiment.time->steps << " steps of "

@@ -1,8 +1,9 @@
 #include "courant/cli/text.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <ostream>
+
+#include "courant/core/message.hpp"
 
 namespace courant::cli {
 namespace {
@@ -15,17 +16,18 @@ std::size_t width(const std::string& text) {
 
 }  // namespace
 
-std::string shown(double value, int digits) {
-  char buffer[40];
-  std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
-  return buffer;
-}
+std::string shown(double value, int digits) { return number_text(value, digits); }
 
 std::string shown(const Json& value, int digits) {
   if (value.is_number_integer()) return std::to_string(value.get<long>());
   if (value.is_number()) return shown(value.get<double>(), digits);
   if (value.is_null()) return "–";
   return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+void TextTable::add(std::vector<std::string> row) {
+  for (std::string& cell : row) cell = printable(cell);
+  rows_.push_back(std::move(row));
 }
 
 void TextTable::print(std::ostream& out, const std::string& indent) const {

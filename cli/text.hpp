@@ -17,7 +17,8 @@ std::string shown(const Json& value, int digits = 6);
 class TextTable {
  public:
   explicit TextTable(std::vector<std::string> header) : rows_{std::move(header)} {}
-  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+  // Control characters in it are shown as \u001b.
+  void add(std::vector<std::string> row);
   bool empty() const { return rows_.size() == 1; }
   void print(std::ostream& out, const std::string& indent = "  ") const;
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "courant/core/message.hpp"
+
 namespace courant {
 namespace {
 
@@ -25,8 +27,8 @@ class Scaling {
   void add(Index row, Index column, double value) {
     if (!std::isfinite(value)) {
       throw std::domain_error("equilibrate: entry (" + std::to_string(row) + ", " +
-                              std::to_string(column) + ") of the matrix is " +
-                              std::to_string(value) + "; expected a finite number.");
+                              std::to_string(column) + ") of the matrix is " + number_text(value) +
+                              "; expected a finite number.");
     }
     if (value != 0.0) entries_.push_back({row, column, std::log2(std::abs(value))});
   }

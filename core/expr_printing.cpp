@@ -1,8 +1,8 @@
-#include <charconv>
 #include <ostream>
 #include <vector>
 
 #include "courant/core/expr.hpp"
+#include "courant/core/message.hpp"
 
 namespace courant {
 namespace {
@@ -20,11 +20,6 @@ struct Piece {
   bool first =
       true;  // nothing stands before it inside its parentheses: it may begin with a minus sign
 };
-
-std::string shortest(double value) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
-}
 
 const char* name_of(Op op) {
   switch (op) {
@@ -130,7 +125,7 @@ class Printer {
 
   void print_number(const Piece& piece) {
     const std::string number =
-        shortest(piece.negated ? -piece.expression.value() : piece.expression.value());
+        exact_text(piece.negated ? -piece.expression.value() : piece.expression.value());
     const bool minus = number.front() == '-';
     text_ += minus && !(piece.first && piece.place <= kProduct) ? "(" + number + ")" : number;
   }

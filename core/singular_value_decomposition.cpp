@@ -31,6 +31,10 @@ SingularValueDecomposition decompose(const Eigen::Ref<const MatrixXd>& A, char j
   }
   if (least == 0) return svd;
 
+  if (!A.allFinite())
+    throw std::domain_error(
+        "singular_value_decomposition: the matrix has entries that are not finite; expected finite "
+        "numbers.");
   const int ld_U = job == 'A' ? m : 1, ld_V = job == 'A' ? n : 1;
   std::vector<int> integers(static_cast<std::size_t>(8 * least));
   int info = 0;

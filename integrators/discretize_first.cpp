@@ -4,6 +4,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "courant/core/message.hpp"
 #include "courant/integrators/ladder/local_formulation.hpp"
 #include "courant/integrators/moving_basis.hpp"
 #include "courant/integrators/predictor.hpp"
@@ -15,7 +16,7 @@ namespace courant {
 void check_start(const std::string& method, const ImplicitSystem& system, const State& initial,
                  double h) {
   if (!std::isfinite(h) || h == 0.0)
-    throw std::invalid_argument(method + "::start: h is " + std::to_string(h) +
+    throw std::invalid_argument(method + "::start: h is " + number_text(h) +
                                 "; expected a finite number other than zero.");
   const Index expected = system.manifold()->ambient_dimension();
   if (initial.x.size() != expected)

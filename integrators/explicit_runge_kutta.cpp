@@ -7,6 +7,7 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 #include <stdexcept>
 
+#include "courant/core/message.hpp"
 #include "courant/integrators/discretize_first.hpp"
 
 namespace courant {
@@ -49,7 +50,7 @@ class Trajectory final : public Stepper {
     try {
       method_.do_step(rate, next_, state_.t, h_);
     } catch (const std::domain_error& error) {
-      fail(SolveError::Reason::singular, error.what());
+      fail(SolveError::Reason::singular, without_place(error.what()));
     }
     if (!next_.allFinite()) fail(SolveError::Reason::left_domain, "the next state is not finite.");
     state_.x = next_;

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "courant/core/message.hpp"
 #include "courant/core/newton.hpp"
 #include "courant/manifolds/cotangent_bundle.hpp"
 
@@ -44,7 +45,7 @@ State matched_start(const ImplicitSystem& system, const DiscretizationMap& map,
   if (result.status != Newton::Status::converged || !(residual <= 1e-9 * (1.0 + largest(solution))))
     throw SolveError(SolveError::Reason::diverged, initial.t, 1, {residual},
                      "matched_start: no momentum leads to the second position, residual " +
-                         std::to_string(residual) + "; start on the manifold instead.");
+                         number_text(residual) + "; start on the manifold instead.");
   State state = initial;
   state.x.tail(n) = solution.head(n);
   return state;

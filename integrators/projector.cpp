@@ -7,6 +7,7 @@
 #include "courant/core/derivative.hpp"
 #include "courant/core/linear_algebra.hpp"
 #include "courant/core/lu_decomposition.hpp"
+#include "courant/core/message.hpp"
 #include "courant/core/qr_decomposition.hpp"
 #include "courant/core/singular_value_decomposition.hpp"
 
@@ -94,11 +95,10 @@ MatrixXd Projector::directions(const VectorXd& x, const MatrixXd& basis,
     sine = least_pairing(size.cwiseInverse().asDiagonal() * W, size.asDiagonal() * conormals);
   }
   if (!(sine > kTransversality)) {
-    std::ostringstream message;
-    message << "Projector(" << name_
-            << ")::directions: the directions meet T_xM_f, sine of the angle " << sine
-            << "; expected a complement of it. Use the orthogonal projector.";
-    throw std::domain_error(message.str());
+    throw std::domain_error("Projector(" + name_ +
+                            ")::directions: the directions of the projector \"" + name_ +
+                            "\" meet T_xM_f, sine of the angle " + number_text(sine) +
+                            "; expected a complement of it. Use the orthogonal projector.");
   }
   return QrDecomposition::pivoted(W.colwise().normalized()).Q(d);
 }

@@ -7,6 +7,7 @@
 
 #include "courant/core/complete_orthogonal_decomposition.hpp"
 #include "courant/core/derivative.hpp"
+#include "courant/core/message.hpp"
 #include "courant/integrators/ladder/local_formulation.hpp"
 #include "courant/integrators/step_solver.hpp"
 
@@ -17,7 +18,7 @@ namespace {
 std::string whereabouts(const Manifold& M, const VectorXd& x) {
   const double defect = M.point_defect(x);
   if (defect < 1e-3) return "is at or near a singular point";
-  return "has left " + M.name() + ", whose equations are violated by " + std::to_string(defect);
+  return "has left " + M.name() + ", whose equations are violated by " + number_text(defect);
 }
 
 }  // namespace
@@ -139,8 +140,8 @@ void VectorField::Evaluation::solve(const VectorXd& x, VectorXd& rate, double t)
     result = newton_.solve(y_.data(), in, &scale);
   }
   if (result.status != Newton::Status::converged || !y_.allFinite())
-    throw std::domain_error("VectorField::operator(): no velocity found at t = " +
-                            std::to_string(t) + "; the state " + whereabouts(M, x) + ".");
+    throw std::domain_error("VectorField::operator(): no velocity found at t = " + number_text(t) +
+                            "; the state " + whereabouts(M, x) + ".");
   field_.rate_.value(in, out_.data());
   field_.left_out_.value(in, left_out_.data());
   rate = out_.head(x.size());

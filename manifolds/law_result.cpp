@@ -5,6 +5,8 @@
 #include <limits>
 #include <ostream>
 
+#include "courant/core/message.hpp"
+
 namespace courant {
 
 bool all_passed(const std::vector<LawResult>& results) {
@@ -38,7 +40,7 @@ void LawMeasurement::add(const std::function<double()>& defect, const std::strin
   try {
     add(defect(), where);
   } catch (const std::exception& error) {
-    add(std::numeric_limits<double>::infinity(), where + ": " + error.what());
+    add(std::numeric_limits<double>::infinity(), where + ": " + without_place(error.what()));
   }
 }
 

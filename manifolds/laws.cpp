@@ -6,6 +6,7 @@
 
 #include "courant/core/complete_orthogonal_decomposition.hpp"
 #include "courant/core/derivative.hpp"
+#include "courant/core/message.hpp"
 #include "courant/manifolds/measurement.hpp"
 
 namespace courant {
@@ -146,7 +147,7 @@ class ManifoldLaws {
               return M_.separation(M_.retract(s.x, v), y) / (1.0 + y.norm()) +
                      M_.tangent_defect(s.x, v);
             },
-            describe("x", s.x) + ", y at distance " + std::to_string(distance));
+            describe("x", s.x) + ", y at distance " + number_text(distance));
       }
     return measured.result();
   }
@@ -333,7 +334,7 @@ std::vector<LawResult> check_manifold(const Manifold& manifold, const LawOptions
     return ManifoldLaws(manifold, options).run();
   } catch (const std::exception& error) {
     LawMeasurement measured(manifold.name(), "random points and vectors exist", 0.0);
-    measured.add(std::numeric_limits<double>::infinity(), error.what());
+    measured.add(std::numeric_limits<double>::infinity(), without_place(error.what()));
     return {measured.result()};
   }
 }

@@ -8,6 +8,7 @@
 
 #include "courant/core/complete_orthogonal_decomposition.hpp"
 #include "courant/core/derivative.hpp"
+#include "courant/core/message.hpp"
 
 namespace courant {
 
@@ -104,7 +105,7 @@ LawResult measure_derivatives(LawMeasurement measured, const Manifold& M,
       measured.add([&] { return family.derivative_defect(data, step); }, describe(s, v));
     });
   } catch (const std::exception& error) {
-    measured.add(std::numeric_limits<double>::infinity(), error.what());
+    measured.add(std::numeric_limits<double>::infinity(), without_place(error.what()));
   }
   return measured.result();
 }

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "courant/core/lu_decomposition.hpp"
+#include "courant/core/message.hpp"
 #include "courant/core/singular_value_decomposition.hpp"
 
 namespace courant {
@@ -67,7 +68,7 @@ ExprMatrix rotation_of(const ExprVector& quaternion) {
 MatrixXd nearest_rotation(const MatrixXd& A) {
   const double determinant = LuDecomposition(A).determinant();
   if (!(determinant > 0.0))
-    throw std::domain_error("nearest_rotation: A has determinant " + std::to_string(determinant) +
+    throw std::domain_error("nearest_rotation: A has determinant " + number_text(determinant) +
                             "; expected one above 0, as near a rotation.");
   const auto [values, U, V] = singular_value_decomposition(A);
   return U * V.transpose();

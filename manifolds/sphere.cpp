@@ -3,6 +3,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "courant/core/message.hpp"
+
 namespace courant {
 
 Sphere::Sphere(Index dimension, Retraction retraction)
@@ -66,7 +68,7 @@ double Sphere::do_injectivity_radius(const VectorXd&) const {
 VectorXd Sphere::do_project(const VectorXd& x) const {
   const double norm = x.norm();
   if (!(norm > 0.0))
-    throw std::domain_error(name() + "::project: x has length " + std::to_string(norm) +
+    throw std::domain_error(name() + "::project: x has length " + number_text(norm) +
                             "; expected a length above 0. The centre is near no point.");
   return x / norm;
 }

@@ -70,7 +70,7 @@ Ticks LinearScale::do_ticks(Interval interval, int about) const {
 
 SymmetricLogScale::SymmetricLogScale(double threshold) : threshold_(threshold) {
   if (!(threshold > 0) || !std::isfinite(threshold)) {
-    throw std::invalid_argument("SymmetricLogScale: threshold is " + std::to_string(threshold) +
+    throw std::invalid_argument("SymmetricLogScale: threshold is " + readable(threshold) +
                                 ", expected a positive number.");
   }
 }

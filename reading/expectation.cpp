@@ -1,10 +1,10 @@
 #include "courant/reading/expectation.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
+#include "courant/core/message.hpp"
 #include "courant/core/spelling.hpp"
 
 namespace courant {
@@ -12,17 +12,16 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-std::string digits(double value) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
-}
-
 // What all the readers of an entry need.
 struct Reading {
   const Vocabulary& vocabulary;
   const std::vector<std::string>& quantities;
   const std::optional<TimeSpan>& time;
+  bool is_run;  // there are to be steps, even if their time could not be read
   Expectations& expectations;
+
+  // Whether there are steps along which something could drift.
+  bool has_trajectory() const { return is_run && !(time && time->steps == 0); }
 
   bool is_quantity(const std::string& name, const JsonReader& place) const {
     if (std::find(quantities.begin(), quantities.end(), name) != quantities.end()) return true;
@@ -32,11 +31,32 @@ struct Reading {
   }
 };
 
+const char* const kNotKnown = "is not known: the run did not come to it";
+
 // passed = value ≤ bound, or value ≥ bound for a lower one; not for a value that is NaN.
 ExpectationResult compared(std::string pointer, std::string description, double value, double bound,
                            bool lower = false) {
-  return {std::move(pointer), std::move(description), lower ? value >= bound : value <= bound,
-          value, bound};
+  const std::string finding = std::isnan(value) ? kNotKnown
+                                                : "is " + number_text(value) + "; " +
+                                                      (lower ? "expected at least " : "allowed ") +
+                                                      number_text(bound);
+  return {std::move(pointer),
+          std::move(description),
+          lower ? value >= bound : value <= bound,
+          value,
+          bound,
+          finding};
+}
+
+// Off by `deviation`: of one value, which is `found`, or the greatest along a run.
+ExpectationResult deviating(std::string pointer, std::string description, double deviation,
+                            double tolerance, std::optional<double> found = std::nullopt) {
+  ExpectationResult result =
+      compared(std::move(pointer), std::move(description), deviation, tolerance);
+  if (found || !std::isnan(deviation))
+    result.finding = "is " + (found ? number_text(*found) + ", " : std::string()) + "off by " +
+                     number_text(deviation, 3) + "; allowed " + number_text(tolerance);
+  return result;
 }
 
 // A property of a quantity along a complete run, NaN if there is none.
@@ -44,6 +64,20 @@ double along(const RunRecord& record, const std::string& quantity,
              double (*property)(const QuantityRecord&)) {
   const auto found = record.quantities.find(quantity);
   return found != record.quantities.end() && record.completed ? property(found->second) : kUnknown;
+}
+
+// Whether something along a trajectory can be above and below the bound of its size; a problem if
+// there is no trajectory, or the bound is below zero, or is a lower one of zero.
+bool is_bound_of_change(const JsonReader& key, double bound, bool lower, const Reading& reading) {
+  if (lower ? bound <= 0.0 : bound < 0.0) {
+    key.expected(lower ? "a number greater than 0" : "a number that is at least 0");
+    return false;
+  }
+  if (!reading.has_trajectory())
+    key.problem(
+        "tests nothing: there is no trajectory; expected \"method\" and \"time\", or another "
+        "expectation");
+  return reading.has_trajectory();
 }
 
 // {"observable": "H", "max_drift": 2e-4}: bounds of one quantity along the run.
@@ -54,16 +88,17 @@ void read_bounds(ObjectReader& entry, const JsonReader& name_key, const Reading&
     const char* after;
     double (*value)(const QuantityRecord&);
     bool lower;
+    bool is_change;  // along a trajectory: not below zero
   };
   static constexpr Bound bounds[] = {
       {"max_drift", "greatest drift of ", "", [](const QuantityRecord& q) { return q.max_drift; },
-       false},
+       false, true},
       {"min_drift", "greatest drift of ", ", at least",
-       [](const QuantityRecord& q) { return q.max_drift; }, true},
+       [](const QuantityRecord& q) { return q.max_drift; }, true, true},
       {"max_slope", "drift of ", " per unit of time",
-       [](const QuantityRecord& q) { return std::abs(q.slope); }, false},
-      {"max", "greatest ", "", [](const QuantityRecord& q) { return q.max; }, false},
-      {"min", "least ", "", [](const QuantityRecord& q) { return q.min; }, true},
+       [](const QuantityRecord& q) { return std::abs(q.slope); }, false, true},
+      {"max", "greatest ", "", [](const QuantityRecord& q) { return q.max; }, false, false},
+      {"min", "least ", "", [](const QuantityRecord& q) { return q.min; }, true, false},
   };
   const auto name = name_key.text();
   const bool known = name && reading.is_quantity(*name, name_key);
@@ -73,6 +108,8 @@ void read_bounds(ObjectReader& entry, const JsonReader& name_key, const Reading&
     if (!key) continue;
     any = true;
     const auto limit = key->number();
+    if (limit && bound.is_change && !is_bound_of_change(*key, *limit, bound.lower, reading))
+      continue;
     if (!limit || !known) continue;
     reading.expectations.checks.push_back(
         [=, name = *name, limit = *limit,
@@ -87,16 +124,15 @@ void read_bounds(ObjectReader& entry, const JsonReader& name_key, const Reading&
 }
 
 // {"at": 300, "state": {"x[0]": 24.47}}: values at one time.
-void expect_moment(const std::string& name, const WrittenFormula& form, double at, double tolerance,
+void expect_moment(const std::string& name, double expected, double at, double tolerance,
                    const std::string& pointer, const Reading& reading) {
-  const double expected = evaluate(form, reading.vocabulary.symbols({.t = Expr(at)})).value();
   reading.expectations.checks.push_back([=](const RunRecord& record) {
-    double difference = kUnknown;
+    std::optional<double> found;
     if (const auto moment = record.moments.find(at); moment != record.moments.end())
       if (const auto value = moment->second.find(name); value != moment->second.end())
-        difference = std::abs(value->second - expected);
-    return compared(pointer, name + " = " + digits(expected) + " at t = " + digits(at), difference,
-                    tolerance);
+        found = value->second;
+    return deviating(pointer, name + " = " + exact_text(expected) + " at t = " + exact_text(at),
+                     std::abs(found.value_or(kUnknown) - expected), tolerance, found);
   });
 }
 
@@ -108,7 +144,7 @@ void expect_form(const std::string& name, const WrittenFormula& form, double tol
   deviations.push_back({key, name, form});
   reading.expectations.checks.push_back([=, text = form.text](const RunRecord& record) {
     const double deviation = along(record, key, [](const QuantityRecord& q) { return q.max; });
-    return compared(pointer, name + " = " + text + " at every step", deviation, tolerance);
+    return deviating(pointer, name + " = " + text + " at every step", deviation, tolerance);
   });
 }
 
@@ -119,21 +155,35 @@ void read_state(ObjectReader& entry, const JsonReader& state_key, const Reading&
   const double tolerance =
       tolerance_key ? tolerance_key->positive_number().value_or(kUnknown) : kUnknown;
   if (!std::isnan(at) && reading.time && !reading.time->step_at(at)) {
-    at_key->expected("the time of a step, from " + digits(reading.time->start) + " to " +
-                     digits(reading.time->end()) + " by " + digits(reading.time->step));
+    at_key->expected("the time of a step, from " + exact_text(reading.time->start) + " to " +
+                     exact_text(reading.time->end()) + " by " + exact_text(reading.time->step));
   }
+  if (at_key && !reading.is_run)
+    at_key->problem("there is no trajectory; expected \"method\" and \"time\", or no \"at\"");
   const auto entries = state_key.entries();
   if (!entries) return;
+  if (entries->empty()) state_key.expected("an object of values by name");
   Graph graph;
-  const SymbolTable symbols = reading.vocabulary.symbols({.t = graph.variable("t")});
+  const Expr t = graph.variable("t");
+  const SymbolTable symbols = reading.vocabulary.symbols({.t = t});
   for (const auto& [name, value] : *entries) {
     const bool known = reading.is_quantity(name, value);
     const auto form = read_formula(value);
     if (!form || !check(*form, symbols, value.findings()) || !known) continue;
-    if (!at_key)
+    const double when = at_key ? at : reading.time ? reading.time->start : 0.0;
+    if (std::isnan(when)) continue;
+    const double expected = evaluate(*form, reading.vocabulary.symbols({.t = Expr(when)})).value();
+    if (!std::isfinite(expected))
+      value.problem("is " + number_text(expected) + " at t = " + number_text(when) +
+                    "; expected a finite number");
+    else if (!at_key && !reading.has_trajectory() && !evaluate(*form, symbols).is_constant())
+      value.problem(
+          "changes with t, but there is no trajectory; expected \"method\" and \"time\", or a "
+          "number");
+    else if (!at_key)
       expect_form(name, *form, tolerance, entry.place().pointer(), reading);
-    else if (!std::isnan(at))
-      expect_moment(name, *form, at, tolerance, entry.place().pointer(), reading);
+    else
+      expect_moment(name, expected, at, tolerance, entry.place().pointer(), reading);
   }
   if (!std::isnan(at)) reading.expectations.times.push_back(at);
 }
@@ -149,13 +199,19 @@ Json dimensions(const Json& ladder) {
   return list;
 }
 
+std::string in_words(const Json& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
 void expect_equal(const JsonReader& key, const std::string& description, const ObjectReader& entry,
                   std::function<Json(const Json& ladder)> value, const Reading& reading) {
   reading.expectations.checks.push_back(
       [=, bound = key.value(), pointer = entry.place().pointer()](const RunRecord& record) {
-        ExpectationResult result{pointer, description, false, nullptr, bound};
-        if (!record.ladder.is_null()) result.value = value(record.ladder);
+        ExpectationResult result{pointer, description, false, nullptr, bound, kNotKnown};
+        if (record.ladder.is_null()) return result;
+        result.value = value(record.ladder);
         result.passed = result.value == bound;
+        result.finding = "is " + in_words(result.value) + "; expected " + in_words(bound);
         return result;
       });
 }
@@ -212,12 +268,17 @@ bool read_certificate(ObjectReader& entry, const Reading& reading) {
 bool read_violation(ObjectReader& entry, const Reading& reading) {
   const auto key = entry.optional("max_violation");
   if (!key) return false;
-  if (const auto bound = key->number())
+  const auto bound = key->number();
+  if (bound && *bound < 0.0) {
+    key->expected("a number that is at least 0");
+  } else if (bound) {
+    reading.expectations.violations.push_back(key->pointer());
     reading.expectations.checks.push_back(
         [bound = *bound, pointer = entry.place().pointer()](const RunRecord& record) {
           return compared(pointer, "greatest violation of the constraints",
                           record.completed ? record.max_violation : kUnknown, bound);
         });
+  }
   return true;
 }
 
@@ -246,11 +307,11 @@ std::optional<long> TimeSpan::step_at(double t) const {
 
 Expectations read_expectations(const JsonReader& expect, const Vocabulary& vocabulary,
                                const std::vector<std::string>& quantities,
-                               const std::optional<TimeSpan>& time) {
+                               const std::optional<TimeSpan>& time, bool is_run) {
   Expectations expectations;
   const auto entries = expect.elements();
   if (!entries) return expectations;
-  const Reading reading{vocabulary, quantities, time, expectations};
+  const Reading reading{vocabulary, quantities, time, is_run, expectations};
   for (const JsonReader& entry : *entries) read_entry(entry, reading);
   return expectations;
 }

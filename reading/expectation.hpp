@@ -35,8 +35,9 @@ struct ExpectationResult {
   std::string pointer;  // of the entry of `expect`
   std::string description;
   bool passed = false;
-  Json value;  // null where it is not known
+  Json value;  // what is compared, a deviation where one is allowed; null where it is not known
   Json bound;
+  std::string finding;  // in words: "is -0.2608, off by 0.415; allowed 1e-07"
 };
 
 // The entries of `expect`, and what a run has to keep for them.
@@ -52,6 +53,7 @@ struct Expectations {
   std::vector<Deviation> deviations;
   std::vector<std::function<ExpectationResult(const RunRecord&)>> checks;
   bool inconsistent = false;  // the verdict that is expected, after which there is nothing to run
+  std::vector<std::string> violations;  // pointers of bounds of constraints, which there must be
 };
 
 // The times of a run: start + k step for k = 0 … steps.
@@ -65,9 +67,12 @@ struct TimeSpan {
   std::optional<long> step_at(double t) const;
 };
 
-// Reads the array `expect`; `quantities` are the names of coordinates and observables.
+// Reads the array `expect`; `quantities` are the names of coordinates and observables; `is_run`
+// where there are to be steps, though `time` is nothing if it cannot be read. What would
+// pass or fail whatever the run does is a problem: drifts where there is no trajectory, bounds below
+// zero of what cannot be, values that are not finite.
 Expectations read_expectations(const JsonReader& expect, const Vocabulary& vocabulary,
                                const std::vector<std::string>& quantities,
-                               const std::optional<TimeSpan>& time);
+                               const std::optional<TimeSpan>& time, bool is_run);
 
 }  // namespace courant

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "courant/core/declaration.hpp"
+#include "courant/core/message.hpp"
 #include "courant/reading/json_document.hpp"
 #include "courant/reading/system_kinds.hpp"
 
@@ -30,7 +31,7 @@ std::optional<TimeSpan> read_time(const JsonReader& value) {
   }
   time.steps = std::lround(steps);
   if (std::abs(steps - static_cast<double>(time.steps)) > 1e-9 * std::max(1.0, steps)) {
-    end_key->problem("is " + std::to_string(steps) +
+    end_key->problem("is " + exact_text(steps) +
                      " steps after the start; expected a whole number of them");
     return std::nullopt;
   }
@@ -124,8 +125,9 @@ Experiment read_experiment(std::string_view text) {
           experiment.initial = *values;
       if (observe) experiment.observe = read_observables(*observe, *model);
       if (expect)
-        experiment.expect = read_expectations(
-            *expect, model->vocabulary, quantities(*model, experiment.observe), experiment.time);
+        experiment.expect =
+            read_expectations(*expect, model->vocabulary, quantities(*model, experiment.observe),
+                              experiment.time, method || time);
     }
   }
   findings.require_clean();

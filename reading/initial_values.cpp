@@ -45,10 +45,6 @@ void read_entry(const std::string& key, const JsonReader& value, const Model& mo
   const auto numbers =
       evaluate_constants(*formulas, model.vocabulary.symbols({}), value.findings());
   if (!numbers) return;
-  if (!numbers->allFinite()) {
-    value.problem("is not finite; expected finite numbers");
-    return;
-  }
   auto given = target.vector->given.segment(target.first, target.count);
   if (given.any()) {
     value.problem("is given twice");

@@ -28,8 +28,9 @@ std::string place(std::string_view text, std::size_t position) {
 // line 1, column 2: syntax error while parsing value - `.
 std::string reason(std::string_view what, bool at_end) {
   if (at_end) return "the text ends too soon: it is not complete JSON";
-  const std::size_t dash = what.find(" - ");
-  if (dash != std::string_view::npos) what.remove_prefix(dash + 3);
+  for (const std::string_view prefix_ends : {"] ", " - "})
+    if (const std::size_t end = what.find(prefix_ends); end != std::string_view::npos)
+      what.remove_prefix(end + prefix_ends.size());
   return "is not JSON: " + std::string(what);
 }
 

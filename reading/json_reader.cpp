@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "courant/core/message.hpp"
 #include "courant/core/spelling.hpp"
 
 namespace courant {
@@ -47,6 +48,20 @@ std::string pointer_token(std::string_view key) {
 
 void JsonReader::expected(const std::string& expected) const {
   problem("is " + shown(*value_) + "; expected " + expected);
+}
+
+void JsonReader::refused() const {
+  try {
+    throw;
+  } catch (const ExperimentError& error) {
+    for (const Problem& found : error.problems()) findings_->problem(found.where, found.what);
+  } catch (const std::invalid_argument& error) {
+    problem(without_place(error.what()));
+  } catch (const std::domain_error& error) {
+    problem(without_place(error.what()));
+  } catch (const std::runtime_error& error) {
+    problem(without_place(error.what()));
+  }
 }
 
 std::optional<double> JsonReader::number() const {

@@ -31,6 +31,9 @@ class JsonReader {
   void problem(std::string what) const { findings_->problem(pointer_, std::move(what)); }
   // The problem `is <the value>; expected <expected>`.
   void expected(const std::string& expected) const;
+  // In a catch clause: what was refused by a function that knows nothing of documents becomes a
+  // problem here. Rethrows what is a fault of the program.
+  void refused() const;
 
   std::optional<double> number() const;
   std::optional<double> positive_number() const;

@@ -1,16 +1,11 @@
 #include "courant/reading/kind.hpp"
 
 #include <algorithm>
-#include <charconv>
+
+#include "courant/core/message.hpp"
 
 namespace courant {
 namespace {
-
-// The fewest that read back to the same number.
-std::string digits(double number) {
-  char buffer[32];
-  return std::string(buffer, std::to_chars(buffer, buffer + sizeof buffer, number).ptr);
-}
 
 Json reference(const std::string& definition) { return {{"$ref", "#/$defs/" + definition}}; }
 
@@ -27,7 +22,7 @@ namespace takes {
 Takes number() { return {"a number", {{"type", "number"}}}; }
 
 Takes number(double least, double greatest) {
-  return {"a number from " + digits(least) + " to " + digits(greatest),
+  return {"a number from " + exact_text(least) + " to " + exact_text(greatest),
           {{"type", "number"}, {"minimum", least}, {"maximum", greatest}}};
 }
 

@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "courant/core/message.hpp"
+
 namespace courant {
 
 std::vector<Key> lie_algebra_keys() {
@@ -69,7 +71,7 @@ std::optional<LieAlgebra> read_lie_algebra(ObjectReader& object) {
     if (!constants) return std::nullopt;
     return LieAlgebra("g", *constants);
   } catch (const std::exception& error) {
-    place.problem(error.what());
+    place.problem(without_place(error.what()));
     return std::nullopt;
   }
 }
@@ -79,7 +81,7 @@ std::optional<LieAlgebra> semidirect(const LieAlgebra& g, const std::vector<Matr
   try {
     return LieAlgebra::semidirect(g, rho);
   } catch (const std::exception& error) {
-    place.problem(error.what());
+    place.problem(without_place(error.what()));
     return std::nullopt;
   }
 }

@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include "courant/core/message.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/structures/canonical_symplectic.hpp"
 
@@ -124,7 +125,7 @@ bool is_skew(const Manifold& manifold, const MatrixField& field, const JsonReade
       };
       place.problem("is not skew-symmetric: at a random point entry " + entry(i, j) +
                     (i == j ? " is " : " and entry " + entry(j, i) + " add up to ") +
-                    std::to_string(i == j ? A(i, i) : A(i, j) + A(j, i)) + "; expected 0");
+                    number_text(i == j ? A(i, i) : A(i, j) + A(j, i)) + "; expected 0");
       return false;
     }
   }

@@ -1,7 +1,6 @@
 #include "courant/reading/method_kinds.hpp"
 
-#include <charconv>
-
+#include "courant/core/message.hpp"
 #include "courant/integrators/constrain_first.hpp"
 #include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/explicit_runge_kutta.hpp"
@@ -39,9 +38,7 @@ std::optional<DiscretizationChoice> midpoint(ObjectReader&) {
 
 std::optional<DiscretizationChoice> theta_map(ObjectReader& object) {
   const double theta = object.number("theta");
-  char digits[32];
-  const std::string shown(digits, std::to_chars(digits, digits + sizeof digits, theta).ptr);
-  return lifted("theta = " + shown,
+  return lifted("theta = " + exact_text(theta),
                 [theta](const ManifoldPointer& M) { return std::make_shared<Theta>(M, theta); });
 }
 

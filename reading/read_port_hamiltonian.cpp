@@ -1,3 +1,4 @@
+#include "courant/core/message.hpp"
 #include "courant/core/symmetric_eigenvalues.hpp"
 #include "courant/reading/space.hpp"
 #include "courant/reading/structure_kinds.hpp"
@@ -20,7 +21,7 @@ bool is_resistive(const Manifold& manifold, const MatrixField& R, const JsonRead
     const double least = symmetric_eigenvalues(A).minCoeff();
     if (least < -1e-12 * size) {
       place.problem("is not positive semidefinite: an eigenvalue at a random point is " +
-                    std::to_string(least) + "; expected at least 0");
+                    number_text(least) + "; expected at least 0");
       return false;
     }
   }

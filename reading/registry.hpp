@@ -84,9 +84,14 @@ class Registry {
   static std::optional<Product> made(const Kind& kind, const JsonReader& object,
                                      const Arguments&... arguments) {
     ObjectReader reader(object, kind.description);
-    auto product = kind.read(reader, arguments...);
-    if (product) reader.require_all_read();
-    return product;
+    try {
+      auto product = kind.read(reader, arguments...);
+      if (product) reader.require_all_read();
+      return product;
+    } catch (const std::exception&) {
+      object.refused();
+      return std::nullopt;
+    }
   }
 
   const Kind* find(const JsonReader& type) const {

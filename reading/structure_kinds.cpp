@@ -1,5 +1,6 @@
 #include "courant/reading/structure_kinds.hpp"
 
+#include "courant/core/message.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/reading/lie_algebra_keys.hpp"
 #include "courant/structures/canonical_symplectic.hpp"
@@ -96,7 +97,7 @@ std::optional<StructurePointer> lie_poisson(ObjectReader& object, const Structur
     return std::make_shared<LiePoisson>(*whole, site.manifold,
                                         plus ? LiePoisson::Sign::plus : LiePoisson::Sign::minus);
   } catch (const std::invalid_argument& error) {
-    object.place().problem(error.what());
+    object.place().problem(without_place(error.what()));
     return std::nullopt;
   }
 }
@@ -221,7 +222,7 @@ std::optional<StructurePointer> composed_parts(ObjectReader& object, const Struc
     return std::make_shared<Composed>(A.structure, A.space.manifold, B.structure, B.space.manifold,
                                       ports);
   } catch (const std::invalid_argument& error) {
-    key->problem(error.what());
+    key->problem(without_place(error.what()));
     return std::nullopt;
   }
 }
@@ -247,7 +248,7 @@ std::optional<SmoothMap> read_map(const JsonReader& value, const StructureSite& 
     const double defect = target->point_defect(y.col(0));
     if (defect > 1e-9 * (1 + y.norm())) {
       value.problem("leads away from " + target->name() + ", at a random point by " +
-                    std::to_string(defect) + "; expected a point of it");
+                    number_text(defect) + "; expected a point of it");
       return std::nullopt;
     }
   }
@@ -281,7 +282,7 @@ std::optional<StructurePointer> pushed_forward(ObjectReader& object, const Struc
     if (difference.norm() > 1e-9) {
       section_key->problem(
           "is no section: the map leads from it to another point, at a random one " +
-          std::to_string(difference.norm()) + " away; expected map(section(y)) = y");
+          number_text(difference.norm()) + " away; expected map(section(y)) = y");
       return std::nullopt;
     }
   return std::make_shared<Pushforward>(*map, *section, source->structure);

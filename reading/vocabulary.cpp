@@ -34,6 +34,29 @@ bool is_available(const Definition& definition, const SymbolTable& symbols) {
   return true;
 }
 
+// Throws ExperimentError, with the place, where a formula cannot be read.
+ExprVector value_of(const Definition& definition, const SymbolTable& symbols) {
+  try {
+    return evaluate(definition.formulas, symbols);
+  } catch (const FormulaError&) {
+    Findings findings;
+    check(definition.formulas, symbols, findings);
+    throw ExperimentError(findings.problems());
+  }
+}
+
+// Whether the formulas consist of words that formulas have; a problem for each that does not.
+bool has_words(const WrittenFormulas& formulas, Findings& findings) {
+  bool right = true;
+  for (const WrittenFormula& formula : formulas.formulas) try {
+      names_used(formula.text);
+    } catch (const FormulaError& error) {
+      findings.problem(formula.pointer, error.what());
+      right = false;
+    }
+  return right;
+}
+
 std::vector<std::pair<std::string, Symbol>> read_parameters(
     ObjectReader& system, const std::vector<std::string>& reserved) {
   std::vector<std::pair<std::string, Symbol>> parameters;
@@ -65,8 +88,11 @@ std::vector<Definition> read_definitions(ObjectReader& system) {
   const auto entries = object ? object->entries() : std::nullopt;
   if (!entries) return definitions;
   for (const auto& [name, value] : *entries)
-    if (auto formulas = read_formulas(value))
+    if (auto formulas = read_formulas(value)) {
+      if (!has_words(*formulas, value.findings()))
+        for (WrittenFormula& formula : formulas->formulas) formula.text = "1";
       definitions.push_back({name, value.pointer(), std::move(*formulas)});
+    }
   return definitions;
 }
 
@@ -142,8 +168,7 @@ SymbolTable Vocabulary::symbols(const Arguments& arguments) const {
   if (arguments.z) unknowns.add_to(symbols, *arguments.z);
   for (const Definition& definition : definitions)
     if (is_available(definition, symbols))
-      symbols.add(definition.name, definition.formulas.shape,
-                  evaluate(definition.formulas, symbols));
+      symbols.add(definition.name, definition.formulas.shape, value_of(definition, symbols));
   return symbols;
 }
 

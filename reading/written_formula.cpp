@@ -1,17 +1,13 @@
 #include "courant/reading/written_formula.hpp"
 
-#include <charconv>
+#include <cmath>
+
+#include "courant/core/message.hpp"
 
 namespace courant {
 namespace {
 
 constexpr const char* kFormula = "a formula or a number";
-
-std::string digits(double value) {
-  char buffer[32];
-  const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value);
-  return {buffer, end};
-}
 
 // Each part that can be read; nothing as soon as one cannot.
 std::optional<WrittenFormulas> read_row(const std::vector<JsonReader>& row) {
@@ -47,7 +43,8 @@ std::optional<WrittenFormulas> read_rows(const std::vector<JsonReader>& rows) {
 }  // namespace
 
 std::optional<WrittenFormula> read_formula(const JsonReader& value) {
-  if (value.value().is_number()) return WrittenFormula{digits(*value.number()), value.pointer()};
+  if (value.value().is_number())
+    return WrittenFormula{exact_text(*value.number()), value.pointer()};
   if (value.value().is_string()) return WrittenFormula{*value.text(), value.pointer()};
   value.expected(kFormula);
   return std::nullopt;
@@ -104,7 +101,15 @@ ExprVector evaluate(const WrittenFormulas& formulas, const SymbolTable& symbols)
 std::optional<VectorXd> evaluate_constants(const WrittenFormulas& formulas,
                                            const SymbolTable& constants, Findings& findings) {
   if (!check(formulas, constants, findings)) return std::nullopt;
-  return values(evaluate(formulas, constants));
+  const VectorXd numbers = values(evaluate(formulas, constants));
+  bool finite = true;
+  for (Index i = 0; i < numbers.size(); ++i) {
+    if (std::isfinite(numbers[i])) continue;
+    findings.problem(formulas.formulas[static_cast<std::size_t>(i)].pointer,
+                     "is " + number_text(numbers[i]) + "; expected a finite number");
+    finite = false;
+  }
+  return finite ? std::optional(numbers) : std::nullopt;
 }
 
 bool check(const WrittenFormula& formula, const SymbolTable& symbols, Findings& findings) {

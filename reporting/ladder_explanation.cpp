@@ -2,19 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
+
+#include "courant/core/message.hpp"
 
 namespace courant {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string number(double value, int digits = 6) {
-  char buffer[40];
-  std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
-  return buffer;
-}
 
 std::string subscript(int k) {
   std::string text;
@@ -36,7 +31,7 @@ std::string linear_form(const Json& components, const std::string& prefix) {
   for (const auto& [name, entry] : components.items()) {
     const double value = entry.get<double>();
     if (++terms > 6) return text + (value < 0 ? " - \u2026" : " + \u2026");
-    const std::string size = number(std::abs(value), 4);
+    const std::string size = number_text(std::abs(value), 4);
     text += text.empty() ? (value < 0 ? "-" : "") : (value < 0 ? " - " : " + ");
     text += (size == "1" ? "" : size + " ") + prefix + name;
   }
@@ -135,7 +130,7 @@ void explain_unknowns(const Json& ladder, std::vector<std::string>& lines) {
     if (listed == 1) lines.push_back("Unknowns that are determined, with their values here:");
     const double value = unknown.at("value").get<double>();
     std::string text =
-        "    " + name + " = " + number(std::abs(value) < 1e-14 * largest ? 0 : value);
+        "    " + name + " = " + number_text(std::abs(value) < 1e-14 * largest ? 0 : value);
     if (unknown.contains("formula"))
       text += "  (" + name + " = " + unknown.at("formula").get<std::string>() + ")";
     lines.push_back(text);
@@ -219,9 +214,9 @@ std::vector<std::string> ladder_explanation(const Json& ladder) {
         "How sure: dimensions are differences of ranks, and a rank counts the singular values that "
         "exceed the bound of their error. In the weakest decision (level " +
         std::to_string(whole(weakest->at("k"))) + ") the smallest that was counted is " +
-        number(weakest->at("smallest_counted").get<double>(), 2) +
+        number_text(weakest->at("smallest_counted").get<double>(), 2) +
         " times the bound, the largest that was taken for zero is " +
-        number(weakest->at("largest_neglected").get<double>(), 2) + " times the bound.");
+        number_text(weakest->at("largest_neglected").get<double>(), 2) + " times the bound.");
   }
   if (ladder.value("ambiguous", false)) {
     lines.push_back("Ambiguous: do not rely on the verdict.");

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "courant/core/derivative.hpp"
+#include "courant/core/message.hpp"
 #include "courant/integrators/integrator_laws.hpp"
 #include "courant/integrators/ladder/ladder_laws.hpp"
 #include "courant/integrators/maps/laws.hpp"
@@ -212,7 +213,7 @@ class Check {
                                             .backend = Backend::interpreter,
                                             .vocabulary = &experiment_.model.vocabulary});
     } catch (const std::invalid_argument& error) {
-      throw ExperimentError("/method", error.what());
+      throw ExperimentError("/method", without_place(error.what()));
     }
     if (method->map) {
       const auto* lift = dynamic_cast<const CotangentLift*>(method->map.get());

@@ -1,20 +1,14 @@
 #include "courant/running/consistent_start.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
+#include "courant/core/message.hpp"
 #include "courant/core/rank_decision.hpp"
 #include "courant/integrators/ladder/constraint_algorithm.hpp"
 
 namespace courant {
 namespace {
-
-std::string scientific(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.3g", value);
-  return buffer;
-}
 
 using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
@@ -35,7 +29,8 @@ void check_near_manifold(const Experiment& experiment, const InitialGuess& guess
     M.project(guess.x);
   } catch (const std::domain_error& error) {
     throw ExperimentError("/initial", "no point of " + M.name() + " is near the initial values" +
-                                          with_zeros(experiment) + ": " + error.what());
+                                          with_zeros(experiment) + ": " +
+                                          without_place(error.what()));
   }
 }
 
@@ -49,7 +44,7 @@ void check_finite(const Experiment& experiment, const InitialGuess& guess) {
     if (!std::isfinite(residual[i]))
       throw ExperimentError(
           "/initial", "the equation \"" + system.names().equations[static_cast<std::size_t>(i)] +
-                          "\" is " + std::to_string(residual[i]) + " at the initial values" +
+                          "\" is " + number_text(residual[i]) + " at the initial values" +
                           with_zeros(experiment) + "; expected a finite number");
 }
 
@@ -110,17 +105,15 @@ void forget_moves_of_what_was_not_given(ConstraintLadder& ladder, const Experime
   });
 }
 
-}  // namespace
-
-ConstraintLadder consistent_start(const Experiment& experiment) {
+ConstraintLadder found_start(const Experiment& experiment) {
   const auto& system = experiment.model.system;
   const Manifold& M = *system->manifold();
   const InitialValues& initial = experiment.initial;
   InitialGuess guess{.t = experiment.start(), .x = initial.x.values};
+  check_near_manifold(experiment, guess);
   const MatrixXd coframe = M.coframe(guess.x);
   if (initial.velocity.given.any()) guess.v = coframe * initial.velocity.values;
   if (initial.z.given.any()) guess.z = initial.z.values;
-  check_near_manifold(experiment, guess);
   check_finite(experiment, guess);
 
   ConstraintAlgorithm::Options options;
@@ -165,7 +158,7 @@ ConstraintLadder consistent_start(const Experiment& experiment) {
     if (free.verdict == Verdict::inconsistent) return free;
     throw ExperimentError("/hold",
                           "what is held contradicts the constraints, which are violated by " +
-                              scientific(ladder.levels.back().residual) +
+                              number_text(ladder.levels.back().residual, 3) +
                               "; expected values that satisfy them. " + ladder.reason);
   }
   forget_moves_of_what_was_not_given(ladder, experiment);
@@ -178,6 +171,30 @@ ConstraintLadder consistent_start(const Experiment& experiment) {
                           "nothing determines " + list + "; expected more initial values");
   }
   return ladder;
+}
+
+}  // namespace
+
+ConstraintLadder consistent_start(const Experiment& experiment) {
+  const auto fails = [&](const std::exception& error) {
+    return ExperimentError("/initial", "the constraint algorithm fails at the initial values" +
+                                           with_zeros(experiment) + ": " +
+                                           without_place(error.what()));
+  };
+  try {
+    return found_start(experiment);
+  } catch (const ExperimentError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw ExperimentError(
+        "/system", "takes more memory than there is: the constraint algorithm has matrices of " +
+                       std::to_string(experiment.model.system->manifold()->ambient_dimension()) +
+                       " coordinates");
+  } catch (const std::domain_error& error) {
+    throw fails(error);
+  } catch (const std::runtime_error& error) {
+    throw fails(error);
+  }
 }
 
 }  // namespace courant

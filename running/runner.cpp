@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "courant/core/message.hpp"
 #include "courant/integrators/ladder/ladder_watch.hpp"
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/ladder_json.hpp"
@@ -46,6 +47,11 @@ class Run {
         ladder_(consistent_start(experiment)),
         ladder_json_(ladder_json(ladder_, *experiment.model.system)),
         observer_(experiment, ladder_, options.backend) {
+    if (observer_.constraint_count() == 0 && ladder_.verdict != Verdict::inconsistent)
+      for (const std::string& pointer : experiment.expect.violations)
+        throw ExperimentError(pointer,
+                              "tests nothing: the system has no constraints, no equations in "
+                              "coordinates and t alone; expected another expectation");
     if (experiment.time)
       for (const double moment : experiment.expect.times)
         moments_due_.emplace(*experiment.time->step_at(moment), moment);
@@ -85,11 +91,16 @@ class Run {
   }
 
   void check_finite(const State& state) {
-    const VectorXd& row = observer_.row(state);
+    VectorXd row;
+    try {
+      row = observer_.row(state);
+    } catch (const std::domain_error& error) {
+      throw ExperimentError("/initial", without_place(error.what()));
+    }
     for (Index i = 0; i < static_cast<Index>(observer_.written_count()); ++i)
       if (!std::isfinite(row[i]))
         throw ExperimentError("/initial", observer_.names()[static_cast<std::size_t>(i)] + " is " +
-                                              std::to_string(row[i]) +
+                                              number_text(row[i]) +
                                               " at the initial point; expected a finite number");
   }
 
@@ -106,11 +117,11 @@ class Run {
       backend_ = method.integrator->is_native() ? "native" : "interpreter";
       return method;
     } catch (const std::invalid_argument& error) {
-      throw ExperimentError("/method", error.what());
+      throw ExperimentError("/method", without_place(error.what()));
     } catch (const std::runtime_error& error) {
-      fail(error.what());
+      fail(without_place(error.what()));
     } catch (const std::domain_error& error) {
-      fail(error.what());
+      fail((steps_ == 0 ? "/method: " : "") + without_place(error.what()));
     }
     return std::nullopt;
   }
@@ -130,8 +141,7 @@ class Run {
 
   void integrate(const PreparedMethod& method, TrajectoryWriter& writer) {
     const TimeSpan& time = *experiment_.time;
-    const auto stepper = method.integrator->start(method.initial, time.step);
-    record(stepper->state(), 0, time.steps, writer);
+    std::unique_ptr<Stepper> stepper;
     const auto begin = Clock::now();
     auto shown = begin;
     std::optional<LadderWatch> watch;
@@ -142,8 +152,10 @@ class Run {
       if (!finding.empty()) fail("Stopped after step " + std::to_string(k) + ". " + finding);
       return finding.empty();
     };
-    still_holds(stepper->state(), 0);
     try {
+      stepper = method.integrator->start(method.initial, time.step);
+      record(stepper->state(), 0, time.steps, writer);
+      still_holds(stepper->state(), 0);
       for (long k = 1; k <= time.steps; ++k) {
         if (options_.stop && options_.stop->load(std::memory_order_relaxed)) {
           status_ = RunStatus::interrupted;
@@ -162,9 +174,11 @@ class Run {
       }
     } catch (const SolveError& error) {
       fail(error.what() + (watch ? watch->decline() : ""));
+    } catch (const std::domain_error& error) {
+      fail((steps_ == 0 ? "/method: " : "") + without_place(error.what()));
     }
     wall_seconds_ = seconds_since(begin);
-    solver_ = stepper->statistics();
+    if (stepper) solver_ = stepper->statistics();
   }
 
   std::optional<Index> energy() const {

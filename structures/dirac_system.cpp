@@ -78,9 +78,8 @@ ExprVector DiracSystem::reaction(const ExprVector& x, const ExprVector& v, const
 ExprVector DiracSystem::do_residual(const ExprVector& x, const ExprVector& v, const ExprVector& z,
                                     const Expr& t) const {
   const Index n = v.size(), m = exterior_.constraint_count;
-  const ExprVector lambda = z.head(family_->parameter_size());
+  const ExprVector lambda = z.head(family_->parameter_size()), u = z.tail(structure_->port_size());
   const ExprVector kappa = z.segment(family_->parameter_size(), m);
-  const ExprVector u = z.tail(structure_->port_size());
   const ExprVector alpha = family_->differential(x, lambda, t);
   ExprVector pair(2 * n);
   pair << v, alpha;

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "courant/core/message.hpp"
+
 namespace courant {
 namespace {
 
@@ -44,7 +46,7 @@ LieAlgebra::LieAlgebra(std::string name, std::vector<MatrixXd> constants)
   for (const MatrixXd& c : constants_)
     if (const double defect = largest({c + c.transpose()}); defect > bound)
       throw std::domain_error("LieAlgebra: the constants have a symmetric part, |c + cᵀ| = " +
-                              std::to_string(defect) + "; expected skew matrices.");
+                              number_text(defect) + "; expected skew matrices.");
   // ad([e_i, e_j]) = [ad(e_i), ad(e_j)] is the Jacobi identity.
   std::vector<MatrixXd> ad;
   for (Index i = 0; i < n; ++i) ad.push_back(adjoint(constants_, i));
@@ -55,7 +57,7 @@ LieAlgebra::LieAlgebra(std::string name, std::vector<MatrixXd> constants)
         defect += constants_[k](static_cast<Index>(i), static_cast<Index>(j)) * ad[k];
       if (largest({defect}) > bound * size)
         throw std::domain_error("LieAlgebra: the Jacobi identity fails by " +
-                                std::to_string(largest({defect})) + " for e_" + std::to_string(j) +
+                                number_text(largest({defect})) + " for e_" + std::to_string(j) +
                                 " and e_" + std::to_string(i) + "; expected 0.");
     }
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "courant/core/message.hpp"
 #include "courant/manifolds/cotangent_bundle.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/structures/lagrangian_system.hpp"
@@ -27,7 +28,7 @@ PointVortices::PointVortices(VectorXd strengths) : strengths_(std::move(strength
   for (Index i = 0; i < count(); ++i)
     if (!std::isfinite(strengths_[i]) || strengths_[i] == 0.0)
       throw std::invalid_argument("PointVortices::PointVortices: strength " + std::to_string(i) +
-                                  " is " + std::to_string(strengths_[i]) +
+                                  " is " + number_text(strengths_[i]) +
                                   "; expected a number other than 0.");
 }
 

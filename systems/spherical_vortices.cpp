@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "courant/core/message.hpp"
 #include "courant/manifolds/product.hpp"
 #include "courant/manifolds/rotation.hpp"
 #include "courant/manifolds/sphere.hpp"
@@ -18,7 +19,7 @@ SphericalVortices::SphericalVortices(VectorXd strengths) : strengths_(std::move(
   for (Index i = 0; i < count(); ++i)
     if (!std::isfinite(strengths_[i]) || strengths_[i] == 0.0)
       throw std::invalid_argument("SphericalVortices::SphericalVortices: strength " +
-                                  std::to_string(i) + " is " + std::to_string(strengths_[i]) +
+                                  std::to_string(i) + " is " + number_text(strengths_[i]) +
                                   "; expected a number other than 0.");
 }
 

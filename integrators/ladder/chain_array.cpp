@@ -5,12 +5,24 @@
 #include "courant/integrators/ladder/local_formulation.hpp"
 
 namespace courant {
+namespace {
+
+const ImplicitSystem& existing(const std::shared_ptr<const ImplicitSystem>& system,
+                               const std::shared_ptr<const DiscretizationMap>& map) {
+  if (!system || !map)
+    throw std::invalid_argument(std::string("ChainArray: the ") + (system ? "map" : "system") +
+                                " is null; expected a system and a map.");
+  return *system;
+}
+
+}  // namespace
 
 ChainArray::ChainArray(std::shared_ptr<const ImplicitSystem> system,
                        std::shared_ptr<const DiscretizationMap> map, double h, double t,
                        const VectorXd& x0)
-    : Prolongation(system->manifold()->dimension(), system->auxiliary_size(),
-                   system->equation_count()),
+    // The order in which arguments are evaluated is open: each asks.
+    : Prolongation(existing(system, map).manifold()->dimension(),
+                   existing(system, map).auxiliary_size(), existing(system, map).equation_count()),
       system_(std::move(system)),
       map_(std::move(map)),
       h_(h),

@@ -1,8 +1,8 @@
 #include "courant/integrators/ladder/ladder_watch.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
+#include "courant/core/message.hpp"
 #include "courant/core/singular_value_decomposition.hpp"
 #include "courant/integrators/ladder/constraint_algorithm.hpp"
 #include "courant/integrators/ladder/natural_scaling.hpp"
@@ -10,11 +10,7 @@
 namespace courant {
 namespace {
 
-std::string number(double value) {
-  char buffer[40];
-  std::snprintf(buffer, sizeof buffer, "%.4g", value);
-  return buffer;
-}
+std::string number(double value) { return number_text(value, 4); }
 
 std::string dimensions(const ConstraintLadder& ladder) {
   std::string text;

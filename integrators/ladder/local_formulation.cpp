@@ -17,6 +17,19 @@ ExprVector with_reduced_blocks(const ImplicitSystem& system, const ExprMatrix& b
                               zeros ? basis.rows() : basis.cols());
 }
 
+// Which combination of a tangent block stands in which of its equations is up to the basis, and
+// bases turn on the way: each is differentiated as often as any of the block.
+std::vector<int> without_basis(const ImplicitSystem& system, const ExprMatrix& basis,
+                               std::vector<int> differentiations) {
+  if (basis.rows() == basis.cols() || differentiations.empty()) return differentiations;
+  for (Index b = 0; b < system.tangent_blocks(); ++b) {
+    const auto first = differentiations.begin() + b * basis.rows();
+    const auto last = first + basis.rows();
+    std::fill(first, last, *std::max_element(first, last));
+  }
+  return differentiations;
+}
+
 }  // namespace
 
 ExprVector reduced_residual(const ImplicitSystem& system, const ExprMatrix& basis,
@@ -29,9 +42,8 @@ LocalFormulation::LocalFormulation(Graph& graph, const ImplicitSystem& system, c
                                    const ExprMatrix& basis, const Expr& t,
                                    const std::vector<int>& differentiations) {
   const Manifold& M = *system.manifold();
-  const int order = differentiations.empty()
-                        ? 0
-                        : *std::max_element(differentiations.begin(), differentiations.end());
+  const std::vector<int> counts = without_basis(system, basis, differentiations);
+  const int order = counts.empty() ? 0 : *std::max_element(counts.begin(), counts.end());
   for (int j = 0; j <= order + 1; ++j)
     xi.push_back(
         graph.variables("xi" + std::string(static_cast<std::size_t>(j), '\''), M.dimension()));
@@ -64,7 +76,7 @@ LocalFormulation::LocalFormulation(Graph& graph, const ImplicitSystem& system, c
     derivative = tangent(derivative, Eigen::Map<ExprVector>(variables.data(), size),
                          Eigen::Map<ExprVector>(rates.data(), size));
     for (Index i = 0; i < F.size(); ++i) {
-      if (differentiations[static_cast<std::size_t>(i)] < j) continue;
+      if (counts[static_cast<std::size_t>(i)] < j) continue;
       collected.push_back(derivative[i]);
       source.push_back(i);
     }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "courant/core/derivative.hpp"
+#include "courant/core/message.hpp"
 #include "courant/core/singular_value_decomposition.hpp"
 #include "courant/integrators/maps/inversion.hpp"
 #include "courant/integrators/maps/symplecticity.hpp"
@@ -212,7 +213,7 @@ class DiscretizationMapLaws {
               return (M_.separation(x0, s.x) + M_.separation(x1, y)) / (1.0 + s.x.norm()) +
                      M_.point_defect(x) / (1.0 + x.squaredNorm()) + M_.tangent_defect(x, v);
             },
-            describe("x₀", s.x) + ", x₁ at distance " + std::to_string(distance));
+            describe("x₀", s.x) + ", x₁ at distance " + number_text(distance));
     return measured.result();
   }
 
@@ -231,7 +232,7 @@ class DiscretizationMapLaws {
                          (1.0 + s.x.norm()) +
                      (length < 1e-2 && far > 0.1 * (1.0 + s.x.norm()) ? kInfinity : 0.0);
             },
-            describe("x₀", s.x) + ", ‖w‖ = " + std::to_string(length));
+            describe("x₀", s.x) + ", ‖w‖ = " + number_text(length));
     return measured.result();
   }
 

@@ -3,6 +3,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "courant/core/message.hpp"
+
 namespace courant {
 namespace {
 
@@ -17,7 +19,7 @@ std::string name_of(double theta) {
 Theta::Theta(std::shared_ptr<const Manifold> manifold, double theta)
     : DiscretizationMap(name_of(theta), std::move(manifold)), theta_(theta) {
   if (!(theta >= 0.0 && theta <= 1.0))
-    throw std::invalid_argument("Theta::Theta: theta is " + std::to_string(theta) +
+    throw std::invalid_argument("Theta::Theta: theta is " + number_text(theta) +
                                 "; expected a number in [0, 1].");
 }
 

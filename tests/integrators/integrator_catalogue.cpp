@@ -16,6 +16,7 @@
 #include "courant/structures/canonical_symplectic.hpp"
 #include "courant/structures/dirac_system.hpp"
 #include "example_systems.hpp"
+#include "held_on_sphere.hpp"
 
 namespace courant::test {
 namespace {
@@ -167,6 +168,12 @@ void on_manifolds(std::vector<IntegratorEntry>& table) {
                       {.x = (VectorXd(6) << 0.6, 0.0, -0.8, 0.4, 0.5, 0.3).finished()}, 0.1, table);
   pendulum.method_1("chordal", lift(M, std::make_shared<Chordal>(sphere)));
   pendulum.method_1("theta = 1", lift(M, std::make_shared<Theta>(sphere, 1.0)));
+
+  // Bases of T(T*S³) turn along the way, and multipliers are found in any of them.
+  const examples::HeldOnSphere held;
+  Site("held on a curved set in S³", held.system, held.ladder, 0.1, table)
+      .method_2("chordal", lift(held.M, std::make_shared<Chordal>(held.sphere)),
+                std::make_shared<OrthogonalProjector>());
 
   const auto rotations = std::make_shared<SpecialOrthogonal3>();
   const auto N = cotangent(rotations);

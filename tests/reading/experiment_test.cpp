@@ -161,8 +161,8 @@ BOOST_AUTO_TEST_CASE(refuses_initial_values_that_do_not_fit) {
              "/initial/x: has 3 values; expected 4, for x");
   BOOST_TEST(problems(vortices, "/initial/x[0]", 1) == "/initial/x[0]: is given twice");
   BOOST_TEST(problems(vortices, "/initial/x[4]", 1).find("/initial/x[4]: key, column ") == 0u);
-  BOOST_TEST(problems(vortices, "/initial/y", {1, 2, 3, "1/0"}).find("/initial/y: is not finite") ==
-             0u);
+  BOOST_TEST(problems(vortices, "/initial/y", {1, 2, 3, "1/0"})
+                 .find("/initial/y/3: is inf; expected a finite number") == 0u);
   BOOST_TEST(problems(vortices, "/hold", {"p_x"})
                  .find("/hold/0: is to be held, but its value is not given") == 0u);
   BOOST_TEST(problems(vortices, "/hold", {"x", "z"}).find("/hold/1: ") == 0u);
@@ -253,7 +253,8 @@ BOOST_AUTO_TEST_CASE(refuses_parts_of_structures_that_do_not_fit) {
   inner["system"]["structure"]["parts"][0]["structure"] = without_ports;
   inner["system"]["structure"]["parts"][0]["structure"]["factors"][0]["structure"]["matrix"] = {
       {0}};
-  BOOST_TEST(problems(inner).find("/system/structure/parts: Composed(") == 0u);
+  BOOST_TEST(problems(inner).starts_with("/system/structure/parts: "));
+  BOOST_TEST(problems(inner).find("Composed") == std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(refuses_maps_that_do_not_fit) {

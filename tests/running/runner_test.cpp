@@ -95,7 +95,78 @@ BOOST_AUTO_TEST_CASE(expectations_pass_and_fail) {
   BOOST_TEST(!passes({{"verdict", "gauge"}}));
   BOOST_TEST(!passes({{"ladder", {{2, 2}, {1, 1}}}}));
   BOOST_TEST(!passes({{"verdict", "inconsistent"}}));
-  BOOST_TEST(!passes({{"max_violation", 1.0}}));  // there are no constraints
+}
+
+// What an expectation would say whatever the run does is not an expectation.
+BOOST_AUTO_TEST_CASE(expectations_that_test_nothing_are_refused_at_the_start) {
+  const auto refused = [](const Json& expectation, const Json& experiment) -> std::string {
+    const TemporaryFolder folder;
+    Json expecting = experiment;
+    expecting["expect"] = {expectation};
+    try {
+      run_in(folder, expecting);
+    } catch (const ExperimentError& error) {
+      BOOST_TEST(!std::filesystem::exists(folder / "run"));
+      return error.what();
+    }
+    return "";
+  };
+  Json at_a_point = oscillator;
+  at_a_point.erase("method");
+  at_a_point.erase("time");
+  for (const auto& [experiment, expectation, message] :
+       std::vector<std::tuple<Json, Json, const char*>>{
+           {at_a_point,
+            {{"observable", "H"}, {"max_drift", 1e-12}},
+            "/expect/0/max_drift: tests nothing"},
+           {at_a_point,
+            {{"observable", "H"}, {"max_slope", 1e-12}},
+            "/expect/0/max_slope: tests nothing"},
+           {at_a_point,
+            {{"state", {{"q", "cos(t)"}}}, {"tolerance", 1e-9}},
+            "/expect/0/state/q: changes with t"},
+           {at_a_point,
+            {{"at", 0}, {"state", {{"q", 1}}}, {"tolerance", 1e-9}},
+            "/expect/0/at: there is no trajectory"},
+           {oscillator, {{"max_violation", 1.0}}, "/expect/0/max_violation: tests nothing"},
+           {oscillator,
+            {{"max_violation", -1.0}},
+            "/expect/0/max_violation: is -1.0; expected a number that is at least 0"},
+           {oscillator,
+            {{"observable", "H"}, {"max_drift", -1e-9}},
+            "/expect/0/max_drift: is -1e-09; expected"},
+           {oscillator,
+            {{"observable", "H"}, {"min_drift", 0}},
+            "/expect/0/min_drift: is 0; expected a number greater than 0"},
+           {oscillator,
+            {{"at", 10}, {"state", {{"q", "0/0"}}}, {"tolerance", 1}},
+            "/expect/0/state/q: is nan at t = 10"},
+           {oscillator,
+            {{"state", Json::object()}, {"tolerance", 1}},
+            "/expect/0/state: is an object; expected an object of values"},
+       })
+    BOOST_TEST(refused(expectation, experiment).starts_with(message),
+               refused(expectation, experiment) << " for " << expectation);
+  // At a point there are values and no drifts.
+  BOOST_TEST(refused({{"observable", "H"}, {"max", 1}}, at_a_point) == "");
+  BOOST_TEST(refused({{"state", {{"q", 1}}}, {"tolerance", 1e-9}}, at_a_point) == "");
+}
+
+BOOST_AUTO_TEST_CASE(an_expectation_that_fails_says_what_is_and_by_how_much) {
+  const auto finding = [](const Json& expectation) {
+    const TemporaryFolder folder;
+    Json expecting = oscillator;
+    expecting["expect"] = {expectation};
+    return run_in(folder, expecting).expectations[0].finding;
+  };
+  BOOST_TEST(finding({{"at", 0}, {"state", {{"q", 1.25}}}, {"tolerance", 1e-7}}) ==
+             "is 1, off by 0.25; allowed 1e-07");
+  BOOST_TEST(finding({{"observable", "q"}, {"max", 0.5}}) == "is 1; allowed 0.5");
+  BOOST_TEST(finding({{"observable", "q"}, {"min", 2}}).ends_with("; expected at least 2"));
+  BOOST_TEST(finding({{"state", {{"H", "2.5"}}}, {"tolerance", 1e-7}}) ==
+             "is off by 2; allowed 1e-07");
+  BOOST_TEST(finding({{"verdict", "gauge"}}) == "is regular; expected gauge");
+  BOOST_TEST(finding({{"ladder", {{3, 3}}}}) == "is [[2,2]]; expected [[3,3]]");
 }
 
 BOOST_AUTO_TEST_CASE(what_was_computed_before_a_failure_is_on_disk) {

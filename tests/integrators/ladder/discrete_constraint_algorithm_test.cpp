@@ -94,4 +94,13 @@ BOOST_AUTO_TEST_CASE(arguments_are_checked) {
       std::invalid_argument);
 }
 
+BOOST_AUTO_TEST_CASE(a_missing_system_or_map_is_refused) {
+  const auto map = std::make_shared<Theta>(cartesian_pendulum()->manifold(), 0.5);
+  const DiscreteConstraintAlgorithm algorithm;
+  BOOST_CHECK_THROW(algorithm.run(nullptr, map, 0.1, at({0.6, -0.8, 0.1, 0.3})),
+                    std::invalid_argument);
+  BOOST_CHECK_THROW(algorithm.run(cartesian_pendulum(), nullptr, 0.1, at({0.6, -0.8, 0.1, 0.3})),
+                    std::invalid_argument);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
