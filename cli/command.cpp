@@ -7,6 +7,7 @@
 
 #include "courant/core/message.hpp"
 #include "courant/core/spelling.hpp"
+#include "courant/core/version.hpp"
 #include "courant/running/run_files.hpp"
 #include "courant/running/run_folder.hpp"
 
@@ -42,13 +43,15 @@ int command(const std::vector<std::string>& arguments, const Console& console) {
   CLI::App app("Geometric integrators from Dirac structures and the constraint algorithm.",
                "courant");
   app.require_subcommand(1);
-  app.set_version_flag("--version", "courant " COURANT_VERSION);
+  app.set_version_flag("--version", "courant " COURANT_VERSION_STRING);
   add_run(app, session);
   add_constraints(app, session);
   add_check(app, session);
   add_list(app, session);
   add_schema(app, session);
+  add_import(app, session);
   add_report(app, session);
+  add_tour(app, session);
   try {
     if (!arguments.empty())
       if (const std::string what = unknown_command(arguments[0], app); !what.empty())

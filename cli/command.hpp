@@ -42,7 +42,9 @@ void add_constraints(CLI::App& app, Session& session);
 void add_check(CLI::App& app, Session& session);
 void add_list(CLI::App& app, Session& session);
 void add_schema(CLI::App& app, Session& session);
+void add_import(CLI::App& app, Session& session);
 void add_report(CLI::App& app, Session& session);
+void add_tour(CLI::App& app, Session& session);
 
 // The command: `arguments` without the name of the program. Errors go to console.err, one line
 // each, `courant: …`.

@@ -1,13 +1,12 @@
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <memory>
 #include <ostream>
-#include <sstream>
 
 #include "courant/cli/command.hpp"
 #include "courant/cli/experiment_file.hpp"
 #include "courant/cli/text.hpp"
 #include "courant/core/message.hpp"
+#include "courant/integrators/ladder/discrete_constraint_algorithm.hpp"
 #include "courant/reporting/ladder_diagram.hpp"
 #include "courant/reporting/ladder_explanation.hpp"
 #include "courant/running/consistent_start.hpp"
@@ -16,32 +15,7 @@
 namespace courant::cli {
 namespace {
 
-// `text` in lines of at most 96 characters, each after `indent`; a line that is indented itself
-// stays whole.
-void print_wrapped(std::ostream& out, const std::string& text, const std::string& indent) {
-  constexpr std::size_t columns = 96;
-  if (text.starts_with(' ')) {
-    out << indent << text << '\n';
-    return;
-  }
-  std::string line;
-  std::size_t length = 0;
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    const auto width = static_cast<std::size_t>(
-        std::count_if(word.begin(), word.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-    if (length > 0 && length + 1 + width > columns) {
-      out << indent << line << '\n';
-      line.clear();
-      length = 0;
-    }
-    line += (length == 0 ? "" : " ") + word;
-    length += width + (length == 0 ? 0 : 1);
-  }
-  out << indent << line << '\n';
-}
-
-void print_ladder(const Console& console, const Experiment& experiment, const Json& ladder) {
+void print_levels(const Console& console, const Experiment& experiment, const Json& ladder) {
   std::ostream& out = console.out;
   if (!experiment.title.empty()) out << printable(experiment.title) << '\n';
   out << "  " << experiment.model.description << "\n\n";
@@ -54,7 +28,13 @@ void print_ladder(const Console& console, const Experiment& experiment, const Js
                shown(level.at("residual"), 2)});
   table.print(out);
   out << '\n';
-  print_wrapped(out, verdict_in_words(ladder), "  ");
+}
+
+void print_ladder(const Console& console, const Experiment& experiment, const Json& ladder) {
+  std::ostream& out = console.out;
+  print_levels(console, experiment, ladder);
+  const bool is_stopped = ladder.at("reason").get<std::string>().starts_with("Stopped");
+  if (!is_stopped) print_wrapped(out, verdict_in_words(ladder), "  ");
   if (const std::string reason = ladder.at("reason"); !reason.empty())
     print_wrapped(out, reason, "  ");
   out << '\n';
@@ -71,12 +51,48 @@ void print_ladder(const Console& console, const Experiment& experiment, const Js
   }
 }
 
+// Remark 6.1 on the system, the discretization map and the step of an experiment.
+Json discrete_ladder(const Experiment& experiment, const ConstraintLadder& start) {
+  if (!experiment.method || !experiment.time)
+    throw ExperimentError("/method",
+                          "is missing; the discrete ladder is that of a discretization "
+                          "map and a step");
+  const auto& system = experiment.model.system;
+  const PreparedMethod method = experiment.method->prepare(
+      {.system = system, .ladder = start, .initial = start.point, .step = experiment.time->step});
+  if (!method.map)
+    throw ExperimentError("/method", experiment.method->description +
+                                         " has no discretization map; expected a method that has "
+                                         "one, such as discretize-first");
+  const InitialGuess guess{
+      .t = start.point.t, .x = start.point.x, .v = start.point.v, .z = start.point.z};
+  return discrete_ladder_json(
+      DiscreteConstraintAlgorithm().run(system, method.map, experiment.time->step, guess), *system);
+}
+
+void print_discrete(const Console& console, const Experiment& experiment, const Json& ladder,
+                    const Json& continuous) {
+  std::ostream& out = console.out;
+  print_levels(console, experiment, ladder);
+  print_wrapped(out,
+                "Pairs of points in place of velocities (Remark 6.1): S_k are "
+                "the pairs (x\u2080, "
+                "x\u2081) from which k more steps can be made, M_k their first "
+                "points. By " +
+                    experiment.method->description + ", with the step " +
+                    shown(experiment.time->step) + ".",
+                "  ");
+  print_wrapped(out, discrete_verdict_in_words(ladder), "  ");
+  out << "\n  without discretization: " << ladder_line(continuous) << '\n';
+}
+
 }  // namespace
 
 void add_constraints(CLI::App& app, Session& session) {
   struct Arguments {
     std::string file;
-    bool json = false;
+    bool json = false, discrete = false;
+    Index level = -1;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* constraints = app.add_subcommand(
@@ -84,12 +100,25 @@ void add_constraints(CLI::App& app, Session& session) {
   constraints->add_option("FILE", arguments->file, "the experiment, or - for standard input")
       ->required();
   constraints->add_flag("--json", arguments->json, "print JSON");
+  CLI::Option* level =
+      constraints->add_option("--level", arguments->level, "stop at this level of the ladder")
+          ->check(CLI::NonNegativeNumber);
+  constraints
+      ->add_flag("--discrete", arguments->discrete,
+                 "the ladder of the method's discretization map and step (Remark 6.1)")
+      ->excludes(level);
   constraints->callback([&session, arguments] {
     session.action = [arguments](const Console& console) {
       return with_experiment(console, arguments->file, [&](const Experiment& experiment) -> int {
-        const Json ladder = ladder_json(consistent_start(experiment), *experiment.model.system);
+        const ConstraintLadder start = consistent_start(experiment);
+        const Json whole = ladder_json(start, *experiment.model.system);
+        const Json ladder = arguments->discrete     ? discrete_ladder(experiment, start)
+                            : arguments->level >= 0 ? up_to_level(whole, arguments->level)
+                                                    : whole;
         if (arguments->json)
           console.out << ladder.dump(2) << '\n';
+        else if (arguments->discrete)
+          print_discrete(console, experiment, ladder, whole);
         else
           print_ladder(console, experiment, ladder);
         return done;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <ostream>
+#include <sstream>
 
 #include "courant/core/message.hpp"
 
@@ -14,6 +15,34 @@ std::size_t width(const std::string& text) {
       std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
+// The words of a text; those of a formula that stand in parentheses together, and a sign with what
+// follows it, unless that is longer than `longest`.
+std::vector<std::string> pieces(const std::string& text, std::size_t longest) {
+  std::vector<std::string> result;
+  std::string piece;
+  std::size_t begin = 0;  // of the words that belong to the piece, in `words`
+  std::vector<std::string> words;
+  const auto finish = [&] {
+    if (piece.empty()) return;
+    if (width(piece) > longest)
+      result.insert(result.end(), words.begin() + static_cast<std::ptrdiff_t>(begin), words.end());
+    else
+      result.push_back(piece);
+    piece.clear();
+    begin = words.size();
+  };
+  std::ptrdiff_t depth = 0;
+  std::istringstream in(text);
+  for (std::string word; in >> word;) {
+    words.push_back(word);
+    piece += (piece.empty() ? "" : " ") + word;
+    depth += std::ranges::count(word, '(') - std::ranges::count(word, ')');
+    if (depth <= 0 && word != "+" && word != "-") finish();
+  }
+  finish();
+  return result;
+}
+
 }  // namespace
 
 std::string shown(double value, int digits) { return number_text(value, digits); }
@@ -23,6 +52,25 @@ std::string shown(const Json& value, int digits) {
   if (value.is_number()) return shown(value.get<double>(), digits);
   if (value.is_null()) return "–";
   return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+void print_wrapped(std::ostream& out, const std::string& text, const std::string& indent) {
+  constexpr std::size_t columns = 96;
+  const std::size_t spaces = text.find_first_not_of(' ');
+  const std::string first(spaces == std::string::npos ? 0 : spaces, ' ');
+  const std::string further = first + (first.empty() ? "" : "    ");
+  std::string line = first;
+  bool is_begun = false;
+  for (const std::string& piece : pieces(text, first.empty() ? 0 : columns - further.size())) {
+    if (is_begun && width(line) + 1 + width(piece) > columns) {
+      out << indent << line << '\n';
+      line = further;
+      is_begun = false;
+    }
+    line += (is_begun ? " " : "") + piece;
+    is_begun = true;
+  }
+  out << indent << line << '\n';
 }
 
 void TextTable::add(std::vector<std::string> row) {

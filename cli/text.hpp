@@ -13,6 +13,10 @@ namespace courant::cli {
 std::string shown(double value, int digits = 6);
 std::string shown(const Json& value, int digits = 6);
 
+// `text` in lines of at most 96 characters, each after `indent`. A text that is indented itself, a
+// formula, goes on four columns further in.
+void print_wrapped(std::ostream& out, const std::string& text, const std::string& indent);
+
 // Rows of cells; the first column is left-aligned, the others right-aligned, two spaces apart.
 class TextTable {
  public:

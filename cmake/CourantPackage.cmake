@@ -1,5 +1,6 @@
-# The installed package: find_package(Courant) gives Courant::courant, which is everything, and one
-# target a room (Courant::core, ...) for those who want less.
+# The installed package: find_package(Courant) gives Courant::courant, which is everything but the command, one
+# target a room (Courant::core, ...) for those who want less, and Courant::command for those who want the command with
+# kinds of their own.
 
 include(CMakePackageConfigHelpers)
 
@@ -11,6 +12,11 @@ foreach(room IN LISTS courant_rooms)
   endif()
 endforeach()
 set_target_properties(courant_all PROPERTIES EXPORT_NAME courant)
+
+# Of the headers, those of the public API.
+install(CODE "set(SOURCE \"${PROJECT_SOURCE_DIR}\")
+set(INCLUDE_DIR \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}\")")
+install(SCRIPT ${PROJECT_SOURCE_DIR}/cmake/install_headers.cmake)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Courant)
 install(TARGETS courant_all EXPORT CourantTargets)

@@ -25,7 +25,7 @@ endfunction()
 # courant_library(<room> [PUBLIC <links>...] [PRIVATE <links>...])
 #
 # The library courant_<room> of all sources of this folder and its parts, linked to the rooms that it may know and to
-# what is given, its headers installed to include/courant/<room>/ and the target exported as Courant::<room>.
+# what is given, exported as Courant::<room>.
 function(courant_library room)
   set(target courant_${room})
   file(GLOB sources CONFIGURE_DEPENDS *.cpp */*.cpp)
@@ -49,8 +49,6 @@ function(courant_library room)
     VERSION ${PROJECT_VERSION}
     SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   install(TARGETS ${target} EXPORT CourantTargets)
-  install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/courant/${room}
-    FILES_MATCHING PATTERN *.hpp)
 endfunction()
 
 # courant_tests(<room>)

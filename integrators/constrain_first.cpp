@@ -91,7 +91,8 @@ class ConstrainFirst::Trajectory final : public Stepper {
     y.segment(n_, n_) = basis_.matrix().transpose() * state_.v;
     y.segment(method_.blocks_ * n_, m) = state_.z;
     near_ = state_.x;
-    project(state_.t);
+    // A start at zero, as of a circuit at rest, has the size of its first step.
+    project(state_.t, std::fabs(h_) * largest(state_.v));
     accept(state_.t);
   }
 
@@ -110,7 +111,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
     }
     const double* in[] = {y.data(), state_.x.data(), basis_.data(), directions_.data(),
                           &h_,      &state_.t};
-    solve(solver_, in);
+    solve(solver_, in, largest(state_.x));
     method_.advance_.value(in, near_.data());
     if (!near_.allFinite())
       throw SolveError(SolveError::Reason::left_domain, state_.t, statistics_.steps + 1, {},
@@ -122,21 +123,21 @@ class ConstrainFirst::Trajectory final : public Stepper {
 
     projector_.unknown() = y;
     const double t = origin_ + static_cast<double>(statistics_.steps + 1) * h_;
-    project(t);
+    project(t, largest(near_));
     record();
     accept(t);
   }
 
-  void solve(StepSolver& solver, const double* const* in) {
-    const double size = largest(state_.x);
+  void solve(StepSolver& solver, const double* const* in, double size) {
     const double scales[] = {size, size / std::fabs(h_), auxiliary_scale(largest(state_.z), size),
                              size};
     solver.solve(in, scales, start_, state_, statistics_);
   }
 
   // The point of M_f that P takes near_ to; leaves its unknowns in projector_, its basis and W
-  // behind. Before, projector_ has those of the step.
-  void project(double t) {
+  // behind. Before, projector_ has those of the step. `size_besides`: of
+  // coordinates, other than those of x_k.
+  void project(double t, double size_besides) {
     VectorXd& y = projector_.unknown();
     y.head(n_).setZero();
     y.tail(d_).setZero();
@@ -159,7 +160,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
       aimed_ = y;
       const double* in[] = {y.data(),           guess_.data(), basis_.data(),
                             directions_.data(), near_.data(),  &t};
-      solve(projector_, in);
+      solve(projector_, in, std::max(largest(state_.x), size_besides));
       method_.projected_.value(in, found_.data());
       const double moved = largest(y.head(n_));
       const double size = largest(found_.head(guess_.size()));

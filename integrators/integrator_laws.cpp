@@ -81,6 +81,8 @@ class IntegratorLaws {
     for (int i = 0; i < 4; ++i) {
       stepper->step();
       report_.states.push_back(stepper->state().x);
+      // A system that starts at zero has the size of where it goes.
+      if (setting_.initial.x.isZero(0.0)) scale_ = std::max(scale_, stepper->state().x.norm());
     }
     return 0.0;
   }

@@ -1,6 +1,7 @@
 #include "courant/reading/catalogue.hpp"
 
 #include "courant/reading/method_kinds.hpp"
+#include "courant/reading/network_element.hpp"
 #include "courant/reading/space.hpp"
 #include "courant/reading/structure_kinds.hpp"
 #include "courant/reading/system_kinds.hpp"
@@ -10,6 +11,7 @@ namespace courant {
 std::vector<Shelf> catalogue() {
   return {{"systems", "system", "A catalogue entry, or a description by formulas.",
            system_kinds().descriptions()},
+          {"elements", "element", "An element of a network.", element_kinds().descriptions()},
           {"manifolds", "manifold", "A space.", manifold_kinds().descriptions()},
           {"structures", "structure", "A Dirac structure.", structure_kinds().descriptions()},
           {"methods", "method", "How the system is integrated.", method_kinds().descriptions()},

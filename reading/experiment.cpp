@@ -46,6 +46,15 @@ Output read_output(const JsonReader& value) {
   return output;
 }
 
+// Whether a name stands for a number that has no column of its own.
+bool observable(const std::string& name, const ImplicitSystem& system, const SymbolTable& symbols) {
+  const Symbol* symbol = symbols.find(name);
+  const auto& coordinates = system.names().coordinates;
+  return symbol != nullptr && symbol->shape.empty() && name != "H" && name != "constraint" &&
+         name != "t" &&
+         std::find(coordinates.begin(), coordinates.end(), name) == coordinates.end();
+}
+
 std::vector<Observable> read_observables(const JsonReader& value, const Model& model) {
   std::vector<Observable> observables;
   const auto entries = value.entries();
@@ -61,6 +70,12 @@ std::vector<Observable> read_observables(const JsonReader& value, const Model& m
   if (taken.find("H") == nullptr && system.energy(x, z, t)) taken.add("H", 0.0);
   taken.add("constraint", 0.0);
   for (const auto& [name, entry] : *entries) {
+    const auto formula = read_formula(entry);
+    // A quantity that has this name already is written under it.
+    if (formula && formula->text == name && observable(name, *model.system, symbols)) {
+      observables.push_back({name, *formula});
+      continue;
+    }
     try {
       if (!parse_declaration(name, taken).shape.empty())
         throw FormulaError(1, "\"" + name + "\" has a size; expected a name");
@@ -68,7 +83,6 @@ std::vector<Observable> read_observables(const JsonReader& value, const Model& m
       entry.problem(std::string("key, ") + error.what());
       continue;
     }
-    const auto formula = read_formula(entry);
     if (formula && check(*formula, symbols, value.findings()))
       observables.push_back({name, *formula});
   }

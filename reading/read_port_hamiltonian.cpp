@@ -28,25 +28,67 @@ bool is_resistive(const Manifold& manifold, const MatrixField& R, const JsonRead
   return true;
 }
 
-// One name, or an array of them where there are several; nothing if it has a meaning already.
-bool append_name(NameList& names, const std::string& name, Index count, SymbolTable& taken,
-                 const JsonReader& place) {
-  if (count == 0) return true;
-  if (taken.find(name)) {
-    place.problem("the ports have the name \"" + name +
-                  "\", which has a meaning already; expected another name in its place");
-    return false;
+// "u", or "u[m]" where there are several ports; u_<name> for each where they have names.
+NameList port_variables(const std::string& letter, Index count,
+                        const std::vector<std::string>& port_names) {
+  NameList names;
+  if (count == 0) return names;
+  if (port_names.empty()) {
+    Declaration declaration{letter, {}};
+    if (count > 1) declaration.shape = {count};
+    names.append(std::move(declaration));
   }
-  Declaration declaration{name, {}};
-  if (count > 1) declaration.shape = {count};
-  taken.add(name, declaration.shape, ExprVector::Ones(count));
-  names.append(std::move(declaration));
+  for (const std::string& name : port_names) names.append({letter + "_" + name, {}});
+  return names;
+}
+
+bool is_free(const NameList& names, const SymbolTable& taken,
+             const std::vector<Definition>& definitions) {
+  for (const Declaration& declaration : names.declarations()) {
+    if (taken.find(declaration.name)) return false;
+    for (const Definition& definition : definitions)
+      if (definition.name == declaration.name) return false;
+  }
   return true;
+}
+
+// Adds names to those that are taken; a problem if one of them has a meaning already.
+bool take(const NameList& names, SymbolTable& taken, const JsonReader& place) {
+  for (const Declaration& declaration : names.declarations()) {
+    if (taken.find(declaration.name)) {
+      place.problem("the ports have the name \"" + declaration.name +
+                    "\", which has a meaning already; expected another name in its place");
+      return false;
+    }
+    taken.add(declaration.name, declaration.shape, ExprVector::Ones(declaration.size()));
+  }
+  return true;
+}
+
+// The m names of the ports, or none.
+std::optional<std::vector<std::string>> read_port_names(const std::optional<JsonReader>& key,
+                                                        Index m) {
+  std::vector<std::string> names;
+  if (!key) return names;
+  NameList list;
+  SymbolTable known;
+  if (!read_names(*key, known, list)) return std::nullopt;
+  for (const Declaration& declaration : list.declarations()) {
+    if (!declaration.shape.empty()) {
+      key->problem("\"" + declaration.name + "\" has a size; expected a name for each port");
+      return std::nullopt;
+    }
+    names.push_back(declaration.name);
+  }
+  if (static_cast<Index>(names.size()) == m) return names;
+  key->problem("has " + std::to_string(names.size()) + " names; expected one for each of the " +
+               std::to_string(m) + " columns of B");
+  return std::nullopt;
 }
 
 }  // namespace
 
-// ẋ = (J - R) dH + B u with open or closed ports.
+// ẋ = (J - R) dH + B u, y = Bᵀ dH + D u with open or closed ports.
 std::optional<Model> read_port_hamiltonian(ObjectReader& system) {
   Findings& findings = system.place().findings();
   Model model;
@@ -58,7 +100,9 @@ std::optional<Model> read_port_hamiltonian(ObjectReader& system) {
   const auto J_key = system.required("J");
   const auto R_key = system.optional("R");
   const auto B_key = system.optional("B");
+  const auto D_key = system.optional("D");
   const bool open = system.word("ports") == "open";
+  const auto names_key = system.optional("port_names");
   const auto inputs_key = open ? system.required("inputs") : system.optional("inputs");
   if (!open && inputs_key)
     inputs_key->problem("is for open ports; expected \"ports\": \"open\" beside it");
@@ -79,10 +123,13 @@ std::optional<Model> read_port_hamiltonian(ObjectReader& system) {
   } else {
     B = [n](const ExprVector&) { return ExprMatrix(ExprMatrix::Zero(n, 0)); };
   }
-  if (!J || !B || (R_key && !R)) return std::nullopt;
+  const auto D = D_key && B ? read_matrix_field(*D_key, site, m, m) : std::nullopt;
+  const auto port_names = read_port_names(names_key, m);
+  if (!J || !B || (R_key && !R) || (D_key && !D) || !port_names) return std::nullopt;
   const bool right = !R || is_resistive(*space->manifold, *R, *R_key);
   const JsonReader& ports_place = B_key ? *B_key : system.place();
-  if (!append_name(vocabulary.unknowns, "u", m, taken, ports_place)) return std::nullopt;
+  vocabulary.unknowns = port_variables("u", m, *port_names);
+  if (!take(vocabulary.unknowns, taken, ports_place)) return std::nullopt;
   check_definitions(vocabulary, findings);
 
   Graph graph;
@@ -102,11 +149,11 @@ std::optional<Model> read_port_hamiltonian(ObjectReader& system) {
                           " columns of B");
       inputs_right = false;
     }
-    NameList outputs;
+    const NameList outputs = port_variables("y", m, *port_names);
     Vocabulary words;
     words.parameters = vocabulary.parameters;
     SymbolTable known = words.symbols({.t = Expr(0.0)});
-    if (!append_name(outputs, "y", m, known, *inputs_key)) return std::nullopt;
+    if (!take(outputs, known, *inputs_key)) return std::nullopt;
     const auto table = [words, outputs](const Expr& t, const ExprVector& y) {
       SymbolTable result = words.symbols({.t = t});
       outputs.add_to(result, y);
@@ -128,15 +175,28 @@ std::optional<Model> read_port_hamiltonian(ObjectReader& system) {
       });
   model.description = "port-Hamiltonian system with " + std::string(open ? "open" : "closed") +
                       " ports on " + space->manifold->name();
-  model.system = std::make_shared<PortHamiltonianSystem>(
-      PortHamiltonianSystem::Matrices{*J, R.value_or(MatrixField()), *B, m}, energy, input,
+  const auto ports = std::make_shared<PortHamiltonianSystem>(
+      PortHamiltonianSystem::Matrices{*J, R.value_or(MatrixField()), *B, m,
+                                      D.value_or(MatrixField())},
+      energy, input,
       ImplicitSystem::Names{
           vocabulary.coordinates.element_names(), vocabulary.unknowns.element_names(), {}});
+  model.system = ports;
+  // The outputs are words of observables, unless one of their names has a meaning already.
+  if (const NameList outputs = port_variables("y", m, *port_names);
+      m > 0 && is_free(outputs, taken, vocabulary.definitions))
+    vocabulary.derived.push_back(
+        {outputs, [ports](const Vocabulary::Arguments& at) -> std::optional<ExprVector> {
+           if (!at.x || !at.z || !at.t) return std::nullopt;
+           return ports->output(*at.x, *at.z, *at.t);
+         }});
   const std::pair<std::string, std::shared_ptr<const DiracStructure>> of_open{
       "open ports", std::make_shared<OpenPortHamiltonian>(space->manifold, *J, m, *B)};
   const std::pair<std::string, std::shared_ptr<const DiracStructure>> of_closed{
       "closed ports", std::make_shared<ClosedPortHamiltonian>(space->manifold, *J, m, *B)};
-  if (open)
+  if (D)  // closed ports with feedthrough are no such Dirac structure
+    model.structures = {of_open};
+  else if (open)
     model.structures = {of_open, of_closed};
   else
     model.structures = {of_closed, of_open};

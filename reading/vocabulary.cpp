@@ -166,6 +166,8 @@ SymbolTable Vocabulary::symbols(const Arguments& arguments) const {
   if (arguments.x) coordinates.add_to(symbols, *arguments.x);
   if (arguments.velocity) coordinates.add_velocities_to(symbols, *arguments.velocity);
   if (arguments.z) unknowns.add_to(symbols, *arguments.z);
+  for (const Derived& quantities : derived)
+    if (const auto values = quantities.values(arguments)) quantities.names.add_to(symbols, *values);
   for (const Definition& definition : definitions)
     if (is_available(definition, symbols))
       symbols.add(definition.name, definition.formulas.shape, value_of(definition, symbols));

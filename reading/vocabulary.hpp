@@ -1,6 +1,7 @@
 // The words of an experiment's formulas.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -41,7 +42,8 @@ struct Definition {
 };
 
 // What the names in the formulas of a system stand for: coordinates x ∈ R^N and their velocities,
-// auxiliary unknowns z, the time t, constant parameters, and definitions made of all of them.
+// auxiliary unknowns z, the time t, constant parameters, quantities of the kind of system, and
+// definitions made of all of them.
 struct Vocabulary {
   NameList coordinates;
   NameList unknowns;
@@ -55,6 +57,14 @@ struct Vocabulary {
     std::optional<ExprVector> z = {};
     std::optional<Expr> t = {};
   };
+  // Quantities that the kind of system has besides: outputs, voltages. `values` gives nothing where
+  // an argument that they need is missing.
+  struct Derived {
+    NameList names;
+    std::function<std::optional<ExprVector>(const Arguments&)> values;
+  };
+  std::vector<Derived> derived = {};
+
   // The table for a formula: parameters, arguments, and the definitions that need nothing else.
   // Throws FormulaError if a definition is wrong, std::invalid_argument if a name repeats or a size
   // is wrong.

@@ -135,4 +135,23 @@ std::string verdict_in_words(const Json& ladder) {
   return verdict;
 }
 
+std::string discrete_verdict_in_words(const Json& ladder) {
+  const std::string verdict = ladder.at("verdict");
+  const int k = whole(ladder, "index").value_or(0);
+  const Json& levels = ladder.at("levels");
+  const auto dim_M = whole(levels.empty() ? Json::object() : levels.back(), "dim_M");
+  const std::string stop = "The algorithm stops at k = " + std::to_string(k) + ": ";
+  const std::string M = "M" + subscript(k) + ", of dimension " + std::to_string(dim_M.value_or(0));
+  if (verdict == "regular")
+    return "Regular. " + stop + "from each point of " + M +
+           ", one step can be made, and from its end another one.";
+  if (verdict == "gauge")
+    return "Gauge. " + stop + "from each point of " + M +
+           ", steps can be made, and where they end is free in " +
+           std::to_string(whole(ladder, "gauge_dimension").value_or(0)) + " directions.";
+  if (verdict == "inconsistent")
+    return "Inconsistent. From no point nearby so many steps can be made.";
+  return verdict_in_words(ladder);
+}
+
 }  // namespace courant

@@ -21,4 +21,7 @@ plot::Markup ladder_diagram(const nlohmann::ordered_json& ladder);
 // solutions.
 std::string verdict_in_words(const nlohmann::ordered_json& ladder);
 
+// The same of a discrete ladder, where S_f are pairs of points.
+std::string discrete_verdict_in_words(const nlohmann::ordered_json& ladder);
+
 }  // namespace courant

@@ -95,8 +95,7 @@ class Check {
  private:
   std::vector<std::pair<std::string, StructurePointer>> structures() const {
     if (!experiment_.model.structures.empty()) return experiment_.model.structures;
-    if (const auto* system = dynamic_cast<const DiracSystem*>(&system_))
-      return {{"", system->structure()}};
+    if (const auto structure = system_.structure()) return {{"", structure}};
     return {};
   }
 

@@ -83,6 +83,13 @@ Kind summary_kind() {
                               {"index", number},
                               {"gauge_dimension", number},
                               {"degrees_of_freedom", number},
+                              {"degrees_of_freedom_up_to_gauge", number},
+                              {"classes", record({{"primary", number, true},
+                                                  {"secondary", number, true},
+                                                  {"first_class", number},
+                                                  {"second_class", number},
+                                                  {"primary_first_class", number},
+                                                  {"ambiguous", truth, true}})},
                               {"levels", array_of(level), true},
                               {"moved", number}});
   const Kind observable = record({{"initial", number},

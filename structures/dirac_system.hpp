@@ -43,7 +43,7 @@ class DiracSystem final : public ImplicitSystem {
   DiracSystem(std::shared_ptr<const DiracStructure> structure,
               std::shared_ptr<const GeneratingFamily> family, Exterior exterior, Names names = {});
 
-  const std::shared_ptr<const DiracStructure>& structure() const { return structure_; }
+  std::shared_ptr<const DiracStructure> structure() const override { return structure_; }
   const std::shared_ptr<const GeneratingFamily>& family() const { return family_; }
   const Exterior& exterior() const { return exterior_; }
   Index tangent_blocks() const override { return structure_->tangent_blocks(); }

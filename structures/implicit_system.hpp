@@ -10,6 +10,8 @@
 
 namespace courant {
 
+class DiracStructure;
+
 // S = {(x, v) ∈ TM : ∃ z ∈ R^m, F(x, v, z, t) = 0}: a system of r equations on a manifold M
 // (Section 3 of the paper).
 //
@@ -40,6 +42,8 @@ class ImplicitSystem {
   // DiracStructure.
   virtual Index tangent_blocks() const { return 0; }
 
+  // D, where the system is S = {v : (v, α) ∈ D, α ∈ 𝓛}; null where none is known.
+  virtual std::shared_ptr<const DiracStructure> structure() const { return nullptr; }
   // The claim: on M = T*Q, S is a Lagrangian submanifold of (TT*Q, d_Tω_Q), at any time: what
   // Hamiltonian and Lagrangian systems are, and what a symplectic map makes symplectic steps of. No
   // value: unknown.

@@ -194,6 +194,17 @@ SparseMatrixXd Kirchhoff::cut_sets() const {
   return of_tree - SparseMatrixXd(selection(links_, element_count()) * through);
 }
 
+SparseMatrixXd Kirchhoff::potentials() const {
+  Triplets triplets;
+  for (Index node = 0; node < node_count_; ++node) {
+    for (Index at_node = node; parent_[at(at_node)] != at_node; at_node = parent_[at(at_node)]) {
+      const Index element = parent_element_[at(at_node)];
+      add(triplets, node, element, source_[at(element)] == at_node ? 1.0 : -1.0);
+    }
+  }
+  return sparse(node_count_, element_count(), triplets);
+}
+
 KernelRepresentation<SparseMatrixXd> Kirchhoff::kernel_representation() const {
   const Index n = element_count(), nodes = node_count_ - component_count();
   return {embedded(reduced_incidence(), 0, 0, n, n), embedded(loops().transpose(), nodes, 0, n, n)};

@@ -44,6 +44,9 @@ class Kirchhoff {
   SparseMatrixXd loops() const;  // fundamental loops, +1 at the link: one a column, E × (E - N + c)
   SparseMatrixXd cut_sets()
       const;  // fundamental cut-sets, +1 at the element of the forest: E × (N - c)
+  // The potentials of the nodes from the voltages, along the forest: N × E. That of the first node
+  // of each component is 0.
+  SparseMatrixXd potentials() const;
 
   // D as A_r i = 0, Bᵀv = 0; as i = B j, v = A_rᵀφ, loop currents j and potentials φ; as i = B j,
   // Bᵀv = 0; and with the voltages of the tree and the currents of the links as inputs. A_r the

@@ -28,8 +28,11 @@ PortHamiltonianSystem::PortHamiltonianSystem(Matrices matrices,
       energy_(std::move(energy)),
       input_(std::move(input)) {}
 
-ExprVector PortHamiltonianSystem::output(const ExprVector& x, const Expr& t) const {
-  return matrices_.B(x).transpose().eval() * energy_->differential(x, ExprVector(0), t);
+ExprVector PortHamiltonianSystem::output(const ExprVector& x, const ExprVector& u,
+                                         const Expr& t) const {
+  ExprVector y = matrices_.B(x).transpose().eval() * energy_->differential(x, ExprVector(0), t);
+  if (matrices_.D) y += matrices_.D(x) * u;
+  return y;
 }
 
 ExprVector PortHamiltonianSystem::do_residual(const ExprVector& x, const ExprVector& v,
@@ -37,7 +40,7 @@ ExprVector PortHamiltonianSystem::do_residual(const ExprVector& x, const ExprVec
   const ExprVector dH = energy_->differential(x, ExprVector(0), t);
   ExprMatrix A = matrices_.J(x);
   if (matrices_.R) A -= matrices_.R(x);
-  const ExprVector y = output(x, t);
+  const ExprVector y = output(x, u, t);
   ExprVector residual(equation_count());
   residual << v - A * dH - matrices_.B(x) * u, input_ ? ExprVector(u - (*input_)(t, y)) : y;
   return residual;

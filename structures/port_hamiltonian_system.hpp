@@ -13,11 +13,12 @@ namespace courant {
 // S = {(x, v)} of equations (20), (24) and (26), with resistive ports R(x) ⪰ 0 closed by
 // themselves:
 //
-//   open     v = (J(x) - R(x)) dH + B(x) u,   u = input(t, y),   y = B(x)ᵀ dH
-//   closed   v = (J(x) - R(x)) dH + B(x) u,   0 = B(x)ᵀ dH
+//   open     v = (J(x) - R(x)) dH + B(x) u,   y = B(x)ᵀ dH + D(x) u,   u = input(t, y)
+//   closed   v = (J(x) - R(x)) dH + B(x) u,   y = B(x)ᵀ dH + D(x) u,   0 = y
 //
-// Auxiliary unknowns z = u ∈ R^m. Along solutions dH/dt = ⟨y, u⟩ - dHᵀ R dH (- and ⟨y, u⟩ = 0 if
-// closed). J: Ñ × Ñ, skew, with range in T_xM; R: Ñ × Ñ, symmetric, likewise; B: Ñ × m. The Dirac
+// Auxiliary unknowns z = u ∈ R^m. Along solutions dH/dt = ⟨y, u⟩ - dHᵀ R dH - uᵀ D u (and ⟨y, u⟩ = 0
+// if closed). J: Ñ × Ñ, skew, with range in T_xM; R: Ñ × Ñ, symmetric, likewise; B: Ñ × m;
+// D, the feedthrough, m × m, in which the ports are passive where D + Dᵀ ⪰ 0. The Dirac
 // structure behind it, without R, is ClosedPortHamiltonian(J, B), or OpenPortHamiltonian(J, B).
 class PortHamiltonianSystem final : public ImplicitSystem {
  public:
@@ -26,6 +27,7 @@ class PortHamiltonianSystem final : public ImplicitSystem {
   struct Matrices {
     MatrixField J, R, B;  // R may be empty: none
     Index m = 0;
+    MatrixField D = {};  // may be empty: none
   };
   // `energy` has no parameters. Without an input the ports are closed. Throws
   // std::invalid_argument if the energy has parameters or a matrix is missing.
@@ -34,8 +36,8 @@ class PortHamiltonianSystem final : public ImplicitSystem {
 
   Index tangent_blocks() const override { return 1; }
   bool is_open() const { return input_.has_value(); }
-  // y = B(x)ᵀ dH(x, t), size m.
-  ExprVector output(const ExprVector& x, const Expr& t) const;
+  // y = B(x)ᵀ dH(x, t) + D(x) u, size m.
+  ExprVector output(const ExprVector& x, const ExprVector& u, const Expr& t) const;
 
  private:
   ExprVector do_residual(const ExprVector& x, const ExprVector& v, const ExprVector& u,

@@ -108,6 +108,16 @@ std::vector<LadderLevel> levels_at(const ConsistentPoint& consistent, Consistent
   return second;
 }
 
+// S₁
+std::string level_name(const std::string& letter, Index k) {
+  std::string name = letter;
+  for (const char digit : std::to_string(k)) {
+    name += "\xE2\x82";
+    name += static_cast<char>(0x80 + (digit - '0'));
+  }
+  return name;
+}
+
 // Which of F^[k] at y, or of its derivatives, are not finite, in words.
 std::string not_finite(const ImplicitSystem& system, const DerivativeArray& array,
                        const VectorXd& y) {
@@ -211,7 +221,7 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
         if (!singular.empty()) break;
       }
       if (!consistent.is_contradiction(next)) {
-        ladder.reason = "The search for a point of S_" + std::to_string(k) +
+        ladder.reason = "The search for a point of " + level_name("S", k) +
                         " did not converge, and the equations do not contradict each other where "
                         "it ended.";
         break;
@@ -222,7 +232,7 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
       empty.residual = next.array.residual(next.zero.y).lpNorm<Eigen::Infinity>();
       ladder.levels.push_back(empty);
       ladder.verdict = Verdict::inconsistent;
-      ladder.reason = "No point of S_" + std::to_string(k) +
+      ladder.reason = "No point of " + level_name("S", k) +
                       " was found near the given values: these equations contradict each other: " +
                       contradiction(*system, next.zero) + ".";
       jet.zero.y = next.array.resized(next.zero.y, k);

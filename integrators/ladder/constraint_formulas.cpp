@@ -2,113 +2,50 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "courant/core/derivative.hpp"
+#include "courant/core/simplified.hpp"
 
 namespace courant {
 namespace {
 
-constexpr std::size_t longest = 100;  // characters of a formula
+constexpr std::size_t longest = 300;  // characters of a formula: three lines
 
-ExprVector named(Graph& graph, const std::vector<std::string>& names, const char* suffix) {
+using Kind = ConstraintFormulas::Step::Kind;
+
+ExprVector named(Graph& graph, const std::vector<std::string>& names) {
   ExprVector result(static_cast<Index>(names.size()));
   for (std::size_t i = 0; i < names.size(); ++i)
-    result[static_cast<Index>(i)] = graph.variable(names[i] + suffix);
+    result[static_cast<Index>(i)] = graph.variable(names[i]);
   return result;
 }
 
-std::string text(const Expr& expression) {
-  std::ostringstream out;
-  out << expression;
-  return out.str();
+bool is_number(const std::string& text) {
+  return text.find_first_not_of("0123456789.+-e") == std::string::npos;
 }
-
-// A polynomial of few terms as a sum of monomials; empty if it is none.
-class Polynomial {
- public:
-  Polynomial(const Expr& function, const ExprVector& variables,
-             const std::vector<std::string>& names)
-      : variables_(variables), names_(names) {
-    valid_ = collect(function, 0, 1.0, {});
-  }
-
-  bool valid() const { return valid_; }
-  std::size_t size() const { return terms_.size(); }
-  double largest() const {
-    double size = 0.0;
-    for (const auto& [powers, c] : terms_) size = std::max(size, std::abs(c));
-    return size;
-  }
-  std::string text(double divisor) const {
-    std::string result;
-    for (const auto& [powers, c] : terms_) {
-      const double value = c / divisor;
-      result += result.empty() ? (value < 0 ? "-" : "") : (value < 0 ? " - " : " + ");
-      std::string monomial;
-      for (std::size_t i = 0; i < powers.size(); ++i) {
-        if (i > 0 && powers[i] == powers[i - 1]) continue;
-        const auto power = std::count(powers.begin(), powers.end(), powers[i]);
-        monomial += (monomial.empty() ? "" : "*") + names_[static_cast<std::size_t>(powers[i])] +
-                    (power > 1 ? "^" + std::to_string(power) : "");
-      }
-      std::ostringstream size;
-      size << Expr(std::abs(value));
-      const bool one = size.str() == "1" && !monomial.empty();
-      result += one ? monomial : size.str() + (monomial.empty() ? "" : "*" + monomial);
-    }
-    return result.empty() ? "0" : result;
-  }
-
- private:
-  // Terms from the derivatives at 0 by the variables `powers` (in increasing order) and further.
-  bool collect(const Expr& derivative, Index from, double factorial, std::vector<Index> powers) {
-    if (derivative.is_constant(0.0)) return true;
-    const Expr at_zero =
-        substitute(derivative, variables_, ExprVector::Constant(variables_.size(), Expr(0.0)));
-    if (!at_zero.is_constant() || !std::isfinite(at_zero.value())) return false;
-    if (std::abs(at_zero.value()) > 1e-14) terms_.emplace_back(powers, at_zero.value() / factorial);
-    if (derivative.is_constant()) return true;
-    if (powers.size() == 4 || terms_.size() > 12) return false;
-    const ExprVector g = gradient(derivative, variables_);
-    for (Index i = from; i < g.size(); ++i) {
-      std::vector<Index> next = powers;
-      next.push_back(i);
-      const auto power = static_cast<double>(std::count(next.begin(), next.end(), i));
-      if (!collect(g[i], i, factorial * power, next)) return false;
-    }
-    // Variables before `from` belong to other orders of the same monomials.
-    return true;
-  }
-
-  const ExprVector& variables_;
-  const std::vector<std::string>& names_;
-  bool valid_ = false;
-  std::vector<std::pair<std::vector<Index>, double>> terms_;
-};
 
 // Equations on the way to their reduced form.
 class Elimination {
  public:
   Elimination(const ImplicitSystem& system, const State& point)
-      : point_(point),
-        x_(named(graph_, system.names().coordinates, "")),
-        n_(x_.size()),
-        t_(graph_.variable("t")) {
-    const ExprVector v = named(graph_, system.names().coordinates, "' (velocity)");
-    const ExprVector z = named(graph_, system.names().auxiliary, "");
-    unknowns_.resize(n_ + z.size());
+      : point_(point), x_(named(graph_, system.names().coordinates)), t_(graph_.variable("t")) {
+    const ExprVector v = named(graph_, velocity_names(system));
+    const ExprVector z = named(graph_, system.names().auxiliary);
+    velocity_count_ = v.size();
+    unknowns_.resize(v.size() + z.size());
     unknowns_ << v, z;
     solution_ = unknowns_;
-    numerator_ = unknowns_;
-    denominator_ = ExprVector::Constant(unknowns_.size(), Expr(1.0));
-    free_.resize(n_ + 1);
-    free_ << x_, t_;
-    names_ = system.names().coordinates;
-    names_.push_back("t");
     solved_.assign(static_cast<std::size_t>(unknowns_.size()), false);
+    const Manifold& M = *system.manifold();
+    motion_ = M.frame(x_) * v;
+    // What holds of points and of tangent vectors.
+    const ExprVector on_manifold = M.constraint(x_);
+    for (const Expr& relation : on_manifold) given_.relations.push_back(relation);
+    if (on_manifold.size() > 0 && M.tangent_dimension() == M.ambient_dimension())
+      for (const Expr& relation : tangent(on_manifold, x_, v)) given_.relations.push_back(relation);
     const ExprVector F = system.residual(x_, v, z, t_);
-    equations_.assign(F.begin(), F.end());
+    for (const Expr& equation : F)
+      if (!is_zero(equation)) equations_.push_back(equation);
   }
 
   // Solves for unknowns while it can; what is left without unknowns and is not identically zero is
@@ -118,68 +55,74 @@ class Elimination {
     }
     std::vector<Expr> found, kept;
     for (const Expr& equation : equations_) {
-      if (equation.is_constant()) continue;
-      bool has_unknown = false;
-      for (const Expr& entry : gradient(equation, unknowns_))
-        has_unknown = has_unknown || !entry.is_constant(0.0);
-      (has_unknown ? kept : found).push_back(equation);
+      if (equation.is_constant(0.0)) continue;
+      (has_unknown(equation) ? kept : found).push_back(equation);
     }
     equations_ = kept;
     return found;
   }
 
-  // d/dt of a function of (x, t), with what is known of x' put in, as one more equation.
-  void differentiate(const Expr& function) {
-    ExprVector at(n_ + 1), rate(n_ + 1);
+  // dφ/dt in velocities.
+  Expr derivative(const Expr& function) const {
+    ExprVector at(x_.size() + 1), rate(x_.size() + 1);
     at << x_, t_;
-    rate << solution_.head(n_), Expr(1.0);
-    equations_.push_back(tangent(ExprVector::Constant(1, function), at, rate)[0]);
+    rate << motion_, Expr(1.0);
+    return tangent(ExprVector::Constant(1, function), at, rate)[0];
   }
+  // With what is known of the unknowns put in.
+  Expr reduced(const Expr& function) const { return substitute(function, unknowns_, solution_); }
+  void add(const Expr& equation) { equations_.push_back(equation); }
 
+  bool has_unknown(const Expr& function) const {
+    for (const Expr& entry : gradient(function, unknowns_))
+      if (!entry.is_constant(0.0)) return true;
+    return false;
+  }
   double value(const Expr& function) const {
     const Expr number = substitute(function, variables(), constants(numbers()));
     return number.is_constant() ? number.value() : std::nan("");
   }
+  // In the tangent representation.
   VectorXd gradient_at_point(const Expr& function) const {
-    const ExprVector g = gradient(function, x_);
-    VectorXd result(n_);
-    for (Index i = 0; i < n_; ++i) result[i] = value(g[i]);
+    const ExprVector v = unknowns_.head(velocity_count_);
+    const ExprVector along = gradient(derivative(function), v);
+    VectorXd result(along.size());
+    for (Index i = 0; i < along.size(); ++i) result[i] = value(along[i]);
     return result;
   }
-  // As a polynomial where it is one: whole where its coefficients have one size.
+
   std::string written(const Expr& function) const {
-    const std::string plain = text(function);
-    const Polynomial polynomial(function, free_, names_);
-    if (!polynomial.valid()) return plain;
-    const std::string as_is = polynomial.text(1.0);
-    const double sign = as_is.starts_with('-') ? -1.0 : 1.0;
-    const std::string scaled = polynomial.text(sign * polynomial.largest());
-    return scaled.size() <= as_is.size() ? scaled : as_is;
+    return short_enough(simplified(function, given_));
   }
-  // Of auxiliary unknown j in x and t; empty if others are left in it.
-  std::string solution(Index j) const {
-    const Index u = n_ + j;
-    if (!solved_[static_cast<std::size_t>(u)]) return "";
-    for (const Expr& entry : gradient(solution_[u], unknowns_))
-      if (!entry.is_constant(0.0)) return "";
-    const Polynomial above(numerator_[u], free_, names_), below(denominator_[u], free_, names_);
-    if (!above.valid() || !below.valid()) return text(solution_[u]);
-    const double divisor = below.largest() * (below.text(1.0).starts_with('-') ? -1.0 : 1.0);
-    if (below.text(divisor) == "1") return above.text(divisor);
-    const auto bracketed = [](const Polynomial& p, double by) {
-      return p.size() > 1 ? "(" + p.text(by) + ")" : p.text(by);
-    };
-    return bracketed(above, divisor) + "/" + bracketed(below, divisor);
+  std::string written_equation(const Expr& function) const {
+    return short_enough(simplified_equation(function, given_));
   }
+  // Of unknown u (velocities first) in x and t; empty if others are left in it.
+  std::string solution(Index u) const {
+    if (!is_function_of_the_point(u)) return "";
+    return written(solution_[u]);
+  }
+  bool is_function_of_the_point(Index u) const {
+    return solved_[static_cast<std::size_t>(u)] && !has_unknown(solution_[u]);
+  }
+  Index velocity_count() const { return velocity_count_; }
 
  private:
+  static std::string short_enough(const std::optional<std::string>& text) {
+    return text && text->size() <= longest ? *text : "";
+  }
+  bool is_zero(const Expr& function) const {
+    return function.is_constant(0.0) ||
+           (!has_unknown(function) && simplified(function, given_) == "0");
+  }
+
   ExprVector variables() const {
-    ExprVector all(n_ + 1 + unknowns_.size());
+    ExprVector all(x_.size() + 1 + unknowns_.size());
     all << x_, t_, unknowns_;
     return all;
   }
   VectorXd numbers() const {
-    VectorXd all(n_ + 1 + unknowns_.size());
+    VectorXd all(x_.size() + 1 + unknowns_.size());
     all << point_.x, point_.t, point_.v, point_.z;
     return all;
   }
@@ -224,64 +167,173 @@ class Elimination {
     const ExprVector by = ExprVector::Constant(1, result);
     for (Expr& other : equations_) other = substitute(other, unknown, by);
     solution_[best_unknown] = result;
-    numerator_[best_unknown] = -rest;
-    denominator_[best_unknown] = coefficient;
     solved_[static_cast<std::size_t>(best_unknown)] = true;
     for (Index u = 0; u < solution_.size(); ++u)
       if (solved_[static_cast<std::size_t>(u)])
-        for (ExprVector* part : {&solution_, &numerator_, &denominator_})
-          (*part)[u] = substitute((*part)[u], unknown, by);
+        solution_[u] = substitute(solution_[u], unknown, by);
     return true;
   }
 
   Graph graph_;
   const State& point_;
   ExprVector x_;
-  Index n_;
   Expr t_;
-  ExprVector unknowns_, solution_, numerator_, denominator_;
-  ExprVector free_;  // (x, t), with their names
-  std::vector<std::string> names_;
+  Index velocity_count_ = 0;
+  ExprVector unknowns_, solution_;  // velocities, then auxiliary unknowns
+  ExprVector motion_;               // ẋ = E(x) v
+  Simplification given_;
   std::vector<bool> solved_;
   std::vector<Expr> equations_;
 };
 
+// The formulas of one system, found level by level.
+class Derivation {
+ public:
+  Derivation(const ImplicitSystem& system, const ConstraintLadder& ladder)
+      : ladder_(ladder),
+        elimination_(system, ladder.point),
+        known_(system.manifold()->tangent_dimension(), 0),
+        is_told_(static_cast<std::size_t>(elimination_.velocity_count()), false) {}
+
+  ConstraintFormulas operator()(Index levels) {
+    for (Index level = 0; level <= levels; ++level) {
+      found_.clear();
+      for (const Expr& function : elimination_.constraints()) add_constraint(level, function);
+      add_velocities(level);
+      if (contradicted_) break;
+      for (const Expr& function : found_) differentiate(level + 1, function, level < levels);
+      if (contradicted_) break;
+    }
+    if (ladder_.index >= 0) elimination_.constraints();
+    for (std::size_t j = 0; j < ladder_.determined.size(); ++j) {
+      if (!ladder_.determined[j]) continue;
+      const auto unknown = static_cast<Index>(j);
+      if (std::string formula = elimination_.solution(elimination_.velocity_count() + unknown);
+          !formula.empty())
+        result_.values.push_back({unknown, std::move(formula)});
+    }
+    return result_;
+  }
+
+ private:
+  void add_constraint(Index level, const Expr& function) {
+    const double value = elimination_.value(function);
+    VectorXd g = elimination_.gradient_at_point(function);
+    const double size = g.norm();
+    const std::string formula = elimination_.written_equation(function);
+    if (is_number(formula) && !formula.empty()) {
+      if (ladder_.index >= 0 || formula == "0") return;
+      result_.steps.push_back({level, Kind::contradiction, "", "", elimination_.written(function)});
+      contradicted_ = true;
+      return;
+    }
+    if (!(size > 0.0) || !(std::abs(value) < 1e-8 * size * (1.0 + ladder_.point.x.norm()))) {
+      // Where there is no consistent point, constraints need not hold at the one that was found.
+      if (ladder_.index >= 0 || !(size > 0.0)) return;
+    }
+    g -= known_ * (known_.transpose() * g);
+    if (g.norm() < 1e-8 * size) return;  // follows from those before
+    known_.conservativeResize(Eigen::NoChange, known_.cols() + 1);
+    known_.rightCols(1) = g.normalized();
+    if (!formula.empty()) result_.constraints.push_back({level, formula});
+    found_.push_back(function);
+  }
+
+  void differentiate(Index level, const Expr& function, bool goes_on) {
+    const Expr derivative = elimination_.derivative(function);
+    const Expr reduced = elimination_.reduced(derivative);
+    const std::string result = elimination_.written(reduced);
+    Kind kind = elimination_.has_unknown(reduced) ? Kind::condition : Kind::constraint;
+    if (result == "0")
+      kind = Kind::kept;
+    else if (is_number(result) && !result.empty())
+      kind = Kind::contradiction;
+    if (kind == Kind::contradiction && ladder_.index >= 0) return;  // the numbers know better
+    if (goes_on) {
+      std::string constraint = elimination_.written_equation(function);
+      std::string raw = elimination_.written_equation(derivative);
+      if (!constraint.empty() && !raw.empty() && !result.empty())
+        result_.steps.push_back({level, kind, std::move(constraint), std::move(raw),
+                                 kind == Kind::kept || kind == Kind::contradiction
+                                     ? result
+                                     : elimination_.written_equation(reduced)});
+    }
+    contradicted_ = contradicted_ || kind == Kind::contradiction;
+    if (kind != Kind::kept) elimination_.add(reduced);
+  }
+
+  // Those that are functions of the point from this level on.
+  void add_velocities(Index level) {
+    for (Index u = 0; u < elimination_.velocity_count(); ++u) {
+      const auto i = static_cast<std::size_t>(u);
+      if (is_told_[i] || !elimination_.is_function_of_the_point(u)) continue;
+      is_told_[i] = true;
+      if (std::string formula = elimination_.solution(u); !formula.empty())
+        result_.velocities.push_back({u, level, std::move(formula)});
+    }
+  }
+
+  const ConstraintLadder& ladder_;
+  Elimination elimination_;
+  MatrixXd known_;           // orthonormal: the gradients so far
+  std::vector<Expr> found_;  // constraints of this level
+  std::vector<bool> is_told_;
+  bool contradicted_ = false;
+  ConstraintFormulas result_;
+};
+
 }  // namespace
+
+std::string to_string(ConstraintFormulas::Step::Kind kind) {
+  switch (kind) {
+    case Kind::constraint:
+      return "constraint";
+    case Kind::condition:
+      return "condition";
+    case Kind::kept:
+      return "kept";
+    case Kind::contradiction:
+      return "contradiction";
+  }
+  return "";
+}
+
+std::vector<std::string> velocity_names(const ImplicitSystem& system) {
+  const Manifold& M = *system.manifold();
+  const auto& coordinates = system.names().coordinates;
+  const auto size = static_cast<std::size_t>(M.tangent_dimension());
+  std::vector<std::string> names;
+  if (size == coordinates.size()) {
+    for (const std::string& name : coordinates) names.push_back(name + "'");
+    return names;
+  }
+  // On a cotangent bundle the fibre has as many components as the velocity of the base.
+  const std::size_t half = size / 2;
+  const bool has_momenta =
+      size % 2 == 0 && half < coordinates.size() &&
+      std::all_of(coordinates.end() - static_cast<std::ptrdiff_t>(half), coordinates.end(),
+                  [](const std::string& name) { return name.starts_with("p_"); });
+  for (std::size_t i = 0; i < size; ++i) {
+    if (!has_momenta) {
+      names.push_back("v[" + std::to_string(i) + "]");
+      continue;
+    }
+    const std::string& momentum = coordinates[coordinates.size() - half + i % half];
+    names.push_back(i < half ? "v_" + momentum.substr(2) : momentum + "'");
+  }
+  return names;
+}
 
 ConstraintFormulas constraint_formulas(const ImplicitSystem& system,
                                        const ConstraintLadder& ladder) {
-  ConstraintFormulas result;
+  const bool is_empty = ladder.verdict == Verdict::inconsistent && !ladder.levels.empty();
   const Manifold& M = *system.manifold();
-  const Index n = M.dimension();
-  if (ladder.index < 0 || M.ambient_dimension() != n || M.tangent_dimension() != n ||
-      n + system.auxiliary_size() > 80 || !M.frame(ladder.point.x).isIdentity(0.0))
-    return result;
-  Elimination elimination(system, ladder.point);
-  MatrixXd known(n, 0);  // orthonormal: the gradients so far
-  for (Index level = 0; level <= ladder.index; ++level) {
-    for (const Expr& function : elimination.constraints()) {
-      const double value = elimination.value(function);
-      VectorXd g = elimination.gradient_at_point(function);
-      const double size = g.norm();
-      if (!(size > 0.0) || !(std::abs(value) < 1e-8 * size * (1.0 + ladder.point.x.norm())))
-        continue;
-      g -= known * (known.transpose() * g);
-      if (g.norm() < 1e-8 * size) continue;  // follows from those before
-      known.conservativeResize(Eigen::NoChange, known.cols() + 1);
-      known.rightCols(1) = g.normalized();
-      const std::string formula = level == 0 ? text(function) : elimination.written(function);
-      if (formula.size() <= longest) result.constraints.push_back({level, formula});
-      elimination.differentiate(function);
-    }
-  }
-  elimination.constraints();
-  for (Index j = 0; j < system.auxiliary_size(); ++j) {
-    if (!ladder.determined[static_cast<std::size_t>(j)]) continue;
-    if (const std::string formula = elimination.solution(j);
-        !formula.empty() && formula.size() <= longest)
-      result.values.push_back({j, formula});
-  }
-  return result;
+  if ((ladder.index < 0 && !is_empty) || ladder.point.x.size() != M.ambient_dimension() ||
+      ladder.point.v.size() != M.tangent_dimension() ||
+      ladder.point.z.size() != system.auxiliary_size() ||
+      M.tangent_dimension() + system.auxiliary_size() > 80)
+    return {};
+  return Derivation(system, ladder)(is_empty ? ladder.levels.back().k : ladder.index);
 }
 
 }  // namespace courant

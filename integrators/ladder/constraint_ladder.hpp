@@ -60,9 +60,10 @@ struct Combination {
 // A function on M that vanishes on M_k but not on M_{k-1}, by its differential at the point and
 // where it comes from.
 struct PointConstraint {
-  Index level = 0;     // 0: seen in the equations; ≥ 1: hidden
-  VectorXd gradient;   // covector in the tangent representation of M (Ñ)
-  Combination origin;  // of equations and derivatives, that is free of all other unknowns
+  Index level = 0;          // 0: seen in the equations; ≥ 1: hidden
+  VectorXd gradient;        // covector in the tangent representation of M (Ñ)
+  Combination origin;       // of equations and derivatives, that is free of all other unknowns
+  VectorXd gradient_error;  // bounds, entry by entry (Ñ)
 };
 
 // The sets S_0 ⊇ S_1 ⊇ … over M_0 ⊇ M_1 ⊇ … of an implicit system near one point, and where they

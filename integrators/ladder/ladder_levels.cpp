@@ -144,9 +144,11 @@ void describe(ConstraintLadder& ladder, const DerivativeArray& array, const Vect
   for (const RowReduction::Row& row : reduction.group(position)) {
     double factor = 1.0;
     const Combination origin = combination(row.multipliers, units.row_scale, r, factor);
-    VectorXd gradient = VectorXd::Zero(n);
+    VectorXd gradient = VectorXd::Zero(n), error = VectorXd::Zero(n);
     for (const auto& [j, value] : row.entries) gradient[j] = factor * value / units.column_scale[j];
-    ladder.constraints.push_back({row.level, basis * gradient, origin});
+    for (const auto& [j, bound] : row.errors)
+      if (j < n) error[j] = std::fabs(factor) * bound / units.column_scale[j];
+    ladder.constraints.push_back({row.level, basis * gradient, origin, basis.cwiseAbs() * error});
   }
   for (const RowReduction::Row& row : reduction.zero_rows()) {
     double factor = 1.0;

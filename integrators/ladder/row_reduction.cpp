@@ -68,6 +68,13 @@ SparseEntries numbers(const UncertainRow& row) {
   return result;
 }
 
+SparseEntries errors(const UncertainRow& row) {
+  SparseEntries result;
+  for (const auto& [column, number] : row)
+    if (number.error != 0.0) result.emplace_back(column, number.error);
+  return result;
+}
+
 // The matrix while it is reduced.
 class Elimination {
  public:
@@ -211,6 +218,7 @@ std::vector<RowReduction::Row> reduced(std::vector<RowReduction::Row> rows,
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].multipliers.clear();
     rows[i].entries = numbers(entries[i]);
+    rows[i].errors = errors(entries[i]);
   }
   return rows;
 }
@@ -237,6 +245,7 @@ RowReduction::RowReduction(const UncertainMatrix& A, const std::vector<Index>& r
     for (const auto* working : found) {
       rows.push_back(working->row);
       rows.back().entries = numbers(working->entries);
+      rows.back().errors = errors(working->entries);
       of_group.push_back(working->entries);
     }
     reduced_groups_.push_back(reduced(rows, std::move(of_group)));

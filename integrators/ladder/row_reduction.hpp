@@ -34,6 +34,7 @@ class RowReduction {
     Index pivot;  // column, or -1: the row is zero, its multipliers are a dependence among the rows
                   // of A
     SparseEntries entries;      // of the row, pivot included
+    SparseEntries errors;       // bounds of theirs, and of entries that are zero within them
     SparseEntries multipliers;  // by row of A
   };
 

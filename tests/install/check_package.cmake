@@ -66,9 +66,14 @@ configure(${CONSUMER}_asan "${CXX_FLAGS} -fsanitize=address")
 run(${CMAKE_COMMAND} --build ${CONSUMER}_asan --target consumer)
 run(${CONSUMER}_asan/consumer)
 
-foreach(example method_2 discretization_map generating_family)
+foreach(example method_2 discretization_map generating_family pendulum pendulum_three_ways)
   run(${CONSUMER}/${example})
 endforeach()
+
+# What is not API is not installed.
+if(EXISTS ${PREFIX}/include/courant/integrators/ladder/row_reduction.hpp)
+  message(FATAL_ERROR "a header that no public one includes is installed: integrators/ladder/row_reduction.hpp")
+endif()
 
 set(docs ${CMAKE_CURRENT_LIST_DIR}/../../docs)
 execute_process(COMMAND ${CONSUMER}/heisenberg OUTPUT_VARIABLE output COMMAND_ECHO NONE
@@ -80,3 +85,28 @@ check_tutorial(${docs}/tutorial-new-structure.md ${docs}/examples/rolling_penny.
 execute_process(COMMAND ${CONSUMER}/linear_dirac OUTPUT_VARIABLE output COMMAND_ECHO NONE
                 COMMAND_ERROR_IS_FATAL ANY)
 check_tutorial(${docs}/linear-dirac-structures.md ${docs}/examples/linear_dirac.cpp "${output}")
+
+# The command with kinds of one's own: experiments, catalogue, schema and errors know them.
+set(examples ${docs}/examples)
+set(own ${CONSUMER}/my_courant)
+foreach(experiment heisenberg_geodesic heisenberg_charge)
+  run(${own} run ${examples}/${experiment}.json -o ${CONSUMER}/${experiment} --force --quiet)
+endforeach()
+execute_process(COMMAND ${own} list OUTPUT_VARIABLE output COMMAND_ERROR_IS_FATAL ANY)
+foreach(line "heisenberg +the Heisenberg group" "heisenberg-charge +a charge on the Heisenberg group")
+  if(NOT output MATCHES "${line}")
+    message(FATAL_ERROR "`my_courant list` does not have its kinds: ${output}")
+  endif()
+endforeach()
+execute_process(COMMAND ${own} schema OUTPUT_VARIABLE schema COMMAND_ERROR_IS_FATAL ANY)
+if(NOT schema MATCHES "\"heisenberg-charge\"")
+  message(FATAL_ERROR "the schema of my_courant does not have its system")
+endif()
+file(READ ${examples}/heisenberg_charge.json wrong)
+string(REPLACE "strength" "strengh" wrong "${wrong}")
+file(WRITE ${CONSUMER}/wrong.json "${wrong}")
+execute_process(COMMAND ${own} run - INPUT_FILE ${CONSUMER}/wrong.json ERROR_VARIABLE error RESULT_VARIABLE status)
+if(NOT status EQUAL 2)
+  message(FATAL_ERROR "my_courant takes a key that it does not know: exit status ${status}; expected 2")
+endif()
+check_tutorial(${docs}/tutorial-new-kind.md ${examples}/my_courant.cpp "${error}")

@@ -49,7 +49,7 @@ BOOST_AUTO_TEST_CASE(pendulum_in_formulas) {
   BOOST_TEST(found["formulas"][0]["formula"] == "x^2 + y^2 - 1");
   BOOST_TEST(found["formulas"][1]["level"] == 1);
   BOOST_TEST(found["formulas"][1]["formula"] == "x*v + y*w");
-  BOOST_TEST(found["unknowns"]["tension"]["formula"] == "(-y + v^2 + w^2)/(x^2 + y^2)",
+  BOOST_TEST(found["unknowns"]["tension"]["formula"] == "(v^2 + w^2 - y)/(x^2 + y^2)",
              found["unknowns"]["tension"]["formula"]);
   BOOST_TEST(found["unknowns"]["tension"]["value"].get<double>() == 1.8,
              boost::test_tools::tolerance(1e-12));
@@ -101,6 +101,104 @@ BOOST_AUTO_TEST_CASE(gauge_directions_and_gauss_law) {
   BOOST_TEST(found["gauge_directions"][0].size() == 1U);
   BOOST_TEST(found["gauge_directions"][0].contains("z'"));
   BOOST_TEST(contains(ladder_explanation(found), "Gauge: the velocity may be changed at will"));
+}
+
+// Two constraints of the first class, one of them primary: of dim M_f = 4 two are left. A system
+// given by equations has no brackets.
+BOOST_AUTO_TEST_CASE(degrees_of_freedom_both_ways) {
+  const Json found = ladder(
+      {{"system",
+        {{"type", "lagrangian"},
+         {"coordinates", {"x", "y", "z"}},
+         {"lagrangian", "((x' + z*y)^2 + (y' - z*x)^2)/2 - (x^2 + y^2)/2"}}},
+       {"initial", {{"x", 1}, {"y", 0.5}, {"z", 0.3}, {"p_x", 1}, {"p_y", 0.5}, {"p_z", 0}}}});
+  BOOST_TEST(found["degrees_of_freedom"] == 4);
+  BOOST_TEST(found["degrees_of_freedom_up_to_gauge"] == 2);
+  BOOST_TEST(found["classes"]["first_class"] == 2);
+  BOOST_TEST(found["classes"]["primary_first_class"] == 1);
+  const auto lines = ladder_explanation(found);
+  BOOST_TEST(contains(lines, "1 primary (in the equations) and 1 secondary (hidden)"), all(lines));
+  BOOST_TEST(contains(lines, "all are of the first class, 1 of these primary"));
+  BOOST_TEST(contains(lines, "Degrees of freedom up to gauge: 2"));
+  BOOST_TEST(!pendulum().contains("classes"));
+  BOOST_TEST(!contains(ladder_explanation(pendulum()), "Classes"));
+}
+
+// The step from level to level: dφ/dt, and what is left of it with the velocities of the level
+// before.
+BOOST_AUTO_TEST_CASE(steps_are_shown) {
+  const Json found = pendulum();
+  BOOST_REQUIRE_EQUAL(found.at("steps").size(), 2U);
+  BOOST_TEST(found["steps"][0]["level"] == 1);
+  BOOST_TEST(found["steps"][0]["kind"] == "constraint");
+  BOOST_TEST(found["steps"][0]["derivative"] == "x*x' + y*y'");
+  BOOST_TEST(found["steps"][0]["result"] == "x*v + y*w");
+  BOOST_TEST(found["steps"][1]["kind"] == "condition");
+  BOOST_TEST(found["steps"][1]["derivative"] == "x*v' + y*w' + v*x' + w*y'");
+  BOOST_TEST(found["velocities"]["x'"]["level"] == 0);
+  BOOST_TEST(found["velocities"]["v'"]["level"] == 2);
+  const auto lines = ladder_explanation(found);
+  BOOST_TEST(contains(lines, "x*x' + y*y' = 0, with the velocities of S₀:  x*v + y*w = 0"),
+             all(lines));
+}
+
+// Equation (10) of the paper: what S₁ adds are the velocities of the vortices.
+BOOST_AUTO_TEST_CASE(the_velocities_of_vortices) {
+  const Json found = ladder({{"system", {{"type", "point-vortices"}, {"strengths", {1, 1}}}},
+                             {"initial", {{"x", {-1, 1}}, {"y", {0, 0}}}}});
+  BOOST_TEST(found["velocities"]["x[0]'"]["level"] == 1);
+  const std::string x = found["velocities"]["x[0]'"]["formula"],
+                    y = found["velocities"]["y[0]'"]["formula"];
+  BOOST_TEST(x == "-(y[0] - y[1])/(2*pi*((x[0] - x[1])^2 + (y[0] - y[1])^2))");
+  BOOST_TEST(y == "(x[0] - x[1])/(2*pi*((x[0] - x[1])^2 + (y[0] - y[1])^2))");
+  BOOST_TEST(contains(ladder_explanation(found), "x[0]' = -(y[0] - y[1])"));
+}
+
+// p = 1, so p' = 0; but p' = 1.
+BOOST_AUTO_TEST_CASE(a_contradiction_is_derived) {
+  const Json found = ladder(
+      {{"system", {{"type", "lagrangian"}, {"coordinates", {"q"}}, {"lagrangian", "q' + q"}}},
+       {"initial", {{"q", 0}}}});
+  const auto lines = ladder_explanation(found);
+  for (const char* line : {"    p_q - 1 = 0", "    p_q' = 0", "    p_q' = 1", "    1 = 0",
+                           "That cannot be: S₁ is empty."})
+    BOOST_TEST((std::find(lines.begin(), lines.end(), line) != lines.end()), line << " is not in\n"
+                                                                                  << all(lines));
+  BOOST_TEST(found["reason"].get<std::string>().starts_with("No point of S₁ was found"));
+}
+
+// On S², with |x| = 1 and x·p = 0 used; on SO(3), with names for the angular velocity.
+BOOST_AUTO_TEST_CASE(formulas_on_curved_spaces) {
+  const Json sphere = ladder({{"system",
+                               {{"type", "hamiltonian"},
+                                {"manifold", {{"type", "cotangent-bundle"}, {"base", "sphere"}}},
+                                {"coordinates", {"x[3]"}},
+                                {"hamiltonian", "dot(p_x, p_x)/2 + x[2]"}}},
+                              {"initial", {{"x", {0.6, 0, 0.8}}, {"p_x", {0, 0.3, 0}}}}});
+  BOOST_TEST(sphere["velocities"]["x[1]'"]["formula"] == "p_x[1]");
+  const Json body =
+      ladder({{"system",
+               {{"type", "hamiltonian"},
+                {"manifold", {{"type", "cotangent-bundle"}, {"base", "so3"}}},
+                {"coordinates", {"R[3][3]"}},
+                {"hamiltonian", "(p_R[0]^2 + p_R[1]^2/2 + p_R[2]^2/3)/2"}}},
+              {"initial", {{"R", {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {"p_R", {0.1, 0.2, 0.3}}}}});
+  BOOST_TEST(body["velocities"]["v_R[1]"]["formula"] == "0.5*p_R[1]");
+  BOOST_TEST(body["velocities"]["p_R[0]'"]["formula"] == "-p_R[1]*p_R[2]/6");
+}
+
+BOOST_AUTO_TEST_CASE(a_ladder_up_to_a_level) {
+  const Json whole = pendulum(), part = up_to_level(whole, 1);
+  BOOST_TEST(part["levels"].size() == 2U);
+  BOOST_TEST(part["steps"].size() == 1U);
+  BOOST_TEST(part["verdict"] == "not-reached");
+  BOOST_TEST(part["index"].is_null());
+  const auto lines = ladder_explanation(part);
+  BOOST_TEST(contains(lines, "x*v + y*w = 0"), all(lines));
+  BOOST_TEST(!contains(lines, "tension"));
+  BOOST_TEST(!contains(lines, "Degrees of freedom"));
+  const bool is_whole = up_to_level(whole, 3) == whole && up_to_level(whole, 9) == whole;
+  BOOST_TEST(is_whole);
 }
 
 BOOST_AUTO_TEST_CASE(redundant_equations_are_told) {

@@ -47,6 +47,36 @@ BOOST_AUTO_TEST_CASE(resistors_and_feedback) {
   BOOST_TEST(system.residual(x, v, VectorXd::Constant(1, -u), t).norm() > 0.1);
 }
 
+// Ports with names, and feedthrough: u_motor = sin t - 2 y_motor with y_motor = p + 3 u_motor, and y
+// is a word of observables.
+BOOST_AUTO_TEST_CASE(named_ports_and_feedthrough) {
+  Json description = damped({{0, 0}, {0, "d"}});
+  description["system"]["port_names"] = {"motor"};
+  description["system"]["D"] = {{3}};
+  description["system"]["inputs"] = {"sin(t) - 2*y_motor"};
+  description["observe"] = {{"power", "u_motor*y_motor"}, {"y_motor", "y_motor"}};
+  const Experiment experiment = read_experiment(description.dump());
+  const ImplicitSystem& system = *experiment.model.system;
+  BOOST_TEST((system.names().auxiliary == std::vector<std::string>{"u_motor"}));
+  const double q = 0.3, p = -0.7, t = 0.9, u = (std::sin(t) - 2.0 * p) / 7.0;
+  const VectorXd x = VectorXd{{q, p}}, v = VectorXd{{p, -q - 0.5 * p + u}};
+  BOOST_TEST(system.residual(x, v, VectorXd::Constant(1, u), t).norm() < 1e-15);
+  const SymbolTable symbols = experiment.model.symbols(constants(x), constants(v),
+                                                       ExprVector::Constant(1, Expr(u)), Expr(t));
+  BOOST_TEST(std::abs(symbols.find("y_motor")->values[0].value() - (p + 3.0 * u)) < 1e-15);
+
+  description["system"]["port_names"] = {"motor", "brake"};
+  BOOST_TEST(problems(description)
+                 .find("/system/port_names: has 2 names; expected one for each of "
+                       "the 1 columns of B") != std::string::npos);
+  // A coordinate y is no output.
+  Json with_y = damped({{0, 0}, {0, "d"}});
+  with_y["system"]["coordinates"] = {"y", "p"};
+  with_y["system"]["hamiltonian"] = "(p^2 + y^2)/2";
+  with_y["initial"] = {{"y", 1}, {"p", 0}};
+  BOOST_TEST(problems(with_y) == "");
+}
+
 // An R that would give energy is refused, at whatever points it does so.
 BOOST_AUTO_TEST_CASE(resistors_that_give_energy_are_refused) {
   BOOST_TEST(problems(damped({{0, 0}, {0, "d"}})) == "");

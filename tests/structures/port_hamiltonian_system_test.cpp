@@ -90,15 +90,42 @@ BOOST_AUTO_TEST_CASE(motion_of_the_open_system) {
   BOOST_TEST(open.residual(kPoint, v, u, kTime + 1e-2).norm() > 1e-3);
 }
 
-// y = B(x)ᵀ dH(x, t) is what u is fed back from: there is no feedthrough, y does not contain u.
+// y = B(x)ᵀ dH(x, t) is what u is fed back from: without feedthrough y does not contain u.
 BOOST_AUTO_TEST_CASE(outputs_and_the_feedback_from_them) {
   const PortHamiltonianSystem open = with_ports(feedback);
-  const VectorXd y = values(open.output(constants(kPoint), Expr(kTime)));
+  const VectorXd y = values(open.output(constants(kPoint), ExprVector(2), Expr(kTime)));
   BOOST_TEST((y - number(B).transpose() * dH()).norm() < kTolerance);
   // The last equations are u - input(t, y), whatever v and u are.
   const VectorXd v = VectorXd{{0.3, 2.0, -1.0}}, u = VectorXd{{0.9, -0.2}};
   const VectorXd r = open.residual(kPoint, v, u, kTime);
   BOOST_TEST((r.tail(2) - (u - fed_back(y))).norm() < kTolerance);
+}
+
+// With D(x), y = Bᵀ dH + D u, and u depends on itself by way of y. Along the motion
+// dH/dt = ⟨y, u⟩ - dHᵀ R dH - uᵀ D u.
+BOOST_AUTO_TEST_CASE(feedthrough) {
+  const auto D = [](const ExprVector& x) {
+    ExprMatrix matrix(2, 2);
+    matrix << Expr(2.0), x[0], -x[0], square(x[1]);
+    return matrix;
+  };
+  const auto system = [&](std::optional<Input> input) {
+    return PortHamiltonianSystem({.J = J, .R = R, .B = B, .m = 2, .D = D}, energy(),
+                                 std::move(input));
+  };
+  const VectorXd u = VectorXd{{0.9, -0.2}};
+  const MatrixXd D_number = values(D(constants(kPoint)));
+  const VectorXd y = number(B).transpose() * dH() + D_number * u;
+  const VectorXd v = (number(J) - number(R)) * dH() + number(B) * u;
+  const VectorXd r = system(feedback).residual(kPoint, v, u, kTime);
+  BOOST_TEST(r.head(3).norm() < kTolerance);
+  BOOST_TEST((r.tail(2) - (u - fed_back(y))).norm() < kTolerance);
+  BOOST_TEST((system(std::nullopt).residual(kPoint, v, u, kTime).tail(2) - y).norm() < kTolerance);
+  BOOST_TEST(
+      (values(system(feedback).output(constants(kPoint), constants(u), Expr(kTime))) - y).norm() <
+      kTolerance);
+  BOOST_TEST(std::abs(power(v) - (y.dot(u) - dH().dot(number(R) * dH()) - u.dot(D_number * u))) <
+             1e-13);
 }
 
 BOOST_AUTO_TEST_CASE(closed_ports_have_no_output) {
@@ -141,7 +168,7 @@ BOOST_AUTO_TEST_CASE(power_balance) {
     return VectorXd(-of.residual(kPoint, VectorXd::Zero(3), u, kTime).head(3));
   };
   const PortHamiltonianSystem open = with_ports(feedback), lossless = with_ports(feedback, {});
-  const VectorXd y = values(open.output(constants(kPoint), Expr(kTime)));
+  const VectorXd y = values(open.output(constants(kPoint), ExprVector(2), Expr(kTime)));
   for (const VectorXd& u : {VectorXd{{0.0, 0.0}}, VectorXd{{0.7, -1.1}}}) {
     const double dissipated = -power(velocity(open, u)) + y.dot(u);
     BOOST_TEST(dissipated == dH().dot(number(R) * dH()), boost::test_tools::tolerance(1e-12));

@@ -1,0 +1,521 @@
+#include "courant/core/simplified.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <numbers>
+#include <stdexcept>
+#include <unordered_map>
+#include <utility>
+
+#include "courant/core/subgraph.hpp"
+
+namespace courant {
+namespace {
+
+// The expression is too large to be written by hand.
+struct TooLarge {};
+
+constexpr std::size_t longest = 1000;  // characters of a sum
+
+// Factors by their number in the table of a Simplifier, with their powers (not 0), by number.
+using Monomial = std::vector<std::pair<int, int>>;
+using Sum = std::map<Monomial, double>;
+
+Monomial product(const Monomial& a, const Monomial& b, int sign = 1) {
+  Monomial result;
+  auto i = a.begin();
+  auto j = b.begin();
+  while (i != a.end() || j != b.end()) {
+    if (j == b.end() || (i != a.end() && i->first < j->first)) {
+      result.push_back(*i++);
+    } else if (i == a.end() || j->first < i->first) {
+      result.emplace_back(j->first, sign * j->second);
+      ++j;
+    } else {
+      if (const int power = i->second + sign * j->second; power != 0)
+        result.emplace_back(i->first, power);
+      ++i, ++j;
+    }
+  }
+  return result;
+}
+
+Monomial power(Monomial a, int k) {
+  if (k == 0) return {};
+  for (auto& [factor, exponent] : a) exponent *= k;
+  return a;
+}
+
+std::string digits(double value) {
+  char buffer[40];
+  const std::string shortest(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
+  if (shortest.size() <= 7) return shortest;
+  std::snprintf(buffer, sizeof buffer, "%.6g", value);
+  return buffer;
+}
+
+// A positive number as factors above and below a fraction line.
+struct Number {
+  std::string above, below;  // "" stands for 1
+};
+
+bool near(double a, double b) { return std::fabs(a - b) <= 4e-15 * std::fabs(b); }
+
+// n/d with small n, d; none if there are none.
+std::optional<std::pair<int, int>> fraction(double value) {
+  for (int d = 1; d <= 24; ++d) {
+    const double n = value * d;
+    if (n > 0.5 && n < 100.5 && near(n, std::round(n)))
+      return std::pair(static_cast<int>(n + 0.5), d);
+  }
+  return std::nullopt;
+}
+
+Number written(double value) {
+  const auto text = [](int n) { return n == 1 ? std::string() : std::to_string(n); };
+  if (value == 1.0) return {};
+  const std::string decimal = digits(value);
+  double read = 0.0;
+  std::from_chars(decimal.data(), decimal.data() + decimal.size(), read);
+  if (read == value && decimal.size() <= 5) return {decimal, ""};
+  if (const auto f = fraction(value)) return {text(f->first), text(f->second)};
+  const auto times_pi = [](const std::string& n) { return n.empty() ? "pi" : n + "*pi"; };
+  if (const auto f = fraction(value * std::numbers::pi))
+    return {text(f->first), times_pi(text(f->second))};
+  if (const auto f = fraction(value / std::numbers::pi))
+    return {times_pi(text(f->first)), text(f->second)};
+  return {decimal, ""};
+}
+
+class Simplifier {
+ public:
+  Simplifier(const Simplification& given, bool expand) : expand_(expand) {
+    for (const Expr& relation : given.relations) {
+      const bool as_given = expand_;
+      expand_ = true;
+      relations_.push_back(of(relation));
+      expand_ = as_given;
+    }
+    known_.clear();
+  }
+
+  Sum of(const Expr& a) {
+    if (a.is_constant()) return number(a.value());
+    const Subgraph part(ExprVector::Constant(1, a));
+    for (const std::uint32_t node : part.nodes())
+      if (!known_.contains(node)) known_.emplace(node, value(*a.graph(), node));
+    return known_.at(a.node());
+  }
+
+  // Without the largest monomial that can be taken out of all terms; the coefficient of that and of
+  // the leading term goes to `content`.
+  std::pair<Monomial, double> take_out_content(Sum& sum) const {
+    if (sum.empty()) return {{}, 1.0};
+    Monomial common = sum.begin()->first;
+    for (const auto& [monomial, c] : sum) {
+      std::map<int, int> powers(monomial.begin(), monomial.end());
+      Monomial least;
+      for (const auto& [factor, exponent] : common) {
+        const auto found = powers.find(factor);
+        const int other = found == powers.end() ? 0 : found->second;
+        if (const int both = std::min(exponent, other); both != 0) least.emplace_back(factor, both);
+        if (found != powers.end()) powers.erase(found);
+      }
+      for (const auto& [factor, exponent] : powers)
+        if (exponent < 0) least.emplace_back(factor, exponent);
+      std::sort(least.begin(), least.end());
+      common = least;
+    }
+    const double lead = in_order(sum).front().second;
+    Sum rest;
+    for (const auto& [monomial, c] : sum) rest[product(monomial, common, -1)] = c / lead;
+    sum = rest;
+    return {common, lead};
+  }
+
+  // c · monomial · (sum), as text.
+  std::string text(const Sum& sum) const {
+    if (sum.empty()) return "0";
+    std::string result;
+    for (const auto& [monomial, c] : in_order(sum)) {
+      if (result.size() > longest) throw TooLarge();
+      result += result.empty() ? (c < 0 ? "-" : "") : (c < 0 ? " - " : " + ");
+      result += text(monomial, std::fabs(c));
+    }
+    return result;
+  }
+
+  // Written with a common factor in front, where there is one.
+  Sum factored(Sum sum) {
+    if (sum.size() < 2) return sum;
+    const auto [common, c] = take_out_content(sum);
+    if (sum.size() == 1) return {{product(common, sum.begin()->first), c * sum.begin()->second}};
+    return {{normal(product(common, {{atom(sum), 1}})), c}};
+  }
+
+  // Positive powers of the common factor stay: where they vanish, the equation holds.
+  Sum equation(Sum sum) {
+    const auto [common, c] = take_out_content(sum);
+    sum = scaled(sum, c);
+    Monomial above;
+    for (const auto& [factor, exponent] : common)
+      if (exponent > 0) above.emplace_back(factor, exponent);
+    Sum result;
+    for (const auto& [monomial, coefficient] : sum) result[product(monomial, above)] = coefficient;
+    return result;
+  }
+
+  double leading(const Sum& sum) const {
+    return sum.empty() ? 1.0 : in_descending_order(sum).front().second;
+  }
+
+  static Sum scaled(Sum sum, double factor) {
+    for (auto& [monomial, c] : sum) c *= factor;
+    return sum;
+  }
+
+ private:
+  struct Factor {
+    std::string text;
+    Sum sum = {};  // of a sum in parentheses, or the argument of a square root
+    bool is_sum = false, is_root = false, is_variable = false;
+  };
+
+  static Sum number(double value) { return value == 0.0 ? Sum{} : Sum{{Monomial{}, value}}; }
+
+  int factor(Factor entry) {
+    const auto found = numbers_.find(entry.text);
+    if (found != numbers_.end()) return found->second;
+    const int n = static_cast<int>(factors_.size());
+    numbers_.emplace(entry.text, n);
+    factors_.push_back(std::move(entry));
+    return n;
+  }
+  int atom(const Sum& sum) {
+    return factor({.text = "(" + text(sum) + ")", .sum = sum, .is_sum = true});
+  }
+
+  static int degree(const Monomial& monomial) {
+    int sum = 0;
+    for (const auto& [factor, exponent] : monomial) sum += exponent;
+    return sum;
+  }
+
+  // Variables in the order of the graph, then what stands in parentheses in that of its text.
+  bool before(int a, int b) const {
+    const Factor &of_a = factors_[static_cast<std::size_t>(a)],
+                 &of_b = factors_[static_cast<std::size_t>(b)];
+    if (of_a.is_variable != of_b.is_variable) return of_a.is_variable;
+    return of_a.is_variable ? a < b : of_a.text < of_b.text;
+  }
+
+  // High degrees first, then the order of the factors.
+  std::vector<std::pair<Monomial, double>> in_descending_order(const Sum& sum) const {
+    count(sum.size());
+    std::vector<std::pair<Monomial, double>> terms(sum.begin(), sum.end());
+    std::stable_sort(terms.begin(), terms.end(), [this](const auto& a, const auto& b) {
+      const int of_a = degree(a.first), of_b = degree(b.first);
+      if (of_a != of_b) return of_a > of_b;
+      // x² before x y before y².
+      for (std::size_t i = 0; i < a.first.size() && i < b.first.size(); ++i) {
+        if (a.first[i].first != b.first[i].first) return before(a.first[i].first, b.first[i].first);
+        if (a.first[i].second != b.first[i].second) return a.first[i].second > b.first[i].second;
+      }
+      return a.first.size() > b.first.size();
+    });
+    return terms;
+  }
+  // With a positive term in front, if there is one.
+  std::vector<std::pair<Monomial, double>> in_order(const Sum& sum) const {
+    auto terms = in_descending_order(sum);
+    if (!terms.empty() && terms.front().second < 0.0) {
+      const auto positive = std::find_if(terms.begin(), terms.end(),
+                                         [](const auto& term) { return term.second > 0.0; });
+      if (positive != terms.end()) std::rotate(terms.begin(), positive, positive + 1);
+    }
+    return terms;
+  }
+
+  std::string text(const Monomial& monomial, double size) const {
+    const Number number = written(size);
+    std::string above = number.above, below = number.below;
+    int count_below = below.empty() ? 0 : below.find('*') == std::string::npos ? 1 : 2;
+    for (const auto& [factor, exponent] : monomial) {
+      const int k = std::abs(exponent);
+      const bool alone = exponent > 0 && k == 1 && monomial.size() == 1 && size == 1.0;
+      std::string piece = factors_[static_cast<std::size_t>(factor)].text;
+      if (alone && factors_[static_cast<std::size_t>(factor)].is_sum)
+        return piece.substr(1, piece.size() - 2);
+      if (k > 1) piece += "^" + std::to_string(k);
+      std::string& side = exponent > 0 ? above : below;
+      side += (side.empty() ? "" : "*") + piece;
+      if (exponent < 0) ++count_below;
+    }
+    if (above.empty()) above = "1";
+    if (below.empty()) return above;
+    return above + "/" + (count_below > 1 ? "(" + below + ")" : below);
+  }
+
+  // Roots to an even power become what is under them.
+  Monomial normal(Monomial monomial) {
+    for (std::size_t i = 0; i < monomial.size(); ++i) {
+      const auto [factor, exponent] = monomial[i];
+      const Factor& entry = factors_[static_cast<std::size_t>(factor)];
+      if (!entry.is_root || std::abs(exponent) < 2) continue;
+      const int pairs = exponent / 2, left = exponent - 2 * pairs;
+      Sum under = entry.sum;
+      const auto [common, c] = take_out_content(under);
+      if (c != 1.0 || !common.empty()) continue;  // as it stands
+      monomial.erase(monomial.begin() + static_cast<std::ptrdiff_t>(i));
+      if (left != 0) monomial = product(monomial, {{factor, left}});
+      const Monomial inside = under.size() == 1 ? under.begin()->first : Monomial{{atom(under), 1}};
+      return normal(product(monomial, power(inside, pairs)));
+    }
+    return monomial;
+  }
+
+  void count(std::size_t terms = 1) const {
+    constexpr std::size_t most = 30000;  // some milliseconds
+    if ((work_ += terms) > most) throw TooLarge();
+  }
+
+  void add(Sum& sum, const Monomial& monomial, double c) {
+    count();
+    const auto [at, is_new] = sum.emplace(monomial, c);
+    if (is_new) return;
+    const double size = std::max(std::fabs(at->second), std::fabs(c));
+    at->second += c;
+    if (std::fabs(at->second) <= 1e-14 * size) sum.erase(at);
+  }
+
+  // What relations and sin² + cos² = 1 make of it.
+  Sum reduced(Sum sum) {
+    if (sum.size() > 100) throw TooLarge();
+    count(sum.size() * (1 + relations_.size() + circles_.size()));
+    bool changed = true;
+    while (changed) {
+      changed = false;
+      for (const Sum& relation : relations_)
+        if (apply(relation, sum)) changed = true;
+      for (const auto& [sine, cosine] : circles_) {
+        const Sum circle{{{{sine, 2}}, 1.0}, {{{cosine, 2}}, 1.0}, {Monomial{}, -1.0}};
+        if (apply(circle, sum)) changed = true;
+      }
+    }
+    return sum;
+  }
+
+  // Replaces one multiple of the terms of a relation by that of its constant.
+  bool apply(const Sum& relation, Sum& sum) {
+    const auto lead = std::find_if(relation.begin(), relation.end(),
+                                   [](const auto& term) { return !term.first.empty(); });
+    if (lead == relation.end()) return false;
+    for (const auto& [monomial, c] : sum) {
+      const Monomial multiplier = product(monomial, lead->first, -1);
+      // The lead must divide the monomial.
+      bool divides = true;
+      for (const auto& [factor, exponent] : lead->first) {
+        const auto found = std::find_if(monomial.begin(), monomial.end(),
+                                        [f = factor](const auto& e) { return e.first == f; });
+        divides = divides && found != monomial.end() && found->second >= exponent;
+      }
+      if (!divides) continue;
+      const double scale = c / lead->second;
+      bool all = true;
+      for (const auto& [term, coefficient] : relation) {
+        if (term.empty()) continue;
+        const auto found = sum.find(product(multiplier, term));
+        all = all && found != sum.end() && near(found->second, scale * coefficient);
+      }
+      if (!all) continue;
+      for (const auto& [term, coefficient] : relation) {
+        if (term.empty())
+          add(sum, multiplier, -scale * coefficient);
+        else
+          sum.erase(product(multiplier, term));
+      }
+      return true;
+    }
+    return false;
+  }
+
+  Sum plus(const Sum& a, const Sum& b, double sign = 1.0) {
+    Sum result = a;
+    for (const auto& [monomial, c] : b) add(result, monomial, sign * c);
+    return reduced(std::move(result));
+  }
+
+  // As one monomial and a number.
+  std::pair<Monomial, double> as_factor(const Sum& sum) {
+    const Sum one = factored(sum);
+    if (one.empty()) return {{}, 0.0};
+    return *one.begin();
+  }
+
+  Sum times(const Sum& a, const Sum& b) {
+    const std::size_t terms = a.size() * b.size();
+    const bool distribute = a.size() <= 1 || b.size() <= 1 ? expand_ || is_number(a) || is_number(b)
+                                                           : expand_ && terms <= 48;
+    if (!distribute && terms > 0) {
+      const auto [of_a, c] = as_factor(a);
+      const auto [of_b, d] = as_factor(b);
+      return opened({{normal(product(of_a, of_b)), c * d}});
+    }
+    Sum result;
+    for (const auto& [of_a, c] : a)
+      for (const auto& [of_b, d] : b) add(result, normal(product(of_a, of_b)), c * d);
+    return reduced(std::move(result));
+  }
+
+  static bool is_number(const Sum& sum) {
+    return sum.empty() || (sum.size() == 1 && sum.begin()->first.empty());
+  }
+
+  // A number times one sum is that sum.
+  Sum opened(const Sum& sum) {
+    if (sum.size() != 1) return sum;
+    const auto& [monomial, c] = *sum.begin();
+    if (monomial.size() != 1 || monomial[0].second != 1) return sum;
+    const Factor& entry = factors_[static_cast<std::size_t>(monomial[0].first)];
+    return entry.is_sum ? scaled(entry.sum, c) : sum;
+  }
+
+  Sum to_power(const Sum& sum, int k) {
+    if (k == 0) return number(1.0);
+    if (sum.empty()) {
+      if (k < 0) throw TooLarge();  // 1/0
+      return sum;
+    }
+    if (k > 1 && sum.size() > 1 && expand_ && sum.size() <= 4 && k <= 3) {
+      Sum result = sum;
+      for (int i = 1; i < k; ++i) result = times(result, sum);
+      return result;
+    }
+    const auto [monomial, c] = as_factor(sum);
+    return opened({{normal(power(monomial, k)), std::pow(c, k)}});
+  }
+
+  Sum call(const std::string& name, std::initializer_list<const Sum*> arguments) {
+    std::string inside;
+    for (const Sum* argument : arguments) inside += (inside.empty() ? "" : ", ") + text(*argument);
+    return {{{{factor({.text = name + "(" + inside + ")"}), 1}}, 1.0}};
+  }
+
+  Sum value(Graph& graph, std::uint32_t index) {
+    const Node& node = graph.node(index);
+    const auto operand = [&](std::uint32_t i) -> const Sum& { return known_.at(i); };
+    switch (node.op) {
+      case Op::constant:
+        return number(graph.constant(index));
+      case Op::variable:
+        return {{{{factor({.text = graph.name(index), .is_variable = true}), 1}}, 1.0}};
+      case Op::negate:
+        return scaled(operand(node.a), -1.0);
+      case Op::add:
+        return plus(operand(node.a), operand(node.b));
+      case Op::subtract:
+        return plus(operand(node.a), operand(node.b), -1.0);
+      case Op::multiply:
+        return times(operand(node.a), operand(node.b));
+      case Op::divide:
+        return times(operand(node.a), to_power(operand(node.b), -1));
+      case Op::power:
+        return to_power(operand(node.a), node.k);
+      case Op::sqrt: {
+        const Sum& under = operand(node.a);
+        const std::string name = "sqrt(" + text(under) + ")";
+        return {{{{factor({.text = name, .sum = under, .is_root = true}), 1}}, 1.0}};
+      }
+      case Op::sin:
+      case Op::cos: {
+        const Sum &a = operand(node.a), sine = call("sin", {&a}), cosine = call("cos", {&a});
+        circles_.emplace(sine.begin()->first[0].first, cosine.begin()->first[0].first);
+        return node.op == Op::sin ? sine : cosine;
+      }
+      case Op::exp:
+        return call("exp", {&operand(node.a)});
+      case Op::log:
+        return call("log", {&operand(node.a)});
+      case Op::tan:
+        return call("tan", {&operand(node.a)});
+      case Op::asin:
+        return call("asin", {&operand(node.a)});
+      case Op::acos:
+        return call("acos", {&operand(node.a)});
+      case Op::atan:
+        return call("atan", {&operand(node.a)});
+      case Op::sinh:
+        return call("sinh", {&operand(node.a)});
+      case Op::cosh:
+        return call("cosh", {&operand(node.a)});
+      case Op::tanh:
+        return call("tanh", {&operand(node.a)});
+      case Op::abs:
+        return call("abs", {&operand(node.a)});
+      case Op::sign:
+        return call("sign", {&operand(node.a)});
+      case Op::atan2:
+        return call("atan2", {&operand(node.a), &operand(node.b)});
+      case Op::min:
+        return call("min", {&operand(node.a), &operand(node.b)});
+      case Op::max:
+        return call("max", {&operand(node.a), &operand(node.b)});
+      case Op::pow: {
+        const std::string base = text(operand(node.a)), exponent = text(operand(node.b));
+        return {{{{factor({.text = "(" + base + ")^(" + exponent + ")"}), 1}}, 1.0}};
+      }
+      default: {  // conditions, and what only the library writes
+        const std::string as_it_is = to_string(graph.expression(index), 200);
+        return {{{{factor({.text = "(" + as_it_is + ")"}), 1}}, 1.0}};
+      }
+    }
+  }
+
+  bool expand_;
+  mutable std::size_t work_ = 0;
+  std::vector<Factor> factors_;
+  std::map<std::string, int> numbers_;
+  std::map<int, int> circles_;  // sin(a) and cos(a)
+  std::vector<Sum> relations_;
+  std::unordered_map<std::uint32_t, Sum> known_;
+};
+
+// Of the texts that both ways of multiplying give, the shortest.
+template <class Texts>
+std::optional<std::string> shortest(const Simplification& given, const Texts& texts) {
+  std::optional<std::string> best;
+  for (const bool expand : {true, false}) {
+    try {
+      Simplifier simplifier(given, expand);
+      for (const std::string& text : texts(simplifier))
+        if (!best || text.size() < best->size()) best = text;
+    } catch (const TooLarge&) {
+      continue;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+std::optional<std::string> simplified(const Expr& a, const Simplification& given) {
+  return shortest(given, [&](Simplifier& simplifier) {
+    const Sum sum = simplifier.of(a);
+    return std::vector<std::string>{simplifier.text(sum),
+                                    simplifier.text(simplifier.factored(sum))};
+  });
+}
+
+std::optional<std::string> simplified_equation(const Expr& a, const Simplification& given) {
+  return shortest(given, [&](Simplifier& simplifier) {
+    const Sum sum = simplifier.equation(simplifier.of(a));
+    const double c = simplifier.leading(sum);
+    return std::vector<std::string>{simplifier.text(Simplifier::scaled(sum, c < 0.0 ? -1.0 : 1.0)),
+                                    simplifier.text(Simplifier::scaled(sum, 1.0 / c))};
+  });
+}
+
+}  // namespace courant

@@ -1,0 +1,239 @@
+#include "courant/reading/network_element.hpp"
+
+namespace courant {
+namespace {
+
+using Kind = NetworkBranch::Kind;
+using Role = NetworkBranch::Role;
+using Read = std::function<std::optional<NetworkElement>(ObjectReader&, const NetworkSite&)>;
+
+Key name() { return required_key("name", takes::text(), "letters, digits and _"); }
+Key from() { return required_key("from", takes::text(), "the node where the current enters"); }
+Key to() { return required_key("to", takes::text(), "the node where it leaves"); }
+Key secondary() {
+  return required_key("secondary", takes::array_of(takes::text(), 2, 2),
+                      "the two nodes of the other side, from and to");
+}
+
+// exp beyond this exponent goes on as its tangent: Newton's method may ask for more.
+constexpr double kLargestExponent = 60.0;
+
+std::optional<NetworkElement> read_resistor(ObjectReader& object, const NetworkSite& site) {
+  ElementReader reader(object, site);
+  const auto from = reader.node("from"), to = reader.node("to");
+  const std::string key = reader.one_of({"value", "voltage", "current"});
+  const auto formula = reader.formula(key);
+  if (!formula) return std::nullopt;
+  const bool heats = reader.has("heat");
+  const NetworkTerminal heat = reader.node("heat");
+  if (key == "value") {
+    const auto resistance = reader.value_of(*formula);
+    reader.branch(domains::electrical, from, to, Kind::current,
+                  heats ? Role::coupler : Role::resistor,
+                  [resistance](const NetworkVariables& variables, Index first) {
+                    return resistance(variables, first) * variables.current(first);
+                  });
+  } else {
+    reader.formula_branch(domains::electrical, from, to,
+                          key == "voltage" ? Kind::current : Kind::voltage,
+                          heats ? Role::coupler : Role::resistor, *formula);
+  }
+  if (heats)
+    reader.branch(domains::thermal, heat, reader.ground(), Kind::voltage, Role::coupler,
+                  [](const NetworkVariables& variables, Index first) {
+                    return -variables.current(first) * variables.voltage(first) /
+                           variables.voltage(first + 1);
+                  });
+  return reader.result();
+}
+
+std::optional<NetworkElement> read_storage(ObjectReader& object, const NetworkSite& site, Kind kind,
+                                           const char* letters, const char* law) {
+  ElementReader reader(object, site);
+  reader.storage(domains::electrical, reader.node("from"), reader.node("to"), kind, letters);
+  const std::string key = reader.one_of({"value", "energy", law});
+  if (key == "value") {
+    const double value = reader.positive("value");
+    reader.quadratic_energy(value);
+    if (kind == Kind::flux) reader.element().inductance = value;
+  } else if (const auto formula = reader.formula(key)) {
+    key == "energy" ? reader.energy(*formula) : reader.law_of_state(*formula);
+  }
+  return reader.result();
+}
+
+std::optional<NetworkElement> read_mutual_inductance(ObjectReader& object,
+                                                     const NetworkSite& site) {
+  ElementReader reader(object, site);
+  const auto [first, second] = reader.pair("inductors");
+  const std::string key = reader.one_of({"value", "coupling"});
+  const double value = reader.constant(key);
+  reader.element().mutual = {{first.node, second.node}, second.pointer, value, key == "coupling"};
+  return reader.result();
+}
+
+std::optional<NetworkElement> read_diode(ObjectReader& object, const NetworkSite& site) {
+  ElementReader reader(object, site);
+  const double saturation = reader.positive("saturation"), emission = reader.positive("emission"),
+               thermal = reader.positive("thermal_voltage"), series = reader.constant("leak");
+  reader.branch(domains::electrical, reader.node("from"), reader.node("to"), Kind::voltage,
+                Role::resistor,
+                [saturation, scale = emission * thermal, series](const NetworkVariables& variables,
+                                                                 Index first) {
+                  const Expr v = variables.voltage(first);
+                  const Expr exponent = v / scale;
+                  const double top = std::exp(kLargestExponent);
+                  const Expr power = select(exponent < Expr(kLargestExponent), exp(exponent),
+                                            top * (1.0 + exponent - kLargestExponent));
+                  return saturation * (power - 1.0) + series * v;
+                });
+  return reader.result();
+}
+
+std::optional<NetworkElement> read_transformer(ObjectReader& object, const NetworkSite& site) {
+  ElementReader reader(object, site);
+  const auto [from, to] = reader.pair("secondary");
+  const double ratio = reader.constant("ratio");
+  reader.branch(
+      domains::electrical, reader.node("from"), reader.node("to"), Kind::current, Role::coupler,
+      [ratio](const NetworkVariables& variables, Index first) {
+        return ratio * variables.voltage(first + 1);
+      },
+      "_1");
+  reader.branch(
+      domains::electrical, from, to, Kind::voltage, Role::coupler,
+      [ratio](const NetworkVariables& variables, Index first) {
+        return -ratio * variables.current(first);
+      },
+      "_2");
+  return reader.result();
+}
+
+std::optional<NetworkElement> read_gyrator(ObjectReader& object, const NetworkSite& site) {
+  ElementReader reader(object, site);
+  const auto [from, to] = reader.pair("secondary");
+  const double resistance = reader.constant("value");
+  reader.branch(
+      domains::electrical, reader.node("from"), reader.node("to"), Kind::current, Role::coupler,
+      [resistance](const NetworkVariables& variables, Index first) {
+        return resistance * variables.current(first + 1);
+      },
+      "_1");
+  reader.branch(
+      domains::electrical, from, to, Kind::current, Role::coupler,
+      [resistance](const NetworkVariables& variables, Index first) {
+        return -resistance * variables.current(first);
+      },
+      "_2");
+  return reader.result();
+}
+
+std::optional<NetworkElement> read_source(ObjectReader& object, const NetworkSite& site,
+                                          Kind kind) {
+  ElementReader reader(object, site);
+  if (const auto value = reader.formula("value"))
+    reader.formula_branch(domains::electrical, reader.node("from"), reader.node("to"), kind,
+                          Role::source, *value);
+  return reader.result();
+}
+
+std::optional<NetworkElement> read_switch(ObjectReader& object, const NetworkSite& site) {
+  ElementReader reader(object, site);
+  const double on = reader.positive("on"), off = reader.positive("off");
+  auto closed = reader.formula("closed");
+  if (!closed) return std::nullopt;
+  // A condition is no number: `if` makes it one.
+  closed->text = "if(" + closed->text + ", 1, 0)";
+  const auto is_closed = reader.value_of(*closed);
+  reader.branch(domains::electrical, reader.node("from"), reader.node("to"), Kind::current,
+                Role::resistor,
+                [is_closed, on, off](const NetworkVariables& variables, Index first) {
+                  const Expr current = variables.current(first);
+                  return select(is_closed(variables, first), on * current, off * current);
+                });
+  return reader.result();
+}
+
+}  // namespace
+
+ElementKinds electrical_elements() {
+  const auto storage = [](Kind kind, const char* letters, const char* law) -> Read {
+    return [=](ObjectReader& object, const NetworkSite& site) {
+      return read_storage(object, site, kind, letters, law);
+    };
+  };
+  const auto source = [](Kind kind) -> Read {
+    return [kind](ObjectReader& object, const NetworkSite& site) {
+      return read_source(object, site, kind);
+    };
+  };
+  return {
+      {{"resistor",
+        "v = R i, or a law of its own",
+        {name(), from(), to(),
+         optional_key("value", takes::formula(), "R in Ω; may depend on anything"),
+         optional_key("voltage", takes::formula(), "v in V as a function of the current i_<name>"),
+         optional_key("current", takes::formula(), "i in A as a function of the voltage v_<name>"),
+         optional_key("heat", takes::text(), "a thermal node that gets the entropy v i / T")},
+        {{"value", "voltage", "current"}}},
+       read_resistor},
+      {{"capacitor",
+        "a charge q_<name> in C",
+        {name(), from(), to(), optional_key("value", takes::formula(), "C in F, a constant"),
+         optional_key("energy", takes::formula(), "in J, as a function of the charge"),
+         optional_key("voltage", takes::formula(), "in V, as a function of the charge")},
+        {{"value", "energy", "voltage"}}},
+       storage(Kind::charge, "q_", "voltage")},
+      {{"inductor",
+        "a flux linkage phi_<name> in Wb",
+        {name(), from(), to(), optional_key("value", takes::formula(), "L in H, a constant"),
+         optional_key("energy", takes::formula(), "in J, as a function of the flux"),
+         optional_key("current", takes::formula(), "in A, as a function of the flux")},
+        {{"value", "energy", "current"}}},
+       storage(Kind::flux, "phi_", "current")},
+      {{"mutual-inductance",
+        "of two inductors that are given by their value",
+        {name(),
+         required_key("inductors", takes::array_of(takes::text(), 2, 2), "the names of both"),
+         optional_key("value", takes::formula(), "M in H, a constant"),
+         optional_key("coupling", takes::formula(), "M/√(L₁ L₂), between -1 and 1")},
+        {{"value", "coupling"}}},
+       read_mutual_inductance},
+      {{"diode",
+        "i = saturation (exp(v/(emission thermal_voltage)) - 1) + leak v",
+        {name(), from(), to(), default_key("saturation", takes::formula(), 1e-14, "in A"),
+         default_key("emission", takes::formula(), 1.0, "the emission coefficient"),
+         default_key("thermal_voltage", takes::formula(), 0.025852, "k T/e in V"),
+         default_key("leak", takes::formula(), 0.0, "a conductance beside it, in S")}},
+       read_diode},
+      {{"ideal-transformer",
+        "v₁ = ratio v₂, i₂ = -ratio i₁",
+        {name(), from(), to(), secondary(),
+         required_key("ratio", takes::formula(), "the ratio of turns, a constant")}},
+       read_transformer},
+      {{"gyrator",
+        "v₁ = r i₂, v₂ = -r i₁",
+        {name(), from(), to(), secondary(),
+         required_key("value", takes::formula(), "r in Ω, a constant")}},
+       read_gyrator},
+      {{"voltage-source",
+        "holds the voltage from from to to",
+        {name(), from(), to(),
+         required_key("value", takes::formula(), "in V; may depend on t and anything else")}},
+       source(Kind::current)},
+      {{"current-source",
+        "holds the current through it from from to to",
+        {name(), from(), to(),
+         required_key("value", takes::formula(), "in A; may depend on t and anything else")}},
+       source(Kind::voltage)},
+      {{"switch",
+        "a small resistance while a condition holds, else a large one",
+        {name(), from(), to(),
+         required_key("closed", takes::formula(), "the condition, such as t > 1e-3"),
+         default_key("on", takes::formula(), 1e-3, "in Ω"),
+         default_key("off", takes::formula(), 1e9, "in Ω")}},
+       read_switch},
+  };
+}
+
+}  // namespace courant

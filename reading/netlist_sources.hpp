@@ -1,0 +1,22 @@
+// The waveforms of SPICE sources as formulas of t.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "courant/reading/netlist_text.hpp"
+
+namespace courant::netlist {
+
+// Of the .tran line, for values that are left out.
+struct Times {
+  double step = 0.0, end = 0.0;
+};
+
+// The formula of the words of a source after its nodes: [DC] value, PULSE, SIN, PWL or EXP; AC is
+// left out. Values may be expressions of parameters, times of PULSE and PWL are numbers. Throws
+// LineError.
+std::string source(const std::vector<std::string>& words, const Scope& scope, const Times& times,
+                   int line);
+
+}  // namespace courant::netlist

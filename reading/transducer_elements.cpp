@@ -1,0 +1,69 @@
+#include "courant/reading/network_element.hpp"
+
+namespace courant {
+namespace {
+
+using Kind = NetworkBranch::Kind;
+using Role = NetworkBranch::Role;
+using Read = std::function<std::optional<NetworkElement>(ObjectReader&, const NetworkSite&)>;
+
+Key name() { return required_key("name", takes::text(), "letters, digits and _"); }
+Key from() { return required_key("from", takes::text(), "the node where the current enters"); }
+Key to() { return required_key("to", takes::text(), "the node where it leaves"); }
+
+// v = K times a velocity against the ground, and K i pushes there.
+Read read_motor(const NetworkDomain& domain, const char* moving) {
+  return [&domain, moving](ObjectReader& object, const NetworkSite& site) {
+    ElementReader reader(object, site);
+    const double constant = reader.constant("constant");
+    reader.branch(domains::electrical, reader.node("from"), reader.node("to"), Kind::current,
+                  Role::coupler, [constant](const NetworkVariables& variables, Index first) {
+                    return constant * variables.voltage(first + 1);
+                  });
+    reader.branch(
+        domain, reader.node(moving), reader.ground(), Kind::voltage, Role::coupler,
+        [constant](const NetworkVariables& variables, Index first) {
+          return -constant * variables.current(first);
+        },
+        "_motion");
+    return reader.result();
+  };
+}
+
+std::optional<NetworkElement> read_electromagnet(ObjectReader& object, const NetworkSite& site) {
+  ElementReader reader(object, site);
+  reader.storage(domains::electrical, reader.node("from"), reader.node("to"), Kind::flux, "phi_");
+  const auto armature = reader.node("armature");
+  reader.storage(domains::translation, armature, reader.ground(), Kind::flux, "x_", "_motion");
+  if (auto inductance = reader.formula("inductance")) {
+    // phi²/(2 L(x))
+    inductance->text = "phi_" + reader.element().name + "^2/2/(" + inductance->text + ")";
+    reader.energy(*inductance);
+  }
+  return reader.result();
+}
+
+}  // namespace
+
+ElementKinds transducer_elements() {
+  return {
+      {{"dc-motor",
+        "v = K omega, torque K i on the shaft; winding and rotor are elements besides",
+        {name(), from(), to(), required_key("shaft", takes::text(), "the rotational node"),
+         required_key("constant", takes::formula(), "K in V·s/rad = N·m/A, a constant")}},
+       read_motor(domains::rotation, "shaft")},
+      {{"voice-coil",
+        "v = K times the velocity of the cone, force K i on the cone",
+        {name(), from(), to(), required_key("cone", takes::text(), "the translational node"),
+         required_key("constant", takes::formula(), "K = B l in V·s/m = N/A, a constant")}},
+       read_motor(domains::translation, "cone")},
+      {{"electromagnet",
+        "a flux phi_<name> in Wb and a position x_<name> in m, with the energy phi²/(2 L(x))",
+        {name(), from(), to(),
+         required_key("armature", takes::text(), "the translational node; x is its position"),
+         required_key("inductance", takes::formula(), "L in H, as a function of x_<name>")}},
+       read_electromagnet},
+  };
+}
+
+}  // namespace courant

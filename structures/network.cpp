@@ -1,0 +1,281 @@
+#include "courant/structures/network.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+
+#include "courant/core/derivative.hpp"
+#include "courant/manifolds/euclidean.hpp"
+#include "courant/structures/kirchhoff.hpp"
+
+namespace courant {
+namespace {
+
+using Kind = NetworkBranch::Kind;
+using Role = NetworkBranch::Role;
+
+std::size_t at(Index index) { return static_cast<std::size_t>(index); }
+
+bool has_state(const NetworkBranch& branch) {
+  return branch.kind == Kind::charge || branch.kind == Kind::flux;
+}
+
+// What a normal tree takes first.
+double weight(const NetworkBranch& branch) {
+  switch (branch.kind) {
+    case Kind::charge:
+      return 1.0;
+    case Kind::flux:
+      return 4.0;
+    case Kind::current:
+      return branch.role == Role::source ? 0.0 : 2.0;
+    case Kind::voltage:
+      return branch.role == Role::source ? 5.0 : 3.0;
+  }
+  return 0.0;
+}
+
+std::vector<NetworkBranch> named(std::vector<NetworkBranch> branches) {
+  for (NetworkBranch& branch : branches) {
+    if (branch.current_name.empty()) branch.current_name = "i_" + branch.name;
+    if (branch.voltage_name.empty()) branch.voltage_name = "v_" + branch.name;
+    if (branch.state_name.empty() && branch.kind == Kind::charge)
+      branch.state_name = "q_" + branch.name;
+    if (branch.state_name.empty() && branch.kind == Kind::flux)
+      branch.state_name = "phi_" + branch.name;
+  }
+  return branches;
+}
+
+std::unique_ptr<const Kirchhoff> kirchhoff(Index node_count,
+                                           const std::vector<NetworkBranch>& branches) {
+  CircuitGraph graph(at(node_count));
+  for (const NetworkBranch& branch : branches) {
+    if (std::min(branch.from, branch.to) < 0 || std::max(branch.from, branch.to) >= node_count)
+      throw std::invalid_argument("Network::Network: the branch \"" + branch.name +
+                                  "\" is between nodes " + std::to_string(branch.from) + " and " +
+                                  std::to_string(branch.to) + ", expected nodes below " +
+                                  std::to_string(node_count) + ".");
+    if (!has_state(branch) && !branch.law)
+      throw std::invalid_argument("Network::Network: the branch \"" + branch.name +
+                                  "\" has no law, expected one for what is no charge or flux.");
+    add_edge(at(branch.from), at(branch.to), CircuitElement{branch.name, weight(branch)}, graph);
+  }
+  return std::make_unique<const Kirchhoff>(graph);
+}
+
+// `a = b - c + …`, cut off where there are many.
+std::string sum(const std::string& left, const std::vector<std::pair<double, std::string>>& terms) {
+  constexpr std::size_t most = 8;
+  std::string text = left + " =";
+  if (terms.empty()) text += " 0";
+  for (std::size_t k = 0; k < terms.size() && k < most; ++k) {
+    const auto& [sign, name] = terms[k];
+    text += k == 0 ? (sign < 0.0 ? " -" : " ") : (sign < 0.0 ? " - " : " + ");
+    text += name;
+  }
+  return terms.size() > most ? text + " + …" : text;
+}
+
+ImplicitSystem::Names names_of(const std::vector<NetworkBranch>& branches,
+                               const Kirchhoff& kirchhoff) {
+  ImplicitSystem::Names names;
+  for (const NetworkBranch& branch : branches) {
+    if (has_state(branch))
+      names.coordinates.push_back(branch.state_name);
+    else
+      names.auxiliary.push_back(branch.kind == Kind::current ? branch.current_name
+                                                             : branch.voltage_name);
+  }
+  const SparseMatrixXd M = kirchhoff.hybrid_representation().M.transpose();  // columns: equations
+  const auto& tree = kirchhoff.tree();
+  const auto& links = kirchhoff.links();
+  const auto inner = static_cast<Index>(tree.size());
+  for (Index row = 0; row < M.cols(); ++row) {
+    std::vector<std::pair<double, std::string>> terms;
+    for (SparseMatrixXd::InnerIterator it(M, row); it; ++it)
+      terms.emplace_back(it.value(), it.row() < inner
+                                         ? branches[at(tree[at(it.row())])].voltage_name
+                                         : branches[at(links[at(it.row() - inner)])].current_name);
+    names.equations.push_back(sum(row < inner ? branches[at(tree[at(row)])].current_name
+                                              : branches[at(links[at(row - inner)])].voltage_name,
+                                  terms));
+  }
+  return names;
+}
+
+Index states(const std::vector<NetworkBranch>& branches) {
+  return std::count_if(branches.begin(), branches.end(), has_state);
+}
+
+// Evaluates laws when their results are first asked for.
+class Evaluation final : public NetworkVariables {
+ public:
+  Evaluation(const std::vector<NetworkBranch>& branches, const ExprVector& x, const Expr& t)
+      : branches_(branches), x_(x), t_(t), known_(branches.size()) {}
+
+  void set_current(Index branch, const Expr& value) { known_[at(branch)].current = value; }
+  void set_voltage(Index branch, const Expr& value) { known_[at(branch)].voltage = value; }
+
+  Expr current(Index branch) const override { return of(branch, &Known::current); }
+  Expr voltage(Index branch) const override { return of(branch, &Known::voltage); }
+  const ExprVector& x() const override { return x_; }
+  const Expr& t() const override { return t_; }
+
+ private:
+  struct Known {
+    std::optional<Expr> current, voltage;
+    bool asked = false;
+  };
+
+  Expr of(Index branch, std::optional<Expr> Known::*variable) const {
+    Known& known = known_.at(at(branch));
+    if (!(known.*variable)) {
+      if (known.asked)
+        throw std::invalid_argument("Network::Network: the law of the branch \"" +
+                                    branches_[at(branch)].name +
+                                    "\" needs its own result, expected none in a circle.");
+      known.asked = true;
+      known.*variable = branches_[at(branch)].law(*this);
+    }
+    return *(known.*variable);
+  }
+
+  const std::vector<NetworkBranch>& branches_;
+  const ExprVector& x_;
+  const Expr& t_;
+  mutable std::vector<Known> known_;
+};
+
+}  // namespace
+
+Network::Network(Index node_count, std::vector<NetworkBranch> branches, Energy energy)
+    : Network(node_count, named(std::move(branches)), std::move(energy), nullptr) {}
+
+Network::Network(Index node_count, std::vector<NetworkBranch> branches, Energy energy,
+                 std::unique_ptr<const Kirchhoff> structure)
+    : ImplicitSystem(std::make_shared<Euclidean>(states(branches)),
+                     static_cast<Index>(branches.size()) - states(branches),
+                     static_cast<Index>(branches.size()),
+                     names_of(branches, *(structure = kirchhoff(node_count, branches)))),
+      node_count_(node_count),
+      branches_(std::move(branches)),
+      energy_(std::move(energy)),
+      kirchhoff_(std::move(structure)),
+      M_(kirchhoff_->hybrid_representation().M),
+      paths_(kirchhoff_->potentials().transpose()) {
+  Index state = 0, unknown = 0;
+  for (const NetworkBranch& branch : branches_)
+    place_.push_back(has_state(branch) ? state++ : unknown++);
+  Graph graph;
+  ports(graph.variables("x", state), graph.variables("v", state), graph.variables("z", unknown),
+        graph.variable("t"));
+}
+
+Network::~Network() = default;
+
+ExprVector Network::efforts(const ExprVector& x, const Expr& t) const {
+  Graph graph;
+  ExprVector from(x.size() + 1), to(x.size() + 1);
+  from << graph.variables("x", x.size()), graph.variable("t");
+  to << x, t;
+  const ExprVector at_fresh = from.head(x.size());
+  return substitute(gradient(energy_(at_fresh, from[x.size()]), at_fresh), from, to);
+}
+
+Network::Ports Network::ports(const ExprVector& x, const ExprVector& velocity, const ExprVector& z,
+                              const Expr& t) const {
+  const ExprVector effort = efforts(x, t);
+  Evaluation evaluation(branches_, x, t);
+  const auto count = static_cast<Index>(branches_.size());
+  for (Index k = 0; k < count; ++k) {
+    const NetworkBranch& branch = branches_[at(k)];
+    const Index place = place_[at(k)];
+    switch (branch.kind) {
+      case Kind::charge:
+        evaluation.set_current(k, velocity[place]);
+        if (!branch.law) evaluation.set_voltage(k, effort[place]);
+        break;
+      case Kind::flux:
+        evaluation.set_voltage(k, velocity[place]);
+        if (!branch.law) evaluation.set_current(k, effort[place]);
+        break;
+      case Kind::current:
+        evaluation.set_current(k, z[place]);
+        break;
+      case Kind::voltage:
+        evaluation.set_voltage(k, z[place]);
+        break;
+    }
+  }
+  Ports ports{ExprVector(count), ExprVector(count)};
+  for (Index k = 0; k < count; ++k) {
+    ports.current[k] = evaluation.current(k);
+    ports.voltage[k] = evaluation.voltage(k);
+  }
+  return ports;
+}
+
+ExprVector Network::potentials(const ExprVector& voltage) const {
+  ExprVector result = ExprVector::Zero(node_count_);
+  for (Index node = 0; node < node_count_; ++node)
+    for (SparseMatrixXd::InnerIterator it(paths_, node); it; ++it)
+      result[node] += it.value() * voltage[it.row()];
+  return result;
+}
+
+Expr Network::power(const Ports& ports, Role role) const {
+  Expr result = 0.0;
+  for (std::size_t k = 0; k < branches_.size(); ++k)
+    if (branches_[k].role == role)
+      result += ports.current[static_cast<Index>(k)] * ports.voltage[static_cast<Index>(k)];
+  return result;
+}
+
+Expr Network::dissipated_power(const Ports& ports) const { return power(ports, Role::resistor); }
+Expr Network::supplied_power(const Ports& ports) const { return -power(ports, Role::source); }
+
+Index Network::charge_loop_count() const {
+  return std::count_if(kirchhoff_->links().begin(), kirchhoff_->links().end(),
+                       [&](Index branch) { return branches_[at(branch)].kind == Kind::charge; });
+}
+
+Index Network::flux_cut_set_count() const {
+  return std::count_if(kirchhoff_->tree().begin(), kirchhoff_->tree().end(),
+                       [&](Index branch) { return branches_[at(branch)].kind == Kind::flux; });
+}
+
+ExprVector Network::do_residual(const ExprVector& x, const ExprVector& v, const ExprVector& z,
+                                const Expr& t) const {
+  const auto& tree = kirchhoff_->tree();
+  const auto& links = kirchhoff_->links();
+  const Ports all = ports(x, v, z, t);
+  const auto inner = static_cast<Index>(tree.size());
+  ExprVector residual(equation_count()), input(equation_count());
+  for (Index k = 0; k < inner; ++k) {
+    residual[k] = all.current[tree[at(k)]];
+    input[k] = all.voltage[tree[at(k)]];
+  }
+  for (Index k = inner; k < residual.size(); ++k) {
+    residual[k] = all.voltage[links[at(k - inner)]];
+    input[k] = all.current[links[at(k - inner)]];
+  }
+  for (Index column = 0; column < M_.outerSize(); ++column)
+    for (SparseMatrixXd::InnerIterator it(M_, column); it; ++it)
+      residual[it.row()] -= it.value() * input[column];
+  return residual;
+}
+
+std::optional<Expr> Network::do_energy(const ExprVector& x, const ExprVector&,
+                                       const Expr& t) const {
+  return energy_(x, t);
+}
+
+VectorXd Network::do_auxiliary_guess(const VectorXd&, const VectorXd&) const {
+  VectorXd guess(auxiliary_size());
+  for (std::size_t k = 0; k < branches_.size(); ++k)
+    if (!has_state(branches_[k])) guess[place_[k]] = branches_[k].guess;
+  return guess;
+}
+
+}  // namespace courant

@@ -1,0 +1,83 @@
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <sstream>
+
+#include "courant/cli/command.hpp"
+#include "courant/reading/findings.hpp"
+
+namespace courant {
+namespace {
+
+struct Answer {
+  int status;
+  std::string out, err;
+};
+
+Answer constraints(std::vector<std::string> arguments, const std::string& input = "") {
+  std::istringstream in(input);
+  std::ostringstream out, err;
+  arguments.insert(arguments.begin(), "constraints");
+  const int status = cli::command(arguments, {.in = in, .out = out, .err = err});
+  return {status, out.str(), err.str()};
+}
+
+const std::string pendulum = "experiments/pendulum_cartesian.json";
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(constraints_test)
+
+BOOST_AUTO_TEST_CASE(stops_at_a_level) {
+  const Answer answer = constraints({pendulum, "--level", "1"});
+  BOOST_TEST(answer.status == 0, answer.err);
+  BOOST_TEST(contains(answer.out, "Stopped at level 1, as asked."), answer.out);
+  BOOST_TEST(contains(answer.out, "x*v + y*w = 0"));
+  BOOST_TEST(!contains(answer.out, "tension = "));
+  const Json json = Json::parse(constraints({pendulum, "--level", "0", "--json"}).out);
+  BOOST_TEST(json.at("levels").size() == 1u);
+  BOOST_TEST(constraints({pendulum, "--level", "-1"}).status == 2);
+}
+
+// Remark 6.1: by the midpoint rule the ends of a step are free.
+BOOST_AUTO_TEST_CASE(the_discrete_ladder) {
+  const std::string experiment = R"json({
+  "system": { "type": "implicit", "coordinates": ["x", "y", "v", "w"], "unknowns": ["T"],
+    "equations": ["x' - v", "y' - w", "v' + T*x", "w' + T*y + 1", "x^2 + y^2 - 1"] },
+  "initial": { "x": 0.6, "y": -0.8, "v": 0.8, "w": 0.6 },
+  "method": { "type": "discretize-first", "discretization": "midpoint" },
+  "time": { "step": 0.1, "end": 1 }
+})json";
+  const Answer answer = constraints({"-", "--discrete"}, experiment);
+  BOOST_TEST(answer.status == 0, answer.err);
+  BOOST_TEST(contains(answer.out, "(dim S, dim M): (4, 4)"), answer.out);
+  BOOST_TEST(contains(answer.out, "without discretization: (4, 3) ⊇ (3, 2) ⊇ (2, 2)"));
+  const Json json = Json::parse(constraints({"-", "--discrete", "--json"}, experiment).out);
+  BOOST_TEST(json.at("degrees_of_freedom") == 4);
+
+  const Answer without = constraints({"experiments/inconsistent_lagrangian.json", "--discrete"});
+  BOOST_TEST(without.status == 2);
+  BOOST_TEST(contains(without.err, "/method: is missing"), without.err);
+}
+
+BOOST_AUTO_TEST_CASE(lines_fit_a_hundred_columns) {
+  for (const char* name : {"point_vortices", "heavy_top_constrained", "heavy_top_so3",
+                           "inconsistent_lagrangian", "christ_lee", "spherical_vortices"}) {
+    const Answer answer = constraints({std::string("experiments/") + name + ".json"});
+    BOOST_TEST(answer.status == 0, answer.err);
+    std::istringstream lines(answer.out);
+    for (std::string line; std::getline(lines, line);) {
+      const auto width =
+          std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; });
+      BOOST_TEST(width <= 100, name << ": " << line);
+      BOOST_TEST(!contains(line, "equation["), name << ": " << line);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace courant

@@ -1,0 +1,107 @@
+#include "courant/core/simplified.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <numbers>
+
+namespace courant {
+namespace {
+
+struct Names {
+  Graph graph;
+  Expr x = graph.variable("x"), y = graph.variable("y"), z = graph.variable("z");
+
+  static std::string text(const Expr& a) { return simplified(a).value_or("too large"); }
+  static std::string equation(const Expr& a) {
+    return simplified_equation(a).value_or("too large");
+  }
+};
+
+BOOST_FIXTURE_TEST_SUITE(simplified_test, Names)
+
+BOOST_AUTO_TEST_CASE(terms_with_the_same_factors_are_put_together) {
+  BOOST_TEST(text(0.5 * z + 0.5 * z) == "z");
+  BOOST_TEST(text(x * y - y * x + z) == "z");
+  BOOST_TEST(text((x + y) * (x - y) + square(y)) == "x^2");
+  BOOST_TEST(text(x / y * (y / x)) == "1");
+  BOOST_TEST(text(x - x * 1.0) == "0");
+  BOOST_TEST(text(Expr(0.0)) == "0");
+}
+
+BOOST_AUTO_TEST_CASE(fractions_of_fractions_are_one_fraction) {
+  BOOST_TEST(text((1 - 2 * (1 / y)) / ((1 / y) * (1 / x))) == "x*y - 2*x");
+  BOOST_TEST(text(1 / (1 / x + 1 / y)) == "x*y/(x + y)");
+  BOOST_TEST(text(x / (y * z)) == "x/(y*z)");
+  BOOST_TEST(text((square(x) + square(y) - z) / (square(x) + square(y))) ==
+             "(x^2 + y^2 - z)/(x^2 + y^2)");
+  BOOST_TEST(text(1 / square(x + y) * (x + y)) == "1/(x + y)");
+}
+
+BOOST_AUTO_TEST_CASE(the_shorter_of_both_ways_to_multiply_is_taken) {
+  BOOST_TEST(text((x + y + 1) * (x + z - 1) * y) == "y*(x + y + 1)*(x + z - 1)");
+  BOOST_TEST(text((x + y) * z - y * z) == "x*z");
+}
+
+BOOST_AUTO_TEST_CASE(numbers_are_written_as_people_do) {
+  BOOST_TEST(text(x / (2 * std::numbers::pi)) == "x/(2*pi)");
+  BOOST_TEST(text(0.25 * std::numbers::pi * x) == "pi*x/4");
+  BOOST_TEST(text(x / 3.0) == "x/3");
+  BOOST_TEST(text(0.5 * x) == "0.5*x");
+  BOOST_TEST(text(9.81 * x) == "9.81*x");
+  BOOST_TEST(text(0.1234567890123 * x) == "0.123457*x");
+  BOOST_TEST(text(1e-9 * x) == "1e-09*x");
+}
+
+// What is left when numbers cancel is not written; a small number that nothing cancelled is.
+BOOST_AUTO_TEST_CASE(round_off_is_not_written) {
+  BOOST_TEST(text((0.1 + 0.2) * x - 0.3 * x + y) == "y");
+  BOOST_TEST(text(1.6e-19 * x + y) == "1.6e-19*x + y");
+}
+
+BOOST_AUTO_TEST_CASE(functions_and_roots) {
+  BOOST_TEST(text(square(sin(x)) + square(cos(x)) + y) == "y + 1");
+  BOOST_TEST(text(z * square(sin(x)) + z * square(cos(x))) == "z");
+  BOOST_TEST(text(sin(x + x)) == "sin(2*x)");
+  BOOST_TEST(text(square(sqrt(1 - square(x)))) == "1 - x^2");
+  BOOST_TEST(text(log(x * y / y)) == "log(x)");
+}
+
+BOOST_AUTO_TEST_CASE(terms_stand_in_the_order_of_their_degree_with_a_positive_one_in_front) {
+  BOOST_TEST(text(-y + square(x) + square(z)) == "x^2 + z^2 - y");
+  BOOST_TEST(text(1 - x) == "1 - x");
+  BOOST_TEST(text(-x - 1) == "-x - 1");
+}
+
+BOOST_AUTO_TEST_CASE(equations_may_be_divided) {
+  BOOST_TEST(equation(2 * x + 2 * y) == "x + y");
+  BOOST_TEST(equation(-x / z + y / z) == "x - y");
+  BOOST_TEST(equation((x - 1) / (square(y) + 1)) == "x - 1");
+  // Where x = 0 the equation holds: x stays.
+  BOOST_TEST(equation(x * y - 2 * x) == "x*y - 2*x");
+  BOOST_TEST(equation(Expr(0.0) * x) == "0");
+}
+
+BOOST_AUTO_TEST_CASE(relations_are_used) {
+  const Expr sphere = square(x) + square(y) + square(z) - 1;
+  const Simplification on_sphere{{sphere}};
+  BOOST_TEST(simplified(y * (square(x) + square(y) + square(z)), on_sphere).value() == "y");
+  BOOST_TEST(simplified(2 * square(x) + 2 * square(y) + 2 * square(z) - x, on_sphere).value() ==
+             "2 - x");
+  BOOST_TEST(simplified(square(x) + square(y), on_sphere).value() == "x^2 + y^2");
+}
+
+// Sums that nobody would write are not written.
+BOOST_AUTO_TEST_CASE(what_is_too_large_has_no_text) {
+  Graph large;
+  const ExprVector v = large.variables("v", 400);
+  Expr sum = 0.0;
+  for (const Expr& entry : v) sum += sin(entry) * exp(entry);
+  BOOST_TEST(!simplified(sum).has_value());
+  Expr nested = v[0];
+  for (Index i = 1; i < 40; ++i) nested = (nested + v[i]) / (nested - v[i]);
+  BOOST_TEST(!simplified(nested).has_value());
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace
+}  // namespace courant

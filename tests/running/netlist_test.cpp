@@ -1,0 +1,115 @@
+#include "courant/reading/netlist.hpp"
+
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "run_in.hpp"
+
+namespace courant {
+namespace {
+
+// Columns by name.
+struct Table {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> rows;
+
+  std::size_t column(const std::string& name) const {
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  }
+  // Linear between the rows.
+  double at(double t, std::size_t column) const {
+    const auto after = std::lower_bound(rows.begin() + 1, rows.end() - 1, t,
+                                        [](const auto& row, double time) { return row[0] < time; });
+    const auto &left = *(after - 1), &right = *after;
+    const double share = right[0] > left[0] ? (t - left[0]) / (right[0] - left[0]) : 0.0;
+    return left[column] + share * (right[column] - left[column]);
+  }
+};
+
+Table read_table(const std::filesystem::path& path, char separator) {
+  std::ifstream file(path);
+  Table table;
+  std::string line;
+  const auto words = [&] {
+    if (separator == ',') std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream stream(line);
+    return std::vector<std::string>(std::istream_iterator<std::string>(stream), {});
+  };
+  if (std::getline(file, line)) table.names = words();
+  while (std::getline(file, line)) {
+    std::vector<double> row;
+    for (const std::string& word : words()) row.push_back(std::stod(word));
+    if (!row.empty()) table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+// The netlist with accurate steps and with what makes ngspice write potentials to a file.
+std::string for_ngspice(std::string netlist, const std::vector<std::string>& nodes,
+                        const std::string& output) {
+  std::string control =
+      ".options reltol=1e-6 abstol=1e-15 vntol=1e-9 chgtol=1e-18\n.control\n"
+      "set wr_singlescale\nset wr_vecnames\nset numdgt=12\nrun\nwrdata " +
+      output;
+  for (const std::string& node : nodes) control += " v(" + node + ")";
+  // The greatest step, after the start: that of the netlist.
+  const std::size_t tran = netlist.find(".tran"), end = netlist.find('\n', tran);
+  std::istringstream words(netlist.substr(tran, end - tran));
+  std::string dot, step, stop, uic;
+  words >> dot >> step >> stop >> uic;
+  netlist.replace(tran, end - tran, ".tran " + step + " " + stop + " 0 " + step + " " + uic);
+  netlist.replace(netlist.find(".end\n"), 5, control + "\nquit\n.endc\n.end\n");
+  return netlist;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(netlists_against_ngspice)
+
+// Every potential within 1e-3 of the largest one of the circuit.
+BOOST_AUTO_TEST_CASE(waveforms_of_five_netlists) {
+  if (std::system("command -v ngspice > /dev/null") != 0) {
+    BOOST_TEST_MESSAGE("ngspice is not installed");
+    return;
+  }
+  for (const char* name : {"rc_pulse", "rlc_uic", "rectifier", "transformer", "amplifier"})
+    BOOST_TEST_CONTEXT(name) {
+      const std::string netlist = read_text(std::string("tests/corpus/netlists/") + name + ".cir");
+      const Json experiment = import_netlist(netlist);
+      const TemporaryFolder folder;
+      BOOST_REQUIRE(run_in(folder, experiment).status == RunStatus::completed);
+      const Table ours = read_table(folder / "run/trajectory.csv", ',');
+      std::vector<std::string> nodes;
+      for (const auto& [key, formula] : experiment.at("observe").items())
+        if (key.rfind("potential_", 0) == 0 && key.find("x1_") == std::string::npos)
+          nodes.push_back(key.substr(10));
+      write_text(folder / "circuit.cir",
+                 for_ngspice(netlist, nodes, (folder / "potentials.txt").string()));
+      BOOST_REQUIRE(
+          std::system(
+              ("ngspice -b " + (folder / "circuit.cir").string() + " > /dev/null 2>&1").c_str()) >=
+          0);
+      const Table theirs = read_table(folder / "potentials.txt", ' ');
+      BOOST_REQUIRE(theirs.rows.size() > 100u);
+
+      double largest = 0.0, difference = 0.0;
+      for (std::size_t k = 0; k < nodes.size(); ++k) {
+        const std::size_t column = ours.column("potential_" + nodes[k]);
+        for (const auto& row : ours.rows) {
+          largest = std::max(largest, std::abs(row[column]));
+          difference = std::max(difference, std::abs(row[column] - theirs.at(row[0], k + 1)));
+        }
+      }
+      BOOST_TEST_MESSAGE(name << ": " << difference / largest);
+      BOOST_TEST(difference < 1e-3 * largest);
+    }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace courant

@@ -1,0 +1,101 @@
+#include <boost/test/unit_test.hpp>
+
+#include "problems.hpp"
+
+namespace courant::test {
+namespace {
+
+// A source of current, a resistor, a capacitor and an inductor side by side, with time, voltage and
+// current in these units:
+//
+//   q' = I sin t - q/(R C) - phi/L,   phi' = q/C
+Json system_of(const std::string& type, double time, double volt, double ampere) {
+  const Json parameters = {{"R", 2.0 * volt / ampere},
+                           {"C", 0.3 * ampere * time / volt},
+                           {"L", 0.7 * volt * time / ampere},
+                           {"I", ampere},
+                           {"w", 1.0 / time}};
+  if (type == "network")
+    return {{"type", type},
+            {"parameters", parameters},
+            {"nodes", {"0", "a"}},
+            {"elements", Json::parse(R"json([
+              {"type":"current-source","name":"I1","from":"0","to":"a","value":"I*sin(w*t)"},
+              {"type":"resistor","name":"R1","from":"a","to":"0","value":"R"},
+              {"type":"capacitor","name":"C1","from":"a","to":"0","value":"C"},
+              {"type":"inductor","name":"L1","from":"a","to":"0","value":"L"}])json")}};
+  if (type == "port-hamiltonian")
+    return {{"type", type},
+            {"parameters", parameters},
+            {"coordinates", {"q_C1", "phi_L1"}},
+            {"hamiltonian", "q_C1^2/(2*C) + phi_L1^2/(2*L)"},
+            {"J", {{0, -1}, {1, 0}}},
+            {"R", Json::parse(R"([["1/R", 0], [0, 0]])")},
+            {"B", {1, 0}},
+            {"ports", "open"},
+            {"inputs", {"I*sin(w*t)"}}};
+  return {{"type", "implicit"},
+          {"parameters", parameters},
+          {"coordinates", {"q_C1", "phi_L1"}},
+          {"equations", {"q_C1' + q_C1/(R*C) + phi_L1/L - I*sin(w*t)", "phi_L1' - q_C1/C"}},
+          {"energy", "q_C1^2/(2*C) + phi_L1^2/(2*L)"}};
+}
+
+// After 50 steps, in the units.
+VectorXd end_of(const std::string& type, const Json& method, double time, double volt,
+                double ampere) {
+  const Problem circuit =
+      problem({{"system", system_of(type, time, volt, ampere)},
+               {"initial", {{"q_C1", 0.1 * ampere * time}, {"phi_L1", -0.2 * volt * time}}}});
+  const VectorXd end = circuit.end(method, 5.0 * time, 50);
+  return VectorXd{{end[0] / (ampere * time), end[1] / (volt * time)}};
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(network_runs)
+
+BOOST_AUTO_TEST_CASE(three_ways_to_one_circuit) {
+  for (const Json& method : {method_1("midpoint"), method_2("midpoint")}) {
+    const VectorXd network = end_of("network", method, 1.0, 1.0, 1.0);
+    for (const char* type : {"port-hamiltonian", "implicit"})
+      BOOST_TEST((end_of(type, method, 1.0, 1.0, 1.0) - network).norm() < 1e-13,
+                 type << " and network differ");
+  }
+}
+
+// Nanoseconds and millivolts or hours and kilovolts: the same numbers of them.
+BOOST_AUTO_TEST_CASE(units_do_not_matter) {
+  for (const Json& method : {method_1("midpoint"), method_2("midpoint")}) {
+    const VectorXd unit = end_of("network", method, 1.0, 1.0, 1.0);
+    BOOST_TEST((end_of("network", method, 1e-9, 1e-3, 1e-3) - unit).norm() < 1e-12);
+    BOOST_TEST((end_of("network", method, 3600.0, 1e3, 1e-9) - unit).norm() < 1e-12);
+  }
+}
+
+// A loop of capacitors with a source, by both methods: q_C1 + q_C2 = C V holds for the source
+// sin t, and the charges of Method 2 obey it.
+BOOST_AUTO_TEST_CASE(a_loop_of_capacitors_and_a_source) {
+  const Problem circuit = problem(Json::parse(R"json({"system": {"type": "network",
+    "nodes": ["0", "a", "b"], "elements": [
+      {"type":"voltage-source","name":"V1","from":"a","to":"0","value":"1e-3*sin(1e9*t)"},
+      {"type":"capacitor","name":"C1","from":"a","to":"b","value":1e-12},
+      {"type":"capacitor","name":"C2","from":"b","to":"0","value":1e-12},
+      {"type":"resistor","name":"R1","from":"b","to":"0","value":500}]},
+    "initial": {"q_C1": 0}})json"));
+  BOOST_TEST(circuit.ladder.index == 1);
+  BOOST_TEST(circuit.ladder.degrees_of_freedom == 1);
+  // v_b' 2 C + v_b/R = C V': the particular and the transient solution.
+  const double w = 1e9, C = 1e-12, R = 500.0, V = 1e-3, t = 5e-9;
+  const double a = 1.0 / (2.0 * R * C), k = 0.5 * V * w / (a * a + w * w);
+  const double exact = k * (a * std::cos(w * t) + w * std::sin(w * t) - a * std::exp(-a * t));
+  for (const Json& method : {method_1("midpoint"), method_2("midpoint")}) {
+    const VectorXd end = circuit.end(method, t, 2000);
+    BOOST_TEST(std::abs(end[1] / C - exact) < 1e-5 * V);
+    BOOST_TEST(std::abs(end[0] / C + end[1] / C - V * std::sin(w * t)) < 1e-5 * V);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace courant::test
