@@ -18,4 +18,32 @@ ExprVector CanonicalSymplectic::do_membership(const ExprVector& x, const ExprVec
   return residual;
 }
 
+// The matrix of v ↦ ⟨p, T(v, ·)⟩.
+ExprMatrix CanonicalSymplectic::torsion(const ExprVector& x) const {
+  const Index n = phase_space_->base()->tangent_dimension();
+  ExprMatrix result(n, n);
+  for (Index j = 0; j < n; ++j)
+    result.col(j) = phase_space_->torsion(phase_space_->position(x), phase_space_->momentum(x),
+                                          ExprVector::Unit(n, j));
+  return result;
+}
+
+ExprMatrix CanonicalSymplectic::form(const ExprVector& x) const {
+  const Index n = phase_space_->base()->tangent_dimension();
+  ExprMatrix omega = ExprMatrix::Zero(2 * n, 2 * n);
+  omega.topLeftCorner(n, n) = -torsion(x).transpose();
+  omega.topRightCorner(n, n).setIdentity();
+  omega.bottomLeftCorner(n, n) = -ExprMatrix::Identity(n, n);
+  return omega;
+}
+
+ExprMatrix CanonicalSymplectic::bivector(const ExprVector& x) const {
+  const Index n = phase_space_->base()->tangent_dimension();
+  ExprMatrix lambda = ExprMatrix::Zero(2 * n, 2 * n);
+  lambda.topRightCorner(n, n).setIdentity();
+  lambda.bottomLeftCorner(n, n) = -ExprMatrix::Identity(n, n);
+  lambda.bottomRightCorner(n, n) = -torsion(x);
+  return lambda;
+}
+
 }  // namespace courant

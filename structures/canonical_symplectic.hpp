@@ -19,10 +19,15 @@ class CanonicalSymplectic final : public DiracStructure {
 
   bool is_canonical() const override { return true; }
   Index tangent_blocks() const override { return 1; }
+  // ω at a point x of T*Q, ω_ij = ω(e_i, e_j) (2Ñ × 2Ñ), and the bivector whose graph D is as well:
+  // α = ωᵀ v, v = Λ α.
+  ExprMatrix form(const ExprVector& x) const;
+  ExprMatrix bivector(const ExprVector& x) const;
 
  private:
   ExprVector do_membership(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,
                            const ExprVector& u) const override;
+  ExprMatrix torsion(const ExprVector& x) const;
   std::shared_ptr<const CotangentBundle> phase_space_;
 };
 
