@@ -250,4 +250,8 @@ std::string ObjectReader::word(const std::string& key) {
   return word(key, declared_default(key).get<std::string>(), declared(key)->takes.words);
 }
 
+std::string ObjectReader::text(const std::string& key) {
+  return text(key, declared_default(key).get<std::string>());
+}
+
 }  // namespace courant

@@ -83,11 +83,12 @@ class ObjectReader {
                    const std::vector<std::string>& words);
 
   // The value of a key of a kind that declares it with a default, and a number with the least and
-  // the greatest it may be, an integer with the least, a word with what else it may be. The default
+  // the greatest it may be, an integer with the least, a word with what else it may be, a text. The default
   // too if the value is not that, which is a problem.
   double number(const std::string& key);
   Index integer(const std::string& key);
   std::string word(const std::string& key);
+  std::string text(const std::string& key);
   const Json& declared_default(const std::string& key) const;
 
   // Throws std::logic_error if the object has a key that the kind declares and that nobody asked

@@ -45,6 +45,14 @@ Takes formula() { return {"a formula", reference("formula")}; }
 Takes formulas() { return {"a formula, an array or a matrix of them", reference("formulas")}; }
 Takes formula_vector() { return {"an array of formulas", reference("formulaVector")}; }
 Takes formula_matrix() { return {"a matrix of formulas, by rows", reference("formulaMatrix")}; }
+Takes components() {
+  return {"formulas, or an object of them by coordinate",
+          {{"anyOf", Json::array({reference("formulas"), reference("definitions")})}}};
+}
+Takes form_matrix() {
+  return {"a matrix of formulas, by rows, or \"canonical\"",
+          {{"anyOf", Json::array({reference("formulaMatrix"), Json{{"const", "canonical"}}})}}};
+}
 Takes metric(std::vector<std::string> words) {
   const Takes one = word(std::move(words)), matrix = formula_matrix();
   return {one.text + " or " + matrix.text, {{"oneOf", Json::array({one.schema, matrix.schema})}}};

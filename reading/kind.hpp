@@ -28,6 +28,8 @@ Takes formula();
 Takes formulas();                              // a formula, an array or a matrix of them
 Takes formula_vector();                        // an array
 Takes formula_matrix();                        // by rows
+Takes components();                            // formulas, or an object of them by coordinate
+Takes form_matrix();                           // a matrix, or "canonical"
 Takes metric(std::vector<std::string> words);  // one of the words, or a matrix of formulas
 Takes weights();                               // an object of names and positive numbers
 Takes field_rows();                            // vector fields or one-forms, one a row

@@ -3,6 +3,8 @@
 #include <random>
 
 #include "courant/core/message.hpp"
+#include "courant/manifolds/euclidean.hpp"
+#include "courant/structures/canonical_symplectic.hpp"
 
 namespace courant {
 namespace {
@@ -47,6 +49,27 @@ std::optional<MatrixField> read_matrix_field(const JsonReader& value, const Stru
   if (!formulas || !check_at_point(*formulas, site, value)) return std::nullopt;
   return [formulas = *formulas, vocabulary = site.vocabulary, rows, columns](const ExprVector& x) {
     return matrix(formulas, rows, columns, vocabulary, x);
+  };
+}
+
+std::optional<MatrixField> read_skew_matrix(const JsonReader& value, const StructureSite& site,
+                                            SkewMatrix kind) {
+  const Index n = site.manifold->tangent_dimension();
+  if (value.value() != "canonical") {
+    const auto field = read_matrix_field(value, site, n, n);
+    if (!field || !is_skew(*site.manifold, *field, value)) return std::nullopt;
+    return field;
+  }
+  auto phase_space = std::dynamic_pointer_cast<const CotangentBundle>(site.manifold);
+  if (!phase_space && std::dynamic_pointer_cast<const Euclidean>(site.manifold) && n % 2 == 0)
+    phase_space = std::make_shared<CotangentBundle>(std::make_shared<Euclidean>(n / 2));
+  if (!phase_space) {
+    value.problem("is on " + site.manifold->name() +
+                  "; expected a cotangent bundle, or as many momenta as positions after them");
+    return std::nullopt;
+  }
+  return [structure = CanonicalSymplectic(phase_space), kind](const ExprVector& x) {
+    return kind == SkewMatrix::form ? structure.form(x) : structure.bivector(x);
   };
 }
 

@@ -24,6 +24,11 @@ bool check_at_point(const WrittenFormulas& formulas, const StructureSite& site,
 // A matrix of formulas of the point, rows × columns; nothing, and a problem, if it is none.
 std::optional<MatrixField> read_matrix_field(const JsonReader& value, const StructureSite& site,
                                              Index rows, Index columns);
+// A skew matrix of formulas, or "canonical": the form dq ∧ dp or its bivector on a cotangent bundle,
+// and on Rⁿ (n even) with the first half of the coordinates as q, the second as p.
+enum class SkewMatrix { form, bivector };
+std::optional<MatrixField> read_skew_matrix(const JsonReader& value, const StructureSite& site,
+                                            SkewMatrix kind);
 // Vector fields or one-forms of Ñ entries each. As rows, one each: [["-y", 0, 1]], or ["-y", 0, 1]
 // for a single one. As the columns of an Ñ × m matrix by rows: [["0"], ["1"]].
 struct ColumnField {

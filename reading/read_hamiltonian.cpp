@@ -1,10 +1,12 @@
+#include "courant/reading/mechanics_keys.hpp"
 #include "courant/reading/structure_kinds.hpp"
 #include "courant/reading/system_kinds.hpp"
-#include "courant/structures/dirac_system.hpp"
+#include "courant/structures/canonical_symplectic.hpp"
+#include "courant/structures/lagrangian_system.hpp"
 
 namespace courant {
 
-// S = {v : (v, dH) ∈ D}.
+// S = {v : (v, dH) ∈ D}, with constraints and forces.
 std::optional<Model> read_hamiltonian(ObjectReader& system) {
   Findings& findings = system.place().findings();
   Model model;
@@ -15,23 +17,31 @@ std::optional<Model> read_hamiltonian(ObjectReader& system) {
   const auto formula = key ? read_formula(*key) : std::nullopt;
   if (!space) return std::nullopt;
 
-  vocabulary.coordinates = space->coordinates;
-  check_definitions(vocabulary, findings);
+  const PhaseWords words(*space, vocabulary, taken, findings);
+  vocabulary.unknowns = NameList();
   const auto structure =
       structure_kinds().read_key(system, "structure", {space->manifold, vocabulary});
   Graph graph;
   const SymbolTable symbols = vocabulary.symbols(
       {.x = graph.variables("x", vocabulary.coordinates.size()), .t = graph.variable("t")});
-  if (!formula || !check(*formula, symbols, findings) || !structure) return std::nullopt;
+  const bool right = formula && check(*formula, symbols, findings);
+  const auto mechanics = read_mechanics(system, words);
+  if (!right || !structure || !mechanics) return std::nullopt;
 
   const auto manifold = (*structure)->manifold();
   const auto family = std::make_shared<Hamiltonian>(
       manifold, [formula = *formula, vocabulary](const ExprVector& x, const Expr& t) {
         return evaluate(formula, vocabulary.symbols({.x = x, .t = t}));
       });
-  model.description = "Hamiltonian system on " + manifold->name();
-  model.system = std::make_shared<DiracSystem>(
-      *structure, family, ImplicitSystem::Names{vocabulary.coordinates.element_names(), {}, {}});
+  append_multipliers(vocabulary.unknowns,
+                     mechanics->holonomic.count() + mechanics->nonholonomic.count(), taken);
+  vocabulary.unknowns.append_unnamed((*structure)->port_size());
+  model.description = "Hamiltonian system on " + manifold->name() + described(*mechanics);
+  model.system =
+      hamiltonian_system(*structure, family, vocabulary.coordinates.element_names(), *mechanics);
+  if (std::dynamic_pointer_cast<const CanonicalSymplectic>(*structure))
+    if (const auto D = nonholonomic_structure(words.bundle(), *mechanics))
+      model.structures = {{"nonholonomic", D}};
   return model;
 }
 

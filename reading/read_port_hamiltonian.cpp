@@ -111,7 +111,7 @@ std::optional<Model> read_port_hamiltonian(ObjectReader& system) {
   vocabulary.coordinates = space->coordinates;
   const StructureSite site{space->manifold, vocabulary};
   const Index n = space->manifold->tangent_dimension();
-  const auto J = read_matrix_field(*J_key, site, n, n);
+  const auto J = read_skew_matrix(*J_key, site, SkewMatrix::bivector);
   const auto R = R_key ? read_matrix_field(*R_key, site, n, n) : std::nullopt;
   std::optional<MatrixField> B;
   Index m = 0;
@@ -126,8 +126,7 @@ std::optional<Model> read_port_hamiltonian(ObjectReader& system) {
   const auto D = D_key && B ? read_matrix_field(*D_key, site, m, m) : std::nullopt;
   const auto port_names = read_port_names(names_key, m);
   if (!J || !B || (R_key && !R) || (D_key && !D) || !port_names) return std::nullopt;
-  const bool right =
-      is_skew(*space->manifold, *J, *J_key) && (!R || is_resistive(*space->manifold, *R, *R_key));
+  const bool right = !R || is_resistive(*space->manifold, *R, *R_key);
   const JsonReader& ports_place = B_key ? *B_key : system.place();
   vocabulary.unknowns = port_variables("u", m, *port_names);
   if (!take(vocabulary.unknowns, taken, ports_place)) return std::nullopt;

@@ -297,13 +297,14 @@ std::optional<Space> cotangent_bundle(const Space& base, SymbolTable& taken,
 }
 
 std::optional<Space> read_space(ObjectReader& system, const Vocabulary& vocabulary,
-                                SymbolTable& taken) {
-  return read_space(system, system.declared_default("manifold"), vocabulary, taken);
+                                SymbolTable& taken, const std::string& key) {
+  return read_space(system, system.declared_default("manifold"), vocabulary, taken, key);
 }
 
 std::optional<Space> read_space(ObjectReader& system, const Json& otherwise,
-                                const Vocabulary& vocabulary, SymbolTable& taken) {
-  const auto coordinates = system.required("coordinates");
+                                const Vocabulary& vocabulary, SymbolTable& taken,
+                                const std::string& key) {
+  const auto coordinates = system.required(key);
   NameList names;
   if (!coordinates || !read_names(*coordinates, taken, names)) {
     system.optional("manifold");  // cannot be looked into without coordinates

@@ -21,13 +21,14 @@ struct Space {
 // bundle on its base, and what else formulas of them may contain.
 Registry<std::shared_ptr<const Manifold>, Vocabulary>& manifold_kinds();
 
-// Reads the keys `coordinates` and `manifold`, whose formulas may use the parameters and
+// Reads the keys `coordinates` (or another `key` of names) and `manifold`, whose formulas may use the parameters and
 // definitions of a vocabulary. Where there is no `manifold`, it is the declared default, or
 // `otherwise`. `taken` has the names that may not be used again, and gets the new ones.
 std::optional<Space> read_space(ObjectReader& system, const Vocabulary& vocabulary,
-                                SymbolTable& taken);
+                                SymbolTable& taken, const std::string& key = "coordinates");
 std::optional<Space> read_space(ObjectReader& system, const Json& otherwise,
-                                const Vocabulary& vocabulary, SymbolTable& taken);
+                                const Vocabulary& vocabulary, SymbolTable& taken,
+                                const std::string& key = "coordinates");
 
 // The cotangent bundle of a space, with momenta. A momentum has the shape of its coordinate, but
 // where covectors are not represented in R^N (n < N on groups) it is an array of Ñ: "R[3][3]" has

@@ -2,6 +2,7 @@
 
 #include "courant/core/message.hpp"
 #include "courant/manifolds/euclidean.hpp"
+#include "courant/reading/lie_algebra_keys.hpp"
 #include "courant/structures/canonical_symplectic.hpp"
 #include "courant/structures/composed.hpp"
 #include "courant/structures/distribution.hpp"
@@ -30,28 +31,21 @@ std::optional<StructurePointer> canonical(ObjectReader& object, const StructureS
   return std::make_shared<CanonicalSymplectic>(bundle);
 }
 
-// A skew matrix of formulas.
-std::optional<MatrixField> read_skew_matrix(const JsonReader& value, const StructureSite& site) {
-  const Index n = site.manifold->tangent_dimension();
-  const auto field = read_matrix_field(value, site, n, n);
-  if (!field || !is_skew(*site.manifold, *field, value)) return std::nullopt;
-  return field;
-}
-
-// The key `matrix`, such a matrix.
-std::optional<MatrixField> skew_matrix(ObjectReader& object, const StructureSite& site) {
+// The key `matrix`, that of a two-form or of a bivector.
+std::optional<MatrixField> skew_matrix(ObjectReader& object, const StructureSite& site,
+                                       SkewMatrix kind) {
   const auto key = object.required("matrix");
-  return key ? read_skew_matrix(*key, site) : std::nullopt;
+  return key ? read_skew_matrix(*key, site, kind) : std::nullopt;
 }
 
 std::optional<StructurePointer> bivector(ObjectReader& object, const StructureSite& site) {
-  const auto lambda = skew_matrix(object, site);
+  const auto lambda = skew_matrix(object, site, SkewMatrix::bivector);
   if (!lambda) return std::nullopt;
   return std::make_shared<Poisson>(site.manifold, *lambda);
 }
 
 std::optional<StructurePointer> two_form(ObjectReader& object, const StructureSite& site) {
-  const auto omega = skew_matrix(object, site);
+  const auto omega = skew_matrix(object, site, SkewMatrix::form);
   if (!omega) return std::nullopt;
   return std::make_shared<Presymplectic>(site.manifold, *omega);
 }
@@ -75,7 +69,7 @@ std::optional<StructurePointer> distribution(ObjectReader& object, const Structu
 
 std::optional<StructurePointer> restricted_two_form(ObjectReader& object,
                                                     const StructureSite& site) {
-  const auto omega = skew_matrix(object, site);
+  const auto omega = skew_matrix(object, site, SkewMatrix::form);
   const auto key = object.required("forms");
   const auto forms = key ? read_row_field(*key, site) : std::nullopt;
   if (!omega || !forms) return std::nullopt;
@@ -84,89 +78,23 @@ std::optional<StructurePointer> restricted_two_form(ObjectReader& object,
 
 std::optional<StructurePointer> restricted_bivector(ObjectReader& object,
                                                     const StructureSite& site) {
-  const auto lambda = skew_matrix(object, site);
+  const auto lambda = skew_matrix(object, site, SkewMatrix::bivector);
   const auto key = object.required("fields");
   const auto fields = key ? read_row_field(*key, site) : std::nullopt;
   if (!lambda || !fields) return std::nullopt;
   return std::make_shared<RestrictedBivector>(site.manifold, *lambda, fields->count, fields->field);
 }
 
-// An array of square matrices of numbers, by rows.
-std::optional<std::vector<MatrixXd>> matrices(const JsonReader& value) {
-  const auto elements = value.elements();
-  if (!elements) return std::nullopt;
-  std::vector<MatrixXd> result;
-  for (const JsonReader& element : *elements) {
-    const auto rows = element.elements();
-    if (!rows) return std::nullopt;
-    const auto n = static_cast<Index>(rows->size());
-    MatrixXd A(n, n);
-    for (Index i = 0; i < n; ++i) {
-      const auto entries = (*rows)[static_cast<std::size_t>(i)].elements();
-      if (!entries) return std::nullopt;
-      if (static_cast<Index>(entries->size()) != n) {
-        element.expected("a square matrix of numbers");
-        return std::nullopt;
-      }
-      for (Index j = 0; j < n; ++j) {
-        const auto entry = (*entries)[static_cast<std::size_t>(j)].number();
-        if (!entry) return std::nullopt;
-        A(i, j) = *entry;
-      }
-    }
-    result.push_back(std::move(A));
-  }
-  return result;
-}
-
-std::optional<LieAlgebra> read_algebra(ObjectReader& object) {
-  const auto algebra = object.optional("algebra"), constants_key = object.optional("constants");
-  const auto n_key = object.optional("n"), representation = object.optional("representation");
-  if (!algebra == !constants_key) {
-    object.place().problem(
-        "a Lie algebra is one of \"algebra\" or has structure \"constants\"; expected one of the "
-        "two");
-    return std::nullopt;
-  }
-  const JsonReader& place = algebra ? *algebra : *constants_key;
-  try {
-    std::optional<LieAlgebra> g;
-    if (algebra) {
-      const auto word = algebra->word({"so3", "se3", "so", "abelian"});
-      if (!word) return std::nullopt;
-      const bool sized = *word == "so" || *word == "abelian";
-      if (sized != n_key.has_value()) {
-        place.problem(sized ? "needs its size; expected \"n\" beside it"
-                            : "has a size of its own; expected no \"n\" beside it");
-        return std::nullopt;
-      }
-      const auto n = sized ? n_key->integer(0) : std::optional<Index>(0);
-      if (!n) return std::nullopt;
-      g = *word == "so3"   ? LieAlgebra::so3()
-          : *word == "se3" ? LieAlgebra::se3()
-          : *word == "so"  ? LieAlgebra::so(*n)
-                           : LieAlgebra::abelian(*n);
-    } else {
-      const auto constants = matrices(*constants_key);
-      if (!constants) return std::nullopt;
-      g = LieAlgebra("g", *constants);
-    }
-    if (!representation) return g;
-    const auto rho = matrices(*representation);
-    if (!rho) return std::nullopt;
-    return LieAlgebra::semidirect(*g, *rho);
-  } catch (const std::exception& error) {
-    (representation ? *representation : place).problem(without_place(error.what()));
-    return std::nullopt;
-  }
-}
-
 std::optional<StructurePointer> lie_poisson(ObjectReader& object, const StructureSite& site) {
   const bool plus = object.word("sign") == "plus";
-  const auto algebra = read_algebra(object);
-  if (!algebra) return std::nullopt;
+  const auto algebra = read_lie_algebra(object);
+  const auto key = object.optional("representation");
+  const auto representation = key ? read_matrices(*key) : std::nullopt;
+  if (!algebra || (key && !representation)) return std::nullopt;
+  const auto whole = representation ? semidirect(*algebra, *representation, *key) : algebra;
+  if (!whole) return std::nullopt;
   try {
-    return std::make_shared<LiePoisson>(*algebra, site.manifold,
+    return std::make_shared<LiePoisson>(*whole, site.manifold,
                                         plus ? LiePoisson::Sign::plus : LiePoisson::Sign::minus);
   } catch (const std::invalid_argument& error) {
     object.place().problem(without_place(error.what()));
@@ -198,7 +126,8 @@ std::optional<StructurePointer> gauge_transformed(ObjectReader& object, const St
     own.manifold = (*structure)->manifold();
   else if (key && has_parts(key->value()))
     return std::nullopt;  // the size of the matrix is not known
-  const auto form = matrix_key ? read_skew_matrix(*matrix_key, own) : std::nullopt;
+  const auto form =
+      matrix_key ? read_skew_matrix(*matrix_key, own, SkewMatrix::form) : std::nullopt;
   if (!form || !structure) return std::nullopt;
   return std::make_shared<GaugeTransformed>(*structure, *form);
 }
@@ -380,7 +309,7 @@ std::optional<Space> read_structure_space(ObjectReader& object, const Vocabulary
 
 Registry<StructurePointer, StructureSite>& structure_kinds() {
   const auto matrix = [](const char* summary) {
-    return required_key("matrix", takes::formula_matrix(), summary);
+    return required_key("matrix", takes::form_matrix(), summary);
   };
   const auto parts = [](const char* name, std::size_t least, std::optional<std::size_t> most) {
     return required_key(name, takes::array_of(takes::structure_part(), least, most),
@@ -420,13 +349,12 @@ Registry<StructurePointer, StructureSite>& structure_kinds() {
        restricted_bivector},
       {{"lie-poisson",
         "the dual of a Lie algebra: v is the ad*-bracket of α at the point",
-        {optional_key("algebra", takes::word({"so3", "se3", "so", "abelian"}), "one with a name"),
-         optional_key("n", takes::integer(0), "of so(n) and Rⁿ"),
-         optional_key("constants", takes::number_matrices(),
-                      "constants[k][i][j]: the part of [e_i, e_j] along e_k"),
-         optional_key("representation", takes::number_matrices(),
-                      "a matrix for each e_i: the semidirect product with the space they act on"),
-         default_key("sign", takes::word({"minus", "plus"}), "minus", "minus in body coordinates")},
+        with(lie_algebra_keys(),
+             {optional_key("representation", takes::number_matrices(),
+                           "a matrix for each e_i: the semidirect product with the space they act "
+                           "on"),
+              default_key("sign", takes::word({"minus", "plus"}), "minus",
+                          "minus in body coordinates")}),
         {{"algebra", "constants"}}},
        lie_poisson},
       {{"gauge",

@@ -1,6 +1,17 @@
 #include "courant/reading/system_kinds.hpp"
 
+#include "courant/reading/lie_algebra_keys.hpp"
+#include "courant/reading/mechanics_keys.hpp"
+
 namespace courant {
+namespace {
+
+std::vector<Key> together(std::vector<Key> keys, const std::vector<Key>& more) {
+  keys.insert(keys.end(), more.begin(), more.end());
+  return keys;
+}
+
+}  // namespace
 
 std::vector<Key> system_keys(std::vector<Key> keys) {
   keys.push_back(optional_key("parameters", takes::parameters(),
@@ -19,28 +30,100 @@ Registry<Model>& system_kinds() {
   };
   const Key strengths =
       required_key("strengths", takes::array_of(takes::formula(), 1), "n numbers other than 0");
+  const Key configurations = coordinates("of the configurations; points of the system are (q, p)");
+  const Key metric = optional_key("metric", takes::formulas(),
+                                  "g(q): a matrix, its diagonal or a number, on velocities (v_R of "
+                                  "R[3][3]); by default the identity");
+  const Key potential =
+      optional_key("potential", takes::formula(), "V, in coordinates and t; by default 0");
+  const Key inputs = optional_key("inputs", takes::formulas(),
+                                  "added to the rates of the momenta: n formulas in momenta, "
+                                  "velocities, advected parameters and t");
   static Registry<Model> kinds({
       {{"hamiltonian", "(v, dH) ∈ D: a Dirac structure and a Hamiltonian in formulas",
-        system_keys(
+        system_keys(together(
             {coordinates("of the manifold; on a cotangent bundle of its base, the momentum "
                          "of x is p_x"),
              required_key("hamiltonian", takes::formula(), "H, in coordinates, momenta and t"),
              default_key("structure", takes::kind("structure"), "canonical", "D"),
              optional_key("manifold", takes::kind("manifold"),
                           "by default the cotangent bundle of Rⁿ for the canonical "
-                          "structure, Rⁿ otherwise")})},
+                          "structure, Rⁿ otherwise")},
+            mechanics_keys()))},
        read_hamiltonian},
       {{"lagrangian", "a Lagrangian in formulas, singular or not, on T*Q",
-        system_keys(
-            {coordinates("of the configurations; points of the system are (q, p)"),
+        system_keys(together(
+            {configurations,
              required_key("lagrangian", takes::formula(), "L, in coordinates, velocities and t"),
-             manifold("Q, of the configurations")})},
+             manifold("Q, of the configurations"),
+             default_key("structure", takes::kind("structure"), "canonical", "D, on T*Q")},
+            mechanics_keys()))},
        read_lagrangian},
+      {{"mechanical", "L = g(q', q')/2 - V on T*Q",
+        system_keys(
+            together({configurations, manifold("Q, of the configurations"), metric, potential},
+                     mechanics_keys()))},
+       read_mechanical},
+      {{"vakonomic",
+        "the data of a nonholonomic system, with its constraints in the variational principle: "
+        "L + lambda g",
+        system_keys(together({configurations, manifold("Q, of the configurations"),
+                              optional_key("lagrangian", takes::formula(),
+                                           "L, in coordinates, velocities and t; instead of a "
+                                           "metric and a potential"),
+                              metric, potential},
+                             mechanics_keys()))},
+       read_vakonomic},
+      {{"morse-family", "(v, α) ∈ D, α ∈ 𝓛 = {∂E/∂x : ∂E/∂λ = 0}",
+        system_keys(
+            {coordinates("of the manifold; on a cotangent bundle of its base, the momentum "
+                         "of x is p_x"),
+             optional_key("multipliers", takes::names(), "λ, which have no derivative"),
+             required_key("family", takes::formula(), "E, in coordinates, multipliers and t"),
+             default_key("structure", takes::kind("structure"), "canonical", "D"),
+             optional_key("manifold", takes::kind("manifold"),
+                          "by default the cotangent bundle of Rⁿ for the canonical "
+                          "structure, Rⁿ otherwise")})},
+       read_morse_family},
+      {{"optimal-control",
+        "x' = f(x, u, t), least integral of a cost, by Pontryagin's E = p f - cost",
+        system_keys({required_key("states", takes::coordinates(),
+                                  "x; points of the system are (x, p), the momentum of x is p_x"),
+                     required_key("controls", takes::names(), "u, which have no derivative"),
+                     required_key("dynamics", takes::formulas(),
+                                  "f: a formula in states, controls and t for each velocity"),
+                     required_key("cost", takes::formula(), "in states, controls and t"),
+                     default_key("extremals", takes::word({"normal", "abnormal"}), "normal",
+                                 "abnormal: E = p f, without the cost"),
+                     manifold("of the states")})},
+       read_optimal_control},
+      {{"euler-poincare",
+        "a reduced Lagrangian or Hamiltonian on the dual of a Lie algebra",
+        system_keys(together(
+            lie_algebra_keys(),
+            {optional_key("lagrangian", takes::formula(),
+                          "l, in velocities, advected parameters and t"),
+             optional_key("hamiltonian", takes::formula(),
+                          "h, in momenta, advected parameters and t"),
+             default_key("momentum", takes::text(), "mu", "the name of the momenta, n of them"),
+             default_key("velocity", takes::text(), "xi", "the name of the velocities"),
+             optional_key("advected", takes::names(),
+                          "parameters that the group acts on: \"Gamma[3]\""),
+             optional_key("representation", takes::number_matrices(),
+                          "how: a matrix for each e_i; so3 and so(n) know theirs"),
+             inputs,
+             optional_key("nonholonomic", takes::formulas(),
+                          "constraints: one-forms in velocities that are zero, with reactions "
+                          "along them; multipliers lambda"),
+             default_key("sign", takes::word({"minus", "plus"}), "minus",
+                         "minus in body coordinates")})),
+        {{"algebra", "constants"}, {"lagrangian", "hamiltonian"}}},
+       read_euler_poincare},
       {{"port-hamiltonian", "x' = (J - R) dH + B u, y = Bᵀ dH with open or closed ports",
         system_keys(
             {coordinates("of the manifold"), manifold("of the states"),
              required_key("hamiltonian", takes::formula(), "H, in coordinates and t"),
-             required_key("J", takes::formula_matrix(), "n × n, skew-symmetric"),
+             required_key("J", takes::form_matrix(), "n × n, skew-symmetric"),
              optional_key("R", takes::formula_matrix(),
                           "n × n, symmetric, positive semidefinite; by default 0"),
              optional_key("B", takes::field_rows(),

@@ -13,9 +13,15 @@ Registry<Model>& system_kinds();
 // read_vocabulary reads.
 std::vector<Key> system_keys(std::vector<Key> keys);
 
-// One file each, read_<kind>.cpp; the vortices share one.
+// Of files read_<kind>.cpp; those with a Lagrangian share one, so do those with a Morse family and
+// the vortices.
 std::optional<Model> read_hamiltonian(ObjectReader& system);
 std::optional<Model> read_lagrangian(ObjectReader& system);
+std::optional<Model> read_mechanical(ObjectReader& system);
+std::optional<Model> read_vakonomic(ObjectReader& system);
+std::optional<Model> read_morse_family(ObjectReader& system);
+std::optional<Model> read_optimal_control(ObjectReader& system);
+std::optional<Model> read_euler_poincare(ObjectReader& system);
 std::optional<Model> read_port_hamiltonian(ObjectReader& system);
 std::optional<Model> read_implicit(ObjectReader& system);
 std::optional<Model> read_network(ObjectReader& system);

@@ -103,6 +103,10 @@ void NameList::append(Declaration declaration) {
   declarations_.push_back(std::move(declaration));
 }
 
+void NameList::append_unnamed(Index count) {
+  if (count > 0) append({"", {count}});
+}
+
 std::vector<std::string> NameList::element_names() const {
   std::vector<std::string> names;
   for (const Declaration& declaration : declarations_)
@@ -131,7 +135,7 @@ std::pair<Index, Index> NameList::find(const Reference& reference) const {
       return {first, count};
     }
     first += declaration.size();
-    known.push_back(declaration.name);
+    if (!declaration.name.empty()) known.push_back(declaration.name);
   }
   throw FormulaError(
       1, "unknown name " + in_quotes(reference.name) + did_you_mean(reference.name, known));
@@ -140,7 +144,8 @@ std::pair<Index, Index> NameList::find(const Reference& reference) const {
 void NameList::add_to(SymbolTable& symbols, const ExprVector& values) const {
   Index first = 0;
   for (const Declaration& declaration : declarations_) {
-    symbols.add(declaration.name, declaration.shape, values.segment(first, declaration.size()));
+    if (!declaration.name.empty())
+      symbols.add(declaration.name, declaration.shape, values.segment(first, declaration.size()));
     first += declaration.size();
   }
 }

@@ -16,6 +16,8 @@ namespace courant {
 class NameList {
  public:
   void append(Declaration declaration);
+  // Entries without a name, which no formula can refer to.
+  void append_unnamed(Index count);
 
   const std::vector<Declaration>& declarations() const { return declarations_; }
   Index size() const { return size_; }
