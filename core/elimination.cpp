@@ -41,16 +41,19 @@ ExprVector variables_of(const ExprVector& expressions) {
   return Eigen::Map<const ExprVector>(found.data(), static_cast<Index>(found.size()));
 }
 
-// Sizes of the entries of a Jacobian, in comparable units: at a generic point, where what is never zero,
-// being a step size, is small.
-VectorXd typical_entries(const SparseExprMatrix& J, const ExprVector& never_zero) {
+// What is never zero, being a step size, may be of these sizes.
+constexpr double kSteps[] = {1e-2, 1e-6, 1e-11};
+using Sizes = Eigen::Array3d;
+
+// Sizes of the entries of a Jacobian, in comparable units: at a generic point, for such a step size.
+VectorXd typical_entries(const SparseExprMatrix& J, const ExprVector& never_zero, double step) {
   const ExprVector variables = variables_of(J.values);
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> uniform(0.5, 1.5);
   VectorXd point = VectorXd::NullaryExpr(variables.size(), [&] { return uniform(generator); });
   for (Index i = 0; i < variables.size(); ++i)
     if (std::find(never_zero.begin(), never_zero.end(), variables[i]) != never_zero.end())
-      point[i] *= 0.01;
+      point[i] *= step;
   VectorXd entries = Function("entries", {{"p", variables}}, J.values)({point});
   std::vector<Eigen::Triplet<double>> finite;
   for (Index k = 0; k < entries.size(); ++k)
@@ -74,11 +77,12 @@ class Tableau {
         coarseness_(std::move(coarseness)),
         rows_(static_cast<std::size_t>(J.rows)),
         columns_(static_cast<std::size_t>(J.cols)) {
-    const VectorXd typical = typical_entries(J, never_zero);
+    Eigen::Array<double, Eigen::Dynamic, 3> typical(J.values.size(), 3);
+    for (Index i = 0; i < 3; ++i) typical.col(i) = typical_entries(J, never_zero, kSteps[i]);
     for (std::size_t k = 0; k < J.row.size(); ++k) {
       const auto entry = static_cast<Index>(k);
       rows_[static_cast<std::size_t>(J.row[k])].emplace(J.col[k],
-                                                        Entry{J.values[entry], typical[entry]});
+                                                        Entry{J.values[entry], typical.row(entry)});
       columns_[static_cast<std::size_t>(J.col[k])].insert(J.row[k]);
       columns_left_.insert(J.col[k]);
     }
@@ -124,7 +128,7 @@ class Tableau {
  private:
   struct Entry {
     Expr coefficient;
-    double typical;  // NaN where it is not known, 0 where it may vanish
+    Sizes typical;  // NaN where it is not known, 0 where it may vanish
   };
   using Row = std::map<Index, Entry>;
 
@@ -158,17 +162,18 @@ class Tableau {
     const std::size_t elsewhere = columns_[static_cast<std::size_t>(j)].size() - 1;
     const std::size_t cost = others * elsewhere;
     if (columns_left_.size() > kDense && cost > others + elsewhere) return std::nullopt;
-    double largest = 0.0;
+    Sizes largest = Sizes::Zero();
     for (const auto& [l, entry] : row) {
       if (coarseness_[static_cast<std::size_t>(l)] > coarseness_[static_cast<std::size_t>(j)])
         return std::nullopt;
       // The comparison is false where an entry is not known, and the pivot not allowed.
-      largest = largest >= std::fabs(entry.typical) ? largest : std::fabs(entry.typical);
+      for (Index i = 0; i < largest.size(); ++i)
+        if (!(largest[i] >= std::fabs(entry.typical[i]))) largest[i] = std::fabs(entry.typical[i]);
     }
-    const bool is_large = std::fabs(found->second.typical) >= kThreshold * largest;
+    const Sizes& size = found->second.typical;
+    const bool is_large = (size.abs() >= kThreshold * largest).all();
     if (cost > 0 && !is_large) return std::nullopt;
-    if (found->second.typical == 0.0 || !is_never_zero(found->second.coefficient))
-      return std::nullopt;
+    if ((size == 0.0).any() || !is_never_zero(found->second.coefficient)) return std::nullopt;
     return cost;
   }
 
@@ -194,14 +199,13 @@ class Tableau {
 
   void subtract(Index k, Row& row, Index l, const Entry& factor, const Entry& entry,
                 const Entry& pivot) {
-    const auto [place, is_new] = row.try_emplace(l, Entry{Expr(0.0), 0.0});
+    const auto [place, is_new] = row.try_emplace(l, Entry{Expr(0.0), Sizes::Zero()});
     Entry& target = place->second;
-    const double term = factor.typical * entry.typical / pivot.typical;
-    const double sum = target.typical - term;
-    const bool may_vanish = std::fabs(sum) <= kCancelled * std::fabs(term);
+    const Sizes terms = factor.typical * entry.typical / pivot.typical;
+    const Sizes sums = target.typical - terms;
     target.coefficient =
         target.coefficient - factor.coefficient * entry.coefficient / pivot.coefficient;
-    target.typical = may_vanish ? 0.0 : sum;
+    target.typical = (sums.abs() <= kCancelled * terms.abs()).select(Sizes::Zero(), sums);
     if (target.coefficient.is_constant(0.0)) {
       row.erase(place);
       columns_[static_cast<std::size_t>(l)].erase(k);

@@ -209,9 +209,10 @@ class ConstrainFirst::Trajectory final : public Stepper {
   }
 
   // Of the groups of unknowns.
-  static std::array<double, 4> scales(const State& before, double h) {
+  // `besides`: a size of coordinates other than those of `before`.
+  static std::array<double, 4> scales(const State& before, double h, double besides = 0.0) {
     // A start at zero, as of a circuit at rest, has the size of its first step.
-    const double given = largest(before.x);
+    const double given = std::max(largest(before.x), besides);
     const double size = given > 0.0 ? given : std::fabs(h) * largest(before.v);
     return {size, size / std::fabs(h), auxiliary_scale(largest(before.z), size), size};
   }
@@ -245,7 +246,8 @@ class ConstrainFirst::Trajectory final : public Stepper {
       const double* in[] = {y.data(),           guess_.data(), basis_.data(),
                             directions_.data(), near_.data(),  &t};
       projector_.solve(
-          in, scales(before, attempt.h).data(), [&] { y = start_; }, attempt, statistics_);
+          in, scales(before, attempt.h, largest(near_)).data(), [&] { y = start_; }, attempt,
+          statistics_);
       method_.projected_.value(in, found_.data());
       const double moved = largest(y.head(n_));
       const double size = largest(found_.head(guess_.size()));

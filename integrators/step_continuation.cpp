@@ -29,9 +29,10 @@ constexpr double kRoundOff = 1e-13;
 constexpr double kLeastOfAll = 1e-3;
 constexpr double kLeastOfState = 1e-8;
 
-// The curve begins with two points at so much of the step and twice as much, which say where it
+// The curve begins with two points at so much of the step and twice as much (nearer to the state they
+// would be round-off where multipliers are determined with 1/h²), which say where it
 // goes; or at less, down to this.
-constexpr double kBeginning = 1e-3;
+constexpr double kBeginning = 0.1;
 constexpr double kShortest = 1e-12;
 // The curve ends where σ can grow by less than this part.
 constexpr double kEnd = 1e-4;

@@ -14,9 +14,6 @@ constexpr double kPredicted = 0.05;
 constexpr double kNegligible = 1e-10;
 constexpr double kForgotten = 0.98;
 
-// The part of a step that the curve has to be followed for, to say where it does not lead.
-constexpr double kSeen = 0.02;
-
 // What two ways to the same solution may differ by.
 constexpr double kSame = 1e-3;
 
@@ -84,12 +81,6 @@ void StepSolver::connect(bool converged, const double* const* in, const double* 
   statistics.iterations += iterations;
   statistics.factorizations += iterations;
   if (arrived && converged && is_same(scales[0])) {
-    y_.swap(other_);
-    return;
-  }
-  // Where the curve cannot be seen near its beginning for round-off, as of multipliers that Method 1
-  // determines with 1/h², there is nothing to compare with.
-  if (!arrived && converged && reached < kSeen) {
     y_.swap(other_);
     return;
   }

@@ -176,7 +176,8 @@ void check_one_run(const Run& run, const std::filesystem::path& experiment,
   if (run.experiment.value("$run", Json()) != run.summary["id"])
     fail(experiment, "is of another run than summary.json.");
   if (run.summary["status"] != "completed" || run.trajectory.rows() == 0) return;
-  for (const auto& [name, value] : run.summary.value("final", Json::object()).items())
+  const Json last = run.summary.value("final", Json::object());
+  for (const auto& [name, value] : last.items())
     if (value.is_number() && run.trajectory.contains(name) &&
         run.trajectory.column(name).back() != value.get<double>())
       fail(trajectory, "is of another run than summary.json: " + name + " ends elsewhere.");

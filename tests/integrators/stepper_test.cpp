@@ -78,7 +78,7 @@ std::vector<Case> cases() {
     result.push_back({name + ", method 2",
                       std::make_shared<ConstrainFirst>(system, ladder, map,
                                                        std::make_shared<OrthogonalProjector>()),
-                      ladder.point, h});
+                      ladder.point, h, 5e-14});
     if (!explicit_too) return;
     const auto field = std::make_shared<VectorField>(system, ladder, Backend::interpreter);
     for (const auto kind : {ExplicitRungeKutta::Kind::midpoint, ExplicitRungeKutta::Kind::classical,
