@@ -19,8 +19,8 @@ struct RunOptions {
   const std::atomic<bool>* stop = nullptr;            // set by someone else: the run is interrupted
   std::function<void(const Json& ladder)> on_ladder;  // once the constraint algorithm has finished
   std::function<void(const Integrator&)> on_method = {};  // once it is made ready
-  std::function<void(const Progress&)> on_progress;   // some ten times a second
-  std::vector<RunWatcher*> watchers = {};             // are told of every state too
+  std::function<void(const Progress&)> on_progress;       // some ten times a second
+  std::vector<RunWatcher*> watchers = {};                 // are told of every state too
 };
 
 struct RunOutcome {

@@ -69,10 +69,11 @@ BOOST_AUTO_TEST_CASE(an_explanation_names_what_goes_and_what_stays) {
     const auto is_start = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };
     BOOST_TEST(std::count_if(line.begin(), line.end(), is_start) <= 100, line);
   }
-  const std::string& name = vortices.system->names().coordinates[0];
-  BOOST_TEST(contains(text, "  Δ" + name + " = "), text);
-  BOOST_TEST(contains(text, "from: start of " + name + "\n"), text);
-  BOOST_TEST(contains(text, "left, for " + name + "', "), text);
+  const auto& names = vortices.system->names().coordinates;
+  BOOST_TEST(contains(text, "  " + names[7] + "' = "), text);
+  BOOST_TEST(contains(text, "  mu[7] = "), text);
+  BOOST_TEST(contains(text, "from: start of " + names[15] + "\n"), text);
+  BOOST_TEST(contains(text, "left, for Δ" + names[0] + ", "), text);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -210,6 +210,8 @@ BOOST_AUTO_TEST_CASE(incomplete_folders_are_refused) {
   BOOST_TEST(said().ends_with("summary.json: cannot be read."));
   std::filesystem::remove(folder / "run/trajectory.csv");
   BOOST_TEST(said().ends_with("run: has no trajectory.csv or trajectory.npy."));
+  write_text(folder / "run/summary.json",
+             R"({"status": "completed", "system": "", "method": "", "steps": 1, "final": {}})");
   write_text(folder / "run/trajectory.npy", "");
   write_text(folder / "run/columns.json", "[\"t\", 3]");
   BOOST_TEST(said().ends_with("columns.json: is not an array of names."));
