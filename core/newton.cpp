@@ -152,7 +152,7 @@ Newton::Result Newton::solve(double* y, const double* const* in, const double* s
   in_[0] = kept_.data();
   for (Index i = 0; i < kept_.size(); ++i)
     kept_[i] = y[system_.kept()[static_cast<std::size_t>(i)]];
-  const Result result = solve_kept(kept_.data(), in_.data(), scales);
+  Result result = solve_kept(kept_.data(), in_.data(), scales);
   system_.given().value(in_.data(), given_.data());
   for (Index i = 0; i < kept_.size(); ++i)
     y[system_.kept()[static_cast<std::size_t>(i)]] = kept_[i];

@@ -19,7 +19,7 @@ std::optional<std::pair<int, int>> fraction(double value) {
   for (int d = 1; d <= 24; ++d) {
     const double n = value * d;
     if (n > 0.5 && n < 100.5 && is_same_number(n, std::round(n)))
-      return std::pair(static_cast<int>(n + 0.5), d);
+      return std::pair(static_cast<int>(std::lround(n)), d);
   }
   return std::nullopt;
 }

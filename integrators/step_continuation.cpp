@@ -29,10 +29,10 @@ constexpr double kRoundOff = 1e-13;
 constexpr double kLeastOfAll = 1e-3;
 constexpr double kLeastOfState = 1e-8;
 
-// The curve begins with two points at so much of the step and twice as much (nearer to the state they
-// would be round-off where multipliers are determined with 1/h²), which say where it
-// goes; or at less, down to this.
-constexpr double kBeginning = 0.1;
+// The curve begins with two points at so much of the step and twice as much, which say where it goes;
+// or at less, down to kShortest. First far from the state, since near to it multipliers that are
+// determined with 1/h² are round-off; where that does not lead to the end, nearer.
+constexpr double kBeginnings[] = {0.1, 1e-3};
 constexpr double kShortest = 1e-12;
 // The curve ends where σ can grow by less than this part.
 constexpr double kEnd = 1e-4;
@@ -120,14 +120,34 @@ bool StepContinuation::converges(double sigma, const double* const* in, double s
 
 StepContinuation::Result StepContinuation::follow(VectorXd& y, const double* const* in,
                                                   double size) {
+  const VectorXd start = y;
+  Result best;
+  for (const double beginning : kBeginnings) {
+    y_ = start;
+    point_ = start;
+    Result result = follow_from(beginning, in, size);
+    result.iterations += best.iterations;
+    const bool is_farther = result.reached >= best.reached;
+    if (is_farther) set(point_, result.reached, y);
+    if (!is_farther) std::swap(result.reached, best.reached);
+    best = result;
+    best.at_first = beginning == kBeginnings[0];
+    if (best.arrived) break;
+  }
+  return best;
+}
+
+StepContinuation::Result StepContinuation::follow_from(double beginning, const double* const* in,
+                                                       double size) {
   constexpr double anywhere = std::numeric_limits<double>::infinity();
   Result result;
   h_ = *in[layout_.h];
-  point_ = last_ = y;
+  const VectorXd start = point_;
+  last_ = start;
   orientation_ = 0;
   double sigma = 0.0, before = 0.0;  // of point_ and last_
-  for (double first = kBeginning; sigma == 0.0 && first > kShortest; first *= 0.125) {
-    u_ = y;
+  for (double first = beginning; sigma == 0.0 && first > kShortest; first *= 0.125) {
+    u_ = start;
     if (!converges(first, in, size, anywhere, result)) continue;
     last_ = u_;
     if (!converges(2.0 * first, in, size, anywhere, result)) continue;
@@ -153,7 +173,6 @@ StepContinuation::Result StepContinuation::follow(VectorXd& y, const double* con
   }
   result.arrived = sigma == 1.0;
   result.reached = sigma;
-  set(point_, sigma, y);
   return result;
 }
 

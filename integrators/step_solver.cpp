@@ -77,7 +77,7 @@ bool StepSolver::is_same(double size) const {
 void StepSolver::connect(bool converged, const double* const* in, const double* scales,
                          const Attempt& attempt, SolverStatistics& statistics) {
   ++statistics.confirmations;
-  const auto [arrived, reached, iterations] = continuation_->follow(y_, in, scales[0]);
+  const auto [arrived, reached, at_first, iterations] = continuation_->follow(y_, in, scales[0]);
   statistics.iterations += iterations;
   statistics.factorizations += iterations;
   if (arrived && converged && is_same(scales[0])) {
@@ -95,6 +95,8 @@ void StepSolver::connect(bool converged, const double* const* in, const double* 
                      message.str());
   }
   ++statistics.failures;
+  // A second look may confirm what the iteration found; against it, it is no evidence.
+  if (converged && !at_first) fail(attempt);
   other_ = y_;
   if (converges(in, scales, statistics) && is_same(scales[0])) return;
   newton_.reset();
