@@ -19,7 +19,7 @@ struct Arguments {
 
 // The same function without z if it does not depend on z though z is in it, as the energy ⟨∂L/∂w,
 // w⟩ - L of L = ⟨α(q), w⟩ - H(q): its derivative by z is round-off at random arguments. There z = 0
-// gives H(q) itself, without cancellation.
+// gives H(q) itself, without cancellation. L = |w| has no derivative there and stays as it is.
 Expr without_idle(const Expr& quantity, const Arguments& at, const Manifold& manifold) {
   const ExprVector derivative = gradient(quantity, at.z);
   const Function sizes(
@@ -35,6 +35,9 @@ Expr without_idle(const Expr& quantity, const Arguments& at, const Manifold& man
         {manifold.random_point(generator), random(at.v.size()), random(at.z.size()), random(1)});
     const double derivatives = found.tail(derivative.size()).cwiseAbs().sum();
     if (!(derivatives <= 1e-13 * (1.0 + std::abs(found[0])))) return quantity;
+    const VectorXd at_zero = sizes({manifold.random_point(generator), random(at.v.size()),
+                                    VectorXd::Zero(at.z.size()), random(1)});
+    if (!std::isfinite(at_zero[0])) return quantity;
   }
   return substitute(quantity, at.z, ExprVector::Zero(at.z.size()));
 }

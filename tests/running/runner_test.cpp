@@ -358,6 +358,19 @@ BOOST_AUTO_TEST_CASE(time_may_appear_explicitly) {
   BOOST_TEST(run_in(folder, experiment).as_expected());
 }
 
+// |q'| has no derivative at q' = 0, and its energy is zero whatever the velocity.
+BOOST_AUTO_TEST_CASE(the_energy_of_a_light_ray_is_zero) {
+  const TemporaryFolder folder;
+  const RunOutcome outcome = run_in(folder, Json::parse(R"json({
+    "title": "A light ray in a vacuum",
+    "system": { "type": "lagrangian", "coordinates": ["x", "y"], "lagrangian": "sqrt(x'^2 + y'^2)" },
+    "initial": { "x": 1, "y": 0, "x'": 1, "y'": 1 },
+    "expect": [ { "verdict": "gauge" } ]
+  })json"));
+  BOOST_TEST((outcome.status == RunStatus::completed), outcome.message);
+  BOOST_TEST(std::abs(outcome.summary["observables"]["H"]["initial"].get<double>()) < 1e-15);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
 
 }  // namespace courant
