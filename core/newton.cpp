@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "courant/core/dense_solver.hpp"
+#include "courant/core/unknown_selection.hpp"
 
 namespace courant {
 namespace {
@@ -42,38 +43,22 @@ Newton::Newton(EquationSystem system, std::vector<Index> groups, const Options& 
     throw std::invalid_argument("Newton: the groups do not fit the " +
                                 std::to_string(system_.size()) + " unknowns of " + system_.name() +
                                 ".");
-  const std::vector<Index>& kept = system_.kept();
-  auto first = kept.begin();
-  Index end_of_group = 0;
-  for (const Index group : groups) {
-    end_of_group += group;
-    const auto last = std::lower_bound(first, kept.end(), end_of_group);
-    groups_.push_back(last - first);
-    first = last;
+  Index before = 0;
+  for (const Index end : group_ends(groups, system_.kept())) {
+    groups_.push_back(end - before);
+    before = end;
   }
-  contained_ = function_.pattern_col();
-  std::sort(contained_.begin(), contained_.end());
-  contained_.erase(std::unique(contained_.begin(), contained_.end()), contained_.end());
-  Index end = 0;
-  for (const Index group : groups_) {
-    end += group;
-    ends_.push_back(std::lower_bound(contained_.begin(), contained_.end(), end) -
-                    contained_.begin());
-  }
-  MatrixPattern pattern{.rows = function_.output_size(),
-                        .columns = static_cast<Index>(contained_.size()),
-                        .row = function_.pattern_row(),
-                        .column = {}};
-  for (const Index column : function_.pattern_col())
-    pattern.column.push_back(std::lower_bound(contained_.begin(), contained_.end(), column) -
-                             contained_.begin());
-  solver_ = options_.solver ? options_.solver(pattern) : std::make_unique<DenseSolver>(pattern);
+  ContainedUnknowns contained(function_);
+  contained_ = std::move(contained.places);
+  ends_ = group_ends(groups_, contained_);
+  solver_ = options_.solver ? options_.solver(contained.pattern)
+                            : std::make_unique<DenseSolver>(contained.pattern);
   all_.resize(function_.output_size() + function_.nonzeros());
   step_.resize(static_cast<Index>(contained_.size()));
   magnitude_.resize(function_.output_size());
   if (!system_.is_reduced()) return;
   in_.resize(static_cast<std::size_t>(function_.input_count()));
-  kept_.resize(std::ssize(kept));
+  kept_.resize(std::ssize(system_.kept()));
   given_.resize(std::ssize(system_.eliminated()));
 }
 

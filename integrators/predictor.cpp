@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "courant/core/unknown_selection.hpp"
+
 namespace courant {
 namespace {
 
@@ -21,12 +23,10 @@ std::vector<Index> all_of(const std::vector<Index>& groups) {
 
 Predictor::Predictor(const std::vector<Index>& groups, std::vector<Index> places)
     : places_(std::move(places)) {
-  Index end = 0, first = 0;
-  for (const Index size : groups) {
-    end += size;
-    const Index last = std::lower_bound(places_.begin(), places_.end(), end) - places_.begin();
-    groups_.push_back({.begin = first, .end = last});
-    first = last;
+  Index begin = 0;
+  for (const Index end : group_ends(groups, places_)) {
+    groups_.push_back({.begin = begin, .end = end});
+    begin = end;
   }
   history_.setZero(kKept, std::ssize(places_));
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "courant/core/dense_solver.hpp"
+#include "courant/core/unknown_selection.hpp"
 
 namespace courant {
 namespace {
@@ -40,21 +41,14 @@ constexpr double kEnd = 1e-4;
 }  // namespace
 
 StepContinuation::StepContinuation(Function equations, const Layout& layout)
-    : equations_(std::move(equations)), layout_(layout), contained_(equations_.pattern_col()) {
-  std::ranges::sort(contained_);
-  contained_.erase(std::unique(contained_.begin(), contained_.end()), contained_.end());
-  MatrixPattern pattern{.rows = equations_.output_size(),
-                        .columns = static_cast<Index>(contained_.size()),
-                        .row = equations_.pattern_row(),
-                        .column = {}};
-  for (const Index column : equations_.pattern_col())
-    pattern.column.push_back(std::ranges::lower_bound(contained_, column) - contained_.begin());
-  solver_ = std::make_unique<DenseSolver>(pattern);
+    : equations_(std::move(equations)), layout_(layout) {
+  ContainedUnknowns contained(equations_);
+  contained_ = std::move(contained.places);
+  solver_ = std::make_unique<DenseSolver>(contained.pattern);
   in_.resize(static_cast<std::size_t>(equations_.input_count()));
   y_.resize(equations_.input_size(0));
   all_.resize(equations_.output_size() + equations_.nonzeros());
   step_.resize(static_cast<Index>(contained_.size()));
-  y_.resize(equations_.input_size(0));
 }
 
 void StepContinuation::set(const VectorXd& u, double sigma, VectorXd& y) const {
@@ -121,29 +115,28 @@ bool StepContinuation::converges(double sigma, const double* const* in, double s
 StepContinuation::Result StepContinuation::follow(VectorXd& y, const double* const* in,
                                                   double size) {
   const VectorXd start = y;
-  Result best;
+  h_ = *in[layout_.h];
+  Result farthest;
+  long iterations = 0;
   for (const double beginning : kBeginnings) {
-    y_ = start;
-    point_ = start;
-    Result result = follow_from(beginning, in, size);
-    result.iterations += best.iterations;
-    const bool is_farther = result.reached >= best.reached;
-    if (is_farther) set(point_, result.reached, y);
-    if (!is_farther) std::swap(result.reached, best.reached);
-    best = result;
-    best.at_first = beginning == kBeginnings[0];
-    if (best.arrived) break;
+    Result found = follow_from(start, beginning, in, size);
+    found.at_first = beginning == kBeginnings[0];
+    iterations += found.iterations;
+    if (found.reached >= farthest.reached) {
+      farthest = found;
+      set(point_, found.reached, y);
+    }
+    if (found.arrived) break;
   }
-  return best;
+  farthest.iterations = iterations;
+  return farthest;
 }
 
-StepContinuation::Result StepContinuation::follow_from(double beginning, const double* const* in,
-                                                       double size) {
+StepContinuation::Result StepContinuation::follow_from(const VectorXd& start, double beginning,
+                                                       const double* const* in, double size) {
   constexpr double anywhere = std::numeric_limits<double>::infinity();
   Result result;
-  h_ = *in[layout_.h];
-  const VectorXd start = point_;
-  last_ = start;
+  point_ = last_ = start;
   orientation_ = 0;
   double sigma = 0.0, before = 0.0;  // of point_ and last_
   for (double first = beginning; sigma == 0.0 && first > kShortest; first *= 0.125) {

@@ -33,7 +33,7 @@ class StepContinuation {
   struct Result {
     bool arrived = false;  // at σ = 1, y up to some seven digits of a displacement
     double reached = 0.0;  // the greatest σ that there is a solution for; 0: none was found
-    bool at_first = true;  // from the first beginning
+    bool at_first = true;  // from the beginning that is tried first
     long iterations = 0;
   };
   // y: at first what is predicted for σ = 1 by the state alone, in the end y(1), or y(reached).
@@ -41,8 +41,8 @@ class StepContinuation {
   Result follow(VectorXd& y, const double* const* in, double size);
 
  private:
-  // From point_, which the state predicts.
-  Result follow_from(double beginning, const double* const* in, double size);
+  // Leaves the last point on the curve in point_. `start`: what the state predicts.
+  Result follow_from(const VectorXd& start, double beginning, const double* const* in, double size);
   // Newton's method from u_, for σ. False: it does not contract, or its first change is more than
   // `near`.
   bool converges(double sigma, const double* const* in, double size, double near, Result& result);
