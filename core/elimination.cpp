@@ -10,6 +10,7 @@
 
 #include "courant/core/derivative.hpp"
 #include "courant/core/equilibration.hpp"
+#include "courant/core/expr_vectors.hpp"
 #include "courant/core/function.hpp"
 #include "courant/core/subgraph.hpp"
 
@@ -24,12 +25,6 @@ constexpr double kCancelled = 1e-10;
 
 // As long as no more unknowns than that are left, fill does not matter: their matrix is dense anyway.
 constexpr std::size_t kDense = 64;
-
-ExprVector join(const ExprVector& a, const ExprVector& b) {
-  ExprVector result(a.size() + b.size());
-  result << a, b;
-  return result;
-}
 
 // The variables that expressions are made of.
 ExprVector variables_of(const ExprVector& expressions) {
@@ -252,7 +247,7 @@ Elimination::Elimination(const ExprVector& F, const ExprVector& y, const Options
       equations[pivot.equation] = Expr(0.0);
       pivots.push_back(pivot);
     }
-    const ExprVector all = substitute(join(equations, unknowns), variables, formulas);
+    const ExprVector all = substitute(joined(equations, unknowns), variables, formulas);
     equations = all.head(F.size());
     unknowns = all.tail(y.size());
   }

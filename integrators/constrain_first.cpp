@@ -5,16 +5,14 @@
 #include <limits>
 #include <stdexcept>
 
-#include "courant/core/derivative.hpp"
 #include "courant/core/message.hpp"
 #include "courant/core/qr_decomposition.hpp"
-#include "courant/integrators/ladder/local_formulation.hpp"
+#include "courant/integrators/constrain_first_trace.hpp"
 #include "courant/integrators/moving_basis.hpp"
 #include "courant/integrators/moving_conormals.hpp"
 #include "courant/integrators/nearest_orthonormal.hpp"
 #include "courant/integrators/predictor.hpp"
 #include "courant/integrators/round_off_projection.hpp"
-#include "courant/integrators/step_names.hpp"
 #include "courant/integrators/step_solver.hpp"
 
 namespace courant {
@@ -29,30 +27,6 @@ constexpr int kMaxProjections = 30;
 // small.
 constexpr double kTolerance = 1e-16;
 constexpr double kSafety = 10.0;
-
-// One vector of all parts.
-ExprVector join(const std::vector<ExprVector>& parts) {
-  Index size = 0;
-  for (const ExprVector& part : parts) size += part.size();
-  ExprVector result(size);
-  Index offset = 0;
-  for (const ExprVector& part : parts) {
-    result.segment(offset, part.size()) = part;
-    offset += part.size();
-  }
-  return result;
-}
-
-// How many of ξ, ξ', … (at least two) and of z, z', … (at least one) there are up to the last that
-// the equations contain.
-std::pair<Index, Index> contained_jets(const LocalFormulation& local, const ExprVector& equations) {
-  const auto last = [&](const std::vector<ExprVector>& jets, std::size_t least) {
-    std::size_t count = jets.size();
-    while (count > least && jacobian(equations, jets[count - 1]).values.size() == 0) --count;
-    return static_cast<Index>(count);
-  };
-  return {last(local.xi, 2), last(local.z, 1)};
-}
 
 // W if it is the same at every x, as for momenta that positions determine; empty otherwise.
 MatrixXd fixed_directions(const Manifold& M, const Projector& projector,
@@ -365,93 +339,6 @@ class ConstrainFirst::Trajectory final : public Stepper {
   VectorXd jets_;  // ξ', … and z, … at x_k; ξ and μ are zero
   VectorXd start_, aimed_, near_, guess_, foreseen_, shifted_, corrected_, advanced_, found_;
   VectorXd stage_, stage_z_;  // (x̄, v) and z of the last step that stands
-};
-
-// The formulas of a step and of the projection that follows it.
-struct ConstrainFirst::Trace {
-  explicit Trace(const ConstrainFirst& method) {
-    const ImplicitSystem& S = *method.system();
-    const DiscretizationMap& map = *method.map_;
-    const Manifold& M = *S.manifold();
-    const Index n = M.dimension(), d = method.codimension_;
-    step.graph = std::make_shared<Graph>();
-    Graph& graph = *step.graph;
-    x0 = graph.variables("x0", M.ambient_dimension());
-    const ExprMatrix basis = basis_variables(graph, M);
-    basis_entries = basis_parameters(M, basis);
-    t = graph.variables("t", 1);
-    const ExprVector h = graph.variables("h", 1);
-    const ExprVector directions = graph.variables("W", n * d);
-    const ExprVector mu = graph.variables("mu", d);
-    const ExprMatrix W = method.fixed_directions_.size() > 0
-                             ? constants(method.fixed_directions_)
-                             : ExprMatrix(Eigen::Map<const ExprMatrix>(directions.data(), n, d));
-    const ExprVector shift = W * mu;
-    const LocalFormulation local(graph, S, x0, basis, t[0], method.differentiations_);
-    constraints = local.nonzero_equations();
-    const auto [tangents, orders] = contained_jets(local, constraints);
-    blocks = tangents;
-    std::vector<ExprVector> parts(local.xi.begin(), local.xi.begin() + blocks);
-    parts.insert(parts.end(), local.z.begin(), local.z.begin() + orders);
-    jets = join(parts);
-    auxiliaries = jets.size() - blocks * n;
-    const ExprVector y = join({jets, mu});
-
-    const StepNames names(S);
-    std::vector<std::string> unknowns = names.tangent("Δ", 0);
-    for (Index k = 1; k < blocks; ++k) append(unknowns, names.tangent("", k));
-    for (Index k = 0; k < orders; ++k) append(unknowns, names.auxiliary(k));
-    append(unknowns, StepNames::numbered("mu", d));
-    const std::vector<std::string> constraint_names = names.equations(local);
-
-    step.name = method.name();
-    const auto ends = map.forward(local.x, ExprVector(h[0] * local.v));
-    const ExprVector moved = M.chart(x0, basis, shift);
-    const ExprVector at_start = M.coframe(x0) * ExprVector(ends.first - moved);
-    const ExprVector staged =
-        substitute(constraints, t, ExprVector::Constant(1, t[0] + Expr(map.stage_time()) * h[0]));
-    step.inputs = {{"y", y},          {"x0", x0}, {"basis", basis_entries},
-                   {"W", directions}, {"h", h},   {"t", t}};
-    step.input_names = {unknowns,      S.names().coordinates,
-                        names.basis(), StepNames::numbered("W", n * d),
-                        {"h"},         {"t"}};
-    step.equations = join({ExprVector(basis.transpose() * at_start), staged});
-    step.equation_names = names.tangent("start of ", 0);
-    append(step.equation_names, constraint_names);
-    advanced = join({ends.second, local.x, local.v});
-    // Of what is not determined the solver takes the least change, in all unknowns.
-    step.eliminates = method.gauge_dimension_ == 0;
-    // ξ and μ are displacements of the state, ξ' its rate; the rest converges with them.
-    step.elimination.never_zero = h;
-    auto& coarseness = step.elimination.coarseness;
-    coarseness.assign(static_cast<std::size_t>(y.size()), 1);
-    std::fill_n(coarseness.begin(), 2 * n, 0);
-    std::fill_n(coarseness.rbegin(), d, 0);
-
-    projection = step;
-    projection.name = method.name() + ", projection";
-    near = graph.variables("near", M.ambient_dimension());
-    const ExprVector along = M.tangent_projector(local.x) * ExprVector(basis * shift);
-    const ExprVector distance = M.coframe(x0) * ExprVector(M.retract(local.x, along) - near);
-    projection.inputs[4] = {"near", near};
-    projection.input_names[4] = StepNames::each("near ", S.names().coordinates);
-    projection.equations = join({ExprVector(basis.transpose() * distance), constraints});
-    projection.equation_names = names.tangent("projection of ", 0);
-    append(projection.equation_names, constraint_names);
-    projection.elimination.never_zero = {};
-    projected = join({local.x, local.v, local.z[0]});
-
-    s = graph.variables("s", M.tangent_dimension());
-    shifted = M.retract(near, ExprVector(M.tangent_projector(near) * s));
-    x = graph.variables("x", M.ambient_dimension());
-    corrected = M.tangent_projector(near) * s + M.coframe(near) * ExprVector(x - x0);
-  }
-
-  StepFormulas step, projection;
-  Index blocks, auxiliaries;
-  ExprVector x0, basis_entries, t, near, s, x;  // parameters
-  ExprVector constraints, jets;                 // S_f, and its unknowns (ξ, ξ', …, z, …)
-  ExprVector advanced, projected, shifted, corrected;
 };
 
 ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,

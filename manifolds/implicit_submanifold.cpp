@@ -6,6 +6,7 @@
 
 #include "courant/core/cholesky_decomposition.hpp"
 #include "courant/core/derivative.hpp"
+#include "courant/core/expr_vectors.hpp"
 #include "courant/core/linear_algebra.hpp"
 #include "courant/core/singular_value_decomposition.hpp"
 
@@ -19,12 +20,6 @@ const Manifold& checked(const std::string& name, const std::shared_ptr<const Man
   if (!M)
     throw std::invalid_argument(name + "::ImplicitSubmanifold: M is null; expected a manifold.");
   return *M;
-}
-
-ExprVector joined(const ExprVector& a, const ExprVector& b, const ExprVector& c) {
-  ExprVector result(a.size() + b.size() + c.size());
-  result << a, b, c;
-  return result;
 }
 
 }  // namespace
@@ -100,7 +95,7 @@ ExprMatrix ImplicitSubmanifold::do_coframe(const ExprVector& x) const {
 }
 
 ExprVector ImplicitSubmanifold::do_constraint(const ExprVector& x) const {
-  return joined(surrounding_->constraint(x), equations_(x), ExprVector(0));
+  return joined(surrounding_->constraint(x), equations_(x));
 }
 
 double ImplicitSubmanifold::do_point_defect(const VectorXd& x) const {

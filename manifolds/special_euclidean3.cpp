@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "courant/core/expr_vectors.hpp"
 #include "courant/manifolds/rotation.hpp"
 #include "courant/manifolds/row_major.hpp"
 
@@ -9,12 +10,6 @@ namespace courant {
 namespace {
 
 ExprMatrix rotation(const ExprVector& x) { return matrix_of(x.head(9), 3, 3); }
-
-ExprVector joined(const ExprVector& a, const ExprVector& b) {
-  ExprVector result(a.size() + b.size());
-  result << a, b;
-  return result;
-}
 
 ExprVector composed(const ExprVector& x, const ExprMatrix& rotation_part,
                     const ExprVector& translation) {

@@ -1,19 +1,10 @@
 #include "courant/reading/mechanics_keys.hpp"
 
 #include "courant/core/derivative.hpp"
+#include "courant/core/expr_vectors.hpp"
 
 namespace courant {
 namespace {
-
-ExprVector joined(const ExprVector& a, const ExprVector& b) {
-  ExprVector result(a.size() + b.size());
-  result << a, b;
-  return result;
-}
-
-bool depends(const ExprVector& y, const ExprVector& variables) {
-  return jacobian(y, variables).values.size() > 0;
-}
 
 // The variables that a formula of x, w and t is looked into at.
 struct Trial {

@@ -1,4 +1,5 @@
 #include "courant/core/declaration.hpp"
+#include "courant/core/expr_vectors.hpp"
 #include "courant/reading/lie_algebra_keys.hpp"
 #include "courant/reading/mechanics_keys.hpp"
 #include "courant/reading/system_kinds.hpp"
@@ -20,9 +21,7 @@ struct ReducedWords {
     const auto add = [&](const NameList& names, const ExprVector& more) {
       for (const Declaration& declaration : names.declarations())
         words.unknowns.append(declaration);
-      ExprVector joined(values.size() + more.size());
-      joined << values, more;
-      values = joined;
+      values = joined(values, more);
     };
     if (mu) add(momentum, *mu);
     if (xi) add(velocity, *xi);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "courant/core/derivative.hpp"
+#include "courant/core/expr_vectors.hpp"
 #include "courant/core/rank_decision.hpp"
 
 namespace courant {
@@ -40,11 +41,6 @@ Expr without_idle(const Expr& quantity, const Arguments& at, const Manifold& man
     if (!std::isfinite(at_zero[0])) return quantity;
   }
   return substitute(quantity, at.z, ExprVector::Zero(at.z.size()));
-}
-
-// Whether y depends on some of the variables.
-bool depends(const ExprVector& y, const ExprVector& variables) {
-  return jacobian(y, variables).values.size() > 0;
 }
 
 // The equations that contain nothing but x and t, each with the derivatives that vanish on M_f too.

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "courant/core/derivative.hpp"
+#include "courant/core/expr_vectors.hpp"
 #include "courant/structures/composed.hpp"
 #include "courant/structures/gauge_transformed.hpp"
 #include "courant/structures/product_structure.hpp"
@@ -27,12 +28,6 @@ void require_size(const std::string& where, const std::string& what, Index size,
   if (size == expected) return;
   throw std::invalid_argument(where + ": " + what + " is " + std::to_string(size) + "; expected " +
                               std::to_string(expected) + ".");
-}
-
-ExprVector stacked(const ExprVector& a, const ExprVector& b) {
-  ExprVector result(a.size() + b.size());
-  result << a, b;
-  return result;
 }
 
 Index sum(const StructurePointers& factors, Index (DiracStructure::*size)() const) {
@@ -142,10 +137,10 @@ ExprVector Composed::do_membership(const ExprVector& x, const ExprVector& v,
   const auto after = [](const ExprVector& vector, Index count) {
     return ExprVector(vector.tail(vector.size() - count));
   };
-  return stacked(A_->membership(stacked(x.head(N), origin), stacked(v.head(n), f),
-                                stacked(alpha.head(n), e), u.head(of_A)),
-                 B_->membership(stacked(after(x, N), origin), stacked(after(v, n), -f),
-                                stacked(after(alpha, n), e), u.segment(of_A, of_B)));
+  return joined(A_->membership(joined(x.head(N), origin), joined(v.head(n), f),
+                               joined(alpha.head(n), e), u.head(of_A)),
+                B_->membership(joined(after(x, N), origin), joined(after(v, n), -f),
+                               joined(after(alpha, n), e), u.segment(of_A, of_B)));
 }
 
 SmoothMap::SmoothMap(ManifoldPointer source, ManifoldPointer target, Formula formula)
@@ -188,8 +183,8 @@ ExprVector Pullback::do_membership(const ExprVector& y, const ExprVector& v,
   const ExprVector image = phi_(y);
   const ExprVector beta = phi_.target()->tangent_projector(image).transpose().eval() *
                           ExprVector(u.tail(phi_.target()->tangent_dimension()));
-  return stacked(structure_->membership(image, tangent * v, beta, u.head(structure_->port_size())),
-                 alpha - tangent.transpose().eval() * beta);
+  return joined(structure_->membership(image, tangent * v, beta, u.head(structure_->port_size())),
+                alpha - tangent.transpose().eval() * beta);
 }
 
 Pushforward::Pushforward(SmoothMap phi, SmoothMap section, StructurePointer structure)
@@ -213,9 +208,9 @@ ExprVector Pushforward::do_membership(const ExprVector& y, const ExprVector& v,
   const ExprMatrix tangent = phi_.tangent(x);
   const ExprVector w =
       phi_.source()->tangent_projector(x) * ExprVector(u.tail(phi_.source()->tangent_dimension()));
-  return stacked(structure_->membership(x, w, tangent.transpose().eval() * alpha,
-                                        u.head(structure_->port_size())),
-                 v - tangent * w);
+  return joined(structure_->membership(x, w, tangent.transpose().eval() * alpha,
+                                       u.head(structure_->port_size())),
+                v - tangent * w);
 }
 
 }  // namespace courant

@@ -1,6 +1,7 @@
 // The structures that matrix fields describe: few lines each, one translation unit for all.
 #include <stdexcept>
 
+#include "courant/core/expr_vectors.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/structures/closed_port_hamiltonian.hpp"
 #include "courant/structures/distribution.hpp"
@@ -31,16 +32,10 @@ ExprMatrix at(const MatrixField& field, const ExprVector& x, Index rows, Index c
                               std::to_string(columns) + ".");
 }
 
-ExprVector stacked(const ExprVector& a, const ExprVector& b) {
-  ExprVector result(a.size() + b.size());
-  result << a, b;
-  return result;
-}
-
 // v = Λ α + X λ, Xᵀα = 0, as a residual.
 ExprVector restricted(const ExprMatrix& lambda, const ExprMatrix& X, const ExprVector& v,
                       const ExprVector& alpha, const ExprVector& u) {
-  return stacked(v - lambda * alpha - X * u, X.transpose().eval() * alpha);
+  return joined(v - lambda * alpha - X * u, X.transpose().eval() * alpha);
 }
 
 }  // namespace
@@ -89,8 +84,8 @@ ExprVector Distribution::do_membership(const ExprVector& x, const ExprVector& v,
          by_ == By::fields ? "the matrix of the fields" : "the matrix of the one-forms");
   const ExprMatrix projector = manifold()->tangent_projector(x);
   const ExprMatrix transposed = A.transpose();
-  if (by_ == By::fields) return stacked(v - projector * (A * u), transposed * alpha);
-  return stacked(alpha - projector.transpose().eval() * (A * u), transposed * v);
+  if (by_ == By::fields) return joined(v - projector * (A * u), transposed * alpha);
+  return joined(alpha - projector.transpose().eval() * (A * u), transposed * v);
 }
 
 RestrictedTwoForm::RestrictedTwoForm(ManifoldPointer manifold, MatrixField form, Index m,
@@ -106,7 +101,7 @@ ExprVector RestrictedTwoForm::do_membership(const ExprVector& x, const ExprVecto
   const ExprMatrix mu = at(one_forms_, x, n, port_size(), name(), "the matrix of the one-forms");
   const ExprMatrix projector = manifold()->tangent_projector(x);
   const ExprVector covector = omega * (projector * v) + mu * u;
-  return stacked(alpha - projector.transpose().eval() * covector, mu.transpose().eval() * v);
+  return joined(alpha - projector.transpose().eval() * covector, mu.transpose().eval() * v);
 }
 
 RestrictedBivector::RestrictedBivector(ManifoldPointer manifold, MatrixField bivector, Index k,

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "courant/core/derivative.hpp"
+#include "courant/core/expr_vectors.hpp"
 #include "courant/core/message.hpp"
 #include "courant/core/singular_value_decomposition.hpp"
 #include "courant/integrators/maps/inversion.hpp"
@@ -16,12 +17,6 @@ namespace courant {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-ExprVector joined(const ExprVector& a, const ExprVector& b) {
-  ExprVector result(a.size() + b.size());
-  result << a, b;
-  return result;
-}
 
 // A nonlinear vector field on M that depends on time, f(x, t) = Π(x) A sin(x + b + c t), one step
 // of a discretization map on it, from t = 0, and its flow by the classical Runge–Kutta method on ẋ

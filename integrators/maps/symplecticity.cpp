@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "courant/core/derivative.hpp"
+#include "courant/core/expr_vectors.hpp"
 
 namespace courant {
 namespace {
@@ -16,12 +17,6 @@ auto block(const ExprVector& z, Index i) { return z.segment(i * (z.size() / 4), 
 // dz_i ∧ dz_j on the tangent vectors a and b.
 Expr wedge(Index i, Index j, const ExprVector& a, const ExprVector& b) {
   return block(a, i).dot(block(b, j)) - block(b, i).dot(block(a, j));
-}
-
-ExprVector joined(const ExprVector& a, const ExprVector& b) {
-  ExprVector result(a.size() + b.size());
-  result << a, b;
-  return result;
 }
 
 // ι(q, p) = (q, C(q)ᵀ p), as a vector.

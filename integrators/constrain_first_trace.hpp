@@ -1,0 +1,20 @@
+// The formulas of a step by Method 2.
+#pragma once
+
+#include "courant/integrators/constrain_first.hpp"
+#include "courant/integrators/step_formulas.hpp"
+
+namespace courant {
+
+// The formulas of a step and of the projection that follows it.
+struct ConstrainFirst::Trace {
+  explicit Trace(const ConstrainFirst& method);
+
+  StepFormulas step, projection;
+  Index blocks, auxiliaries;
+  ExprVector x0, basis_entries, t, near, s, x;  // parameters
+  ExprVector constraints, jets;                 // S_f, and its unknowns (ξ, ξ', …, z, …)
+  ExprVector advanced, projected, shifted, corrected;
+};
+
+}  // namespace courant
