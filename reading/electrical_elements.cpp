@@ -1,15 +1,14 @@
-#include "courant/reading/network_element.hpp"
+#include "courant/reading/element_parts.hpp"
 
 namespace courant {
 namespace {
 
+using namespace element_parts;
 using Kind = NetworkBranch::Kind;
 using Role = NetworkBranch::Role;
-using Read = std::function<std::optional<NetworkElement>(ObjectReader&, const NetworkSite&)>;
 
-Key name() { return required_key("name", takes::text(), "letters, digits and _"); }
-Key from() { return required_key("from", takes::text(), "the node where the current enters"); }
-Key to() { return required_key("to", takes::text(), "the node where it leaves"); }
+Key from() { return element_parts::from("the node where the current enters"); }
+Key to() { return element_parts::to("the node where it leaves"); }
 Key secondary() {
   return required_key("secondary", takes::array_of(takes::text(), 2, 2),
                       "the two nodes of the other side, from and to");
@@ -27,12 +26,8 @@ std::optional<NetworkElement> read_resistor(ObjectReader& object, const NetworkS
   const bool heats = reader.has("heat");
   const NetworkTerminal heat = reader.node("heat");
   if (key == "value") {
-    const auto resistance = reader.value_of(*formula);
     reader.branch(domains::electrical, from, to, Kind::current,
-                  heats ? Role::coupler : Role::resistor,
-                  [resistance](const NetworkVariables& variables, Index first) {
-                    return resistance(variables, first) * variables.current(first);
-                  });
+                  heats ? Role::coupler : Role::resistor, resistance(reader.value_of(*formula)));
   } else {
     reader.formula_branch(domains::electrical, from, to,
                           key == "voltage" ? Kind::current : Kind::voltage,
@@ -47,19 +42,14 @@ std::optional<NetworkElement> read_resistor(ObjectReader& object, const NetworkS
   return reader.result();
 }
 
-std::optional<NetworkElement> read_storage(ObjectReader& object, const NetworkSite& site, Kind kind,
-                                           const char* letters, const char* law) {
-  ElementReader reader(object, site);
-  reader.storage(domains::electrical, reader.node("from"), reader.node("to"), kind, letters);
-  const std::string key = reader.one_of({"value", "energy", law});
-  if (key == "value") {
-    const double value = reader.positive("value");
-    reader.quadratic_energy(value);
+Read storage(Kind kind, const char* letters, const char* law) {
+  return [=](ObjectReader& object, const NetworkSite& site) {
+    ElementReader reader(object, site);
+    reader.storage(domains::electrical, reader.node("from"), reader.node("to"), kind, letters);
+    const auto value = read_energy(reader, law);
     if (kind == Kind::flux) reader.element().inductance = value;
-  } else if (const auto formula = reader.formula(key)) {
-    key == "energy" ? reader.energy(*formula) : reader.law_of_state(*formula);
-  }
-  return reader.result();
+    return reader.result();
+  };
 }
 
 std::optional<NetworkElement> read_mutual_inductance(ObjectReader& object,
@@ -94,18 +84,8 @@ std::optional<NetworkElement> read_transformer(ObjectReader& object, const Netwo
   ElementReader reader(object, site);
   const auto [from, to] = reader.pair("secondary");
   const double ratio = reader.constant("ratio");
-  reader.branch(
-      domains::electrical, reader.node("from"), reader.node("to"), Kind::current, Role::coupler,
-      [ratio](const NetworkVariables& variables, Index first) {
-        return ratio * variables.voltage(first + 1);
-      },
-      "_1");
-  reader.branch(
-      domains::electrical, from, to, Kind::voltage, Role::coupler,
-      [ratio](const NetworkVariables& variables, Index first) {
-        return -ratio * variables.current(first);
-      },
-      "_2");
+  transform(reader, ratio, {domains::electrical, reader.node("from"), reader.node("to"), "_1"},
+            {domains::electrical, from, to, "_2"});
   return reader.result();
 }
 
@@ -125,15 +105,6 @@ std::optional<NetworkElement> read_gyrator(ObjectReader& object, const NetworkSi
         return -resistance * variables.current(first);
       },
       "_2");
-  return reader.result();
-}
-
-std::optional<NetworkElement> read_source(ObjectReader& object, const NetworkSite& site,
-                                          Kind kind) {
-  ElementReader reader(object, site);
-  if (const auto value = reader.formula("value"))
-    reader.formula_branch(domains::electrical, reader.node("from"), reader.node("to"), kind,
-                          Role::source, *value);
   return reader.result();
 }
 
@@ -157,16 +128,6 @@ std::optional<NetworkElement> read_switch(ObjectReader& object, const NetworkSit
 }  // namespace
 
 ElementKinds electrical_elements() {
-  const auto storage = [](Kind kind, const char* letters, const char* law) -> Read {
-    return [=](ObjectReader& object, const NetworkSite& site) {
-      return read_storage(object, site, kind, letters, law);
-    };
-  };
-  const auto source = [](Kind kind) -> Read {
-    return [kind](ObjectReader& object, const NetworkSite& site) {
-      return read_source(object, site, kind);
-    };
-  };
   return {
       {{"resistor",
         "v = R i, or a law of its own",
@@ -213,19 +174,16 @@ ElementKinds electrical_elements() {
        read_transformer},
       {{"gyrator",
         "v₁ = r i₂, v₂ = -r i₁",
-        {name(), from(), to(), secondary(),
-         required_key("value", takes::formula(), "r in Ω, a constant")}},
+        {name(), from(), to(), secondary(), value("r in Ω, a constant")}},
        read_gyrator},
       {{"voltage-source",
         "holds the voltage from from to to",
-        {name(), from(), to(),
-         required_key("value", takes::formula(), "in V; may depend on t and anything else")}},
-       source(Kind::current)},
+        {name(), from(), to(), value("in V; may depend on t and anything else")}},
+       source(domains::electrical, Kind::current)},
       {{"current-source",
         "holds the current through it from from to to",
-        {name(), from(), to(),
-         required_key("value", takes::formula(), "in A; may depend on t and anything else")}},
-       source(Kind::voltage)},
+        {name(), from(), to(), value("in A; may depend on t and anything else")}},
+       source(domains::electrical, Kind::voltage)},
       {{"switch",
         "a small resistance while a condition holds, else a large one",
         {name(), from(), to(),

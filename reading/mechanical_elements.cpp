@@ -1,15 +1,14 @@
-#include "courant/reading/network_element.hpp"
+#include "courant/reading/element_parts.hpp"
 
 namespace courant {
 namespace {
 
+using namespace element_parts;
 using Kind = NetworkBranch::Kind;
 using Role = NetworkBranch::Role;
-using Read = std::function<std::optional<NetworkElement>(ObjectReader&, const NetworkSite&)>;
 
-Key name() { return required_key("name", takes::text(), "letters, digits and _"); }
-Key from() { return required_key("from", takes::text(), "the node at one end"); }
-Key to() { return required_key("to", takes::text(), "the node at the other end"); }
+Key from() { return element_parts::from("the node at one end"); }
+Key to() { return element_parts::to("the node at the other end"); }
 Key body() { return required_key("at", takes::text(), "the node that moves with it"); }
 
 Read read_mass(const NetworkDomain& domain, const char* letters) {
@@ -25,11 +24,7 @@ Read read_spring(const NetworkDomain& domain, const char* letters, const char* l
   return [&domain, letters, law](ObjectReader& object, const NetworkSite& site) {
     ElementReader reader(object, site);
     reader.storage(domain, reader.node("from"), reader.node("to"), Kind::flux, letters);
-    const std::string key = reader.one_of({"value", "energy", law});
-    if (key == "value")
-      reader.quadratic_energy(1.0 / reader.positive("value"));
-    else if (const auto formula = reader.formula(key))
-      key == "energy" ? reader.energy(*formula) : reader.law_of_state(*formula);
+    read_energy(reader, law, true);
     return reader.result();
   };
 }
@@ -66,35 +61,14 @@ Read read_friction(const NetworkDomain& domain) {
   };
 }
 
-Read read_source(const NetworkDomain& domain, Kind kind) {
-  return [&domain, kind](ObjectReader& object, const NetworkSite& site) {
-    ElementReader reader(object, site);
-    if (const auto value = reader.formula("value"))
-      reader.formula_branch(domain, reader.node("from"), reader.node("to"), kind, Role::source,
-                            *value);
-    return reader.result();
-  };
-}
-
 std::optional<NetworkElement> read_gear(ObjectReader& object, const NetworkSite& site) {
   ElementReader reader(object, site);
   const double ratio = reader.constant("ratio");
-  reader.branch(
-      domains::rotation, reader.node("from"), reader.ground(), Kind::current, Role::coupler,
-      [ratio](const NetworkVariables& variables, Index first) {
-        return ratio * variables.voltage(first + 1);
-      },
-      "_1");
-  reader.branch(
-      domains::rotation, reader.node("to"), reader.ground(), Kind::voltage, Role::coupler,
-      [ratio](const NetworkVariables& variables, Index first) {
-        return -ratio * variables.current(first);
-      },
-      "_2");
+  transform(reader, ratio, {domains::rotation, reader.node("from"), reader.ground(), "_1"},
+            {domains::rotation, reader.node("to"), reader.ground(), "_2"});
   return reader.result();
 }
 
-Key value(const char* summary) { return required_key("value", takes::formula(), summary); }
 Key optional_value(const char* summary) { return optional_key("value", takes::formula(), summary); }
 
 }  // namespace
@@ -125,11 +99,11 @@ ElementKinds mechanical_elements() {
       {{"force-source",
         "a force on to, and its reaction on from",
         {name(), from(), to(), value("in N; may depend on t and anything else")}},
-       read_source(translation, Kind::voltage)},
+       source(translation, Kind::voltage)},
       {{"velocity-source",
         "holds the velocity of from less that of to",
         {name(), from(), to(), value("in m/s; may depend on t and anything else")}},
-       read_source(translation, Kind::current)},
+       source(translation, Kind::current)},
       {{"inertia",
         "an angular momentum l_<name> in kg·m²/s",
         {name(), body(), value("in kg·m², a constant")}},
@@ -150,11 +124,11 @@ ElementKinds mechanical_elements() {
       {{"torque-source",
         "a torque on to, and its reaction on from",
         {name(), from(), to(), value("in N·m; may depend on t and anything else")}},
-       read_source(rotation, Kind::voltage)},
+       source(rotation, Kind::voltage)},
       {{"speed-source",
         "holds the angular velocity of from less that of to",
         {name(), from(), to(), value("in rad/s; may depend on t and anything else")}},
-       read_source(rotation, Kind::current)},
+       source(rotation, Kind::current)},
       {{"gear",
         "two shafts, against the ground: omega₁ = ratio omega₂, tau₂ = -ratio tau₁",
         {name(), from(), to(), required_key("ratio", takes::formula(), "a constant")}},

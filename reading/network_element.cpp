@@ -160,13 +160,6 @@ std::optional<WrittenFormula> ElementReader::formula(const std::string& key) {
   return formula;
 }
 
-std::string ElementReader::name_of(const std::string& key) {
-  const auto given = object_.optional(key);
-  const auto name = given ? given->text() : std::nullopt;
-  if (!name) right_ = false;
-  return name.value_or("");
-}
-
 void ElementReader::branch(const NetworkDomain& domain, NetworkTerminal from, NetworkTerminal to,
                            Kind kind, Role role, OwnLaw law, const std::string& suffix) {
   Law whole = [law = std::move(law), first = element_.first](const NetworkVariables& variables) {

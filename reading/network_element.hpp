@@ -116,7 +116,6 @@ class ElementReader {
   double constant(const std::string& key);
   double positive(const std::string& key);
   std::optional<WrittenFormula> formula(const std::string& key);
-  std::string name_of(const std::string& key);  // of another element
 
   // Branches, in the order of their indices.
   void branch(const NetworkDomain& domain, NetworkTerminal from, NetworkTerminal to, Kind kind,

@@ -1,17 +1,15 @@
-#include "courant/reading/network_element.hpp"
+#include "courant/reading/element_parts.hpp"
 
 namespace courant {
 namespace {
 
+using namespace element_parts;
 using Kind = NetworkBranch::Kind;
 using Role = NetworkBranch::Role;
-using Read = std::function<std::optional<NetworkElement>(ObjectReader&, const NetworkSite&)>;
 
-Key name() { return required_key("name", takes::text(), "letters, digits and _"); }
-Key from() { return required_key("from", takes::text(), "the node where the flow enters"); }
-Key to() { return required_key("to", takes::text(), "the node where it leaves"); }
+Key from() { return element_parts::from("the node where the flow enters"); }
+Key to() { return element_parts::to("the node where it leaves"); }
 Key place(const char* summary) { return required_key("at", takes::text(), summary); }
-Key value(const char* summary) { return required_key("value", takes::formula(), summary); }
 
 std::optional<NetworkElement> read_tank(ObjectReader& object, const NetworkSite& site) {
   ElementReader reader(object, site);
@@ -41,23 +39,10 @@ std::optional<NetworkElement> read_pipe(ObjectReader& object, const NetworkSite&
   if (key == "flow") {
     reader.formula_branch(domains::hydraulic, from, to, Kind::voltage, Role::resistor, *formula);
   } else {
-    const auto resistance = reader.value_of(*formula);
     reader.branch(domains::hydraulic, from, to, Kind::current, Role::resistor,
-                  [resistance](const NetworkVariables& variables, Index first) {
-                    return resistance(variables, first) * variables.current(first);
-                  });
+                  resistance(reader.value_of(*formula)));
   }
   return reader.result();
-}
-
-Read read_source(const NetworkDomain& domain, Kind kind) {
-  return [&domain, kind](ObjectReader& object, const NetworkSite& site) {
-    ElementReader reader(object, site);
-    if (const auto value = reader.formula("value"))
-      reader.formula_branch(domain, reader.node("from"), reader.node("to"), kind, Role::source,
-                            *value);
-    return reader.result();
-  };
 }
 
 // U(S) = C T₀ exp(S/C), so that T = T₀ exp(S/C): dU = C dT.
@@ -134,11 +119,11 @@ ElementKinds thermofluid_elements() {
       {{"pressure-source",
         "holds the pressure of from less that of to",
         {name(), from(), to(), value("in Pa; may depend on t and anything else")}},
-       read_source(hydraulic, Kind::current)},
+       source(hydraulic, Kind::current)},
       {{"flow-source",
         "pumps from from to to",
         {name(), from(), to(), value("in m³/s; may depend on t and anything else")}},
-       read_source(hydraulic, Kind::voltage)},
+       source(hydraulic, Kind::voltage)},
       {{"heat-capacity",
         "an entropy S_<name> in J/K, 0 at the temperature T₀; the energy is C T₀ exp(S/C)",
         {name(), place("the thermal node"), value("C in J/K, a constant"),
@@ -151,7 +136,7 @@ ElementKinds thermofluid_elements() {
       {{"temperature-source",
         "holds the temperature of from, in K, above that of to",
         {name(), from(), to(), value("in K; may depend on t and anything else")}},
-       read_source(thermal, Kind::current)},
+       source(thermal, Kind::current)},
       {{"heat-source",
         "brings heat to a node",
         {name(), place("the thermal node"), value("in W; may depend on t and anything else")}},

@@ -1,31 +1,22 @@
-#include "courant/reading/network_element.hpp"
+#include "courant/reading/element_parts.hpp"
 
 namespace courant {
 namespace {
 
+using namespace element_parts;
 using Kind = NetworkBranch::Kind;
 using Role = NetworkBranch::Role;
-using Read = std::function<std::optional<NetworkElement>(ObjectReader&, const NetworkSite&)>;
 
-Key name() { return required_key("name", takes::text(), "letters, digits and _"); }
-Key from() { return required_key("from", takes::text(), "the node where the current enters"); }
-Key to() { return required_key("to", takes::text(), "the node where it leaves"); }
+Key from() { return element_parts::from("the node where the current enters"); }
+Key to() { return element_parts::to("the node where it leaves"); }
 
 // v = K times a velocity against the ground, and K i pushes there.
 Read read_motor(const NetworkDomain& domain, const char* moving) {
   return [&domain, moving](ObjectReader& object, const NetworkSite& site) {
     ElementReader reader(object, site);
     const double constant = reader.constant("constant");
-    reader.branch(domains::electrical, reader.node("from"), reader.node("to"), Kind::current,
-                  Role::coupler, [constant](const NetworkVariables& variables, Index first) {
-                    return constant * variables.voltage(first + 1);
-                  });
-    reader.branch(
-        domain, reader.node(moving), reader.ground(), Kind::voltage, Role::coupler,
-        [constant](const NetworkVariables& variables, Index first) {
-          return -constant * variables.current(first);
-        },
-        "_motion");
+    transform(reader, constant, {domains::electrical, reader.node("from"), reader.node("to"), ""},
+              {domain, reader.node(moving), reader.ground(), "_motion"});
     return reader.result();
   };
 }

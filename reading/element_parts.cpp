@@ -1,0 +1,58 @@
+#include "courant/reading/element_parts.hpp"
+
+namespace courant::element_parts {
+
+using Kind = NetworkBranch::Kind;
+using Role = NetworkBranch::Role;
+
+Key name() { return required_key("name", takes::text(), "letters, digits and _"); }
+Key from(const char* summary) { return required_key("from", takes::text(), summary); }
+Key to(const char* summary) { return required_key("to", takes::text(), summary); }
+Key value(const char* summary) { return required_key("value", takes::formula(), summary); }
+
+Read source(const NetworkDomain& domain, Kind kind) {
+  return [&domain, kind](ObjectReader& object, const NetworkSite& site) {
+    ElementReader reader(object, site);
+    if (const auto value = reader.formula("value"))
+      reader.formula_branch(domain, reader.node("from"), reader.node("to"), kind, Role::source,
+                            *value);
+    return reader.result();
+  };
+}
+
+std::optional<double> read_energy(ElementReader& reader, const std::string& law,
+                                  bool by_stiffness) {
+  const std::string key = reader.one_of({"value", "energy", law});
+  if (key == "value") {
+    const double given = reader.positive("value");
+    const double value = by_stiffness ? 1.0 / given : given;
+    reader.quadratic_energy(value);
+    return value;
+  }
+  if (const auto formula = reader.formula(key))
+    key == "energy" ? reader.energy(*formula) : reader.law_of_state(*formula);
+  return std::nullopt;
+}
+
+ElementReader::OwnLaw resistance(ElementReader::OwnLaw factor) {
+  return [factor = std::move(factor)](const NetworkVariables& variables, Index first) {
+    return factor(variables, first) * variables.current(first);
+  };
+}
+
+void transform(ElementReader& reader, double ratio, const Side& first, const Side& second) {
+  reader.branch(
+      first.domain, first.from, first.to, Kind::current, Role::coupler,
+      [ratio](const NetworkVariables& variables, Index index) {
+        return ratio * variables.voltage(index + 1);
+      },
+      first.suffix);
+  reader.branch(
+      second.domain, second.from, second.to, Kind::voltage, Role::coupler,
+      [ratio](const NetworkVariables& variables, Index index) {
+        return -ratio * variables.current(index);
+      },
+      second.suffix);
+}
+
+}  // namespace courant::element_parts

@@ -1,0 +1,35 @@
+// What the elements of several domains are made of.
+#pragma once
+
+#include "courant/reading/network_element.hpp"
+
+namespace courant::element_parts {
+
+using Read = Registry<NetworkElement, NetworkSite>::Read;
+
+Key name();
+Key from(const char* summary);
+Key to(const char* summary);
+Key value(const char* summary);
+
+// A branch between "from" and "to" whose law is the formula under "value".
+Read source(const NetworkDomain& domain, NetworkBranch::Kind kind);
+
+// The energy of the state of a storage by one of three keys: x²/(2 value) from "value", or with
+// `by_stiffness` value x²/2; a formula under "energy"; or the law under `law`. Returns the value that
+// stands below: nothing for formulas.
+std::optional<double> read_energy(ElementReader& reader, const std::string& law,
+                                  bool by_stiffness = false);
+
+// across = factor through
+ElementReader::OwnLaw resistance(ElementReader::OwnLaw factor);
+
+// Two branches without loss: across₁ = ratio across₂, through₂ = -ratio through₁.
+struct Side {
+  const NetworkDomain& domain;
+  NetworkTerminal from, to;
+  std::string suffix;
+};
+void transform(ElementReader& reader, double ratio, const Side& first, const Side& second);
+
+}  // namespace courant::element_parts
