@@ -3,21 +3,12 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <limits>
-#include <random>
+
+#include "random_matrix.hpp"
 
 BOOST_AUTO_TEST_SUITE(complete_orthogonal_decomposition)
 
 using namespace courant;
-
-namespace {
-
-MatrixXd random_matrix(Index rows, Index columns, unsigned seed) {
-  std::mt19937 generator(seed);
-  std::normal_distribution<double> normal;
-  return MatrixXd::NullaryExpr(rows, columns, [&] { return normal(generator); });
-}
-
-}  // namespace
 
 // The four equations of Penrose determine A⁺.
 BOOST_AUTO_TEST_CASE(pseudo_inverse) {

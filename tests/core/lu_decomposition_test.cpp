@@ -2,21 +2,12 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <random>
+
+#include "random_matrix.hpp"
 
 BOOST_AUTO_TEST_SUITE(lu_decomposition)
 
 using namespace courant;
-
-namespace {
-
-MatrixXd random_matrix(Index rows, Index columns, unsigned seed) {
-  std::mt19937 generator(seed);
-  std::normal_distribution<double> normal;
-  return MatrixXd::NullaryExpr(rows, columns, [&] { return normal(generator); });
-}
-
-}  // namespace
 
 BOOST_AUTO_TEST_CASE(solves_and_inverts) {
   for (const Index n : {0, 1, 2, 5, 40}) {

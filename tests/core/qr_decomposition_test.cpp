@@ -2,19 +2,14 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <random>
+
+#include "random_matrix.hpp"
 
 BOOST_AUTO_TEST_SUITE(qr_decomposition)
 
 using namespace courant;
 
 namespace {
-
-MatrixXd random_matrix(Index rows, Index columns, unsigned seed) {
-  std::mt19937 generator(seed);
-  std::normal_distribution<double> normal;
-  return MatrixXd::NullaryExpr(rows, columns, [&] { return normal(generator); });
-}
 
 MatrixXd permuted(const MatrixXd& A, const std::vector<Index>& order) {
   MatrixXd result(A.rows(), A.cols());

@@ -14,20 +14,14 @@
 #include "courant/structures/canonical_symplectic.hpp"
 #include "courant/structures/closed_port_hamiltonian.hpp"
 #include "courant/structures/dirac_system.hpp"
+#include "varying_metric.hpp"
 
 using namespace courant;
 using Eigen::Matrix2d;
-using Eigen::Matrix4d;
-using Eigen::Vector2d;
-using Eigen::Vector4d;
-using Columns = Eigen::Matrix<double, 4, 2>;
+using namespace varying_metric;
 
 namespace {
 
-// gⁱʲ = diag(1, 1/(1 + q₀²), 0.7, 1.2), V = ‖q‖²/2 + 0.3 q₀ q₁
-Matrix4d inverse_metric(const Vector4d& q) {
-  return Vector4d(1.0, 1.0 / (1.0 + q[0] * q[0]), 0.7, 1.2).asDiagonal();
-}
 ExprMatrix metric(const ExprVector& q) {
   ExprMatrix g = ExprMatrix::Zero(4, 4);
   g(0, 0) = 1.0;
@@ -35,20 +29,6 @@ ExprMatrix metric(const ExprVector& q) {
   g(2, 2) = 1.0 / 0.7;
   g(3, 3) = 1.0 / 1.2;
   return g;
-}
-Vector4d dH_dq(const Vector4d& q, const Vector4d& p) {
-  const double s = 1.0 + q[0] * q[0];
-  return q + Vector4d(0.3 * q[1] - q[0] * p[1] * p[1] / (s * s), 0.3 * q[0], 0.0, 0.0);
-}
-// μ¹ = dq₂ - q₁ dq₀, μ² = dq₃ - q₀ dq₁
-Columns mu(const Vector4d& q) {
-  Columns columns = Columns::Zero();
-  columns.col(0) << -q[1], 0.0, 1.0, 0.0;
-  columns.col(1) << 0.0, -q[0], 0.0, 1.0;
-  return columns;
-}
-Vector2d constraints(const Vector4d& q, const Vector4d& p) {
-  return mu(q).transpose() * inverse_metric(q) * p;
 }
 // λ_b of Section 8.2, with ∂(μ_i^a gⁱʲ)/∂q^k p_j q̇^k by hand.
 Vector2d multipliers(const Vector4d& q, const Vector4d& p) {

@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <string>
 
+#include "experiment_problems.hpp"
+
 namespace courant {
 namespace {
 
@@ -24,15 +26,7 @@ const Json pendulum = Json::parse(R"json({
   "initial": { "q": 1, "q'": "k" }, "method": "rk4", "time": { "step": 0.1, "end": 1 }
 })json");
 
-// The problems of an experiment after a change, a line each; nothing if there are none.
-std::string problems(const Json& experiment) {
-  try {
-    read_experiment(experiment.dump());
-  } catch (const ExperimentError& error) {
-    return error.what();
-  }
-  return "";
-}
+using courant::problems;
 
 std::string problems(Json experiment, const char* pointer, const Json& value) {
   experiment[Json::json_pointer(pointer)] = value;

@@ -5,6 +5,7 @@
 
 #include "courant/reading/experiment.hpp"
 #include "courant/structures/dirac_system.hpp"
+#include "experiment_problems.hpp"
 
 namespace courant {
 namespace {
@@ -13,15 +14,6 @@ namespace {
 Json with(const Json& keys, Json system = {{"type", "mechanical"}, {"coordinates", {"x", "y"}}}) {
   if (keys.is_object()) system.update(keys);
   return {{"system", system}, {"initial", Json::object()}};
-}
-
-std::string problems(const Json& experiment) {
-  try {
-    read_experiment(experiment.dump());
-  } catch (const ExperimentError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 // p' of a mechanical system with x = 0.3, y = -0.2, x' = 0.7, y' = 1.1 at t = 0.4 without reactions.

@@ -5,6 +5,7 @@
 #include "courant/reading/experiment.hpp"
 #include "courant/reading/system_kinds.hpp"
 #include "courant/structures/network.hpp"
+#include "experiment_problems.hpp"
 
 namespace courant {
 namespace {
@@ -12,15 +13,6 @@ namespace {
 Json network(const Json& nodes, const char* elements) {
   return {{"system", {{"type", "network"}, {"nodes", nodes}, {"elements", Json::parse(elements)}}},
           {"initial", Json::object()}};
-}
-
-std::string problems(const Json& experiment) {
-  try {
-    read_experiment(experiment.dump());
-  } catch (const ExperimentError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 void refused(const Json& nodes, const char* elements, const std::string& expected) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "courant/reading/experiment.hpp"
+#include "experiment_problems.hpp"
 
 namespace courant {
 namespace {
@@ -17,16 +18,6 @@ Json motion(const Json& base, const Json& coordinates, const std::string& hamilt
             {"coordinates", coordinates},
             {"hamiltonian", hamiltonian}}},
           {"initial", Json::object()}};
-}
-
-// The problems of an experiment, a line each; nothing if there are none.
-std::string problems(const Json& experiment) {
-  try {
-    read_experiment(experiment.dump());
-  } catch (const ExperimentError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 std::shared_ptr<const Manifold> manifold_of(const Json& experiment) {

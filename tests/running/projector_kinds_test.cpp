@@ -1,6 +1,7 @@
 #include <Eigen/Dense>
 #include <boost/test/unit_test.hpp>
 
+#include "../integrators/varying_metric.hpp"
 #include "courant/running/runner.hpp"
 #include "problems.hpp"
 
@@ -28,27 +29,8 @@ Json nonholonomic(double unit) {
           {"initial", {{"q", {0.5, 0.8, -0.3, 0.6}}, {"p[0]", 0.9 / unit}, {"p[1]", -0.7 / unit}}}};
 }
 
-using Eigen::Matrix4d;
-using Eigen::Vector2d;
-using Eigen::Vector4d;
-using Columns = Eigen::Matrix<double, 4, 2>;
+using namespace varying_metric;
 
-Matrix4d inverse_metric(const Vector4d& q) {
-  return Vector4d(1.0, 1.0 / (1.0 + q[0] * q[0]), 0.7, 1.2).asDiagonal();
-}
-Vector4d dH_dq(const Vector4d& q, const Vector4d& p) {
-  const double s = 1.0 + q[0] * q[0];
-  return q + Vector4d(0.3 * q[1] - q[0] * p[1] * p[1] / (s * s), 0.3 * q[0], 0.0, 0.0);
-}
-Columns mu(const Vector4d& q) {
-  Columns columns = Columns::Zero();
-  columns.col(0) << -q[1], 0.0, 1.0, 0.0;
-  columns.col(1) << 0.0, -q[0], 0.0, 1.0;
-  return columns;
-}
-Vector2d constraints(const Vector4d& q, const Vector4d& p) {
-  return mu(q).transpose() * inverse_metric(q) * p;
-}
 Vector4d projected(const Vector4d& q, const Vector4d& p) {
   const Eigen::Matrix2d C = mu(q).transpose() * inverse_metric(q) * mu(q);
   return p - mu(q) * C.inverse() * constraints(q, p);

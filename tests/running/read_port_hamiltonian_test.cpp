@@ -1,5 +1,6 @@
 #include <boost/test/unit_test.hpp>
 
+#include "../reading/experiment_problems.hpp"
 #include "run_in.hpp"
 
 namespace courant {
@@ -18,15 +19,6 @@ Json damped(const Json& R) {
             {"ports", "open"},
             {"inputs", {"sin(t) - 2*y"}}}},
           {"initial", {{"q", 1}, {"p", 0.5}}}};
-}
-
-std::string problems(const Json& experiment) {
-  try {
-    read_experiment(experiment.dump());
-  } catch (const ExperimentError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 }  // namespace
