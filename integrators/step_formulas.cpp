@@ -104,7 +104,8 @@ std::string explanation(const StepFormulas& formulas, std::size_t width) {
     text << padded(shortened(formula, kOriginColumn), kOriginColumn)
          << shortened(origin, width - kOriginColumn) << '\n';
   }
-  text << "  " << elimination.remaining.size() << " equations are left";
+  const std::size_t left = elimination.remaining.size();
+  text << "  " << left << (left == 1 ? " equation is left" : " equations are left");
   std::string line = elimination.kept.empty() ? "" : ", for";
   for (std::size_t k = 0; k < elimination.kept.size(); ++k) {
     const std::string next =
