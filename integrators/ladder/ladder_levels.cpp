@@ -138,6 +138,8 @@ void describe(ConstraintLadder& ladder, const DerivativeArray& array, const Vect
   const ComparableJacobian units(array, y, uncertainty);
   const RowReduction reduction = reduced(array, y, units);
   const MatrixXd& basis = array.basis();
+  // On Rⁿ it is the identity: a dense product would cost n² for each constraint.
+  const SparseMatrixXd to_ambient = basis.sparseView(), bound_to_ambient = to_ambient.cwiseAbs();
 
   ladder.differentiations = needed_differentiations(reduction, r, ladder.index);
 
@@ -148,7 +150,8 @@ void describe(ConstraintLadder& ladder, const DerivativeArray& array, const Vect
     for (const auto& [j, value] : row.entries) gradient[j] = factor * value / units.column_scale[j];
     for (const auto& [j, bound] : row.errors)
       if (j < n) error[j] = std::fabs(factor) * bound / units.column_scale[j];
-    ladder.constraints.push_back({row.level, basis * gradient, origin, basis.cwiseAbs() * error});
+    ladder.constraints.push_back(
+        {row.level, to_ambient * gradient, origin, bound_to_ambient * error});
   }
   for (const RowReduction::Row& row : reduction.zero_rows()) {
     double factor = 1.0;
