@@ -366,7 +366,8 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
   blocks_ = trace.blocks;
   auxiliaries_ = trace.auxiliaries;
   equations_ = trace.step.compile(options.backend);
-  whole_ = equations_.is_reduced() ? trace.step.whole() : equations_.left();
+  if (!trace.step.is_affine())
+    whole_ = equations_.is_reduced() ? trace.step.whole() : equations_.left();
   advance_ = Function("advance", trace.step.inputs, trace.advanced, compiled);
   projection_ = trace.projection.compile(options.backend);
   projected_ = Function("projected", trace.projection.inputs, trace.projected, compiled);

@@ -65,7 +65,7 @@ class ConstrainFirst final : public Integrator {
   Index blocks_;              // tangent blocks of the unknowns: ξ, ξ', …
   Index auxiliaries_;         // z, z', …
   EquationSystem equations_;  // (ξ, ξ', …, z, …, μ); x₀, basis, W, h, t  ↦ residual of the step
-  Function whole_;            // the same without elimination
+  Function whole_;            // the same without elimination, unless it is affine
   Function advance_;          // the same ↦ R_d⁺(x̄, h v), x̄, v
   EquationSystem
       projection_;  // (ξ, ξ', …, z, …, μ); x_guess, basis, W, x_near, t ↦ residual of x ∈ M_f,

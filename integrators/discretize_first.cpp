@@ -179,7 +179,8 @@ DiscretizeFirst::DiscretizeFirst(std::shared_ptr<const ImplicitSystem> system,
   const Trace trace(*this);
   tangent_blocks_ = trace.tangent_blocks;
   equations_ = trace.formulas.compile(options.backend);
-  whole_ = equations_.is_reduced() ? trace.formulas.whole() : equations_.left();
+  if (!trace.formulas.is_affine())
+    whole_ = equations_.is_reduced() ? trace.formulas.whole() : equations_.left();
   advance_ =
       Function("advance", trace.formulas.inputs, trace.advanced, {.backend = options.backend});
   const Manifold& M = *this->system()->manifold();

@@ -52,7 +52,7 @@ class DiscretizeFirst final : public Integrator {
 
   std::shared_ptr<const DiscretizationMap> map_;
   EquationSystem equations_;  // y; x₀, basis, h, t ↦ residual
-  Function whole_;            // the same without elimination
+  Function whole_;            // the same without elimination, unless it is affine
   Function advance_;          // the same ↦ x₁, v, and x̄ unless the map has an inverse
   Function stage_;            // x₀, x₁ ↦ x̄ where it has
   Function basis_;            // of MovingBasis

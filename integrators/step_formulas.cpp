@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "courant/core/derivative.hpp"
+#include "courant/core/expr_vectors.hpp"
 
 namespace courant {
 namespace {
@@ -74,6 +75,11 @@ EquationSystem StepFormulas::compile(Backend backend) const {
 
 Function StepFormulas::whole() const {
   return Function(name, inputs, equations, {.differentiate = {inputs[0].name}});
+}
+
+bool StepFormulas::is_affine() const {
+  const ExprVector& y = inputs[0].variables;
+  return !depends(jacobian(equations, y).values, y);
 }
 
 std::string derivative_name(const std::string& name, Index order) {

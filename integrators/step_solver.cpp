@@ -35,6 +35,7 @@ StepSolver::StepSolver(const EquationSystem& equations, std::vector<Index> group
                        std::string method, const Function& whole,
                        const StepContinuation::Layout& layout)
     : StepSolver(equations, std::move(groups), std::move(method)) {
+  if (whole.input_count() == 0) return;
   continuation_.emplace(whole, layout);
   usual_ = VectorXd::Zero(layout.displacements);
 }

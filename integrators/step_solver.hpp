@@ -18,7 +18,8 @@ class StepSolver {
  public:
   // `groups` as in Newton.
   StepSolver(const EquationSystem& equations, std::vector<Index> groups, std::string method);
-  // The same for the equations of a step of h; `whole`: all of them, for all unknowns.
+  // The same for the equations of a step of h; `whole`: all of them, for all unknowns, or empty where
+  // they are affine and have no solution but one.
   StepSolver(const EquationSystem& equations, std::vector<Index> groups, std::string method,
              const Function& whole, const StepContinuation::Layout& layout);
 
@@ -52,6 +53,7 @@ class StepSolver {
   template <class Begin>
   void solve_connected(const double* const* in, const double* scales, const Begin& begin,
                        const Attempt& attempt, SolverStatistics& statistics) {
+    if (!continuation_) return solve(in, scales, begin, attempt, statistics);
     other_ = y_;
     const bool converged = converges(in, scales, statistics);
     is_good_ = converged && is_as_predicted(scales[0]);

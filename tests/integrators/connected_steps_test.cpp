@@ -242,6 +242,22 @@ BOOST_AUTO_TEST_CASE(a_step_that_is_too_long_is_refused_and_one_that_would_do_is
   }
 }
 
+// ẋ = -300 x: back by h = 0.1 the matrix 1 + 150 h has been singular on the way, but there is no other
+// solution to land on.
+BOOST_AUTO_TEST_CASE(affine_steps_are_not_confirmed) {
+  const auto system = std::make_shared<FormulaSystem>(
+      std::make_shared<Euclidean>(1), 0, 1,
+      [](const ExprVector& x, const ExprVector& v, const ExprVector&, const Expr&) {
+        return ExprVector(v + 300.0 * x);
+      });
+  const DiscretizeFirst method(system, std::make_shared<Theta>(system->manifold()));
+  const auto stepper = method.stepper();
+  State state{.x = VectorXd::Ones(1)};
+  stepper->step(state, -0.1);
+  BOOST_TEST(state.x[0] == (1.0 + 15.0) / (1.0 - 15.0), boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(stepper->statistics().confirmations == 0);
+}
+
 // Where the prediction is good nothing is confirmed.
 BOOST_AUTO_TEST_CASE(costs_nothing_where_the_prediction_is_good) {
   const Case at = cases()[16];
