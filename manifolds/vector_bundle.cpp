@@ -120,8 +120,9 @@ Manifold::Extent VectorBundle::do_extent_at(const VectorXd& x) const {
 }
 
 VectorXd VectorBundle::projected(const VectorXd& position, const VectorXd& fibre) const {
+  const VectorXd along = values(fibre_projector(constants(position))) * fibre;
   VectorXd result(ambient_dimension());
-  result << position, values(fibre_projector(constants(position))) * fibre;
+  result << position, along;
   return result;
 }
 
