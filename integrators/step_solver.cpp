@@ -82,7 +82,7 @@ void StepSolver::connect(bool converged, const double* const* in, const double* 
   statistics.iterations += iterations;
   statistics.factorizations += iterations;
   if (arrived && converged && is_same(scales[0])) {
-    y_.swap(other_);
+    y_ = other_;  // not by a swap: in[0] is the place of y_
     return;
   }
   newton_.reset();
