@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "courant/core/derivative.hpp"
-#include "courant/core/expr_vectors.hpp"
+#include "courant/core/subgraph.hpp"
 
 namespace courant {
 namespace {
@@ -79,7 +79,9 @@ Function StepFormulas::whole() const {
 
 bool StepFormulas::is_affine() const {
   const ExprVector& y = inputs[0].variables;
-  return !depends(jacobian(equations, y).values, y);
+  const Subgraph matrix(jacobian(equations, y).values);
+  return std::none_of(y.begin(), y.end(),
+                      [&](const Expr& unknown) { return matrix.contains(unknown); });
 }
 
 std::string derivative_name(const std::string& name, Index order) {

@@ -25,7 +25,8 @@ struct StepFormulas {
   EquationSystem compile(Backend backend) const;
   // y; p ↦ F with its Jacobian by y, interpreted.
   Function whole() const;
-  // Whether F is affine in y: then it has one solution at most, if its matrix is regular.
+  // Whether F is affine in y, no unknown standing in its Jacobian: then it has one solution at most, if
+  // its matrix is regular.
   bool is_affine() const;
 };
 

@@ -4,6 +4,7 @@
 #include <boost/test/unit_test.hpp>
 #include <sstream>
 
+#include "courant/tests/integrators/ladder/ladder_catalogue.hpp"
 #include "courant/tests/integrators/vortices.hpp"
 
 namespace courant {
@@ -55,6 +56,21 @@ BOOST_AUTO_TEST_CASE(names_fit_the_unknowns_and_equations) {
       BOOST_TEST(std::ssize(formulas.input_names[g]) == formulas.inputs[g].variables.size());
     BOOST_TEST(std::ssize(formulas.equation_names) == formulas.equations.size());
   }
+}
+
+// Damping and coefficients of time leave a step affine; a cube and a kink do not.
+BOOST_AUTO_TEST_CASE(linear_systems_have_affine_steps) {
+  const auto force = [](Expr (*law)(const Expr& q, const Expr& t)) {
+    const auto system = examples::flat(
+        2, 0, 2, [law](const ExprVector& x, const ExprVector& v, const ExprVector&, const Expr& t) {
+          return examples::equations({v[0] - x[1], v[1] + 0.1 * x[1] - law(x[0], t)});
+        });
+    return DiscretizeFirst(system, std::make_shared<Theta>(system->manifold())).formulas()[0];
+  };
+  BOOST_TEST(
+      force([](const Expr& q, const Expr& t) { return sin(t) - (2.0 + cos(t)) * q; }).is_affine());
+  BOOST_TEST(!force([](const Expr& q, const Expr&) { return -q - pow(q, 3); }).is_affine());
+  BOOST_TEST(!force([](const Expr& q, const Expr&) { return -abs(q); }).is_affine());
 }
 
 BOOST_AUTO_TEST_CASE(an_explanation_names_what_goes_and_what_stays) {
