@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "courant/core/derivative.hpp"
+#include "courant/core/expr_vectors.hpp"
 #include "courant/structures/canonical_symplectic.hpp"
 #include "courant/structures/constrained_family.hpp"
 #include "courant/structures/restricted_two_form.hpp"
@@ -86,9 +87,7 @@ std::shared_ptr<const DiracStructure> nonholonomic_structure(
   const ExprVector g = mechanics.nonholonomic.formula(form->x, form->w, form->t);
   const ExprMatrix mu = jacobian(g, form->w).dense();
   form->entries = Eigen::Map<const ExprVector>(mu.data(), mu.size());
-  ExprVector others(n + 1);
-  others << form->w, form->t;
-  if (jacobian(form->entries, others).values.size() > 0) return nullptr;
+  if (depends(form->entries, joined(form->w, ExprVector::Constant(1, form->t)))) return nullptr;
   std::mt19937 generator(1);
   std::normal_distribution<double> normal;
   for (int trial = 0; trial < 3; ++trial) {
