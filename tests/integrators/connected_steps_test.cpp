@@ -242,6 +242,25 @@ BOOST_AUTO_TEST_CASE(a_step_that_is_too_long_is_refused_and_one_that_would_do_is
   }
 }
 
+// ẋ = 1 - 100 x² from 0 by the midpoint rule: 25 h x² + x - h = 0.
+BOOST_AUTO_TEST_CASE(a_step_that_was_confirmed_is_right_to_round_off) {
+  const auto system = std::make_shared<FormulaSystem>(
+      std::make_shared<Euclidean>(1), 0, 1,
+      [](const ExprVector& x, const ExprVector& v, const ExprVector&, const Expr&) {
+        return ExprVector::Constant(1, v[0] - 1.0 + 100.0 * square(x[0]));
+      });
+  const DiscretizeFirst method(system, std::make_shared<Theta>(system->manifold()));
+  for (int k = 1; k <= 100; ++k) {
+    const double h = 0.01 * k;
+    const auto stepper = method.stepper();
+    State state{.x = VectorXd::Zero(1)};
+    stepper->step(state, h);
+    BOOST_TEST(stepper->statistics().confirmations == 1);
+    BOOST_TEST(state.x[0] == 2.0 * h / (1.0 + std::sqrt(1.0 + 100.0 * h * h)),
+               boost::test_tools::tolerance(1e-14));
+  }
+}
+
 // ẋ = -300 x: back by h = 0.1 the matrix 1 + 150 h has been singular on the way, but there is no other
 // solution to land on.
 BOOST_AUTO_TEST_CASE(affine_steps_are_not_confirmed) {
