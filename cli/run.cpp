@@ -18,7 +18,7 @@ namespace {
 struct Arguments {
   std::string file;
   std::string folder;
-  Backend backend = Backend::automatic;
+  Backend::Kind backend = Backend::Kind::automatic;
   bool force = false;
   bool resume = false;
   bool explain = false;
@@ -65,8 +65,8 @@ int run_experiment(const Console& console, const Arguments& arguments,
       options.on_progress = [&](const Progress& progress) { bar->show(progress); };
     }
   }
-  if (arguments.backend == Backend::automatic && !arguments.quiet)
-    if (const std::string defect = native_compiler_defect(); !defect.empty())
+  if (arguments.backend == Backend::Kind::automatic && !arguments.quiet)
+    if (const std::string defect = machine_compiler()->defect(); !defect.empty())
       print_error(console, "formulas are interpreted, which is slower: " + defect);
   const RunOutcome outcome = run(experiment, options);
   bar.reset();
@@ -94,9 +94,10 @@ void add_run(CLI::App& app, Session& session) {
          "what evaluates formulas: native code, made by a C compiler; the interpreter, slower "
          "and without a compiler; or auto, native where it is worth while")
       ->transform(CLI::CheckedTransformer(
-                      std::map<std::string, Backend>{{"auto", Backend::automatic},
-                                                     {"native", Backend::native},
-                                                     {"interpreter", Backend::interpreter}})
+                      std::map<std::string, Backend::Kind>{
+                          {"auto", Backend::Kind::automatic},
+                          {"native", Backend::Kind::native},
+                          {"interpreter", Backend::Kind::interpreter}})
                       .description(""))
       ->type_name("NAME");
   add_settings(*run, arguments->settings);

@@ -24,12 +24,14 @@ endfunction()
 
 # courant_library(<room> [PUBLIC <links>...] [PRIVATE <links>...])
 #
-# The library courant_<room> of all sources of this folder and its parts, linked to the rooms that it may know and to
-# what is given, exported as Courant::<room>.
+# The library courant_<room> of all sources of this folder and its parts but those in ${left_out}, linked to the rooms
+# that it may know and to what is given, exported as Courant::<room>.
 function(courant_library room)
   set(target courant_${room})
   file(GLOB sources CONFIGURE_DEPENDS *.cpp */*.cpp)
   file(GLOB headers CONFIGURE_DEPENDS *.hpp */*.hpp)
+  list(TRANSFORM left_out PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  list(REMOVE_ITEM sources ${left_out})
   if(NOT sources) # a folder may consist of headers alone
     set(sources ${CMAKE_CURRENT_BINARY_DIR}/headers_only.cpp)
     file(WRITE ${sources} "")
@@ -53,7 +55,7 @@ endfunction()
 
 # courant_tests(<room>)
 #
-# The executable courant_<room>_tests of all *_test.cpp in tests/<room> and its parts. Each Boost.Test suite in it,
+# The executable courant_<room>_tests of all *_test.cpp in tests/<room> and its parts but those in ${left_out}. Each Boost.Test suite in it,
 # that is each file, becomes one ctest entry <room>.<suite>, labelled "long" when its name ends in
 # _long_test or _long, and "quick" otherwise. The suites are asked of the executable itself once it is built, so
 # none can be forgotten.
@@ -63,6 +65,8 @@ function(courant_tests room)
     return()
   endif()
   file(GLOB sources CONFIGURE_DEPENDS ${room}/*.cpp ${room}/*/*.cpp) # with what several tests share
+  list(TRANSFORM left_out PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  list(REMOVE_ITEM sources ${left_out})
   set(target courant_${room}_tests)
   add_executable(${target} ${sources})
   courant_settings(${target})

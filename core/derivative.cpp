@@ -27,7 +27,7 @@ std::vector<Index> indices(const char* function, const ExprVector& x, const Subg
       throw std::invalid_argument(std::string(function) + ": x[" + std::to_string(i) + "] is " +
                                   to_string(x[i], 40) + what);
     };
-    if (x[i].is_constant() || x[i].graph()->node(x[i].node()).op != Op::variable)
+    if (x[i].is_constant() || x[i].graph().node(x[i].node()).op != Op::variable)
       fail("; expected a variable.");
     if (!y.contains(x[i])) continue;
     Index& index = result[y.position(x[i])];
@@ -41,12 +41,12 @@ std::vector<Index> indices(const char* function, const ExprVector& x, const Subg
 // One node of a subgraph, ready for the chain rule.
 struct Operation {
   Operation(const Subgraph& y, std::size_t position)
-      : node(y.graph()->node(y.nodes()[position])),
+      : node(y.graph().node(y.nodes()[position])),
         count(arity(node.op)),
-        value(y.graph()->expression(y.nodes()[position])) {
+        value(y.graph().expression(y.nodes()[position])) {
     const std::uint32_t number[] = {node.a, node.b, node.c};
     for (int i = 0; i < count; ++i) {
-      operand[i] = y.graph()->expression(number[i]);
+      operand[i] = y.graph().expression(number[i]);
       at[i] = y.position(number[i]);
     }
   }

@@ -31,8 +31,8 @@ ExprVector variables_of(const ExprVector& expressions) {
   const Subgraph subgraph(expressions);
   std::vector<Expr> found;
   for (const std::uint32_t node : subgraph.nodes())
-    if (subgraph.graph()->node(node).op == Op::variable)
-      found.push_back(subgraph.graph()->expression(node));
+    if (subgraph.graph().node(node).op == Op::variable)
+      found.push_back(subgraph.graph().expression(node));
   return Eigen::Map<const ExprVector>(found.data(), static_cast<Index>(found.size()));
 }
 
@@ -131,7 +131,7 @@ class Tableau {
   bool is_never_zero(const Expr& a) const {
     if (a.is_constant()) return a.value() != 0.0 && std::isfinite(a.value());
     if (std::find(never_zero_.begin(), never_zero_.end(), a) != never_zero_.end()) return true;
-    Graph& graph = *a.graph();
+    const Graph& graph = a.graph();
     const Node& node = graph.node(a.node());
     const auto operand = [&](std::uint32_t index) {
       return is_never_zero(graph.expression(index));

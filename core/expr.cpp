@@ -7,21 +7,21 @@
 namespace courant {
 namespace {
 
-Graph* graph_of(const Expr& a, const Expr& b = {}, const Expr& c = {}) {
+const Graph& graph_of(const Expr& a, const Expr& b, const Expr& c) {
   if (!a.is_constant()) return a.graph();
   return b.is_constant() ? c.graph() : b.graph();
 }
 
 // The operation carried out if every operand is known, a node otherwise.
 Expr make(Op op, const Expr& a, const Expr& b = {}, const Expr& c = {}, int k = 0) {
-  Graph* graph = graph_of(a, b, c);
-  if (graph != nullptr) return graph->make(op, k, a, b, c);
+  const Graph& graph = graph_of(a, b, c);
+  if (!graph.is_none()) return graph.make(op, k, a, b, c);
   return evaluate(op, k, a.value(), b.value(), c.value());
 }
 
 // The operation at the root of a, null for a constant.
 const Node* node_of(const Expr& a) {
-  return a.is_constant() ? nullptr : &a.graph()->node(a.node());
+  return a.is_constant() ? nullptr : &a.graph().node(a.node());
 }
 
 bool is_negation(const Expr& a) {
@@ -29,7 +29,7 @@ bool is_negation(const Expr& a) {
   return node != nullptr && node->op == Op::negate;
 }
 
-Expr negated(const Expr& a) { return a.graph()->expression(node_of(a)->a); }
+Expr negated(const Expr& a) { return a.graph().expression(node_of(a)->a); }
 
 // 1 where a is not 0.
 Expr truth(const Expr& a) {
@@ -50,7 +50,7 @@ Expr truth(const Expr& a) {
 }  // namespace
 
 double Expr::value() const {
-  if (graph_ != nullptr)
+  if (!is_constant())
     throw std::logic_error("Expr::value: " + to_string(*this, 60) +
                            " depends on a variable; expected a constant.");
   return constant_;
@@ -161,7 +161,7 @@ Expr logical_or(const Expr& a, const Expr& b) {
 Expr logical_not(const Expr& a) {
   const Node* node = node_of(a);
   if (node == nullptr || node->op != Op::logical_not) return make(Op::logical_not, a);
-  return truth(a.graph()->expression(node->a));
+  return truth(a.graph().expression(node->a));
 }
 
 Expr select(const Expr& condition, const Expr& then, const Expr& otherwise) {
@@ -171,7 +171,7 @@ Expr select(const Expr& condition, const Expr& then, const Expr& otherwise) {
 }
 
 bool operator==(const Expr& a, const Expr& b) {
-  if (a.graph() != b.graph()) return false;
+  if (!(a.graph() == b.graph())) return false;
   return a.is_constant() ? a.value() == b.value() : a.node() == b.node();
 }
 

@@ -2,16 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <atomic>
 #include <cstdint>
-#include <deque>
 #include <iosfwd>
 #include <limits>
-#include <memory>
-#include <mutex>
 #include <string>
 #include <type_traits>
-#include <vector>
+#include <utility>
 
 namespace courant {
 
@@ -47,7 +43,61 @@ constexpr std::size_t kOpCount = static_cast<std::size_t>(Op::arccos_factor) + 1
 // Number of operands of an operation (0 to 3).
 int arity(Op op);
 
-class Graph;
+class Expr;
+class NodeStore;
+
+void add_reference(NodeStore* nodes);
+void drop_reference(NodeStore* nodes);
+
+// The nodes of some expressions, in topological order (operands before results).
+//
+// A handle: copies are the same graph, and every expression has one, so that the nodes live as long
+// as the last graph or expression of them. Graphs are independent of each other, and one graph may
+// be extended from several threads: making a node takes a lock, reading one does not. Room for
+// 2³² - 256 nodes.
+class Graph {
+ public:
+  Graph();  // a new graph
+  Graph(const Graph& other) : nodes_(other.nodes_) {
+    if (nodes_ != nullptr) add_reference(nodes_);
+  }
+  Graph(Graph&& other) noexcept : nodes_(std::exchange(other.nodes_, nullptr)) {}
+  Graph& operator=(Graph other) noexcept {
+    std::swap(nodes_, other.nodes_);
+    return *this;
+  }
+  ~Graph() {
+    if (nodes_ != nullptr) drop_reference(nodes_);
+  }
+
+  // That of a constant, which has no nodes: nothing below may be asked of it.
+  static Graph none() { return Graph(nullptr); }
+  bool is_none() const { return nodes_ == nullptr; }
+  // Whether both are the same graph.
+  bool operator==(const Graph& other) const { return nodes_ == other.nodes_; }
+
+  // A new variable; two variables of the same name are different.
+  Expr variable(std::string name) const;
+  // name[0] … name[size-1]
+  Eigen::Matrix<Expr, Eigen::Dynamic, 1> variables(const std::string& name, Index size) const;
+
+  // The node that applies op to operands of this graph, without simplification.
+  Expr make(Op op, std::int32_t k, const Expr& a) const;
+  Expr make(Op op, std::int32_t k, const Expr& a, const Expr& b) const;
+  Expr make(Op op, std::int32_t k, const Expr& a, const Expr& b, const Expr& c) const;
+
+  // Reading, by node number < size(). References stay valid as long as the graph.
+  std::uint32_t size() const;
+  const Node& node(std::uint32_t index) const;
+  double constant(std::uint32_t index) const;          // of a node with Op::constant
+  const std::string& name(std::uint32_t index) const;  // of a node with Op::variable
+  Expr expression(std::uint32_t index) const;  // the handle; constants come back as numbers
+
+ private:
+  explicit Graph(NodeStore* nodes) : nodes_(nodes) {}
+
+  NodeStore* nodes_;
+};
 
 // A real number known now (a constant), or a node of a Graph.
 //
@@ -59,20 +109,20 @@ class Graph;
 //
 // There is no conversion to bool: `if (a < b)` does not compile, and a == b asks whether two
 // expressions are the same one. Use select(a < b, x, y), smooth where x and y are and both agree.
-// An Expr is valid while its Graph lives. Operands from two graphs throw std::invalid_argument.
+// An Expr keeps its graph alive. Operands from two graphs throw std::invalid_argument.
 class Expr {
  public:
   Expr() : constant_(0.0) {}
   Expr(double value) : constant_(value) {}               // NOLINT: a number is an expression
   Expr(int value) : Expr(static_cast<double>(value)) {}  // NOLINT: and Eigen writes Scalar(0)
 
-  bool is_constant() const { return graph_ == nullptr; }
-  bool is_constant(double value) const { return graph_ == nullptr && constant_ == value; }
+  bool is_constant() const { return graph_.is_none(); }
+  bool is_constant(double value) const { return is_constant() && constant_ == value; }
   // The number, if constant; throws std::logic_error otherwise.
   double value() const;
 
-  Graph* graph() const { return graph_; }       // null for a constant
-  std::uint32_t node() const { return node_; }  // meaningful only with a graph
+  const Graph& graph() const { return graph_; }  // Graph::none() for a constant
+  std::uint32_t node() const { return node_; }   // meaningful only with a graph
 
   Expr& operator+=(const Expr& other);
   Expr& operator-=(const Expr& other);
@@ -81,9 +131,9 @@ class Expr {
 
  private:
   friend class Graph;
-  Expr(Graph* graph, std::uint32_t node) : graph_(graph), node_(node) {}
+  Expr(Graph graph, std::uint32_t node) : graph_(std::move(graph)), node_(node) {}
 
-  Graph* graph_ = nullptr;
+  Graph graph_ = Graph::none();
   union {
     double constant_;
     std::uint32_t node_;
@@ -156,55 +206,6 @@ auto values(const Eigen::MatrixBase<Derived>& x) {
 // `max_length` characters.
 std::string to_string(const Expr& a, std::size_t max_length = 2000);
 std::ostream& operator<<(std::ostream& out, const Expr& a);
-
-// Owner of the nodes of some expressions; nodes are in topological order (operands before results).
-//
-// Neither copied nor moved: expressions point to it. Graphs are independent of each other, and one
-// graph may be extended from several threads: making a node takes a lock, reading one does not.
-// Room for 2³² - 256 nodes.
-class Graph {
- public:
-  Graph();
-  ~Graph();
-  Graph(const Graph&) = delete;
-  Graph& operator=(const Graph&) = delete;
-
-  // A new variable; two variables of the same name are different.
-  Expr variable(std::string name);
-  // name[0] … name[size-1]
-  ExprVector variables(const std::string& name, Index size);
-
-  // The node that applies op to operands of this graph, without simplification.
-  Expr make(Op op, std::int32_t k, const Expr& a, const Expr& b = {}, const Expr& c = {});
-
-  // Reading, by node number < size().
-  std::uint32_t size() const { return size_.load(std::memory_order_acquire); }
-  const Node& node(std::uint32_t index) const;
-  double constant(std::uint32_t index) const;          // of a node with Op::constant
-  const std::string& name(std::uint32_t index) const;  // of a node with Op::variable
-  Expr expression(std::uint32_t index);                // the handle; constants come back as numbers
-
- private:
-  static constexpr int kFirstBits = 8;  // chunk i holds 2^(8+i) nodes, so that nodes never move
-
-  struct Entry {
-    std::uint32_t tag = 0;   // upper half of the hash; its upper bits are the slot to look at first
-    std::uint32_t node = 0;  // number + 1; 0: empty
-  };
-
-  std::uint32_t intern(const Node& node);
-  std::uint32_t append(const Node& node);
-  std::uint32_t operand(const Expr& a);
-  void grow_table();
-  std::size_t first_slot(std::uint32_t tag) const { return tag >> (32 - table_bits_); }
-
-  mutable std::mutex mutex_;
-  std::atomic<std::uint32_t> size_ = 0;
-  std::unique_ptr<Node[]> chunks_[32 - kFirstBits];
-  int table_bits_ = 8;
-  std::vector<Entry> table_;  // 2^table_bits_ slots, open addressing
-  std::deque<std::string> names_;
-};
 
 }  // namespace courant
 

@@ -132,10 +132,10 @@ class Printer {
 
   // Replaces an expression by the pieces that it is made of.
   void expand(const Piece& piece) {
-    Graph* graph = piece.expression.graph();
-    const Node& node = graph->node(piece.expression.node());
+    const Graph& graph = piece.expression.graph();
+    const Node& node = graph.node(piece.expression.node());
     if (node.op == Op::variable) {
-      text_ += graph->name(piece.expression.node());
+      text_ += graph.name(piece.expression.node());
       return;
     }
     parts_.clear();
@@ -143,8 +143,8 @@ class Printer {
     const bool minus = node.op == Op::negate;
     const bool enclosed = own < piece.place || (minus && !piece.first);
     const bool first = piece.first || enclosed;
-    const Expr a = graph->expression(node.a);
-    const Expr b = arity(node.op) > 1 ? graph->expression(node.b) : Expr();
+    const Expr a = graph.expression(node.a);
+    const Expr b = arity(node.op) > 1 ? graph.expression(node.b) : Expr();
     const auto infix = [&](Binding left, const char* sign, Binding right) {
       add(a, left, first);
       add(sign);
@@ -230,7 +230,7 @@ class Printer {
     add(swapped ? a : b, kProduct, false);
   }
 
-  void add_call(Graph* graph, const Node& node) {
+  void add_call(const Graph& graph, const Node& node) {
     add(name_of(node.op));
     add("(");
     if (node.op == Op::stumpff || node.op == Op::arccos_factor) {
@@ -240,7 +240,7 @@ class Printer {
     const std::uint32_t operand[] = {node.a, node.b, node.c};
     for (int i = 0; i < arity(node.op); ++i) {
       if (i > 0) add(", ");
-      add(graph->expression(operand[i]), kOr, true);
+      add(graph.expression(operand[i]), kOr, true);
     }
     add(")");
   }
@@ -248,10 +248,10 @@ class Printer {
   // A negative number, or one times something: x + -2*y is written x - 2*y.
   static bool has_negative_factor(const Expr& a) {
     if (a.is_constant()) return a.value() < 0;
-    const Node& node = a.graph()->node(a.node());
+    const Node& node = a.graph().node(a.node());
     if (node.op != Op::multiply) return false;
     for (const std::uint32_t operand : {node.b, node.a}) {
-      const Expr factor = a.graph()->expression(operand);
+      const Expr factor = a.graph().expression(operand);
       if (factor.is_constant()) return factor.value() < 0;
     }
     return false;

@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "courant/core/derivative.hpp"
-#include "courant/core/special_functions.hpp"
 
 namespace courant {
 namespace {
@@ -15,21 +14,6 @@ constexpr Index kNativeMaximum = 10'000;
 
 bool is_worthwhile(Index instructions) {
   return instructions >= kNativeMinimum && instructions <= kNativeMaximum;
-}
-
-// What the functions of programs call.
-std::string c_prelude() {
-  std::string source = "#include <math.h>\n";
-  source += special_functions_source();
-  source +=
-      "\nstatic double courant_power(int k, double base) {\n"
-      "  unsigned exponent = k < 0 ? 0u - (unsigned)k : (unsigned)k;\n"
-      "  double result = 1.0;\n  int first = 1;\n"
-      "  while (exponent) {\n"
-      "    if (exponent & 1u) { result = first ? base : result * base; first = 0; }\n"
-      "    exponent >>= 1;\n    if (exponent) base = base * base;\n  }\n"
-      "  return k < 0 ? 1.0 / result : result;\n}\n";
-  return source;
 }
 
 }  // namespace
@@ -64,27 +48,33 @@ Function::Function(const std::string& name, const std::vector<Input>& inputs,
   value_ = std::make_shared<const Program>(groups, outputs);
   all_ = by.empty() ? value_ : std::make_shared<const Program>(groups, all);
 
-  if (options.backend == Backend::interpreter) return;
-  const bool automatic = options.backend == Backend::automatic;
-  if (automatic && !native_compiler_available()) return;
+  if (options.backend.kind() == Backend::Kind::interpreter) return;
+  const bool automatic = options.backend.kind() == Backend::Kind::automatic;
+  const auto compiler = options.backend.compiler();
+  if (automatic && !compiler->is_available()) return;
   // A Jacobian is many times as long as the value, and seldom asked for: Newton's method keeps its
   // factorisations.
   const bool compile_all = !automatic || is_worthwhile(all_->instruction_count());
   if (!compile_all && !is_worthwhile(value_->instruction_count())) return;
-  const auto source = [&](const ExprVector& results, const char* symbol) {
-    return Program(groups, results, Program::Order::as_made).c_source(symbol);
+  const auto compiled = [&](const ExprVector& results) {
+    return Program(groups, results, Program::Order::as_made);
   };
-  try {
-    std::string code = c_prelude() + source(outputs, "courant_value");
-    if (compile_all) code += source(all, "courant_value_and_jacobian");
-    native_ = NativeLibrary::compile(code);
-    native_value_ = native_->function("courant_value");
-    if (compile_all) native_all_ = native_->function("courant_value_and_jacobian");
-  } catch (const std::runtime_error&) {
-    if (!automatic) throw;
-    native_ = nullptr;
-    native_value_ = native_all_ = nullptr;
+  const auto add_to = [&](NativeModule& module) {
+    const Program jacobian = compile_all ? compiled(all) : Program();
+    native_ = module.add(compiled(outputs), compile_all ? &jacobian : nullptr);
+  };
+  if (options.backend.module() != nullptr) {
+    add_to(*options.backend.module());
+    return;
   }
+  const Backend alone = options.backend.together();
+  add_to(*alone.module());
+  alone.compile();
+}
+
+const std::shared_ptr<const NativeModule::Entry>& Function::interpreted() {
+  static const auto entry = std::make_shared<const NativeModule::Entry>();
+  return entry;
 }
 
 std::vector<const double*> Function::pointers(std::span<const VectorXd> in) const {

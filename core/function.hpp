@@ -7,20 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "courant/core/backend.hpp"
 #include "courant/core/expr.hpp"
-#include "courant/core/native.hpp"
+#include "courant/core/native_module.hpp"
 #include "courant/core/program.hpp"
 
 namespace courant {
-
-// How the instructions are carried out; the results are the same to the last bit.
-enum class Backend {
-  interpreter,  // always there
-  native,  // printed as C, compiled by the machine's C compiler; throws std::runtime_error without
-           // one
-  automatic,  // native where a compiler works and the program is neither trivial nor huge (the
-              // value alone, if the Jacobian is), else interpreter
-};
 
 // A map f: R^{n_0} × … × R^{n_g} → Rᵐ of named input groups, with its Jacobian by some of them and
 // its truncated Taylor series.
@@ -59,17 +51,19 @@ class Function {
   const std::vector<Index>& pattern_row() const { return pattern_row_; }
   const std::vector<Index>& pattern_col() const { return pattern_col_; }
 
-  bool is_native() const { return native_ != nullptr; }
+  bool is_native() const { return native_->value != nullptr; }
   Index instruction_count() const { return value_->instruction_count(); }
 
   // The inner loop: in[g] points to the n_g numbers of group g; nothing is checked, nothing
   // allocated.
   void value(const double* const* in, double* out) const {  // out: m
-    native_value_ ? native_value_(in, out) : value_->run(in, out);
+    const auto native = native_->value.load(std::memory_order_acquire);
+    native != nullptr ? native(in, out) : value_->run(in, out);
   }
   void value_and_jacobian(const double* const* in,
                           double* out) const {  // out: m values, then nonzeros() entries of J
-    native_all_ ? native_all_(in, out) : all_->run(in, out);
+    const auto native = native_->value_and_jacobian.load(std::memory_order_acquire);
+    native != nullptr ? native(in, out) : all_->run(in, out);
   }
   // J as a matrix, from what value_and_jacobian has put out.
   MatrixXd dense_jacobian(const VectorXd& out) const;
@@ -99,6 +93,7 @@ class Function {
   MatrixXd taylor(std::span<const MatrixXd> in) const;
 
  private:
+  static const std::shared_ptr<const NativeModule::Entry>& interpreted();
   std::vector<const double*> pointers(std::span<const VectorXd> in) const;
 
   std::string name_;
@@ -109,9 +104,7 @@ class Function {
   std::vector<Index> pattern_col_;
   std::shared_ptr<const Program> value_ = std::make_shared<const Program>();
   std::shared_ptr<const Program> all_ = value_;  // value and Jacobian
-  std::shared_ptr<const NativeLibrary> native_;
-  NativeLibrary::Evaluate native_value_ = nullptr;
-  NativeLibrary::Evaluate native_all_ = nullptr;
+  std::shared_ptr<const NativeModule::Entry> native_ = interpreted();
 };
 
 }  // namespace courant

@@ -1,4 +1,4 @@
-// C code compiled and loaded at run time.
+// Machine code, made of C source while the program runs.
 #pragma once
 
 #include <memory>
@@ -6,32 +6,37 @@
 
 namespace courant {
 
-// Whether there is a C compiler: the program that $COURANT_CC names, else cc.
-bool native_compiler_available();
-
-// What hinders native code, in one line: no compiler, or one that fails. Empty if nothing does.
-std::string native_compiler_defect();
-
-// A shared object made from C source by the machine's C compiler; unloaded with the last owner.
-//
-// Arithmetic in it gives the bits that this program gives: no contraction, no fast math.
-// Objects are kept in the NativeCache; where there is none, the object is made in a temporary
-// directory and forgotten.
-class NativeLibrary {
+// Code that a NativeCompiler made; valid as long as this object.
+class NativeCode {
  public:
-  // Throws std::runtime_error, with what the compiler said, if there is no compiler or it fails.
-  static std::shared_ptr<const NativeLibrary> compile(const std::string& c_source);
-
-  ~NativeLibrary();
-  NativeLibrary(const NativeLibrary&) = delete;
-  NativeLibrary& operator=(const NativeLibrary&) = delete;
-
   using Evaluate = void (*)(const double* const* in, double* out);
-  Evaluate function(const std::string& symbol) const;  // throws std::runtime_error if absent
 
- private:
-  explicit NativeLibrary(void* handle) : handle_(handle) {}
-  void* handle_;
+  virtual ~NativeCode() = default;
+  // Throws std::runtime_error if there is no such symbol.
+  virtual Evaluate function(const std::string& symbol) const = 0;
 };
+
+// What makes code of C source. Where there is no C compiler, as in a browser, a host may bring its
+// own: one for WebAssembly, or one that knows the code of certain sources, compiled beforehand. The
+// arithmetic of the code is that of the source: no contraction, no fast math, so that its bits are
+// those of the interpreter.
+//
+// To subclass, override compile; is_available where compile may be known to fail.
+class NativeCompiler {
+ public:
+  virtual ~NativeCompiler() = default;
+  // Throws std::runtime_error, with what the compiler said, if it fails. May be called by several
+  // threads.
+  virtual std::shared_ptr<const NativeCode> compile(const std::string& c_source) const = 0;
+  // A quick look, without compiling anything.
+  virtual bool is_available() const { return true; }
+
+  // What hinders native code, in one line; empty if nothing does.
+  std::string defect() const;
+};
+
+// The C compiler of this machine with the cache of this user, as the environment says now, see
+// CCompiler. In a build without (COURANT_NATIVE=OFF) one that is never available.
+std::shared_ptr<const NativeCompiler> machine_compiler();
 
 }  // namespace courant

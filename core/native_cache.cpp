@@ -153,7 +153,7 @@ CompilationFolder::CompilationFolder(const fs::path& parent)
     : path_((parent / (std::string(kCompilation) + "XXXXXX")).string()), lock_(-1) {
   if (mkdtemp(path_.data()) == nullptr)
     throw std::system_error(errno, std::generic_category(),
-                            "NativeLibrary::compile: no folder can be made in " + parent.string());
+                            "CCompiler::compile: no folder can be made in " + parent.string());
   lock_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (lock_ >= 0) flock(lock_, LOCK_EX | LOCK_NB);
 }

@@ -46,7 +46,7 @@ void schedule(const Subgraph& subgraph, std::size_t begin, std::size_t end,
   std::map<std::pair<Op, std::int32_t>, std::vector<std::size_t>> ready;
 
   const auto operation = [&](std::size_t at) -> const Node& {
-    return subgraph.graph()->node(subgraph.nodes()[at]);
+    return subgraph.graph().node(subgraph.nodes()[at]);
   };
   for (std::size_t at = begin; at < end; ++at) {
     const Node& node = operation(at);
@@ -104,15 +104,15 @@ constexpr auto loops(std::index_sequence<op...>) {
 
 Program::Program(std::span<const ExprVector> inputs, const ExprVector& outputs, Order order) {
   const Subgraph subgraph(outputs);
-  const Graph* graph = subgraph.graph();
+  const Graph& graph = subgraph.graph();
   const auto& nodes = subgraph.nodes();
   std::vector<std::uint32_t> slot(nodes.size(), kAbsent);
   std::uint32_t next = 0;
 
   for (std::size_t at = 0; at < nodes.size(); ++at) {
-    if (graph->node(nodes[at]).op != Op::constant) continue;
+    if (graph.node(nodes[at]).op != Op::constant) continue;
     slot[at] = next++;
-    constants_.push_back(graph->constant(nodes[at]));
+    constants_.push_back(graph.constant(nodes[at]));
   }
   std::vector<std::uint32_t> constant_outputs;
   for (const Expr& output : outputs) {
@@ -128,7 +128,7 @@ Program::Program(std::span<const ExprVector> inputs, const ExprVector& outputs, 
         throw std::invalid_argument("Program: input " + std::to_string(g) + ", entry " +
                                     std::to_string(j) + " is " + to_string(variable, 40) + what);
       };
-      if (variable.is_constant() || variable.graph()->node(variable.node()).op != Op::variable)
+      if (variable.is_constant() || variable.graph().node(variable.node()).op != Op::variable)
         fail("; expected a variable.");
       if (!subgraph.contains(variable)) continue;
       std::uint32_t& target = slot[subgraph.position(variable)];
@@ -138,14 +138,14 @@ Program::Program(std::span<const ExprVector> inputs, const ExprVector& outputs, 
     }
   }
   for (std::size_t at = 0; at < nodes.size(); ++at)
-    if (slot[at] == kAbsent && graph->node(nodes[at]).op == Op::variable)
-      throw std::invalid_argument("Program: the variable " + graph->name(nodes[at]) +
+    if (slot[at] == kAbsent && graph.node(nodes[at]).op == Op::variable)
+      throw std::invalid_argument("Program: the variable " + graph.name(nodes[at]) +
                                   " is in no input group.");
 
   // How often each value is still to be read; outputs are never free.
   std::vector<std::uint32_t> reads(nodes.size(), 0);
   for (const std::uint32_t index : nodes) {
-    const Node& node = graph->node(index);
+    const Node& node = graph.node(index);
     const std::uint32_t operand[] = {node.a, node.b, node.c};
     for (int i = 0; i < arity(node.op); ++i) ++reads[subgraph.position(operand[i])];
   }
@@ -154,7 +154,7 @@ Program::Program(std::span<const ExprVector> inputs, const ExprVector& outputs, 
 
   std::vector<std::uint32_t> free_slots;
   for (const std::size_t at : schedule(subgraph, order)) {
-    const Node& node = graph->node(nodes[at]);
+    const Node& node = graph.node(nodes[at]);
     if (runs_.empty() || runs_.back().op != node.op || runs_.back().k != node.k)
       runs_.push_back({node.op, node.k, 0});
     if (free_slots.empty()) free_slots.push_back(next++);
@@ -165,7 +165,7 @@ Program::Program(std::span<const ExprVector> inputs, const ExprVector& outputs, 
     for (int i = 0; i < arity(node.op); ++i) {
       const std::size_t from = subgraph.position(operand[i]);
       source[i] = slot[from];
-      if (--reads[from] == 0 && arity(graph->node(operand[i]).op) > 0)
+      if (--reads[from] == 0 && arity(graph.node(operand[i]).op) > 0)
         free_slots.push_back(source[i]);
     }
     instructions_.push_back({slot[at], source[0], source[1], source[2]});

@@ -56,7 +56,7 @@ std::ostream& operator<<(std::ostream& out, const RankDecision& decision);
 // By the singular value decomposition. Throws std::domain_error if an entry is not finite.
 RankDecision decide_rank(const Eigen::Ref<const MatrixXd>& A, const RankOptions& options = {});
 
-// The same for a sparse matrix, by SuiteSparseQR: A E = Q [R W; 0 δ], with R square and triangular.
+// The same for a sparse matrix, by a rank-revealing sparse QR: A E = Q [R W; 0 δ], with R square and triangular.
 // QR looks at the diagonal of R only; a triangle can be singular with ones on it. So the smallest
 // singular values of R are computed too, by inverse iteration, and what W adds in their directions:
 // they bound σ_r from below (to about 5 %), and together with δ they bound σ_{r+1} from above. The

@@ -63,7 +63,7 @@ class Simplifier {
     if (a.is_constant()) return number(a.value());
     const Subgraph part(ExprVector::Constant(1, a));
     for (const std::uint32_t node : part.nodes())
-      if (!known_.contains(node)) known_.emplace(node, value(*a.graph(), node));
+      if (!known_.contains(node)) known_.emplace(node, value(a.graph(), node));
     return known_.at(a.node());
   }
 
@@ -361,7 +361,7 @@ class Simplifier {
     return {{{{factor({.text = name + "(" + inside + ")"}), 1}}, 1.0}};
   }
 
-  Sum value(Graph& graph, std::uint32_t index) {
+  Sum value(const Graph& graph, std::uint32_t index) {
     const Node& node = graph.node(index);
     const auto operand = [&](std::uint32_t i) -> const Sum& { return known_.at(i); };
     switch (node.op) {

@@ -1,5 +1,4 @@
 #include <Eigen/SparseCore>
-#include <SuiteSparseQR.hpp>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -12,67 +11,10 @@
 #include "courant/core/rank_cut.hpp"
 #include "courant/core/rank_decision.hpp"
 #include "courant/core/singular_value_decomposition.hpp"
+#include "courant/core/sparse_qr.hpp"
 
 namespace courant {
 namespace {
-
-using LongSparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, SuiteSparse_long>;
-
-// S E = Q [R W; 0 δ]: the upper trapezoidal factor, and the Frobenius norm of what was dropped.
-struct TrapezoidalFactor {
-  LongSparseMatrix R, W;
-  double dropped = 0.0;
-};
-
-TrapezoidalFactor factor(const SparseMatrixXd& S, double tolerance) {
-  struct Workspace {
-    cholmod_common common;
-    cholmod_sparse* R = nullptr;
-    SuiteSparse_long* permutation = nullptr;
-    std::size_t columns;
-
-    explicit Workspace(std::size_t n) : columns(n) { cholmod_l_start(&common); }
-    ~Workspace() {
-      cholmod_l_free_sparse(&R, &common);
-      cholmod_l_free(columns, sizeof(SuiteSparse_long), permutation, &common);
-      cholmod_l_finish(&common);
-    }
-    Workspace(const Workspace&) = delete;
-    Workspace& operator=(const Workspace&) = delete;
-  };
-
-  LongSparseMatrix matrix = S;
-  matrix.makeCompressed();
-  cholmod_sparse view{};
-  view.nrow = static_cast<std::size_t>(matrix.rows());
-  view.ncol = static_cast<std::size_t>(matrix.cols());
-  view.nzmax = static_cast<std::size_t>(matrix.nonZeros());
-  view.p = matrix.outerIndexPtr();
-  view.i = matrix.innerIndexPtr();
-  view.x = matrix.valuePtr();
-  view.itype = CHOLMOD_LONG;
-  view.xtype = CHOLMOD_REAL;
-  view.dtype = CHOLMOD_DOUBLE;
-  view.sorted = 1;
-  view.packed = 1;
-
-  Workspace workspace(view.ncol);
-  const SuiteSparse_long rank =
-      SuiteSparseQR<double>(SPQR_ORDERING_DEFAULT, tolerance, 0, &view, &workspace.R,
-                            &workspace.permutation, &workspace.common);
-  if (rank < 0 || workspace.R == nullptr) {
-    throw std::runtime_error("decide_rank: SuiteSparseQR failed on a " + std::to_string(S.rows()) +
-                             " × " + std::to_string(S.cols()) + " matrix, status " +
-                             std::to_string(workspace.common.status) + ".");
-  }
-  const auto* offsets = static_cast<const SuiteSparse_long*>(workspace.R->p);
-  const Eigen::Map<const LongSparseMatrix> trapezoid(
-      static_cast<Index>(workspace.R->nrow), S.cols(), offsets[S.cols()], offsets,
-      static_cast<const SuiteSparse_long*>(workspace.R->i),
-      static_cast<const double*>(workspace.R->x));
-  return {trapezoid.topLeftCorner(rank, rank), trapezoid.topRightCorner(rank, S.cols() - rank),
-          workspace.common.SPQR_norm_E_fro};
-}
 
 MatrixXd random_block(Index rows, Index columns) {
   std::mt19937 generator(20250612);
@@ -96,9 +38,9 @@ struct SmallestSingular {
 // Inverse iteration with a block of b vectors, a half step with R⁻ᵀ and one with R⁻¹ in turn so
 // that nothing is squared, until the smallest value moves by less than 5 % a step. Values are
 // approached from above. Nothing if R is so close to singular that R⁻¹ overflows.
-std::optional<SmallestSingular> smallest_singular(const LongSparseMatrix& R, Index b) {
+std::optional<SmallestSingular> smallest_singular(const SparseMatrixXd& R, Index b) {
   const auto upper = R.triangularView<Eigen::Upper>();
-  const LongSparseMatrix transposed = R.transpose();
+  const SparseMatrixXd transposed = R.transpose();
   const auto lower = transposed.triangularView<Eigen::Lower>();
   MatrixXd right = orthonormalized(random_block(R.cols(), b));
   SmallestSingular result;
@@ -139,7 +81,7 @@ RankDecision decide_rank(const SparseMatrixXd& A, const RankOptions& options) {
   }
 
   // A column that is left with a few roundings is dependent; with ten of them QR has to keep it.
-  const auto [R, W, dropped] = factor(S, 10.0 * noise.floor);
+  const auto [R, W, dropped] = sparse_qr(S, 10.0 * noise.floor);
   const Index r = R.rows();
   if (r == 0) {
     conclude(decision, 0, 0.0, dropped, noise);

@@ -15,13 +15,13 @@ Subgraph::Subgraph(const ExprVector& roots) {
   std::uint32_t last = 0;
   for (const Expr& root : roots) {
     if (root.is_constant()) continue;
-    if (graph_ == nullptr) graph_ = root.graph();
-    if (root.graph() != graph_)
+    if (graph_.is_none()) graph_ = root.graph();
+    if (!(root.graph() == graph_))
       throw std::invalid_argument(
           "Subgraph: the expressions are of two graphs; expected one. Use substitute.");
     last = std::max(last, root.node());
   }
-  if (graph_ == nullptr) return;
+  if (graph_.is_none()) return;
 
   members_.assign(last / 64 + 1, 0);
   for (const Expr& root : roots)
@@ -34,7 +34,7 @@ Subgraph::Subgraph(const ExprVector& roots) {
     while (const std::uint64_t left = members_[word] & unseen) {
       const auto top = static_cast<std::uint32_t>(std::bit_width(left)) - 1;
       unseen = (std::uint64_t{1} << top) - 1;
-      const Node& node = graph_->node(static_cast<std::uint32_t>(64 * word) + top);
+      const Node& node = graph_.node(static_cast<std::uint32_t>(64 * word) + top);
       const std::uint32_t operand[] = {node.a, node.b, node.c};
       for (int i = 0; i < arity(node.op); ++i) members_[operand[i] / 64] |= bit(operand[i]);
       ++count;
@@ -52,7 +52,7 @@ Subgraph::Subgraph(const ExprVector& roots) {
 }
 
 bool Subgraph::contains(const Expr& a) const {
-  if (a.is_constant() || a.graph() != graph_) return false;
+  if (a.is_constant() || !(a.graph() == graph_)) return false;
   const std::size_t word = a.node() / 64;
   return word < members_.size() && (members_[word] & bit(a.node())) != 0;
 }

@@ -16,7 +16,7 @@ class Subgraph {
   // Throws std::invalid_argument if the roots are of two graphs.
   explicit Subgraph(const ExprVector& roots);
 
-  Graph* graph() const { return graph_; }  // null if all roots are constant
+  const Graph& graph() const { return graph_; }  // Graph::none() if all roots are constant
   std::size_t size() const { return nodes_.size(); }
 
   // The node numbers, ascending: operands come before results.
@@ -30,7 +30,7 @@ class Subgraph {
   std::size_t position(const Expr& a) const { return position(a.node()); }
 
  private:
-  Graph* graph_ = nullptr;
+  Graph graph_ = Graph::none();
   std::vector<std::uint64_t> members_;  // one bit a node
   std::vector<std::uint32_t> before_;   // number of members in the words before this one
   std::vector<std::uint32_t> nodes_;

@@ -52,21 +52,21 @@ std::string reason(Op op, std::int32_t k, double a, double b, const std::string&
 std::optional<Undefined> find_undefined(const ExprVector& outputs, const ExprVector& variables,
                                         const VectorXd& values) {
   const Subgraph part(outputs);
-  Graph* const graph = part.graph();
+  const Graph& graph = part.graph();
   std::unordered_map<std::uint32_t, double> given;
   for (Index i = 0; i < variables.size(); ++i)
     if (!variables[i].is_constant()) given[variables[i].node()] = values[i];
 
   std::vector<double> value(part.size());
   const auto at = [&](std::uint32_t node) {
-    const Expr operand = graph->expression(node);
+    const Expr operand = graph.expression(node);
     return operand.is_constant() ? operand.value() : value[part.position(node)];
   };
   // The first cause below each node, or none.
   constexpr std::size_t none = static_cast<std::size_t>(-1);
   std::vector<std::size_t> cause(part.size(), none);
   for (std::size_t i = 0; i < part.size(); ++i) {
-    const Node& node = graph->node(part.nodes()[i]);
+    const Node& node = graph.node(part.nodes()[i]);
     if (node.op == Op::variable) {
       const auto found = given.find(part.nodes()[i]);
       value[i] = found == given.end() ? 0.0 : found->second;
@@ -76,7 +76,7 @@ std::optional<Undefined> find_undefined(const ExprVector& outputs, const ExprVec
     double arguments[3] = {0.0, 0.0, 0.0};
     bool finite = true;
     for (int k = 0; k < arity(node.op); ++k) {
-      const Expr operand = graph->expression(operands[k]);
+      const Expr operand = graph.expression(operands[k]);
       arguments[k] = at(operands[k]);
       finite = finite && (std::isfinite(arguments[k]) || operand.is_constant());
       if (!std::isfinite(arguments[k]) && !operand.is_constant() && cause[i] == none)
@@ -95,8 +95,8 @@ std::optional<Undefined> find_undefined(const ExprVector& outputs, const ExprVec
     const std::size_t i = part.position(outputs[output]);
     if (std::isfinite(value[i]) || cause[i] == none) continue;
     const std::uint32_t number = part.nodes()[cause[i]];
-    const Node& node = graph->node(number);
-    const std::string formula = to_string(graph->expression(number), 60);
+    const Node& node = graph.node(number);
+    const std::string formula = to_string(graph.expression(number), 60);
     return Undefined{
         output, formula,
         reason(node.op, node.k, at(node.a), arity(node.op) > 1 ? at(node.b) : 0.0, formula)};

@@ -362,14 +362,15 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
   fixed_directions_ = fixed_directions(M, *projector_, ladder);
 
   const Trace trace(*this);
-  const Function::Options compiled = {.backend = options.backend};
+  const Backend backend = options.backend.together();
+  const Function::Options compiled = {.backend = backend};
   blocks_ = trace.blocks;
   auxiliaries_ = trace.auxiliaries;
-  equations_ = trace.step.compile(options.backend);
+  equations_ = trace.step.compile(backend);
   if (!trace.step.is_affine())
     whole_ = equations_.is_reduced() ? trace.step.whole() : equations_.left();
   advance_ = Function("advance", trace.step.inputs, trace.advanced, compiled);
-  projection_ = trace.projection.compile(options.backend);
+  projection_ = trace.projection.compile(backend);
   projected_ = Function("projected", trace.projection.inputs, trace.projected, compiled);
   shift_ = Function("shift", {{"near", trace.near}, {"s", trace.s}}, trace.shifted, compiled);
   corrected_shift_ = Function(
@@ -377,11 +378,12 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
       trace.corrected, compiled);
   const bool is_never_aimed = codimension_ == 0 || fixed_directions_.size() > 0;
   conormals_ = MovingConormals::trace(
-      *trace.step.graph, trace.constraints, trace.jets, M.dimension(), codimension_,
+      trace.step.graph, trace.constraints, trace.jets, M.dimension(), codimension_,
       {{"x0", trace.x0}, {"basis", trace.basis_entries}, {"t", trace.t}},
-      is_never_aimed ? Backend::interpreter : options.backend);
-  basis_ = MovingBasis::projection(M, options.backend);
-  constraint_ = RoundOffProjection::constraint(M, options.backend);
+      is_never_aimed ? Backend::interpreter : backend);
+  basis_ = MovingBasis::projection(M, backend);
+  constraint_ = RoundOffProjection::constraint(M, backend);
+  backend.compile();
 }
 
 std::vector<StepFormulas> ConstrainFirst::do_formulas() const {

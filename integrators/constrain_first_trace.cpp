@@ -26,8 +26,7 @@ ConstrainFirst::Trace::Trace(const ConstrainFirst& method) {
   const DiscretizationMap& map = *method.map_;
   const Manifold& M = *S.manifold();
   const Index n = M.dimension(), d = method.codimension_;
-  step.graph = std::make_shared<Graph>();
-  Graph& graph = *step.graph;
+  const Graph& graph = step.graph;
   x0 = graph.variables("x0", M.ambient_dimension());
   const ExprMatrix basis = basis_variables(graph, M);
   basis_entries = basis_parameters(M, basis);

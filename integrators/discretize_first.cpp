@@ -108,8 +108,7 @@ struct DiscretizeFirst::Trace {
     const Manifold& M = *S.manifold();
     const Index n = M.dimension();
     formulas.name = method.name();
-    formulas.graph = std::make_shared<Graph>();
-    Graph& graph = *formulas.graph;
+    const Graph& graph = formulas.graph;
     const ExprVector x0 = graph.variables("x0", M.ambient_dimension());
     const ExprMatrix basis = basis_variables(graph, M);
     const ExprVector h = graph.variables("h", 1);
@@ -177,20 +176,21 @@ DiscretizeFirst::DiscretizeFirst(std::shared_ptr<const ImplicitSystem> system,
         "DiscretizeFirst::DiscretizeFirst: the map is missing, or it is not on the manifold of the "
         "system.");
   const Trace trace(*this);
+  const Backend backend = options.backend.together();
   tangent_blocks_ = trace.tangent_blocks;
-  equations_ = trace.formulas.compile(options.backend);
+  equations_ = trace.formulas.compile(backend);
   if (!trace.formulas.is_affine())
     whole_ = equations_.is_reduced() ? trace.formulas.whole() : equations_.left();
-  advance_ =
-      Function("advance", trace.formulas.inputs, trace.advanced, {.backend = options.backend});
+  advance_ = Function("advance", trace.formulas.inputs, trace.advanced, {.backend = backend});
   const Manifold& M = *this->system()->manifold();
   if (map_->has_inverse()) {
     const ExprVector& x0 = trace.formulas.inputs[1].variables;
-    const ExprVector end = trace.formulas.graph->variables("x1", M.ambient_dimension());
+    const ExprVector end = trace.formulas.graph.variables("x1", M.ambient_dimension());
     stage_ = Function("stage", {{"x0", x0}, {"x1", end}}, map_->inverse(x0, end).x);
   }
-  basis_ = MovingBasis::projection(M, options.backend);
-  constraint_ = RoundOffProjection::constraint(M, options.backend);
+  basis_ = MovingBasis::projection(M, backend);
+  constraint_ = RoundOffProjection::constraint(M, backend);
+  backend.compile();
 }
 
 std::vector<StepFormulas> DiscretizeFirst::do_formulas() const { return {Trace(*this).formulas}; }

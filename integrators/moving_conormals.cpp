@@ -17,7 +17,7 @@ constexpr double kTolerance = 1e-13;
 
 }  // namespace
 
-MovingConormals::Functions MovingConormals::trace(Graph& graph, const ExprVector& F,
+MovingConormals::Functions MovingConormals::trace(const Graph& graph, const ExprVector& F,
                                                   const ExprVector& jets, Index n, Index d,
                                                   const std::vector<Function::Input>& parameters,
                                                   Backend backend) {

@@ -28,7 +28,7 @@ class MovingConormals {
     Function conormal;  // the same ↦ (∂F/∂ξ)ᵀ w
   };
   // `jets`: the variables (ξ, ξ', …, z, …), the first n of them ξ; `parameters`: x₀, basis, t.
-  static Functions trace(Graph& graph, const ExprVector& F, const ExprVector& jets, Index n,
+  static Functions trace(const Graph& graph, const ExprVector& F, const ExprVector& jets, Index n,
                          Index d, const std::vector<Function::Input>& parameters, Backend backend);
 
   MovingConormals(Functions functions, Index n, Index d);

@@ -14,7 +14,7 @@ namespace courant {
 // or exports it.
 struct StepFormulas {
   std::string name;
-  std::shared_ptr<Graph> graph;         // of all the expressions
+  Graph graph;                          // of all the expressions
   std::vector<Function::Input> inputs;  // y, then the groups of p
   ExprVector equations;
   std::vector<std::vector<std::string>> input_names;  // of each variable of each group

@@ -86,16 +86,18 @@ VectorField::VectorField(std::shared_ptr<const ImplicitSystem> system,
   for (const Index row : others)
     if (depends(all.segment(row, 1), y)) left_out.push_back(all[row]);
 
-  equations_ = Function("vector field", inputs, kept, {.differentiate = {"y"}, .backend = backend});
+  const Backend together = backend.together();
+  equations_ = Function("vector field", inputs, kept, {.differentiate = {"y"}, .backend = together});
   left_out_ =
       Function("left out", inputs,
                Eigen::Map<const ExprVector>(left_out.data(), static_cast<Index>(left_out.size())),
-               {.backend = backend});
+               {.backend = together});
   const ExprVector v = at_origin(local.v);
   ExprVector rate(x.size() + v.size() + local.z[0].size());
   rate << M.frame(x) * v, v, local.z[0];
-  rate_ = Function("rate", inputs, rate, {.backend = backend});
-  basis_ = MovingBasis::projection(M, backend);
+  rate_ = Function("rate", inputs, rate, {.backend = together});
+  basis_ = MovingBasis::projection(M, together);
+  together.compile();
 }
 
 VectorField::Evaluation::Evaluation(const VectorField& field)

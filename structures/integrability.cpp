@@ -30,7 +30,7 @@ class Chart {
         y_(manifold.chart(constants(x), constants(basis_), xi_)),
         V_(manifold.coframe(y_) * jacobian(y_, xi_).dense()) {}
 
-  Graph& graph() { return graph_; }
+  const Graph& graph() const { return graph_; }
   const ExprVector& y() const { return y_; }
   const ExprMatrix& V() const { return V_; }
   Index n() const { return xi_.size(); }

@@ -13,7 +13,7 @@ constexpr std::size_t longest = 300;  // characters of a formula: three lines
 
 using Kind = ConstraintFormulas::Step::Kind;
 
-ExprVector named(Graph& graph, const std::vector<std::string>& names) {
+ExprVector named(const Graph& graph, const std::vector<std::string>& names) {
   ExprVector result(static_cast<Index>(names.size()));
   for (std::size_t i = 0; i < names.size(); ++i)
     result[static_cast<Index>(i)] = graph.variable(names[i]);

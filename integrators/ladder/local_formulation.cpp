@@ -38,7 +38,7 @@ ExprVector reduced_residual(const ImplicitSystem& system, const ExprMatrix& basi
   return with_reduced_blocks(system, basis, system.residual(x, v, z, t), false);
 }
 
-LocalFormulation::LocalFormulation(Graph& graph, const ImplicitSystem& system, const ExprVector& x0,
+LocalFormulation::LocalFormulation(const Graph& graph, const ImplicitSystem& system, const ExprVector& x0,
                                    const ExprMatrix& basis, const Expr& t,
                                    const std::vector<int>& differentiations) {
   const Manifold& M = *system.manifold();
@@ -91,7 +91,7 @@ ExprVector LocalFormulation::nonzero_equations() const {
   return Eigen::Map<ExprVector>(kept.data(), static_cast<Index>(kept.size()));
 }
 
-ExprMatrix basis_variables(Graph& graph, const Manifold& manifold) {
+ExprMatrix basis_variables(const Graph& graph, const Manifold& manifold) {
   const Index rows = manifold.tangent_dimension();
   const Index cols = manifold.dimension();
   if (rows == cols) return ExprMatrix::Identity(rows, cols);

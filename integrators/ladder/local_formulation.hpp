@@ -20,7 +20,7 @@ namespace courant {
 struct LocalFormulation {
   // Traces in `graph` with chart origin `x0` (N) and basis `basis` (Ñ × n). Equation i is
   // differentiated differentiations[i] times; jets up to the order that they contain are made.
-  LocalFormulation(Graph& graph, const ImplicitSystem& system, const ExprVector& x0,
+  LocalFormulation(const Graph& graph, const ImplicitSystem& system, const ExprVector& x0,
                    const ExprMatrix& basis, const Expr& t,
                    const std::vector<int>& differentiations);
 
@@ -41,7 +41,7 @@ ExprVector reduced_residual(const ImplicitSystem& system, const ExprMatrix& basi
 
 // The basis of a chart as an argument of a traced function: the identity where that holds for every
 // point, else fresh variables.
-ExprMatrix basis_variables(Graph& graph, const Manifold& manifold);
+ExprMatrix basis_variables(const Graph& graph, const Manifold& manifold);
 // The variables of the above (none if it is the identity), column by column.
 ExprVector basis_parameters(const Manifold& manifold, const ExprMatrix& basis);
 

@@ -253,7 +253,7 @@ BOOST_AUTO_TEST_CASE(report_compares_runs) {
 }
 
 BOOST_AUTO_TEST_CASE(cache_lists_and_clears, *boost::unit_test::precondition([](auto) {
-                       return native_compiler_available();
+                       return machine_compiler()->is_available();
                      })) {
   const TemporaryFolder folder;
   setenv("COURANT_CACHE", (folder / "cache").c_str(), 1);

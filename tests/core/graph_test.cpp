@@ -53,6 +53,30 @@ BOOST_AUTO_TEST_CASE(nodes_keep_their_place_while_the_graph_grows) {
   for (std::uint32_t i = 1; i <= 5000; ++i) BOOST_REQUIRE(graph.constant(2 * i - 1) == i);
 }
 
+BOOST_AUTO_TEST_CASE(an_expression_keeps_its_graph_alive) {
+  Expr kept;
+  ExprVector variables;
+  {
+    const Graph graph;
+    variables = graph.variables("x", 2);
+    kept = sin(variables[0]) * variables[1] + 3.0;
+  }
+  const Expr grown = kept * kept + variables[0];
+  BOOST_TEST(to_string(kept) == "sin(x[0])*x[1] + 3");
+  const Function f("f", {{"x", variables}}, ExprVector::Constant(1, grown));
+  const double value = std::sin(0.5) * 2.0 + 3.0;
+  BOOST_TEST(f({VectorXd{{0.5, 2.0}}})[0] == value * value + 0.5);
+}
+
+BOOST_AUTO_TEST_CASE(copies_of_a_graph_are_the_same_graph) {
+  const Graph graph, copy = graph, other;
+  BOOST_TEST((graph == copy));
+  BOOST_TEST(!(graph == other));
+  const Expr sum = graph.variable("x") + copy.variable("y");
+  BOOST_TEST((sum.graph() == graph));
+  BOOST_TEST(Expr(1.0).graph().is_none());
+}
+
 BOOST_AUTO_TEST_CASE(two_graphs_do_not_mix) {
   Graph here, there;
   const Expr x = here.variable("x"), y = there.variable("y");

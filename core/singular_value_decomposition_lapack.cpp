@@ -1,9 +1,9 @@
-#include "courant/core/singular_value_decomposition.hpp"
-
 #include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "courant/core/singular_value_decomposition.hpp"
 
 extern "C" {
 // LAPACK: divide and conquer; QR iteration, slower, which converges where the former does not.
