@@ -226,11 +226,12 @@ class ConstrainFirst::Trajectory final : public Stepper {
       const double moved = largest(y.head(n_));
       const double size = largest(found_.head(guess_.size()));
       if (d_ == 0 || constant_directions_) return;
-      // P does not depend on W once x no longer moves with it.
+      // P does not depend on W once x no longer moves with it. Where steps begin, x moves with W not
+      // at all; but the next one begins along W.
       if (iteration == 0) {
         const double distance = std::max(y.tail(d_).norm(), far);
         const double change = std::max(moved, size * jet_change(aimed_, y));
-        if (kSafety * turning_ * distance * change <= kTolerance * size) return;
+        if (goes_on && kSafety * turning_ * distance * change <= kTolerance * size) return;
       } else {
         const double contraction = moved / previous;
         if (moved <= 1e-15 * size || contraction * moved <= kTolerance * size ||
