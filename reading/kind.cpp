@@ -31,6 +31,13 @@ Takes integer(Index least) {
           {{"type", "integer"}, {"minimum", least}}};
 }
 
+Takes integer(const std::vector<int>& values) {
+  std::string list;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    list += (i == 0 ? "" : i + 1 == values.size() ? " or " : ", ") + std::to_string(values[i]);
+  return {std::move(list), {{"enum", values}}};
+}
+
 Takes text() { return {"a string", {{"type", "string"}}}; }
 
 Takes word(std::vector<std::string> words) {

@@ -22,6 +22,7 @@ namespace takes {
 Takes number();
 Takes number(double least, double greatest);
 Takes integer(Index least);
+Takes integer(const std::vector<int>& values);  // one of these
 Takes text();
 Takes word(std::vector<std::string> words);
 Takes formula();

@@ -1,6 +1,7 @@
 #include "courant/reading/method_kinds.hpp"
 
 #include "courant/core/message.hpp"
+#include "courant/integrators/composition.hpp"
 #include "courant/integrators/constrain_first.hpp"
 #include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/explicit_runge_kutta.hpp"
@@ -134,17 +135,59 @@ State start_of_method_1(const MethodSetting& at, const DiscretizationMap& map, b
   return matched_start(*at.system, map, at.initial, bundle->position(next.x), at.step);
 }
 
+const std::vector<int> kOrders = {2, 4, 6, 8};
+
+// The order that is asked for, 0 for the method's own; nothing if it is none of kOrders.
+std::optional<int> read_order(ObjectReader& object) {
+  const auto key = object.optional("order");
+  if (!key) return 0;
+  const auto order = key->integer(2);
+  if (!order) return std::nullopt;
+  if (std::ranges::find(kOrders, *order) != kOrders.end()) return static_cast<int>(*order);
+  key->expected(takes::integer(kOrders).text);
+  return std::nullopt;
+}
+
+std::string order_text(int order) { return order == 0 ? "" : ", order " + std::to_string(order); }
+
+// The method itself, or the composition of that order.
+std::shared_ptr<const Integrator> composed(std::shared_ptr<const Integrator> method, int order) {
+  if (order == 0 || order == method->order()) return method;
+  const auto refuse = [order](const std::string& reason) {
+    throw ExperimentError("/method/order", "is " + std::to_string(order) + ", but " + reason);
+  };
+  if (!method->is_symmetric() || method->order() != 2)
+    refuse("the method is not symmetric, and of order " + std::to_string(method->order()) +
+           "; expected a symmetric discretization such as \"midpoint\", and no gauge freedom");
+  return std::make_shared<Composition>(std::move(method), order);
+}
+
 std::optional<MethodChoice> discretize_first(ObjectReader& object) {
   const auto map = discretization_kinds().read_key(object, "discretization");
   const bool rk2 = object.word("start") == "rk2";
-  if (!map) return std::nullopt;
+  const auto order = read_order(object);
+  if (!map || !order) return std::nullopt;
+  if (rk2 && *order > 2) {
+    object.optional("start")->problem(
+        "is \"rk2\", which is about one step of order 2; expected \"on-manifold\" with order " +
+        std::to_string(*order));
+    return std::nullopt;
+  }
   return MethodChoice{
-      "discretize-first, " + map->description + (rk2 ? ", started by rk2" : ""),
-      [map = *map, rk2](const MethodSetting& at) {
+      "discretize-first, " + map->description + order_text(*order) +
+          (rk2 ? ", started by rk2" : ""),
+      [map = *map, order = *order, rk2](const MethodSetting& at) {
+        if (order > 2 && at.ladder.degrees_of_freedom < at.system->manifold()->dimension())
+          throw ExperimentError("/method/order",
+                                "is " + std::to_string(order) +
+                                    ", but on a system with constraints steps of discretize-first "
+                                    "are not near the identity, and compositions of them stay at "
+                                    "order 2; expected \"constrain-first\"");
         const auto on_manifold = map.make(at.system->manifold());
         return PreparedMethod{
-            std::make_shared<DiscretizeFirst>(at.system, on_manifold,
-                                              DiscretizeFirst::Options{.backend = at.backend}),
+            composed(std::make_shared<DiscretizeFirst>(
+                         at.system, on_manifold, DiscretizeFirst::Options{.backend = at.backend}),
+                     order),
             start_of_method_1(at, *on_manifold, rk2), on_manifold};
       }};
 }
@@ -152,16 +195,18 @@ std::optional<MethodChoice> discretize_first(ObjectReader& object) {
 std::optional<MethodChoice> constrain_first(ObjectReader& object) {
   const auto map = discretization_kinds().read_key(object, "discretization");
   const auto projector = projector_kinds().read_key(object, "projector");
-  if (!map || !projector) return std::nullopt;
+  const auto order = read_order(object);
+  if (!map || !projector || !order) return std::nullopt;
   return MethodChoice{
-      "constrain-first, " + map->description + ", " + projector->description,
-      [map = *map, projector = *projector](const MethodSetting& at) {
+      "constrain-first, " + map->description + ", " + projector->description + order_text(*order),
+      [map = *map, projector = *projector, order = *order](const MethodSetting& at) {
         const auto& manifold = at.system->manifold();
         const auto on_manifold = map.make(manifold);
-        return PreparedMethod{
-            std::make_shared<ConstrainFirst>(at.system, at.ladder, on_manifold, projector.make(at),
-                                             ConstrainFirst::Options{.backend = at.backend}),
-            at.initial, on_manifold};
+        return PreparedMethod{composed(std::make_shared<ConstrainFirst>(
+                                           at.system, at.ladder, on_manifold, projector.make(at),
+                                           ConstrainFirst::Options{.backend = at.backend}),
+                                       order),
+                              at.initial, on_manifold};
       }};
 }
 
@@ -197,17 +242,21 @@ Registry<DiscretizationChoice>& discretization_kinds() {
 
 Registry<MethodChoice>& method_kinds() {
   const Key map = default_key("discretization", takes::kind("discretization"), "midpoint", "R_d");
+  const Key order = optional_key("order", takes::integer(kOrders),
+                                 "by symmetric composition; that of the discretization if missing");
   static Registry<MethodChoice> kinds({
       {{"discretize-first",
         "Method 1: (1/h) R_d⁻¹(x₀, x₁) ∈ S₀",
-        {map, default_key("start", takes::word({"on-manifold", "rk2"}), "on-manifold",
-                          "at the consistent point, or with the momentum that makes the first step "
-                          "that of rk2")}},
+        {map, order,
+         default_key("start", takes::word({"on-manifold", "rk2"}), "on-manifold",
+                     "at the consistent point, or with the momentum that makes the first step "
+                     "that of rk2")}},
        discretize_first},
       {{"constrain-first",
         "Method 2: the constraint algorithm, then R_d projected to M_f",
-        {map, default_key("projector", takes::kind("projector"), "orthogonal",
-                          "how points are brought to M_f")}},
+        {map, order,
+         default_key("projector", takes::kind("projector"), "orthogonal",
+                     "how points are brought to M_f")}},
        constrain_first},
       {{"rk2", "explicit midpoint rule on S_f, order 2"},
        explicit_runge_kutta<ExplicitRungeKutta::Kind::midpoint>},

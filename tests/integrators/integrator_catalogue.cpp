@@ -1,5 +1,8 @@
 #include "integrator_catalogue.hpp"
 
+#include <map>
+
+#include "courant/integrators/composition.hpp"
 #include "courant/integrators/constrain_first.hpp"
 #include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/explicit_runge_kutta.hpp"
@@ -59,10 +62,20 @@ class Site {
   void method_1(const std::string& map_name, const MapPointer& map) const {
     add("discretize-first, " + map_name, std::make_shared<DiscretizeFirst>(system_, map));
   }
+  // To higher orders, each with how much longer its steps are: errors are to be far from round-off.
+  void composed(const std::string& name, const std::shared_ptr<const Integrator>& method,
+                const std::map<int, double>& orders) const {
+    for (const auto& [order, longer] : orders)
+      add(name + ", order " + std::to_string(order), std::make_shared<Composition>(method, order),
+          longer * step_);
+  }
   void method_2(const std::string& map_name, const MapPointer& map,
                 std::shared_ptr<const Projector> projector) const {
-    add("constrain-first, " + map_name,
-        std::make_shared<ConstrainFirst>(system_, ladder_, map, std::move(projector)));
+    add("constrain-first, " + map_name, constrained(map, std::move(projector)));
+  }
+  std::shared_ptr<const Integrator> constrained(const MapPointer& map,
+                                                std::shared_ptr<const Projector> projector) const {
+    return std::make_shared<ConstrainFirst>(system_, ladder_, map, std::move(projector));
   }
   // High orders may want longer steps, whose errors are far from round-off.
   void explicit_methods(double longer = 1.0) const {
@@ -117,6 +130,10 @@ void on_vector_spaces(std::vector<IntegratorEntry>& table) {
                     std::make_shared<Adjoint>(lift(M, std::make_shared<Theta>(line, 0.0))));
   pendulum.method_2("midpoint", lift(M, std::make_shared<Theta>(line)),
                     std::make_shared<OrthogonalProjector>());
+  pendulum.composed(
+      "discretize-first",
+      std::make_shared<DiscretizeFirst>(driven, lift(M, std::make_shared<Theta>(line))),
+      {{4, 1.0}, {6, 4.0}, {8, 4.0}});
   pendulum.explicit_methods(3.0);
 
   // With damping: the map is symplectic, the system is not Lagrangian.
@@ -156,6 +173,11 @@ void with_constraints(std::vector<IntegratorEntry>& table) {
   nonholonomic.method_1("midpoint", std::make_shared<Theta>(M));
   nonholonomic.method_2("midpoint, momentum", std::make_shared<Theta>(M),
                         std::make_shared<MomentumProjector>(*M, std::vector<Index>{3, 4, 5}));
+  nonholonomic.composed(
+      "constrain-first, momentum",
+      nonholonomic.constrained(std::make_shared<Theta>(M), std::make_shared<MomentumProjector>(
+                                                               *M, std::vector<Index>{3, 4, 5})),
+      {{4, 10.0}, {6, 10.0}});
 }
 
 void on_manifolds(std::vector<IntegratorEntry>& table) {
@@ -171,9 +193,12 @@ void on_manifolds(std::vector<IntegratorEntry>& table) {
 
   // Bases of T(T*S³) turn along the way, and multipliers are found in any of them.
   const examples::HeldOnSphere held;
-  Site("held on a curved set in S³", held.system, held.ladder, 0.1, table)
-      .method_2("chordal", lift(held.M, std::make_shared<Chordal>(held.sphere)),
-                std::make_shared<OrthogonalProjector>());
+  const Site curved("held on a curved set in S³", held.system, held.ladder, 0.1, table);
+  const auto chordal = lift(held.M, std::make_shared<Chordal>(held.sphere));
+  curved.method_2("chordal", chordal, std::make_shared<OrthogonalProjector>());
+  curved.composed("constrain-first",
+                  curved.constrained(chordal, std::make_shared<OrthogonalProjector>()),
+                  {{4, 10.0}, {6, 10.0}});
 
   const auto rotations = std::make_shared<SpecialOrthogonal3>();
   const auto N = cotangent(rotations);

@@ -1,0 +1,129 @@
+#include "courant/integrators/composition.hpp"
+
+#include <array>
+#include <stdexcept>
+#include <vector>
+
+namespace courant {
+namespace {
+
+// The palindrome that begins with these.
+template <std::size_t half>
+constexpr std::array<double, 2 * half - 1> palindrome(const std::array<double, half>& first) {
+  std::array<double, 2 * half - 1> all{};
+  for (std::size_t i = 0; i < half; ++i) all[i] = all[2 * half - 2 - i] = first[i];
+  return all;
+}
+
+constexpr auto kOrder4 = palindrome(std::array{
+    0.41449077179437573714235406, 0.41449077179437573714235406, -0.65796308717750294856941625});
+constexpr auto kOrder6 = palindrome(std::array{
+    0.39216144400731413927925056, 0.33259913678935943859974864, -0.70624617255763935980996482,
+    0.08221359629355080023149045, 0.79854399093482996339895035});
+constexpr auto kOrder8 = palindrome(std::array{
+    0.13020248308889008087881763, 0.56116298177510838456196441, -0.38947496264484728640807860,
+    0.15884190655515560089621075, -0.39590389413323757733623154, 0.18453964097831570709183254,
+    0.25837438768632204729397911, 0.29501172360931029887096624, -0.60550853383003451169892108});
+
+}  // namespace
+
+// Each stage has a stepper of its own: it sees equal steps along a smooth curve, one in each step
+// of the composition, and keeps the factorisation for its size.
+class Composition::Trajectory final : public Stepper {
+ public:
+  Trajectory(std::shared_ptr<const Integrator> method, int order, const std::string& name)
+      : Stepper(name, method->system()),
+        composed_(std::move(method)),
+        order_(order),
+        coefficients_(coefficients(order)) {
+    for (std::size_t i = 0; i < coefficients_.size(); ++i) stages_.push_back(composed_->stepper());
+  }
+
+ private:
+  void do_prepare(State& state, double h) override {
+    stages_.front()->prepare(state, coefficients_.front() * h);
+  }
+
+  void do_step(const State& before, double h, State& after) override {
+    const double end = after.t;
+    double share = 0.0;
+    after = before;
+    for (std::size_t i = 0; i < stages_.size(); ++i) {
+      share += coefficients_[i];
+      const bool is_last = i + 1 == stages_.size();
+      advance(*stages_[i], after, coefficients_[i] * h, is_last ? end : before.t + share * h);
+    }
+  }
+
+  // The work of a stage counts, whether it can be made or not.
+  void advance(Stepper& stage, State& state, double h, double end) {
+    const SolverStatistics before = stage.statistics();
+    const auto count = [&] {
+      const SolverStatistics& now = stage.statistics();
+      statistics_.iterations += now.iterations - before.iterations;
+      statistics_.factorizations += now.factorizations - before.factorizations;
+      statistics_.failures += now.failures - before.failures;
+      statistics_.confirmations += now.confirmations - before.confirmations;
+    };
+    try {
+      stage.step(state, h, end);
+    } catch (...) {
+      count();
+      throw;
+    }
+    count();
+  }
+
+  void do_keep(const State&, const State&) override { stage_ = stages_.back()->last().stage; }
+  void do_stage(Step& step) const override { step.stage = stage_; }
+  void do_discard() override { do_forget(); }
+  void do_forget() override {
+    for (const auto& stage : stages_) stage->forget();
+  }
+  std::unique_ptr<Stepper> do_fresh() const override {
+    return std::make_unique<Trajectory>(composed_, order_, method());
+  }
+
+  std::shared_ptr<const Integrator> composed_;
+  int order_;
+  std::span<const double> coefficients_;
+  std::vector<std::unique_ptr<Stepper>> stages_;
+  State stage_;  // that of the last stage of the last step that stands
+};
+
+Composition::Composition(std::shared_ptr<const Integrator> method, int order)
+    : Integrator(method ? method->system() : nullptr), method_(std::move(method)), order_(order) {
+  coefficients(order);
+  if (method_->is_symmetric() && method_->order() == 2) return;
+  throw std::invalid_argument("Composition::Composition: order " + std::to_string(order) +
+                              " needs a symmetric method of order 2, but " + method_->name() +
+                              " as it is chosen here is " +
+                              (method_->is_symmetric() ? "symmetric" : "not symmetric") +
+                              " and of order " + std::to_string(method_->order()) + ".");
+}
+
+std::span<const double> Composition::coefficients(int order) {
+  switch (order) {
+    case 4:
+      return kOrder4;
+    case 6:
+      return kOrder6;
+    case 8:
+      return kOrder8;
+    default:
+      throw std::invalid_argument("Composition::coefficients: order is " + std::to_string(order) +
+                                  "; expected 4, 6 or 8.");
+  }
+}
+
+std::string Composition::name() const {
+  return method_->name() + " of order " + std::to_string(order_);
+}
+
+std::vector<StepFormulas> Composition::do_formulas() const { return method_->formulas(); }
+
+std::unique_ptr<Stepper> Composition::do_stepper() const {
+  return std::make_unique<Trajectory>(method_, order_, name());
+}
+
+}  // namespace courant
