@@ -83,7 +83,7 @@ void hand_written(benchmark::State& state) {
   }
 }
 
-template <int N, Backend backend>
+template <int N, Backend::Kind backend>
 void compiled(benchmark::State& state) {
   const VectorXd x = point(N);
   const VectorXd strengths =
@@ -111,11 +111,11 @@ void repeated(benchmark::internal::Benchmark* b) {
 }
 
 BENCHMARK(hand_written<4>)->Apply(repeated);
-BENCHMARK(compiled<4, Backend::native>)->Apply(repeated);
-BENCHMARK(compiled<4, Backend::interpreter>)->Apply(repeated);
+BENCHMARK(compiled<4, Backend::Kind::native>)->Apply(repeated);
+BENCHMARK(compiled<4, Backend::Kind::interpreter>)->Apply(repeated);
 BENCHMARK(hand_written<16>)->Apply(repeated);
-BENCHMARK(compiled<16, Backend::native>)->Apply(repeated);
-BENCHMARK(compiled<16, Backend::interpreter>)->Apply(repeated);
+BENCHMARK(compiled<16, Backend::Kind::native>)->Apply(repeated);
+BENCHMARK(compiled<16, Backend::Kind::interpreter>)->Apply(repeated);
 
 // Building a large graph: operations made a second.
 void large_graph(benchmark::State& state) {
