@@ -12,12 +12,13 @@
 #include "courant/reporting/ladder_diagram.hpp"
 #include "courant/reporting/ladder_explanation.hpp"
 #include "courant/running/consistent_start.hpp"
-#include "courant/running/ladder_json.hpp"
+#include "courant/running/ladder_report.hpp"
 
 namespace courant::cli {
 namespace {
 
-void print_levels(const Console& console, const Experiment& experiment, const Json& ladder) {
+void print_levels(const Console& console, const Experiment& experiment,
+                  const LadderReport& ladder) {
   std::ostream& out = console.out;
   if (!experiment.title.empty()) out << printable(experiment.title) << '\n';
   out << "  " << experiment.model.description << "\n\n";
@@ -25,41 +26,38 @@ void print_levels(const Console& console, const Experiment& experiment, const Js
   out << "\n  (dim S, dim M): " << ladder_line(ladder) << "\n\n";
   TextTable table({"k", "dim S", "dim M", "fibre", "gap", "residual"});
   // What is left of equations that are solved is round-off.
-  const auto residual = [](const Json& level) {
-    constexpr double nothing = 1e-20;
-    const Json& value = level.at("residual");
-    return value.is_number() && value.get<double>() < nothing ? "0" : shown(value, 2);
-  };
-  for (const Json& level : ladder.at("levels"))
-    table.add({shown(level.at("k")), shown(level.at("dim_S")), shown(level.at("dim_M")),
-               shown(level.at("fibre")), shown(level.at("gap"), 2), residual(level)});
+  constexpr double nothing = 1e-20;
+  for (const LadderReport::Level& level : ladder.levels)
+    table.add({std::to_string(level.k), shown_if_known(level.dim_S), shown_if_known(level.dim_M),
+               shown_if_known(level.fibre), shown_if_known(level.gap, 2),
+               level.residual < nothing ? "0" : shown(level.residual, 2)});
   table.print(out);
   out << '\n';
 }
 
-void print_ladder(const Console& console, const Experiment& experiment, const Json& ladder) {
+void print_ladder(const Console& console, const Experiment& experiment,
+                  const LadderReport& ladder) {
   std::ostream& out = console.out;
   print_levels(console, experiment, ladder);
-  const bool is_stopped = ladder.at("reason").get<std::string>().starts_with("Stopped");
+  const bool is_stopped = ladder.reason.starts_with("Stopped");
   if (!is_stopped) print_wrapped(out, verdict_in_words(ladder), "  ");
-  if (const std::string reason = ladder.at("reason"); !reason.empty())
-    print_wrapped(out, reason, "  ");
+  if (!ladder.reason.empty()) print_wrapped(out, ladder.reason, "  ");
   out << '\n';
   for (const std::string& line : ladder_explanation(ladder)) print_wrapped(out, line, "  ");
-  if (!ladder.at("moves").empty()) {
+  if (!ladder.moves.empty()) {
     out << '\n';
     print_wrapped(out,
-                  "Initial values that had to move to be consistent, by " +
-                      shown(ladder.at("moved"), 4) + " in all:",
+                  "Initial values that had to move to be consistent, by " + shown(ladder.moved, 4) +
+                      " in all:",
                   "  ");
-    for (const Json& move : ladder.at("moves"))
-      out << "      " << move.at("name").get<std::string>() << " from " << shown(move.at("from"))
-          << " to " << shown(move.at("to")) << '\n';
+    for (const Movement& move : ladder.moves)
+      out << "      " << move.name << " from " << shown(move.from) << " to " << shown(move.to)
+          << '\n';
   }
 }
 
 // Remark 6.1 on the system, the discretization map and the step of an experiment.
-Json discrete_ladder(const Experiment& experiment, const ConstraintLadder& start) {
+LadderReport discrete_ladder(const Experiment& experiment, const ConstraintLadder& start) {
   if (!experiment.method || !experiment.time)
     throw ExperimentError("/method",
                           "is missing; the discrete ladder is that of a discretization "
@@ -73,12 +71,12 @@ Json discrete_ladder(const Experiment& experiment, const ConstraintLadder& start
                                          "one, such as discretize-first");
   const InitialGuess guess{
       .t = start.point.t, .x = start.point.x, .v = start.point.v, .z = start.point.z};
-  return discrete_ladder_json(
+  return discrete_ladder_report(
       DiscreteConstraintAlgorithm().run(system, method.map, experiment.time->step, guess), *system);
 }
 
-void print_discrete(const Console& console, const Experiment& experiment, const Json& ladder,
-                    const Json& continuous) {
+void print_discrete(const Console& console, const Experiment& experiment,
+                    const LadderReport& ladder, const LadderReport& continuous) {
   std::ostream& out = console.out;
   print_levels(console, experiment, ladder);
   print_wrapped(out,
@@ -123,13 +121,14 @@ void add_constraints(CLI::App& app, Session& session) {
           [&](const Experiment& experiment) -> int {
             std::optional<Waiting> waiting(std::in_place, console, "constraint algorithm");
             const ConstraintLadder start = consistent_start(experiment);
-            const Json whole = ladder_json(start, *experiment.model.system);
-            const Json ladder = arguments->discrete     ? discrete_ladder(experiment, start)
-                                : arguments->level >= 0 ? up_to_level(whole, arguments->level)
-                                                        : whole;
+            const LadderReport whole = ladder_report(start, *experiment.model.system);
+            const LadderReport ladder = arguments->discrete ? discrete_ladder(experiment, start)
+                                        : arguments->level >= 0
+                                            ? up_to_level(whole, arguments->level)
+                                            : whole;
             waiting.reset();
             if (arguments->json)
-              console.out << ladder.dump(2) << '\n';
+              console.out << to_json(ladder).dump(2) << '\n';
             else if (arguments->discrete)
               print_discrete(console, experiment, ladder, whole);
             else

@@ -32,7 +32,7 @@ ProgressBar::~ProgressBar() {
 
 void ProgressBar::show(const Progress& progress) {
   const double share = static_cast<double>(progress.step) / static_cast<double>(progress.steps);
-  const double rate = static_cast<double>(progress.step) / progress.seconds;
+  const double rate = static_cast<double>(progress.step - progress.first) / progress.seconds;
   const double left = static_cast<double>(progress.steps - progress.step) / rate;
   const int full = static_cast<int>(share * kCells);
   out_ << kClearLine << '[' << std::string(static_cast<std::size_t>(full), '#')

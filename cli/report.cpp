@@ -1,6 +1,7 @@
 #include "courant/reporting/report.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <ostream>
@@ -34,22 +35,19 @@ std::filesystem::path page_of(const Arguments& arguments) {
 void print_comparison(const Console& console, const std::vector<Run>& runs) {
   TextTable table({"run", "method", "max |H - H(0)|", "steps", "steps/s", "expected"});
   for (const Run& run : runs) {
-    const Json& summary = run.summary;
-    const Json observables = summary.value("observables", Json::object());
-    const Json H = observables.value("H", Json::object());
-    std::size_t passed = 0;
-    const Json expectations = summary.value("expectations", Json::array());
-    for (const Json& expectation : expectations)
-      if (expectation.at("passed").get<bool>()) ++passed;
-    table.add({run.name, summary.at("method"), shown(H.value("max_drift", Json()), 4),
-               shown(summary.at("steps")), shown(summary.value("steps_per_second", Json()), 3),
-               std::to_string(passed) + " of " + std::to_string(expectations.size())});
+    const RunSummary& summary = run.summary;
+    const QuantityRecord* H = summary.observable("H");
+    const auto passed =
+        std::count_if(summary.expectations.begin(), summary.expectations.end(),
+                      [](const ExpectationResult& expectation) { return expectation.passed; });
+    table.add({run.name, summary.method, shown_if_known(H ? H->max_drift : RunSummary::kUnknown, 4),
+               std::to_string(summary.steps), shown_if_known(summary.steps_per_second, 3),
+               std::to_string(passed) + " of " + std::to_string(summary.expectations.size())});
   }
   table.print(console.out, "");
   for (const Run& run : runs)
-    if (run.summary.at("status") == "running")
-      console.out << printable(run.name) << ": " << run.summary.at("message").get<std::string>()
-                  << '\n';
+    if (run.summary.status == RunStatus::running)
+      console.out << printable(run.name) << ": " << run.summary.message << '\n';
 }
 
 // |H - H(0)| of the runs that have an energy.

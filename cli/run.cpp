@@ -44,7 +44,9 @@ int run_experiment(const Console& console, const Arguments& arguments,
                    const Experiment& experiment) {
   RunOptions options{.folder = folder_of(arguments),
                      .backend = arguments.backend,
-                     .replace = arguments.force,
+                     .existing = arguments.resume  ? ExistingRun::resume
+                                 : arguments.force ? ExistingRun::replace
+                                                   : ExistingRun::refuse,
                      .stop = console.stop,
                      .on_ladder = {},
                      .on_method = {},
@@ -54,12 +56,13 @@ int run_experiment(const Console& console, const Arguments& arguments,
   std::optional<ProgressBar> bar;
   std::optional<Waiting> waiting;
   if (!arguments.quiet) waiting.emplace(console, "constraint algorithm");
-  options.on_ladder = [&](const Json& ladder) {
+  options.on_ladder = [&](const LadderReport& ladder) {
     waiting.reset();
     if (console.heeds_stop) *console.heeds_stop = true;
     if (!arguments.quiet) print_opening(console, experiment, ladder);
   };
   if (!arguments.quiet) {
+    options.on_resume = [&](long k, double t) { print_resumption(console, k, t); };
     if (console.is_terminal) {
       bar.emplace(console.err);
       options.on_progress = [&](const Progress& progress) { bar->show(progress); };
@@ -101,15 +104,17 @@ void add_run(CLI::App& app, Session& session) {
                       .description(""))
       ->type_name("NAME");
   add_settings(*run, arguments->settings);
-  run->add_flag("--force", arguments->force, "replace a run that is in the folder already");
-  run->add_flag("--resume", arguments->resume)->group("");  // not listed: it cannot be done yet
+  CLI::Option* force =
+      run->add_flag("--force", arguments->force, "replace a run that is in the folder already");
+  run->add_flag("--resume", arguments->resume,
+                "go on with the run that is in the folder: one that was killed, interrupted or "
+                "failed, or one that is complete after /time/end has grown; its files become "
+                "those of a run that was never stopped")
+      ->excludes(force);
   run->add_flag("--explain", arguments->explain,
                 "say which equations a step solves, and which unknowns they give explicitly");
   run->add_flag("--quiet", arguments->quiet, "print errors only");
   run->callback([&session, arguments] {
-    if (arguments->resume)
-      throw CLI::ValidationError("--resume",
-                                 "runs cannot be continued yet; --force starts from the beginning");
     session.action = [arguments](const Console& console) {
       return with_experiment(
           console, arguments->file,

@@ -38,33 +38,29 @@ void print_paths(const Console& console, const std::filesystem::path& folder) {
                                       {.unicode = console.unicode, .colour = console.colour});
 }
 
-void print_observables(const Console& console, const Json& summary) {
+void print_observables(const Console& console, const RunSummary& summary) {
   TextTable table({"", "initial", "final", "max drift", "slope"});
-  for (const auto& [name, o] : summary.at("observables").items())
-    table.add({name, shown(o.at("initial")), shown(o.at("final")), shown(o.at("max_drift"), 4),
-               shown(o.at("slope"), 3)});
-  if (const Json violation = summary.at("constraints").value("max_violation", Json());
-      !violation.is_null())
-    table.add({"constraints", "", "", shown(violation, 3), ""});
+  for (const auto& [name, record] : summary.observables)
+    table.add({name, shown(record.initial), shown(record.final), shown(record.max_drift, 4),
+               shown(record.slope, 3)});
+  if (summary.max_violation)
+    table.add({"constraints", "", "", shown(*summary.max_violation, 3), ""});
   if (!table.empty()) {
     console.out << '\n';
     table.print(console.out);
   }
 }
 
-void print_final(const Console& console, const Json& summary) {
-  const Json& final_state = summary.at("final");
-  if (final_state.empty()) return;
-  TextTable table({"t = " + shown(summary.at("time").value("end", Json(0.0))), ""});
-  std::size_t count = 0;
-  for (const auto& [name, value] : final_state.items()) {
-    if (++count > kMostCoordinates) break;
-    table.add({name, shown(value, 12)});
-  }
+void print_final(const Console& console, const RunSummary& summary) {
+  if (summary.final.empty()) return;
+  TextTable table({"t = " + shown(summary.time ? summary.time->end : 0.0), ""});
+  const std::size_t count = std::min(summary.final.size(), kMostCoordinates);
+  for (std::size_t i = 0; i < count; ++i)
+    table.add({summary.final[i].first, shown(summary.final[i].second, 12)});
   console.out << '\n';
   table.print(console.out);
-  if (count > kMostCoordinates)
-    console.out << "  … " << final_state.size() - kMostCoordinates << " more in summary.json\n";
+  if (count < summary.final.size())
+    console.out << "  … " << summary.final.size() - count << " more in summary.json\n";
 }
 
 void print_expectations(const Console& console, const RunOutcome& outcome) {
@@ -79,7 +75,8 @@ void print_expectations(const Console& console, const RunOutcome& outcome) {
 
 }  // namespace
 
-void print_opening(const Console& console, const Experiment& experiment, const Json& ladder) {
+void print_opening(const Console& console, const Experiment& experiment,
+                   const LadderReport& ladder) {
   std::ostream& out = console.out;
   if (!experiment.title.empty()) out << printable(experiment.title) << '\n';
   out << "  " << experiment.model.description << '\n';
@@ -88,10 +85,14 @@ void print_opening(const Console& console, const Experiment& experiment, const J
         << shown(experiment.time->step) << '\n';
   out << "\n  (dim S, dim M): " << ladder_line(ladder) << "\n  " << verdict_in_words(ladder)
       << '\n';
-  for (const Json& move : ladder.at("moves"))
-    out << "  " << move.at("name").get<std::string>() << " had to move from "
-        << shown(move.at("from")) << " to " << shown(move.at("to")) << " to be consistent.\n";
+  for (const Movement& move : ladder.moves)
+    out << "  " << move.name << " had to move from " << shown(move.from) << " to " << shown(move.to)
+        << " to be consistent.\n";
   out << std::flush;
+}
+
+void print_resumption(const Console& console, long k, double t) {
+  console.out << "\n  goes on after step " << k << ", at t = " << shown(t) << '\n' << std::flush;
 }
 
 void print_explanation(const Console& console, const Integrator& method) {
@@ -103,27 +104,25 @@ void print_explanation(const Console& console, const Integrator& method) {
 
 void print_outcome(const Console& console, const RunOutcome& outcome,
                    const std::filesystem::path& folder) {
-  const Json& summary = outcome.summary;
-  if (summary.at("steps").get<long>() <= kMostRowsPlotted) print_paths(console, folder);
+  const RunSummary& summary = outcome.summary;
+  if (summary.steps <= kMostRowsPlotted) print_paths(console, folder);
   print_observables(console, summary);
   print_final(console, summary);
-  const Json& solver = summary.at("solver");
-  if (summary.at("steps").get<long>() > 0)
-    console.out << "\n  " << shown(solver.at("iterations_per_step"), 3) << " iterations and "
-                << shown(solver.at("factorizations_per_step"), 3) << " factorizations a step, "
-                << shown(summary.at("steps_per_second"), 3) << " steps/s ("
-                << summary.at("backend").get<std::string>() << ")\n";
-  if (const long again = solver.value("second_attempts", 0L); again > 0)
+  const RunSummary::Solver& solver = summary.solver;
+  if (summary.steps > 0)
+    console.out << "\n  " << shown(solver.iterations_per_step, 3) << " iterations and "
+                << shown(solver.factorizations_per_step, 3) << " factorizations a step, "
+                << shown(summary.steps_per_second, 3) << " steps/s (" << summary.backend << ")\n";
+  if (const long again = solver.second_attempts.value_or(0); again > 0)
     console.out << "  " << again << (again == 1 ? " step" : " steps")
                 << " needed a second attempt.\n";
-  if (const long looked_at = solver.value("confirmations", 0L); looked_at > 0)
+  if (const long looked_at = solver.confirmations.value_or(0); looked_at > 0)
     console.out << "  " << looked_at << (looked_at == 1 ? " step was" : " steps were")
                 << " confirmed by continuation in h.\n";
-  for (const Json& warning : summary.value("warnings", Json::array()))
-    console.out << "\n  Warning: " << warning.get<std::string>() << '\n';
+  for (const std::string& warning : summary.warnings)
+    console.out << "\n  Warning: " << warning << '\n';
   print_expectations(console, outcome);
-  console.out << "\n  " << summary.at("status").get<std::string>() << "; files in "
-              << folder.string() << '\n'
+  console.out << "\n  " << to_string(summary.status) << "; files in " << folder.string() << '\n'
               << std::flush;
 }
 

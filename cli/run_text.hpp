@@ -11,7 +11,11 @@
 namespace courant::cli {
 
 // What is run, and what the constraint algorithm found.
-void print_opening(const Console& console, const Experiment& experiment, const Json& ladder);
+void print_opening(const Console& console, const Experiment& experiment,
+                   const LadderReport& ladder);
+
+// Where a run goes on.
+void print_resumption(const Console& console, long k, double t);
 
 // The equations that a step solves, which unknowns they give explicitly, and which are left.
 void print_explanation(const Console& console, const Integrator& method);

@@ -1,8 +1,10 @@
 #include "courant/cli/text.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <ostream>
 #include <sstream>
+#include <utility>
 
 #include "courant/core/message.hpp"
 
@@ -56,6 +58,13 @@ std::string shown(const Json& value, int digits) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
+std::string shown_if_known(double value, int digits) {
+  return std::isnan(value) ? "–" : shown(value, digits);
+}
+std::string shown_if_known(std::optional<Index> value) {
+  return value ? std::to_string(*value) : "–";
+}
+
 void print_wrapped(std::ostream& out, const std::string& text, const std::string& indent) {
   constexpr std::size_t columns = 96;
   const std::size_t spaces = text.find_first_not_of(' ');
@@ -97,16 +106,17 @@ void TextTable::print(std::ostream& out, const std::string& indent) const {
   }
 }
 
-std::string ladder_line(const Json& ladder) {
+std::string ladder_line(const LadderReport& ladder) {
   std::string line;
-  Json before;
-  for (const Json& level : ladder.at("levels")) {
-    const Json& S = level.at("dim_S");
-    const Json pair{S, level.at("dim_M")};
-    if (pair == before) continue;
+  std::optional<std::pair<std::optional<Index>, std::optional<Index>>> before;
+  for (const LadderReport::Level& level : ladder.levels) {
+    const std::pair pair(level.dim_S, level.dim_M);
+    if (before == pair) continue;
     before = pair;
     if (!line.empty()) line += " ⊇ ";
-    line += S.is_null() ? "∅" : "(" + shown(S) + ", " + shown(level.at("dim_M")) + ")";
+    line += level.dim_S
+                ? "(" + std::to_string(*level.dim_S) + ", " + shown_if_known(level.dim_M) + ")"
+                : "∅";
   }
   return line;
 }

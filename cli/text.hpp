@@ -2,16 +2,21 @@
 #pragma once
 
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "courant/reading/findings.hpp"
+#include "courant/running/ladder_report.hpp"
 
 namespace courant::cli {
 
 // A number to a few significant digits, "1.596e-04"; "–" for a JSON null.
 std::string shown(double value, int digits = 6);
 std::string shown(const Json& value, int digits = 6);
+// "–" for a number that is not known, and a dimension that there is not.
+std::string shown_if_known(double value, int digits = 6);
+std::string shown_if_known(std::optional<Index> value);
 
 // `text` in lines of at most 96 characters, each after `indent`. A text that is indented itself, a
 // formula, goes on four columns further in.
@@ -32,6 +37,6 @@ class TextTable {
 
 // "(16, 8) ⊇ (8, 8)": (dim S, dim M) of each level but those that only confirm; ∅ where one is
 // empty.
-std::string ladder_line(const Json& ladder);
+std::string ladder_line(const LadderReport& ladder);
 
 }  // namespace courant::cli

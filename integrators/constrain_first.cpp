@@ -167,6 +167,8 @@ class ConstrainFirst::Trajectory final : public Stepper {
     shifted_.setZero();
   }
 
+  Motion do_motion() const override { return solver_.motion(manifold()); }
+  void do_expect(const Motion& motion) override { solver_.expect(motion); }
   std::unique_ptr<Stepper> do_fresh() const override {
     return std::make_unique<Trajectory>(method_);
   }

@@ -83,6 +83,8 @@ class DiscretizeFirst::Trajectory final : public Stepper {
     solver_.forget();
     predictor_.forget();
   }
+  Motion do_motion() const override { return solver_.motion(manifold()); }
+  void do_expect(const Motion& motion) override { solver_.expect(motion); }
   std::unique_ptr<Stepper> do_fresh() const override {
     return std::make_unique<Trajectory>(method_);
   }

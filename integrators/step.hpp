@@ -14,4 +14,11 @@ struct Step {
   State stage = {};
 };
 
+// What the steps of a motion were like. A step that begins without those before it takes its solution
+// for that along the motion if this says so.
+struct Motion {
+  bool is_predictable = false;  // the last step was predicted by those before
+  VectorXd displacements = {};  // sizes of those of the last steps, in the coordinates of a step
+};
+
 }  // namespace courant

@@ -11,6 +11,8 @@ namespace {
 // coordinates, needs no confirmation. Its size is the largest of the last steps, of which each
 // forgets so much: at a turning point of a coordinate a displacement is small.
 constexpr double kPredicted = 0.05;
+// The same for a step that the velocity of the last one predicts, where that one was predicted.
+constexpr double kExpected = 0.25;
 constexpr double kNegligible = 1e-10;
 constexpr double kForgotten = 0.98;
 
@@ -48,17 +50,30 @@ std::vector<Index> StepSolver::predicted() const {
   return places;
 }
 
+Motion StepSolver::motion(const Manifold& manifold) const {
+  Motion motion{.is_predictable = is_trusted_, .displacements = usual_};
+  if (manifold.dimension() < manifold.tangent_dimension())
+    motion.displacements.setConstant(largest(usual_));
+  return motion;
+}
+
+void StepSolver::expect(const Motion& motion) {
+  is_expected_ = motion.is_predictable && motion.displacements.size() == usual_.size();
+  if (is_expected_) usual_ = motion.displacements;
+}
+
 void StepSolver::keep() {
   is_trusted_ = is_good_;
+  is_expected_ = false;
   for (Index i = 0; i < usual_.size(); ++i)
     usual_[i] = std::max(std::fabs(y_[i]), kForgotten * usual_[i]);
 }
 
 bool StepSolver::is_as_predicted(double size) const {
+  const double allowed = is_expected_ ? kExpected : kPredicted;
   for (Index i = 0; i < usual_.size(); ++i) {
     const double change = std::fabs(y_[i] - other_[i]);
-    if (!(change <=
-          std::max(kPredicted * std::max(std::fabs(y_[i]), usual_[i]), kNegligible * size)))
+    if (!(change <= std::max(allowed * std::max(std::fabs(y_[i]), usual_[i]), kNegligible * size)))
       return false;
   }
   return true;

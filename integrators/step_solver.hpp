@@ -48,7 +48,7 @@ class StepSolver {
   }
   // The solution that is connected to the state. One close to what unknown() predicted is taken for
   // it, every displacement right to a twentieth of its size, if the matrix of an earlier step led
-  // there, or the last step was predicted as well. Else it is the one that StepContinuation finds;
+  // there, or the last step was predicted as well; right to a quarter after expect(). Else it is the one that StepContinuation finds;
   // `begin` puts into unknown() what the state alone predicts.
   template <class Begin>
   void solve_connected(const double* const* in, const double* scales, const Begin& begin,
@@ -71,7 +71,12 @@ class StepSolver {
     newton_.reset();
     usual_.setZero();
     is_trusted_ = true;
+    is_expected_ = false;
   }
+  // As of Stepper. A basis of tangent vectors that is made afresh has other coordinates: where there
+  // is one, all displacements have the size of the largest.
+  Motion motion(const Manifold& manifold) const;
+  void expect(const Motion& motion);
 
  private:
   bool converges(const double* const* in, const double* scales, SolverStatistics& statistics) {
@@ -91,9 +96,10 @@ class StepSolver {
   VectorXd y_;
   VectorXd other_;  // the prediction, or another solution
   std::optional<StepContinuation> continuation_;
-  VectorXd usual_;          // sizes of displacements
-  bool is_good_ = false;    // the prediction of this step
-  bool is_trusted_ = true;  // that of the last one was good
+  VectorXd usual_;            // sizes of displacements
+  bool is_good_ = false;      // the prediction of this step
+  bool is_trusted_ = true;    // that of the last one was good
+  bool is_expected_ = false;  // the next step goes on with a motion that is known
   std::string method_;
 };
 

@@ -64,6 +64,12 @@ class Stepper {
   // As if no step had been made; the statistics go on.
   void forget();
 
+  // The steps so far, for a stepper of the same method that knows nothing of them: a fresh one, or
+  // this after forget(). With expect() its first step, which goes on with the motion by the same h, need
+  // not be looked at by continuation. It is the same step.
+  Motion motion() const { return do_motion(); }
+  void expect(const Motion& motion) { do_expect(motion); }
+
   const SolverStatistics& statistics() const { return statistics_; }
 
  protected:
@@ -94,6 +100,9 @@ class Stepper {
   virtual std::unique_ptr<Stepper> do_fresh() const = 0;
 
   // May override:
+  // As expect() and motion() say; nothing where no step is looked at.
+  virtual Motion do_motion() const { return {}; }
+  virtual void do_expect(const Motion&) {}
   // The step does not stand, or was not made.
   virtual void do_discard() {}
   // The next step begins at this state, which is not where the last one ended; v and z have their

@@ -189,11 +189,10 @@ void read_state(ObjectReader& entry, const JsonReader& state_key, const Reading&
 }
 
 // The levels of a ladder as [[dim S₀, dim M₀], …], without those that only confirm the one before.
-Json dimensions(const Json& ladder) {
+Json dimensions(const ConstraintLadder& ladder) {
   Json list = Json::array();
-  if (ladder.is_null()) return list;
-  for (const Json& level : ladder.at("levels")) {
-    const Json pair{level.at("dim_S"), level.at("dim_M")};
+  for (const LadderLevel& level : ladder.levels) {
+    const Json pair = level.is_empty ? Json{nullptr, nullptr} : Json{level.dim_S, level.dim_M};
     if (list.empty() || list.back() != pair) list.push_back(pair);
   }
   return list;
@@ -204,12 +203,12 @@ std::string in_words(const Json& value) {
 }
 
 void expect_equal(const JsonReader& key, const std::string& description, const ObjectReader& entry,
-                  std::function<Json(const Json& ladder)> value, const Reading& reading) {
+                  std::function<Json(const ConstraintLadder&)> value, const Reading& reading) {
   reading.expectations.checks.push_back(
       [=, bound = key.value(), pointer = entry.place().pointer()](const RunRecord& record) {
         ExpectationResult result{pointer, description, false, nullptr, bound, kNotKnown};
-        if (record.ladder.is_null()) return result;
-        result.value = value(record.ladder);
+        if (!record.ladder) return result;
+        result.value = value(*record.ladder);
         result.passed = result.value == bound;
         result.finding = "is " + in_words(result.value) + "; expected " + in_words(bound);
         return result;
@@ -243,7 +242,7 @@ bool read_certificate(ObjectReader& entry, const Reading& reading) {
       if (*verdict == "inconsistent") reading.expectations.inconsistent = true;
       expect_equal(
           *key, "verdict of the constraint algorithm", entry,
-          [](const Json& ladder) { return ladder.at("verdict"); }, reading);
+          [](const ConstraintLadder& ladder) { return to_string(ladder.verdict); }, reading);
     }
   }
   if (const auto key = entry.optional("ladder")) {
@@ -251,7 +250,10 @@ bool read_certificate(ObjectReader& entry, const Reading& reading) {
     if (is_dimension_list(*key))
       expect_equal(*key, "(dim S, dim M) of the ladder", entry, dimensions, reading);
   }
-  for (const char* name : {"index", "gauge_dimension", "degrees_of_freedom"}) {
+  for (const auto& [name, member] :
+       {std::pair("index", &ConstraintLadder::index),
+        std::pair("gauge_dimension", &ConstraintLadder::gauge_dimension),
+        std::pair("degrees_of_freedom", &ConstraintLadder::degrees_of_freedom)}) {
     const auto key = entry.optional(name);
     if (!key) continue;
     any = true;
@@ -260,7 +262,11 @@ bool read_certificate(ObjectReader& entry, const Reading& reading) {
     if (key->integer(0))
       expect_equal(
           *key, words + " of the ladder", entry,
-          [name](const Json& ladder) { return ladder.value(name, Json()); }, reading);
+          [member = member](const ConstraintLadder& ladder) {
+            const Index found = ladder.*member;
+            return found < 0 ? Json() : Json(found);
+          },
+          reading);
   }
   return any;
 }

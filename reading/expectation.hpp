@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "courant/integrators/ladder/constraint_ladder.hpp"
 #include "courant/reading/model.hpp"
 
 namespace courant {
@@ -27,7 +28,7 @@ struct RunRecord {
   std::map<double, std::map<std::string, double, std::less<>>>
       moments;                                                      // quantities at times asked for
   double max_violation = std::numeric_limits<double>::quiet_NaN();  // of the constraints, if any
-  Json ladder;                                                      // null if not reached
+  const ConstraintLadder* ladder = nullptr;                         // null if not reached
 };
 
 // One entry of `expectations` in a summary.

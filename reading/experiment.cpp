@@ -57,6 +57,7 @@ Output read_output(const JsonReader& value) {
   ObjectReader object(value);
   Output output;
   output.every = object.integer("every", 1, 1);
+  output.epoch = object.integer("epoch", output.epoch, 1);
   if (object.word("format", "csv", {"csv", "npy"}) == "npy") output.format = Output::Format::npy;
   return output;
 }

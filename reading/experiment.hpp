@@ -21,7 +21,8 @@ struct Observable {
 struct Output {
   enum class Format { csv, npy };
   Format format = Format::csv;
-  long every = 1;  // steps a row
+  long every = 1;     // steps a row
+  long epoch = 4096;  // steps after which the workspace of the method is forgotten
 };
 
 // A system, where it starts, how it is integrated, what is observed and expected. Without a method

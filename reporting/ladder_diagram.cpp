@@ -1,7 +1,10 @@
 #include "courant/reporting/ladder_diagram.hpp"
 
 #include <array>
+#include <cmath>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "courant/plotting/scale.hpp"
 
@@ -9,19 +12,12 @@ namespace courant {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
 using plot::element;
 using plot::Markup;
 
 constexpr double column_width = 132, first_column = 46, upper_row = 40, lower_row = 128;
 
-std::optional<int> whole(const Json& object, const char* key) {
-  const auto found = object.find(key);
-  if (found == object.end() || !found->is_number_integer()) return std::nullopt;
-  return found->get<int>();
-}
-
-std::string subscript(int k) {
+std::string subscript(Index k) {
   static constexpr std::array<const char*, 10> digits = {"₀", "₁", "₂", "₃", "₄",
                                                          "₅", "₆", "₇", "₈", "₉"};
   std::string text;
@@ -37,11 +33,10 @@ Markup label(double x, double y, std::string_view style, const Markup& content) 
 }
 
 // The set S_k or M_k with its dimension under it.
-Markup node(double x, double y, std::string_view set, int k, std::optional<int> dimension) {
+Markup node(double x, double y, std::string_view set, Index k, std::optional<Index> dimension) {
   const Markup name = element("tspan", {{"font-style", "italic"}}, set) + subscript(k);
-  const bool is_empty = !dimension || *dimension < 0;
-  return label(x, y, "set", is_empty ? name + " = ∅" : name) +
-         label(x, y + 16, "dimension", is_empty ? "" : "dim " + std::to_string(*dimension));
+  return label(x, y, "set", dimension ? name : name + " = ∅") +
+         label(x, y + 16, "dimension", dimension ? "dim " + std::to_string(*dimension) : "");
 }
 
 Markup arrow_down(double x, double from, double to) {
@@ -58,16 +53,13 @@ Markup arrow_down(double x, double from, double to) {
              "τ");
 }
 
-std::string said(const Json& ladder) {
-  const Json& levels = ladder.at("levels");
+std::string said(const LadderReport& ladder) {
   std::string text;
-  for (const char* key : {"dim_S", "dim_M"}) {
-    text += key[4] == 'S' ? "S" : "; M";
-    text += ":";
-    for (const Json& level : levels) {
-      const auto dimension = whole(level, key);
-      text +=
-          " " + (dimension && *dimension >= 0 ? std::to_string(*dimension) : std::string("empty"));
+  for (const bool upper : {true, false}) {
+    text += upper ? "S:" : "; M:";
+    for (const LadderReport::Level& level : ladder.levels) {
+      const auto dimension = upper ? level.dim_S : level.dim_M;
+      text += " " + (dimension ? std::to_string(*dimension) : std::string("empty"));
     }
   }
   return "Dimensions of " + text + ".";
@@ -75,21 +67,21 @@ std::string said(const Json& ladder) {
 
 }  // namespace
 
-Markup ladder_diagram(const Json& ladder) {
-  const Json& levels = ladder.at("levels");
+Markup ladder_diagram(const LadderReport& ladder) {
+  const std::vector<LadderReport::Level>& levels = ladder.levels;
   Markup content;
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const double x = first_column + static_cast<double>(i) * column_width;
-    const int k = whole(levels[i], "k").value_or(static_cast<int>(i));
-    const auto dim_S = whole(levels[i], "dim_S"), dim_M = whole(levels[i], "dim_M");
-    content += node(x, upper_row, "S", k, dim_S) + node(x, lower_row, "M", k, dim_M);
+    const LadderReport::Level& level = levels[i];
+    content += node(x, upper_row, "S", level.k, level.dim_S) +
+               node(x, lower_row, "M", level.k, level.dim_M);
     content += arrow_down(x, upper_row + 26, lower_row - 20);
     if (i == 0) continue;
-    const auto relation = [&](const char* key) {
-      return whole(levels[i], key) == whole(levels[i - 1], key) ? "=" : "⊇";
-    };
-    content += label(x - column_width / 2, upper_row, "relation", relation("dim_S"));
-    content += label(x - column_width / 2, lower_row, "relation", relation("dim_M"));
+    const auto relation = [](bool repeats) { return repeats ? "=" : "⊇"; };
+    content += label(x - column_width / 2, upper_row, "relation",
+                     relation(level.dim_S == levels[i - 1].dim_S));
+    content += label(x - column_width / 2, lower_row, "relation",
+                     relation(level.dim_M == levels[i - 1].dim_M));
   }
   const double width = 2 * first_column + column_width * (static_cast<double>(levels.size()) - 1);
   const Markup styled =
@@ -98,59 +90,54 @@ Markup ladder_diagram(const Json& ladder) {
                    styled);
 }
 
-std::string verdict_in_words(const Json& ladder) {
-  std::string verdict = ladder.at("verdict");
-  const Json& levels = ladder.at("levels");
-  const Json last = levels.empty() ? Json::object() : levels.back();
-  const int k = whole(ladder, "index").value_or(0);
+std::string verdict_in_words(const LadderReport& ladder) {
+  const LadderReport::Level* last = ladder.levels.empty() ? nullptr : &ladder.levels.back();
+  const Index k = ladder.index.value_or(0);
   const std::string stop = "The algorithm stops at k = " + std::to_string(k) + ": ";
-  const std::string fibre_dimension =
-      std::to_string(whole(ladder, "gauge_dimension").value_or(whole(last, "fibre").value_or(0)));
-  const auto dim_M = whole(last, "dim_M");
-  const std::string final_set =
-      "M_f = M" + subscript(k) + (dim_M ? ", of dimension " + std::to_string(*dim_M) : "");
-  if (verdict == "regular") {
-    return "Regular. " + stop + "S_f = S" + subscript(k) + " is the graph of a vector field on " +
-           final_set + "; through each of its points passes exactly one solution.";
+  std::string final_set = "M_f = M" + subscript(k);
+  if (last && last->dim_M) final_set += ", of dimension " + std::to_string(*last->dim_M);
+  switch (ladder.verdict) {
+    case Verdict::regular:
+      return "Regular. " + stop + "S_f = S" + subscript(k) + " is the graph of a vector field on " +
+             final_set + "; through each of its points passes exactly one solution.";
+    case Verdict::gauge:
+      return "Gauge. " + stop + "solutions pass through each point of " + final_set +
+             ", but their velocity is free in " + std::to_string(ladder.gauge_dimension) +
+             (ladder.gauge_dimension == 1 ? " direction." : " directions.");
+    case Verdict::inconsistent:
+      return "Inconsistent. No point nearby satisfies the equations and their derivatives: there "
+             "is no solution" +
+             (last && std::isfinite(last->residual)
+                  ? " (least residual " + plot::readable(last->residual, 3) + ")."
+                  : ".");
+    case Verdict::rank_change:
+      return "The rank changes at this point: it is singular, and the dimensions hold there only.";
+    case Verdict::not_reached:
+      return "Not reached. The dimensions still fall at the last level tried, k = " +
+             std::to_string(ladder.levels.empty() ? 0 : ladder.levels.size() - 1) + ".";
   }
-  if (verdict == "gauge") {
-    return "Gauge. " + stop + "solutions pass through each point of " + final_set +
-           ", but their velocity is free in " + fibre_dimension +
-           (fibre_dimension == "1" ? " direction." : " directions.");
-  }
-  if (verdict == "inconsistent") {
-    const auto residual = last.find("residual");
-    const bool known = residual != last.end() && residual->is_number();
-    return "Inconsistent. No point nearby satisfies the equations and their derivatives: there is "
-           "no solution" +
-           (known ? " (least residual " + plot::readable(residual->get<double>(), 3) + ")." : ".");
-  }
-  if (verdict == "rank-change") {
-    return "The rank changes at this point: it is singular, and the dimensions hold there only.";
-  }
-  if (verdict == "not-reached") {
-    return "Not reached. The dimensions still fall at the last level tried, k = " +
-           std::to_string(levels.empty() ? 0 : static_cast<int>(levels.size()) - 1) + ".";
-  }
-  return verdict;
+  return "";
 }
 
-std::string discrete_verdict_in_words(const Json& ladder) {
-  const std::string verdict = ladder.at("verdict");
-  const int k = whole(ladder, "index").value_or(0);
-  const Json& levels = ladder.at("levels");
-  const auto dim_M = whole(levels.empty() ? Json::object() : levels.back(), "dim_M");
+std::string discrete_verdict_in_words(const LadderReport& ladder) {
+  const Index k = ladder.index.value_or(0);
+  const Index dim_M = ladder.levels.empty() ? 0 : ladder.levels.back().dim_M.value_or(0);
   const std::string stop = "The algorithm stops at k = " + std::to_string(k) + ": ";
-  const std::string M = "M" + subscript(k) + ", of dimension " + std::to_string(dim_M.value_or(0));
-  if (verdict == "regular")
-    return "Regular. " + stop + "from each point of " + M +
-           ", one step can be made, and from its end another one.";
-  if (verdict == "gauge")
-    return "Gauge. " + stop + "from each point of " + M +
-           ", steps can be made, and where they end is free in " +
-           std::to_string(whole(ladder, "gauge_dimension").value_or(0)) + " directions.";
-  if (verdict == "inconsistent")
-    return "Inconsistent. From no point nearby so many steps can be made.";
+  const std::string M = "M" + subscript(k) + ", of dimension " + std::to_string(dim_M);
+  switch (ladder.verdict) {
+    case Verdict::regular:
+      return "Regular. " + stop + "from each point of " + M +
+             ", one step can be made, and from its end another one.";
+    case Verdict::gauge:
+      return "Gauge. " + stop + "from each point of " + M +
+             ", steps can be made, and where they end is free in " +
+             std::to_string(ladder.gauge_dimension) + " directions.";
+    case Verdict::inconsistent:
+      return "Inconsistent. From no point nearby so many steps can be made.";
+    case Verdict::rank_change:
+    case Verdict::not_reached:
+      break;
+  }
   return verdict_in_words(ladder);
 }
 

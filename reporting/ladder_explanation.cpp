@@ -9,9 +9,7 @@
 namespace courant {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-std::string subscript(int k) {
+std::string subscript(Index k) {
   std::string text;
   for (const char digit : std::to_string(k)) {
     text += "\xE2\x82";
@@ -20,16 +18,15 @@ std::string subscript(int k) {
   return text;
 }
 
-std::string plural(int count, const std::string& noun) {
+std::string plural(Index count, const std::string& noun) {
   return (count == 1 ? "one " : std::to_string(count) + " ") + noun + (count == 1 ? "" : "s");
 }
 
 // 1.2 dx - 1.6 dy
-std::string linear_form(const Json& components, const std::string& prefix) {
+std::string linear_form(const LadderReport::Values& components, const std::string& prefix) {
   std::string text;
   int terms = 0;
-  for (const auto& [name, entry] : components.items()) {
-    const double value = entry.get<double>();
+  for (const auto& [name, value] : components) {
     if (++terms > 6) return text + (value < 0 ? " - \u2026" : " + \u2026");
     const std::string size = number_text(std::abs(value), 4);
     text += text.empty() ? (value < 0 ? "-" : "") : (value < 0 ? " - " : " + ");
@@ -38,7 +35,7 @@ std::string linear_form(const Json& components, const std::string& prefix) {
   return text;
 }
 
-std::string derivative(int order, const std::string& equation) {
+std::string derivative(Index order, const std::string& equation) {
   if (order == 0) return "[" + equation + "]";
   if (order == 1) return "d/dt [" + equation + "]";
   return "d^" + std::to_string(order) + "/dt^" + std::to_string(order) + " [" + equation + "]";
@@ -46,28 +43,23 @@ std::string derivative(int order, const std::string& equation) {
 
 // The highest derivatives first: they are what the constraint is made of, the others what removes
 // the rest.
-std::string sources(const Json& terms) {
-  std::vector<std::pair<int, std::string>> list;
-  for (const Json& term : terms)
-    list.emplace_back(term.at("derivative").get<int>(), term.at("equation").get<std::string>());
+std::string sources(LadderReport::Origin list) {
   std::stable_sort(list.begin(), list.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
+                   [](const auto& a, const auto& b) { return a.derivative > b.derivative; });
   std::string text;
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (i == 5) return text + " and " + std::to_string(list.size() - 5) + " more";
-    text += (i == 0 ? "" : ", ") + derivative(list[i].first, list[i].second);
+    text += (i == 0 ? "" : ", ") + derivative(list[i].derivative, list[i].equation);
   }
   return text;
 }
 
-int whole(const Json& value) { return value.is_number_integer() ? value.get<int>() : -1; }
-
 // The entries of a list that belong to level k.
-std::vector<const Json*> of_level(const Json& ladder, const char* list, int k) {
-  std::vector<const Json*> entries;
-  if (ladder.contains(list))
-    for (const Json& entry : ladder.at(list))
-      if (whole(entry.at("level")) == k) entries.push_back(&entry);
+template <class Entry>
+std::vector<Entry> of_level(const std::vector<Entry>& list, Index k) {
+  std::vector<Entry> entries;
+  for (const Entry& entry : list)
+    if (entry.level == k) entries.push_back(entry);
   return entries;
 }
 
@@ -78,45 +70,44 @@ void tell_rest(std::size_t count, std::vector<std::string>& lines) {
 }
 
 // x' = v: those that are functions of the point from level k on.
-void explain_velocities(const Json& ladder, int k, std::vector<std::string>& lines) {
-  if (!ladder.contains("velocities")) return;
+void explain_velocities(const LadderReport::Elimination& found, Index k,
+                        std::vector<std::string>& lines) {
   std::size_t count = 0;
-  for (const auto& [name, velocity] : ladder.at("velocities").items())
-    if (whole(velocity.at("level")) == k && ++count <= most)
-      lines.push_back("    " + name + " = " + velocity.at("formula").get<std::string>());
+  for (const auto& [name, level, formula] : found.velocities)
+    if (level == k && ++count <= most) lines.push_back("    " + name + " = " + formula);
   tell_rest(count, lines);
 }
 
 // What S_k adds: each equation in velocities, and what becomes of it with those of S_{k-1}.
-void explain_steps(const std::vector<const Json*>& steps, int k, std::vector<std::string>& lines) {
+void explain_steps(const std::vector<ConstraintFormulas::Step>& steps, Index k,
+                   std::vector<std::string>& lines) {
   for (std::size_t i = 0; i < steps.size() && i < most; ++i) {
-    const std::string derivative = steps[i]->at("derivative"), result = steps[i]->at("result");
+    const std::string &derivative = steps[i].derivative, &result = steps[i].result;
     std::string text = "    " + derivative + " = 0";
     if (result == "0")
       text += ": 0 = 0 with the velocities of S" + subscript(k - 1) + ", so the constraint is kept";
     else if (!result.empty() && result != derivative &&
-             (steps[i]->at("kind") == "constraint" || result.size() < 60))
+             (steps[i].kind == ConstraintFormulas::Step::Kind::constraint || result.size() < 60))
       text += ", with the velocities of S" + subscript(k - 1) + ":  " + result + " = 0";
     lines.push_back(text);
   }
   tell_rest(steps.size(), lines);
 }
 
-void explain_level(const Json& ladder, int k, std::vector<std::string>& lines) {
-  const Json& levels = ladder.at("levels");
-  const Json& level = levels.at(static_cast<std::size_t>(k));
-  const int dim_M = whole(level.at("dim_M")), fibre = whole(level.at("fibre"));
-  std::vector<std::string> formulas;
-  for (const Json* entry : of_level(ladder, "formulas", k))
-    formulas.push_back(entry->at("formula"));
-  const std::vector<const Json*> constraints = of_level(ladder, "constraints", k);
-  const std::vector<const Json*> steps = of_level(ladder, "steps", k);
-  const int count = static_cast<int>(constraints.size());
+void explain_level(const LadderReport& ladder, Index k, std::vector<std::string>& lines) {
+  const auto at = static_cast<std::size_t>(k);
+  const LadderReport::Level& level = ladder.levels.at(at);
+  const Index dim_M = level.dim_M.value_or(-1), fibre = level.fibre.value_or(-1);
+  const LadderReport::Elimination found = ladder.elimination.value_or(LadderReport::Elimination());
+  const auto formulas = of_level(found.formulas, k);
+  const auto constraints = of_level(*ladder.constraints, k);
+  const auto steps = of_level(found.steps, k);
+  const auto count = static_cast<Index>(constraints.size());
 
   std::string text = "Level " + std::to_string(k) + ". ";
   const std::string M = "M" + subscript(k);
   if (k == 0) {
-    const int n = whole(ladder.at("dimension"));
+    const Index n = ladder.dimension.value_or(-1);
     text += count == 0 ? "The equations put no constraint on the coordinates: " + M +
                              " is all of M, of dimension " + std::to_string(n) + "."
                        : M + " has dimension " + std::to_string(dim_M) + " of " +
@@ -138,54 +129,53 @@ void explain_level(const Json& ladder, int k, std::vector<std::string>& lines) {
     else
       text += "No new constraint on the coordinates, but on the velocity.";
   }
-  const int before = k == 0 ? -1 : whole(levels.at(static_cast<std::size_t>(k) - 1).at("fibre"));
+  const Index before = k == 0 ? -1 : ladder.levels[at - 1].fibre.value_or(-1);
   if (fibre == 0)
     text += " The velocity is determined at each of its points.";
   else if (before != fibre || count > 0)
     text += " The velocity at a point of it is free in " + plural(fibre, "direction") + ".";
   lines.push_back(text);
 
-  const bool all_formulas = static_cast<int>(formulas.size()) == count;
+  const bool all_formulas = formulas.size() == constraints.size();
   for (std::size_t i = 0; i < formulas.size() && i < most; ++i)
-    lines.push_back("    " + formulas[i] + " = 0");
+    lines.push_back("    " + formulas[i].formula + " = 0");
   tell_rest(formulas.size(), lines);
   if (!all_formulas) {
     for (std::size_t i = 0; i < constraints.size() && i < most; ++i) {
-      lines.push_back("    differential here: " + linear_form(constraints[i]->at("gradient"), "d"));
-      lines.push_back("    from " + sources(constraints[i]->at("from")));
+      lines.push_back("    differential here: " + linear_form(constraints[i].gradient, "d"));
+      lines.push_back("    from " + sources(constraints[i].from));
     }
     tell_rest(constraints.size(), lines);
   }
-  if (k > 0 || fibre == 0) explain_velocities(ladder, k, lines);
+  if (k > 0 || fibre == 0) explain_velocities(found, k, lines);
 }
 
 // From the equations to 1 = 0, where elimination gets there.
-void explain_contradiction(const Json& ladder, std::vector<std::string>& lines) {
-  const Json* last = nullptr;
-  for (const Json& step : ladder.at("steps"))
-    if (step.at("kind") == "contradiction") last = &step;
+void explain_contradiction(const LadderReport::Elimination& found,
+                           std::vector<std::string>& lines) {
+  const ConstraintFormulas::Step* last = nullptr;
+  for (const ConstraintFormulas::Step& step : found.steps)
+    if (step.kind == ConstraintFormulas::Step::Kind::contradiction) last = &step;
   if (!last) return;
-  const int end = whole(last->at("level"));
-  const std::string result = last->at("result");
-  if (last->at("derivative").get<std::string>().empty()) {
+  const Index end = last->level;
+  const std::string &derivative = last->derivative, &result = last->result;
+  if (derivative.empty()) {
     lines.push_back("The equations lead to " + result + " = 0: no velocity satisfies them.");
     return;
   }
-  for (int k = 0; k < end; ++k) {
+  for (Index k = 0; k < end; ++k) {
     lines.push_back(k == 0 ? "Level 0. The equations contain"
                            : "Level " + std::to_string(k) + ". Differentiated, that leads to");
-    for (const Json* formula : of_level(ladder, "formulas", k))
-      lines.push_back("    " + formula->at("formula").get<std::string>() + " = 0");
+    for (const auto& [level, formula] : of_level(found.formulas, k))
+      lines.push_back("    " + formula + " = 0");
   }
-  const std::string derivative = last->at("derivative");
   lines.push_back("Level " + std::to_string(end) + ". Solutions stay on M" + subscript(end - 1) +
-                  ": from " + last->at("constraint").get<std::string>() + " = 0 follows");
+                  ": from " + last->constraint + " = 0 follows");
   lines.push_back("    " + derivative + " = 0");
   std::string known;
-  for (const auto& [name, velocity] : ladder.at("velocities").items())
-    if (derivative.find(name) != std::string::npos && whole(velocity.at("level")) < end)
-      known +=
-          (known.empty() ? "" : ", ") + name + " = " + velocity.at("formula").get<std::string>();
+  for (const auto& [name, level, formula] : found.velocities)
+    if (derivative.find(name) != std::string::npos && level < end)
+      known += (known.empty() ? "" : ", ") + name + " = " + formula;
   lines.push_back("But S" + subscript(end - 1) + " has" +
                   (known.empty() ? " velocities with" : ""));
   lines.push_back("    " + (known.empty() ? result + " = 0" : known));
@@ -195,17 +185,17 @@ void explain_contradiction(const Json& ladder, std::vector<std::string>& lines) 
 }
 
 // "Three constraints: two primary …" and what is left when gauge is counted off.
-void explain_freedom(const Json& ladder, std::vector<std::string>& lines) {
-  const int index = whole(ladder.at("index")), dim_M = whole(ladder.at("degrees_of_freedom"));
+void explain_freedom(const LadderReport& ladder, std::vector<std::string>& lines) {
+  const Index index = *ladder.index, dim_M = ladder.degrees_of_freedom.value_or(-1);
   lines.push_back("Degrees of freedom: " + std::to_string(dim_M) + ", the dimension of M" +
                   subscript(index) + ": so many initial values can be chosen.");
-  if (!ladder.contains("classes")) return;
-  const Json& classes = ladder.at("classes");
-  const int primary = whole(classes.at("primary")), secondary = whole(classes.at("secondary"));
-  const int left = whole(ladder.at("degrees_of_freedom_up_to_gauge"));
-  if (primary + secondary > 0 && classes.contains("first_class")) {
-    const int first = whole(classes.at("first_class")), second = whole(classes.at("second_class"));
-    const int primary_first = whole(classes.at("primary_first_class"));
+  if (!ladder.classes) return;
+  const LadderReport::Classes& classes = *ladder.classes;
+  const Index primary = classes.primary, secondary = classes.secondary;
+  const Index left = classes.degrees_of_freedom_up_to_gauge;
+  if (primary + secondary > 0 && classes.brackets) {
+    const Index first = classes.brackets->first_class, second = classes.brackets->second_class;
+    const Index primary_first = classes.brackets->primary_first_class;
     std::string text = "Classes: " + plural(primary + secondary, "constraint") + ", ";
     text += secondary == 0 ? "primary (in the equations)"
             : primary == 0 ? "secondary (hidden)"
@@ -236,29 +226,26 @@ void explain_freedom(const Json& ladder, std::vector<std::string>& lines) {
     lines.push_back("Degrees of freedom up to gauge: " + std::to_string(left) +
                     ", the rank of the structure on M" + subscript(index) +
                     ": so many of the values can be observed.");
-  if (classes.at("ambiguous").get<bool>())
-    lines.push_back("Ambiguous: a rank behind the classes is doubtful.");
+  if (classes.is_ambiguous) lines.push_back("Ambiguous: a rank behind the classes is doubtful.");
 }
 
-void explain_unknowns(const Json& ladder, std::vector<std::string>& lines) {
+void explain_unknowns(const LadderReport& ladder, std::vector<std::string>& lines) {
   std::string free;
   int listed = 0;
   double largest = 1.0;
-  for (const Json& unknown : ladder.at("unknowns"))
-    largest = std::max(largest, std::abs(unknown.at("value").get<double>()));
-  for (const auto& [name, unknown] : ladder.at("unknowns").items()) {
-    if (!unknown.at("determined").get<bool>()) {
+  for (const LadderReport::Unknown& unknown : ladder.end->unknowns)
+    largest = std::max(largest, std::abs(unknown.value));
+  for (const auto& [name, value, is_determined, formula] : ladder.end->unknowns) {
+    if (!is_determined) {
       free += (free.empty() ? "" : ", ") + name;
       continue;
     }
     if (++listed > 8) continue;
     if (listed == 1) lines.push_back("Unknowns that are determined, with their values here:");
-    const double value = unknown.at("value").get<double>();
     std::string text =
         "    " + name + " = " + number_text(std::abs(value) < 1e-14 * largest ? 0 : value);
-    const bool is_told = ladder.value("velocities", Json::object()).contains(name);
-    if (unknown.contains("formula") && !is_told)
-      text += "  (" + name + " = " + unknown.at("formula").get<std::string>() + ")";
+    const bool is_told = ladder.elimination && ladder.elimination->velocity(name);
+    if (formula && !is_told) text += "  (" + name + " = " + *formula + ")";
     lines.push_back(text);
   }
   if (listed > 8) lines.push_back("    \u2026 and " + std::to_string(listed - 8) + " more");
@@ -267,17 +254,17 @@ void explain_unknowns(const Json& ladder, std::vector<std::string>& lines) {
 
 }  // namespace
 
-std::vector<std::string> ladder_text_diagram(const Json& ladder) {
+std::vector<std::string> ladder_text_diagram(const LadderReport& ladder) {
   std::string S = "  ", arrows = "  ", M = "  ", dim_S = "dim S  ", dim_M = "dim M  ";
   std::vector<std::string> upper, lower, above, below, relation_S, relation_M;
-  const Json* before = nullptr;
-  for (const Json& level : ladder.at("levels")) {
-    const int k = level.at("k").get<int>();
-    const bool empty = level.at("dim_S").is_null();
+  const LadderReport::Level* before = nullptr;
+  for (const LadderReport::Level& level : ladder.levels) {
+    const Index k = level.k;
+    const bool empty = !level.dim_S;
     if (before) {
-      const bool same = !empty && before->at("dim_S") == level.at("dim_S");
+      const bool same = !empty && before->dim_S == level.dim_S;
       S += same ? "  =  " : "  \u2287  ";
-      M += !empty && before->at("dim_M") == level.at("dim_M") ? "  =  " : "  \u2287  ";
+      M += !empty && before->dim_M == level.dim_M ? "  =  " : "  \u2287  ";
       arrows += "     ";
       dim_S += "     ";
       dim_M += "     ";
@@ -292,65 +279,60 @@ std::vector<std::string> ladder_text_diagram(const Json& ladder) {
     M += empty ? std::string(width - 1, ' ') + "\u2205"
                : std::string(width - (k < 10 ? 2 : 3), ' ') + "M" + subscript(k);
     arrows += std::string(width - 2, ' ') + "\u2193\u03c4";
-    dim_S += cell(empty ? "-" : std::to_string(level.at("dim_S").get<int>()), width);
-    dim_M += cell(empty ? "-" : std::to_string(level.at("dim_M").get<int>()), width);
+    dim_S += cell(empty ? "-" : std::to_string(*level.dim_S), width);
+    dim_M += cell(empty ? "-" : std::to_string(level.dim_M.value_or(0)), width);
     before = &level;
   }
   const std::string margin(5, ' ');
   return {dim_S, margin + S, margin + arrows, margin + M, dim_M};
 }
 
-std::vector<std::string> ladder_explanation(const Json& ladder) {
+std::vector<std::string> ladder_explanation(const LadderReport& ladder) {
   std::vector<std::string> lines;
-  const Json& levels = ladder.at("levels");
-  const int index = whole(ladder.at("index"));
-  if (ladder.contains("constraints"))
-    for (int k = 0; k <= (index < 0 ? static_cast<int>(levels.size()) - 1 : index); ++k)
-      explain_level(ladder, k, lines);
-  else if (ladder.contains("steps"))
-    explain_contradiction(ladder, lines);
-  if (ladder.contains("constraints") && index >= 0) {
-    lines.push_back("Level " + std::to_string(index + 1) +
+  if (ladder.constraints) {
+    const Index last = ladder.index.value_or(static_cast<Index>(ladder.levels.size()) - 1);
+    for (Index k = 0; k <= last; ++k) explain_level(ladder, k, lines);
+  } else if (ladder.elimination) {
+    explain_contradiction(*ladder.elimination, lines);
+  }
+  if (ladder.constraints && ladder.index && ladder.end) {
+    lines.push_back("Level " + std::to_string(*ladder.index + 1) +
                     ". Nothing new: from here on every level is the same.");
     explain_freedom(ladder, lines);
     explain_unknowns(ladder, lines);
-    const Json& gauge = ladder.at("gauge_directions");
+    const auto& [unknowns, gauge, determined, differentiations, redundant] = *ladder.end;
     if (!gauge.empty()) {
       lines.push_back("Gauge: the velocity may be changed at will along");
-      for (const Json& direction : gauge) lines.push_back("    " + linear_form(direction, ""));
-      std::string determined;
-      for (const Json& name : ladder.value("determined_velocities", Json::array()))
-        determined += (determined.empty() ? "" : ", ") + name.get<std::string>();
-      if (!determined.empty()) lines.push_back("Determined all the same: " + determined + ".");
+      for (const LadderReport::Values& direction : gauge)
+        lines.push_back("    " + linear_form(direction, ""));
+      std::string names;
+      for (const std::string& name : determined) names += (names.empty() ? "" : ", ") + name;
+      if (!names.empty()) lines.push_back("Determined all the same: " + names + ".");
     }
-    const Json& redundant = ladder.at("redundant");
     if (!redundant.empty()) {
-      lines.push_back("Redundant: " + plural(static_cast<int>(redundant.size()), "equation") +
+      lines.push_back("Redundant: " + plural(static_cast<Index>(redundant.size()), "equation") +
                       (redundant.size() == 1 ? " follows" : " follow") +
                       " from the others here; harmless. Dependent among themselves are");
       for (std::size_t i = 0; i < std::min<std::size_t>(redundant.size(), 4); ++i)
         lines.push_back("    " + sources(redundant[i]));
     }
   }
-  const Json* weakest = nullptr;
-  for (const Json& level : levels)
-    if (!level.at("gap").is_null() &&
-        (!weakest || level.at("gap").get<double>() < weakest->at("gap").get<double>()))
-      weakest = &level;
+  const LadderReport::Level* weakest = nullptr;
+  for (const LadderReport::Level& level : ladder.levels)
+    if (!std::isnan(level.gap) && (!weakest || level.gap < weakest->gap)) weakest = &level;
   if (weakest) {
     lines.push_back(
         "How sure: dimensions are differences of ranks, and a rank counts the "
         "singular values that "
         "exceed the bound of their error. In the weakest decision (level " +
-        std::to_string(whole(weakest->at("k"))) + ") the smallest that was counted is " +
-        number_text(weakest->at("smallest_counted").get<double>(), 2) +
+        std::to_string(weakest->k) + ") the smallest that was counted is " +
+        number_text(weakest->smallest_counted, 2) +
         " times the bound, the largest that was taken for zero is " +
-        number_text(weakest->at("largest_neglected").get<double>(), 2) + " times the bound.");
+        number_text(weakest->largest_neglected, 2) + " times the bound.");
   }
-  if (ladder.value("ambiguous", false)) {
+  if (ladder.is_ambiguous) {
     lines.push_back("Ambiguous: do not rely on the verdict.");
-    for (const Json& doubt : ladder.value("doubts", Json::array()))
-      lines.push_back("    " + doubt.get<std::string>());
+    for (const std::string& doubt : ladder.doubts) lines.push_back("    " + doubt);
   }
   return lines;
 }

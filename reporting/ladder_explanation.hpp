@@ -1,19 +1,20 @@
 // What a ladder means, for a terminal.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "courant/running/ladder_report.hpp"
 
 namespace courant {
 
 // S₀ ⊇ S₁ = S₂ over M₀ ⊇ M₁ = M₂ with their dimensions, as lines of text: = where the dimensions
 // repeat, ∅ where a level is empty.
-std::vector<std::string> ladder_text_diagram(const nlohmann::ordered_json& ladder);
+std::vector<std::string> ladder_text_diagram(const LadderReport& ladder);
 
-// The findings of ladder_json in words, level by level: hidden constraints and where they come
+// The findings in words, level by level: hidden constraints and where they come
 // from, multipliers, gauge directions, redundant equations, and the numbers the verdict rests on.
 // One paragraph an entry; entries that begin with a space belong under the one before.
-std::vector<std::string> ladder_explanation(const nlohmann::ordered_json& ladder);
+std::vector<std::string> ladder_explanation(const LadderReport& ladder);
 
 }  // namespace courant

@@ -144,7 +144,7 @@ std::string page_title(std::span<const Run> runs) {
 Markup lead(std::span<const Run> runs) {
   std::vector<std::string> systems;
   for (const Run& run : runs) {
-    const std::string system = run.summary.at("system");
+    const std::string& system = run.summary.system;
     if (std::find(systems.begin(), systems.end(), system) == systems.end())
       systems.push_back(system);
   }
@@ -158,33 +158,35 @@ Markup lead(std::span<const Run> runs) {
 Markup messages(std::span<const Run> runs, std::span<const std::string> labels) {
   Markup all;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const Json& summary = runs[i].summary;
-    const std::string status = summary.at("status");
-    if (status == "completed") continue;
-    const std::string message = summary.value("message", "");
-    all +=
-        element("p", {{"class", "message"}},
-                element("span", {{"class", "bad"}}, status) + " — " + labels[i] + ". " + message);
+    const RunSummary& summary = runs[i].summary;
+    if (summary.status == RunStatus::completed) continue;
+    all += element("p", {{"class", "message"}},
+                   element("span", {{"class", "bad"}}, to_string(summary.status)) + " — " +
+                       labels[i] + ". " + summary.message);
   }
   return all;
 }
 
 // Each ladder once, with the runs it belongs to.
 Markup ladders(std::span<const Run> runs, std::span<const std::string> labels) {
-  std::vector<std::pair<const Json*, std::string>> distinct;
+  struct Distinct {
+    const LadderReport* ladder;
+    std::string text, owners;
+  };
+  std::vector<Distinct> distinct;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const auto found = runs[i].summary.find("ladder");
-    if (found == runs[i].summary.end()) continue;
+    const auto& ladder = runs[i].summary.ladder;
+    if (!ladder) continue;
+    const std::string text = to_json(*ladder).dump();
     const auto same = std::find_if(distinct.begin(), distinct.end(),
-                                   [&](const auto& entry) { return *entry.first == *found; });
-    if (same == distinct.end()) {
-      distinct.emplace_back(&*found, labels[i]);
-    } else {
-      same->second += ", " + labels[i];
-    }
+                                   [&](const Distinct& other) { return other.text == text; });
+    if (same == distinct.end())
+      distinct.push_back({&*ladder, text, labels[i]});
+    else
+      same->owners += ", " + labels[i];
   }
   Markup all;
-  for (const auto& [ladder, owners] : distinct) {
+  for (const auto& [ladder, text, owners] : distinct) {
     if (distinct.size() > 1) all += element("p", {{"class", "lead"}}, owners);
     all += element("p", {}, typeset(verdict_in_words(*ladder)));
     all += element("figure", {{"class", "diagram scroll"}}, ladder_diagram(*ladder));

@@ -187,10 +187,10 @@ std::vector<Series> without_greatest(std::vector<Series> errors) {
 
 std::vector<std::string> run_labels(std::span<const Run> runs) {
   std::multiset<std::string> methods;
-  for (const Run& run : runs) methods.insert(run.summary.at("method"));
+  for (const Run& run : runs) methods.insert(run.summary.method);
   std::vector<std::string> labels;
   for (const Run& run : runs) {
-    const std::string method = run.summary.at("method");
+    const std::string& method = run.summary.method;
     labels.push_back(methods.count(method) == 1 ? method : method + " — " + run.name);
   }
   return labels;

@@ -1,7 +1,10 @@
 #include "courant/reporting/report_tables.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -17,29 +20,25 @@ using plot::Markup;
 
 constexpr const char* missing = "–";
 
-// A value of a summary: a number to some digits, a text as it is, a list as JSON, a dash for what
-// is not there.
-std::string shown(const Json* value, int digits) {
-  if (value == nullptr || value->is_null()) return missing;
-  if (value->is_string()) return value->get<std::string>();
-  if (value->is_boolean()) return value->get<bool>() ? "true" : "false";
-  if (value->is_number_integer() || value->is_structured()) return value->dump();
-  return plot::readable(value->get<double>(), digits);
+// A number to some digits; a dash where it is not known.
+std::string shown(double value, int digits) {
+  return std::isnan(value) ? missing : plot::readable(value, digits);
+}
+std::string shown(std::optional<long> value, int /*digits*/) {
+  return value ? std::to_string(*value) : missing;
+}
+// What an expectation is about: a number, a text as it is, a list as JSON.
+std::string shown(const Json& value, int digits) {
+  if (value.is_null()) return missing;
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
+  if (value.is_number_integer() || value.is_structured()) return value.dump();
+  return shown(value.get<double>(), digits);
 }
 
-const Json* find(const Json& object, std::initializer_list<const char*> path) {
-  const Json* at = &object;
-  for (const char* key : path) {
-    if (!at->is_object()) return nullptr;
-    const auto found = at->find(key);
-    if (found == at->end()) return nullptr;
-    at = &*found;
-  }
-  return at;
-}
-
-Markup number(const Json& object, std::initializer_list<const char*> path, int digits) {
-  return element("td", {{"class", "number"}}, shown(find(object, path), digits));
+template <class Value>
+Markup number(const Value& value, int digits) {
+  return element("td", {{"class", "number"}}, shown(value, digits));
 }
 
 Markup words(const Markup& content) { return element("td", {}, content); }
@@ -71,47 +70,65 @@ Markup runs_table(std::span<const Run> runs, std::span<const std::string> labels
     for (const Run& run : runs) cells += cell(run);
     rows += element("tr", {}, cells);
   };
-  const auto numbers = [&](std::string_view head, std::initializer_list<const char*> path,
-                           int digits) {
-    row(head, [&](const Run& run) { return number(run.summary, path, digits); });
+  const auto numbers = [&](std::string_view head, const auto& value, int digits) {
+    row(head, [&](const Run& run) { return number(value(run.summary), digits); });
   };
   row("folder", [](const Run& run) { return words(run.name); });
   row("status", [](const Run& run) {
-    const std::string status = run.summary.at("status");
-    return element("td", {{"class", status == "completed" ? "good" : "bad"}}, status);
+    const RunStatus status = run.summary.status;
+    return element("td", {{"class", status == RunStatus::completed ? "good" : "bad"}},
+                   to_string(status));
   });
-  numbers("steps", {"steps"}, 6);
-  numbers("step h", {"time", "step"}, 6);
-  numbers("greatest |H − H(0)|", {"observables", "H", "max_drift"}, 4);
-  numbers("greatest constraint violation", {"constraints", "max_violation"}, 3);
-  numbers("iterations a step", {"solver", "iterations_per_step"}, 3);
-  numbers("factorisations a step", {"solver", "factorizations_per_step"}, 3);
-  numbers("solver failures", {"solver", "failures"}, 6);
-  numbers("steps with a second attempt", {"solver", "second_attempts"}, 6);
-  numbers("steps confirmed by continuation", {"solver", "confirmations"}, 6);
-  row("backend", [](const Run& run) { return words(shown(find(run.summary, {"backend"}), 6)); });
-  numbers("wall time in seconds", {"wall_seconds"}, 3);
-  numbers("steps a second", {"steps_per_second"}, 3);
+  using Of = const RunSummary&;
+  static constexpr double unknown = RunSummary::kUnknown;
+  numbers(
+      "steps", [](Of run) { return std::optional(run.steps); }, 6);
+  numbers(
+      "step h", [](Of run) { return run.time ? run.time->step : unknown; }, 6);
+  numbers(
+      "greatest |H − H(0)|",
+      [](Of run) {
+        const QuantityRecord* H = run.observable("H");
+        return H ? H->max_drift : unknown;
+      },
+      4);
+  numbers(
+      "greatest constraint violation", [](Of run) { return run.max_violation.value_or(unknown); },
+      3);
+  numbers(
+      "iterations a step", [](Of run) { return run.solver.iterations_per_step; }, 3);
+  numbers(
+      "factorisations a step", [](Of run) { return run.solver.factorizations_per_step; }, 3);
+  numbers(
+      "solver failures", [](Of run) { return run.solver.failures; }, 6);
+  numbers(
+      "steps with a second attempt", [](Of run) { return run.solver.second_attempts; }, 6);
+  numbers(
+      "steps confirmed by continuation", [](Of run) { return run.solver.confirmations; }, 6);
+  row("backend", [](const Run& run) {
+    return words(run.summary.backend.empty() ? missing : run.summary.backend);
+  });
+  numbers(
+      "wall time in seconds", [](Of run) { return run.wall_seconds; }, 3);
+  numbers(
+      "steps a second", [](Of run) { return run.steps_per_second; }, 3);
   return table("Runs and solver statistics", heads, rows);
 }
 
 Markup observables_table(std::span<const Run> runs, std::span<const std::string> labels) {
   std::vector<std::string> names;
-  for (const Run& run : runs) {
-    const Json* observables = find(run.summary, {"observables"});
-    if (observables == nullptr) continue;
-    for (const auto& [name, values] : observables->items()) {
+  for (const Run& run : runs)
+    for (const auto& [name, record] : run.summary.observables)
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-    }
-  }
   Markup rows;
   for (const std::string& name : names) {
     for (std::size_t i = 0; i < runs.size(); ++i) {
-      const Json* values = find(runs[i].summary, {"observables", name.c_str()});
-      if (values == nullptr) continue;
+      const QuantityRecord* record = runs[i].summary.observable(name);
+      if (!record) continue;
       Markup cells = row_head(name) + words(labels[i]);
-      for (const char* key : {"initial", "final", "min", "max"}) cells += number(*values, {key}, 7);
-      cells += number(*values, {"max_drift"}, 4);
+      for (const double value : {record->initial, record->final, record->min, record->max})
+        cells += number(value, 7);
+      cells += number(record->max_drift, 4);
       rows += element("tr", {}, cells);
     }
   }
@@ -125,13 +142,10 @@ Markup observables_table(std::span<const Run> runs, std::span<const std::string>
 Markup expectations_table(std::span<const Run> runs, std::span<const std::string> labels) {
   Markup rows;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const Json* expectations = find(runs[i].summary, {"expectations"});
-    if (expectations == nullptr) continue;
-    for (const Json& expectation : *expectations) {
-      const bool passed = expectation.at("passed");
-      const std::string description = expectation.at("description");
-      Markup cells = row_head(description) + words(labels[i]);
-      cells += number(expectation, {"value"}, 6) + number(expectation, {"bound"}, 6);
+    for (const ExpectationResult& expectation : runs[i].summary.expectations) {
+      const bool passed = expectation.passed;
+      Markup cells = row_head(expectation.description) + words(labels[i]);
+      cells += number(expectation.value, 6) + number(expectation.bound, 6);
       cells +=
           element("td", {{"class", passed ? "good" : "bad"}}, passed ? "✓ passed" : "✗ failed");
       rows += element("tr", {}, cells);
@@ -142,12 +156,13 @@ Markup expectations_table(std::span<const Run> runs, std::span<const std::string
                column_heads({"Expectation", "Run", "Value", "Bound", "Result"}), rows);
 }
 
-Markup ladder_table(const Json& ladder) {
+Markup ladder_table(const LadderReport& ladder) {
   Markup rows;
-  for (const Json& level : ladder.at("levels")) {
-    Markup cells;
-    for (const char* key : {"k", "dim_S", "dim_M", "fibre"}) cells += number(level, {key}, 6);
-    cells += number(level, {"gap"}, 2) + number(level, {"residual"}, 2);
+  for (const LadderReport::Level& level : ladder.levels) {
+    Markup cells = number(std::optional(level.k), 6);
+    for (const auto& dimension : {level.dim_S, level.dim_M, level.fibre})
+      cells += number(dimension, 6);
+    cells += number(level.gap, 2) + number(level.residual, 2);
     rows += element("tr", {}, cells);
   }
   return table("Levels",

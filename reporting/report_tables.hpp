@@ -20,6 +20,6 @@ plot::Markup observables_table(std::span<const Run> runs, std::span<const std::s
 plot::Markup expectations_table(std::span<const Run> runs, std::span<const std::string> labels);
 
 // The levels of a ladder: dimensions, fibre, the gap of the rank decision, residual.
-plot::Markup ladder_table(const nlohmann::ordered_json& ladder);
+plot::Markup ladder_table(const LadderReport& ladder);
 
 }  // namespace courant

@@ -26,18 +26,19 @@ EnergyWatch::EnergyWatch(std::shared_ptr<const Integrator> integrator,
 
 std::optional<RunEnd> EnergyWatch::watch(const RunMoment& moment) {
   const double H = moment.row[column_];
-  if (moment.k == 0) initial_ = H;
-  largest_ = std::max(largest_, std::fabs(H));
-  const double change = std::fabs(H - initial_);
-  if (!finding_.empty() || moment.k == 0 ||
-      !(change > std::max(kFurther * looked_at_, kLeast * largest_)))
+  if (moment.k == 0) memory_.initial = H;
+  memory_.largest = std::max(memory_.largest, std::fabs(H));
+  const double change = std::fabs(H - memory_.initial);
+  if (!memory_.finding.empty() || moment.k == 0 ||
+      !(change > std::max(kFurther * memory_.looked_at, kLeast * memory_.largest)))
     return std::nullopt;
-  looked_at_ = change;
+  memory_.looked_at = change;
   if (!is_explained(moment.step))
-    finding_ = "H has changed by " + number_text(H - initial_) +
-               " at t = " + number_text(moment.t) +
-               ", and shorter steps would not change it less: not the method's order explains it. "
-               "The trajectory may be wrong from there on.";
+    memory_.finding =
+        "H has changed by " + number_text(H - memory_.initial) +
+        " at t = " + number_text(moment.t) +
+        ", and shorter steps would not change it less: not the method's order explains it. "
+        "The trajectory may be wrong from there on.";
   return std::nullopt;
 }
 
@@ -55,7 +56,7 @@ bool EnergyWatch::is_explained(const Step& step) const {
     return true;
   }
   const double first = std::fabs(end[0] - end[1]), second = std::fabs(end[1] - end[2]);
-  return !(second > kConvergent * first && second > kLeast * largest_);
+  return !(second > kConvergent * first && second > kLeast * memory_.largest);
 }
 
 }  // namespace courant

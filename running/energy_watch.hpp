@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "courant/integrators/integrator.hpp"
 #include "courant/running/run_watcher.hpp"
@@ -23,7 +24,18 @@ class EnergyWatch final : public RunWatcher {
 
   std::optional<RunEnd> watch(const RunMoment& moment) override;
   // Empty, or a sentence about the first such step.
-  const std::string& finding() const { return finding_; }
+  const std::string& finding() const { return memory_.finding; }
+
+  // What it remembers of the states before.
+  struct Memory {
+    double initial = 0.0;    // H
+    double largest = 0.0;    // |H|
+    double looked_at = 0.0;  // |H - H(0)| at the last look
+    std::string finding = {};
+  };
+  const Memory& memory() const { return memory_; }
+  // Goes on as the watch over the same run that had this memory.
+  void recall(Memory memory) { memory_ = std::move(memory); }
 
  private:
   bool is_explained(const Step& step) const;
@@ -31,8 +43,7 @@ class EnergyWatch final : public RunWatcher {
   std::shared_ptr<const Integrator> integrator_;
   std::function<double(const State&)> energy_;
   Index column_;
-  double initial_ = 0.0, largest_ = 0.0, looked_at_ = 0.0;
-  std::string finding_;
+  Memory memory_;
 };
 
 }  // namespace courant

@@ -171,4 +171,10 @@ const VectorXd& Observer::row(const State& state) {
   return row_;
 }
 
+void Observer::restart(const State& state) {
+  if (!evaluate_field_) return;
+  evaluate_field_->forget();
+  evaluate_field_->start(state);
+}
+
 }  // namespace courant

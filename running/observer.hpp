@@ -38,6 +38,10 @@ class Observer {
   // The numbers at a state; the reference is valid until the next call.
   const VectorXd& row(const State& state);
 
+  // The rows after this depend on the state alone, which is near that of the next one; not on the
+  // rows before, from which the velocity and the unknowns are looked for otherwise.
+  void restart(const State& state);
+
  private:
   std::vector<std::string> names_;
   std::size_t coordinate_count_, first_constraint_, written_count_;

@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <string>
 #include <system_error>
 
 namespace courant {
@@ -18,11 +19,14 @@ std::string last_error() { return std::generic_category().message(errno); }
 
 }  // namespace
 
-OutputFile::OutputFile(const std::filesystem::path& path)
-    : path_(path),
-      descriptor_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+OutputFile::OutputFile(const std::filesystem::path& path, int flags)
+    : path_(path), descriptor_(::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666)) {
   if (descriptor_ < 0) fail();
 }
+
+OutputFile::OutputFile(const std::filesystem::path& path) : OutputFile(path, O_CREAT | O_TRUNC) {}
+
+OutputFile::OutputFile(const std::filesystem::path& path, Existing) : OutputFile(path, 0) {}
 
 OutputFile::~OutputFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
@@ -43,6 +47,16 @@ void OutputFile::write(std::string_view bytes) {
 void OutputFile::overwrite(std::string_view bytes) {
   if (::pwrite(descriptor_, bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
     fail();
+}
+
+void OutputFile::cut(std::uintmax_t size) {
+  const auto there = ::lseek(descriptor_, 0, SEEK_END);
+  if (there < 0) fail();
+  if (static_cast<std::uintmax_t>(there) < size)
+    refuse(path_,
+           "it has " + std::to_string(there) + " bytes, expected at least " + std::to_string(size));
+  const auto end = static_cast<off_t>(size);
+  if (::ftruncate(descriptor_, end) != 0 || ::lseek(descriptor_, end, SEEK_SET) != end) fail();
 }
 
 void OutputFile::close() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -15,10 +16,14 @@ class OutputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// A new file, written as its owner says. An existing one is replaced at once. Throws OutputError.
+// A file, written as its owner says. Throws OutputError.
 class OutputFile {
  public:
+  // A new file; an existing one is replaced at once.
   explicit OutputFile(const std::filesystem::path& path);
+  // A file that is there, to be written on.
+  struct Existing {};
+  OutputFile(const std::filesystem::path& path, Existing);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
@@ -27,10 +32,14 @@ class OutputFile {
   void write(std::string_view bytes);
   // Replaces bytes at the beginning.
   void overwrite(std::string_view bytes);
+  // Cuts off what is longer than so many bytes, and writes on there. Throws OutputError if there
+  // are fewer.
+  void cut(std::uintmax_t size);
   // What was written reaches the disk.
   void close();
 
  private:
+  OutputFile(const std::filesystem::path& path, int flags);
   [[noreturn]] void fail() const;
   std::filesystem::path path_;
   int descriptor_;

@@ -6,31 +6,32 @@
 namespace courant {
 
 void QuantityStatistics::add(double t, const VectorXd& values) {
+  auto& [count, initial, final, min, max, mean_t, variation, mean, covariation] = memory_;
   if (empty()) {
-    initial_ = min_ = max_ = values;
-    mean_ = covariation_ = VectorXd::Zero(values.size());
+    initial = min = max = values;
+    mean = covariation = VectorXd::Zero(values.size());
   }
-  count_ += 1.0;
-  final_ = values;
+  count += 1.0;
+  final = values;
   // A NaN, old or new, wins.
   for (Index i = 0; i < values.size(); ++i) {
-    if (!(values[i] >= min_[i]) && !std::isnan(min_[i])) min_[i] = values[i];
-    if (!(values[i] <= max_[i]) && !std::isnan(max_[i])) max_[i] = values[i];
+    if (!(values[i] >= min[i]) && !std::isnan(min[i])) min[i] = values[i];
+    if (!(values[i] <= max[i]) && !std::isnan(max[i])) max[i] = values[i];
   }
-  const double from_mean = t - mean_t_;
-  mean_t_ += from_mean / count_;
-  variation_ += from_mean * (t - mean_t_);
-  mean_ += (values - mean_) / count_;
-  covariation_ += from_mean * (values - mean_);
+  const double from_mean = t - mean_t;
+  mean_t += from_mean / count;
+  variation += from_mean * (t - mean_t);
+  mean += (values - mean) / count;
+  covariation += from_mean * (values - mean);
 }
 
 QuantityRecord QuantityStatistics::record(Index quantity) const {
-  QuantityRecord record{.initial = initial_[quantity],
-                        .final = final_[quantity],
-                        .min = min_[quantity],
-                        .max = max_[quantity]};
+  QuantityRecord record{.initial = memory_.initial[quantity],
+                        .final = memory_.final[quantity],
+                        .min = memory_.min[quantity],
+                        .max = memory_.max[quantity]};
   record.max_drift = std::max(record.max - record.initial, record.initial - record.min);
-  if (variation_ > 0.0) record.slope = covariation_[quantity] / variation_;
+  if (memory_.variation > 0.0) record.slope = memory_.covariation[quantity] / memory_.variation;
   return record;
 }
 

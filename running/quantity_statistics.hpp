@@ -1,6 +1,8 @@
 // What is kept of the quantities of a run, without keeping their values.
 #pragma once
 
+#include <utility>
+
 #include "courant/core/expr.hpp"
 #include "courant/reading/expectation.hpp"
 
@@ -11,15 +13,23 @@ namespace courant {
 class QuantityStatistics {
  public:
   void add(double t, const VectorXd& values);
-  bool empty() const { return count_ == 0.0; }
+  bool empty() const { return memory_.count == 0.0; }
   QuantityRecord record(Index quantity) const;
 
+  // All that is kept, whatever the number of values.
+  struct Memory {
+    double count = 0.0;
+    VectorXd initial = {}, final = {}, min = {}, max = {};
+    // Means, Σ (t - mean)² and Σ (t - mean)(value - mean), updated as Welford does.
+    double mean_t = 0.0, variation = 0.0;
+    VectorXd mean = {}, covariation = {};
+  };
+  const Memory& memory() const { return memory_; }
+  // Goes on as the statistics of the same quantities that had this memory.
+  void recall(Memory memory) { memory_ = std::move(memory); }
+
  private:
-  double count_ = 0.0;
-  VectorXd initial_, final_, min_, max_;
-  // Means, Σ (t - mean)² and Σ (t - mean)(value - mean), updated as Welford does.
-  double mean_t_ = 0.0, variation_ = 0.0;
-  VectorXd mean_, covariation_;
+  Memory memory_;
 };
 
 }  // namespace courant

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -12,7 +13,6 @@
 #include <utility>
 
 #include "courant/running/run_folder.hpp"
-#include "courant/running/run_summary_check.hpp"
 
 namespace courant {
 
@@ -149,9 +149,8 @@ std::vector<std::string> Run::constraints() const {
 
 std::vector<std::string> Run::observables() const {
   std::vector<std::string> found;
-  const Json known = summary.value("observables", Json::object());
   for (const std::string& name : trajectory.names()) {
-    if (name == "H" || known.contains(name)) found.push_back(name);
+    if (name == "H" || summary.observable(name)) found.push_back(name);
   }
   return found;
 }
@@ -172,14 +171,13 @@ namespace {
 // The id of a run in its summary and experiment, and its last state in summary and trajectory.
 void check_one_run(const Run& run, const std::filesystem::path& experiment,
                    const std::filesystem::path& trajectory) {
-  if (!run.summary.contains("id") || !run.experiment.is_object()) return;
-  if (run.experiment.value("$run", Json()) != run.summary["id"])
+  if (run.summary.id.empty() || !run.experiment.is_object()) return;
+  if (run.experiment.value("$run", Json()) != run.summary.id)
     fail(experiment, "is of another run than summary.json.");
-  if (run.summary["status"] != "completed" || run.trajectory.rows() == 0) return;
-  const Json last = run.summary.value("final", Json::object());
-  for (const auto& [name, value] : last.items())
-    if (value.is_number() && run.trajectory.contains(name) &&
-        run.trajectory.column(name).back() != value.get<double>())
+  if (run.summary.status != RunStatus::completed || run.trajectory.rows() == 0) return;
+  for (const auto& [name, value] : run.summary.final)
+    if (!std::isnan(value) && run.trajectory.contains(name) &&
+        run.trajectory.column(name).back() != value)
       fail(trajectory, "is of another run than summary.json: " + name + " ends elsewhere.");
 }
 
@@ -192,13 +190,11 @@ Run read_run(const std::filesystem::path& directory) {
   const auto summary = directory / "summary.json", experiment = directory / "experiment.json";
   if (!std::filesystem::exists(csv) && !std::filesystem::exists(npy))
     fail(directory, "has no trajectory.csv or trajectory.npy.");
-  Json summary_json = read_json(summary);
-  if (const auto defect = summary_defect(summary_json)) fail(summary, *defect);
-  const bool ended = summary_json["status"] != "running";
+  RunSummary told = read_summary(summary);
+  const bool ended = told.status != RunStatus::running;
   if (!ended)
-    summary_json["message"] = RunFolder::is_in_use(directory)
-                                  ? "The run has not ended yet."
-                                  : "The run did not end: it was killed.";
+    told.message = RunFolder::is_in_use(directory) ? "The run has not ended yet."
+                                                   : "The run did not end: it was killed.";
   const auto trajectory = [&] {
     if (std::filesystem::exists(csv)) return read_trajectory_csv(csv, !ended);
     const auto names = directory / "columns.json";
@@ -214,7 +210,7 @@ Run read_run(const std::filesystem::path& directory) {
   const auto name = whole.has_filename() ? whole.filename() : whole.parent_path().filename();
   Run run{.name = name.string(),
           .trajectory = trajectory(),
-          .summary = std::move(summary_json),
+          .summary = std::move(told),
           .experiment = read_json(experiment)};
   check_one_run(run, experiment, std::filesystem::exists(csv) ? csv : npy);
   return run;
@@ -311,6 +307,15 @@ Json read_json(const std::filesystem::path& file) {
     fail(file, static_cast<std::size_t>(lines) + 1,
          "is not JSON: " +
              std::string(reason == std::string_view::npos ? what : what.substr(reason)) + ".");
+  }
+}
+
+RunSummary read_summary(const std::filesystem::path& file) {
+  const Json json = read_json(file);
+  try {
+    return read_run_summary(json);
+  } catch (const std::invalid_argument& error) {
+    fail(file, error.what());
   }
 }
 

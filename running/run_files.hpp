@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "courant/running/run_summary.hpp"
+
 namespace courant {
 
 // A file of a run that cannot be read or is not what it should be. One line: `file:line: what it
@@ -37,12 +39,11 @@ class TrajectoryTable {
   std::vector<std::vector<double>> columns_;
 };
 
-// A run as its files tell it. The summary has the fields of the contract, of the right types: what
-// is missing is optional, what is null is a number that was not finite.
+// A run as its files tell it.
 struct Run {
   std::string name;  // of the folder
   TrajectoryTable trajectory;
-  nlohmann::ordered_json summary;
+  RunSummary summary;
   nlohmann::ordered_json experiment;
 
   // The columns by what they are: `constraint[i]`, the observables of the summary, and the rest but
@@ -64,5 +65,6 @@ TrajectoryTable read_trajectory_csv(const std::filesystem::path& file, bool torn
 TrajectoryTable read_trajectory_npy(const std::filesystem::path& file,
                                     std::vector<std::string> names, bool torn = false);
 nlohmann::ordered_json read_json(const std::filesystem::path& file);
+RunSummary read_summary(const std::filesystem::path& file);
 
 }  // namespace courant

@@ -18,9 +18,13 @@ namespace {
 namespace fs = std::filesystem;
 
 // What a run and its report write; experiment.json and summary.json tell whose they are.
-constexpr std::array kFiles = {"summary.json",     "trajectory.csv",     "trajectory.npy",
-                               "columns.json",     "experiment.json",    "report.html",
-                               "summary.json.new", "experiment.json.new"};
+// The checkpoint is the first to be removed: what is left of the others begins anew.
+constexpr std::array kFiles = {"checkpoint.json", "summary.json", "trajectory.csv",
+                               "trajectory.npy",  "columns.json", "experiment.json",
+                               "report.html"};
+// What write_file leaves when it is killed.
+constexpr std::array kTorn = {"summary.json.new", "columns.json.new", "checkpoint.json.new",
+                              "experiment.json.new"};
 
 void write_json(const fs::path& file, const Json& json) {
   write_file(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
@@ -66,7 +70,10 @@ std::vector<fs::path> replaceable(const fs::path& path, bool replace) {
     refuse(found.front(), "is there already, and no run wrote it; expected another folder (-o)");
   if (!replace)
     refuse(path,
-           "there is a run in this folder; expected another folder (-o), or --force to replace it");
+           "there is a run in this folder; expected another folder (-o), --force to replace it, or "
+           "--resume to go on with it");
+  for (const char* name : kTorn)
+    if (file_exists(path / name)) found.push_back(path / name);
   return found;
 }
 
@@ -75,7 +82,7 @@ constexpr const char* kInUse =
 
 }  // namespace
 
-void RunFolder::check(const fs::path& path, bool replace) {
+void RunFolder::check(const fs::path& path, ExistingRun existing, const Experiment& experiment) {
   std::error_code error;
   fs::path nearest = fs::absolute(path, error).lexically_normal();
   while (!file_exists(nearest) && nearest.has_relative_path()) nearest = nearest.parent_path();
@@ -86,9 +93,11 @@ void RunFolder::check(const fs::path& path, bool replace) {
   if (access(nearest.c_str(), W_OK | X_OK) != 0)
     refuse(path, (is_there ? "cannot be written: " : "the folder cannot be made: ") +
                      std::generic_category().message(errno));
-  if (!is_there) return;
-  if (is_in_use(path)) refuse(path, kInUse);
-  replaceable(path, replace);
+  if (is_there && is_in_use(path)) refuse(path, kInUse);
+  if (existing == ExistingRun::resume)
+    unfinished_run(path, experiment);
+  else if (is_there)
+    replaceable(path, existing == ExistingRun::replace);
 }
 
 bool RunFolder::is_in_use(const fs::path& path) {
@@ -99,32 +108,42 @@ bool RunFolder::is_in_use(const fs::path& path) {
   return locked;
 }
 
-RunFolder::RunFolder(fs::path path, bool replace, Json experiment)
-    : path_(std::move(path)), id_(new_id()) {
+RunFolder::RunFolder(fs::path path, ExistingRun existing, const Experiment& experiment)
+    : path_(std::move(path)) {
+  const bool goes_on = existing == ExistingRun::resume;
   try {
-    make_folder(path_);
-    lock_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    if (!goes_on) make_folder(path_);
+    lock_.descriptor = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (lock_.descriptor >= 0 && flock(lock_.descriptor, LOCK_EX | LOCK_NB) != 0 &&
+        errno == EWOULDBLOCK)
       refuse(path_, kInUse);
-    for (const fs::path& file : replaceable(path_, replace)) {
+    if (goes_on)
+      run_ = unfinished_run(path_, experiment);
+    else
+      run_.id = new_id();
+    std::vector<fs::path> old = {path_ / "report.html"};  // of the run as it was
+    if (!goes_on) old = replaceable(path_, existing == ExistingRun::replace);
+    for (const fs::path& file : old) {
       std::error_code error;
       fs::remove(file, error);
       if (error) refuse(file, "cannot be replaced: " + error.message());
     }
-    experiment["$run"] = id_;
-    write_json(path_ / "experiment.json", experiment);
+    Json document = experiment.document;
+    document["$run"] = run_.id;
+    write_json(path_ / "experiment.json", document);
   } catch (const OutputError& error) {
-    if (lock_ >= 0) ::close(lock_);
     throw UnusableFolder(error.what());
   }
 }
 
-RunFolder::~RunFolder() {
-  if (lock_ >= 0) ::close(lock_);
+fs::path RunFolder::checkpoint_file() const { return path_ / "checkpoint.json"; }
+
+RunFolder::Lock::~Lock() {
+  if (descriptor >= 0) ::close(descriptor);
 }
 
-void RunFolder::write_summary(const Json& summary) const {
-  write_json(path_ / "summary.json", summary);
+void RunFolder::write_summary(const RunSummary& summary) const {
+  write_json(path_ / "summary.json", to_json(summary));
 }
 
 }  // namespace courant

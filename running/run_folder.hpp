@@ -2,17 +2,21 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
-#include "courant/reading/findings.hpp"
+#include "courant/reading/experiment.hpp"
 #include "courant/running/output_file.hpp"
+#include "courant/running/run_summary.hpp"
+#include "courant/running/unfinished_run.hpp"
 
 namespace courant {
 
-// A folder that no run can be written to, found before anything was written: one line.
-class UnusableFolder : public OutputError {
- public:
-  using OutputError::OutputError;
+// What becomes of a run that is in the folder already.
+enum class ExistingRun {
+  refuse,
+  replace,
+  resume,  // it goes on, and there must be one
 };
 
 // A folder that belongs to one run: made if it was not there, and locked while the object lives, so
@@ -25,28 +29,35 @@ class RunFolder {
  public:
   // Makes the folder and writes experiment.json. Throws UnusableFolder, before anything is changed,
   // if there is a run that may not be replaced, another run is being written, there are files of
-  // these names that no run wrote, or the folder cannot be written.
-  RunFolder(std::filesystem::path path, bool replace, Json experiment);
-  ~RunFolder();
-  RunFolder(const RunFolder&) = delete;
-  RunFolder& operator=(const RunFolder&) = delete;
+  // these names that no run wrote, or the folder cannot be written; and as unfinished_run does for a
+  // run that is to go on.
+  RunFolder(std::filesystem::path path, ExistingRun existing, const Experiment& experiment);
 
-  // Throws UnusableFolder if the constructor would; changes nothing. To be asked before anything is
-  // computed.
-  static void check(const std::filesystem::path& path, bool replace);
+  // Throws if the constructor would; changes nothing. To be asked before anything is computed.
+  static void check(const std::filesystem::path& path, ExistingRun existing,
+                    const Experiment& experiment);
 
   // Whether a run is being written to the folder.
   static bool is_in_use(const std::filesystem::path& path);
 
   const std::filesystem::path& path() const { return path_; }
-  const std::string& id() const { return id_; }
+  const std::string& id() const { return run_.id; }
+  // Where a run goes on; nothing if it begins.
+  const std::optional<Checkpoint>& checkpoint() const { return run_.checkpoint; }
+  std::filesystem::path checkpoint_file() const;
   // Throws OutputError.
-  void write_summary(const Json& summary) const;
+  void write_summary(const RunSummary& summary) const;
 
  private:
   std::filesystem::path path_;
-  std::string id_;
-  int lock_ = -1;
+  UnfinishedRun run_;
+  struct Lock {
+    int descriptor = -1;
+    Lock() = default;
+    Lock(const Lock&) = delete;
+    Lock& operator=(const Lock&) = delete;
+    ~Lock();
+  } lock_;
 };
 
 }  // namespace courant

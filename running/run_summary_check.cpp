@@ -108,6 +108,7 @@ Kind summary_kind() {
                  {"status", text, true},
                  {"message", text},
                  {"warnings", array_of(text)},
+                 {"title", text},
                  {"system", text, true},
                  {"method", text, true},
                  {"steps", number, true},

@@ -9,7 +9,7 @@
 namespace courant {
 
 // not_finite: made all its steps, but something that is observed was not a number at some of them.
-enum class RunStatus { completed, failed, interrupted, not_finite };
+enum class RunStatus { running, completed, failed, interrupted, not_finite };
 
 // Why a run ends before its last step.
 struct RunEnd {

@@ -83,16 +83,20 @@ class Examination final : public RunWatcher {
 
 class Display final : public RunWatcher {
  public:
-  Display(std::function<void(const Progress&)> show, std::function<double()> energy_drift)
-      : show_(std::move(show)), energy_drift_(std::move(energy_drift)) {}
+  Display(std::function<void(const Progress&)> show, std::function<double()> energy_drift,
+          long first)
+      : show_(std::move(show)), energy_drift_(std::move(energy_drift)), first_(first) {}
   std::optional<RunEnd> watch(const RunMoment& moment) override {
     const auto now = Clock::now();
-    if (moment.k == 0) {
-      begin_ = shown_ = now;
-    } else if (now - shown_ > std::chrono::milliseconds(100) || moment.k == moment.steps) {
+    if (moment.k == first_) return std::nullopt;
+    if (now - shown_ > std::chrono::milliseconds(100) || moment.k == moment.steps) {
       shown_ = now;
       const std::chrono::duration<double> seconds = now - begin_;
-      show_({moment.k, moment.steps, seconds.count(), energy_drift_()});
+      show_({.step = moment.k,
+             .steps = moment.steps,
+             .first = first_,
+             .seconds = seconds.count(),
+             .energy_drift = energy_drift_()});
     }
     return std::nullopt;
   }
@@ -101,7 +105,8 @@ class Display final : public RunWatcher {
   using Clock = std::chrono::steady_clock;
   std::function<void(const Progress&)> show_;
   std::function<double()> energy_drift_;
-  Clock::time_point begin_, shown_;
+  long first_;
+  Clock::time_point begin_ = Clock::now(), shown_ = begin_;
 };
 
 class Stop final : public RunWatcher {
@@ -141,8 +146,8 @@ std::unique_ptr<RunWatcher> examine_ladder(LadderWatch& watch, long every) {
 }
 
 std::unique_ptr<RunWatcher> show_progress(std::function<void(const Progress&)> show,
-                                          std::function<double()> energy_drift) {
-  return std::make_unique<Display>(std::move(show), std::move(energy_drift));
+                                          std::function<double()> energy_drift, long first) {
+  return std::make_unique<Display>(std::move(show), std::move(energy_drift), first);
 }
 
 std::unique_ptr<RunWatcher> stop_when(const std::atomic<bool>& stop) {

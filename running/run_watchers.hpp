@@ -17,7 +17,8 @@ namespace courant {
 // Where a run is, for whoever watches it.
 struct Progress {
   long step = 0, steps = 0;
-  double seconds = 0.0;       // since the first step
+  long first = 0;             // the step that it began or went on after
+  double seconds = 0.0;       // since then
   double energy_drift = 0.0;  // H - H(0); NaN without an energy
 };
 
@@ -42,9 +43,9 @@ std::unique_ptr<RunWatcher> keep_rows(std::multimap<long, double> due,
 // Ends the run with what the watch finds at every `every`-th state.
 std::unique_ptr<RunWatcher> examine_ladder(LadderWatch& watch, long every);
 
-// Some ten times a second, and after the last step.
+// Some ten times a second, and after the last step. `first` as in Progress.
 std::unique_ptr<RunWatcher> show_progress(std::function<void(const Progress&)> show,
-                                          std::function<double()> energy_drift);
+                                          std::function<double()> energy_drift, long first);
 
 // Interrupts the run once `stop` is set.
 std::unique_ptr<RunWatcher> stop_when(const std::atomic<bool>& stop);

@@ -9,9 +9,10 @@
 
 #include "courant/core/message.hpp"
 #include "courant/integrators/ladder/ladder_watch.hpp"
+#include "courant/running/checkpoint_keeper.hpp"
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/energy_watch.hpp"
-#include "courant/running/ladder_json.hpp"
+#include "courant/running/ladder_report.hpp"
 #include "courant/running/observer.hpp"
 #include "courant/running/quantity_statistics.hpp"
 #include "courant/running/run_folder.hpp"
@@ -28,18 +29,13 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-const char* word(RunStatus status) {
-  switch (status) {
-    case RunStatus::completed:
-      return "completed";
-    case RunStatus::failed:
-      return "failed";
-    case RunStatus::interrupted:
-      return "interrupted";
-    case RunStatus::not_finite:
-      return "not-finite";
-  }
-  return "";
+SolverStatistics operator+(const SolverStatistics& a, const SolverStatistics& b) {
+  return {.steps = a.steps + b.steps,
+          .iterations = a.iterations + b.iterations,
+          .factorizations = a.factorizations + b.factorizations,
+          .failures = a.failures + b.failures,
+          .second_attempts = a.second_attempts + b.second_attempts,
+          .confirmations = a.confirmations + b.confirmations};
 }
 
 double per(double amount, double count) { return count > 0.0 ? amount / count : 0.0; }
@@ -50,7 +46,7 @@ class Run {
       : experiment_(experiment),
         options_(options),
         ladder_(consistent_start(experiment)),
-        ladder_json_(ladder_json(ladder_, *experiment.model.system)),
+        ladder_report_(ladder_report(ladder_, *experiment.model.system)),
         observer_(experiment, ladder_, options.backend) {
     if (observer_.constraint_count() == 0 && ladder_.verdict != Verdict::inconsistent)
       for (const std::string& pointer : experiment.expect.violations)
@@ -60,7 +56,7 @@ class Run {
   }
 
   RunOutcome operator()() {
-    if (options_.on_ladder) options_.on_ladder(ladder_json_);
+    if (options_.on_ladder) options_.on_ladder(ladder_report_);
     const bool consistent = ladder_.verdict != Verdict::inconsistent;
     std::optional<PreparedMethod> method;
     if (consistent) {
@@ -69,24 +65,28 @@ class Run {
     } else if (!experiment_.expect.inconsistent) {
       fail("The system is inconsistent near the initial values. " + ladder_.reason);
     }
-    const RunFolder folder(options_.folder, options_.replace, experiment_.document);
+    const RunFolder folder(options_.folder, options_.existing, experiment_);
     id_ = folder.id();
-    Json begun = summary({});
-    begun["status"] = "running";
-    folder.write_summary(begun);
-    std::vector<std::string> columns = observer_.names();
-    columns.resize(observer_.written_count());
-    columns.insert(columns.begin(), "t");
-    const auto writer = make_trajectory_writer(experiment_.output.format, folder.path(), columns);
-    make_watchers(*writer);
+    const auto checkpoint = folder.checkpoint();
+    const long first = checkpoint ? checkpoint->k : 0;
+    if (method) watch_energy(*method);
+    watch_ladder();
+    if (checkpoint) recall(*checkpoint, folder);
+    if (options_.on_resume && options_.existing == ExistingRun::resume)
+      options_.on_resume(first, experiment_.time ? experiment_.time->time(first) : 0.0);
+    folder.write_summary(summary(RunStatus::running, {}));
+    writer_ = make_writer(folder);
+    make_watchers(first);
+    CheckpointKeeper keeper(folder.checkpoint_file(), *writer_, options_.checkpoint_interval);
     if (method)
-      integrate(*method);
-    else if (consistent)
+      integrate(*method, checkpoint, keeper);
+    else if (consistent && first == 0)
       goes_on({.after = ladder_.point}, 0, 0);
-    writer->flush();
+    writer_->flush();
+    keeper.flush();
 
     RunOutcome outcome{status_, message_, {}, expectations()};
-    outcome.summary = summary(outcome.expectations);
+    outcome.summary = summary(status_, outcome.expectations);
     folder.write_summary(outcome.summary);
     return outcome;
   }
@@ -146,10 +146,19 @@ class Run {
     return std::nullopt;
   }
 
+  std::unique_ptr<TrajectoryWriter> make_writer(const RunFolder& folder) const {
+    std::vector<std::string> columns = observer_.names();
+    columns.resize(observer_.written_count());
+    columns.insert(columns.begin(), "t");
+    std::optional<std::uintmax_t> keep;
+    if (folder.checkpoint()) keep = folder.checkpoint()->trajectory_size;
+    return make_trajectory_writer(experiment_.output.format, folder.path(), columns, keep);
+  }
+
   // All that is told of the states of the run, in this order. What ends the run is told last.
-  void make_watchers(TrajectoryWriter& writer) {
+  void make_watchers(long first) {
     watchers_.push_back(keep_statistics(statistics_));
-    watchers_.push_back(write_rows(writer, experiment_.output.every,
+    watchers_.push_back(write_rows(*writer_, experiment_.output.every,
                                    static_cast<Index>(observer_.written_count())));
     watchers_.push_back(
         find_not_finite(not_finite_, static_cast<Index>(observer_.written_count())));
@@ -160,11 +169,9 @@ class Run {
       watchers_.push_back(keep_rows(std::move(due), rows_at_times_));
     }
     if (options_.on_progress && experiment_.time)
-      watchers_.push_back(show_progress(options_.on_progress, [this] { return energy_drift(); }));
-    if (experiment_.examine > 0 && experiment_.time) {
-      ladder_watch_.emplace(experiment_.model.system, ladder_);
-      watchers_.push_back(examine_ladder(*ladder_watch_, experiment_.examine));
-    }
+      watchers_.push_back(show_progress(
+          options_.on_progress, [this] { return energy_drift(); }, first));
+    if (ladder_watch_) watchers_.push_back(examine_ladder(*ladder_watch_, experiment_.examine));
     if (options_.stop) watchers_.push_back(stop_when(*options_.stop));
   }
 
@@ -196,31 +203,99 @@ class Run {
     const auto energy_of = [this, H,
                             other = std::shared_ptr<Observer>()](const State& state) mutable {
       if (!other) other = std::make_shared<Observer>(experiment_, ladder_, Backend::interpreter);
+      other->restart(state);
       return other->row(state)[*H];
     };
     energy_watch_.emplace(method.integrator, energy_of, *H);
   }
 
-  void integrate(const PreparedMethod& method) {
+  void watch_ladder() {
+    if (experiment_.examine > 0 && experiment_.time)
+      ladder_watch_.emplace(experiment_.model.system, ladder_);
+  }
+
+  // All that is known of a run after step k, where `solver` and `seconds` are those since it began
+  // or went on.
+  Checkpoint checkpoint(long k, const State& state, const Motion& motion,
+                        const SolverStatistics& solver, double seconds) const {
+    Checkpoint now{.run = id_,
+                   .k = k,
+                   .state = state,
+                   .motion = motion,
+                   .trajectory_size = writer_->size(),
+                   .wall_seconds = wall_seconds_ + seconds,
+                   .solver = solver_ + solver,
+                   .statistics = statistics_.memory(),
+                   .rows_at_times = rows_at_times_,
+                   .not_finite = not_finite_};
+    if (energy_watch_) now.energy_watch = energy_watch_->memory();
+    if (ladder_watch_) now.ladder_watch = ladder_watch_->memory();
+    return now;
+  }
+
+  void recall(const Checkpoint& checkpoint, const RunFolder& folder) {
+    const QuantityStatistics::Memory& kept = checkpoint.statistics;
+    std::vector<const VectorXd*> rows = {&kept.initial, &kept.final, &kept.min,
+                                         &kept.max,     &kept.mean,  &kept.covariation};
+    for (const auto& [time, row] : checkpoint.rows_at_times) rows.push_back(&row);
+    for (const VectorXd* row : rows)
+      if (row->size() != static_cast<Index>(observer_.names().size()))
+        throw UnusableFolder(folder.checkpoint_file().string() + ": has " +
+                             std::to_string(row->size()) + " quantities, expected " +
+                             std::to_string(observer_.names().size()) + " as the experiment has");
+    steps_ = checkpoint.k;
+    wall_seconds_ = checkpoint.wall_seconds;
+    solver_ = checkpoint.solver;
+    statistics_.recall(checkpoint.statistics);
+    rows_at_times_ = checkpoint.rows_at_times;
+    not_finite_ = checkpoint.not_finite;
+    if (energy_watch_ && checkpoint.energy_watch) energy_watch_->recall(*checkpoint.energy_watch);
+    if (ladder_watch_ && checkpoint.ladder_watch) ladder_watch_->recall(*checkpoint.ladder_watch);
+  }
+
+  // What is not in the state is forgotten. The checkpoint is the same for those who made the steps
+  // before and for those who begin with it.
+  void begin_epoch(Stepper& stepper, const State& state, const Motion& motion) {
+    stepper.forget();
+    stepper.expect(motion);
+    observer_.restart(state);
+  }
+
+  // All steps, or those after a checkpoint.
+  void integrate(const PreparedMethod& method, const std::optional<Checkpoint>& from,
+                 CheckpointKeeper& keeper) {
     const TimeSpan& time = *experiment_.time;
+    const long epoch = experiment_.output.epoch;
     const auto stepper = method.integrator->stepper();
-    State state = method.initial;
-    watch_energy(method);
+    State state = from ? from->state : method.initial;
+    long k = from ? from->k : 0;
     const auto begin = Clock::now();
     try {
-      stepper->prepare(state, time.step);
-      bool going = goes_on(stepper->last(), 0, time.steps);
-      for (long k = 1; going && k <= time.steps; ++k) {
-        stepper->step(state, time.step, time.time(k));
-        going = goes_on(stepper->last(), k, time.steps);
+      bool going = true;
+      if (from) {
+        begin_epoch(*stepper, state, from->motion);
+      } else {
+        stepper->prepare(state, time.step);
+        going = goes_on(stepper->last(), 0, time.steps);
+      }
+      while (going && k < time.steps) {
+        const long end = std::min(time.steps, k + epoch);
+        for (; going && k < end; ++k) {
+          stepper->step(state, time.step, time.time(k + 1));
+          going = goes_on(stepper->last(), k + 1, time.steps);
+        }
+        if (!going || k == time.steps) break;
+        const Motion motion = stepper->motion();
+        begin_epoch(*stepper, state, motion);
+        keeper.keep(checkpoint(k, state, motion, stepper->statistics(), seconds_since(begin)));
       }
     } catch (const SolveError& error) {
       fail(words_of(error, state) + (ladder_watch_ ? ladder_watch_->decline() : ""));
     } catch (const std::domain_error& error) {
       fail((steps_ == 0 ? "/method: " : "") + without_place(error.what()));
     }
-    wall_seconds_ = seconds_since(begin);
-    solver_ = stepper->statistics();
+    wall_seconds_ += seconds_since(begin);
+    solver_ = solver_ + stepper->statistics();
     if (status_ == RunStatus::completed && not_finite_) {
       status_ = RunStatus::not_finite;
       message_ = observer_.names()[static_cast<std::size_t>(not_finite_->column)] + " is " +
@@ -250,7 +325,7 @@ class Run {
     for (const auto& [time, row] : rows_at_times_)
       for (std::size_t i = 0; i < observer_.names().size(); ++i)
         record.moments[time][observer_.names()[i]] = row[static_cast<Index>(i)];
-    record.ladder = ladder_json_;
+    record.ladder = &ladder_;
     if (!statistics_.empty()) {
       for (std::size_t i = 0; i < observer_.names().size(); ++i)
         record.quantities[observer_.names()[i]] = statistics_.record(static_cast<Index>(i));
@@ -271,60 +346,48 @@ class Run {
     return greatest;
   }
 
-  Json summary(const std::vector<ExpectationResult>& expectations) const {
-    Json json{
-        {"id", id_},
-        {"status", word(status_)},
-        {"message", message_},
-        {"warnings", warnings_},
-        {"title", experiment_.title},
-        {"system", experiment_.model.description},
-        {"method", experiment_.method ? experiment_.method->description : "constraint algorithm"},
-        {"steps", steps_},
-        {"time", Json::object()},
-        {"final", Json::object()},
-        {"observables", Json::object()},
-        {"constraints", Json::object()},
-        {"ladder", ladder_json_},
-        {"expectations", Json::array()}};
+  RunSummary summary(RunStatus status, const std::vector<ExpectationResult>& expectations) const {
+    RunSummary told{
+        .id = id_,
+        .status = status,
+        .message = message_,
+        .warnings = warnings_,
+        .title = experiment_.title,
+        .system = experiment_.model.description,
+        .method = experiment_.method ? experiment_.method->description : "constraint algorithm",
+        .steps = steps_,
+        .ladder = ladder_report_,
+        .expectations = expectations};
     if (const auto& time = experiment_.time)
-      json["time"] = {{"start", time->start}, {"end", time->time(steps_)}, {"step", time->step}};
+      told.time = {.start = time->start, .end = time->time(steps_), .step = time->step};
     if (!statistics_.empty()) {
       for (std::size_t i = 0; i < observer_.first_constraint(); ++i) {
         const std::string& name = observer_.names()[i];
         const QuantityRecord record = statistics_.record(static_cast<Index>(i));
-        if (i < observer_.coordinate_count()) {
-          json["final"][name] = record.final;
-          continue;
-        }
-        json["observables"][name] = {
-            {"initial", record.initial}, {"final", record.final},         {"min", record.min},
-            {"max", record.max},         {"max_drift", record.max_drift}, {"slope", record.slope}};
+        if (i < observer_.coordinate_count())
+          told.final.emplace_back(name, record.final);
+        else
+          told.observables.emplace_back(name, record);
       }
-      if (observer_.constraint_count() > 0) json["constraints"]["max_violation"] = max_violation();
+      if (observer_.constraint_count() > 0) told.max_violation = max_violation();
     }
-    for (const ExpectationResult& result : expectations)
-      json["expectations"].push_back({{"description", result.description},
-                                      {"passed", result.passed},
-                                      {"value", result.value},
-                                      {"bound", result.bound}});
     const auto steps = static_cast<double>(steps_);
-    json["solver"] = {
-        {"iterations_per_step", per(static_cast<double>(solver_.iterations), steps)},
-        {"factorizations_per_step", per(static_cast<double>(solver_.factorizations), steps)},
-        {"failures", solver_.failures},
-        {"second_attempts", solver_.second_attempts},
-        {"confirmations", solver_.confirmations}};
-    json["backend"] = backend_;
-    json["wall_seconds"] = wall_seconds_;
-    json["steps_per_second"] = per(steps, wall_seconds_);
-    return json;
+    told.solver = {
+        .iterations_per_step = per(static_cast<double>(solver_.iterations), steps),
+        .factorizations_per_step = per(static_cast<double>(solver_.factorizations), steps),
+        .failures = solver_.failures,
+        .second_attempts = solver_.second_attempts,
+        .confirmations = solver_.confirmations};
+    told.backend = backend_;
+    told.wall_seconds = wall_seconds_;
+    told.steps_per_second = per(steps, wall_seconds_);
+    return told;
   }
 
   const Experiment& experiment_;
   const RunOptions& options_;
   const ConstraintLadder ladder_;
-  const Json ladder_json_;
+  const LadderReport ladder_report_;
   Observer observer_;
 
   std::string id_;
@@ -336,6 +399,7 @@ class Run {
   std::optional<NotFinite> not_finite_;
   std::optional<LadderWatch> ladder_watch_;
   std::optional<EnergyWatch> energy_watch_;
+  std::unique_ptr<TrajectoryWriter> writer_;
   std::vector<std::unique_ptr<RunWatcher>> watchers_;
   long steps_ = 0;
   SolverStatistics solver_;
@@ -351,7 +415,7 @@ bool RunOutcome::as_expected() const {
 }
 
 RunOutcome run(const Experiment& experiment, const RunOptions& options) {
-  RunFolder::check(options.folder, options.replace);
+  RunFolder::check(options.folder, options.existing, experiment);
   return Run(experiment, options)();
 }
 

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "courant/reading/experiment.hpp"
+#include "courant/running/run_folder.hpp"
+#include "courant/running/run_summary.hpp"
 #include "courant/running/run_watchers.hpp"
 
 namespace courant {
@@ -15,18 +18,22 @@ namespace courant {
 struct RunOptions {
   std::filesystem::path folder;
   Backend backend = Backend::automatic;
-  bool replace = false;                               // a run that is in the folder already
-  const std::atomic<bool>* stop = nullptr;            // set by someone else: the run is interrupted
-  std::function<void(const Json& ladder)> on_ladder;  // once the constraint algorithm has finished
+  ExistingRun existing = ExistingRun::refuse;  // a run that is in the folder already
+  const std::atomic<bool>* stop = nullptr;     // set by someone else: the run is interrupted
+  std::function<void(const LadderReport&)> on_ladder;  // once the constraint algorithm has finished
   std::function<void(const Integrator&)> on_method = {};  // once it is made ready
   std::function<void(const Progress&)> on_progress;       // some ten times a second
   std::vector<RunWatcher*> watchers = {};                 // are told of every state too
+  // A run that goes on: after which step, at which time; 0 from its start.
+  std::function<void(long k, double t)> on_resume = {};
+  // At least so much time from one checkpoint on the disk to the next.
+  std::chrono::duration<double> checkpoint_interval = std::chrono::milliseconds(250);
 };
 
 struct RunOutcome {
   RunStatus status = RunStatus::failed;
   std::string message;  // why it did not complete
-  Json summary;         // as written
+  RunSummary summary;   // as written
   std::vector<ExpectationResult> expectations;
 
   bool as_expected() const;
@@ -36,8 +43,14 @@ struct RunOutcome {
 // experiment to the folder (the contract has the files). What the numerics cannot do is an outcome;
 // everything up to then is on disk.
 //
-// Throws ExperimentError for initial values that cannot be used and UnusableFolder for a folder
-// that cannot: then nothing was written. Throws OutputError when the disk is full later on.
+// Every `epoch` steps method and observer forget the steps before, and the folder gets a checkpoint.
+// A run that goes on does so from the last of them, and leaves the files that it would have left if
+// it had never been stopped: the trajectory to the last byte, the summary but for times. Only
+// options.watchers are told no more of the steps before.
+//
+// Throws ExperimentError for initial values that cannot be used, and for changes of an experiment
+// whose run is to go on; UnusableFolder for a folder that cannot be used: then nothing was written.
+// Throws OutputError when the disk is full later on.
 RunOutcome run(const Experiment& experiment, const RunOptions& options);
 
 }  // namespace courant

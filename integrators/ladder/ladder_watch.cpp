@@ -75,33 +75,35 @@ std::string LadderWatch::examine(const State& state) {
            (now.reason.empty() ? "" : " " + now.reason);
 
   const VectorXd values = smallest_counted(now);
-  largest_ = largest_.size() == 0 ? values : largest_.cwiseMax(values);
+  auto& [largest, last, before_last, last_time] = memory_;
+  largest = largest.size() == 0 ? values : largest.cwiseMax(values);
   std::string finding;
-  for (Index i = 0; i < values.size() && before_last_.size() > 0 && finding.empty(); ++i) {
-    if (values[i] > 0.5 * largest_[i] || values[i] > last_[i]) continue;
+  for (Index i = 0; i < values.size() && before_last.size() > 0 && finding.empty(); ++i) {
+    if (values[i] > 0.5 * largest[i] || values[i] > last[i]) continue;
     const bool falls_to_zero =
-        values[i] < 0.05 * largest_[i] && values[i] < 0.5 * last_[i] && last_[i] < before_last_[i];
+        values[i] < 0.05 * largest[i] && values[i] < 0.5 * last[i] && last[i] < before_last[i];
     if (!falls_to_zero) break;
-    const double rate = (last_[i] - values[i]) / (state.t - last_time_);
+    const double rate = (last[i] - values[i]) / (state.t - last_time);
     finding = "The ranks change near t = " + number(state.t + values[i] / rate) +
               ": a singular value that counts at level " + std::to_string(i / 3) + " fell from " +
-              number(last_[i]) + " at t = " + number(last_time_) + " to " + number(values[i]) +
-              " at t = " + number(state.t) + " (it was up to " + number(largest_[i]) +
+              number(last[i]) + " at t = " + number(last_time) + " to " + number(values[i]) +
+              " at t = " + number(state.t) + " (it was up to " + number(largest[i]) +
               "). Equations become dependent there: the configuration is singular, and they alone "
               "do not say how to go on.";
   }
-  before_last_ = last_;
-  last_ = values;
-  last_time_ = state.t;
+  before_last = last;
+  last = values;
+  last_time = state.t;
   return finding;
 }
 
 std::string LadderWatch::decline() const {
-  for (Index i = 0; i < last_.size(); ++i)
-    if (last_[i] < 0.5 * largest_[i])
-      return " The constraint algorithm, examined last at t = " + number(last_time_) +
+  const auto& [largest, last, before_last, last_time] = memory_;
+  for (Index i = 0; i < last.size(); ++i)
+    if (last[i] < 0.5 * largest[i])
+      return " The constraint algorithm, examined last at t = " + number(last_time) +
              ": a singular value that counts at level " + std::to_string(i / 3) +
-             " had fallen from " + number(largest_[i]) + " to " + number(last_[i]) +
+             " had fallen from " + number(largest[i]) + " to " + number(last[i]) +
              ". Where it is zero the ranks change, and the configuration is singular.";
   return "";
 }

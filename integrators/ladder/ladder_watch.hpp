@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "courant/integrators/ladder/constraint_ladder.hpp"
 #include "courant/integrators/ladder/derivative_array.hpp"
@@ -32,6 +33,15 @@ class LadderWatch {
   // come down to less than half of the largest it had; empty if none.
   std::string decline() const;
 
+  // What it remembers of the states that it examined; empty before the first.
+  struct Memory {
+    VectorXd largest = {}, last = {}, before_last = {};  // as smallest_counted() has them
+    double last_time = 0.0;
+  };
+  const Memory& memory() const { return memory_; }
+  // Goes on as the watch over the same run that had this memory.
+  void recall(Memory memory) { memory_ = std::move(memory); }
+
  private:
   // The smallest singular value that counts of each rank decision, level by level; as many as at
   // the start.
@@ -41,8 +51,7 @@ class LadderWatch {
   ConstraintLadder start_;
   DerivativeArray array_;
   VectorXd row_scale_, column_scale_;  // of the Jacobian at the start
-  VectorXd largest_, last_, before_last_;
-  double last_time_ = 0.0;
+  Memory memory_;
 };
 
 }  // namespace courant

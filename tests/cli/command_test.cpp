@@ -56,12 +56,40 @@ BOOST_AUTO_TEST_CASE(runs_a_file) {
   const Answer again = courant_command({"run", file, "-o", runs});
   BOOST_TEST(again.status == 2);
   BOOST_TEST(again.err == "courant: " + runs +
-                              ": there is a run in this folder; expected another folder (-o), or "
-                              "--force to replace it\n");
+                              ": there is a run in this folder; expected another folder (-o), "
+                              "--force to replace it, or --resume to go on with it\n");
   const Answer forced =
       courant_command({"run", file, "-o", runs, "--force", "--quiet", "--backend", "interpreter"});
   BOOST_TEST(forced.status == 0);
   BOOST_TEST(forced.out == "");
+}
+
+BOOST_AUTO_TEST_CASE(goes_on_with_a_run) {
+  const TemporaryFolder folder;
+  const std::string runs = (folder / "run").string();
+  const auto resume = [&](const char* setting) {
+    return courant_command({"run", "-", "-o", runs, "--backend", "interpreter", "--resume", "--set",
+                            "/output={\"epoch\": 4}", "--set", setting},
+                           oscillator);
+  };
+  const Answer nothing = resume("/time/end=1");
+  BOOST_TEST(nothing.status == 2);
+  BOOST_TEST(nothing.err ==
+             "courant: " + runs + ": there is no run in this folder that could go on\n");
+  BOOST_TEST(courant_command({"run", "-", "-o", runs, "--backend", "interpreter", "--quiet",
+                              "--set", "/output={\"epoch\": 4}"},
+                             oscillator)
+                 .status == 0);
+  BOOST_TEST(resume("/time/end=1").err ==
+             "courant: " + runs +
+                 ": the run is complete up to t = 1; expected a later /time/end to go on to\n");
+  const Answer changed = resume("/time/step=0.05");
+  BOOST_TEST(changed.status == 2);
+  BOOST_TEST(changed.err == "courant: -: /time/step: is 0.05; the run was begun with 0.1\n");
+  const Answer longer = resume("/time/end=2");
+  BOOST_TEST(longer.status == 0, longer.err);
+  BOOST_TEST(longer.out.find("goes on after step 8, at t = 0.8") != std::string::npos, longer.out);
+  BOOST_TEST(read_run(runs).trajectory.rows() == 21u);
 }
 
 BOOST_AUTO_TEST_CASE(runs_standard_input) {
@@ -153,7 +181,7 @@ BOOST_AUTO_TEST_CASE(a_run_that_fails_is_status_3) {
         replaced(collision, R"({ "observable": "H", "max_drift": 1e-12 })", expectation));
     BOOST_TEST(answer.status == 3);
     BOOST_TEST(answer.err.find("courant: -: ") == 0u, answer.err);
-    BOOST_TEST(read_run(folder / "run").summary["status"] == "failed");
+    BOOST_TEST((read_run(folder / "run").summary.status == RunStatus::failed));
   }
 }
 
@@ -178,7 +206,7 @@ BOOST_AUTO_TEST_CASE(an_interrupt_is_status_130) {
       cli::command({"run", "-", "-o", (folder / "run").string(), "--backend", "interpreter"},
                    {.in = in, .out = out, .err = err, .stop = &stop});
   BOOST_TEST(status == 130);
-  BOOST_TEST(read_run(folder / "run").summary["status"] == "interrupted");
+  BOOST_TEST((read_run(folder / "run").summary.status == RunStatus::interrupted));
 }
 
 BOOST_AUTO_TEST_CASE(set_changes_a_value) {
@@ -296,7 +324,7 @@ BOOST_AUTO_TEST_CASE(wrong_command_lines_are_status_2) {
                                                     {"run"},
                                                     {"run", "x", "--frce"},
                                                     {"run", "x", "--backend", "gpu"},
-                                                    {"run", "x", "--resume"},
+                                                    {"run", "x", "--resume", "--force"},
                                                     {"report"}}) {
     const Answer answer = courant_command(arguments);
     BOOST_TEST(answer.status == 2);
@@ -304,8 +332,6 @@ BOOST_AUTO_TEST_CASE(wrong_command_lines_are_status_2) {
     BOOST_TEST(std::count(answer.err.begin(), answer.err.end(), '\n') == 1, answer.err);
     BOOST_TEST(answer.out == "");
   }
-  BOOST_TEST(courant_command({"run", "x", "--resume"}).err.find("cannot be continued yet") !=
-             std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(help_and_version_are_status_0) {
@@ -316,7 +342,7 @@ BOOST_AUTO_TEST_CASE(help_and_version_are_status_0) {
   BOOST_TEST(help.out.find("study") == std::string::npos);
   const Answer run = courant_command({"run", "--help"});
   BOOST_TEST(run.out.find("--force") != std::string::npos);
-  BOOST_TEST(run.out.find("--resume") == std::string::npos);
+  BOOST_TEST(run.out.find("--resume") != std::string::npos);
   BOOST_TEST(courant_command({"--version"}).out.find("courant ") == 0u);
 }
 

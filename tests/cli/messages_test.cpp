@@ -66,9 +66,9 @@ BOOST_AUTO_TEST_CASE(a_bad_experiment_is_refused_with_its_place_or_fails_with_a_
     BOOST_TEST(std::filesystem::exists(runs) == (answer.status == 3), name);
     if (answer.status == 3) {
       const Run run = read_run(runs);
-      const bool failed = run.summary["status"] != "completed";
-      BOOST_TEST(!run.summary["message"].get<std::string>().empty() == failed, name);
-      check_words(run.summary["message"], name);
+      const bool failed = run.summary.status != RunStatus::completed;
+      BOOST_TEST(!run.summary.message.empty() == failed, name);
+      check_words(run.summary.message, name);
     }
   }
 }

@@ -161,6 +161,56 @@ BOOST_AUTO_TEST_CASE(w2_after_forgetting_the_same_to_the_last_bit) {
   }
 }
 
+// A stepper that is told of the motion makes the steps of one that is not, and confirms fewer.
+BOOST_AUTO_TEST_CASE(steps_that_go_on_with_a_known_motion_are_less_confirmed) {
+  long by_told = 0, by_untold = 0;
+  for (const Case& at : cases()) {
+    BOOST_TEST_CONTEXT(at.name) {
+      const auto stepper = at.method->stepper(), told = at.method->stepper(),
+                 untold = at.method->stepper();
+      State state = at.start;
+      for (int k = 0; k < 25; ++k) stepper->step(state, at.h);
+      const Motion motion = stepper->motion();
+      State other = state, third = state;
+      told->expect(motion);
+      stepper->forget();
+      stepper->expect(motion);
+      const long before = stepper->statistics().confirmations;
+      for (int k = 0; k < 25; ++k) {
+        stepper->step(state, at.h);
+        told->step(other, at.h);
+        untold->step(third, at.h);
+        BOOST_TEST_REQUIRE((state == other));
+        BOOST_TEST_REQUIRE((state == third));
+      }
+      BOOST_TEST(stepper->statistics().confirmations - before == told->statistics().confirmations);
+      BOOST_TEST(told->statistics().confirmations <= untold->statistics().confirmations);
+      by_told += told->statistics().confirmations;
+      by_untold += untold->statistics().confirmations;
+    }
+  }
+  BOOST_TEST(by_told < by_untold);
+}
+
+// Of a motion that was not predictable nothing is expected.
+BOOST_AUTO_TEST_CASE(a_motion_that_was_not_predictable_is_confirmed_as_ever) {
+  for (const Case& at : cases()) {
+    BOOST_TEST_CONTEXT(at.name) {
+      const auto stepper = at.method->stepper();
+      State state = at.start;
+      for (int k = 0; k < 25; ++k) stepper->step(state, at.h);
+      Motion motion = stepper->motion();
+      motion.is_predictable = false;
+      const auto told = at.method->stepper(), untold = at.method->stepper();
+      State other = state;
+      told->expect(motion);
+      told->step(state, at.h);
+      untold->step(other, at.h);
+      BOOST_TEST(told->statistics().confirmations == untold->statistics().confirmations);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(w3_a_failed_step_leaves_no_trace) {
   for (const Case& at : cases()) {
     BOOST_TEST_CONTEXT(at.name) {

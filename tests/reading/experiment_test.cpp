@@ -58,6 +58,7 @@ BOOST_AUTO_TEST_CASE(fills_defaults_into_the_document) {
   const Json document = read_experiment(pendulum.dump()).document;
   BOOST_TEST(document["time"]["start"] == 0.0);
   BOOST_TEST(document["output"]["every"] == 1);
+  BOOST_TEST(document["output"]["epoch"] == 4096);
   BOOST_TEST(document["output"]["format"] == "csv");
   BOOST_TEST(document["method"]["type"] == "rk4");
   BOOST_TEST(read_experiment(vortices.dump()).document["system"]["form"] == "lagrangian");

@@ -4,7 +4,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "courant/running/consistent_start.hpp"
-#include "courant/running/ladder_json.hpp"
+#include "courant/running/ladder_report.hpp"
 
 using namespace courant;
 
@@ -12,7 +12,18 @@ namespace {
 
 Json ladder(const Json& experiment) {
   const Experiment read = read_experiment(experiment.dump());
-  return ladder_json(consistent_start(read), *read.model.system);
+  return to_json(ladder_report(consistent_start(read), *read.model.system));
+}
+
+// Of what is read back.
+std::vector<std::string> ladder_explanation(const Json& found) {
+  return courant::ladder_explanation(read_ladder_report(found));
+}
+std::vector<std::string> ladder_text_diagram(const Json& found) {
+  return courant::ladder_text_diagram(read_ladder_report(found));
+}
+Json up_to_level(const Json& found, Index level) {
+  return to_json(courant::up_to_level(read_ladder_report(found), level));
 }
 
 Json pendulum() {

@@ -129,7 +129,7 @@ BOOST_AUTO_TEST_CASE(hidden_constraints_have_columns) {
     greatest = std::max({greatest, std::abs(length[k]), std::abs(hidden[k])});
   }
   BOOST_TEST(greatest > 1e-5);  // the method keeps neither
-  BOOST_TEST(outcome.summary["constraints"]["max_violation"].get<double>() == greatest);
+  BOOST_TEST(outcome.summary.max_violation.value() == greatest);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

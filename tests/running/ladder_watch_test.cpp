@@ -45,7 +45,7 @@ BOOST_AUTO_TEST_CASE(multipliers_that_vanish_do_not_stop_it) {
   experiment.erase("examine");
   const RunOutcome outcome = run_in(folder, experiment);
   BOOST_TEST((outcome.status == RunStatus::completed), outcome.message);
-  BOOST_TEST(std::abs(outcome.summary["final"]["a"].get<double>() - 0.01) < 1e-10);
+  BOOST_TEST(std::abs(final_value(outcome, "a") - 0.01) < 1e-10);
 }
 
 // No step hits it; the watch sees the rank fall before.
@@ -59,7 +59,7 @@ BOOST_AUTO_TEST_CASE(a_singular_configuration_stops_the_run) {
              outcome.message);
   BOOST_TEST(outcome.message.find("to 0.014") != std::string::npos, outcome.message);
   BOOST_TEST(outcome.message.find("singular") != std::string::npos);
-  BOOST_TEST(outcome.summary["time"]["end"].get<double>() == 0.7,
+  BOOST_TEST(outcome.summary.time->end == 0.7,
              boost::test_tools::tolerance(1e-12));
 }
 
@@ -67,7 +67,7 @@ BOOST_AUTO_TEST_CASE(a_singular_configuration_stops_the_run) {
 BOOST_AUTO_TEST_CASE(closer_looks_stop_later) {
   const TemporaryFolder folder;
   const double stopped =
-      run_in(folder, linkage(0.008, 1.0, 1)).summary["time"]["end"].get<double>();
+      run_in(folder, linkage(0.008, 1.0, 1)).summary.time->end;
   BOOST_TEST(stopped > 0.7);
   BOOST_TEST(stopped < 0.7264);
 }

@@ -7,13 +7,13 @@
 
 namespace courant {
 
-using test::Motion, test::method_1, test::method_2;
+using test::method_1, test::method_2;
 
 BOOST_AUTO_TEST_SUITE(manifold_orders)
 
 BOOST_AUTO_TEST_CASE(all_are_two) {
   const double time = 1.0;
-  for (const Motion& motion : test::motions()) {
+  for (const test::Motion& motion : test::motions()) {
     const auto system = test::problem(motion.experiment);
     const VectorXd exact = system.end("dopri5", time, 200);
     for (const char* map : motion.maps)

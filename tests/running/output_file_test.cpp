@@ -33,6 +33,21 @@ BOOST_AUTO_TEST_CASE(a_file_is_written_whole_or_not_at_all) {
   BOOST_TEST(entries == 2u);
 }
 
+BOOST_AUTO_TEST_CASE(a_file_that_is_there_is_written_on) {
+  const TemporaryFolder folder;
+  write_text(folder / "a", "0123456789");
+  OutputFile file(folder / "a", OutputFile::Existing{});
+  BOOST_TEST(read_text(folder / "a") == "0123456789");
+  file.overwrite("AB");
+  file.cut(5);
+  file.write("x");
+  file.write("y");
+  BOOST_TEST(read_text(folder / "a") == "AB234xy");
+  BOOST_CHECK_THROW(file.cut(8), OutputError);
+  BOOST_CHECK_THROW(OutputFile(folder / "none", OutputFile::Existing{}), OutputError);
+  BOOST_TEST(!std::filesystem::exists(folder / "none"));
+}
+
 BOOST_AUTO_TEST_CASE(a_full_disk_is_an_error) {
   if (!std::filesystem::exists("/dev/full")) return;
   OutputFile file("/dev/full");

@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(reads_a_run) {
     const Run run = read_run(folder / name);
     BOOST_TEST(run.name == "a run");
     BOOST_TEST(run.trajectory.rows() == 21);
-    BOOST_TEST(run.summary.at("method") == "constrain-first");
+    BOOST_TEST(run.summary.method == "constrain-first");
     BOOST_TEST(run.experiment.at("system").at("type") == "point-vortices");
     BOOST_TEST(run.trajectory.column("x[2]")[20] == path[20][2]);
     BOOST_TEST(run.coordinates() == (std::vector<std::string>{"x[0]", "x[1]", "x[2]", "x[3]",
@@ -229,7 +229,7 @@ BOOST_AUTO_TEST_CASE(a_run_that_did_not_end_is_read_as_far_as_it_got) {
   write_text(folder / "run/summary.json", summary.dump());
   const Run run = read_run(folder / "run");
   BOOST_TEST(run.trajectory.rows() == 3u);
-  BOOST_TEST(run.summary["message"] == "The run did not end: it was killed.");
+  BOOST_TEST(run.summary.message == "The run did not end: it was killed.");
 
   const std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 2), }";
   write_text(folder / "a.npy", npy(header, {0, 1, 2, 3, 4}));

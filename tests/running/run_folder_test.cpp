@@ -7,18 +7,23 @@
 namespace courant {
 namespace {
 
-const Json experiment = {{"title", "one"}};
-const Json summary = {{"status", "completed"}, {"ladder", Json::object()}};
+Experiment titled(const char* title) {
+  Experiment experiment;
+  experiment.document = {{"title", title}};
+  return experiment;
+}
+const Experiment experiment = titled("one");
+const RunSummary summary{.status = RunStatus::completed, .ladder = LadderReport()};
 
-std::string refusal(const std::filesystem::path& path, bool replace) {
+std::string refusal(const std::filesystem::path& path, ExistingRun existing) {
   std::string first;
   try {
-    RunFolder::check(path, replace);
+    RunFolder::check(path, existing, experiment);
   } catch (const UnusableFolder& error) {
     first = error.what();
   }
   try {
-    const RunFolder folder(path, replace, experiment);
+    const RunFolder folder(path, existing, experiment);
   } catch (const UnusableFolder& error) {
     BOOST_TEST(first == error.what());
     return first;
@@ -34,18 +39,19 @@ BOOST_AUTO_TEST_SUITE(run_folder)
 BOOST_AUTO_TEST_CASE(a_run_is_replaced_only_if_it_may_be) {
   const TemporaryFolder folder;
   const auto path = folder / "a" / "run";
-  RunFolder::check(path, false);
+  RunFolder::check(path, ExistingRun::refuse, experiment);
   BOOST_TEST(!std::filesystem::exists(folder / "a"));
   std::string id;
   {
-    const RunFolder run(path, false, experiment);
+    const RunFolder run(path, ExistingRun::refuse, experiment);
     run.write_summary(summary);
     id = run.id();
     BOOST_TEST(Json::parse(read_text(path / "experiment.json"))["$run"] == id);
   }
   write_text(path / "notes.txt", "mine");
-  BOOST_TEST(refusal(path, false).find("there is a run in this folder") != std::string::npos);
-  const RunFolder again(path, true, experiment);
+  BOOST_TEST(refusal(path, ExistingRun::refuse).find("there is a run in this folder") !=
+             std::string::npos);
+  const RunFolder again(path, ExistingRun::replace, experiment);
   BOOST_TEST(again.id() != id);
   BOOST_TEST(!std::filesystem::exists(path / "summary.json"));
   BOOST_TEST(read_text(path / "notes.txt") == "mine");
@@ -56,13 +62,14 @@ BOOST_AUTO_TEST_CASE(a_folder_belongs_to_one_run_at_a_time) {
   const auto path = folder / "run";
   BOOST_TEST(!RunFolder::is_in_use(path));
   {
-    const RunFolder run(path, false, experiment);
+    const RunFolder run(path, ExistingRun::refuse, experiment);
     BOOST_TEST(RunFolder::is_in_use(path));
-    for (const bool replace : {false, true})
-      BOOST_TEST(refusal(path, replace).find("another run is being written") != std::string::npos);
+    for (const ExistingRun existing :
+         {ExistingRun::refuse, ExistingRun::replace, ExistingRun::resume})
+      BOOST_TEST(refusal(path, existing).find("another run is being written") != std::string::npos);
   }
   BOOST_TEST(!RunFolder::is_in_use(path));
-  BOOST_TEST(refusal(path, true) == "");
+  BOOST_TEST(refusal(path, ExistingRun::replace) == "");
 }
 
 // An experiment that somebody keeps in the folder is not the copy of a run.
@@ -70,22 +77,55 @@ BOOST_AUTO_TEST_CASE(what_no_run_wrote_is_never_removed) {
   const TemporaryFolder folder;
   const auto path = folder / "mine";
   write_text(path / "experiment.json", "{\"title\": \"mine\"}");
-  for (const bool replace : {false, true})
-    BOOST_TEST(refusal(path, replace).find("no run wrote it") != std::string::npos);
+  for (const ExistingRun existing : {ExistingRun::refuse, ExistingRun::replace})
+    BOOST_TEST(refusal(path, existing).find("no run wrote it") != std::string::npos);
   BOOST_TEST(read_text(path / "experiment.json") == "{\"title\": \"mine\"}");
 }
 
 BOOST_AUTO_TEST_CASE(a_folder_that_cannot_be_made_is_refused) {
   const TemporaryFolder folder;
   write_text(folder / "file", "");
-  BOOST_TEST(refusal(folder / "file" / "run", false)
+  BOOST_TEST(refusal(folder / "file" / "run", ExistingRun::refuse)
                  .ends_with("the folder cannot be made: Not a directory"));
+}
+
+// The run that goes on is the same run; killed before it reached an epoch, it has no checkpoint.
+BOOST_AUTO_TEST_CASE(a_run_goes_on_in_its_folder) {
+  const TemporaryFolder folder;
+  const auto path = folder / "run";
+  BOOST_TEST(refusal(path, ExistingRun::resume).find("there is no run") != std::string::npos);
+  BOOST_TEST(!std::filesystem::exists(path));
+  const std::string id = RunFolder(path, ExistingRun::refuse, experiment).id();
+  const RunFolder again(path, ExistingRun::resume, experiment);
+  BOOST_TEST(again.id() == id);
+  BOOST_TEST(!again.checkpoint());
+  BOOST_TEST(Json::parse(read_text(path / "experiment.json"))["$run"] == id);
+}
+
+BOOST_AUTO_TEST_CASE(a_run_does_not_go_on_with_another_experiment) {
+  const TemporaryFolder folder;
+  const auto path = folder / "run";
+  { const RunFolder begun(path, ExistingRun::refuse, experiment); }
+  const std::string before = read_text(path / "experiment.json");
+  BOOST_CHECK_THROW(RunFolder::check(path, ExistingRun::resume, titled("two")), ExperimentError);
+  BOOST_CHECK_THROW(RunFolder(path, ExistingRun::resume, titled("two")), ExperimentError);
+  BOOST_TEST(!RunFolder::is_in_use(path));
+  BOOST_TEST(read_text(path / "experiment.json") == before);
+}
+
+// A kill while the first file is written leaves nothing but that.
+BOOST_AUTO_TEST_CASE(what_a_kill_leaves_at_the_beginning_is_no_run) {
+  const TemporaryFolder folder;
+  const auto path = folder / "run";
+  write_text(path / "experiment.json.new", "{\"tit");
+  BOOST_TEST(refusal(path, ExistingRun::resume).find("there is no run") != std::string::npos);
+  BOOST_TEST(refusal(path, ExistingRun::refuse) == "");
 }
 
 // Before the constraint algorithm, which may take long and here would be an error of its own.
 BOOST_AUTO_TEST_CASE(a_folder_is_refused_before_anything_is_computed) {
   const TemporaryFolder folder;
-  write_text(folder / "run" / "summary.json", summary.dump());
+  write_text(folder / "run" / "summary.json", to_json(summary).dump());
   const Json nowhere = {
       {"system", {{"type", "hamiltonian"}, {"coordinates", {"q"}}, {"hamiltonian", "1/q"}}},
       {"initial", {{"q", 0}, {"p_q", 0}}}};
@@ -101,11 +141,11 @@ BOOST_AUTO_TEST_CASE(the_experiment_of_a_run_runs_again) {
       {"initial", {{"q", 1}, {"p_q", 0}}},
       {"method", "discretize-first"},
       {"time", {{"step", 0.1}, {"end", 1}}}};
-  const Json first = run_in(folder, oscillator).summary;
-  const Json second =
+  const RunSummary first = run_in(folder, oscillator).summary;
+  const RunSummary second =
       run_in(other, Json::parse(read_text(folder / "run" / "experiment.json"))).summary;
-  BOOST_TEST(first["final"] == second["final"]);
-  BOOST_TEST(first["id"] != second["id"]);
+  BOOST_TEST((first.final == second.final));
+  BOOST_TEST(first.id != second.id);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -14,4 +14,11 @@ inline RunOutcome run_in(const TemporaryFolder& folder, const Json& experiment,
   return run(read_experiment(experiment.dump()), options);
 }
 
+// The last value of a coordinate.
+inline double final_value(const RunOutcome& outcome, std::string_view name) {
+  for (const auto& [coordinate, value] : outcome.summary.final)
+    if (coordinate == name) return value;
+  return RunSummary::kUnknown;
+}
+
 }  // namespace courant

@@ -52,6 +52,48 @@ BOOST_AUTO_TEST_CASE(every_number_reads_back_to_itself) {
   BOOST_TEST(read_text(folder / "columns.json") == "[\"t\",\"x\",\"H\"]\n");
 }
 
+BOOST_AUTO_TEST_CASE(goes_on_with_a_file_from_any_row) {
+  const auto rows = random_rows(20000);
+  for (const Format format : {Format::csv, Format::npy})
+    for (const std::size_t whole : {0u, 1u, 777u, 19999u}) {
+      const TemporaryFolder folder, other;
+      {
+        const auto all = make_trajectory_writer(format, other.path(), {"t", "x", "H"});
+        for (const auto& row : rows) append(*all, row);
+        all->flush();
+        BOOST_TEST(all->size() == std::filesystem::file_size(other / trajectory_name(format)));
+      }
+      const auto file = folder / trajectory_name(format);
+      const auto writer = make_trajectory_writer(format, folder.path(), {"t", "x", "H"});
+      for (std::size_t i = 0; i < whole; ++i) append(*writer, rows[i]);
+      const std::uintmax_t size = writer->size();  // also of what is kept back
+      for (std::size_t i = whole; i < 20000; ++i) append(*writer, rows[i]);
+      writer->flush();
+      const auto again = make_trajectory_writer(format, folder.path(), {"t", "x", "H"}, size);
+      BOOST_TEST(again->size() == size);
+      BOOST_TEST(std::filesystem::file_size(file) == size);
+      if (format == Format::npy)
+        BOOST_TEST(read_trajectory_npy(file, {"t", "x", "H"}).rows() == whole);
+      for (std::size_t i = whole; i < rows.size(); ++i) append(*again, rows[i]);
+      again->flush();
+      BOOST_TEST((read_text(file) == read_text(other / trajectory_name(format))));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(a_file_that_lost_rows_is_not_written_on) {
+  const TemporaryFolder folder;
+  for (const Format format : {Format::csv, Format::npy}) {
+    const auto writer = make_trajectory_writer(format, folder.path(), {"t", "x", "H"});
+    append(*writer, {0.1, 0.2, 0.3});
+    BOOST_CHECK_THROW(
+        make_trajectory_writer(format, folder.path(), {"t", "x", "H"}, writer->size()),
+        OutputError);
+    std::filesystem::remove(folder / trajectory_name(format));
+    BOOST_CHECK_THROW(make_trajectory_writer(format, folder.path(), {"t", "x", "H"}, 128),
+                      OutputError);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(writes_the_fewest_digits) {
   const TemporaryFolder folder;
   const auto writer = make_trajectory_writer(Format::csv, folder.path(), {"t", "x", "y"});

@@ -1,0 +1,192 @@
+#include "courant/running/checkpoint.hpp"
+
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <type_traits>
+
+#include "courant/core/message.hpp"
+#include "courant/core/version.hpp"
+#include "courant/running/output_file.hpp"
+#include "courant/running/run_files.hpp"
+
+namespace courant {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// JSON has no word for numbers that are not finite.
+Json written(double value) { return std::isfinite(value) ? Json(value) : Json(exact_text(value)); }
+
+Json written(const VectorXd& values) {
+  Json json = Json::array();
+  for (const double value : values) json.push_back(written(value));
+  return json;
+}
+
+void read(const Json& json, double& value) {
+  if (json.is_number()) {
+    value = json.get<double>();
+    return;
+  }
+  const auto word = json.get<std::string>();
+  const double infinity = std::numeric_limits<double>::infinity();
+  if (word == "inf" || word == "-inf")
+    value = word == "inf" ? infinity : -infinity;
+  else if (word == "nan" || word == "-nan")
+    value = std::copysign(std::numeric_limits<double>::quiet_NaN(), word == "nan" ? 1.0 : -1.0);
+  else
+    throw RunFileError(word + " is no number");
+}
+
+void read(const Json& json, VectorXd& values) {
+  values.resize(static_cast<Index>(json.size()));
+  Index i = 0;
+  for (const Json& entry : json) read(entry, values[i++]);
+}
+
+void read(const Json& json, bool& value) { value = json.get<bool>(); }
+void read(const Json& json, long& value) { value = json.get<long>(); }
+void read(const Json& json, std::string& value) { value = json.get<std::string>(); }
+
+Json written(bool value) { return value; }
+Json written(long value) { return value; }
+Json written(const std::string& value) { return value; }
+
+template <class T, class Record>
+concept Is = std::same_as<std::remove_const_t<T>, Record>;
+
+// The members of each record under their names; `visit` is given one after the other.
+void each_member(Is<State> auto& state, const auto& visit) {
+  visit("t", state.t);
+  visit("x", state.x);
+  visit("v", state.v);
+  visit("z", state.z);
+}
+
+void each_member(Is<Motion> auto& motion, const auto& visit) {
+  visit("is_predictable", motion.is_predictable);
+  visit("displacements", motion.displacements);
+}
+
+void each_member(Is<SolverStatistics> auto& solver, const auto& visit) {
+  visit("steps", solver.steps);
+  visit("iterations", solver.iterations);
+  visit("factorizations", solver.factorizations);
+  visit("failures", solver.failures);
+  visit("second_attempts", solver.second_attempts);
+  visit("confirmations", solver.confirmations);
+}
+
+void each_member(Is<QuantityStatistics::Memory> auto& statistics, const auto& visit) {
+  visit("count", statistics.count);
+  visit("initial", statistics.initial);
+  visit("final", statistics.final);
+  visit("min", statistics.min);
+  visit("max", statistics.max);
+  visit("mean_t", statistics.mean_t);
+  visit("variation", statistics.variation);
+  visit("mean", statistics.mean);
+  visit("covariation", statistics.covariation);
+}
+
+void each_member(Is<NotFinite> auto& found, const auto& visit) {
+  visit("t", found.t);
+  visit("value", found.value);
+  visit("column", found.column);
+}
+
+void each_member(Is<EnergyWatch::Memory> auto& energy_watch, const auto& visit) {
+  visit("initial", energy_watch.initial);
+  visit("largest", energy_watch.largest);
+  visit("looked_at", energy_watch.looked_at);
+  visit("finding", energy_watch.finding);
+}
+
+void each_member(Is<LadderWatch::Memory> auto& ladder_watch, const auto& visit) {
+  visit("largest", ladder_watch.largest);
+  visit("last", ladder_watch.last);
+  visit("before_last", ladder_watch.before_last);
+  visit("last_time", ladder_watch.last_time);
+}
+
+template <class Record>
+Json record(const Record& value) {
+  Json json = Json::object();
+  each_member(value, [&](const char* name, const auto& member) { json[name] = written(member); });
+  return json;
+}
+
+template <class Record>
+void read_record(const Json& json, Record& value) {
+  each_member(value, [&](const char* name, auto& member) { read(json.at(name), member); });
+}
+
+template <class Record>
+Json record(const std::optional<Record>& value) {
+  return value ? record(*value) : Json();
+}
+
+template <class Record>
+void read_record(const Json& json, std::optional<Record>& value) {
+  if (!json.is_null()) read_record(json, value.emplace());
+}
+
+Checkpoint from_json(const Json& json) {
+  if (const auto version = json.at("courant").get<std::string>(); version != COURANT_VERSION_STRING)
+    throw RunFileError("version " + version + " of courant wrote it, this is " +
+                       COURANT_VERSION_STRING + ", which may make other bits");
+  Checkpoint checkpoint;
+  read(json.at("run"), checkpoint.run);
+  read(json.at("k"), checkpoint.k);
+  read_record(json.at("state"), checkpoint.state);
+  read_record(json.at("motion"), checkpoint.motion);
+  checkpoint.trajectory_size = json.at("trajectory_size").get<std::uintmax_t>();
+  read(json.at("wall_seconds"), checkpoint.wall_seconds);
+  read_record(json.at("solver"), checkpoint.solver);
+  read_record(json.at("statistics"), checkpoint.statistics);
+  for (const Json& entry : json.at("rows_at_times")) {
+    double time = 0.0;
+    read(entry.at("t"), time);
+    read(entry.at("row"), checkpoint.rows_at_times[time]);
+  }
+  read_record(json.at("not_finite"), checkpoint.not_finite);
+  read_record(json.at("energy_watch"), checkpoint.energy_watch);
+  read_record(json.at("ladder_watch"), checkpoint.ladder_watch);
+  return checkpoint;
+}
+
+}  // namespace
+
+void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) {
+  Json json{{"courant", COURANT_VERSION_STRING},
+            {"run", checkpoint.run},
+            {"k", checkpoint.k},
+            {"state", record(checkpoint.state)},
+            {"motion", record(checkpoint.motion)},
+            {"trajectory_size", checkpoint.trajectory_size},
+            {"wall_seconds", checkpoint.wall_seconds},
+            {"solver", record(checkpoint.solver)},
+            {"statistics", record(checkpoint.statistics)},
+            {"rows_at_times", Json::array()},
+            {"not_finite", record(checkpoint.not_finite)},
+            {"energy_watch", record(checkpoint.energy_watch)},
+            {"ladder_watch", record(checkpoint.ladder_watch)}};
+  for (const auto& [time, row] : checkpoint.rows_at_times)
+    json["rows_at_times"].push_back({{"t", written(time)}, {"row", written(row)}});
+  write_file(file, json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+Checkpoint read_checkpoint(const std::filesystem::path& file) {
+  const Json json = read_json(file);
+  try {
+    return from_json(json);
+  } catch (const Json::exception& error) {
+    const std::string what = error.what();  // "[json.exception.out_of_range.403] key …"
+    throw RunFileError(file.string() + ": is not a checkpoint: " + what.substr(what.find(']') + 2));
+  } catch (const RunFileError& error) {
+    throw RunFileError(file.string() + ": " + error.what() + ".");
+  }
+}
+
+}  // namespace courant

@@ -1,0 +1,175 @@
+#include "courant/running/ladder_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace courant {
+namespace {
+
+std::optional<Index> known(Index value) {
+  return value < 0 ? std::nullopt : std::optional<Index>(value);
+}
+
+// The name of an equation; where nobody gave it one, what it is the equation of.
+std::string equation_name(Index equation, const ImplicitSystem& system) {
+  const std::string& name = system.names().equations[static_cast<std::size_t>(equation)];
+  if (!name.starts_with("equation[")) return name;
+  const std::vector<std::string> velocities = velocity_names(system);
+  return system.tangent_blocks() > 0 && equation < static_cast<Index>(velocities.size())
+             ? "equation of " + velocities[static_cast<std::size_t>(equation)]
+             : "equation " + std::to_string(equation + 1);
+}
+
+LadderReport::Origin origin(const Combination& combination, const ImplicitSystem& system) {
+  LadderReport::Origin terms;
+  for (const Combination::Term& term : combination.terms)
+    terms.push_back({equation_name(term.equation, system), term.derivative, term.coefficient});
+  return terms;
+}
+
+// The components of a vector that are not round-off.
+LadderReport::Values components(const VectorXd& vector, const std::vector<std::string>& names) {
+  LadderReport::Values values;
+  const double largest = vector.size() == 0 ? 0.0 : vector.lpNorm<Eigen::Infinity>();
+  for (Index i = 0; i < vector.size(); ++i)
+    if (std::abs(vector[i]) > 1e-10 * largest)
+      values.emplace_back(names[static_cast<std::size_t>(i)], vector[i]);
+  return values;
+}
+
+LadderReport::Elimination elimination(const ConstraintFormulas& formulas,
+                                      const std::vector<std::string>& velocities) {
+  LadderReport::Elimination found{.formulas = formulas.constraints, .steps = formulas.steps};
+  for (const auto& [component, level, formula] : formulas.velocities)
+    found.velocities.push_back({velocities[static_cast<std::size_t>(component)], level, formula});
+  return found;
+}
+
+std::optional<LadderReport::Classes> classes(const ConstraintLadder& ladder,
+                                             const ImplicitSystem& system) {
+  const auto found = constraint_classes(system, ladder);
+  if (!found) return std::nullopt;
+  return LadderReport::Classes{
+      .primary = found->primary,
+      .secondary = found->secondary,
+      .brackets = found->brackets,
+      .is_ambiguous = found->is_ambiguous(),
+      .degrees_of_freedom_up_to_gauge = found->degrees_of_freedom_up_to_gauge};
+}
+
+std::vector<LadderReport::Constraint> constraints(const ConstraintLadder& ladder,
+                                                  const ImplicitSystem& system) {
+  const std::vector<std::string> velocities = velocity_names(system);
+  const auto& coordinates = system.names().coordinates;
+  const std::vector<std::string>& covectors =
+      velocities.size() == coordinates.size() ? coordinates : velocities;
+  std::vector<LadderReport::Constraint> found;
+  for (const PointConstraint& constraint : ladder.constraints)
+    found.push_back({constraint.level, components(constraint.gradient, covectors),
+                     origin(constraint.origin, system)});
+  return found;
+}
+
+LadderReport::End end(const ConstraintLadder& ladder, const ImplicitSystem& system,
+                      const ConstraintFormulas& formulas) {
+  const std::vector<std::string> velocities = velocity_names(system);
+  LadderReport::End found;
+  for (Index i = 0; i < system.auxiliary_size(); ++i) {
+    const auto place = static_cast<std::size_t>(i);
+    found.unknowns.push_back({.name = system.names().auxiliary[place],
+                              .value = ladder.point.z[i],
+                              .is_determined = static_cast<bool>(ladder.determined[place])});
+  }
+  for (const auto& [unknown, formula] : formulas.values)
+    found.unknowns[static_cast<std::size_t>(unknown)].formula = formula;
+  for (Index c = 0; c < ladder.gauge_directions.cols(); ++c)
+    found.gauge_directions.push_back(components(ladder.gauge_directions.col(c), velocities));
+  for (std::size_t i = 0; i < ladder.determined_velocities.size(); ++i)
+    if (ladder.determined_velocities[i]) found.determined_velocities.push_back(velocities[i]);
+  for (std::size_t i = 0; i < ladder.differentiations.size(); ++i)
+    if (ladder.differentiations[i] > 0)
+      found.differentiations.emplace_back(system.names().equations[i], ladder.differentiations[i]);
+  // Dependences of derivatives follow from those of equations or say that a constraint is kept.
+  for (const Combination& combination : ladder.redundancies)
+    if (std::all_of(combination.terms.begin(), combination.terms.end(),
+                    [](const Combination::Term& term) { return term.derivative == 0; }))
+      found.redundant.push_back(origin(combination, system));
+  return found;
+}
+
+}  // namespace
+
+const LadderReport::Velocity* LadderReport::Elimination::velocity(const std::string& name) const {
+  for (const Velocity& velocity : velocities)
+    if (velocity.name == name) return &velocity;
+  return nullptr;
+}
+
+LadderReport discrete_ladder_report(const ConstraintLadder& ladder, const ImplicitSystem& system) {
+  LadderReport report{.verdict = ladder.verdict,
+                      .index = known(ladder.index),
+                      .gauge_dimension = ladder.gauge_dimension,
+                      .degrees_of_freedom = known(ladder.degrees_of_freedom),
+                      .dimension = system.manifold()->dimension(),
+                      .moved = ladder.moved,
+                      .moves = ladder.moves,
+                      .is_ambiguous = ladder.is_ambiguous(),
+                      .doubts = ladder.doubts,
+                      .reason = ladder.reason};
+  for (const LadderLevel& level : ladder.levels) {
+    LadderReport::Level told{.k = level.k, .residual = level.residual};
+    if (!level.is_empty) {
+      const RankDecision* weakest = &level.all;
+      for (const RankDecision* other : {&level.without_tangent, &level.without_point})
+        if (other->gap < weakest->gap) weakest = other;
+      told.dim_S = level.dim_S;
+      told.dim_M = level.dim_M;
+      told.fibre = level.fibre();
+      told.gap = level.gap();
+      told.smallest_counted = weakest->above;
+      told.largest_neglected = weakest->below;
+    }
+    report.levels.push_back(told);
+  }
+  const auto& names = system.names().coordinates;
+  for (Index i = 0; i < ladder.point.x.size(); ++i)
+    report.consistent_point.emplace_back(names[static_cast<std::size_t>(i)], ladder.point.x[i]);
+  return report;
+}
+
+LadderReport ladder_report(const ConstraintLadder& ladder, const ImplicitSystem& system) {
+  LadderReport report = discrete_ladder_report(ladder, system);
+  const bool has_end = ladder.index >= 0;
+  if (!has_end && ladder.verdict != Verdict::inconsistent) return report;
+  const ConstraintFormulas formulas = constraint_formulas(system, ladder);
+  report.elimination = elimination(formulas, velocity_names(system));
+  if (!has_end) return report;
+  report.classes = classes(ladder, system);
+  report.constraints = constraints(ladder, system);
+  report.end = end(ladder, system, formulas);
+  return report;
+}
+
+LadderReport up_to_level(LadderReport ladder, Index level) {
+  const bool is_complete = ladder.index ? level > *ladder.index
+                                        : ladder.levels.empty() || ladder.levels.back().k <= level;
+  if (is_complete) return ladder;
+  const auto beyond = [&](const auto& entry) { return entry.level > level; };
+  std::erase_if(ladder.levels, [&](const LadderReport::Level& entry) { return entry.k > level; });
+  if (ladder.constraints) std::erase_if(*ladder.constraints, beyond);
+  if (ladder.elimination) {
+    std::erase_if(ladder.elimination->formulas, beyond);
+    std::erase_if(ladder.elimination->steps, beyond);
+    std::erase_if(ladder.elimination->velocities, beyond);
+  }
+  ladder.end.reset();
+  ladder.classes.reset();
+  ladder.verdict = Verdict::not_reached;
+  ladder.index.reset();
+  ladder.degrees_of_freedom.reset();
+  ladder.gauge_dimension = 0;
+  ladder.reason = "Stopped at level " + std::to_string(level) + ", as asked.";
+  return ladder;
+}
+
+}  // namespace courant

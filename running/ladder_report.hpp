@@ -1,0 +1,115 @@
+// LadderReport: what is told of a ladder.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "courant/integrators/ladder/constraint_classes.hpp"
+#include "courant/integrators/ladder/constraint_formulas.hpp"
+#include "courant/integrators/ladder/constraint_ladder.hpp"
+#include "courant/reading/findings.hpp"
+#include "courant/structures/implicit_system.hpp"
+
+namespace courant {
+
+// The findings of the constraint algorithm in the names of the system, as `courant constraints
+// --json` prints them and a summary has them. Lists are in the order of the system. What there is
+// not (the dimension of a set that is empty, the index of a ladder that did not end) is nothing; a
+// number that is not known or not finite is NaN.
+struct LadderReport {
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  using Values = std::vector<std::pair<std::string, double>>;  // by name
+
+  Verdict verdict = Verdict::not_reached;
+  std::optional<Index> index = {};
+  Index gauge_dimension = 0;
+  std::optional<Index> degrees_of_freedom = {};
+  std::optional<Index> dimension = {};  // of M
+  struct Level {
+    Index k = 0;
+    std::optional<Index> dim_S = {}, dim_M = {}, fibre = {};
+    // Of the rank decision with the smallest gap.
+    double gap = kUnknown, smallest_counted = kUnknown, largest_neglected = kUnknown;
+    double residual = kUnknown;
+  };
+  std::vector<Level> levels = {};
+  Values consistent_point = {};
+  double moved = 0.0;
+  std::vector<Movement> moves = {};
+  bool is_ambiguous = false;
+  std::vector<std::string> doubts = {};
+  std::string reason = {};
+
+  struct Classes {
+    Index primary = 0, secondary = 0;
+    std::optional<ConstraintClasses::Brackets> brackets = {};
+    bool is_ambiguous = false;
+    Index degrees_of_freedom_up_to_gauge = 0;
+  };
+  std::optional<Classes> classes = {};
+
+  struct Term {
+    std::string equation;
+    Index derivative = 0;
+    double coefficient = 0.0;
+  };
+  using Origin = std::vector<Term>;  // a combination of equations and their derivatives
+  struct Constraint {
+    Index level = 0;
+    Values gradient = {};
+    Origin from = {};
+  };
+  // Of a ladder that has an end.
+  std::optional<std::vector<Constraint>> constraints = {};
+
+  struct Velocity {
+    std::string name;
+    Index level = 0;  // from which it is a function of the point
+    std::string formula;
+  };
+  // What elimination by hand would find; not of ladders that stopped on the way.
+  struct Elimination {
+    std::vector<ConstraintFormulas::Constraint> formulas = {};
+    std::vector<ConstraintFormulas::Step> steps = {};
+    std::vector<Velocity> velocities = {};
+
+    const Velocity* velocity(const std::string& name) const;  // nothing if there is none
+  };
+  std::optional<Elimination> elimination = {};
+
+  struct Unknown {
+    std::string name;
+    double value = kUnknown;
+    bool is_determined = false;
+    std::optional<std::string> formula = {};
+  };
+  // What is known at the end.
+  struct End {
+    std::vector<Unknown> unknowns = {};
+    std::vector<Values> gauge_directions = {};
+    std::vector<std::string> determined_velocities = {};  // that gauge leaves as they are
+    std::vector<std::pair<std::string, Index>> differentiations =
+        {};                              // of which equation, how often
+    std::vector<Origin> redundant = {};  // dependences among the equations themselves
+  };
+  std::optional<End> end = {};
+};
+
+LadderReport ladder_report(const ConstraintLadder& ladder, const ImplicitSystem& system);
+
+// Of a DiscreteConstraintAlgorithm: verdict, levels, and the first point of the chain.
+LadderReport discrete_ladder_report(const ConstraintLadder& ladder, const ImplicitSystem& system);
+
+// What of a ladder is known when the algorithm stops at this level; the ladder itself if it ends
+// there or before.
+LadderReport up_to_level(LadderReport ladder, Index level);
+
+// The JSON of a ladder, and back. What is missing in it is not known. Throws std::invalid_argument,
+// `/verdict: what it is`, for words that it does not know.
+Json to_json(const LadderReport& ladder);
+LadderReport read_ladder_report(const Json& json);
+
+}  // namespace courant

@@ -1,0 +1,57 @@
+// RunSummary: what a run says of itself.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "courant/reading/expectation.hpp"
+#include "courant/running/ladder_report.hpp"
+#include "courant/running/run_watcher.hpp"
+
+namespace courant {
+
+// summary.json as a value. A number that is not known, or was not finite, is NaN.
+struct RunSummary {
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+  std::string id = {};
+  RunStatus status = RunStatus::running;
+  std::string message = {};  // why it did not complete
+  std::vector<std::string> warnings = {};
+  std::string title = {}, system = {}, method = {};
+  long steps = 0;
+  struct Time {
+    double start = kUnknown, end = kUnknown, step = kUnknown;
+  };
+  std::optional<Time> time = {};
+  std::vector<std::pair<std::string, double>> final = {};  // coordinates
+  std::vector<std::pair<std::string, QuantityRecord>> observables = {};
+  std::optional<double> max_violation = {};  // of constraints, where there are any
+  std::optional<LadderReport> ladder = {};
+  std::vector<ExpectationResult> expectations = {};
+  struct Solver {
+    double iterations_per_step = kUnknown, factorizations_per_step = kUnknown;
+    std::optional<long> failures = {}, second_attempts = {}, confirmations = {};
+  };
+  Solver solver = {};
+  std::string backend = {};
+  double wall_seconds = kUnknown, steps_per_second = kUnknown;
+
+  // Nothing if there is none of this name.
+  const QuantityRecord* observable(std::string_view name) const;
+};
+
+// "completed", as summaries have it.
+const char* to_string(RunStatus status);
+
+// The text of the file as JSON, and back. What is missing in it, as in summaries of earlier versions,
+// is not known. Throws std::invalid_argument, `/json/pointer: what it is`, for the first field that
+// is required and missing, or mistyped.
+Json to_json(const RunSummary& summary);
+RunSummary read_run_summary(const Json& json);
+
+}  // namespace courant

@@ -1,0 +1,178 @@
+#include "courant/running/checkpoint.hpp"
+
+#include <bit>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "courant/core/version.hpp"
+#include "courant/running/run_files.hpp"
+#include "temporary_folder.hpp"
+
+namespace courant {
+namespace {
+
+using Limits = std::numeric_limits<double>;
+
+// NaN is NaN, whatever its bits; -0 is not 0.
+bool same(double a, double b) {
+  return (std::isnan(a) && std::isnan(b)) ||
+         std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+bool same(const VectorXd& a, const VectorXd& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](double x, double y) { return same(x, y); });
+}
+
+// Numbers of every kind.
+class Numbers {
+ public:
+  double operator()() {
+    static constexpr double special[] = {
+        0.0, -0.0, Limits::denorm_min(), Limits::max(), -Limits::infinity(), Limits::quiet_NaN()};
+    const auto which = generator_() % 20;
+    if (which < std::size(special)) return special[which];
+    double value = std::bit_cast<double>(generator_());
+    return std::isfinite(value) ? value : 1.0 / 3.0;
+  }
+  VectorXd operator()(Index size) {
+    return VectorXd::NullaryExpr(size, [&] { return (*this)(); });
+  }
+
+ private:
+  std::mt19937_64 generator_{3};
+};
+
+Checkpoint example() {
+  Numbers number;
+  return {
+      .run = "0123456789abcdef",
+      .k = 1234567890123,
+      .state = {.t = 0.1, .x = number(300), .v = number(200), .z = VectorXd(0)},
+      .motion = {.is_predictable = true, .displacements = number(40)},
+      .trajectory_size = 98765432109,
+      .wall_seconds = 12.5,
+      .solver = {.steps = 1,
+                 .iterations = 2,
+                 .factorizations = 3,
+                 .failures = 4,
+                 .second_attempts = 5,
+                 .confirmations = 6},
+      .statistics = {.count = 7.0,
+                     .initial = number(30),
+                     .final = number(30),
+                     .min = number(30),
+                     .max = number(30),
+                     .mean_t = number(),
+                     .variation = number(),
+                     .mean = number(30),
+                     .covariation = number(30)},
+      .rows_at_times = {{0.1, number(30)}, {1.0 / 3.0, number(30)}},
+      .not_finite = NotFinite{.t = 2.5, .value = -Limits::infinity(), .column = 4},
+      .energy_watch = EnergyWatch::Memory{.initial = number(),
+                                          .largest = 2.0,
+                                          .looked_at = 1e-300,
+                                          .finding = "H \"has\"\nchanged: ü"},
+      .ladder_watch = LadderWatch::Memory{
+          .largest = number(9), .last = number(9), .before_last = VectorXd(0), .last_time = 0.7}};
+}
+
+void check_same(const Checkpoint& a, const Checkpoint& b) {
+  BOOST_TEST(a.run == b.run);
+  BOOST_TEST(a.k == b.k);
+  BOOST_TEST(a.state.t == b.state.t);
+  BOOST_TEST(same(a.state.x, b.state.x));
+  BOOST_TEST(same(a.state.v, b.state.v));
+  BOOST_TEST(same(a.state.z, b.state.z));
+  BOOST_TEST(a.motion.is_predictable == b.motion.is_predictable);
+  BOOST_TEST(same(a.motion.displacements, b.motion.displacements));
+  BOOST_TEST(a.trajectory_size == b.trajectory_size);
+  BOOST_TEST(a.wall_seconds == b.wall_seconds);
+  BOOST_TEST(a.solver.steps == b.solver.steps);
+  BOOST_TEST(a.solver.iterations == b.solver.iterations);
+  BOOST_TEST(a.solver.factorizations == b.solver.factorizations);
+  BOOST_TEST(a.solver.failures == b.solver.failures);
+  BOOST_TEST(a.solver.second_attempts == b.solver.second_attempts);
+  BOOST_TEST(a.solver.confirmations == b.solver.confirmations);
+  BOOST_TEST(a.statistics.count == b.statistics.count);
+  BOOST_TEST(same(a.statistics.initial, b.statistics.initial));
+  BOOST_TEST(same(a.statistics.final, b.statistics.final));
+  BOOST_TEST(same(a.statistics.min, b.statistics.min));
+  BOOST_TEST(same(a.statistics.max, b.statistics.max));
+  BOOST_TEST(same(a.statistics.mean_t, b.statistics.mean_t));
+  BOOST_TEST(same(a.statistics.variation, b.statistics.variation));
+  BOOST_TEST(same(a.statistics.mean, b.statistics.mean));
+  BOOST_TEST(same(a.statistics.covariation, b.statistics.covariation));
+  BOOST_TEST_REQUIRE(a.rows_at_times.size() == b.rows_at_times.size());
+  for (const auto& [t, row] : a.rows_at_times) BOOST_TEST(same(row, b.rows_at_times.at(t)));
+  BOOST_TEST_REQUIRE(a.not_finite.has_value() == b.not_finite.has_value());
+  if (a.not_finite) {
+    BOOST_TEST(a.not_finite->t == b.not_finite->t);
+    BOOST_TEST(same(a.not_finite->value, b.not_finite->value));
+    BOOST_TEST(a.not_finite->column == b.not_finite->column);
+  }
+  BOOST_TEST_REQUIRE(a.energy_watch.has_value() == b.energy_watch.has_value());
+  if (a.energy_watch) {
+    BOOST_TEST(same(a.energy_watch->initial, b.energy_watch->initial));
+    BOOST_TEST(a.energy_watch->largest == b.energy_watch->largest);
+    BOOST_TEST(a.energy_watch->looked_at == b.energy_watch->looked_at);
+    BOOST_TEST(a.energy_watch->finding == b.energy_watch->finding);
+  }
+  BOOST_TEST_REQUIRE(a.ladder_watch.has_value() == b.ladder_watch.has_value());
+  if (a.ladder_watch) {
+    BOOST_TEST(same(a.ladder_watch->largest, b.ladder_watch->largest));
+    BOOST_TEST(same(a.ladder_watch->last, b.ladder_watch->last));
+    BOOST_TEST(same(a.ladder_watch->before_last, b.ladder_watch->before_last));
+    BOOST_TEST(a.ladder_watch->last_time == b.ladder_watch->last_time);
+  }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(checkpoint)
+
+BOOST_AUTO_TEST_CASE(reads_back_to_the_same_bits) {
+  const TemporaryFolder folder;
+  write_checkpoint(folder / "whole", example());
+  check_same(read_checkpoint(folder / "whole"), example());
+  Checkpoint little = example();
+  little.rows_at_times.clear();
+  little.not_finite.reset();
+  little.energy_watch.reset();
+  little.ladder_watch.reset();
+  write_checkpoint(folder / "little", little);
+  check_same(read_checkpoint(folder / "little"), little);
+}
+
+BOOST_AUTO_TEST_CASE(what_is_no_checkpoint_is_refused_in_one_line) {
+  const TemporaryFolder folder;
+  const auto file = folder / "checkpoint.json";
+  write_checkpoint(file, example());
+  const std::string text = read_text(file);
+  const auto refusal = [&](const std::string& from, const std::string& to) -> std::string {
+    std::string other = text;
+    BOOST_TEST_REQUIRE(other.find(from) != std::string::npos);
+    write_text(file, other.replace(other.find(from), from.size(), to));
+    try {
+      read_checkpoint(file);
+    } catch (const RunFileError& error) {
+      const std::string what = error.what();
+      BOOST_TEST(what.find('\n') == std::string::npos);
+      BOOST_TEST(what.starts_with(file.string() + ": "));
+      return what.substr(file.string().size() + 2);
+    }
+    return "";
+  };
+  BOOST_TEST(refusal("\"k\":", "\"step\":") == "is not a checkpoint: key 'k' not found");
+  BOOST_TEST(refusal("\"t\":0.1", "\"t\":\"half\"") == "half is no number.");
+  BOOST_TEST(refusal("\"x\":[", "\"x\":[true,").starts_with("is not a checkpoint: type must be"));
+  BOOST_TEST(refusal(COURANT_VERSION_STRING, "9.9.9") ==
+             "version 9.9.9 of courant wrote it, this is " COURANT_VERSION_STRING
+             ", which may make other bits.");
+  BOOST_CHECK_THROW(read_checkpoint(folder / "none"), RunFileError);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace courant

@@ -1,0 +1,84 @@
+#include "courant/running/ladder_report.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include "courant/reading/experiment.hpp"
+#include "courant/running/consistent_start.hpp"
+
+namespace courant {
+namespace {
+
+LadderReport report(const Json& experiment) {
+  const Experiment read = read_experiment(experiment.dump());
+  return ladder_report(consistent_start(read), *read.model.system);
+}
+
+// Constraints of both classes, a gauge direction, unknowns that are and are not determined.
+const Json gauge = {
+    {"system",
+     {{"type", "lagrangian"},
+      {"coordinates", {"x", "y", "z"}},
+      {"lagrangian", "((x' + z*y)^2 + (y' - z*x)^2)/2 - (x^2 + y^2)/2"}}},
+    {"initial", {{"x", 1}, {"y", 0.5}, {"z", 0.3}, {"p_x", 1}, {"p_y", 0.5}, {"p_z", 0}}}};
+const Json redundant = {{"system",
+                         {{"type", "implicit"},
+                          {"coordinates", {"x", "y"}},
+                          {"equations", {"x' - y", "y' + x", "x' + y' - y + x"}}}},
+                        {"initial", {{"x", 1}, {"y", 0}}}};
+const Json pendulum = {
+    {"system",
+     {{"type", "implicit"},
+      {"coordinates", {"x", "y", "v", "w"}},
+      {"unknowns", {"tension"}},
+      {"equations",
+       {"x' - v", "y' - w", "v' + tension*x", "w' + tension*y + 1", "x^2 + y^2 - 1"}}}},
+    {"initial", {{"x", 0.6}, {"y", -0.8}, {"v", 0.8}, {"w", 0.6}}}};
+const Json inconsistent = {
+    {"system", {{"type", "lagrangian"}, {"coordinates", {"q"}}, {"lagrangian", "q' + q"}}},
+    {"initial", {{"q", 0}}}};
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(ladder_report_test)
+
+BOOST_AUTO_TEST_CASE(reads_back_to_what_was_written) {
+  for (const Json& experiment : {gauge, redundant, pendulum, inconsistent}) {
+    const LadderReport whole = report(experiment);
+    for (const LadderReport& ladder : {whole, up_to_level(whole, 0)}) {
+      const std::string text = to_json(ladder).dump(1);
+      BOOST_TEST(to_json(read_ladder_report(Json::parse(text))).dump(1) == text);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(has_what_was_found) {
+  const LadderReport found = read_ladder_report(to_json(report(gauge)));
+  BOOST_TEST((found.verdict == Verdict::gauge));
+  BOOST_TEST(found.gauge_dimension == 1);
+  BOOST_TEST(found.degrees_of_freedom.value() == 4);
+  BOOST_TEST(found.classes.value().brackets.value().first_class == 2);
+  BOOST_TEST(found.classes->degrees_of_freedom_up_to_gauge == 2);
+  BOOST_TEST(found.constraints.value().size() == 2u);
+  BOOST_TEST(found.elimination.value().formulas[1].formula == "x*p_y - y*p_x");
+  BOOST_TEST(found.end.value().gauge_directions.size() == 1u);
+  BOOST_TEST(found.end->gauge_directions[0][0].first == "z'");
+  BOOST_TEST(report(redundant).end->redundant.size() == 1u);
+  const LadderReport empty = read_ladder_report(to_json(report(inconsistent)));
+  BOOST_TEST((empty.verdict == Verdict::inconsistent));
+  BOOST_TEST(!empty.index);
+  BOOST_TEST(!empty.levels.back().dim_S);
+  BOOST_TEST(!empty.constraints);
+  BOOST_TEST(empty.elimination.has_value());
+}
+
+BOOST_AUTO_TEST_CASE(words_that_are_not_known_are_refused) {
+  BOOST_CHECK_THROW(read_ladder_report({{"verdict", "later"}}), std::invalid_argument);
+  BOOST_CHECK_THROW(
+      read_ladder_report(
+          {{"verdict", "gauge"}, {"formulas", Json::array()}, {"steps", {{{"kind", "odd"}}}}}),
+      std::invalid_argument);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace courant

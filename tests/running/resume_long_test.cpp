@@ -1,0 +1,25 @@
+// Every experiment that is kept goes on with the same bytes.
+#include <boost/test/unit_test.hpp>
+
+#include "resumed_run.hpp"
+
+BOOST_AUTO_TEST_SUITE(resume_long)
+
+BOOST_AUTO_TEST_CASE(every_experiment) {
+  using namespace courant;
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator("experiments")) {
+    if (entry.path().extension() != ".json" || entry.path().stem() == "schema") continue;
+    Json document = Json::parse(read_text(entry.path()));
+    const Experiment experiment = read_experiment(document.dump());
+    if (!experiment.time || experiment.time->steps > 10'000)
+      continue;  // the long ones are of others
+    const long steps = experiment.time->steps;
+    document["output"]["epoch"] = steps / 7 + 1;
+    document["output"]["format"] = ++count % 2 == 0 ? "npy" : "csv";
+    check_resumption(document, {steps / 20, 6 * steps / 10}, entry.path().stem());
+  }
+  BOOST_TEST(count > 50);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
