@@ -3,16 +3,23 @@
 #include <cmath>
 
 #include "courant/core/complete_orthogonal_decomposition.hpp"
+#include "courant/core/equilibration.hpp"
 #include "courant/core/lu_decomposition.hpp"
 #include "courant/core/static_size.hpp"
 
 namespace courant {
 namespace {
 
-// Below this ratio of pivots (after scaling the rows) a square matrix is taken as singular.
+// Below this ratio of pivots, after equilibration, a square matrix is taken as singular.
 // Round-off alone gives about 1e-16 n; a step whose matrix is that near to singular has no
 // meaningful digits to lose.
 constexpr double kSingular = 1e-13;
+
+// Above this one it is regular whatever its scales are.
+constexpr double kRegular = 1e-7;
+
+// Entries below this part of both their row and their column are left out when scales are chosen.
+constexpr double kNoise = 1e-14;
 
 // Of the entries of a matrix that is taken as singular, next to the largest: what is above about
 // 1e-11 is divided by.
@@ -34,6 +41,12 @@ void multiply(const MatrixXd& A, const double* b, double* x) {
   }
 }
 
+// Divides each scale by a power of two near the size that it led to.
+void scale_to_one(const VectorXd& size, VectorXd& scale) {
+  for (Index i = 0; i < size.size(); ++i)
+    if (size[i] > 0.0) scale[i] = std::ldexp(scale[i], -std::ilogb(size[i]));
+}
+
 }  // namespace
 
 DenseSolver::DenseSolver(const MatrixPattern& pattern)
@@ -42,30 +55,31 @@ DenseSolver::DenseSolver(const MatrixPattern& pattern)
       multiply_(with_static_size(pattern.rows == pattern.columns ? pattern.rows : 0,
                                  [](auto n) { return &multiply<decltype(n)::value>; })) {}
 
-// The columns are those of unknowns in units of their own: a small one is no dependent one. So the
-// rank is that of A C, whose columns are of one size. Where it leaves unknowns open, those of least
+// The rank is that of the equilibrated matrix S = diag(r) A diag(c): a small column is that of an
+// unknown with a unit of its own, and no dependent one. Where it leaves unknowns open, those of least
 // change are found in the units that they have.
-void DenseSolver::pseudo_invert(const MatrixXd& A) {
-  VectorXd C = A.colwise().lpNorm<Eigen::Infinity>();
-  C = C.unaryExpr([](double size) { return size > 0.0 ? std::exp2(-std::ilogb(size)) : 1.0; });
-  const MatrixXd scaled = A * C.asDiagonal();
-  const CompleteOrthogonalDecomposition decomposition(scaled, kDataError);
+void DenseSolver::pseudo_invert(const MatrixXd& A, const Equilibration<MatrixXd>& S) {
+  const CompleteOrthogonalDecomposition decomposition(S.scaled, kDataError);
   determined_ = decomposition.rank() == A.cols();
+  inverse_ = S.column_scale.asDiagonal() * decomposition.pseudo_inverse();
   if (!determined_) {
-    const CompleteOrthogonalDecomposition as_it_is(A, kDataError);
-    if (as_it_is.rank() == decomposition.rank()) {
-      inverse_ = as_it_is.pseudo_inverse();
-      return;
-    }
+    const CompleteOrthogonalDecomposition as_it_is(S.row_scale.asDiagonal() * A, kDataError);
+    if (as_it_is.rank() == decomposition.rank()) inverse_ = as_it_is.pseudo_inverse();
   }
-  inverse_ = C.asDiagonal() * decomposition.pseudo_inverse();
+  inverse_ = inverse_ * S.row_scale.asDiagonal();
+  if (determined_) return;
+  open_ = MatrixXd::Identity(A.cols(), A.cols()) - inverse_ * A;
+  column_scale_ = S.column_scale;
 }
 
 void DenseSolver::do_settle(double* x, Index first) {
   // The entries of a projection are known to about the error that the rank was decided with.
   constexpr double known = 1e-9;
   const Index size = open_.cols() - first;
-  if (determined_ || size <= 0 || open_.topRows(first).norm() > known) return;
+  if (determined_ || size <= 0) return;
+  const auto opened =
+      column_scale_.cwiseInverse().asDiagonal() * open_ * column_scale_.asDiagonal();
+  if (MatrixXd(opened).topRows(first).norm() > known) return;
   Eigen::Map<VectorXd> rest(x + first, size);
   rest -= (open_.bottomRightCorner(size, size) * rest).eval();
 }
@@ -79,23 +93,35 @@ bool DenseSolver::do_factorize(const double* entries) {
   if (!A.allFinite()) return false;
   if (A.size() == 0) return determined_ = true;
 
-  VectorXd scale = A.rowwise().lpNorm<Eigen::Infinity>();
-  scale = scale.unaryExpr([](double s) { return s > 0 ? 1.0 / s : 1.0; });
-  A = scale.asDiagonal() * A;
   if (A.rows() == A.cols()) {
-    const LuDecomposition lu(A);
-    determined_ = lu.pivot_ratio() > kSingular;
-    if (determined_) {
-      inverse_ = lu.inverse();
-      orientation_ = lu.orientation();
+    // Both kinds of units, twice: rows by columns in units of their own, and columns by such rows.
+    MatrixXd S = A;
+    VectorXd row = VectorXd::Ones(A.rows()), column = VectorXd::Ones(A.cols());
+    for (int sweep = 0; sweep < 2; ++sweep) {
+      scale_to_one(S.colwise().lpNorm<Eigen::Infinity>(), column);
+      S = A * column.asDiagonal();
+      S = row.asDiagonal() * S;
+      scale_to_one(S.rowwise().lpNorm<Eigen::Infinity>(), row);
+      S = row.asDiagonal() * A * column.asDiagonal();
     }
+    determined_ = invert(S, row, column, kRegular);
   }
   if (!determined_) {
-    pseudo_invert(A);
-    if (!determined_) open_ = MatrixXd::Identity(A.cols(), A.cols()) - inverse_ * A;
+    const Equilibration<MatrixXd> S = equilibrate(A, kNoise);
+    determined_ = A.rows() == A.cols() && invert(S.scaled, S.row_scale, S.column_scale, kSingular);
+    if (!determined_) pseudo_invert(A, S);
   }
-  inverse_ = inverse_ * scale.asDiagonal();
   return inverse_.allFinite();
+}
+
+// The inverse of A, where S = diag(row) A diag(column), unless its pivots are too small.
+bool DenseSolver::invert(const MatrixXd& S, const VectorXd& row, const VectorXd& column,
+                         double least_ratio) {
+  const LuDecomposition lu(S);
+  if (!(lu.pivot_ratio() > least_ratio)) return false;
+  inverse_ = column.asDiagonal() * lu.inverse() * row.asDiagonal();
+  orientation_ = lu.orientation();
+  return true;
 }
 
 }  // namespace courant

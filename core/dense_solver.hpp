@@ -1,15 +1,15 @@
 // DenseSolver: linear systems by a kept inverse.
 #pragma once
 
+#include "courant/core/equilibration.hpp"
 #include "courant/core/linear_solver.hpp"
 
 namespace courant {
 
-using Eigen::MatrixXd;
-
 // For small systems that are solved many times with one matrix: the inverse is kept (of a matrix
 // that is singular or not square the pseudo-inverse), and multiplied with in a loop whose length
-// the compiler knows, for up to 8 unknowns.
+// the compiler knows, for up to 8 unknowns. Whether a matrix is singular does not depend on the units
+// of its rows and columns.
 class DenseSolver final : public LinearSolver {
  public:
   explicit DenseSolver(const MatrixPattern& pattern);
@@ -20,11 +20,13 @@ class DenseSolver final : public LinearSolver {
   bool do_is_determined() const override { return determined_; }
   void do_settle(double* x, Index first) override;
   int do_orientation() const override { return orientation_; }
-  void pseudo_invert(const MatrixXd& A);
+  bool invert(const MatrixXd& S, const VectorXd& row, const VectorXd& column, double least_ratio);
+  void pseudo_invert(const MatrixXd& A, const Equilibration<MatrixXd>& S);
 
   MatrixPattern pattern_;
   MatrixXd inverse_;
-  MatrixXd open_;  // I - A⁺ A where A leaves unknowns open
+  MatrixXd open_;          // I - A⁺ A where A leaves unknowns open
+  VectorXd column_scale_;  // units in which its entries are comparable
   bool determined_ = false;
   int orientation_ = 0;
   void (*multiply_)(const MatrixXd& A, const double* b, double* x);  // made for the size

@@ -36,33 +36,100 @@ ExprVector variables_of(const ExprVector& expressions) {
   return Eigen::Map<const ExprVector>(found.data(), static_cast<Index>(found.size()));
 }
 
-// What is never zero, being a step size, may be of these sizes.
+// What is never zero, being a step size, may be of these sizes, next to the natural one.
 constexpr double kSteps[] = {1e-2, 1e-6, 1e-11};
 using Sizes = Eigen::Array3d;
 
-// Sizes of the entries of a Jacobian, in comparable units: at a generic point, for such a step size.
-VectorXd typical_entries(const SparseExprMatrix& J, const ExprVector& never_zero, double step) {
-  const ExprVector variables = variables_of(J.values);
-  std::mt19937 generator(7);
-  std::uniform_real_distribution<double> uniform(0.5, 1.5);
-  VectorXd point = VectorXd::NullaryExpr(variables.size(), [&] { return uniform(generator); });
-  for (Index i = 0; i < variables.size(); ++i)
-    if (std::find(never_zero.begin(), never_zero.end(), variables[i]) != never_zero.end())
-      point[i] *= step;
-  VectorXd entries = Function("entries", {{"p", variables}}, J.values)({point});
-  std::vector<Eigen::Triplet<double>> finite;
-  for (Index k = 0; k < entries.size(); ++k)
-    if (std::isfinite(entries[k]) && entries[k] != 0.0)
-      finite.emplace_back(static_cast<int>(J.row[static_cast<std::size_t>(k)]),
-                          static_cast<int>(J.col[static_cast<std::size_t>(k)]), entries[k]);
-  SparseMatrixXd A(J.rows, J.cols);
-  A.setFromTriplets(finite.begin(), finite.end());
-  const Equilibration<SparseMatrixXd> units = equilibrate(A, 0.0);
-  for (Index k = 0; k < entries.size(); ++k)
-    entries[k] *= units.row_scale[J.row[static_cast<std::size_t>(k)]] *
-                  units.column_scale[J.col[static_cast<std::size_t>(k)]];
-  return entries;
-}
+// The entries of a Jacobian at a generic point, for different step sizes.
+class TypicalEntries {
+ public:
+  TypicalEntries(const SparseExprMatrix& J, const ExprVector& never_zero) : J_(J) {
+    const ExprVector variables = variables_of(J.values);
+    std::mt19937 generator(7);
+    std::uniform_real_distribution<double> uniform(0.5, 1.5);
+    point_ = VectorXd::NullaryExpr(variables.size(), [&] { return uniform(generator); });
+    is_step_ = VectorXd::Zero(variables.size());
+    for (Index i = 0; i < variables.size(); ++i)
+      if (std::find(never_zero.begin(), never_zero.end(), variables[i]) != never_zero.end())
+        is_step_[i] = 1.0;
+    entries_ = Function("entries", {{"p", variables}}, J.values);
+  }
+
+  VectorXd at(double step) const {
+    const VectorXd point = (is_step_.array() > 0.0).select(step * point_, point_);
+    return entries_({point});
+  }
+
+  // The same in comparable units.
+  VectorXd in_units(double step) const {
+    VectorXd entries = at(step);
+    std::vector<Eigen::Triplet<double>> finite;
+    for (Index k = 0; k < entries.size(); ++k)
+      if (std::isfinite(entries[k]) && entries[k] != 0.0)
+        finite.emplace_back(static_cast<int>(row(k)), static_cast<int>(column(k)), entries[k]);
+    SparseMatrixXd A(J_.rows, J_.cols);
+    A.setFromTriplets(finite.begin(), finite.end());
+    const Equilibration<SparseMatrixXd> units = equilibrate(A, 0.0);
+    for (Index k = 0; k < entries.size(); ++k)
+      entries[k] *= units.row_scale[row(k)] * units.column_scale[column(k)];
+    return entries;
+  }
+
+  // The step h for which units r, c make entries as equal as can be, to a power of a thousand: with
+  // |a_ij| = l_ij h^k_ij around the last guess, the least of
+  //
+  //   Σ (log l_ij + k_ij log h + log r_i + log c_j)².
+  //
+  // It goes with the unit of time of the equations. 1 where they have none.
+  double natural_step() const {
+    constexpr int rounds = 4;
+    constexpr double least_power = 1e-3, most = 100.0;
+    double logarithm = 0.0;
+    if (!(is_step_.array() > 0.0).any()) return 1.0;
+    for (int round = 0; round < rounds; ++round) {
+      const VectorXd less = at(0.5 * std::exp(logarithm)), more = at(2.0 * std::exp(logarithm));
+      VectorXd size = VectorXd::Zero(less.size()), power = size;
+      std::vector<Index> known;
+      for (Index k = 0; k < less.size(); ++k) {
+        const double below = std::log(std::fabs(less[k])), above = std::log(std::fabs(more[k]));
+        if (!std::isfinite(below) || !std::isfinite(above)) continue;
+        known.push_back(k);
+        size[k] = 0.5 * (below + above);
+        power[k] = (above - below) / std::log(4.0);
+      }
+      level(size, known);
+      level(power, known);
+      if (!(power.squaredNorm() > least_power * static_cast<double>(known.size()))) break;
+      logarithm = std::clamp(logarithm - power.dot(size) / power.squaredNorm(), -most, most);
+    }
+    const double thousands = std::log(1000.0);
+    return std::pow(1000.0, std::round(logarithm / thousands));
+  }
+
+ private:
+  Index row(Index k) const { return J_.row[static_cast<std::size_t>(k)]; }
+  Index column(Index k) const { return J_.col[static_cast<std::size_t>(k)]; }
+
+  // Takes from numbers, one for each known entry, what a sum of one for each row and one for each column
+  // can take.
+  void level(VectorXd& numbers, const std::vector<Index>& known) const {
+    constexpr int sweeps = 60;
+    VectorXd row_count = VectorXd::Zero(J_.rows), column_count = VectorXd::Zero(J_.cols);
+    for (const Index k : known) row_count[row(k)] += 1.0, column_count[column(k)] += 1.0;
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+      VectorXd sum = VectorXd::Zero(J_.rows);
+      for (const Index k : known) sum[row(k)] += numbers[k];
+      for (const Index k : known) numbers[k] -= sum[row(k)] / row_count[row(k)];
+      sum = VectorXd::Zero(J_.cols);
+      for (const Index k : known) sum[column(k)] += numbers[k];
+      for (const Index k : known) numbers[k] -= sum[column(k)] / column_count[column(k)];
+    }
+  }
+
+  const SparseExprMatrix& J_;
+  VectorXd point_, is_step_;
+  Function entries_;
+};
 
 // The Jacobian while pivots are taken out of it.
 class Tableau {
@@ -73,7 +140,9 @@ class Tableau {
         rows_(static_cast<std::size_t>(J.rows)),
         columns_(static_cast<std::size_t>(J.cols)) {
     Eigen::Array<double, Eigen::Dynamic, 3> typical(J.values.size(), 3);
-    for (Index i = 0; i < 3; ++i) typical.col(i) = typical_entries(J, never_zero, kSteps[i]);
+    const TypicalEntries entries(J, never_zero);
+    const double step = entries.natural_step();
+    for (Index i = 0; i < 3; ++i) typical.col(i) = entries.in_units(kSteps[i] * step);
     for (std::size_t k = 0; k < J.row.size(); ++k) {
       const auto entry = static_cast<Index>(k);
       rows_[static_cast<std::size_t>(J.row[k])].emplace(J.col[k],

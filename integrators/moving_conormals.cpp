@@ -4,12 +4,16 @@
 
 #include "courant/core/complete_orthogonal_decomposition.hpp"
 #include "courant/core/derivative.hpp"
+#include "courant/core/equilibration.hpp"
 
 namespace courant {
 namespace {
 
 // The ladder decided this rank with a gap; here it only has to be found again.
 constexpr double kDataError = 2e-12;
+
+// Entries below this part of both their row and their column are left out when scales are chosen.
+constexpr double kNoise = 1e-14;
 
 // w is as good as its first error times the contraction when it has moved by no more than this, and
 // counts for x only times the distance from M_f.
@@ -115,10 +119,20 @@ void MovingConormals::find(const double* const* in) {
     conormals_.setConstant(std::numeric_limits<double>::quiet_NaN());
     return;
   }
-  const CompleteOrthogonalDecomposition others(J.rightCols(J.cols() - n_), kDataError);
+  // Combinations of equations that contain dξ alone do not depend on the units of the other unknowns;
+  // equations without those are measured by what they say of ξ.
+  const MatrixXd by_others = J.rightCols(J.cols() - n_);
+  const Equilibration<MatrixXd> S = equilibrate(by_others, kNoise);
+  VectorXd row = S.row_scale;
+  for (Index i = 0; i < J.rows(); ++i) {
+    const double size = J.row(i).head(n_).lpNorm<Eigen::Infinity>();
+    if (by_others.row(i).isZero(0.0) && size > 0.0) row[i] = 1.0 / size;
+  }
+  const CompleteOrthogonalDecomposition others(S.scaled, kDataError);
   const MatrixXd Q = others.Q();
   const MatrixXd gradients =
-      (Q.rightCols(J.rows() - others.rank()).transpose() * J.leftCols(n_)).transpose();
+      (Q.rightCols(J.rows() - others.rank()).transpose() * row.asDiagonal() * J.leftCols(n_))
+          .transpose();
   conormals_ = QrDecomposition::pivoted(gradients).Q(d_);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <utility>
 
 #include "courant/core/complete_orthogonal_decomposition.hpp"
 #include "courant/integrators/ladder/derivative_array.hpp"
@@ -32,41 +33,120 @@ std::vector<Index> blocks(const Manifold& M) {
 
 // Beyond so many rows and columns scales are powers of two: the linear system would take long.
 constexpr Index kExact = 500;
-// Sizes below this, in the scales of least squares, are round-off of zeros: no units.
-constexpr double kLeast = 1e-10;
+// Entries below this, where rows and columns are levelled, are no units.
+constexpr double kLeastEntry = 1e-9;
 
-// The scales c of the columns that minimise Σ (log r_i + log |a_ij| + log c_j)² over the entries,
-// near scales that do so up to powers of two; entries that are noise in those are left out. In each
-// connected component the largest size |y_j| / c_j is 1: that is what the minimum leaves open.
-VectorXd column_scales(const SparseMatrixXd& magnitude, const VectorXd& row_scale,
-                       const VectorXd& column_scale, const VectorXd& reach) {
-  const Index m = magnitude.rows(), n = magnitude.cols();
-  MatrixXd A = MatrixXd::Zero(m + n, m + n);
-  VectorXd b = VectorXd::Zero(m + n);
-  std::vector<Index> component(static_cast<std::size_t>(m + n));
-  std::iota(component.begin(), component.end(), Index{0});
-  for (Index j = 0; j < n; ++j)
+// Numbers that are zero come out of the search for a consistent point as what it leaves of the others:
+// those below this part of the largest of their kind, as they are and in units, say nothing about a
+// size.
+constexpr double kZero = 1e-9;
+
+VectorXd without_zeros(const VectorXd& sizes) {
+  if (sizes.size() == 0) return sizes;
+  const double least = kZero * sizes.maxCoeff();
+  return (sizes.array() > least).select(sizes, 0.0);
+}
+
+// The sizes of the unknowns of level 0 at the jet y, 0 where they are zero but for round-off: of the
+// coordinates, since those of the chart are 0, and of the rates next to each other; of an auxiliary
+// unknown next to the coordinates and rates that it meets in an equation.
+VectorXd known_sizes(const DerivativeArray& array, const VectorXd& y) {
+  const Index n = array.base_size();
+  VectorXd sizes = VectorXd::Zero(y.size());
+  sizes.head(n) = without_zeros(array.origin_size());
+  sizes.segment(n, n) = without_zeros(y.segment(n, n).cwiseAbs());
+  const VectorXd without_unknowns = (sizes.array() > 0.0).select(y, 0.0);
+  const SparseMatrixXd terms = array.linearize(without_unknowns).jacobian.cwiseAbs();
+  const VectorXd least = kZero * (terms * sizes);
+  const VectorXd unknowns = without_zeros(y.tail(y.size() - 2 * n).cwiseAbs());
+  for (Index j = 2 * n; j < y.size(); ++j)
+    for (SparseMatrixXd::InnerIterator it(terms, j); it; ++it)
+      if (least[it.row()] > 0.0 && it.value() * unknowns[j - 2 * n] > least[it.row()])
+        sizes[j] = unknowns[j - 2 * n];
+  return sizes;
+}
+
+// The units c of the columns (ξ, ξ', z), where those of ξ' are those of ξ divided by a unit of time T,
+// and r of the rows that minimise
+//
+//   Σ (log r_i + log |a_ij| + log c_j)²
+//
+// over the entries. Of what that leaves open, which is T where no equation says it, it is
+//
+//   Σ (log c_j - log |y_j|)²
+//
+// that is least, over what is known to differ from zero: reach[j] > 0. A common factor of the units of
+// what the equations connect stays open; it is no matter.
+VectorXd column_units(const SparseMatrixXd& magnitude, const VectorXd& row_scale,
+                      const VectorXd& column_scale, Index n, const VectorXd& reach) {
+  const Index m = magnitude.rows(), columns = magnitude.cols(), unknowns = m + columns - n + 1;
+  // log c = C s for the unknowns s: rows, ξ, z, T.
+  MatrixXd C = MatrixXd::Zero(columns, unknowns);
+  for (Index j = 0; j < columns; ++j) {
+    C(j, m + (j < n ? j : j - n)) = 1.0;
+    if (j >= n && j < 2 * n) C(j, unknowns - 1) = -1.0;
+  }
+  MatrixXd A = MatrixXd::Zero(unknowns, unknowns);
+  VectorXd b = VectorXd::Zero(unknowns);
+  for (Index j = 0; j < columns; ++j)
     for (SparseMatrixXd::InnerIterator it(magnitude, j); it; ++it) {
-      const Index i = it.row();
-      const double size = row_scale[i] * it.value() * column_scale[j];
-      if (size < 1e-9) continue;
-      const double logarithm = std::log(size);
-      A(i, i) += 1.0, A(m + j, m + j) += 1.0, A(i, m + j) += 1.0, A(m + j, i) += 1.0;
-      b[i] -= logarithm, b[m + j] -= logarithm;
-      const Index from = component[static_cast<std::size_t>(i)];
-      for (Index& c : component)
-        if (c == from) c = component[static_cast<std::size_t>(m + j)];
+      if (row_scale[it.row()] * it.value() * column_scale[j] < kLeastEntry) continue;
+      VectorXd term = C.row(j);
+      term[it.row()] = 1.0;
+      A += term * term.transpose();
+      b -= std::log(it.value()) * term;
     }
-  const VectorXd logarithms = CompleteOrthogonalDecomposition(A, 1e-13).solve(b);
-  VectorXd result = column_scale.cwiseProduct(logarithms.tail(n).array().exp().matrix());
-  VectorXd largest = VectorXd::Zero(m + n);
-  const auto size_of = [&](Index j) -> double& {
-    return largest[component[static_cast<std::size_t>(m + j)]];
-  };
-  for (Index j = 0; j < n; ++j) size_of(j) = std::max(size_of(j), reach[j] / result[j]);
-  for (Index j = 0; j < n; ++j)
-    if (size_of(j) > kLeast) result[j] *= size_of(j);
-  return result;
+  const CompleteOrthogonalDecomposition normal(A, 1e-12);
+  VectorXd s = normal.solve(b);
+  const MatrixXd open = normal.Q().rightCols(unknowns - normal.rank());
+  std::vector<Index> known;
+  for (Index j = 0; j < columns; ++j)
+    if (reach[j] > 0.0) known.push_back(j);
+  if (open.cols() > 0 && !known.empty()) {
+    const VectorXd size = reach(known).array().log();
+    const MatrixXd K = C(known, Eigen::all);
+    s += open * CompleteOrthogonalDecomposition(K * open, 1e-12).solve(size - K * s);
+  }
+  return (C * s).array().exp();
+}
+
+// The largest |∂F_i/∂y_j| at y and at points that are up to these moves away, or to a tenth of them.
+SparseMatrixXd magnitude_near(const DerivativeArray& array, const VectorXd& y,
+                              const VectorXd& moves) {
+  SparseMatrixXd magnitude = array.linearize(y).jacobian.cwiseAbs();
+  if (array.has_constant_jacobian()) return magnitude;
+  std::mt19937 generator(20250613);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (int sample = 0; sample < 4; ++sample) {
+    const double part = sample < 2 ? 1.0 : 0.1;
+    const VectorXd nearby =
+        y + moves.unaryExpr([&](double move) { return part * move * uniform(generator); });
+    const SparseMatrixXd there = array.linearize(nearby).jacobian.cwiseAbs();
+    const Eigen::Map<const VectorXd> entries(there.valuePtr(), there.nonZeros());
+    if (entries.allFinite()) magnitude = SparseMatrixXd(magnitude.cwiseMax(there));
+  }
+  return magnitude;
+}
+
+// Units of all unknowns of level 0, near the jet y. `reach`: their sizes, 0 where they are zero but for
+// round-off. What vanishes at y is as large as it is nearby: numbers differ by parts of their sizes,
+// and zeros by parts of their units, which is why there are several rounds.
+VectorXd units_near(const DerivativeArray& array, const VectorXd& y, const VectorXd& reach) {
+  constexpr int rounds = 4;
+  const VectorXd at = (reach.array() > 0.0).select(y, 0.0);
+  VectorXd moves = 0.1 * reach, units;
+  for (int round = 0; round < rounds; ++round) {
+    const SparseMatrixXd magnitude = magnitude_near(array, at, moves);
+    const NaturalScaling natural({VectorXd::Zero(magnitude.rows()), magnitude}, reach, kLeastEntry,
+                                 1e-10);
+    units = magnitude.rows() + magnitude.cols() > kExact
+                ? natural.column_scale
+                : column_units(magnitude, natural.row_scale, natural.column_scale,
+                               array.base_size(), reach);
+    if (array.has_constant_jacobian()) break;
+    moves = (reach.array() > 0.0).select(0.1 * reach, units);
+  }
+  return units;
 }
 
 }  // namespace
@@ -80,16 +160,12 @@ VectorXd natural_units(const std::shared_ptr<const ImplicitSystem>& system,
   // The equations themselves: higher derivatives are not all determined, and what an iteration made
   // of those that are not has no units of its own.
   const VectorXd y = array.jet(ladder.point.v, ladder.point.z);
-  VectorXd reach = y.cwiseAbs();
-  reach.head(n) = array.origin_size();  // the chart's own coordinates are 0
-  const GenericScaling generic(array, y, reach);
-  const NaturalScaling natural({VectorXd::Zero(generic.scaled.rows()), generic.magnitude}, reach,
-                               0.0, 1e-10);
-  const VectorXd units = generic.scaled.rows() + generic.scaled.cols() > kExact
-                             ? VectorXd(natural.column_scale.head(n))
-                             : VectorXd(column_scales(generic.magnitude, natural.row_scale,
-                                                      natural.column_scale, ladder.jet)
-                                            .head(n));
+  const VectorXd reach = known_sizes(array, y);
+  VectorXd units = units_near(array, y, reach);
+  const VectorXd seen = without_zeros(reach.cwiseQuotient(units)).cwiseProduct(units);
+  if ((seen.array() > 0.0).count() < (reach.array() > 0.0).count())
+    units = units_near(array, y, (seen.array() > 0.0).select(reach, 0.0));
+  units = units.head(n).eval();
   if (n == size) return units;
   // The geometric mean over a block, weighted with what each basis vector has in it.
   const std::vector<Index> block = blocks(M);

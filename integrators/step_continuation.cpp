@@ -30,13 +30,33 @@ constexpr double kRoundOff = 1e-13;
 constexpr double kLeastOfAll = 1e-3;
 constexpr double kLeastOfState = 1e-8;
 
-// The curve begins with two points at so much of the step and twice as much, which say where it goes;
-// or at less, down to kShortest. First far from the state, since near to it multipliers that are
-// determined with 1/h² are round-off; where that does not lead to the end, nearer.
-constexpr double kBeginnings[] = {0.1, 1e-3};
+// The curve begins at this part of the step, where equations hardly bend and Newton's method finds
+// their solution from anywhere; or at less, down to kShortest. But not so near that displacements are
+// round-off of the coordinates, and multipliers, determined with 1/h², are nothing else: a
+// displacement is kSeen of them, and never less than kUnseen of that; but the curve begins no farther
+// than kFarthest.
+constexpr double kBeginning = 1e-3;
+constexpr double kFarthest = 0.1;
+constexpr double kSeen = 1e-6;
+constexpr double kUnseen = 1e-2;
 constexpr double kShortest = 1e-12;
 // The curve ends where σ can grow by less than this part.
 constexpr double kEnd = 1e-4;
+
+// An arc of a curve whose tangents are t₀, t₁ at ends that are Δσ apart leaves the first tangent by
+//
+//   e = (t₁ - t₀) Δσ / 2
+//
+// as long as it bends one way. Two branches do not know of each other's tangents. What e is wrong by,
+// next to its size; a part of a displacement that is no matter.
+constexpr double kOtherBend = 0.5;
+constexpr double kStraight = 1e-3;
+
+// By this part σ is changed for derivatives.
+constexpr double kDifference = 1e-2;
+// Unknowns that are no displacements are extrapolated up to so many times σ: near the state they may
+// be known to few digits.
+constexpr double kFar = 4.0;
 
 }  // namespace
 
@@ -49,6 +69,12 @@ StepContinuation::StepContinuation(Function equations, const Layout& layout)
   y_.resize(equations_.input_size(0));
   all_.resize(equations_.output_size() + equations_.nonzeros());
   step_.resize(static_cast<Index>(contained_.size()));
+  rate_.resize(equations_.output_size());
+  tangent_.resize(y_.size());
+}
+
+bool StepContinuation::shrinks(Index i) const {
+  return i < layout_.displacements || i >= y_.size() - layout_.shifts;
 }
 
 void StepContinuation::set(const VectorXd& u, double sigma, VectorXd& y) const {
@@ -57,116 +83,186 @@ void StepContinuation::set(const VectorXd& u, double sigma, VectorXd& y) const {
   y.tail(layout_.shifts) *= sigma;
 }
 
-// The largest change of a displacement, next to its size.
-double StepContinuation::moved(double sigma, double size) const {
+void StepContinuation::evaluate(double sigma, const double* const* in, bool with_jacobian) {
+  const double h = sigma * h_;
+  std::copy_n(in, in_.size(), in_.begin());
+  set(u_, sigma, y_);
+  in_[0] = y_.data();
+  in_[static_cast<std::size_t>(layout_.h)] = &h;
+  if (with_jacobian)
+    equations_.value_and_jacobian(in_.data(), all_.data());
+  else
+    equations_.value(in_.data(), all_.data());
+}
+
+// The largest of these changes of displacements, next to their sizes. `change`: for each contained
+// unknown.
+double StepContinuation::largest_part(const VectorXd& change, double sigma, double size) const {
   double largest = 0.0, total = 0.0;
   for (std::size_t k = 0; k < contained_.size(); ++k) {
-    const double change = std::fabs(step_[static_cast<Index>(k)]);
-    total += change;
+    const double moved = std::fabs(change[static_cast<Index>(k)]);
+    total += moved;
     if (contained_[k] < layout_.displacements)
-      largest = std::max(largest, change + sigma * std::fabs(u_[contained_[k]]));
+      largest = std::max(largest, moved + sigma * std::fabs(u_[contained_[k]]));
   }
   const double least = std::max(kLeastOfAll * largest, kLeastOfState * size);
   double result = 0.0;
   for (std::size_t k = 0; k < contained_.size(); ++k) {
-    const double change = std::fabs(step_[static_cast<Index>(k)]);
-    if (contained_[k] >= layout_.displacements || !(change > kRoundOff * size)) continue;
-    const double before = sigma * u_[contained_[k]];
-    const double after = before - step_[static_cast<Index>(k)];
-    result = std::max(result, change / (std::max(std::fabs(before), std::fabs(after)) + least));
+    const double moved = std::fabs(change[static_cast<Index>(k)]);
+    if (contained_[k] >= layout_.displacements || !(moved > kRoundOff * size)) continue;
+    const double before = sigma * u_[contained_[k]], after = before - change[static_cast<Index>(k)];
+    result = std::max(result, moved / (std::max(std::fabs(before), std::fabs(after)) + least));
   }
   return std::isfinite(total) ? result : std::numeric_limits<double>::infinity();
 }
 
 bool StepContinuation::converges(double sigma, const double* const* in, double size, double near,
                                  Result& result) {
-  const double h = sigma * h_;
-  std::copy_n(in, in_.size(), in_.begin());
-  in_[0] = y_.data();
-  in_[static_cast<std::size_t>(layout_.h)] = &h;
   double previous = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     ++result.iterations;
-    set(u_, sigma, y_);
-    equations_.value_and_jacobian(in_.data(), all_.data());
+    evaluate(sigma, in, true);
     if (!all_.allFinite() || !solver_->factorize(all_.data() + equations_.output_size()))
       return false;
     solver_->solve(all_.data(), step_.data());
-    const double change = moved(sigma, size);
+    const double change = largest_part(step_, sigma, size);
     if (!std::isfinite(change) || (iteration == 0 && change > near)) return false;
     if (iteration > 0 && change > kTolerance && change > kContraction * previous) return false;
     for (std::size_t k = 0; k < contained_.size(); ++k) {
       const Index i = contained_[k];
-      const bool shrinks = i < layout_.displacements || i >= u_.size() - layout_.shifts;
-      u_[i] -= shrinks ? step_[static_cast<Index>(k)] / sigma : step_[static_cast<Index>(k)];
+      const double moved = step_[static_cast<Index>(k)];
+      u_[i] -= shrinks(i) ? moved / sigma : moved;
     }
-    if (change > kTolerance) {
+    // The first change says nothing of the other unknowns, which may have been predicted badly.
+    if (iteration == 0 || change > kTolerance) {
       previous = change;
       continue;
     }
     const int orientation = solver_->orientation();
     if (orientation * orientation_ < 0) return false;
     if (orientation_ == 0) orientation_ = orientation;
-    return u_.allFinite();
+    return u_.allFinite() && differentiate(sigma, in);
   }
   return false;
 }
 
-StepContinuation::Result StepContinuation::follow(VectorXd& y, const double* const* in,
-                                                  double size) {
-  const VectorXd start = y;
-  h_ = *in[layout_.h];
-  Result farthest;
-  long iterations = 0;
-  for (const double beginning : kBeginnings) {
-    Result found = follow_from(start, beginning, in, size);
-    found.at_first = beginning == kBeginnings[0];
-    iterations += found.iterations;
-    if (found.reached >= farthest.reached) {
-      farthest = found;
-      set(point_, found.reached, y);
-    }
-    if (found.arrived) break;
+// du/dσ at u_, with the matrix of the last iteration.
+bool StepContinuation::differentiate(double sigma, const double* const* in) {
+  const Index rows = equations_.output_size();
+  evaluate(sigma * (1.0 + kDifference), in, false);
+  rate_ = all_.head(rows);
+  evaluate(sigma * (1.0 - kDifference), in, false);
+  rate_ -= all_.head(rows);
+  if (!rate_.allFinite()) return false;
+  rate_ /= 2.0 * kDifference * sigma;
+  solver_->solve(rate_.data(), step_.data());
+  tangent_.setZero();
+  for (std::size_t k = 0; k < contained_.size(); ++k) {
+    const Index i = contained_[k];
+    const double slope = -step_[static_cast<Index>(k)];
+    tangent_[i] = shrinks(i) ? slope / sigma : slope;
   }
-  farthest.iterations = iterations;
-  return farthest;
+  return tangent_.allFinite();
 }
 
-StepContinuation::Result StepContinuation::follow_from(const VectorXd& start, double beginning,
-                                                       const double* const* in, double size) {
-  constexpr double anywhere = std::numeric_limits<double>::infinity();
+// From the last point to u_, tangent_ at `next`, if both are on one arc.
+bool StepContinuation::reaches(double next, const double* const* in, double size, Result& result) {
+  const double length = next - point_.sigma;
+  const bool is_far = std::max(next, point_.sigma) > kFar * std::min(next, point_.sigma);
+  u_ = point_.u;
+  for (Index i = 0; i < u_.size(); ++i) {
+    if (!vanishes_)
+      u_[i] += (point_.sigma / next - 1.0) * u_[i] +
+               length / next * (point_.u[i] + point_.sigma * point_.tangent[i]);
+    else if (!is_far || shrinks(i))
+      u_[i] += point_.tangent[i] * length;
+  }
+  predicted_ = u_;
+  if (!converges(next, in, size, kNear, result)) return false;
+  double sizes[3];  // of e, of what tangents say it is, and of the difference
+  for (int what = 0; what < 3; ++what) {
+    for (std::size_t k = 0; k < contained_.size(); ++k) {
+      const Index i = contained_[k];
+      const double left = next * (u_[i] - predicted_[i]);
+      const double turned =
+          vanishes_ ? next * (tangent_[i] - point_.tangent[i])
+                    : u_[i] + next * tangent_[i] - point_.u[i] - point_.sigma * point_.tangent[i];
+      const double bent = 0.5 * length * turned;
+      step_[static_cast<Index>(k)] = what == 0 ? left : what == 1 ? bent : bent - left;
+    }
+    sizes[what] = largest_part(step_, next, size);
+  }
+  return sizes[2] <= std::max(kStraight, kOtherBend * std::max(sizes[0], sizes[1]));
+}
+
+StepContinuation::Result StepContinuation::follow(VectorXd& y, const double* const* in,
+                                                  double size) {
+  h_ = *in[layout_.h];
+  const VectorXd start = y;
+  const double fastest = layout_.displacements == 0
+                             ? 0.0
+                             : start.head(layout_.displacements).lpNorm<Eigen::Infinity>();
+  const double seen = fastest > 0.0 ? kSeen * size / fastest : kFarthest;
+  const double beginning = std::clamp(seen, kBeginning, kFarthest);
   Result result;
-  point_ = last_ = start;
-  orientation_ = 0;
-  double sigma = 0.0, before = 0.0;  // of point_ and last_
-  for (double first = beginning; sigma == 0.0 && first > kShortest; first *= 0.125) {
+  for (const Attempt& attempt : {Attempt{true, true, beginning, kUnseen * seen},
+                                 Attempt{false, true, beginning, kUnseen * seen},
+                                 Attempt{false, false, kFarthest, kShortest},
+                                 Attempt{false, false, kBeginning, kShortest}}) {
+    if (!begins(attempt, start, in, size, result)) continue;
+    // What begins where displacements are hardly seen may end in their round-off.
+    const bool is_conclusive = attempt.leads_back && point_.sigma >= seen;
+    track(in, size, result);
+    result.begins_at_state = attempt.leads_back;
+    set(point_.u, point_.sigma, y);
+    if (result.arrived || is_conclusive) break;
+  }
+  return result;
+}
+
+// Whether there is a first point, which is left in point_: a solution from which, if the attempt says
+// so, the curve leads on towards the state as its tangent tells.
+bool StepContinuation::begins(const Attempt& attempt, const VectorXd& start,
+                              const double* const* in, double size, Result& result) {
+  constexpr double anywhere = std::numeric_limits<double>::infinity();
+  vanishes_ = attempt.vanishes;
+  for (double first = attempt.beginning; first > std::max(attempt.least, kShortest);
+       first *= 0.125) {
+    orientation_ = 0;
     u_ = start;
     if (!converges(first, in, size, anywhere, result)) continue;
-    last_ = u_;
-    if (!converges(2.0 * first, in, size, anywhere, result)) continue;
-    point_ = u_;
-    before = first;
-    sigma = 2.0 * first;
+    accept(first);
+    if (!attempt.leads_back || reaches(0.25 * first, in, size, result)) return true;
   }
+  return false;
+}
+
+// From the first point up to σ = 1, or as far as there are arcs.
+void StepContinuation::track(const double* const* in, double size, Result& result) {
   double length = 1.0;
-  while (sigma > 0.0 && sigma < 1.0) {
+  int arcs = 0;
+  while (point_.sigma < 1.0) {
+    const double sigma = point_.sigma;
     const double next = sigma + length >= 1.0 ? 1.0 : sigma + length;
-    u_ = point_ + (point_ - last_) * ((next - sigma) / (sigma - before));
     const long iterations = result.iterations;
-    if (converges(next, in, size, kNear, result)) {
-      last_ = point_;
-      before = sigma;
-      point_ = u_;
-      sigma = next;
+    if (reaches(next, in, size, result)) {
+      accept(next);
+      ++arcs;
       length *= result.iterations - iterations <= 3 ? 3.0 : 1.5;
     } else {
       length = 0.3 * (next - sigma);
       if (length < kEnd * sigma) break;
     }
   }
-  result.arrived = sigma == 1.0;
-  result.reached = sigma;
-  return result;
+  result.arrived = point_.sigma == 1.0;
+  result.is_direct = result.arrived && arcs == 1;
+  result.reached = point_.sigma;
+}
+
+void StepContinuation::accept(double sigma) {
+  point_.sigma = sigma;
+  point_.u = u_;
+  point_.tangent = tangent_;
 }
 
 }  // namespace courant

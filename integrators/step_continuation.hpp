@@ -13,12 +13,17 @@ namespace courant {
 // the end of the curve σ ↦ y(σ), G(y(σ); σ h) = 0, that begins at the state for σ → 0. This follows
 // the curve up to σ = 1, or to where it turns back or ends.
 //
-// It begins with two points at a thousandth of the step or less, and goes on by extrapolation of the
-// last two. A prediction must be right to a tenth, Newton's method with a matrix made afresh in each
-// iteration has to contract to a quarter at once, and the sign of the determinant stays the same, so
-// that a turning point is not stepped over. Else the step in σ is shortened; the first one tried
-// leads to σ = 1. Not seen is a pair of turning points between two points on the curve. One object
-// a trajectory.
+// It begins at a thousandth of the step or less, and goes on along the tangent. A prediction must be
+// right to a tenth, Newton's method with a matrix made afresh in each iteration has to contract to a
+// quarter at once, the sign of the determinant stays the same, and the tangents of both ends have to
+// say by how much the prediction was wrong: those of two branches do not, so that turning points are
+// not stepped over, nor pairs of them. Else the step in σ is shortened; the first one tried leads to
+// σ = 1.
+//
+// Where the state does not obey all equations, as after a step of Method 1 with constraints,
+// displacements do not vanish for σ → 0: the curve begins with a jump to where they hold. Where they have
+// no limit either it begins at a tenth of the step, with any solution that Newton's method finds. One
+// object a trajectory.
 class StepContinuation {
  public:
   // Group 0 of `equations` is y, whose first `displacements` entries are displacements from the
@@ -31,9 +36,10 @@ class StepContinuation {
   StepContinuation(Function equations, const Layout& layout);
 
   struct Result {
-    bool arrived = false;  // at σ = 1, y up to some seven digits of a displacement
-    double reached = 0.0;  // the greatest σ that there is a solution for; 0: none was found
-    bool at_first = true;  // from the beginning that is tried first
+    bool arrived = false;         // at σ = 1, y up to some seven digits of a displacement
+    double reached = 0.0;         // the greatest σ that there is a solution for; 0: none was found
+    bool is_direct = false;       // arrived in one step from the beginning
+    bool begins_at_state = true;  // or at a tenth of the step, with any solution
     long iterations = 0;
   };
   // y: at first what is predicted for σ = 1 by the state alone, in the end y(1), or y(reached).
@@ -41,13 +47,31 @@ class StepContinuation {
   Result follow(VectorXd& y, const double* const* in, double size);
 
  private:
-  // Leaves the last point on the curve in point_. `start`: what the state predicts.
-  Result follow_from(const VectorXd& start, double beginning, const double* const* in, double size);
+  struct Point {
+    double sigma = 0.0;
+    VectorXd u, tangent;  // du/dσ
+  };
+
+  // A way to begin: whether displacements vanish for σ → 0, so that divided by σ they are smooth, or
+  // not, and they are smooth themselves; whether the curve has to lead back towards the state; where.
+  struct Attempt {
+    bool vanishes, leads_back;
+    double beginning, least;
+  };
+
+  bool begins(const Attempt& attempt, const VectorXd& start, const double* const* in, double size,
+              Result& result);
+  void track(const double* const* in, double size, Result& result);
+  bool reaches(double next, const double* const* in, double size, Result& result);
   // Newton's method from u_, for σ. False: it does not contract, or its first change is more than
   // `near`.
   bool converges(double sigma, const double* const* in, double size, double near, Result& result);
+  bool differentiate(double sigma, const double* const* in);
+  void accept(double sigma);
+  void evaluate(double sigma, const double* const* in, bool with_jacobian);
   void set(const VectorXd& u, double sigma, VectorXd& y) const;
-  double moved(double sigma, double size) const;
+  bool shrinks(Index i) const;
+  double largest_part(const VectorXd& change, double sigma, double size) const;
 
   Function equations_;
   Layout layout_;
@@ -55,11 +79,13 @@ class StepContinuation {
   std::unique_ptr<LinearSolver> solver_;
   std::vector<const double*> in_;
   double h_ = 0.0;
-  int orientation_ = 0;  // of the curve so far
-  // Unknowns of this σ with displacements and shifts divided by σ, those of the last points, and a
-  // copy.
-  VectorXd u_, point_, last_;
-  VectorXd y_, all_, step_;
+  int orientation_ = 0;   // of the curve so far
+  bool vanishes_ = true;  // as in Attempt
+  Point point_;           // the last one
+  // Unknowns of this σ with displacements and shifts divided by σ, and their derivative by σ.
+  VectorXd u_, tangent_;
+  VectorXd predicted_;
+  VectorXd y_, all_, step_, rate_;
 };
 
 }  // namespace courant

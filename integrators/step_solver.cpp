@@ -7,22 +7,18 @@
 namespace courant {
 namespace {
 
-// A displacement that is predicted up to this part of its size, or up to such a part of the
-// coordinates, needs no confirmation. Its size is the largest of the last steps, of which each
-// forgets so much: at a turning point of a coordinate a displacement is small.
-constexpr double kPredicted = 0.05;
-// The same for a step that the velocity of the last one predicts, where that one was predicted.
-constexpr double kExpected = 0.25;
+// Of the coordinates, a part that is no displacement. Of the sizes of displacements each step
+// forgets so much.
 constexpr double kNegligible = 1e-10;
 constexpr double kForgotten = 0.98;
 
 // What two ways to the same solution may differ by.
 constexpr double kSame = 1e-3;
 
-// Two digits of x, towards zero.
-double rounded_down(double x) {
-  const double unit = std::pow(10.0, std::floor(std::log10(std::fabs(x))) - 1.0);
-  return std::trunc(x / unit) * unit;
+// Two digits of a step, towards zero.
+double rounded_down(double h) {
+  const double unit = std::pow(10.0, std::floor(std::log10(std::fabs(h))) - 1.0);
+  return std::trunc(h / unit) * unit;
 }
 
 }  // namespace
@@ -51,7 +47,7 @@ std::vector<Index> StepSolver::predicted() const {
 }
 
 Motion StepSolver::motion(const Manifold& manifold) const {
-  Motion motion{.is_predictable = is_trusted_, .displacements = usual_};
+  Motion motion{.is_predictable = is_trusted_ && is_mild_, .displacements = usual_};
   if (manifold.dimension() < manifold.tangent_dimension())
     motion.displacements.setConstant(largest(usual_));
   return motion;
@@ -59,7 +55,9 @@ Motion StepSolver::motion(const Manifold& manifold) const {
 
 void StepSolver::expect(const Motion& motion) {
   is_expected_ = motion.is_predictable && motion.displacements.size() == usual_.size();
-  if (is_expected_) usual_ = motion.displacements;
+  if (!is_expected_) return;
+  usual_ = motion.displacements;
+  is_mild_ = true;
 }
 
 void StepSolver::keep() {
@@ -69,11 +67,10 @@ void StepSolver::keep() {
     usual_[i] = std::max(std::fabs(y_[i]), kForgotten * usual_[i]);
 }
 
-bool StepSolver::is_as_predicted(double size) const {
-  const double allowed = is_expected_ ? kExpected : kPredicted;
+bool StepSolver::is_as_predicted(double part, double size) const {
   for (Index i = 0; i < usual_.size(); ++i) {
     const double change = std::fabs(y_[i] - other_[i]);
-    if (!(change <= std::max(allowed * std::max(std::fabs(y_[i]), usual_[i]), kNegligible * size)))
+    if (!(change <= std::max(part * std::max(std::fabs(y_[i]), usual_[i]), kNegligible * size)))
       return false;
   }
   return true;
@@ -93,7 +90,9 @@ bool StepSolver::is_same(double size) const {
 void StepSolver::connect(bool converged, const double* const* in, const double* scales,
                          const Attempt& attempt, SolverStatistics& statistics) {
   ++statistics.confirmations;
-  const auto [arrived, reached, at_first, iterations] = continuation_->follow(y_, in, scales[0]);
+  const auto [arrived, reached, is_direct, begins_at_state, iterations] =
+      continuation_->follow(y_, in, scales[0]);
+  is_mild_ = is_direct;
   statistics.iterations += iterations;
   statistics.factorizations += iterations;
   if (arrived && converged && is_same(scales[0])) {
@@ -111,8 +110,9 @@ void StepSolver::connect(bool converged, const double* const* in, const double* 
                      message.str());
   }
   ++statistics.failures;
-  // A second look may confirm what the iteration found; against it, it is no evidence.
-  if (converged && !at_first) fail(attempt);
+  // A curve that does not begin at the state may confirm what the iteration found; against it, it is no
+  // evidence.
+  if (converged && !begins_at_state) fail(attempt);
   other_ = y_;
   if (converges(in, scales, statistics) && is_same(scales[0])) return;
   newton_.reset();

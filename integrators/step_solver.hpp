@@ -48,7 +48,9 @@ class StepSolver {
   }
   // The solution that is connected to the state. One close to what unknown() predicted is taken for
   // it, every displacement right to a twentieth of its size, if the matrix of an earlier step led
-  // there, or the last step was predicted as well; right to a quarter after expect(). Else it is the one that StepContinuation finds;
+  // there, or the last step was predicted as well; right to a quarter after expect(); and to a
+  // thousandth where the equations of a step bend: where the last curve that was followed did not
+  // lead straight to the solution, or none was. Else it is the one that StepContinuation finds;
   // `begin` puts into unknown() what the state alone predicts.
   template <class Begin>
   void solve_connected(const double* const* in, const double* scales, const Begin& begin,
@@ -56,7 +58,7 @@ class StepSolver {
     if (!continuation_) return solve(in, scales, begin, attempt, statistics);
     other_ = y_;
     const bool converged = converges(in, scales, statistics);
-    is_good_ = converged && is_as_predicted(scales[0]);
+    is_good_ = converged && is_as_predicted(allowed(), scales[0]);
     if (is_good_ && (is_trusted_ || result_.factorizations == 0)) return;
     other_ = y_;
     begin();
@@ -71,7 +73,7 @@ class StepSolver {
     newton_.reset();
     usual_.setZero();
     is_trusted_ = true;
-    is_expected_ = false;
+    is_mild_ = is_expected_ = false;
   }
   // As of Stepper. A basis of tangent vectors that is made afresh has other coordinates: where there
   // is one, all displacements have the size of the largest.
@@ -85,11 +87,23 @@ class StepSolver {
     statistics.factorizations += result_.factorizations;
     return result_.status == Newton::Status::converged;
   }
-  bool is_as_predicted(double size) const;
+  // The part of its size that a displacement may differ from its prediction by.
+  double allowed() const {
+    return is_expected_ ? kExpected : is_mild_ ? kPredicted : kWellPredicted;
+  }
+  bool is_as_predicted(double part, double size) const;
   bool is_same(double size) const;
   void connect(bool converged, const double* const* in, const double* scales,
                const Attempt& attempt, SolverStatistics& statistics);
   [[noreturn]] void fail(const Attempt& attempt) const;
+
+  // A displacement that is predicted up to this part of its size, or up to such a part of the
+  // coordinates, needs no confirmation. Its size is the largest of the last steps, of which each
+  // forgets a little: at a turning point of a coordinate a displacement is small.
+  static constexpr double kPredicted = 0.05;
+  static constexpr double kWellPredicted = 1e-3;
+  // For a step that the velocity of the last one predicts, where that one was predicted.
+  static constexpr double kExpected = 0.25;
 
   Newton newton_;
   Newton::Result result_;
@@ -99,6 +113,7 @@ class StepSolver {
   VectorXd usual_;            // sizes of displacements
   bool is_good_ = false;      // the prediction of this step
   bool is_trusted_ = true;    // that of the last one was good
+  bool is_mild_ = false;      // the last curve that was followed led to the solution at once
   bool is_expected_ = false;  // the next step goes on with a motion that is known
   std::string method_;
 };

@@ -7,7 +7,7 @@
 
 #include "courant/core/complete_orthogonal_decomposition.hpp"
 #include "courant/core/derivative.hpp"
-#include "courant/core/expr_vectors.hpp"
+#include "courant/core/elimination.hpp"
 #include "courant/core/message.hpp"
 #include "courant/integrators/ladder/local_formulation.hpp"
 #include "courant/integrators/step_solver.hpp"
@@ -70,11 +70,21 @@ VectorField::VectorField(std::shared_ptr<const ImplicitSystem> system,
   VectorXd scale = J.rowwise().norm();
   scale = scale.unaryExpr([](double s) { return s > 0 ? 1.0 / s : 0.0; });
   // Equations before their derivatives: with the velocity from the derivative of a constraint
-  // instead of the equation for it, momenta would be free to leave M_f.
+  // instead of the equation for it, momenta would be free to leave M_f. And those that give an unknown
+  // explicitly before the others: their pivots cannot vanish, as those of two rolling constraints do
+  // where the wheels are parallel.
   std::vector<int> order(static_cast<std::size_t>(system_->equation_count()), 0);
+  std::vector<Index> given;
+  for (Index i = 0; i < all.size(); ++i) {
+    int& derivatives = order[static_cast<std::size_t>(local.source[static_cast<std::size_t>(i)])];
+    scale[i] *= std::pow(1e-2, derivatives);
+    if (derivatives++ == 0) given.push_back(i);
+  }
+  std::vector<bool> is_explicit(static_cast<std::size_t>(all.size()), false);
+  for (const Elimination::Pivot& pivot : Elimination(all(given), y, {}).pivots)
+    is_explicit[static_cast<std::size_t>(given[static_cast<std::size_t>(pivot.equation)])] = true;
   for (Index i = 0; i < all.size(); ++i)
-    scale[i] *= std::pow(
-        1e-2, order[static_cast<std::size_t>(local.source[static_cast<std::size_t>(i)])]++);
+    if (!is_explicit[static_cast<std::size_t>(i)]) scale[i] *= 0.1;
   // The ladder decided this rank with a gap; here it only has to be found again.
   constexpr double data_error = 2e-14;
   const CompleteOrthogonalDecomposition rows((scale.asDiagonal() * J).transpose(), data_error);
@@ -84,7 +94,8 @@ VectorField::VectorField(std::shared_ptr<const ImplicitSystem> system,
   std::sort(others.begin(), others.end());
   std::vector<Expr> left_out;
   for (const Index row : others)
-    if (depends(all.segment(row, 1), y)) left_out.push_back(all[row]);
+    if (::courant::jacobian(ExprVector(all.segment(row, 1)), y).values.size() > 0)
+      left_out.push_back(all[row]);
 
   const Backend together = backend.together();
   equations_ = Function("vector field", inputs, kept, {.differentiate = {"y"}, .backend = together});

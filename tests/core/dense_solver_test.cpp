@@ -1,6 +1,7 @@
 #include "courant/core/dense_solver.hpp"
 
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -58,6 +59,51 @@ BOOST_AUTO_TEST_CASE(more_equations_than_unknowns) {
   BOOST_TEST_REQUIRE(solver.factorize(entries));
   BOOST_TEST(solver.is_determined());
   BOOST_TEST(std::abs(solution(solver, Eigen::Vector2d(1.0, 3.0), 1)[0] - 2.0) < 1e-15);
+}
+
+// A matrix of condition 10 whose unknowns and equations are measured in units up to 10^±15: it is
+// regular, and solved to the same digits.
+BOOST_AUTO_TEST_CASE(units_do_not_make_a_matrix_singular) {
+  std::mt19937 generator(3);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> exponent(-15.0, 15.0);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Index n = 3 + trial % 6;
+    const auto units = [&] {
+      return VectorXd(
+          VectorXd::NullaryExpr(n, [&] { return std::pow(10.0, exponent(generator)); }));
+    };
+    const MatrixXd A = 4.0 * MatrixXd::Identity(n, n) +
+                       MatrixXd::NullaryExpr(n, n, [&] { return 0.5 * normal(generator); });
+    const VectorXd x = VectorXd::NullaryExpr(n, [&] { return normal(generator); });
+    const VectorXd row = units(), column = units();
+    const MatrixXd scaled = row.asDiagonal() * A * column.asDiagonal();
+    DenseSolver solver(full(n, n));
+    BOOST_TEST_REQUIRE(solver.factorize(scaled.data()));
+    BOOST_TEST(solver.is_determined());
+    BOOST_TEST(solver.orientation() != 0);
+    const VectorXd found = solution(solver, row.cwiseProduct(A * x), n);
+    BOOST_TEST((column.cwiseProduct(found) - x).norm() < 1e-12);
+  }
+}
+
+// A multiple of another row stays one: A and B A for a B of rank n - 1, in units of any size.
+BOOST_AUTO_TEST_CASE(units_do_not_make_a_matrix_regular) {
+  std::mt19937 generator(4);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> exponent(-12.0, 12.0);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Index n = 3 + trial % 6;
+    MatrixXd A = MatrixXd::NullaryExpr(n, n, [&] { return normal(generator); });
+    A.row(n - 1) = A.row(0) - 2.0 * A.row(1);
+    for (Index i = 0; i < n; ++i) {
+      A.row(i) *= std::exp2(std::round(3.0 * exponent(generator)));
+      A.col(i) *= std::exp2(std::round(3.0 * exponent(generator)));
+    }
+    DenseSolver solver(full(n, n));
+    BOOST_TEST_REQUIRE(solver.factorize(A.data()));
+    BOOST_TEST(!solver.is_determined());
+  }
 }
 
 BOOST_AUTO_TEST_CASE(entries_that_are_not_finite) {

@@ -184,6 +184,39 @@ BOOST_AUTO_TEST_CASE(arguments_are_checked) {
   BOOST_CHECK_THROW(eliminated(y, equations({y[0], y[0] + y[1]})), std::invalid_argument);
 }
 
+// A step of h for a line of inductors and capacitors that belong to a unit of time T: which unknowns are
+// given by which equations does not depend on it.
+BOOST_AUTO_TEST_CASE(pivots_do_not_depend_on_the_unit_of_time) {
+  const auto pivots = [](double T) {
+    constexpr Index sections = 4;
+    Graph graph;
+    const ExprVector h = graph.variables("h", 1), last = graph.variables("last", 2 * sections);
+    const ExprVector y = graph.variables("y", 4 * sections);  // charge, flux, voltage, current
+    std::vector<Expr> F;
+    for (Index k = 0; k < sections; ++k) {
+      const auto at = [&](Index section, Index what) { return y[4 * section + what]; };
+      const Expr next = k + 1 < sections ? at(k + 1, 3) : 0.5 * at(k, 2);
+      const Expr before = k > 0 ? at(k - 1, 2) : Expr(1.0);
+      F.push_back((at(k, 0) - last[2 * k]) / h[0] - at(k, 3) + next);
+      F.push_back((at(k, 1) - last[2 * k + 1]) / h[0] - before + at(k, 2) + 0.01 * at(k, 3));
+      F.push_back(0.5 * (at(k, 0) + last[2 * k]) / T - at(k, 2));
+      F.push_back(0.5 * (at(k, 1) + last[2 * k + 1]) / T - at(k, 3));
+    }
+    const Elimination e(Eigen::Map<const ExprVector>(F.data(), std::ssize(F)), y,
+                        {.never_zero = h});
+    std::vector<Index> found;
+    for (const Elimination::Pivot& pivot : e.pivots) {
+      found.push_back(pivot.equation);
+      found.push_back(pivot.unknown);
+    }
+    return found;
+  };
+  const std::vector<Index> expected = pivots(1.0);
+  BOOST_TEST(expected.size() > 8u);
+  for (const double T : {1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 1e3, 1e6, 1e9, 1e12})
+    BOOST_TEST(pivots(T) == expected, boost::test_tools::per_element());
+}
+
 BOOST_AUTO_TEST_SUITE_END()
 
 }  // namespace

@@ -62,6 +62,33 @@ BOOST_AUTO_TEST_CASE(nothing_is_reached_where_there_is_no_solution) {
   BOOST_TEST(found.result.reached == 0.0);
 }
 
+// y = h (1 + 2 cos(15 (x + y/2))) from x = 0.18 with h = 3: the curve turns to and fro, and nearly all of
+// its 40 solutions lie on other branches. Those of one branch are followed in 10⁵ parts.
+BOOST_AUTO_TEST_CASE(branches_are_not_exchanged) {
+  for (const double x : {0.1, 0.13, 0.16, 0.179, 0.18, 0.19, 0.1965, 0.21, 0.25, 0.3}) {
+    StepContinuation curve =
+        continuation([x](const Expr& y) { return 1.0 + 2.0 * cos(15.0 * (x + 0.5 * y)); });
+    for (const double h : {0.3, 1.0, 2.0, 3.0, 5.0}) {
+      const double f = 1.0 + 2.0 * std::cos(15.0 * x);
+      const Followed found = follow(curve, h, h * f);
+      double y = 0.0;
+      bool ends = false;
+      for (int k = 1; k <= 100000 && !ends; ++k) {
+        const double sigma = h * k / 100000;
+        for (int iteration = 0; iteration < 4; ++iteration) {
+          const double phase = 15.0 * (x + 0.5 * y);
+          const double slope = 1.0 + 15.0 * sigma * std::sin(phase);
+          ends = ends || !(slope > 0.0);
+          y -= (y - sigma * (1.0 + 2.0 * std::cos(phase))) / slope;
+        }
+      }
+      BOOST_TEST(found.result.arrived == !ends, "x = " << x << ", h = " << h);
+      if (!ends && found.result.arrived)
+        BOOST_TEST(found.y[0] == y, boost::test_tools::tolerance(1e-4));
+    }
+  }
+}
+
 // A step of either sign, and one after the other by the same object.
 BOOST_AUTO_TEST_CASE(a_curve_does_not_depend_on_the_one_before) {
   StepContinuation curve = continuation([](const Expr& y) { return 1.0 - 100.0 * square(y); });

@@ -111,6 +111,69 @@ BOOST_AUTO_TEST_CASE(units_of_momenta_do_not_matter) {
   BOOST_TEST((end(1e3, numbers) - end(1.0, numbers)).norm() > 1e-5);
 }
 
+// Starts with zeros in them: everywhere, of all velocities, of all positions, of one coordinate each. A
+// unit of a coordinate is not taken from what vanishes with it: the projector finds the motion that the
+// nearest point in the numbers leads to, to the order of the method, and the constraints hold as well.
+BOOST_AUTO_TEST_CASE(natural_units_at_starts_with_zeros) {
+  int starts = 0;
+  for (const char* name : {"suslov_so3", "nonholonomic_particle", "snakeboard", "knife_edge",
+                           "rolling_disk", "chaplygin_sleigh", "unicycle", "pendulum_cartesian"}) {
+    const Json file = test::experiment_file(name);
+    std::vector<Json> initials = {file.at("initial")};
+    Json at_rest = file.at("initial");
+    for (const auto& [key, value] : file.at("initial").items()) {
+      if (!value.is_number() && !value.is_string()) continue;
+      Json without = file.at("initial");
+      without[key] = 0;
+      initials.push_back(without);
+      if (key.back() == '\'') at_rest[key] = 0;
+    }
+    initials.push_back(at_rest);
+    for (const Json& initial : initials) {
+      Json experiment = {{"system", file.at("system")}, {"initial", initial}};
+      test::Problem motion;
+      try {
+        motion = test::problem(experiment);
+      } catch (const std::exception&) {
+        continue;  // no point of M_f has these zeros
+      }
+      if (motion.ladder.verdict != Verdict::regular) continue;
+      ++starts;
+      const auto difference = [&](long steps) {
+        const VectorXd natural = motion.end(method("orthogonal"), 0.4, steps);
+        const Json numbers = {{"type", "orthogonal"}, {"metric", "euclidean"}};
+        return (natural - motion.end(method(numbers), 0.4, steps)).norm() / (1.0 + natural.norm());
+      };
+      const double coarse = difference(40), fine = difference(80);
+      BOOST_TEST((fine < 0.35 * coarse || fine < 1e-9),
+                 name << " from " << initial << ": " << coarse << ", then " << fine);
+      BOOST_TEST(coarse < 1e-2, name << " from " << initial << ": " << coarse);
+    }
+  }
+  BOOST_TEST(starts > 30);
+}
+
+// Units of momenta at such starts: along an axis, and from rest.
+BOOST_AUTO_TEST_CASE(units_of_momenta_do_not_matter_at_zeros) {
+  for (const Json& start : {Json{{"q", {0.5, 0, 0, 0}}, {"p", {0.9, 0, 0, 0}}},
+                            Json{{"q", {0, 0, 0, 0}}, {"p", {0.9, 0.3, 0, 0}}},
+                            Json{{"q", {0.5, 0.8, 0, 0}}, {"p", {0, 0, 0, 0}}}}) {
+    const auto end = [&](double unit) {
+      Json experiment = nonholonomic(unit);
+      experiment["initial"] = start;
+      for (Json& p : experiment["initial"]["p"]) p = p.get<double>() / unit;
+      VectorXd x = test::problem(experiment).end(method("orthogonal"), 0.5, 20);
+      x.tail(4) *= unit;
+      return x;
+    };
+    const VectorXd expected = end(1.0);
+    for (const double unit : {1e-6, 1e-3, 1e3, 1e6})
+      BOOST_TEST((end(unit) - expected).norm() < 1e-4, start << " moves by "
+                                                             << (end(unit) - expected).norm()
+                                                             << " where the unit is " << unit);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(weights_and_metrics_say_the_same) {
   const test::Problem motion = test::problem(nonholonomic(1.0));
   const auto end = [&](const Json& projector) { return motion.end(method(projector), 0.5, 5); };

@@ -1,0 +1,47 @@
+#include "courant/running/observer.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "problems.hpp"
+
+namespace courant::test {
+namespace {
+
+// The largest |constraint[i]| that the row of a state has.
+double violation(Observer& observer, const State& state) {
+  const VectorXd& row = observer.row(state);
+  return row
+      .segment(static_cast<Index>(observer.first_constraint()),
+               static_cast<Index>(observer.constraint_count()))
+      .lpNorm<Eigen::Infinity>();
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(observer_test)
+
+// The two rolling constraints of a snakeboard are seen through the velocity alone. They give x' and y'
+// as well as the momenta do, but not where the axles are parallel, phi = 0: there, too, a state that
+// meets the constraints is reported to, and one that does not is not.
+BOOST_AUTO_TEST_CASE(constraints_seen_through_velocities_where_axles_are_parallel) {
+  const Problem snakeboard = problem(experiment_file("snakeboard"));
+  Observer observer(snakeboard.experiment, snakeboard.ladder, Backend::interpreter);
+  BOOST_TEST_REQUIRE(observer.constraint_count() == 2u);
+  // At theta = 0 the constraints say y' = 0 and theta' = -tan(phi) x'/r.
+  for (const double phi : {0.3, 1e-2, 1e-4, 1e-7, 1e-10, 1e-13, 0.0, -1e-9}) {
+    const double m = 4.0, r = 0.3, J = 0.04, J0 = 0.02, J1 = 0.008;
+    const double speed = 0.5, turn = -std::tan(phi) * speed / r, rotor = 4.0, steer = -0.2;
+    State state = snakeboard.ladder.point;
+    state.x << 0.1, -0.2, 0.0, 0.7, phi, m * speed, 0.0, (J + J0 + 2.0 * J1) * turn + J0 * rotor,
+        J0 * (turn + rotor), 2.0 * J1 * steer;
+    BOOST_TEST(violation(observer, state) < 1e-14, phi << ": " << violation(observer, state));
+    state.x[6] += 1e-6;
+    BOOST_TEST(violation(observer, state) > 1e-7, phi << ": " << violation(observer, state));
+    BOOST_TEST(violation(observer, state) < 1e-5, phi << ": " << violation(observer, state));
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace courant::test
