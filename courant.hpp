@@ -13,6 +13,7 @@
 #include "courant/core/simplified.hpp"
 #include "courant/core/taylor.hpp"
 #include "courant/core/version.hpp"
+#include "courant/integrators/composition.hpp"
 #include "courant/integrators/constrain_first.hpp"
 #include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/explicit_runge_kutta.hpp"

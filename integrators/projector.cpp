@@ -1,9 +1,11 @@
 #include "courant/integrators/projector.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
 
+#include "courant/core/cholesky_decomposition.hpp"
 #include "courant/core/derivative.hpp"
 #include "courant/core/expr_vectors.hpp"
 #include "courant/core/linear_algebra.hpp"
@@ -11,6 +13,7 @@
 #include "courant/core/message.hpp"
 #include "courant/core/qr_decomposition.hpp"
 #include "courant/core/singular_value_decomposition.hpp"
+#include "courant/structures/dirac_system.hpp"
 
 namespace courant {
 namespace {
@@ -61,6 +64,102 @@ const CotangentBundle& checked(const std::shared_ptr<const CotangentBundle>& pha
   if (!phase_space)
     throw std::invalid_argument("MomentumProjector::MomentumProjector: phase_space is null.");
   return *phase_space;
+}
+
+// (∂²H/∂p²)⁻¹, or empty.
+Projector::MatrixFormula metric_of_energy(const std::shared_ptr<const ImplicitSystem>& system,
+                                          const std::vector<Index>& momenta, const VectorXd& x) {
+  // ∂²H/∂p² along the frame, with 1 across M, where there is nothing to be moved.
+  const auto inverse_metric = [system, momenta](const ExprVector& at) -> ExprMatrix {
+    const Manifold& M = *system->manifold();
+    Graph graph;
+    const ExprVector y = graph.variables("x", at.size());
+    const ExprVector z = graph.variables("z", system->auxiliary_size());
+    const Expr t = graph.variable("t");
+    const auto energy = system->energy(y, z, t);
+    if (!energy) return {};
+    const ExprMatrix E = M.frame(y);
+    const auto k = static_cast<Index>(momenta.size());
+    const ExprVector slope = E.transpose() * gradient(*energy, y);
+    ExprVector selected(k);
+    for (Index i = 0; i < k; ++i) selected[i] = slope[momenta[static_cast<std::size_t>(i)]];
+    const ExprMatrix along = jacobian(selected, y).dense() * E;
+    const ExprMatrix projector = M.tangent_projector(y);
+    ExprMatrix result(k, k);
+    for (Index i = 0; i < k; ++i)
+      for (Index j = 0; j < k; ++j) {
+        const Index row = momenta[static_cast<std::size_t>(i)],
+                    column = momenta[static_cast<std::size_t>(j)];
+        result(i, j) = along(i, column) + Expr(i == j ? 1.0 : 0.0) - projector(row, column);
+      }
+    ExprVector other(z.size() + 1);
+    other << z, t;
+    const ExprVector entries = result.reshaped();
+    if (jacobian(entries, other).values.size() > 0) return {};
+    const ExprVector moved = substitute(entries, y, at);
+    return moved.reshaped(k, k);
+  };
+  const auto metric = [inverse_metric](const ExprVector& at) -> ExprMatrix {
+    const ExprMatrix inverse = inverse_metric(at);
+    return solve(inverse, ExprMatrix::Identity(inverse.rows(), inverse.cols()));
+  };
+  const auto k = static_cast<Index>(momenta.size());
+  const ExprMatrix inverse = inverse_metric(constants(x));
+  if (k == 0 || inverse.rows() != k) return {};
+  try {
+    const MatrixXd g = values(metric(constants(x))), G = values(inverse);
+    if (!g.allFinite() || !G.allFinite()) return {};
+    if (!((G * g - MatrixXd::Identity(k, k)).norm() < 1e-8)) return {};
+  } catch (const std::domain_error&) {
+    return {};
+  }
+  return metric;
+}
+
+// ∂²L/∂w² of E = ⟨p, w⟩ - L(q, w) and what constraints add to it, where the w are the parameters
+// with ∂E/∂p_i = w_i; or empty.
+Projector::MatrixFormula metric_of_lagrangian(const std::shared_ptr<const ImplicitSystem>& system,
+                                              const std::vector<Index>& momenta,
+                                              const VectorXd& x) {
+  const auto* dirac = dynamic_cast<const DiracSystem*>(system.get());
+  const auto bundle = std::dynamic_pointer_cast<const CotangentBundle>(system->manifold());
+  if (!dirac || !bundle || momenta != MomentumProjector::momenta_of(*bundle)) return {};
+  const auto metric = [family = dirac->family(), bundle](const ExprVector& at) -> ExprMatrix {
+    Graph graph;
+    const ExprVector y = graph.variables("x", at.size());
+    const ExprVector lambda = graph.variables("lambda", family->parameter_size());
+    const Expr t = graph.variable("t");
+    const Expr E = family->value(y, lambda, t);
+    const ExprVector p = bundle->momentum(y);
+    const ExprVector rate = gradient(E, p);
+    ExprVector w(p.size());
+    for (Index i = 0; i < p.size(); ++i) {
+      const auto found = std::find(lambda.begin(), lambda.end(), rate[i]);
+      if (found == lambda.end()) return {};
+      w[i] = *found;
+    }
+    const Manifold& Q = *bundle->base();
+    ExprMatrix g = -jacobian(gradient(E, w), w).dense();
+    // Across Q the family has -‖w - Π w‖²/2, where there is nothing to be moved.
+    if (Q.dimension() < Q.tangent_dimension())
+      g += 2.0 *
+           (ExprMatrix::Identity(p.size(), p.size()) - Q.tangent_projector(bundle->position(y)));
+    ExprVector other(p.size() + lambda.size() + 1);
+    other << p, lambda, t;
+    const ExprVector entries = g.reshaped();
+    if (depends(entries, other)) return {};
+    return substitute(entries, y, at).reshaped(p.size(), p.size());
+  };
+  const auto k = static_cast<Index>(momenta.size());
+  const ExprMatrix here = metric(constants(x));
+  if (k == 0 || here.rows() != k) return {};
+  try {
+    const MatrixXd g = values(here);
+    if (!g.allFinite() || !CholeskyDecomposition(g).is_positive_definite()) return {};
+  } catch (const std::domain_error&) {
+    return {};
+  }
+  return metric;
 }
 
 }  // namespace
@@ -153,49 +252,8 @@ std::vector<Index> MomentumProjector::momenta_of(const CotangentBundle& phase_sp
 Projector::MatrixFormula MomentumProjector::kinetic_metric(
     const std::shared_ptr<const ImplicitSystem>& system, const std::vector<Index>& momenta,
     const VectorXd& x) {
-  // ∂²H/∂p² along the frame, with 1 across M, where there is nothing to be moved.
-  const auto inverse_metric = [system, momenta](const ExprVector& at) -> ExprMatrix {
-    const Manifold& M = *system->manifold();
-    Graph graph;
-    const ExprVector y = graph.variables("x", at.size());
-    const ExprVector z = graph.variables("z", system->auxiliary_size());
-    const Expr t = graph.variable("t");
-    const auto energy = system->energy(y, z, t);
-    if (!energy) return {};
-    const ExprMatrix E = M.frame(y);
-    const auto k = static_cast<Index>(momenta.size());
-    const ExprVector slope = E.transpose() * gradient(*energy, y);
-    ExprVector selected(k);
-    for (Index i = 0; i < k; ++i) selected[i] = slope[momenta[static_cast<std::size_t>(i)]];
-    const ExprMatrix along = jacobian(selected, y).dense() * E;
-    const ExprMatrix projector = M.tangent_projector(y);
-    ExprMatrix result(k, k);
-    for (Index i = 0; i < k; ++i)
-      for (Index j = 0; j < k; ++j) {
-        const Index row = momenta[static_cast<std::size_t>(i)],
-                    column = momenta[static_cast<std::size_t>(j)];
-        result(i, j) = along(i, column) + Expr(i == j ? 1.0 : 0.0) - projector(row, column);
-      }
-    const ExprVector entries = result.reshaped();
-    if (depends(entries, joined(z, ExprVector::Constant(1, t)))) return {};
-    const ExprVector moved = substitute(entries, y, at);
-    return moved.reshaped(k, k);
-  };
-  const auto metric = [inverse_metric](const ExprVector& at) -> ExprMatrix {
-    const ExprMatrix inverse = inverse_metric(at);
-    return solve(inverse, ExprMatrix::Identity(inverse.rows(), inverse.cols()));
-  };
-  const auto k = static_cast<Index>(momenta.size());
-  const ExprMatrix inverse = inverse_metric(constants(x));
-  if (k == 0 || inverse.rows() != k) return {};
-  try {
-    const MatrixXd g = values(metric(constants(x))), G = values(inverse);
-    if (!g.allFinite() || !G.allFinite()) return {};
-    if (!((G * g - MatrixXd::Identity(k, k)).norm() < 1e-8)) return {};
-  } catch (const std::domain_error&) {
-    return {};
-  }
-  return metric;
+  const MatrixFormula metric = metric_of_energy(system, momenta, x);
+  return metric ? metric : metric_of_lagrangian(system, momenta, x);
 }
 
 MatrixXd MomentumProjector::do_directions(const VectorXd& x, const MatrixXd& basis,

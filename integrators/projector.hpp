@@ -96,8 +96,10 @@ class MomentumProjector final : public Projector {
 
   // Half of the tangent representation: the momenta of a cotangent bundle.
   static std::vector<Index> momenta_of(const CotangentBundle& phase_space);
-  // g_{ij} = (∂²H/∂p²)⁻¹ of the kinetic energy, where `system` has an energy H whose second
-  // derivatives by these momenta are regular at x and depend on the point alone; empty otherwise.
+  // g_{ij} of the kinetic energy at x: (∂²H/∂p²)⁻¹ where `system` has an energy H whose second
+  // derivatives by these momenta are regular at x and depend on the point alone; ∂²L/∂w² where it is
+  // that of a Lagrangian for which these depend on q alone and are positive definite at x; empty
+  // otherwise.
   static MatrixFormula kinetic_metric(const std::shared_ptr<const ImplicitSystem>& system,
                                       const std::vector<Index>& momenta, const VectorXd& x);
 

@@ -16,6 +16,7 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 struct Reading {
   const Vocabulary& vocabulary;
   const std::vector<std::string>& quantities;
+  const std::vector<std::string>& events;
   const std::optional<TimeSpan>& time;
   bool is_run;  // there are to be steps, even if their time could not be read
   Expectations& expectations;
@@ -188,6 +189,74 @@ void read_state(ObjectReader& entry, const JsonReader& state_key, const Reading&
   if (!std::isnan(at)) reading.expectations.times.push_back(at);
 }
 
+// {"event": "perihelion", "number": 3, "time": "6*pi", "tolerance": 1e-4}: one occurrence.
+void read_occurrence(ObjectReader& entry, const std::string& name, const Reading& reading) {
+  const auto number_key = entry.optional("number");
+  const auto time_key = entry.optional("time"), state_key = entry.optional("state");
+  auto tolerance_key = entry.optional("tolerance");
+  if (!number_key && !time_key && !state_key) return;
+  const auto number = number_key ? number_key->integer(1) : std::optional<Index>(1);
+  if (!tolerance_key) tolerance_key = entry.required("tolerance");
+  const auto tolerance = tolerance_key ? tolerance_key->positive_number() : std::nullopt;
+  if (!time_key && !state_key)
+    number_key->problem("tests nothing; expected \"time\" or \"state\" beside it");
+  const auto compare = [&](const std::string& quantity, const JsonReader& value) {
+    const auto form = read_formula(value);
+    if (!form) return;
+    const auto constant =
+        evaluate_constants({{}, {*form}}, reading.vocabulary.symbols({}), value.findings());
+    if (!constant || !number || !tolerance) return;
+    reading.expectations.occurrences[name].insert(static_cast<long>(*number));
+    reading.expectations.checks.push_back(
+        [=, expected = (*constant)[0], which = static_cast<long>(*number), bound = *tolerance,
+         pointer = entry.place().pointer()](const RunRecord& record) {
+          std::optional<double> found;
+          if (const auto event = record.events.find(name); event != record.events.end())
+            if (const auto at = event->second.occurrences.find(which);
+                at != event->second.occurrences.end())
+              if (const auto it = at->second.find(quantity); it != at->second.end())
+                found = it->second;
+          return deviating(
+              pointer,
+              quantity + " = " + exact_text(expected) + " at " + name + " " + std::to_string(which),
+              std::abs(found.value_or(kUnknown) - expected), bound, found);
+        });
+  };
+  if (time_key) compare("t", *time_key);
+  if (!state_key) return;
+  const auto entries = state_key->entries();
+  if (!entries) return;
+  if (entries->empty()) state_key->expected("an object of values by name");
+  for (const auto& [quantity, value] : *entries)
+    if (reading.is_quantity(quantity, value)) compare(quantity, value);
+}
+
+// {"event": "perihelion", "count": 10}, and occurrences.
+void read_event(ObjectReader& entry, const JsonReader& name_key, const Reading& reading) {
+  const auto name = name_key.text();
+  const bool known = name && std::ranges::find(reading.events, *name) != reading.events.end();
+  if (name && !known)
+    name_key.problem("unknown event \"" + *name + '"' + did_you_mean(*name, reading.events));
+  const auto count_key = entry.optional("count");
+  if (const auto count = count_key ? count_key->integer(0) : std::nullopt; count && known)
+    reading.expectations.checks.push_back([name = *name, count = static_cast<long>(*count),
+                                           pointer =
+                                               entry.place().pointer()](const RunRecord& record) {
+      const auto event = record.events.find(name);
+      ExpectationResult result{pointer, "occurrences of " + name, false, nullptr, count, kNotKnown};
+      if (!record.completed || event == record.events.end()) return result;
+      result.value = event->second.count;
+      result.passed = event->second.count == count;
+      result.finding =
+          "is " + std::to_string(event->second.count) + "; expected " + std::to_string(count);
+      return result;
+    });
+  const auto has = [&](const char* key) { return entry.place().value().contains(key); };
+  if (!count_key && !has("number") && !has("time") && !has("state"))
+    entry.place().problem("expects nothing; expected \"count\", \"time\" or \"state\"");
+  read_occurrence(entry, name.value_or(""), reading);
+}
+
 // The levels of a ladder as [[dim S₀, dim M₀], …], without those that only confirm the one before.
 Json dimensions(const ConstraintLadder& ladder) {
   Json list = Json::array();
@@ -292,12 +361,14 @@ void read_entry(const JsonReader& value, const Reading& reading) {
   ObjectReader entry(value);
   if (!value.value().is_object()) return;
   if (const auto name = entry.optional("observable")) return read_bounds(entry, *name, reading);
+  if (const auto event = entry.optional("event")) return read_event(entry, *event, reading);
   if (const auto state = entry.optional("state")) return read_state(entry, *state, reading);
   const bool certificate = read_certificate(entry, reading);
   const bool violation = read_violation(entry, reading);
   if (!certificate && !violation && value.value().empty())
     value.problem(
-        "expects nothing; expected \"observable\", \"state\", \"verdict\", \"ladder\" or "
+        "expects nothing; expected \"observable\", \"state\", \"event\", \"verdict\", \"ladder\" "
+        "or "
         "\"max_violation\"");
 }
 
@@ -313,11 +384,12 @@ std::optional<long> TimeSpan::step_at(double t) const {
 
 Expectations read_expectations(const JsonReader& expect, const Vocabulary& vocabulary,
                                const std::vector<std::string>& quantities,
+                               const std::vector<std::string>& events,
                                const std::optional<TimeSpan>& time, bool is_run) {
   Expectations expectations;
   const auto entries = expect.elements();
   if (!entries) return expectations;
-  const Reading reading{vocabulary, quantities, time, is_run, expectations};
+  const Reading reading{vocabulary, quantities, events, time, is_run, expectations};
   for (const JsonReader& entry : *entries) read_entry(entry, reading);
   return expectations;
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,15 @@ struct QuantityRecord {
   double slope = 0.0;  // of the least-squares line through (t, value): the drift per unit of time
 };
 
+// The occurrences of an event along a run.
+struct EventRecord {
+  long count = 0;
+  double first = std::numeric_limits<double>::quiet_NaN();  // times
+  double last = std::numeric_limits<double>::quiet_NaN();
+  // Quantities at those that are asked for, by their number 1, 2, …; the time is "t".
+  std::map<long, std::map<std::string, double, std::less<>>> occurrences = {};
+};
+
 // What is known of a run when its expectations are looked at.
 struct RunRecord {
   bool completed = false;
@@ -28,6 +38,7 @@ struct RunRecord {
   std::map<double, std::map<std::string, double, std::less<>>>
       moments;                                                      // quantities at times asked for
   double max_violation = std::numeric_limits<double>::quiet_NaN();  // of the constraints, if any
+  std::map<std::string, EventRecord> events;
   const ConstraintLadder* ladder = nullptr;                         // null if not reached
 };
 
@@ -51,6 +62,7 @@ struct Expectations {
     WrittenFormula form;
   };
   std::vector<double> times;
+  std::map<std::string, std::set<long>> occurrences;  // of events
   std::vector<Deviation> deviations;
   std::vector<std::function<ExpectationResult(const RunRecord&)>> checks;
   bool inconsistent = false;  // the verdict that is expected, after which there is nothing to run
@@ -68,12 +80,13 @@ struct TimeSpan {
   std::optional<long> step_at(double t) const;
 };
 
-// Reads the array `expect`; `quantities` are the names of coordinates and observables; `is_run`
-// where there are to be steps, though `time` is nothing if it cannot be read. What would
+// Reads the array `expect`; `quantities` are the names of coordinates and observables, `events` those
+// of events; `is_run` where there are to be steps, though `time` is nothing if it cannot be read. What would
 // pass or fail whatever the run does is a problem: drifts where there is no trajectory, bounds below
 // zero of what cannot be, values that are not finite.
 Expectations read_expectations(const JsonReader& expect, const Vocabulary& vocabulary,
                                const std::vector<std::string>& quantities,
+                               const std::vector<std::string>& events,
                                const std::optional<TimeSpan>& time, bool is_run);
 
 }  // namespace courant

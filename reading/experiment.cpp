@@ -147,6 +147,8 @@ Experiment read_experiment_document(const Json& document) {
     experiment.examine = static_cast<long>(object.integer("examine", 0, 0));
     const auto weights = object.optional("weights");
     const auto observe = object.optional("observe");
+    const auto events = object.optional("events");
+    if (events && !time) events->problem("need a trajectory; expected \"method\" and \"time\"");
     const auto expect = object.optional("expect");
     const Json no_output = Json::object();
     const auto output = object.optional("output");
@@ -159,10 +161,13 @@ Experiment read_experiment_document(const Json& document) {
         if (const auto values = read_initial_values(*initial, hold, weights, *model))
           experiment.initial = *values;
       if (observe) experiment.observe = read_observables(*observe, *model);
+      if (events) experiment.events = read_events(*events, *model);
+      std::vector<std::string> event_names;
+      for (const Event& event : experiment.events) event_names.push_back(event.name);
       if (expect)
         experiment.expect =
             read_expectations(*expect, model->vocabulary, quantities(*model, experiment.observe),
-                              experiment.time, method || time);
+                              event_names, experiment.time, method || time);
     }
   }
   findings.require_clean();

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "courant/reading/event.hpp"
 #include "courant/reading/expectation.hpp"
 #include "courant/reading/initial_values.hpp"
 #include "courant/reading/method_kinds.hpp"
@@ -35,6 +36,7 @@ struct Experiment {
   std::optional<MethodChoice> method;  // both or none
   std::optional<TimeSpan> time;
   std::vector<Observable> observe;
+  std::vector<Event> events;
   Expectations expect;
   Output output;
   long examine = 0;  // steps between two examinations of the ladder; 0: none

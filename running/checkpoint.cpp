@@ -3,6 +3,7 @@
 #include <cmath>
 #include <concepts>
 #include <limits>
+#include <map>
 #include <type_traits>
 
 #include "courant/core/message.hpp"
@@ -45,6 +46,26 @@ void read(const Json& json, VectorXd& values) {
   for (const Json& entry : json) read(entry, values[i++]);
 }
 
+using Named = std::map<std::string, double, std::less<>>;
+
+// Objects, the keys as text.
+Json written(const std::map<long, Named>& rows) {
+  Json json = Json::object();
+  for (const auto& [number, row] : rows)
+    for (const auto& [name, value] : row) json[std::to_string(number)][name] = written(value);
+  return json;
+}
+
+void read(const Json& json, std::map<long, Named>& rows) {
+  for (const auto& [number, row] : json.items())
+    for (const auto& [name, value] : row.items()) read(value, rows[std::stol(number)][name]);
+}
+
+Json written(const std::map<std::string, EventRecord>& records);
+void read(const Json& json, std::map<std::string, EventRecord>& records);
+
+void read(const Json& json, std::uintmax_t& value) { value = json.get<std::uintmax_t>(); }
+Json written(std::uintmax_t value) { return value; }
 void read(const Json& json, bool& value) { value = json.get<bool>(); }
 void read(const Json& json, long& value) { value = json.get<long>(); }
 void read(const Json& json, std::string& value) { value = json.get<std::string>(); }
@@ -110,6 +131,19 @@ void each_member(Is<LadderWatch::Memory> auto& ladder_watch, const auto& visit) 
   visit("last_time", ladder_watch.last_time);
 }
 
+void each_member(Is<EventRecord> auto& event, const auto& visit) {
+  visit("count", event.count);
+  visit("first", event.first);
+  visit("last", event.last);
+  visit("occurrences", event.occurrences);
+}
+
+void each_member(Is<EventWatch::Memory> auto& event_watch, const auto& visit) {
+  visit("values", event_watch.values);
+  visit("records", event_watch.records);
+  visit("file_size", event_watch.file_size);
+}
+
 template <class Record>
 Json record(const Record& value) {
   Json json = Json::object();
@@ -120,6 +154,16 @@ Json record(const Record& value) {
 template <class Record>
 void read_record(const Json& json, Record& value) {
   each_member(value, [&](const char* name, auto& member) { read(json.at(name), member); });
+}
+
+Json written(const std::map<std::string, EventRecord>& records) {
+  Json json = Json::object();
+  for (const auto& [name, event] : records) json[name] = record(event);
+  return json;
+}
+
+void read(const Json& json, std::map<std::string, EventRecord>& records) {
+  for (const auto& [name, event] : json.items()) read_record(event, records[name]);
 }
 
 template <class Record>
@@ -153,6 +197,7 @@ Checkpoint from_json(const Json& json) {
   read_record(json.at("not_finite"), checkpoint.not_finite);
   read_record(json.at("energy_watch"), checkpoint.energy_watch);
   read_record(json.at("ladder_watch"), checkpoint.ladder_watch);
+  read_record(json.at("event_watch"), checkpoint.event_watch);
   return checkpoint;
 }
 
@@ -171,7 +216,8 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
             {"rows_at_times", Json::array()},
             {"not_finite", record(checkpoint.not_finite)},
             {"energy_watch", record(checkpoint.energy_watch)},
-            {"ladder_watch", record(checkpoint.ladder_watch)}};
+            {"ladder_watch", record(checkpoint.ladder_watch)},
+            {"event_watch", record(checkpoint.event_watch)}};
   for (const auto& [time, row] : checkpoint.rows_at_times)
     json["rows_at_times"].push_back({{"t", written(time)}, {"row", written(row)}});
   write_file(file, json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");

@@ -10,6 +10,7 @@
 #include "courant/integrators/ladder/ladder_watch.hpp"
 #include "courant/integrators/stepper.hpp"
 #include "courant/running/energy_watch.hpp"
+#include "courant/running/event_watch.hpp"
 #include "courant/running/quantity_statistics.hpp"
 #include "courant/running/run_watchers.hpp"
 
@@ -33,6 +34,7 @@ struct Checkpoint {
   std::optional<NotFinite> not_finite = {};
   std::optional<EnergyWatch::Memory> energy_watch = {};
   std::optional<LadderWatch::Memory> ladder_watch = {};
+  std::optional<EventWatch::Memory> event_watch = {};
 };
 
 // The file of a checkpoint: JSON, numbers by the fewest digits that read back to the same double.

@@ -131,6 +131,9 @@ Observer::Observer(const Experiment& experiment, const ConstraintLadder& ladder,
                                                     : quantities[index - coordinate_count_];
     add(deviation.name, abs(quantity - evaluate(deviation.form, closed_forms)));
   }
+  first_event_ = names_.size();
+  for (const Event& event : experiment.events)
+    add("event[" + event.name + "]", evaluate(event.formula, symbols));
 
   const ExprVector outputs =
       Eigen::Map<ExprVector>(quantities.data(), static_cast<Index>(quantities.size()));

@@ -14,7 +14,7 @@ namespace courant {
 
 // What a run measures at each state: the coordinates, H where the system has an energy, the
 // experiment's observables, the constraints, and (not written to files) the deviations that its
-// expectations need.
+// expectations need and the quantities of its events.
 //
 // constraint[i] are the equations of the system that contain nothing but x and t, and the total
 // time derivatives of those which the constraint algorithm differentiated more than once: zero on
@@ -34,6 +34,7 @@ class Observer {
   std::size_t written_count() const { return written_count_; }
   std::size_t first_constraint() const { return first_constraint_; }
   std::size_t constraint_count() const { return written_count_ - first_constraint_; }
+  std::size_t first_event() const { return first_event_; }
 
   // The numbers at a state; the reference is valid until the next call.
   const VectorXd& row(const State& state);
@@ -44,7 +45,7 @@ class Observer {
 
  private:
   std::vector<std::string> names_;
-  std::size_t coordinate_count_, first_constraint_, written_count_;
+  std::size_t coordinate_count_, first_constraint_, written_count_, first_event_;
   Function quantities_;  // x, v, z, t, what the field leaves out ↦ all but the coordinates
   std::unique_ptr<const VectorField> field_;
   bool is_field_ = false;  // whether v and z are those of the field, not those of the state

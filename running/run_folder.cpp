@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 // The checkpoint is the first to be removed: what is left of the others begins anew.
 constexpr std::array kFiles = {"checkpoint.json", "summary.json", "trajectory.csv",
                                "trajectory.npy",  "columns.json", "experiment.json",
-                               "report.html"};
+                               "events.csv",      "report.html"};
 // What write_file leaves when it is killed.
 constexpr std::array kTorn = {"summary.json.new", "columns.json.new", "checkpoint.json.new",
                               "experiment.json.new"};

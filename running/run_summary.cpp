@@ -93,6 +93,11 @@ Json to_json(const RunSummary& summary) {
         {"initial", record.initial}, {"final", record.final},         {"min", record.min},
         {"max", record.max},         {"max_drift", record.max_drift}, {"slope", record.slope}};
   if (summary.max_violation) json["constraints"]["max_violation"] = *summary.max_violation;
+  for (const auto& [name, event] : summary.events) {
+    const auto when = [&](double t) { return event.count > 0 ? Json(t) : Json(); };
+    json["events"][name] = {
+        {"count", event.count}, {"first", when(event.first)}, {"last", when(event.last)}};
+  }
   for (const ExpectationResult& result : summary.expectations)
     json["expectations"].push_back({{"description", result.description},
                                     {"passed", result.passed},
@@ -136,6 +141,10 @@ RunSummary read_run_summary(const Json& json) {
                                                           .max = number(record, "max"),
                                                           .max_drift = number(record, "max_drift"),
                                                           .slope = number(record, "slope")});
+  for (const auto& [name, event] : part(json, "events", nothing).items())
+    summary.events.emplace_back(name, RunSummary::Event{.count = count(event, "count").value_or(0),
+                                                        .first = number(event, "first"),
+                                                        .last = number(event, "last")});
   if (const Json& constraints = part(json, "constraints", nothing); !constraints.empty())
     summary.max_violation = number(constraints, "max_violation");
   for (const Json& expectation : part(json, "expectations", nothing))

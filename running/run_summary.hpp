@@ -30,6 +30,11 @@ struct RunSummary {
   std::optional<Time> time = {};
   std::vector<std::pair<std::string, double>> final = {};  // coordinates
   std::vector<std::pair<std::string, QuantityRecord>> observables = {};
+  struct Event {
+    long count = 0;
+    double first = kUnknown, last = kUnknown;  // times
+  };
+  std::vector<std::pair<std::string, Event>> events = {};
   std::optional<double> max_violation = {};  // of constraints, where there are any
   std::optional<LadderReport> ladder = {};
   std::vector<ExpectationResult> expectations = {};

@@ -12,6 +12,7 @@
 #include "courant/running/checkpoint_keeper.hpp"
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/energy_watch.hpp"
+#include "courant/running/event_watch.hpp"
 #include "courant/running/ladder_report.hpp"
 #include "courant/running/observer.hpp"
 #include "courant/running/quantity_statistics.hpp"
@@ -76,6 +77,7 @@ class Run {
       options_.on_resume(first, experiment_.time ? experiment_.time->time(first) : 0.0);
     folder.write_summary(summary(RunStatus::running, {}));
     writer_ = make_writer(folder);
+    if (method && !experiment_.events.empty()) watch_events(folder);
     make_watchers(first);
     CheckpointKeeper keeper(folder.checkpoint_file(), *writer_, options_.checkpoint_interval);
     if (method)
@@ -146,9 +148,15 @@ class Run {
     return std::nullopt;
   }
 
+  // Of the quantities in a row of the trajectory.
+  std::vector<std::string> written_names() const {
+    std::vector<std::string> names = observer_.names();
+    names.resize(observer_.written_count());
+    return names;
+  }
+
   std::unique_ptr<TrajectoryWriter> make_writer(const RunFolder& folder) const {
-    std::vector<std::string> columns = observer_.names();
-    columns.resize(observer_.written_count());
+    std::vector<std::string> columns = written_names();
     columns.insert(columns.begin(), "t");
     std::optional<std::uintmax_t> keep;
     if (folder.checkpoint()) keep = folder.checkpoint()->trajectory_size;
@@ -188,6 +196,7 @@ class Run {
     };
     for (const auto& watcher : watchers_) tell(*watcher);
     if (energy_watch_) tell(*energy_watch_);
+    if (event_watch_) tell(*event_watch_);
     for (RunWatcher* watcher : options_.watchers) tell(*watcher);
     if (end) {
       status_ = end->status;
@@ -196,17 +205,27 @@ class Run {
     return !end;
   }
 
-  // H at states that other steps lead to has an observer of its own, made when it is needed.
+  // What is measured at states that other steps lead to has an observer of its own, made when it is
+  // needed.
+  const VectorXd& row_elsewhere(const State& state) {
+    if (!elsewhere_) elsewhere_.emplace(experiment_, ladder_, Backend::interpreter);
+    elsewhere_->restart(state);
+    return elsewhere_->row(state);
+  }
+
   void watch_energy(const PreparedMethod& method) {
-    const auto H = energy();
-    if (!H) return;
-    const auto energy_of = [this, H,
-                            other = std::shared_ptr<Observer>()](const State& state) mutable {
-      if (!other) other = std::make_shared<Observer>(experiment_, ladder_, Backend::interpreter);
-      other->restart(state);
-      return other->row(state)[*H];
-    };
-    energy_watch_.emplace(method.integrator, energy_of, *H);
+    if (const auto H = energy())
+      energy_watch_.emplace(
+          method.integrator, [this, H = *H](const State& state) { return row_elsewhere(state)[H]; },
+          *H);
+  }
+
+  void watch_events(const RunFolder& folder) {
+    std::optional<EventWatch::Memory> memory;
+    if (folder.checkpoint()) memory = folder.checkpoint()->event_watch;
+    event_watch_.emplace(experiment_.events, static_cast<Index>(observer_.first_event()),
+                         written_names(), experiment_.expect.occurrences, folder.path(),
+                         std::move(memory));
   }
 
   void watch_ladder() {
@@ -230,6 +249,7 @@ class Run {
                    .not_finite = not_finite_};
     if (energy_watch_) now.energy_watch = energy_watch_->memory();
     if (ladder_watch_) now.ladder_watch = ladder_watch_->memory();
+    if (event_watch_) now.event_watch = event_watch_->memory();
     return now;
   }
 
@@ -269,6 +289,9 @@ class Run {
     const auto stepper = method.integrator->stepper();
     State state = from ? from->state : method.initial;
     long k = from ? from->k : 0;
+    if (event_watch_)
+      event_watch_->set_curve(
+          *stepper, [this](const State& at) -> const VectorXd& { return row_elsewhere(at); });
     const auto begin = Clock::now();
     try {
       bool going = true;
@@ -331,6 +354,7 @@ class Run {
         record.quantities[observer_.names()[i]] = statistics_.record(static_cast<Index>(i));
       record.max_violation = max_violation();
     }
+    if (event_watch_) record.events = event_watch_->records();
     std::vector<ExpectationResult> results;
     for (const auto& check : experiment_.expect.checks) results.push_back(check(record));
     return results;
@@ -371,6 +395,10 @@ class Run {
       }
       if (observer_.constraint_count() > 0) told.max_violation = max_violation();
     }
+    if (event_watch_)
+      for (const auto& [name, record] : event_watch_->records())
+        told.events.emplace_back(
+            name, RunSummary::Event{.count = record.count, .first = record.first, .last = record.last});
     const auto steps = static_cast<double>(steps_);
     told.solver = {
         .iterations_per_step = per(static_cast<double>(solver_.iterations), steps),
@@ -400,6 +428,8 @@ class Run {
   std::optional<LadderWatch> ladder_watch_;
   std::optional<EnergyWatch> energy_watch_;
   std::unique_ptr<TrajectoryWriter> writer_;
+  std::optional<Observer> elsewhere_;
+  std::optional<EventWatch> event_watch_;
   std::vector<std::unique_ptr<RunWatcher>> watchers_;
   long steps_ = 0;
   SolverStatistics solver_;

@@ -35,6 +35,15 @@ void check_unfinished(const fs::path& folder, const std::string& id, const Exper
                "; expected a later /time/end to go on to");
 }
 
+void check_size(const fs::path& file, std::uintmax_t expected) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(file, error);
+  if (error) refuse(file, "cannot be read: " + error.message());
+  if (size < expected)
+    refuse(file, "has " + std::to_string(size) + " bytes, expected at least the " +
+                     std::to_string(expected) + " that the run wrote");
+}
+
 void check_checkpoint(const fs::path& folder, const std::string& id, const Experiment& experiment,
                       const Checkpoint& checkpoint) {
   if (checkpoint.run != id)
@@ -44,13 +53,8 @@ void check_checkpoint(const fs::path& folder, const std::string& id, const Exper
     throw ExperimentError("/time/end",
                           "is " + exact_text(time.end()) + "; the run would go on from t = " +
                               exact_text(time.time(checkpoint.k)) + ", expected a later one");
-  const fs::path trajectory = folder / trajectory_name(experiment.output.format);
-  std::error_code error;
-  const std::uintmax_t size = fs::file_size(trajectory, error);
-  if (error) refuse(trajectory, "cannot be read: " + error.message());
-  if (size < checkpoint.trajectory_size)
-    refuse(trajectory, "has " + std::to_string(size) + " bytes, expected at least the " +
-                           std::to_string(checkpoint.trajectory_size) + " that the run wrote");
+  check_size(folder / trajectory_name(experiment.output.format), checkpoint.trajectory_size);
+  if (checkpoint.event_watch) check_size(folder / "events.csv", checkpoint.event_watch->file_size);
 }
 
 }  // namespace

@@ -89,7 +89,8 @@ const Json experiment = Json::parse(R"({
   "method": "rk2",
   "time": { "step": 0.1, "end": 1 },
   "output": {},
-  "expect": [{ "observable": "H", "max": 1 }, { "state": { "q": 1 }, "tolerance": 1 }, { "max_violation": 1 }]
+  "events": { "centre": { "zero": "q" } },
+  "expect": [{ "observable": "H", "max": 1 }, { "event": "centre", "count": 3 }, { "state": { "q": 1 }, "tolerance": 1 }, { "max_violation": 1 }]
 })");
 
 // The experiment with `value` at a pointer.
@@ -133,13 +134,16 @@ BOOST_AUTO_TEST_CASE(know_the_same_keys) {
   BOOST_TEST(known_keys(experiment, "") == properties(schema));
   BOOST_TEST(known_keys(experiment, "/time") == properties(definitions.at("time")));
   BOOST_TEST(known_keys(experiment, "/output") == properties(definitions.at("output")));
-  for (int i = 0; i < 3; ++i) {
+  BOOST_TEST(known_keys(experiment, "/events/centre") ==
+             properties(schema["/properties/events/additionalProperties/oneOf/1"_json_pointer]));
+  for (int i = 0; i < 4; ++i) {
     const Words found = known_keys(experiment, "/expect/" + std::to_string(i));
     Words expected =
         properties(definitions.at("expectation").at("oneOf").at(static_cast<std::size_t>(i)));
     // The last alternative is what is neither of the others.
     if (i > 0) expected.insert("observable");
-    if (i > 1) expected.insert("state");
+    if (i > 1) expected.insert("event");
+    if (i > 2) expected.insert("state");
     BOOST_TEST(found == expected);
   }
 }

@@ -133,7 +133,7 @@ void on_vector_spaces(std::vector<IntegratorEntry>& table) {
   pendulum.composed(
       "discretize-first",
       std::make_shared<DiscretizeFirst>(driven, lift(M, std::make_shared<Theta>(line))),
-      {{4, 1.0}, {6, 4.0}, {8, 4.0}});
+      {{4, 1.0}, {6, 4.0}, {8, 6.0}});
   pendulum.explicit_methods(3.0);
 
   // With damping: the map is symplectic, the system is not Lagrangian.

@@ -9,6 +9,7 @@
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/sphere.hpp"
 #include "courant/structures/canonical_symplectic.hpp"
+#include "courant/structures/constrained_family.hpp"
 #include "courant/structures/dirac_system.hpp"
 #include "example_systems.hpp"
 
@@ -198,6 +199,52 @@ BOOST_AUTO_TEST_CASE(kinetic_metric_is_that_of_the_energy) {
       std::make_shared<Lagrangian>(
           M, [](const ExprVector& q, const ExprVector& w, const Expr&) { return q[0] * w[1]; }));
   BOOST_TEST(!MomentumProjector::kinetic_metric(singular, {2, 3}, x));
+}
+
+// ∂²L/∂w², with constraints on positions besides; none where it depends on w, or is indefinite.
+BOOST_AUTO_TEST_CASE(kinetic_metric_is_that_of_the_lagrangian) {
+  const auto M = std::make_shared<CotangentBundle>(std::make_shared<Euclidean>(2));
+  const Vector4d x(0.5, 0.1, 0.3, -0.2);
+  const auto metric = [&](const Lagrangian::Formula& L) {
+    const auto family = std::make_shared<ConstrainedFamily>(
+        std::make_shared<Lagrangian>(M, L),
+        [](const ExprVector& y, const ExprVector&, const Expr&) {
+          return ExprVector{{y[0] - 5.0 * y[1]}};
+        },
+        1);
+    return MomentumProjector::kinetic_metric(
+        std::make_shared<DiracSystem>(std::make_shared<CanonicalSymplectic>(M), family),
+        MomentumProjector::momenta_of(*M), x);
+  };
+  const auto kinetic = metric([](const ExprVector& q, const ExprVector& w, const Expr&) -> Expr {
+    return 0.5 * (square(w[0]) * (1.0 + square(q[0])) + w[0] * w[1] + 2.0 * square(w[1])) - q[1] +
+           sin(q[0]) * w[1];
+  });
+  BOOST_REQUIRE(static_cast<bool>(kinetic));
+  Eigen::Matrix2d expected;
+  expected << 1.25, 0.5, 0.5, 2.0;
+  BOOST_TEST((values(kinetic(constants(x))) - expected).norm() < 1e-14);
+  BOOST_TEST(!metric([](const ExprVector&, const ExprVector& w, const Expr&) -> Expr {
+    return square(w[0]) + square(w[1]) * square(w[1]);
+  }));
+  BOOST_TEST(!metric([](const ExprVector&, const ExprVector& w, const Expr&) -> Expr {
+    return square(w[0]) - square(w[1]);
+  }));
+
+  // On a sphere it is 1 across.
+  const auto T = std::make_shared<CotangentBundle>(std::make_shared<Sphere>(2));
+  const auto round = std::make_shared<DiracSystem>(
+      std::make_shared<CanonicalSymplectic>(T),
+      std::make_shared<Lagrangian>(T,
+                                   [](const ExprVector&, const ExprVector& w, const Expr&) -> Expr {
+                                     return 1.5 * w.squaredNorm();
+                                   }));
+  const VectorXd y = (VectorXd(6) << 0.0, 0.0, 1.0, 0.2, 0.3, 0.0).finished();
+  const auto on_sphere =
+      MomentumProjector::kinetic_metric(round, MomentumProjector::momenta_of(*T), y);
+  BOOST_REQUIRE(static_cast<bool>(on_sphere));
+  const MatrixXd three = Eigen::Vector3d(3.0, 3.0, 1.0).asDiagonal();
+  BOOST_TEST((values(on_sphere(constants(y))) - three).norm() < 1e-14);
 }
 
 // Coordinates in other units have their natural units changed with them.

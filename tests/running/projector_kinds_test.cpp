@@ -92,6 +92,37 @@ BOOST_AUTO_TEST_CASE(equations_39_to_43_from_json) {
   BOOST_TEST(defect("orthogonal") > 1e-6);
 }
 
+// The same of a kind with a metric, and of its Lagrangian: the default is ∂²L/∂w².
+BOOST_AUTO_TEST_CASE(equations_39_to_43_of_a_lagrangian) {
+  const Json constraints = {"q[2]' - q[1]*q[0]'", "q[3]' - q[0]*q[1]'"};
+  const Json initial = {{"q", {0.5, 0.8, -0.3, 0.6}}, {"p_q[0]", 0.9}, {"p_q[1]", -0.7}};
+  const Json mechanical = {{"system",
+                            {{"type", "mechanical"},
+                             {"coordinates", {"q[4]"}},
+                             {"metric", {"1", "1 + q[0]^2", "1/0.7", "1/1.2"}},
+                             {"potential", "dot(q, q)/2 + 0.3*q[0]*q[1]"},
+                             {"nonholonomic", constraints}}},
+                           {"initial", initial}};
+  const Json lagrangian = {{"system",
+                            {{"type", "lagrangian"},
+                             {"coordinates", {"q[4]"}},
+                             {"lagrangian",
+                              "(q[0]'^2 + (1 + q[0]^2)*q[1]'^2 + q[2]'^2/0.7 + q[3]'^2/1.2 - "
+                              "dot(q, q))/2 - 0.3*q[0]*q[1]"},
+                             {"nonholonomic", constraints}}},
+                           {"initial", initial}};
+  for (const Json& system : {mechanical, lagrangian}) {
+    const test::Problem motion = test::problem(system);
+    const double h = 0.1;
+    const VectorXd x0 = motion.ladder.point.x;
+    const auto defect = [&](const Json& projector) {
+      return defect_of_39_to_43(x0, motion.end(method(projector), h, 1), h);
+    };
+    BOOST_TEST(defect("momentum") < 1e-13);
+    BOOST_TEST(defect({{"type", "momentum"}, {"metric", "euclidean"}}) > 1e-6);
+  }
+}
+
 // Neither projector depends on the unit of the momenta, unless it is told to measure numbers.
 BOOST_AUTO_TEST_CASE(units_of_momenta_do_not_matter) {
   const auto end = [](double unit, const Json& projector) {

@@ -116,4 +116,25 @@ BOOST_AUTO_TEST_CASE(pontryagin) {
   BOOST_CHECK_THROW(pontryagin_family(T, problem), std::invalid_argument);
 }
 
+// The rank condition is claimed where the constant entries of ∂f/∂u and ∂²E/∂u² show it: x' = x u
+// with no cost of u has none at x = 0.
+BOOST_AUTO_TEST_CASE(what_pontryagin_claims) {
+  const auto T = std::make_shared<CotangentBundle>(std::make_shared<Euclidean>(2));
+  const auto claim = [&](double cost_of_u, double direct) {
+    return pontryagin_family(
+               T, {.cost = [=](const ExprVector& q, const ExprVector& u, const Expr&) -> Expr {
+                     return q[1] + cost_of_u * u[0] * u[0];
+                   },
+                   .dynamics =
+                       [=](const ExprVector& q, const ExprVector& u, const Expr&) {
+                         return ExprVector{{q[0] * u[0], q[0] + direct * u[0]}};
+                       },
+                   .controls = 1})
+        ->is_morse();
+  };
+  BOOST_TEST(!claim(0.0, 0.0).has_value());
+  BOOST_TEST(claim(0.5, 0.0).value_or(false));
+  BOOST_TEST(claim(0.0, 2.0).value_or(false));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

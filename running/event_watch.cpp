@@ -1,0 +1,122 @@
+#include "courant/running/event_watch.hpp"
+
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <utility>
+
+#include "courant/core/message.hpp"
+
+namespace courant {
+namespace {
+
+// Of a step: the bracket of a zero ends at this length. The curve of a step is known no better.
+constexpr double kBracket = 4e-16;
+
+// Bracketing takes some ten evaluations; bisection alone would take 52.
+constexpr std::uintmax_t kMaxEvaluations = 100;
+
+RunEnd cannot_locate(const RunMoment& moment, const std::exception& error) {
+  return {RunStatus::failed, "An event between t = " + number_text(moment.step.before.t) +
+                                 " and t = " + number_text(moment.t) +
+                                 " cannot be located: " + without_place(error.what())};
+}
+
+}  // namespace
+
+EventWatch::EventWatch(std::vector<Event> events, Index first, std::vector<std::string> columns,
+                       std::map<std::string, std::set<long>> kept,
+                       const std::filesystem::path& folder, std::optional<Memory> memory)
+    : events_(std::move(events)),
+      first_(first),
+      columns_(std::move(columns)),
+      kept_(std::move(kept)) {
+  const std::filesystem::path path = folder / "events.csv";
+  if (memory) {
+    file_ = std::make_unique<OutputFile>(path, OutputFile::Existing{});
+    file_->cut(memory->file_size);
+    memory_ = std::move(*memory);
+    return;
+  }
+  file_ = std::make_unique<OutputFile>(path);
+  for (const Event& event : events_) memory_.records[event.name] = {};
+  std::string header = "event,t";
+  for (const std::string& column : columns_) header += ',' + column;
+  write(header + '\n');
+}
+
+void EventWatch::write(const std::string& line) {
+  file_->write(line);
+  memory_.file_size += line.size();
+}
+
+void EventWatch::set_curve(Stepper& stepper, Measure measure) {
+  stepper_ = &stepper;
+  measure_ = std::move(measure);
+}
+
+std::optional<RunEnd> EventWatch::watch(const RunMoment& moment) {
+  const auto count = static_cast<Index>(events_.size());
+  std::vector<Zero> zeros;
+  try {
+    for (std::size_t i = 0; moment.k > 0 && i < events_.size(); ++i) {
+      const double before = memory_.values[static_cast<Index>(i)];
+      const double after = moment.row[first_ + static_cast<Index>(i)];
+      if (events_[i].is_between(before, after)) zeros.push_back(locate(i, before, moment));
+    }
+  } catch (const std::runtime_error& error) {
+    return cannot_locate(moment, error);
+  } catch (const std::domain_error& error) {
+    return cannot_locate(moment, error);
+  }
+  memory_.values = moment.row.segment(first_, count);
+  std::stable_sort(zeros.begin(), zeros.end(), [&](const Zero& a, const Zero& b) {
+    return moment.step.h > 0.0 ? a.t < b.t : b.t < a.t;
+  });
+  for (const Zero& zero : zeros) take(zero);
+  return std::nullopt;
+}
+
+EventWatch::Zero EventWatch::locate(std::size_t event, double before, const RunMoment& moment) {
+  const Index column = first_ + static_cast<Index>(event);
+  const double after = moment.row[column];
+  if (after == 0.0) return {event, moment.t, moment.row};
+  Zero nearest{event, moment.t, moment.row};
+  double least = std::fabs(after);
+  const auto value = [&](double s) {
+    const State state = stepper_->between(s);
+    const VectorXd& row = measure_(state);
+    if (std::fabs(row[column]) < least) {
+      least = std::fabs(row[column]);
+      nearest = {event, state.t, row};
+    }
+    return row[column];
+  };
+  std::uintmax_t evaluations = kMaxEvaluations;
+  boost::math::tools::toms748_solve(
+      value, 0.0, 1.0, before, after,
+      [](double low, double high) { return high - low <= kBracket; }, evaluations);
+  return nearest;
+}
+
+void EventWatch::take(const Zero& zero) {
+  const std::string& name = events_[zero.event].name;
+  EventRecord& record = memory_.records[name];
+  ++record.count;
+  if (record.count == 1) record.first = zero.t;
+  record.last = zero.t;
+  std::string line = name + ',' + exact_text(zero.t);
+  for (std::size_t i = 0; i < columns_.size(); ++i)
+    line += ',' + exact_text(zero.row[static_cast<Index>(i)]);
+  write(line + '\n');
+  const auto kept = kept_.find(name);
+  if (kept == kept_.end() || !kept->second.contains(record.count)) return;
+  auto& quantities = record.occurrences[record.count];
+  quantities["t"] = zero.t;
+  for (std::size_t i = 0; i < columns_.size(); ++i)
+    quantities[columns_[i]] = zero.row[static_cast<Index>(i)];
+}
+
+}  // namespace courant

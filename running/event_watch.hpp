@@ -1,0 +1,77 @@
+// EventWatch: where quantities of a run pass through zero.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "courant/integrators/stepper.hpp"
+#include "courant/reading/event.hpp"
+#include "courant/reading/expectation.hpp"
+#include "courant/running/output_file.hpp"
+#include "courant/running/run_watcher.hpp"
+
+namespace courant {
+
+// Looks for events between two states of a run and writes each with its time and all that is
+// measured there to events.csv. Where a quantity has different signs at the two ends of a step, its
+// zero is found on the curve of the step, Stepper::between, by bracketing: to round-off of the
+// step, as right as the method is. Two zeros within one step are not seen, nor are those that touch
+// zero without passing through it.
+class EventWatch final : public RunWatcher {
+ public:
+  // What is measured at a state that is not one of the run's: columns as in the rows of the run.
+  using Measure = std::function<const VectorXd&(const State&)>;
+
+  // All that is kept of the states so far.
+  struct Memory {
+    VectorXd values = {};  // of the quantities at the last state
+    std::map<std::string, EventRecord> records = {};
+    std::uintmax_t file_size = 0;  // bytes of events.csv
+  };
+
+  // `first`: the column of the first event. `columns`: names of those that are written. `kept`:
+  // which occurrences (1, 2, …) of an event are to be in records(). `memory`: that of the run that
+  // goes on, whose file is cut off there. Throws OutputError.
+  EventWatch(std::vector<Event> events, Index first, std::vector<std::string> columns,
+             std::map<std::string, std::set<long>> kept, const std::filesystem::path& folder,
+             std::optional<Memory> memory = std::nullopt);
+
+  // Both have to outlive the run; before this is called no state may be watched.
+  void set_curve(Stepper& stepper, Measure measure);
+
+  // Ends the run as failed where a zero cannot be located.
+  std::optional<RunEnd> watch(const RunMoment& moment) override;
+
+  // By the names of the events: how often each occurred, and what was measured at the occurrences
+  // that are kept, the time as "t".
+  const std::map<std::string, EventRecord>& records() const { return memory_.records; }
+  const Memory& memory() const { return memory_; }
+
+ private:
+  struct Zero {
+    std::size_t event;
+    double t;
+    VectorXd row;
+  };
+  Zero locate(std::size_t event, double before, const RunMoment& moment);
+  void take(const Zero& zero);
+  void write(const std::string& line);
+
+  std::vector<Event> events_;
+  Index first_;
+  std::vector<std::string> columns_;
+  std::map<std::string, std::set<long>> kept_;
+  std::unique_ptr<OutputFile> file_;
+  Stepper* stepper_ = nullptr;
+  Measure measure_;
+  Memory memory_;
+};
+
+}  // namespace courant
