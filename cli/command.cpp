@@ -47,10 +47,13 @@ int command(const std::vector<std::string>& arguments, const Console& console) {
   add_run(app, session);
   add_constraints(app, session);
   add_check(app, session);
+  add_study(app, session);
   add_list(app, session);
   add_schema(app, session);
   add_import(app, session);
   add_report(app, session);
+  add_plot(app, session);
+  add_new(app, session);
   add_tour(app, session);
   add_cache(app, session);
   app.footer(

@@ -42,10 +42,13 @@ struct Session {
 void add_run(CLI::App& app, Session& session);
 void add_constraints(CLI::App& app, Session& session);
 void add_check(CLI::App& app, Session& session);
+void add_study(CLI::App& app, Session& session);
 void add_list(CLI::App& app, Session& session);
 void add_schema(CLI::App& app, Session& session);
 void add_import(CLI::App& app, Session& session);
 void add_report(CLI::App& app, Session& session);
+void add_plot(CLI::App& app, Session& session);
+void add_new(CLI::App& app, Session& session);
 void add_cache(CLI::App& app, Session& session);
 void add_tour(CLI::App& app, Session& session);
 

@@ -5,6 +5,7 @@
 
 #include "courant/cli/command.hpp"
 #include "courant/cli/experiment_file.hpp"
+#include "courant/cli/sweep.hpp"
 #include "courant/cli/text.hpp"
 #include "courant/cli/waiting.hpp"
 #include "courant/core/message.hpp"
@@ -99,6 +100,9 @@ void add_constraints(CLI::App& app, Session& session) {
     bool json = false, discrete = false;
     Index level = -1;
     std::vector<std::string> settings;
+    SweepArguments sweep;
+    std::string folder;
+    bool force = false;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* constraints = app.add_subcommand(
@@ -106,16 +110,40 @@ void add_constraints(CLI::App& app, Session& session) {
   constraints->add_option("FILE", arguments->file, "the experiment, or - for standard input")
       ->required();
   add_settings(*constraints, arguments->settings);
+  add_sweep(*constraints, arguments->sweep);
+  CLI::Option* folder =
+      constraints->add_option("-o", arguments->folder, "of a sweep: where its table and figure go")
+          ->type_name("DIR")
+          ->needs("--sweep");
+  constraints
+      ->add_flag("--force", arguments->force, "replace a sweep that is in the folder already")
+      ->needs(folder);
   constraints->add_flag("--json", arguments->json, "print JSON");
   CLI::Option* level =
       constraints->add_option("--level", arguments->level, "stop at this level of the ladder")
-          ->check(CLI::NonNegativeNumber);
+          ->check(CLI::NonNegativeNumber)
+          ->excludes("--sweep");
   constraints
       ->add_flag("--discrete", arguments->discrete,
                  "the ladder of the method's discretization map and step (Remark 6.1)")
-      ->excludes(level);
+      ->excludes(level)
+      ->excludes("--sweep");
   constraints->callback([&session, arguments] {
     session.action = [arguments](const Console& console) {
+      if (!arguments->sweep.ranges.empty())
+        return run_sweep(console, {.file = arguments->file,
+                                   .settings = arguments->settings,
+                                   .sweep = arguments->sweep,
+                                   .folder = arguments->folder,
+                                   .replace = arguments->force,
+                                   .json = arguments->json,
+                                   .action = [](const SweepCase& one,
+                                                const auto&) { return ladder_of_case(one); },
+                                   .columns = {{"verdict", "verdict"},
+                                               {"ladder", "(dim S dim M)"},
+                                               {"index", "index"},
+                                               {"degrees_of_freedom", "degrees of freedom"},
+                                               {"gap", "gap"}}});
       return with_experiment(
           console, arguments->file,
           [&](const Experiment& experiment) -> int {

@@ -11,6 +11,7 @@
 
 #include "courant/core/message.hpp"
 #include "courant/reading/json_document.hpp"
+#include "courant/reading/setting.hpp"
 #include "courant/running/output_file.hpp"
 
 namespace courant::cli {
@@ -45,31 +46,6 @@ void report_problems(const Console& console, const std::string& file,
                 file + ": " + problem.where + (problem.where.empty() ? "" : ": ") + problem.what);
 }
 
-// Changes the value that a setting points to.
-void apply(const std::string& setting, Json& document) {
-  const std::size_t equals = setting.find('=');
-  const std::string pointer = setting.substr(0, equals);
-  const auto refuse = [&](const std::string& what) {
-    throw ExperimentError("--set " + pointer, what);
-  };
-  if (equals == std::string::npos || pointer.empty() || pointer[0] != '/')
-    refuse("is not a change; expected /json/pointer=VALUE, such as /time/step=0.1");
-  const std::string text = setting.substr(equals + 1);
-  Json value = Json::parse(text, nullptr, false);
-  if (value.is_discarded()) value = text;
-  try {
-    const Json::json_pointer place(pointer);
-    const Json::json_pointer above = place.parent_pointer();
-    Json* const parent = document.contains(above) ? &document.at(above) : nullptr;
-    if (parent && (parent->is_object() || (parent->is_array() && document.contains(place))))
-      document[place] = std::move(value);
-    else
-      refuse("there is no such place in the experiment; expected one, or a new key of an object");
-  } catch (const Json::exception&) {
-    refuse("is not a JSON pointer; expected one such as /time/step");
-  }
-}
-
 }  // namespace
 
 void add_settings(CLI::App& command, std::vector<std::string>& settings) {
@@ -81,15 +57,10 @@ void add_settings(CLI::App& command, std::vector<std::string>& settings) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
-int with_experiment(const Console& console, const std::string& file,
-                    const std::function<int(const Experiment&)>& action,
-                    const std::vector<std::string>& settings) {
-  const auto text = read_text(console, file);
-  if (!text) return wrong;
+int reporting_errors(const Console& console, const std::string& file,
+                     const std::function<int()>& action) {
   try {
-    Json document = parse_json(*text);
-    for (const std::string& setting : settings) apply(setting, document);
-    return action(read_experiment_document(document));
+    return action();
   } catch (const ExperimentError& error) {
     report_problems(console, file, error);
     return wrong;
@@ -101,6 +72,26 @@ int with_experiment(const Console& console, const std::string& file,
     print_error(console, file + ": " + without_place(error.what()));
   }
   return failed;
+}
+
+int with_document(const Console& console, const std::string& file,
+                  const std::function<int(const Json&)>& action,
+                  const std::vector<std::string>& settings) {
+  const auto text = read_text(console, file);
+  if (!text) return wrong;
+  return reporting_errors(console, file, [&] {
+    Json document = parse_json(*text);
+    for (const std::string& setting : settings) apply_setting(read_setting(setting), document);
+    return action(document);
+  });
+}
+
+int with_experiment(const Console& console, const std::string& file,
+                    const std::function<int(const Experiment&)>& action,
+                    const std::vector<std::string>& settings) {
+  return with_document(
+      console, file,
+      [&](const Json& document) { return action(read_experiment_document(document)); }, settings);
 }
 
 }  // namespace courant::cli

@@ -27,4 +27,13 @@ int with_experiment(const Console& console, const std::string& file,
                     const std::function<int(const Experiment&)>& action,
                     const std::vector<std::string>& settings = {});
 
+// Does it; what it throws is said in lines that begin with `file`, and gives the exit status.
+int reporting_errors(const Console& console, const std::string& file,
+                     const std::function<int()>& action);
+
+// with_experiment with what the file says, before it is read as an experiment.
+int with_document(const Console& console, const std::string& file,
+                  const std::function<int(const Json&)>& action,
+                  const std::vector<std::string>& settings = {});
+
 }  // namespace courant::cli

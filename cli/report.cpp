@@ -10,6 +10,7 @@
 #include "courant/cli/text.hpp"
 #include "courant/core/message.hpp"
 #include "courant/plotting/terminal_plot.hpp"
+#include "courant/reporting/energy_figures.hpp"
 #include "courant/reporting/report_figures.hpp"
 
 namespace courant::cli {
@@ -33,15 +34,17 @@ std::filesystem::path page_of(const Arguments& arguments) {
 }
 
 void print_comparison(const Console& console, const std::vector<Run>& runs) {
-  TextTable table({"run", "method", "max |H - H(0)|", "steps", "steps/s", "expected"});
+  TextTable table({"run", "method", "max |H - H(0)|", "", "steps", "steps/s", "expected"});
   for (const Run& run : runs) {
     const RunSummary& summary = run.summary;
     const QuantityRecord* H = summary.observable("H");
+    const auto trend = energy_trend(run);
     const auto passed =
         std::count_if(summary.expectations.begin(), summary.expectations.end(),
                       [](const ExpectationResult& expectation) { return expectation.passed; });
     table.add({run.name, summary.method, shown_if_known(H ? H->max_drift : RunSummary::kUnknown, 4),
-               std::to_string(summary.steps), shown_if_known(summary.steps_per_second, 3),
+               trend ? word(trend->growth) : "", std::to_string(summary.steps),
+               shown_if_known(summary.steps_per_second, 3),
                std::to_string(passed) + " of " + std::to_string(summary.expectations.size())});
   }
   table.print(console.out, "");

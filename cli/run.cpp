@@ -4,10 +4,12 @@
 #include <optional>
 #include <ostream>
 
+#include "courant/cli/backend.hpp"
 #include "courant/cli/command.hpp"
 #include "courant/cli/experiment_file.hpp"
 #include "courant/cli/progress_bar.hpp"
 #include "courant/cli/run_text.hpp"
+#include "courant/cli/sweep.hpp"
 #include "courant/cli/waiting.hpp"
 #include "courant/core/native.hpp"
 #include "courant/running/runner.hpp"
@@ -24,13 +26,12 @@ struct Arguments {
   bool explain = false;
   bool quiet = false;
   std::vector<std::string> settings;
-};
+  SweepArguments sweep;
 
-std::filesystem::path folder_of(const Arguments& arguments) {
-  if (!arguments.folder.empty()) return arguments.folder;
-  const std::string name = std::filesystem::path(arguments.file).stem().string();
-  return std::filesystem::path("runs") / (arguments.file == "-" ? "stdin" : name);
-}
+  std::filesystem::path output() const {
+    return folder.empty() ? default_folder(file) : std::filesystem::path(folder);
+  }
+};
 
 // Expectations that did not hold, as errors of their entries.
 void report_failures(const Console& console, const std::string& file, const RunOutcome& outcome) {
@@ -42,7 +43,7 @@ void report_failures(const Console& console, const std::string& file, const RunO
 
 int run_experiment(const Console& console, const Arguments& arguments,
                    const Experiment& experiment) {
-  RunOptions options{.folder = folder_of(arguments),
+  RunOptions options{.folder = arguments.output(),
                      .backend = arguments.backend,
                      .existing = arguments.resume  ? ExistingRun::resume
                                  : arguments.force ? ExistingRun::replace
@@ -83,6 +84,27 @@ int run_experiment(const Console& console, const Arguments& arguments,
   return outcome.as_expected() ? done : failed;
 }
 
+int run_cases(const Console& console, const Arguments& arguments) {
+  return run_sweep(console,
+                   {.file = arguments.file,
+                    .settings = arguments.settings,
+                    .sweep = arguments.sweep,
+                    .folder = arguments.folder.empty() ? default_folder(arguments.file, "-sweep")
+                                                       : std::filesystem::path(arguments.folder),
+                    .replace = arguments.force,
+                    .quiet = arguments.quiet,
+                    .action =
+                        [&](const SweepCase& one, const std::filesystem::path& folder) {
+                          return run_of_case(one, folder, arguments.backend, console.stop);
+                        },
+                    .columns = {{"steps", "steps"},
+                                {"H.max_drift", "max |H - H(0)|"},
+                                {"max_violation", "constraints"},
+                                {"passed", "passed"},
+                                {"expectations", "of"},
+                                {"wall_seconds", "seconds"}}});
+}
+
 }  // namespace
 
 void add_run(CLI::App& app, Session& session) {
@@ -90,32 +112,28 @@ void add_run(CLI::App& app, Session& session) {
   CLI::App* run =
       app.add_subcommand("run", "Run an experiment and write its trajectory and summary");
   run->add_option("FILE", arguments->file, "the experiment, or - for standard input")->required();
-  run->add_option("-o", arguments->folder, "where the files go (default: runs/<name of FILE>)")
+  run->add_option("-o", arguments->folder,
+                  "where the files go (default: runs/<name of FILE>, of a sweep runs/<name of "
+                  "FILE>-sweep)")
       ->type_name("DIR");
-  run->add_option(
-         "--backend", arguments->backend,
-         "what evaluates formulas: native code, made by a C compiler; the interpreter, slower "
-         "and without a compiler; or auto, native where it is worth while")
-      ->transform(CLI::CheckedTransformer(
-                      std::map<std::string, Backend::Kind>{
-                          {"auto", Backend::Kind::automatic},
-                          {"native", Backend::Kind::native},
-                          {"interpreter", Backend::Kind::interpreter}})
-                      .description(""))
-      ->type_name("NAME");
+  add_backend(*run, arguments->backend);
   add_settings(*run, arguments->settings);
+  add_sweep(*run, arguments->sweep);
   CLI::Option* force =
       run->add_flag("--force", arguments->force, "replace a run that is in the folder already");
   run->add_flag("--resume", arguments->resume,
                 "go on with the run that is in the folder: one that was killed, interrupted or "
                 "failed, or one that is complete after /time/end has grown; its files become "
                 "those of a run that was never stopped")
-      ->excludes(force);
+      ->excludes(force)
+      ->excludes("--sweep");
   run->add_flag("--explain", arguments->explain,
-                "say which equations a step solves, and which unknowns they give explicitly");
+                "say which equations a step solves, and which unknowns they give explicitly")
+      ->excludes("--sweep");
   run->add_flag("--quiet", arguments->quiet, "print errors only");
   run->callback([&session, arguments] {
     session.action = [arguments](const Console& console) {
+      if (!arguments->sweep.ranges.empty()) return run_cases(console, *arguments);
       return with_experiment(
           console, arguments->file,
           [&](const Experiment& experiment) {

@@ -264,6 +264,22 @@ class Curve {
   PathData line_, band_;
 };
 
+Markup points(const Series& series, const Layout& layout) {
+  Markup dots;
+  for (std::size_t row = 0; row < series.x.size(); ++row) {
+    const double x = layout.x(series.x[row]), y = layout.y(series.y[row]);
+    if (!std::isfinite(x) || !std::isfinite(y)) continue;
+    dots += element("circle", {{"class", "end"},
+                               {"cx", x},
+                               {"cy", y},
+                               {"r", 3.0},
+                               {"stroke", ink(series.colour)},
+                               {"stroke-width", 1.0},
+                               {"fill", ink(series.colour)}});
+  }
+  return element("g", {{"class", "endpoints " + colour_class(series.colour)}}, dots);
+}
+
 Markup endpoints(const Series& series, const Layout& layout) {
   const std::vector<Stretch> stretches = finite_stretches(series.x, series.y);
   if (stretches.empty()) return {};
@@ -298,9 +314,14 @@ Markup draw(const Panel& panel) {
   if (panel.endpoints) {
     for (const Series& series : panel.series) content += endpoints(series, layout);
   }
+  if (panel.points) {
+    for (const Series& series : panel.series) content += points(series, layout);
+  }
   const Markup styled = element("g", {{"font-size", 12.0}, {"font-family", "serif"}}, content);
   return svg(panel.width, layout.height(), panel.title, panel.description, styled);
 }
+
+double drawn_height(const Panel& panel) { return Layout(panel).height(); }
 
 Markup legend(std::span<const LegendEntry> entries) {
   Markup items;

@@ -40,9 +40,12 @@ struct Panel {
   double height = 320;
   bool equal_aspect = false;  // a circle is a circle: the height follows from the data
   bool endpoints = false;     // ○ at the start of each curve, ● at its end
+  bool points = false;        // ● at each row, for curves of few
 };
 
 Markup draw(const Panel& panel);
+// The height of what is drawn, in pixels.
+double drawn_height(const Panel& panel);
 
 // An entry for each label, with a piece of line in its colour; an HTML list.
 struct LegendEntry {

@@ -110,6 +110,50 @@ Ticks SymmetricLogScale::do_ticks(Interval interval, int about) const {
   return ticks;
 }
 
+double LogScale::do_transform(double value) const {
+  return value > 0 ? std::log10(value) : -std::numeric_limits<double>::infinity();
+}
+
+double LogScale::do_inverse(double length) const { return std::pow(10, length); }
+
+Ticks LogScale::do_ticks(Interval interval, int about) const {
+  Ticks ticks;
+  if (!(interval.lower > 0)) return ticks;
+  const double decades = transform(interval.upper) - transform(interval.lower);
+  const int least = floor_log10(interval.lower), greatest = floor_log10(interval.upper);
+  const int stride = std::max(1, static_cast<int>(std::ceil(decades / about)));
+  constexpr double few = 2;  // decades
+  for (int power = least; power <= greatest; ++power) {
+    for (int digit = 1; digit <= 9; ++digit) {
+      const double value = digit * std::pow(10, power);
+      if (!interval.contains(value)) continue;
+      const bool labelled =
+          digit == 1 ? power % stride == 0 : decades < few && (digit == 2 || digit == 5);
+      const std::string factor = digit == 1 ? "" : std::to_string(digit) + "·";
+      if (labelled)
+        ticks.marks.push_back({value, factor + power_of_ten(power)});
+      else if (digit == 1 || stride == 1)
+        ticks.marks.push_back({value, ""});
+    }
+  }
+  return ticks;
+}
+
+Interval WordScale::do_linear_zone() const {
+  return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+}
+
+Ticks WordScale::do_ticks(Interval interval, int about) const {
+  Ticks ticks;
+  const std::size_t stride =
+      std::max<std::size_t>(1, words_.size() / static_cast<std::size_t>(std::max(1, about)));
+  for (std::size_t i = 0; i < words_.size(); i += stride) {
+    const auto value = static_cast<double>(i);
+    if (interval.contains(value)) ticks.marks.push_back({value, words_[i]});
+  }
+  return ticks;
+}
+
 double nice_step(double length, int pieces) {
   const double coarsest = length / pieces;
   const double decade = std::pow(10, floor_log10(coarsest));

@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace courant::plot {
@@ -89,6 +90,29 @@ class SymmetricLogScale final : public Scale {
   Ticks do_ticks(Interval interval, int about) const override;
 
   double threshold_;
+};
+
+// y ↦ log₁₀ y for y > 0; what is not positive has no place, and is -∞. Ticks at powers of ten with
+// minor ones at their multiples, or with labels at 1, 2 and 5 times them where there are few.
+class LogScale final : public Scale {
+  double do_transform(double value) const override;
+  double do_inverse(double length) const override;
+  Interval do_linear_zone() const override { return {0, 0}; }
+  Ticks do_ticks(Interval interval, int about) const override;
+};
+
+// 0, 1, … with a word at each, for values that are no numbers.
+class WordScale final : public Scale {
+ public:
+  explicit WordScale(std::vector<std::string> words) : words_(std::move(words)) {}
+
+ private:
+  double do_transform(double value) const override { return value; }
+  double do_inverse(double length) const override { return length; }
+  Interval do_linear_zone() const override;
+  Ticks do_ticks(Interval interval, int about) const override;
+
+  std::vector<std::string> words_;
 };
 
 // The least of 1, 2, 5 times a power of ten that cuts `length` > 0 into at most `pieces` steps.

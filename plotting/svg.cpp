@@ -101,6 +101,7 @@ Markup svg(double width, double height, std::string_view title, std::string_view
                   {"viewBox", view},
                   {"width", width},
                   {"height", height},
+                  {"overflow", "visible"},
                   {"role", "img"},
                   {"aria-label", title}},
                  element("title", {}, title) + element("desc", {}, description) + content);

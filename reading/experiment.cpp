@@ -53,15 +53,6 @@ std::optional<TimeSpan> read_time(const JsonReader& value, const SymbolTable& co
   return time;
 }
 
-Output read_output(const JsonReader& value) {
-  ObjectReader object(value);
-  Output output;
-  output.every = object.integer("every", 1, 1);
-  output.epoch = object.integer("epoch", output.epoch, 1);
-  if (object.word("format", "csv", {"csv", "npy"}) == "npy") output.format = Output::Format::npy;
-  return output;
-}
-
 // Whether a name stands for a number that has no column of its own.
 bool observable(const std::string& name, const ImplicitSystem& system, const SymbolTable& symbols) {
   const Symbol* symbol = symbols.find(name);
@@ -124,7 +115,22 @@ Experiment read_experiment(std::string_view text) {
   return read_experiment_document(parse_json(text));
 }
 
-Experiment read_experiment_document(const Json& document) {
+Json without_comments(const Json& value) {
+  if (value.is_array()) {
+    Json result = Json::array();
+    for (const Json& entry : value) result.push_back(without_comments(entry));
+    return result;
+  }
+  if (!value.is_object()) return value;
+  Json result = Json::object();
+  auto& entries = static_cast<Json::object_t::Container&>(result.get_ref<Json::object_t&>());
+  for (const auto& [key, entry] : value.items())
+    if (!key.starts_with("//")) entries.emplace_back(key, without_comments(entry));
+  return result;
+}
+
+Experiment read_experiment_document(const Json& written) {
+  const Json document = without_comments(written);
   Findings findings;
   Experiment experiment;
   {
@@ -153,7 +159,6 @@ Experiment read_experiment_document(const Json& document) {
     const Json no_output = Json::object();
     const auto output = object.optional("output");
     if (!output) object.default_value("output", no_output);
-    experiment.output = read_output(output.value_or(JsonReader(no_output, "/output", findings)));
 
     if (model) {
       experiment.model = *model;
@@ -169,6 +174,11 @@ Experiment read_experiment_document(const Json& document) {
             read_expectations(*expect, model->vocabulary, quantities(*model, experiment.observe),
                               event_names, experiment.time, method || time);
     }
+    experiment.output =
+        read_output(output.value_or(JsonReader(no_output, "/output", findings)),
+                    model ? model->vocabulary.symbols({}) : SymbolTable(),
+                    model ? std::optional(quantities(*model, experiment.observe)) : std::nullopt,
+                    experiment.time);
   }
   findings.require_clean();
   experiment.document = findings.completed(document);

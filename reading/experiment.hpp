@@ -11,19 +11,13 @@
 #include "courant/reading/initial_values.hpp"
 #include "courant/reading/method_kinds.hpp"
 #include "courant/reading/model.hpp"
+#include "courant/reading/output.hpp"
 
 namespace courant {
 
 struct Observable {
   std::string name;
   WrittenFormula formula;  // of coordinates, velocities, unknowns, t
-};
-
-struct Output {
-  enum class Format { csv, npy };
-  Format format = Format::csv;
-  long every = 1;     // steps a row
-  long epoch = 4096;  // steps after which the workspace of the method is forgotten
 };
 
 // A system, where it starts, how it is integrated, what is observed and expected. Without a method
@@ -46,7 +40,8 @@ struct Experiment {
 
 // Reads the text of a file. Throws ExperimentError with everything that is wrong with it.
 Experiment read_experiment(std::string_view text);
-// The same for what such a text says.
+// The same for what such a text says. Keys that begin with // are comments, at any depth.
 Experiment read_experiment_document(const Json& document);
+Json without_comments(const Json& document);
 
 }  // namespace courant

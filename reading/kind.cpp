@@ -67,6 +67,7 @@ Takes metric(std::vector<std::string> words) {
 Takes weights() {
   return {"an object of positive numbers",
           {{"type", "object"},
+           {"patternProperties", {{"^//", true}}},
            {"additionalProperties", {{"type", "number"}, {"exclusiveMinimum", 0}}}}};
 }
 Takes field_rows() { return {"rows of formulas", reference("fieldRows")}; }
@@ -121,6 +122,7 @@ Json KindDescription::schema() const {
                  {"type", "object"},
                  {"required", required},
                  {"additionalProperties", false},
+                 {"patternProperties", {{"^//", true}}},
                  {"properties", properties}};
   for (const auto& names : one_of) {
     Json choices = Json::array();

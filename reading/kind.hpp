@@ -74,6 +74,8 @@ struct KindDescription {
   std::vector<Key> keys = {};
   // Of each of these sets of optional keys exactly one has to be there.
   std::vector<std::vector<std::string>> one_of = {};
+  // Of systems: an experiment to start from, which `courant new` comments; null if there is none.
+  Json example = nullptr;
 
   const Key* find(const std::string& key) const;  // null if there is none
   // Of the objects of this kind.

@@ -2,6 +2,7 @@
 
 #include "courant/reading/lie_algebra_keys.hpp"
 #include "courant/reading/mechanics_keys.hpp"
+#include "courant/reading/system_examples.hpp"
 
 namespace courant {
 namespace {
@@ -9,6 +10,11 @@ namespace {
 std::vector<Key> together(std::vector<Key> keys, const std::vector<Key>& more) {
   keys.insert(keys.end(), more.begin(), more.end());
   return keys;
+}
+
+std::vector<Registry<Model>::Kind> with_examples(std::vector<Registry<Model>::Kind> kinds) {
+  for (auto& kind : kinds) kind.description.example = system_example(kind.description.type);
+  return kinds;
 }
 
 }  // namespace
@@ -39,7 +45,7 @@ Registry<Model>& system_kinds() {
   const Key inputs = optional_key("inputs", takes::formulas(),
                                   "added to the rates of the momenta: n formulas in momenta, "
                                   "velocities, advected parameters and t");
-  static Registry<Model> kinds({
+  static Registry<Model> kinds(with_examples({
       {{"hamiltonian", "(v, dH) ∈ D: a Dirac structure and a Hamiltonian in formulas",
         system_keys(together(
             {coordinates("of the manifold; on a cotangent bundle of its base, the momentum "
@@ -161,7 +167,7 @@ Registry<Model>& system_kinds() {
       {{"spherical-vortices", "n point vortices on the unit sphere, with coordinates x[n][3]",
         system_keys({strengths})},
        read_spherical_vortices},
-  });
+  }));
   return kinds;
 }
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "courant/reporting/energy_figures.hpp"
 #include "courant/reporting/ladder_diagram.hpp"
 #include "courant/reporting/report_figures.hpp"
 #include "courant/reporting/report_tables.hpp"

@@ -5,6 +5,8 @@
 #include <functional>
 #include <set>
 
+#include "courant/reporting/energy_figures.hpp"
+
 namespace courant {
 
 namespace {
@@ -42,28 +44,17 @@ std::string count_of(std::size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-std::vector<Series> columns_over_time(std::span<const Run> runs, const std::string& column) {
-  const std::vector<std::string> labels = run_labels(runs);
-  std::vector<Series> series;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const TrajectoryTable& table = runs[i].trajectory;
-    if (!table.contains(column)) continue;
-    series.push_back({labels[i], first(table.column("t"), table.rows()),
-                      first(table.column(column), table.rows()), i});
-  }
-  return series;
-}
-
 // A panel for each column, over time, all runs in each; two abreast.
 Figure over_time(std::span<const Run> runs, std::span<const std::string> columns,
-                 std::string caption) {
+                 std::string caption, std::string name) {
   Figure figure;
+  figure.name = std::move(name);
   for (const std::string& column :
        columns.subspan(0, std::min(columns.size(), most_small_panels))) {
     Panel panel;
     panel.title = column + " over time";
-    panel.x.label = "t";
-    panel.y.label = column;
+    panel.x.label = axis_label(runs, "t");
+    panel.y.label = axis_label(runs, column);
     panel.series = columns_over_time(runs, column);
     panel.description = count_of(panel.series.size(), "curve") + ".";
     if (columns.size() > 1) panel.width = narrow, panel.height = narrow_height;
@@ -83,8 +74,8 @@ Figure phase_portrait(std::span<const Run> runs, const std::string& q, const std
   const PlanarBody plane{q, p};
   Panel panel;
   panel.title = "Phase portrait";
-  panel.x.label = q;
-  panel.y.label = p;
+  panel.x.label = axis_label(runs, q);
+  panel.y.label = axis_label(runs, p);
   panel.width = 480;
   panel.height = 360;
   panel.endpoints = true;
@@ -100,12 +91,13 @@ Figure phase_portrait(std::span<const Run> runs, const std::string& q, const std
   panel.description =
       "The curves (" + q + ", " + p + ") of " + count_of(panel.series.size(), "run") + ".";
   const std::string part = all ? "" : " Only the first rows of long runs are drawn.";
-  return {{panel}, entries(panel.series), "Phase portrait. ○ start, ● end." + part};
+  return {{panel}, entries(panel.series), "Phase portrait. ○ start, ● end." + part, "phase"};
 }
 
 Figure planar_figure(std::span<const Run> runs, std::span<const PlanarBody> bodies) {
   const std::vector<std::string> labels = run_labels(runs);
   Figure figure;
+  figure.name = "paths";
   Interval x, y;
   bool all = true;
   double until = 0;
@@ -114,8 +106,8 @@ Figure planar_figure(std::span<const Run> runs, std::span<const PlanarBody> bodi
     Panel panel;
     panel.title = "Trajectories: " + labels[i];
     panel.heading = runs.size() > 1 ? labels[i] : "";
-    panel.x.label = bodies.size() == 1 ? bodies[0].first : "x";
-    panel.y.label = bodies.size() == 1 ? bodies[0].second : "y";
+    panel.x.label = bodies.size() == 1 ? axis_label(runs, bodies[0].first) : "x";
+    panel.y.label = bodies.size() == 1 ? axis_label(runs, bodies[0].second) : "y";
     panel.equal_aspect = panel.endpoints = true;
     std::vector<PlanarBody> present;
     std::copy_if(bodies.begin(), bodies.end(), std::back_inserter(present),
@@ -146,44 +138,25 @@ Figure planar_figure(std::span<const Run> runs, std::span<const PlanarBody> bodi
   return figure;
 }
 
-// H - H(0).
-std::vector<Series> energy_errors(std::span<const Run> runs) {
-  std::vector<Series> series = columns_over_time(runs, "H");
-  std::erase_if(series, [](const Series& one) { return one.y.empty(); });
-  for (Series& one : series) {
-    const double initial = one.y.front();
-    for (double& value : one.y) value -= initial;
+}  // namespace
+
+std::vector<Series> columns_over_time(std::span<const Run> runs, const std::string& column) {
+  const std::vector<std::string> labels = run_labels(runs);
+  std::vector<Series> series;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const TrajectoryTable& table = runs[i].trajectory;
+    if (!table.contains(column)) continue;
+    series.push_back({labels[i], first(table.column("t"), table.rows()),
+                      first(table.column(column), table.rows()), i});
   }
   return series;
 }
 
-Panel energy_panel(std::vector<Series> series) {
-  Panel panel;
-  panel.title = "Energy error H − H(0) over time";
-  panel.x.label = "t";
-  panel.y.label = "H − H(0)";
-  for (const Series& one : series) {
-    panel.description += one.label + ": at most " + plot::readable(greatest(one.y), 3) + ". ";
-  }
-  panel.series = std::move(series);
-  return panel;
+std::string axis_label(std::span<const Run> runs, const std::string& quantity) {
+  for (const Run& run : runs)
+    if (run.trajectory.contains(quantity)) return run.axis_label(quantity);
+  return quantity;
 }
-
-// The errors that are left when the greatest, a decade or more above all others, are left out; all
-// of them when there is no such gap.
-std::vector<Series> without_greatest(std::vector<Series> errors) {
-  std::vector<double> sizes;
-  for (const Series& error : errors) sizes.push_back(greatest(error.y));
-  std::sort(sizes.begin(), sizes.end(), std::greater<>());
-  const auto gap = std::adjacent_find(
-      sizes.begin(), sizes.end(), [](double above, double below) { return above >= 10 * below; });
-  if (gap != sizes.end() && *gap > 0) {
-    std::erase_if(errors, [&](const Series& error) { return greatest(error.y) >= *gap; });
-  }
-  return errors;
-}
-
-}  // namespace
 
 std::vector<std::string> run_labels(std::span<const Run> runs) {
   std::multiset<std::string> methods;
@@ -253,58 +226,11 @@ std::vector<Figure> motion_figures(std::span<const Run> runs) {
   const std::string caption = "The coordinates over time.";
   if (coordinates.size() == 2) {
     return {phase_portrait(runs, coordinates[0], coordinates[1]),
-            over_time(runs, coordinates, caption)};
+            over_time(runs, coordinates, caption, "coordinates")};
   }
   const std::vector<PlanarBody> bodies = planar_bodies(coordinates);
   if (!bodies.empty()) return {planar_figure(runs, bodies)};
-  return {over_time(runs, coordinates, caption)};
-}
-
-double symmetric_log_threshold(std::span<const Series> series) {
-  double smallest = 0, largest = 0;
-  for (const Series& one : series) {
-    const double size = greatest(one.y);
-    if (size > 0 && (smallest == 0 || size < smallest)) smallest = size;
-    largest = std::max(largest, size);
-  }
-  if (largest == 0) return 1e-16;
-  const double power = std::floor(std::log10(smallest)) - 1;
-  const double least = std::floor(std::log10(largest)) - 12;
-  return std::pow(10, std::max(power, least));
-}
-
-std::vector<Figure> energy_figures(std::span<const Run> runs) {
-  const std::vector<Series> errors = energy_errors(runs);
-  if (errors.empty()) return {};
-  Panel all = energy_panel(errors);
-  const double threshold = symmetric_log_threshold(errors);
-  all.y.scale = std::make_shared<plot::SymmetricLogScale>(threshold);
-  std::vector<Figure> figures;
-  const std::string level =
-      plot::power_of_ten(static_cast<int>(std::lround(std::log10(threshold))));
-  figures.push_back(
-      {{all},
-       entries(errors),
-       "Energy error on a symmetric-log axis, linear within ±" + level + " (shaded)."});
-
-  const std::vector<Series> kept = without_greatest(errors);
-  if (kept.size() == errors.size()) return figures;
-  Figure zoom{{}, entries(kept), "The smaller energy errors on a linear axis"};
-  // Beyond some rows to a pixel the oscillation is seen as a band; its beginning shows the
-  // oscillation itself.
-  constexpr std::size_t beginning = 501, many = 2000;
-  const bool is_long =
-      std::any_of(kept.begin(), kept.end(), [](const Series& s) { return s.x.size() > many; });
-  if (is_long) {
-    std::vector<Series> start = kept;
-    for (Series& one : start) one.x = first(one.x, beginning), one.y = first(one.y, beginning);
-    zoom.panels.push_back(energy_panel(std::move(start)));
-    zoom.caption += ": the first " + std::to_string(beginning - 1) + " rows, and all of them";
-  }
-  zoom.panels.push_back(energy_panel(kept));
-  zoom.caption += kept.size() == 1 ? ": " + kept[0].label + "." : ".";
-  figures.push_back(std::move(zoom));
-  return figures;
+  return {over_time(runs, coordinates, caption, "coordinates")};
 }
 
 std::optional<Figure> observable_figure(std::span<const Run> runs) {
@@ -316,7 +242,7 @@ std::optional<Figure> observable_figure(std::span<const Run> runs) {
     }
   }
   if (names.empty()) return std::nullopt;
-  return over_time(runs, names, "The other observables over time.");
+  return over_time(runs, names, "The other observables over time.", "observables");
 }
 
 std::optional<Figure> constraint_figure(std::span<const Run> runs) {
@@ -339,10 +265,11 @@ std::optional<Figure> constraint_figure(std::span<const Run> runs) {
   if (series.empty()) return std::nullopt;
   Panel panel;
   panel.title = "Constraint violation over time";
-  panel.x.label = "t";
+  panel.x.label = axis_label(runs, "t");
   panel.y.label = "greatest |constraint|";
-  panel.y.scale = std::make_shared<plot::SymmetricLogScale>(1e-16);
-  panel.y.interval = {0, 1e-15};
+  const double threshold = symmetric_log_threshold(series);
+  panel.y.scale = std::make_shared<plot::SymmetricLogScale>(threshold);
+  panel.y.interval = {0, threshold};
   panel.height = 220;
   for (const Series& one : series) {
     panel.y.interval.include(one.y);
@@ -351,7 +278,17 @@ std::optional<Figure> constraint_figure(std::span<const Run> runs) {
   panel.series = series;
   return Figure{{panel},
                 entries(series),
-                "How far the constraints are from being satisfied; linear within 10⁻¹⁶ (shaded)."};
+                "How far the constraints are from being satisfied; linear within " +
+                    plot::readable(threshold, 1) + " (shaded).",
+                "constraints"};
+}
+
+std::vector<Figure> all_figures(std::span<const Run> runs) {
+  std::vector<Figure> all = motion_figures(runs);
+  for (Figure& figure : energy_figures(runs)) all.push_back(std::move(figure));
+  if (auto figure = constraint_figure(runs)) all.push_back(std::move(*figure));
+  if (auto figure = observable_figure(runs)) all.push_back(std::move(*figure));
+  return all;
 }
 
 }  // namespace courant

@@ -18,6 +18,7 @@ struct Figure {
   std::vector<plot::Panel> panels;
   std::vector<plot::LegendEntry> legend;
   std::string caption;
+  std::string name = {};  // one word, by which it is asked for
 };
 
 // How the runs are told apart: by their methods, or by their folders where methods repeat.
@@ -39,19 +40,20 @@ std::size_t legible_rows(const TrajectoryTable& trajectory, std::span<const Plan
 // twelve.
 std::vector<Figure> motion_figures(std::span<const Run> runs);
 
-// H - H(0) of all runs that have H, on a symmetric-log axis; then, when the greatest errors are a
-// decade or more above all others, the others alone on a linear axis: of long runs their beginning,
-// and the whole.
-std::vector<Figure> energy_figures(std::span<const Run> runs);
-
 // Every other observable over time.
 std::optional<Figure> observable_figure(std::span<const Run> runs);
 
 // The greatest |constraint[i]| over time, of the runs that have constraints.
 std::optional<Figure> constraint_figure(std::span<const Run> runs);
 
-// The threshold of a symmetric-log axis that shows all of the curves: a decade below the greatest
-// value of the smallest, but no more than twelve decades below the greatest of all; a power of ten.
-double symmetric_log_threshold(std::span<const plot::Series> series);
+// All of these and those of the energy, in the order of a report. Their names are phase, coordinates,
+// paths, energy, energy-detail, constraints, observables.
+std::vector<Figure> all_figures(std::span<const Run> runs);
+
+// A column of all runs that have it, over time; a run's curve has its colour.
+std::vector<plot::Series> columns_over_time(std::span<const Run> runs, const std::string& column);
+
+// What an axis says of a quantity: its label and its unit, as the first run that has it gives them.
+std::string axis_label(std::span<const Run> runs, const std::string& quantity);
 
 }  // namespace courant

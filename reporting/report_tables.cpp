@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "courant/plotting/scale.hpp"
+#include "courant/reporting/energy_figures.hpp"
 
 namespace courant {
 
@@ -92,6 +93,11 @@ Markup runs_table(std::span<const Run> runs, std::span<const std::string> labels
         return H ? H->max_drift : unknown;
       },
       4);
+  if (std::ranges::any_of(runs, [](const Run& run) { return energy_trend(run).has_value(); }))
+    row("energy error", [](const Run& run) {
+      const auto trend = energy_trend(run);
+      return words(trend ? word(trend->growth) : missing);
+    });
   numbers(
       "greatest constraint violation", [](Of run) { return run.max_violation.value_or(unknown); },
       3);
@@ -140,7 +146,8 @@ Markup observables_table(std::span<const Run> runs, std::span<const std::string>
 }
 
 Markup expectations_table(std::span<const Run> runs, std::span<const std::string> labels) {
-  Markup rows;
+  Markup failures, passes;
+  std::size_t failed = 0, all = 0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     for (const ExpectationResult& expectation : runs[i].summary.expectations) {
       const bool passed = expectation.passed;
@@ -148,12 +155,25 @@ Markup expectations_table(std::span<const Run> runs, std::span<const std::string
       cells += number(expectation.value, 6) + number(expectation.bound, 6);
       cells +=
           element("td", {{"class", passed ? "good" : "bad"}}, passed ? "✓ passed" : "✗ failed");
-      rows += element("tr", {}, cells);
+      (passed ? passes : failures) += element("tr", {}, cells);
+      ++all;
+      failed += passed ? 0 : 1;
     }
   }
-  if (rows.str().empty()) return {};
-  return table("Expectations of the experiment",
-               column_heads({"Expectation", "Run", "Value", "Bound", "Result"}), rows);
+  if (all == 0) return {};
+  const auto listed = [](std::string_view caption, const Markup& rows) {
+    return table(caption, column_heads({"Expectation", "Run", "Value", "Bound", "Result"}), rows);
+  };
+  const std::string count = std::to_string(all - failed) + " of " + std::to_string(all);
+  Markup section = element("p", {},
+                           element("span", {{"class", failed == 0 ? "good" : "bad"}}, count) +
+                               (all == 1 ? " expectation passed." : " expectations passed."));
+  if (failed > 0) section += listed("What failed", failures);
+  if (failed < all)
+    section +=
+        element("details", {},
+                element("summary", {}, "What passed") + listed("Expectations that passed", passes));
+  return section;
 }
 
 Markup ladder_table(const LadderReport& ladder) {

@@ -15,8 +15,9 @@ plot::Markup runs_table(std::span<const Run> runs, std::span<const std::string> 
 // An observable and a run a row: initial, final, least, greatest value and drift.
 plot::Markup observables_table(std::span<const Run> runs, std::span<const std::string> labels);
 
-// An expectation a row, with what was measured, the bound, and passed or failed. Empty when there
-// is none.
+// "41 of 43 expectations passed", a table of those that failed, and those that passed, folded: an
+// expectation a row, with what was measured, the bound, and passed or failed. Empty when there is
+// none.
 plot::Markup expectations_table(std::span<const Run> runs, std::span<const std::string> labels);
 
 // The levels of a ladder: dimensions, fibre, the gap of the rank decision, residual.

@@ -8,10 +8,12 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
 
+#include "courant/reading/output.hpp"
 #include "courant/running/run_folder.hpp"
 
 namespace courant {
@@ -166,6 +168,21 @@ std::vector<std::string> Run::coordinates() const {
   return found;
 }
 
+std::string Run::axis_label(const std::string& quantity) const {
+  const auto text = [&](const char* key) {
+    std::map<std::string, std::string, std::less<>> entries;
+    const Json output = experiment.is_object() ? experiment.value("output", Json()) : Json();
+    const Json list = output.is_object() ? output.value(key, Json()) : Json();
+    if (list.is_object())
+      for (const auto& [name, entry] : list.items())
+        if (entry.is_string()) entries[name] = entry.get<std::string>();
+    const std::string* found = entry_of(entries, quantity);
+    return found ? *found : std::string();
+  };
+  const std::string label = text("labels"), unit = text("units");
+  return (label.empty() ? quantity : label) + (unit.empty() ? "" : " [" + unit + "]");
+}
+
 namespace {
 
 // The id of a run in its summary and experiment, and its last state in summary and trajectory.
@@ -222,6 +239,7 @@ TrajectoryTable read_trajectory_csv(const std::filesystem::path& file, bool torn
   if (!std::getline(stream, line) || stream.eof())
     fail(file, 1, "the header is missing or cut off.");
   std::vector<std::string> names = split(line);
+  std::ranges::transform(names, names.begin(), without_unit);
   std::vector<std::vector<double>> columns(names.size());
   for (std::size_t number = 2; std::getline(stream, line); ++number) {
     if (stream.eof() && torn) break;
@@ -286,6 +304,7 @@ TrajectoryTable read_trajectory_npy(const std::filesystem::path& file,
       for (auto& column : columns) take(column[row]);
     }
   }
+  std::ranges::transform(names, names.begin(), without_unit);
   try {
     return {std::move(names), std::move(columns)};
   } catch (const std::invalid_argument& error) {

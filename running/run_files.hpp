@@ -21,7 +21,8 @@ class RunFileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Named columns of the same number of rows. The first is t; no two have the same name.
+// Named columns of the same number of rows. The first is t; no two have the same name. Units, which
+// stand in the heads of columns, belong to no name.
 class TrajectoryTable {
  public:
   // Throws std::invalid_argument when the columns are not as many as the names or not all as long,
@@ -51,6 +52,9 @@ struct Run {
   std::vector<std::string> coordinates() const;
   std::vector<std::string> observables() const;
   std::vector<std::string> constraints() const;
+
+  // What an axis says of a quantity: its label, or its name, and its unit: "distance [m]".
+  std::string axis_label(const std::string& quantity) const;
 };
 
 // Reads trajectory.csv, or trajectory.npy with columns.json (an array of names), summary.json and

@@ -77,12 +77,20 @@ std::vector<fs::path> replaceable(const fs::path& path, bool replace) {
   return found;
 }
 
+void remove_files(const std::vector<fs::path>& files) {
+  for (const fs::path& file : files) {
+    std::error_code error;
+    fs::remove(file, error);
+    if (error) refuse(file, "cannot be replaced: " + error.message());
+  }
+}
+
 constexpr const char* kInUse =
     "another run is being written to this folder; expected another folder (-o)";
 
 }  // namespace
 
-void RunFolder::check(const fs::path& path, ExistingRun existing, const Experiment& experiment) {
+void RunFolder::check_place(const fs::path& path) {
   std::error_code error;
   fs::path nearest = fs::absolute(path, error).lexically_normal();
   while (!file_exists(nearest) && nearest.has_relative_path()) nearest = nearest.parent_path();
@@ -93,11 +101,22 @@ void RunFolder::check(const fs::path& path, ExistingRun existing, const Experime
   if (access(nearest.c_str(), W_OK | X_OK) != 0)
     refuse(path, (is_there ? "cannot be written: " : "the folder cannot be made: ") +
                      std::generic_category().message(errno));
-  if (is_there && is_in_use(path)) refuse(path, kInUse);
+}
+
+void RunFolder::check(const fs::path& path, ExistingRun existing, const Experiment& experiment) {
+  check_place(path);
+  if (is_in_use(path)) refuse(path, kInUse);
   if (existing == ExistingRun::resume)
     unfinished_run(path, experiment);
-  else if (is_there)
+  else
     replaceable(path, existing == ExistingRun::replace);
+}
+
+void RunFolder::remove(const fs::path& path) {
+  if (!is_of_a_run(path)) return;
+  remove_files(replaceable(path, true));
+  std::error_code not_empty;
+  fs::remove(path, not_empty);
 }
 
 bool RunFolder::is_in_use(const fs::path& path) {
@@ -121,13 +140,10 @@ RunFolder::RunFolder(fs::path path, ExistingRun existing, const Experiment& expe
       run_ = unfinished_run(path_, experiment);
     else
       run_.id = new_id();
-    std::vector<fs::path> old = {path_ / "report.html"};  // of the run as it was
-    if (!goes_on) old = replaceable(path_, existing == ExistingRun::replace);
-    for (const fs::path& file : old) {
-      std::error_code error;
-      fs::remove(file, error);
-      if (error) refuse(file, "cannot be replaced: " + error.message());
-    }
+    if (goes_on)
+      remove_files({path_ / "report.html"});  // of the run as it was
+    else
+      remove_files(replaceable(path_, existing == ExistingRun::replace));
     Json document = experiment.document;
     document["$run"] = run_.id;
     write_json(path_ / "experiment.json", document);

@@ -37,6 +37,13 @@ class RunFolder {
   static void check(const std::filesystem::path& path, ExistingRun existing,
                     const Experiment& experiment);
 
+  // Throws UnusableFolder if no folder can be made or written there; changes nothing.
+  static void check_place(const std::filesystem::path& path);
+
+  // Removes the files of the run in a folder, and the folder if it is empty then. Nothing where there
+  // is none.
+  static void remove(const std::filesystem::path& path);
+
   // Whether a run is being written to the folder.
   static bool is_in_use(const std::filesystem::path& path);
 

@@ -21,17 +21,16 @@ class Statistics final : public RunWatcher {
 
 class Rows final : public RunWatcher {
  public:
-  Rows(TrajectoryWriter& writer, long every, Index count)
-      : writer_(writer), every_(every), count_(count) {}
+  Rows(TrajectoryWriter& writer, std::function<bool(long)> is_written, Index count)
+      : writer_(writer), is_written_(std::move(is_written)), count_(count) {}
   std::optional<RunEnd> watch(const RunMoment& moment) override {
-    if (moment.k % every_ == 0 || moment.k == moment.steps)
-      writer_.append(moment.t, moment.row.head(count_));
+    if (is_written_(moment.k)) writer_.append(moment.t, moment.row.head(count_));
     return std::nullopt;
   }
 
  private:
   TrajectoryWriter& writer_;
-  long every_;
+  std::function<bool(long)> is_written_;
   Index count_;
 };
 
@@ -128,8 +127,9 @@ std::unique_ptr<RunWatcher> keep_statistics(QuantityStatistics& statistics) {
   return std::make_unique<Statistics>(statistics);
 }
 
-std::unique_ptr<RunWatcher> write_rows(TrajectoryWriter& writer, long every, Index count) {
-  return std::make_unique<Rows>(writer, every, count);
+std::unique_ptr<RunWatcher> write_rows(TrajectoryWriter& writer,
+                                       std::function<bool(long k)> is_written, Index count) {
+  return std::make_unique<Rows>(writer, std::move(is_written), count);
 }
 
 std::unique_ptr<RunWatcher> find_not_finite(std::optional<NotFinite>& found, Index count) {

@@ -26,8 +26,9 @@ struct Progress {
 
 std::unique_ptr<RunWatcher> keep_statistics(QuantityStatistics& statistics);
 
-// Every `every`-th row and the last; its first `count` numbers.
-std::unique_ptr<RunWatcher> write_rows(TrajectoryWriter& writer, long every, Index count);
+// The rows of the steps k for which `is_written`; the first `count` numbers.
+std::unique_ptr<RunWatcher> write_rows(TrajectoryWriter& writer,
+                                       std::function<bool(long k)> is_written, Index count);
 
 // The first value that is not finite among the first `count` of a row goes into `found`.
 struct NotFinite {

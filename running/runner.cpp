@@ -158,6 +158,7 @@ class Run {
   std::unique_ptr<TrajectoryWriter> make_writer(const RunFolder& folder) const {
     std::vector<std::string> columns = written_names();
     columns.insert(columns.begin(), "t");
+    for (std::string& column : columns) column = experiment_.output.heading(column);
     std::optional<std::uintmax_t> keep;
     if (folder.checkpoint()) keep = folder.checkpoint()->trajectory_size;
     return make_trajectory_writer(experiment_.output.format, folder.path(), columns, keep);
@@ -166,8 +167,12 @@ class Run {
   // All that is told of the states of the run, in this order. What ends the run is told last.
   void make_watchers(long first) {
     watchers_.push_back(keep_statistics(statistics_));
-    watchers_.push_back(write_rows(*writer_, experiment_.output.every,
-                                   static_cast<Index>(observer_.written_count())));
+    watchers_.push_back(write_rows(
+        *writer_,
+        [this](long k) {
+          return !experiment_.time || experiment_.output.is_written(k, *experiment_.time);
+        },
+        static_cast<Index>(observer_.written_count())));
     watchers_.push_back(
         find_not_finite(not_finite_, static_cast<Index>(observer_.written_count())));
     if (experiment_.time && !experiment_.expect.times.empty()) {
@@ -211,6 +216,16 @@ class Run {
     if (!elsewhere_) elsewhere_.emplace(experiment_, ladder_, Backend::interpreter);
     elsewhere_->restart(state);
     return elsewhere_->row(state);
+  }
+
+  // The rows that are asked for between step k - 1 and the one that was made, step k.
+  void write_between(Stepper& stepper, long k) {
+    if (experiment_.output.at.empty()) return;
+    const TimeSpan& time = *experiment_.time;
+    for (const double t : experiment_.output.between(k, time)) {
+      const VectorXd& row = row_elsewhere(stepper.between((t - time.time(k - 1)) / time.step));
+      writer_->append(t, row.head(static_cast<Index>(observer_.written_count())));
+    }
   }
 
   void watch_energy(const PreparedMethod& method) {
@@ -305,6 +320,7 @@ class Run {
         const long end = std::min(time.steps, k + epoch);
         for (; going && k < end; ++k) {
           stepper->step(state, time.step, time.time(k + 1));
+          write_between(*stepper, k + 1);
           going = goes_on(stepper->last(), k + 1, time.steps);
         }
         if (!going || k == time.steps) break;

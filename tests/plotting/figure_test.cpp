@@ -162,4 +162,18 @@ BOOST_AUTO_TEST_CASE(legend_names_what_it_is_given) {
   BOOST_TEST(attribute(items[1], "class") == "c3");
 }
 
+BOOST_AUTO_TEST_CASE(points_are_drawn_where_there_are_numbers) {
+  Panel panel;
+  panel.series = {{"a", {1e-3, 1e-2, 1e-1, 1}, {1e-6, std::nan(""), 1e-2, 1}, 0}};
+  panel.x.scale = panel.y.scale = std::make_shared<LogScale>();
+  panel.points = true;
+  const Tree drawing = parsed(draw(panel).str());
+  const auto dots = find(drawing, "circle");
+  BOOST_TEST_REQUIRE(dots.size() == 3u);
+  // Equal ratios are equal distances.
+  const auto at = [&](std::size_t i) { return std::stod(attribute(dots[i], "cx")); };
+  BOOST_TEST(std::abs((at(2) - at(1)) * 2 - (at(1) - at(0))) < 0.1);
+  BOOST_TEST(std::abs(drawn_height(panel) - panel.height) < 1e-9);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

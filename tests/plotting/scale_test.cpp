@@ -148,4 +148,29 @@ BOOST_AUTO_TEST_CASE(numbers_read_well) {
   BOOST_TEST(power_of_ten(-12, true) == "−10⁻¹²");
 }
 
+BOOST_AUTO_TEST_CASE(a_logarithmic_scale_is_one) {
+  const LogScale log;
+  BOOST_TEST(log.transform(1000) - log.transform(10) == 2, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(log.inverse(log.transform(0.037)) == 0.037, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(!std::isfinite(log.transform(0)));
+  BOOST_TEST(!std::isfinite(log.transform(-1)));
+  BOOST_CHECK(labels(log.ticks({3e-5, 4e-1}, 6)) == (Texts{"10⁻⁴", "10⁻³", "10⁻²", "10⁻¹"}));
+  BOOST_CHECK(labels(log.ticks({1e-12, 1e0}, 4)) ==
+              (Texts{"10⁻¹²", "10⁻⁹", "10⁻⁶", "10⁻³", "10⁰"}));
+  // Less than two decades have more than one label.
+  BOOST_CHECK(labels(log.ticks({0.015, 0.12}, 6)) == (Texts{"2·10⁻²", "5·10⁻²", "10⁻¹"}));
+  for (const Tick& tick : log.ticks({0.015, 0.12}, 6).marks) {
+    BOOST_TEST(tick.value >= 0.015);
+    BOOST_TEST(tick.value <= 0.12);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(words_stand_at_whole_numbers) {
+  const WordScale words({"rk2", "rk4", "dopri5"});
+  BOOST_CHECK(labels(words.ticks({-0.5, 2.5}, 8)) == (Texts{"rk2", "rk4", "dopri5"}));
+  BOOST_TEST(words.ticks({-0.5, 2.5}, 8).marks[2].value == 2);
+  BOOST_CHECK(labels(words.ticks({0.5, 1.5}, 8)) == (Texts{"rk4"}));
+  BOOST_TEST(labels(WordScale(Texts(100, "a")).ticks({0, 100}, 10)).size() == 10u);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -4,56 +4,20 @@
 #include <cmath>
 #include <set>
 
-#include "../running/vortex_runs.hpp"
+#include "some_runs.hpp"
 
 using namespace courant;
+using courant::test::labels;
 using courant::test::Path;
-using Json = nlohmann::ordered_json;
+using courant::test::table;
+using courant::test::Texts;
+using courant::test::vortices;
 
 namespace {
-
-Run vortices(const std::string& name, const std::string& method, const Path& path) {
-  std::vector<std::string> names = {"t"};
-  for (const char* axis : {"x", "y"}) {
-    for (int j = 0; j < 4; ++j) names.push_back(axis + std::string("[") + std::to_string(j) + "]");
-  }
-  names.emplace_back("H");
-  std::vector<std::vector<double>> columns(names.size());
-  for (std::size_t k = 0; k < path.size(); ++k) {
-    columns[0].push_back(static_cast<double>(k));
-    for (std::size_t i = 0; i < 8; ++i) columns[1 + i].push_back(path[k][i]);
-    columns[9].push_back(test::energy(path[k]));
-  }
-  return {name, {names, columns}, read_run_summary(test::summary(path, method)), Json::object()};
-}
-
-Run table(const std::vector<std::string>& names, std::size_t rows,
-          double (*value)(std::size_t column, double t)) {
-  std::vector<std::vector<double>> columns(names.size());
-  for (std::size_t c = 0; c < names.size(); ++c) {
-    for (std::size_t k = 0; k < rows; ++k) {
-      const double t = 0.05 * static_cast<double>(k);
-      columns[c].push_back(c == 0 ? t : value(c, t));
-    }
-  }
-  const RunSummary summary{.status = RunStatus::completed,
-                           .system = "s",
-                           .method = "m",
-                           .steps = static_cast<long>(rows - 1)};
-  return {"table", {names, columns}, summary, Json::object()};
-}
 
 double oscillation(std::size_t column, double t) {
   return std::cos(t + static_cast<double>(column));
 }
-
-std::vector<std::string> labels(const std::vector<plot::Series>& series) {
-  std::vector<std::string> all;
-  for (const auto& one : series) all.push_back(one.label);
-  return all;
-}
-
-using Texts = std::vector<std::string>;
 
 }  // namespace
 
@@ -134,50 +98,6 @@ BOOST_AUTO_TEST_CASE(any_other_system_has_time_series) {
   BOOST_TEST(motion_figures(many)[0].caption.find("The first 12 of 30.") != std::string::npos);
 }
 
-BOOST_AUTO_TEST_CASE(energy_of_all_runs_is_on_a_symmetric_log_axis) {
-  const std::vector<Run> runs = {vortices("a", "rk2", test::rk2_path(300)),
-                                 vortices("b", "discretize-first", test::two_step_path(300)),
-                                 vortices("c", "constrain-first", test::one_step_path(300))};
-  const auto figures = energy_figures(runs);
-  // 4.1e-4 is less than a decade above 1.9e-4: there is nothing to zoom into.
-  BOOST_TEST_REQUIRE(figures.size() == 1);
-  const plot::Panel& panel = figures[0].panels[0];
-  BOOST_CHECK(labels(panel.series) == (Texts{"rk2", "discretize-first", "constrain-first"}));
-  BOOST_TEST(panel.y.scale->linear_zone().upper == 1e-5, boost::test_tools::tolerance(1e-12));
-  for (const plot::Series& series : panel.series) BOOST_TEST(series.y.front() == 0);
-  BOOST_TEST(std::abs(*std::ranges::max_element(panel.series[0].y) - 4.117e-4) < 1e-7);
-}
-
-BOOST_AUTO_TEST_CASE(methods_that_keep_the_energy_are_shown_again_without_those_that_do_not) {
-  const std::vector<Run> runs = {vortices("a", "rk2", test::rk2_path(10'000)),
-                                 vortices("b", "discretize-first", test::two_step_path(10'000)),
-                                 vortices("c", "constrain-first", test::one_step_path(10'000))};
-  const auto figures = energy_figures(runs);
-  BOOST_TEST_REQUIRE(figures.size() == 2);
-  BOOST_TEST(figures[0].panels[0].series.size() == 3);
-  BOOST_TEST_REQUIRE(figures[1].panels.size() == 2);
-  for (const plot::Panel& panel : figures[1].panels) {
-    BOOST_CHECK(labels(panel.series) == (Texts{"discretize-first", "constrain-first"}));
-    BOOST_TEST(panel.series[0].colour == 1);
-  }
-  BOOST_TEST(figures[1].panels[0].series[0].x.back() == 500);
-  BOOST_TEST(figures[1].panels[1].series[0].x.back() == 10'000);
-}
-
-BOOST_AUTO_TEST_CASE(threshold_shows_the_smallest_curve) {
-  const auto threshold = [](const std::vector<double>& sizes) {
-    std::vector<plot::Series> series;
-    for (const double size : sizes) series.push_back({"", {0, 1}, {0, -size}, 0});
-    return symmetric_log_threshold(series);
-  };
-  const auto tolerance = boost::test_tools::tolerance(1e-12);
-  BOOST_TEST(threshold({4e-4, 1.6e-4}) == 1e-5, tolerance);
-  BOOST_TEST(threshold({1e-1, 3e-15}) == 1e-13, tolerance);
-  BOOST_TEST(threshold({1e-1, 0}) == 1e-2, tolerance);
-  BOOST_TEST(threshold({0}) == 1e-16, tolerance);
-  BOOST_TEST(threshold({}) == 1e-16, tolerance);
-}
-
 BOOST_AUTO_TEST_CASE(constraints_are_shown_by_their_greatest_violation) {
   const std::vector<Run> runs = {
       table({"t", "q", "constraint[0]", "constraint[1]"}, 50, [](std::size_t c, double t) {
@@ -189,6 +109,31 @@ BOOST_AUTO_TEST_CASE(constraints_are_shown_by_their_greatest_violation) {
   BOOST_TEST(figure->panels[0].series[0].y.back() == 1e-12 * 2.45,
              boost::test_tools::tolerance(1e-12));
   BOOST_TEST(!constraint_figure(std::vector<Run>{table({"t", "q"}, 5, oscillation)}).has_value());
+}
+
+BOOST_AUTO_TEST_CASE(axes_have_labels_and_units) {
+  Run run = table({"t", "q", "p_q", "r[0]"}, 5, oscillation);
+  run.experiment = {{"output",
+                     {{"units", {{"t", "s"}, {"q", "m"}, {"r", "km"}}},
+                      {"labels", {{"q", "distance"}, {"p_q", "momentum"}}}}}};
+  const std::vector<Run> runs = {table({"t", "a"}, 5, oscillation), run};
+  BOOST_TEST(axis_label(runs, "q") == "distance [m]");
+  BOOST_TEST(axis_label(runs, "p_q") == "momentum");
+  BOOST_TEST(axis_label(runs, "r[0]") == "r[0] [km]");
+  BOOST_TEST(axis_label(runs, "a") == "a");
+  const auto figures = motion_figures(std::vector<Run>{run});
+  BOOST_TEST(figures[0].panels[0].x.label == "t [s]");
+  BOOST_TEST(figures[0].panels[0].y.label == "distance [m]");
+}
+
+BOOST_AUTO_TEST_CASE(every_figure_has_a_name_of_its_own) {
+  const std::vector<Run> runs = {
+      table({"t", "q", "p_q", "H", "constraint[0]"}, 50, oscillation),
+      table({"t", "q", "p_q", "H", "constraint[0]"}, 50,
+            [](std::size_t c, double t) { return 1e-6 * oscillation(c, t); })};
+  std::vector<std::string> names;
+  for (const Figure& figure : all_figures(runs)) names.push_back(figure.name);
+  BOOST_CHECK(names == (Texts{"phase", "coordinates", "energy", "energy-detail", "constraints"}));
 }
 
 BOOST_AUTO_TEST_CASE(runs_are_told_apart_by_method_or_else_by_folder) {

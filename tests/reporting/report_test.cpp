@@ -50,15 +50,20 @@ BOOST_AUTO_TEST_CASE(page_of_the_three_methods_has_its_figures_and_tables) {
   std::vector<std::string> captions;
   for (const Tree& table : find(page, "table"))
     captions.push_back(table.get<std::string>("caption"));
-  BOOST_CHECK(captions == (std::vector<std::string>{"Levels", "Expectations of the experiment",
-                                                    "Observables", "Runs and solver statistics"}));
+  BOOST_CHECK(captions ==
+              (std::vector<std::string>{"Levels", "What failed", "Expectations that passed",
+                                        "Observables", "Runs and solver statistics"}));
   std::vector<std::string> results;
   for (const std::string style : {"good", "bad"}) {
     for (const Tree& cell : find(page, "td", style)) results.push_back(cell.data());
   }
   BOOST_CHECK(results == (std::vector<std::string>{"✓ passed", "✓ passed", "completed", "completed",
                                                    "completed", "✗ failed"}));
-  BOOST_TEST(find(page, "details").size() == 3);
+  // The experiments, and the expectations that passed.
+  BOOST_TEST(find(page, "details").size() == 4);
+  const std::string text = report_html(read(write_methods(folder, 300)));
+  BOOST_TEST(text.find("<span class=\"bad\">2 of 3</span> expectations passed.") !=
+             std::string::npos);
   for (const Tree& drawing : find(page, "svg")) {
     const bool said = !drawing.get<std::string>("title", "").empty() &&
                       !drawing.get<std::string>("desc", "").empty();
@@ -123,7 +128,7 @@ BOOST_AUTO_TEST_CASE(expectations_may_be_of_numbers_words_and_lists) {
   const Tree page = parsed_page(report_html(std::vector<Run>{read_run(folder / "run")}));
   std::vector<std::string> cells;
   for (const Tree& table : find(page, "table")) {
-    if (table.get<std::string>("caption") != "Expectations of the experiment") continue;
+    if (table.get<std::string>("caption") != "Expectations that passed") continue;
     for (const Tree& cell : find(table, "td", "number")) cells.push_back(cell.data());
   }
   BOOST_CHECK(cells == (std::vector<std::string>{"regular", "regular", "[16,8]", "–"}));

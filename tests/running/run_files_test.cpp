@@ -257,4 +257,13 @@ BOOST_AUTO_TEST_CASE(files_of_two_runs_are_refused) {
   BOOST_TEST(said().ends_with("experiment.json: is of another run than summary.json."));
 }
 
+BOOST_AUTO_TEST_CASE(units_in_the_heads_of_columns_are_no_part_of_the_names) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.csv", "t [s],x[0] [m],p [kg m/s],H\n0,1,2,3\n");
+  const TrajectoryTable table = read_trajectory_csv(folder / "a.csv");
+  BOOST_CHECK(table.names() == (std::vector<std::string>{"t", "x[0]", "p", "H"}));
+  write_text(folder / "b.csv", "t,q [m],q [km]\n0,1,2\n");
+  BOOST_CHECK_THROW(read_trajectory_csv(folder / "b.csv"), RunFileError);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -57,6 +57,31 @@ BOOST_AUTO_TEST_CASE(writes_what_it_computes) {
   BOOST_TEST(run.experiment["output"]["every"] == 1);
 }
 
+// Between steps the values are those of the method's own curve, to its order; the steps do not change.
+BOOST_AUTO_TEST_CASE(rows_are_written_at_given_times) {
+  Json timed = oscillator;
+  timed["method"] = "rk4";
+  timed["output"] = {{"at", {0.25, 1, "pi", 7.0}}, {"units", {{"t", "s"}, {"q", "m"}}}};
+  const TemporaryFolder folder, every;
+  run_in(folder, timed);
+  const Run run = read_run(folder / "run");
+  const auto t = run.trajectory.column("t"), q = run.trajectory.column("q");
+  BOOST_REQUIRE(t.size() == 6u);
+  const double expected[] = {0.0, 0.25, 1.0, std::acos(-1.0), 7.0, 10.0};
+  for (std::size_t i = 0; i < 6; ++i) {
+    BOOST_TEST(std::abs(t[i] - expected[i]) < 1e-12);
+    BOOST_TEST(std::abs(q[i] - std::cos(expected[i])) < 1e-5);
+  }
+  BOOST_TEST(read_text(folder / "run" / "trajectory.csv").find("t [s],q [m],p_q,H,") == 0u);
+  // The experiment of the run can be run again.
+  BOOST_CHECK_NO_THROW(read_experiment_document(run.experiment));
+  timed.erase("output");
+  run_in(every, timed);
+  const Run whole = read_run(every / "run");
+  BOOST_TEST(whole.trajectory.column("q")[10] == q[2]);
+  BOOST_TEST(whole.trajectory.column("q")[100] == q[5]);
+}
+
 BOOST_AUTO_TEST_CASE(rows_are_written_every_so_many_steps_and_at_the_end) {
   const TemporaryFolder folder;
   Json experiment = oscillator;

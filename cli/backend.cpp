@@ -1,0 +1,23 @@
+#include "courant/cli/backend.hpp"
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <string>
+
+namespace courant::cli {
+
+void add_backend(CLI::App& command, Backend& backend) {
+  command
+      .add_option(
+          "--backend", backend,
+          "what evaluates formulas: native code, made by a C compiler; the interpreter, slower "
+          "and without a compiler; or auto, native where it is worth while")
+      ->transform(CLI::CheckedTransformer(
+                      std::map<std::string, Backend>{{"auto", Backend::automatic},
+                                                     {"native", Backend::native},
+                                                     {"interpreter", Backend::interpreter}})
+                      .description(""))
+      ->type_name("NAME");
+}
+
+}  // namespace courant::cli

@@ -1,0 +1,14 @@
+// The option --backend of several subcommands.
+#pragma once
+
+#include "courant/core/function.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace courant::cli {
+
+void add_backend(CLI::App& command, Backend& backend);
+
+}  // namespace courant::cli

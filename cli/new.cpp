@@ -1,0 +1,47 @@
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <ostream>
+
+#include "courant/cli/command.hpp"
+#include "courant/reading/new_experiment.hpp"
+#include "courant/running/output_file.hpp"
+
+namespace courant::cli {
+
+void add_new(CLI::App& app, Session& session) {
+  struct Arguments {
+    std::string kind, file;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("new", "Print a commented experiment to start from");
+  command
+      ->add_option("KIND", arguments->kind,
+                   "the kind of its system, one of those that courant list names")
+      ->required();
+  command
+      ->add_option("-o", arguments->file,
+                   "write it to a file that is not there yet (default: standard output)")
+      ->type_name("FILE");
+  command->callback([&session, arguments] {
+    session.action = [arguments](const Console& console) -> int {
+      try {
+        const std::string text = new_experiment(arguments->kind);
+        if (arguments->file.empty()) {
+          console.out << text;
+        } else if (std::filesystem::exists(arguments->file)) {
+          print_error(console, arguments->file + ": is there already; expected another file (-o)");
+          return wrong;
+        } else {
+          write_file(arguments->file, text);
+        }
+        return done;
+      } catch (const ExperimentError& error) {
+        print_error(console, error.what());
+        return wrong;
+      }
+    };
+  });
+}
+
+}  // namespace courant::cli

@@ -1,0 +1,101 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <ostream>
+
+#include "courant/cli/command.hpp"
+#include "courant/core/spelling.hpp"
+#include "courant/reporting/figure_file.hpp"
+#include "courant/reporting/study_figure.hpp"
+#include "courant/reporting/sweep_figure.hpp"
+#include "courant/running/run_files.hpp"
+
+namespace courant::cli {
+namespace {
+
+struct Arguments {
+  std::vector<std::filesystem::path> folders;
+  std::string figure;
+  std::filesystem::path output;
+};
+
+// The figure of a sweep or a study, from its table.
+std::optional<Figure> figure_of_table(const std::filesystem::path& folder) {
+  const auto read = [&](const char* file) {
+    return std::filesystem::exists(folder / file) ? read_json(folder / file) : Json();
+  };
+  try {
+    if (const Json sweep = read("sweep.json"); !sweep.is_null()) return sweep_figure(sweep);
+    if (const Json study = read("study.json"); !study.is_null()) return study_figure(study);
+  } catch (const Json::exception&) {
+    throw RunFileError(folder.string() + ": its table is not one of a sweep or a study.");
+  }
+  return std::nullopt;
+}
+
+// All figures that there are of the folders.
+std::vector<Figure> figures_of(const std::vector<std::filesystem::path>& folders) {
+  if (folders.size() == 1)
+    if (auto figure = figure_of_table(folders.front())) return {std::move(*figure)};
+  std::vector<Run> runs;
+  for (const auto& folder : folders) runs.push_back(read_run(folder));
+  return all_figures(runs);
+}
+
+int plot_figure(const Console& console, const Arguments& arguments) {
+  std::vector<Figure> figures = figures_of(arguments.folders);
+  std::vector<std::string> names;
+  for (const Figure& figure : figures) names.push_back(figure.name);
+  const auto found = std::ranges::find(names, arguments.figure);
+  if (found == names.end()) {
+    std::string list;
+    for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+    print_error(console, "--figure " + arguments.figure + ": there is no such figure of " +
+                             arguments.folders.front().string() +
+                             (arguments.folders.size() > 1 ? ", …" : "") +
+                             did_you_mean(arguments.figure, names) + "; expected one of: " + list);
+    return wrong;
+  }
+  const Figure& figure = figures[static_cast<std::size_t>(found - names.begin())];
+  try {
+    write_figure(figure, arguments.output);
+  } catch (const std::invalid_argument& error) {
+    print_error(console, error.what());
+    return wrong;
+  }
+  std::filesystem::path numbers = arguments.output;
+  console.out << figure.caption << '\n'
+              << arguments.output.string() << ", its numbers in "
+              << numbers.replace_extension(".csv").string() << '\n';
+  return done;
+}
+
+}  // namespace
+
+void add_plot(CLI::App& app, Session& session) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* plot =
+      app.add_subcommand("plot", "Write one figure of runs, a sweep or a study, for a paper");
+  plot->add_option("DIR", arguments->folders,
+                   "the folder of a run, or several; or that of a sweep or a study")
+      ->required();
+  plot->add_option("--figure", arguments->figure,
+                   "phase, coordinates, paths, energy, energy-detail, constraints, observables, "
+                   "sweep or study; not every run has all of them")
+      ->type_name("NAME")
+      ->required();
+  plot->add_option("-o", arguments->output,
+                   "where it goes: a name that ends in .svg, .pdf or .png; the numbers go beside "
+                   "it, with the ending .csv")
+      ->type_name("FILE")
+      ->required();
+  plot->callback([&session, arguments] {
+    session.action = [arguments](const Console& console) {
+      return plot_figure(console, *arguments);
+    };
+  });
+}
+
+}  // namespace courant::cli

@@ -1,0 +1,247 @@
+#include "courant/running/study.hpp"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <ostream>
+
+#include "courant/cli/backend.hpp"
+#include "courant/cli/command.hpp"
+#include "courant/cli/experiment_file.hpp"
+#include "courant/cli/sweep.hpp"
+#include "courant/cli/text.hpp"
+#include "courant/cli/waiting.hpp"
+#include "courant/core/message.hpp"
+#include "courant/reading/setting.hpp"
+#include "courant/reporting/figure_file.hpp"
+#include "courant/reporting/study_figure.hpp"
+#include "courant/running/output_file.hpp"
+#include "courant/running/result_folder.hpp"
+
+namespace courant::cli {
+namespace {
+
+struct Arguments {
+  std::vector<std::string> files;
+  std::vector<std::string> methods;
+  StudyOptions study;
+  std::string folder;
+  std::vector<std::string> settings;
+  SweepArguments sweep;
+  bool force = false, json = false;
+};
+
+std::string name_of(const std::string& file) {
+  return file == "-" ? "stdin" : std::filesystem::path(file).stem().string();
+}
+
+// The experiment of a document, with each of the methods, or with its own.
+void add_subjects(const std::string& name, Json document, const std::vector<std::string>& methods,
+                  std::vector<StudySubject>& subjects) {
+  if (methods.empty()) subjects.push_back({name, read_experiment_document(document)});
+  for (const std::string& method : methods) {
+    const Setting setting = read_setting("/method=" + method, "--method");
+    apply_setting(setting, document);
+    subjects.push_back({name, read_experiment_document(document)});
+  }
+}
+
+void print_study(const Console& console, const Json& study) {
+  std::ostream& out = console.out;
+  for (const Json& method : study.at("methods")) {
+    out << printable(method.at("experiment").get<std::string>()) << ": "
+        << method.at("method").get<std::string>() << '\n';
+    TextTable table({"  step", "error", "order", "iterations/step", "seconds"});
+    for (const Json& row : method.at("rows")) {
+      const auto steps = row.at("steps").get<double>();
+      table.add({"  " + shown(row.at("step")), shown(row.at("error"), 4), shown(row.at("order"), 3),
+                 shown(row.at("iterations").get<double>() / steps, 3),
+                 shown(row.at("seconds"), 3)});
+    }
+    table.print(out, "");
+    out << "  order " << shown(method.at("order"), 3)
+        << "; reference: " << method.at("reference").get<std::string>();
+    if (const auto error = method.at("reference_error").get<double>(); error > 0.0)
+      out << ", off by some " << shown(error, 1);
+    out << '\n';
+    if (const std::string remark = method.at("remark"); !remark.empty())
+      print_wrapped(out, remark, "  ");
+    for (const Json& row : method.at("rows"))
+      if (const std::string message = row.at("message"); !message.empty())
+        print_wrapped(out, "step " + shown(row.at("step")) + ": " + message, "  ");
+    out << '\n';
+  }
+  if (study.at("quantities").is_array()) {
+    std::string list;
+    std::size_t count = 0;
+    constexpr std::size_t most = 8;
+    for (const Json& name : study["quantities"]) {
+      if (++count > most) break;
+      list += (list.empty() ? "" : ", ") + name.get<std::string>();
+    }
+    if (count > most) list += ", …";
+    print_wrapped(out, "The error is the greatest distance of (" + list + ") from the reference.",
+                  "");
+  }
+}
+
+void write_files(const ResultFolder& folder, const Json& study) {
+  folder.write(study, study_csv(study));
+  if (const auto figure = study_figure(study)) write_file(folder.file("svg"), figure_svg(*figure));
+}
+
+int status_of(const Json& study) {
+  if (study.at("status") == "interrupted") return interrupted;
+  for (const Json& method : study.at("methods"))
+    for (const Json& row : method.at("rows"))
+      if (!row.at("message").get<std::string>().empty()) return failed;
+  return done;
+}
+
+int study_files(const Console& console, const Arguments& arguments) {
+  if (!arguments.folder.empty()) ResultFolder::check(arguments.folder, "study", arguments.force);
+  std::vector<StudySubject> subjects;
+  for (const std::string& file : arguments.files) {
+    const auto add = [&](const Json& document) {
+      add_subjects(name_of(file), document, arguments.methods, subjects);
+      return done;
+    };
+    if (const int status = with_document(console, file, add, arguments.settings); status != done)
+      return status;
+  }
+  StudyOptions options = arguments.study;
+  options.stop = console.stop;
+  std::optional<Waiting> waiting;
+  options.on_progress = [&](const std::string& what) {
+    waiting.reset();
+    waiting.emplace(console, what);
+  };
+  if (console.heeds_stop) *console.heeds_stop = true;
+  Json result;
+  const std::string names =
+      arguments.files.size() == 1 ? arguments.files.front() : arguments.files.front() + ", …";
+  const int status = reporting_errors(console, names, [&] {
+    result = study(subjects, options);
+    return done;
+  });
+  waiting.reset();
+  if (console.heeds_stop) *console.heeds_stop = false;
+  if (status != done) return status;
+  if (!arguments.folder.empty())
+    write_files(ResultFolder(arguments.folder, "study", arguments.force), result);
+  if (arguments.json)
+    console.out << result.dump(2) << '\n';
+  else
+    print_study(console, result);
+  if (result.at("status") == "interrupted") print_error(console, names + ": interrupted");
+  return status_of(result);
+}
+
+Json study_case(const SweepCase& one, const std::filesystem::path& folder,
+                const Arguments& arguments, const Console& console) {
+  StudyOptions options = arguments.study;
+  options.stop = console.stop;
+  const StudySubject subject{one.name, read_experiment_document(one.document)};
+  const Json result = study(std::span(&subject, 1), options);
+  if (result.at("status") == "interrupted")
+    return {{"status", "interrupted"}, {"message", "interrupted"}, {"values", Json::object()}};
+  std::string written;
+  if (!folder.empty()) {
+    const ResultFolder mine(folder / one.name, "study", false);
+    write_files(mine, result);
+    written = one.name;
+  }
+  const Json& method = result.at("methods").front();
+  const Json& last = method.at("rows").back();
+  std::string message = method.at("remark");
+  for (const Json& row : method.at("rows"))
+    if (message.empty()) message = row.at("message");
+  return {{"folder", written},
+          {"status", "completed"},
+          {"message", message},
+          {"as_expected", status_of(result) == done},
+          {"values",
+           {{"method", method.at("method")},
+            {"order", method.at("order")},
+            {"step", last.at("step")},
+            {"error", last.at("error")},
+            {"iterations", last.at("iterations")},
+            {"seconds", last.at("seconds")},
+            {"reference", method.at("reference")},
+            {"reference_error", method.at("reference_error")}}}};
+}
+
+int study_cases(const Console& console, const Arguments& arguments) {
+  return run_sweep(console, {.file = arguments.files.front(),
+                             .settings = arguments.settings,
+                             .sweep = arguments.sweep,
+                             .folder = arguments.folder,
+                             .replace = arguments.force,
+                             .json = arguments.json,
+                             .action =
+                                 [&](const SweepCase& one, const std::filesystem::path& folder) {
+                                   return study_case(one, folder, arguments, console);
+                                 },
+                             .columns = {{"method", "method"},
+                                         {"order", "order"},
+                                         {"step", "smallest step"},
+                                         {"error", "error there"},
+                                         {"seconds", "seconds"}}});
+}
+
+}  // namespace
+
+void add_study(CLI::App& app, Session& session) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* study = app.add_subcommand(
+      "study", "Measure the error of methods against step size and work, and their order");
+  study
+      ->add_option("FILE", arguments->files,
+                   "experiments, whose method is studied at their step, a half of it, …; or - for "
+                   "standard input")
+      ->required();
+  CLI::Option* methods =
+      study
+          ->add_option("--method", arguments->methods,
+                       "a method instead of that of the experiment, as in --method rk4 or "
+                       "--method '{\"type\": …}'; may be repeated")
+          ->type_name("METHOD")
+          ->expected(1)
+          ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  study
+      ->add_option("--steps", arguments->study.steps,
+                   "how many step sizes, each a half of the one before (default: 5)")
+      ->check(CLI::Range(2, 16))
+      ->type_name("N");
+  study
+      ->add_option("--of", arguments->study.quantities,
+                   "a coordinate or observable whose error is measured; may be repeated (default: "
+                   "what has a closed form, or else all coordinates)")
+      ->type_name("NAME")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_backend(*study, arguments->study.backend);
+  add_settings(*study, arguments->settings);
+  add_sweep(*study, arguments->sweep);
+  study->get_option("--sweep")->excludes(methods);
+  study->add_flag("--json", arguments->json, "print JSON");
+  CLI::Option* folder =
+      study
+          ->add_option("-o", arguments->folder,
+                       "where table and figure go, as study.json, study.csv and study.svg")
+          ->type_name("DIR");
+  study->add_flag("--force", arguments->force, "replace a study that is in the folder already")
+      ->needs(folder);
+  study->callback([&session, arguments] {
+    const bool is_sweep = !arguments->sweep.ranges.empty();
+    if (is_sweep && arguments->files.size() > 1)
+      throw CLI::ValidationError("--sweep", "is one of a single FILE");
+    session.action = [arguments, is_sweep](const Console& console) {
+      return is_sweep ? study_cases(console, *arguments) : study_files(console, *arguments);
+    };
+  });
+}
+
+}  // namespace courant::cli

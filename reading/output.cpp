@@ -1,0 +1,144 @@
+#include "courant/reading/output.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "courant/core/message.hpp"
+#include "courant/core/spelling.hpp"
+
+namespace courant {
+namespace {
+
+using Entries = std::map<std::string, std::string, std::less<>>;
+
+// A moment this part of a step from a step is that step.
+constexpr double kSame = 1e-9;
+
+// Quantities and the arrays that they are elements of.
+std::vector<std::string> names_of(const std::vector<std::string>& quantities) {
+  std::vector<std::string> names = {"t"};
+  for (std::string name : quantities)
+    for (;;) {
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+      const std::size_t bracket = name.rfind('[');
+      if (bracket == std::string::npos) break;
+      name.erase(bracket);
+    }
+  return names;
+}
+
+Entries read_texts(const std::optional<JsonReader>& value,
+                   const std::optional<std::vector<std::string>>& quantities,
+                   const std::string& forbidden, const std::string& expected) {
+  Entries found;
+  if (!value) return found;
+  const auto entries = value->entries();
+  if (!entries) return found;
+  const std::vector<std::string> names =
+      quantities ? names_of(*quantities) : std::vector<std::string>();
+  for (const auto& [name, entry] : *entries) {
+    if (quantities && std::ranges::find(names, name) == names.end())
+      entry.problem("there is no such quantity" + did_you_mean(name, names) +
+                    "; expected t, a coordinate, H or an observable");
+    const auto text = entry.text();
+    if (!text) continue;
+    const bool is_plain = std::ranges::all_of(
+        *text, [](char c) { return static_cast<unsigned char>(c) >= 0x20 && c != 0x7f; });
+    if (text->empty() || !is_plain || text->find_first_of(forbidden) != std::string::npos)
+      entry.expected(expected);
+    else
+      found[name] = *text;
+  }
+  return found;
+}
+
+std::vector<double> read_times(const JsonReader& value, const SymbolTable& constants,
+                               const std::optional<TimeSpan>& time) {
+  std::vector<double> times;
+  const auto entries = value.elements();
+  if (!entries) return times;
+  for (const JsonReader& entry : *entries) {
+    const auto formula = read_formula(entry);
+    if (!formula) continue;
+    const auto number = evaluate_constants({{}, {*formula}}, constants, value.findings());
+    if (!number) continue;
+    const double t = (*number)[0];
+    const double slack = time ? kSame * time->step : 0.0;
+    if (time && !(t >= time->start - slack && t <= time->end() + slack))
+      entry.expected("a time from " + exact_text(time->start) + " to " + exact_text(time->end()));
+    else
+      times.push_back(t);
+  }
+  std::ranges::sort(times);
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+// The step that a time is at, or the number of steps before it and a part of one.
+double steps_before(double t, const TimeSpan& time) { return (t - time.start) / time.step; }
+
+bool is_at_step(double t, const TimeSpan& time) {
+  const double steps = steps_before(t, time);
+  return std::abs(steps - std::round(steps)) <= kSame;
+}
+
+}  // namespace
+
+const std::string* entry_of(const std::map<std::string, std::string, std::less<>>& entries,
+                            const std::string& quantity) {
+  for (std::string name = quantity;;) {
+    if (const auto found = entries.find(name); found != entries.end()) return &found->second;
+    const std::size_t bracket = name.rfind('[');
+    if (bracket == std::string::npos) return nullptr;
+    name.erase(bracket);
+  }
+}
+
+std::string Output::heading(const std::string& quantity) const {
+  const std::string* unit = entry_of(units, quantity);
+  return unit ? quantity + " [" + *unit + "]" : quantity;
+}
+
+bool Output::is_written(long k, const TimeSpan& time) const {
+  if (k == 0 || k == time.steps) return true;
+  if (at.empty()) return k % every == 0;
+  return std::ranges::any_of(
+      at, [&](double t) { return is_at_step(t, time) && std::lround(steps_before(t, time)) == k; });
+}
+
+std::vector<double> Output::between(long k, const TimeSpan& time) const {
+  std::vector<double> found;
+  for (const double t : at)
+    if (!is_at_step(t, time) && std::ceil(steps_before(t, time)) == static_cast<double>(k))
+      found.push_back(t);
+  return found;
+}
+
+std::string without_unit(const std::string& heading) {
+  const std::size_t unit = heading.find(" [");
+  return unit == std::string::npos || !heading.ends_with(']') ? heading : heading.substr(0, unit);
+}
+
+Output read_output(const JsonReader& value, const SymbolTable& constants,
+                   const std::optional<std::vector<std::string>>& quantities,
+                   const std::optional<TimeSpan>& time) {
+  ObjectReader object(value);
+  Output output;
+  const auto every = object.optional("every"), at = object.optional("at");
+  if (every)
+    output.every = static_cast<long>(every->integer(1).value_or(1));
+  else if (!at)
+    object.default_value("every", 1);
+  if (at) {
+    if (every) at->problem("stands beside \"every\"; expected one of them");
+    output.at = read_times(*at, constants, time);
+  }
+  output.epoch = object.integer("epoch", output.epoch, 1);
+  if (object.word("format", "csv", {"csv", "npy"}) == "npy") output.format = Output::Format::npy;
+  output.units = read_texts(object.optional("units"), quantities, ",\"[]",
+                            "a unit without comma, quotes and brackets, such as \"kg m/s\"");
+  output.labels = read_texts(object.optional("labels"), quantities, "", "a text in one line");
+  return output;
+}
+
+}  // namespace courant

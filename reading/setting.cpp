@@ -1,0 +1,144 @@
+#include "courant/reading/setting.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "courant/core/message.hpp"
+
+namespace courant {
+namespace {
+
+constexpr std::size_t kMost = 100'000;  // values: a slip of the keyboard, rather than a sweep
+
+[[noreturn]] void refuse(const std::string& option, const std::string& pointer,
+                         const std::string& what) {
+  throw ExperimentError(option + " " + pointer, what);
+}
+
+// The pointer and what stands after the =.
+std::pair<std::string, std::string> split(const std::string& text, const std::string& option,
+                                          const std::string& expected) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || text[0] != '/')
+    refuse(option, text.substr(0, equals), "is not a change; expected " + expected);
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+Json value_of(std::string_view text) {
+  Json value = Json::parse(text, nullptr, false);
+  return value.is_discarded() ? Json(text) : value;
+}
+
+template <class Number>
+std::optional<Number> number_in(std::string_view text) {
+  Number number{};
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc{} || stop != end) return std::nullopt;
+  return number;
+}
+
+// The pieces between separators that stand outside brackets, braces and quotes.
+std::vector<std::string_view> pieces(std::string_view text, char separator) {
+  std::vector<std::string_view> found;
+  std::size_t begin = 0;
+  int depth = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quoted && c == '\\') {
+      ++i;
+    } else if (c == '"') {
+      quoted = !quoted;
+    } else if (!quoted) {
+      if (c == '[' || c == '{' || c == '(') ++depth;
+      if (c == ']' || c == '}' || c == ')') --depth;
+      if (c == separator && depth <= 0) {
+        found.push_back(text.substr(begin, i - begin));
+        begin = i + 1;
+      }
+    }
+  }
+  found.push_back(text.substr(begin));
+  return found;
+}
+
+// n numbers from a to b, both of them exactly.
+std::vector<Json> numbers(double a, double b, std::size_t n) {
+  std::vector<Json> values;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double share = n == 1 ? 0.0 : static_cast<double>(i) / static_cast<double>(n - 1);
+    const double value = i + 1 == n && n > 1 ? b : a + (b - a) * share;
+    const bool is_whole = std::abs(value) < 1e15 && value == std::floor(value);
+    values.push_back(is_whole ? Json(static_cast<long>(value)) : Json(value));
+  }
+  return values;
+}
+
+}  // namespace
+
+Setting read_setting(const std::string& text, const std::string& option) {
+  auto [pointer, value] = split(text, option, "/json/pointer=VALUE, such as /time/step=0.1");
+  return {std::move(pointer), value_of(value)};
+}
+
+void apply_setting(const Setting& setting, Json& document, const std::string& option) {
+  try {
+    const Json::json_pointer place(setting.pointer);
+    const Json::json_pointer above = place.parent_pointer();
+    Json* const parent = document.contains(above) ? &document.at(above) : nullptr;
+    if (!parent || !(parent->is_object() || (parent->is_array() && document.contains(place))))
+      refuse(option, setting.pointer,
+             "there is no such place in the experiment; expected one, or a new key of an object");
+    document[place] = setting.value;
+  } catch (const Json::exception&) {
+    refuse(option, setting.pointer, "is not a JSON pointer; expected one such as /time/step");
+  }
+}
+
+ValueRange read_range(const std::string& text, const std::string& option) {
+  const std::string expected = "/json/pointer=a:b:n, such as /time/step=0.1:1:10, or =v,w,…";
+  const auto [pointer, written] = split(text, option, expected);
+  const std::vector<std::string_view> list = pieces(written, ',');
+  const std::vector<std::string_view> ends = pieces(written, ':');
+  ValueRange range{pointer, {}};
+  if (list.size() == 1 && ends.size() == 3) {
+    const auto a = number_in<double>(ends[0]), b = number_in<double>(ends[1]);
+    const auto n = number_in<std::size_t>(ends[2]);
+    if (!a || !b || !n || !std::isfinite(*a) || !std::isfinite(*b))
+      refuse(option, pointer,
+             "is " + written + "; expected a:b:n, n numbers from a to b, such as 0.1:1:10");
+    if (*n == 0 || *n > kMost)
+      refuse(option, pointer,
+             "has " + std::to_string(*n) + " values; expected 1 to " + std::to_string(kMost));
+    range.values = numbers(*a, *b, *n);
+    return range;
+  }
+  for (const std::string_view piece : list) {
+    if (piece.empty()) refuse(option, pointer, "has a value that is empty; expected " + expected);
+    range.values.push_back(value_of(piece));
+  }
+  return range;
+}
+
+std::vector<std::vector<Setting>> combinations(std::span<const ValueRange> ranges) {
+  std::vector<std::vector<Setting>> all = {{}};
+  for (const ValueRange& range : ranges) {
+    if (all.size() * range.values.size() > kMost)
+      refuse("--sweep", range.pointer,
+             "makes more than " + std::to_string(kMost) + " combinations of values");
+    std::vector<std::vector<Setting>> longer;
+    for (const auto& settings : all)
+      for (const Json& value : range.values) {
+        longer.push_back(settings);
+        longer.back().push_back({range.pointer, value});
+      }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+}  // namespace courant

@@ -1,0 +1,41 @@
+// Experiments changed from outside: one value at one place, or several for a sweep.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "courant/reading/findings.hpp"
+
+namespace courant {
+
+// The value that a JSON pointer leads to in an experiment.
+struct Setting {
+  std::string pointer;
+  Json value;
+};
+
+// `/json/pointer=VALUE`; VALUE is JSON or, where it is not, a text. Throws ExperimentError, whose
+// `where` is `option` and the pointer.
+Setting read_setting(const std::string& text, const std::string& option = "--set");
+
+// Changes the document. The place may be new if what it is in is there. Throws ExperimentError with
+// `option` and the pointer where it is not.
+void apply_setting(const Setting& setting, Json& document, const std::string& option = "--set");
+
+// The values that a place has one after the other.
+struct ValueRange {
+  std::string pointer;
+  std::vector<Json> values;
+};
+
+// `/json/pointer=a:b:n`, n numbers from a to b at equal distances, or `/json/pointer=v,w,…`, each
+// as in a setting; commas inside brackets, braces and quotes do not separate. Throws
+// ExperimentError.
+ValueRange read_range(const std::string& text, const std::string& option = "--sweep");
+
+// Every combination of a value of each range; the last range changes fastest. Throws
+// ExperimentError if there are more than 100,000.
+std::vector<std::vector<Setting>> combinations(std::span<const ValueRange> ranges);
+
+}  // namespace courant

@@ -1,0 +1,123 @@
+#include "courant/running/result_folder.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "courant/running/run_folder.hpp"
+
+namespace courant {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& what) {
+  throw UnusableFolder(path.string() + ": " + what);
+}
+
+std::string article(const std::string& kind) { return "a " + kind; }
+
+std::vector<fs::path> files_of(const fs::path& path, const std::string& kind) {
+  std::vector<fs::path> found;
+  for (const char* extension : {"json", "csv", "svg", "json.new", "csv.new", "svg.new"}) {
+    std::error_code error;
+    const fs::path file = path / (kind + "." + extension);
+    if (fs::exists(file, error)) found.push_back(file);
+  }
+  return found;
+}
+
+Json result_in(const fs::path& path, const std::string& kind) {
+  std::ifstream stream(path / (kind + ".json"), std::ios::binary);
+  const Json result = Json::parse(stream, nullptr, false);
+  return result.is_object() && result.value("kind", Json()) == kind ? result : Json();
+}
+
+// The folders of its runs: names without a way out of the folder.
+std::vector<fs::path> run_folders(const fs::path& path, const Json& result) {
+  std::vector<fs::path> folders;
+  if (!result.is_object()) return folders;
+  const Json runs = result.value("runs", Json::array());
+  if (!runs.is_array()) return folders;
+  for (const Json& run : runs) {
+    const Json name = run.is_object() ? run.value("folder", Json()) : Json();
+    if (!name.is_string()) continue;
+    const fs::path folder(name.get<std::string>());
+    if (folder.has_filename() && !folder.has_parent_path() && folder != "." && folder != "..")
+      folders.push_back(path / folder);
+  }
+  return folders;
+}
+
+// Everything that it wrote.
+void remove_all_of(const fs::path& path, const std::string& kind) {
+  const auto remove = [](const fs::path& file) {
+    std::error_code error;
+    fs::remove(file, error);
+    if (error) refuse(file, "cannot be replaced: " + error.message());
+  };
+  for (const fs::path& folder : run_folders(path, result_in(path, kind))) {
+    RunFolder::remove(folder);
+    if (!result_in(folder, "study").is_null())
+      for (const fs::path& file : files_of(folder, "study")) remove(file);
+    std::error_code not_empty;
+    fs::remove(folder, not_empty);
+  }
+  for (const fs::path& file : files_of(path, kind)) remove(file);
+}
+
+constexpr const char* kInUse =
+    "something is being written to this folder; expected another folder (-o)";
+
+}  // namespace
+
+void ResultFolder::check(const fs::path& path, const std::string& kind, bool replace) {
+  RunFolder::check_place(path);
+  if (RunFolder::is_in_use(path)) refuse(path, kInUse);
+  const std::vector<fs::path> files = files_of(path, kind);
+  if (files.empty()) return;
+  if (result_in(path, kind).is_null())
+    refuse(files.front(),
+           "is there already, and no " + kind + " wrote it; expected another folder (-o)");
+  if (!replace)
+    refuse(path, "there is " + article(kind) +
+                     " in this folder; expected another folder (-o), or --force to replace it");
+}
+
+ResultFolder::ResultFolder(fs::path path, std::string kind, bool replace)
+    : path_(std::move(path)), kind_(std::move(kind)) {
+  check(path_, kind_, replace);
+  try {
+    make_folder(path_);
+    lock_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+      refuse(path_, kInUse);
+    remove_all_of(path_, kind_);
+  } catch (const OutputError& error) {
+    if (lock_ >= 0) ::close(lock_);
+    throw UnusableFolder(error.what());
+  }
+}
+
+ResultFolder::~ResultFolder() {
+  if (lock_ >= 0) ::close(lock_);
+}
+
+fs::path ResultFolder::file(const std::string& extension) const {
+  return path_ / (kind_ + "." + extension);
+}
+
+void ResultFolder::write(const Json& result, const std::string& csv) const {
+  Json whole = {{"kind", kind_}};
+  whole.update(result);
+  write_file(file("json"), whole.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file(file("csv"), csv);
+}
+
+}  // namespace courant

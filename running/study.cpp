@@ -1,0 +1,384 @@
+#include "courant/running/study.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <new>
+#include <optional>
+#include <utility>
+
+#include "courant/core/message.hpp"
+#include "courant/core/spelling.hpp"
+#include "courant/running/comma_separated.hpp"
+#include "courant/running/consistent_start.hpp"
+#include "courant/running/observer.hpp"
+
+namespace courant {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr long kMostMoments = 1000;
+
+// The study is interrupted.
+struct Stopped {};
+
+// A run: the states at some moments, and what it cost.
+struct Flight {
+  std::vector<State> states;
+  SolverStatistics work;
+  double seconds = 0.0;
+};
+
+// Where and how a subject starts, and which of its quantities are looked at.
+class Problem {
+ public:
+  Problem(const StudySubject& subject, const StudyOptions& options)
+      : subject_(subject),
+        options_(options),
+        ladder_(consistent_start(experiment())),
+        observer_(experiment(), ladder_, options.backend) {
+    if (!experiment().method || !experiment().time)
+      throw ExperimentError("/method", "is missing; a study is one of a method and its steps");
+    const TimeSpan& time = *experiment().time;
+    if (time.steps == 0) throw ExperimentError("/time/end", "is the start; expected a later time");
+    stride_ = (time.steps + kMostMoments - 1) / kMostMoments;
+    choose_quantities();
+  }
+
+  const Experiment& experiment() const { return subject_.experiment; }
+  const std::vector<std::string>& quantities() const { return quantities_; }
+  bool has_closed_form() const { return !deviations_.empty(); }
+
+  PreparedMethod prepare(const MethodChoice& method, double step) const {
+    return method.prepare({.system = experiment().model.system,
+                           .ladder = ladder_,
+                           .initial = ladder_.point,
+                           .step = step,
+                           .backend = options_.backend,
+                           .vocabulary = &experiment().model.vocabulary});
+  }
+
+  // The run with each step cut in `parts`.
+  Flight fly(const MethodChoice& choice, long parts) const {
+    const TimeSpan& time = *experiment().time;
+    const double h = time.step / static_cast<double>(parts);
+    const PreparedMethod method = prepare(choice, h);
+    const auto stepper = method.integrator->stepper();
+    State state = method.initial;
+    Flight flight;
+    const auto begin = Clock::now();
+    stepper->prepare(state, h);
+    for (long k = 0; k < time.steps; ++k) {
+      for (long part = 1; part <= parts; ++part) {
+        const double end =
+            part == parts ? time.time(k + 1) : time.time(k) + static_cast<double>(part) * h;
+        stepper->step(state, h, end);
+        if (options_.stop && *options_.stop) throw Stopped();
+      }
+      if ((k + 1) % stride_ == 0 || k + 1 == time.steps) flight.states.push_back(state);
+    }
+    flight.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    flight.work = stepper->statistics();
+    return flight;
+  }
+
+  // The quantities at the moments of a flight, one a column.
+  MatrixXd values(const Flight& flight) { return rows(flight, columns_); }
+  // How far they are from their closed forms.
+  MatrixXd deviations(const Flight& flight) { return rows(flight, deviations_); }
+
+ private:
+  void choose_quantities() {
+    const auto& names = observer_.names();
+    const auto& forms = experiment().expect.deviations;
+    const auto form_of = [&](const std::string& quantity) {
+      return std::ranges::find(forms, quantity, &Expectations::Deviation::quantity);
+    };
+    quantities_ = options_.quantities;
+    if (quantities_.empty())
+      for (const auto& form : forms)
+        if (std::ranges::find(quantities_, form.quantity) == quantities_.end())
+          quantities_.push_back(form.quantity);
+    if (quantities_.empty())
+      quantities_.assign(names.begin(),
+                         names.begin() + static_cast<std::ptrdiff_t>(observer_.coordinate_count()));
+    const auto column = [&](const std::string& name) {
+      const auto found = std::ranges::find(names, name);
+      const std::vector<std::string> written(
+          names.begin(), names.begin() + static_cast<std::ptrdiff_t>(observer_.first_constraint()));
+      if (found == names.end())
+        throw ExperimentError("--of " + name, "there is no such quantity" +
+                                                  did_you_mean(name, written) +
+                                                  "; expected a coordinate, H or an observable");
+      return found - names.begin();
+    };
+    bool all = true;
+    for (const std::string& quantity : quantities_) {
+      columns_.push_back(column(quantity));
+      if (const auto form = form_of(quantity); form != forms.end())
+        deviations_.push_back(column(form->name));
+      else
+        all = false;
+    }
+    if (!all) deviations_.clear();
+  }
+
+  MatrixXd rows(const Flight& flight, const std::vector<Index>& columns) {
+    MatrixXd found(static_cast<Index>(columns.size()), static_cast<Index>(flight.states.size()));
+    for (Index j = 0; j < found.cols(); ++j) {
+      const VectorXd& row = observer_.row(flight.states[static_cast<std::size_t>(j)]);
+      for (Index i = 0; i < found.rows(); ++i)
+        found(i, j) = row[columns[static_cast<std::size_t>(i)]];
+    }
+    return found;
+  }
+
+  const StudySubject& subject_;
+  const StudyOptions& options_;
+  ConstraintLadder ladder_;
+  Observer observer_;
+  long stride_ = 1;
+  std::vector<std::string> quantities_;
+  std::vector<Index> columns_, deviations_;  // in the rows of the observer
+};
+
+double greatest_norm(const MatrixXd& columns) {
+  double greatest = 0.0;
+  for (Index j = 0; j < columns.cols(); ++j) {
+    const double norm = columns.col(j).norm();
+    if (!(norm <= greatest)) greatest = norm;  // NaN stays
+  }
+  return greatest;
+}
+
+// What is true, as far as it is known.
+struct Truth {
+  std::string words;
+  double error = 0.0;
+  MatrixXd values;  // none: closed form
+};
+
+MethodChoice dormand_prince() {
+  const Json word = "dopri5";
+  Findings findings;
+  auto choice = method_kinds().read(JsonReader(word, "/method", findings));
+  findings.require_clean();
+  return *choice;
+}
+
+// Runs at ever shorter steps, until that changes the values no more than round-off does: of all,
+// the one that differs least from the one before, by which it may be off.
+Truth by_run(Problem& problem, const StudyOptions& options) {
+  constexpr double enough = 1e-14, small = 1e-10;  // of the size of the values
+  constexpr long most_steps = 2'000'000;           // of the last run
+  const Experiment& experiment = problem.experiment();
+  MethodChoice method = dormand_prince();
+  try {
+    problem.prepare(method, experiment.time->step);
+  } catch (const std::invalid_argument&) {  // no vector field
+    method = *experiment.method;
+  }
+  const long steps = experiment.time->steps;
+  const auto run = [&](long parts) {
+    const std::string step = number_text(experiment.time->step / static_cast<double>(parts));
+    if (options.on_progress)
+      options.on_progress("reference by " + method.description + ", step " + step);
+    return Truth{method.description + " at the step " + step, 0.0,
+                 problem.values(problem.fly(method, parts))};
+  };
+  long parts = 2;
+  // Long steps may not be possible where shorter ones are.
+  const auto first_possible = [&] {
+    for (;; parts *= 2) try {
+        return run(parts);
+      } catch (const std::exception&) {
+        if (4 * parts * steps > most_steps || parts > (1L << options.steps)) throw;
+      }
+  };
+  Truth before = first_possible(), best;
+  for (bool first = true; 2 * parts * steps <= most_steps || first; first = false) {
+    parts *= 2;
+    Truth finer = run(parts);
+    const double size = greatest_norm(finer.values);
+    finer.error = greatest_norm(finer.values - before.values);
+    const bool is_round_off = !first && best.error <= small * size && finer.error > best.error / 2;
+    if (first || finer.error < best.error) best = finer;
+    if (is_round_off || finer.error <= enough * size) break;
+    before = std::move(finer);
+  }
+  return best;
+}
+
+Truth reference_for(Problem& problem, const StudyOptions& options) {
+  if (problem.has_closed_form()) return {"closed form", 0.0, {}};
+  return by_run(problem, options);
+}
+
+// A run at one step size, made again where it is too short for a clock.
+Flight timed(const Problem& problem, long parts) {
+  constexpr double long_enough = 0.02;  // seconds
+  constexpr int most = 5;
+  const MethodChoice& method = *problem.experiment().method;
+  Flight flight = problem.fly(method, parts);
+  for (int i = 1; i < most && flight.seconds < long_enough; ++i)
+    flight.seconds = std::min(flight.seconds, problem.fly(method, parts).seconds);
+  return flight;
+}
+
+struct Row {
+  double step = 0.0, error = kUnknown, order = kUnknown, seconds = kUnknown;
+  long steps = 0, iterations = 0, factorizations = 0;
+  std::string message;
+};
+
+// The slope of log(error) over log(step) at the four smallest steps with an error above `floor`.
+std::optional<double> fitted_order(const std::vector<Row>& rows, double floor) {
+  std::vector<std::pair<double, double>> points;
+  for (auto row = rows.rbegin(); row != rows.rend() && points.size() < 4; ++row)
+    if (row->error > floor) points.emplace_back(std::log(row->step), std::log(row->error));
+  if (points.size() < 3) return std::nullopt;
+  double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+  const auto count = static_cast<double>(points.size());
+  for (const auto& [log_step, log_error] : points) x += log_step / count, y += log_error / count;
+  for (const auto& [log_step, log_error] : points) {
+    xx += (log_step - x) * (log_step - x);
+    xy += (log_step - x) * (log_error - y);
+  }
+  return xy / xx;
+}
+
+std::string remark_on(const std::vector<Row>& rows, const std::optional<double>& order,
+                      double floor) {
+  if (std::ranges::any_of(rows, [](const Row& row) { return std::isnan(row.error); }))
+    return "Not every step could be made.";
+  if (!order)
+    return rows.back().error <= floor
+               ? "Too few errors are above those of the reference and round-off for an order."
+               : "";
+  if (*order < 0.5)
+    return "The error does not fall with the step: the reference is not the solution, or the "
+           "method does not converge.";
+  return "";
+}
+
+Json known(double value) { return std::isnan(value) ? Json() : Json(value); }
+
+Json method_json(const StudySubject& subject, const Problem& problem, const Truth& reference,
+                 const std::vector<Row>& rows, double size) {
+  const double floor = std::max(10.0 * reference.error, 1e-12 * size);
+  const std::optional<double> order = fitted_order(rows, floor);
+  Json json{{"experiment", subject.name},
+            {"method", problem.experiment().method->description},
+            {"quantities", problem.quantities()},
+            {"reference", reference.words},
+            {"reference_error", reference.error},
+            {"order", order ? Json(*order) : Json()},
+            {"remark", remark_on(rows, order, floor)},
+            {"rows", Json::array()}};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Row& row = rows[i];
+    const bool comparable = i > 0 && rows[i - 1].error > floor && row.error > floor;
+    json["rows"].push_back({{"step", row.step},
+                            {"steps", row.steps},
+                            {"error", known(row.error)},
+                            {"order", comparable ? Json(std::log(rows[i - 1].error / row.error) /
+                                                        std::log(rows[i - 1].step / row.step))
+                                                 : Json()},
+                            {"iterations", row.iterations},
+                            {"factorizations", row.factorizations},
+                            {"seconds", known(row.seconds)},
+                            {"message", row.message}});
+  }
+  return json;
+}
+
+// What has to be the same for two subjects to have the same reference.
+std::string problem_of(const Experiment& experiment) {
+  Json parts = Json::object();
+  for (const char* key : {"system", "initial", "hold", "weights", "time", "observe", "expect"})
+    parts[key] = experiment.document.value(key, Json());
+  return parts.dump();
+}
+
+Json study_of(const StudySubject& subject, const StudyOptions& options,
+              std::map<std::string, Truth>& references) {
+  Problem problem(subject, options);
+  const std::string key = problem_of(subject.experiment);
+  if (!references.contains(key)) references[key] = reference_for(problem, options);
+  const Truth& reference = references[key];
+  std::vector<Row> rows;
+  double size = greatest_norm(reference.values);
+  for (int i = 0; i < options.steps; ++i) {
+    const long parts = 1L << i;
+    Row row;
+    row.step = subject.experiment.time->step / static_cast<double>(parts);
+    row.steps = subject.experiment.time->steps * parts;
+    if (options.on_progress)
+      options.on_progress(subject.experiment.method->description + ", step " +
+                          number_text(row.step));
+    try {
+      const Flight flight = timed(problem, parts);
+      const MatrixXd values = problem.values(flight);
+      row.error = greatest_norm(problem.has_closed_form() ? problem.deviations(flight)
+                                                          : (values - reference.values).eval());
+      row.iterations = flight.work.iterations;
+      row.factorizations = flight.work.factorizations;
+      row.seconds = flight.seconds;
+      size = std::max(size, greatest_norm(values));
+    } catch (const std::invalid_argument& error) {
+      throw ExperimentError("/method", without_place(error.what()));
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
+      row.message = without_place(error.what());
+    }
+    rows.push_back(row);
+  }
+  return method_json(subject, problem, reference, rows, size);
+}
+
+// The value of a key that all methods share, or null.
+Json shared(const Json& methods, const char* key) {
+  for (const Json& method : methods)
+    if (method.at(key) != methods.front().at(key)) return nullptr;
+  return methods.empty() ? Json() : methods.front().at(key);
+}
+
+}  // namespace
+
+Json study(std::span<const StudySubject> subjects, const StudyOptions& options) {
+  Json methods = Json::array();
+  std::map<std::string, Truth> references;
+  const char* status = "completed";
+  try {
+    for (const StudySubject& subject : subjects)
+      methods.push_back(study_of(subject, options, references));
+  } catch (const Stopped&) {
+    status = "interrupted";
+  }
+  return {{"status", status},
+          {"reference", shared(methods, "reference")},
+          {"quantities", shared(methods, "quantities")},
+          {"methods", methods}};
+}
+
+std::string study_csv(const Json& study) {
+  const char* const columns[] = {"step",       "steps",          "error",   "order",
+                                 "iterations", "factorizations", "seconds", "message"};
+  std::string csv = "experiment,method";
+  for (const char* column : columns) csv += std::string(",") + column;
+  csv += '\n';
+  for (const Json& method : study.at("methods"))
+    for (const Json& row : method.at("rows")) {
+      csv += csv_cell(method.at("experiment")) + "," + csv_cell(method.at("method"));
+      for (const char* column : columns) csv += "," + csv_cell(row.at(column));
+      csv += '\n';
+    }
+  return csv;
+}
+
+}  // namespace courant

@@ -1,0 +1,59 @@
+// Sweeps: an experiment for every value of one or more of its places.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "courant/core/function.hpp"
+#include "courant/reading/setting.hpp"
+#include "courant/running/result_folder.hpp"
+
+namespace courant {
+
+// One experiment of a sweep.
+struct SweepCase {
+  std::vector<Setting> settings;  // one for each swept place
+  std::string name;               // of its folder, "03-theta=0.2": letters, digits and . = + - _ ,
+  Json document;                  // with the settings
+};
+
+// A case for each combination of values. Throws ExperimentError where a place cannot be changed.
+std::vector<SweepCase> sweep_cases(const Json& document, std::span<const ValueRange> ranges);
+
+struct SweepOptions {
+  unsigned threads = 1;
+  const std::atomic<bool>* stop = nullptr;  // set by someone else: no further case begins
+  // After each case, from one thread at a time, with the cases that have ended.
+  std::function<void(std::size_t ended, std::size_t count)> on_progress = {};
+  // The folder in which the table is, and is kept up to date; null for a sweep without files.
+  const ResultFolder* folder = nullptr;
+};
+
+// Does the same with every case, on several threads, and makes the table of what comes out:
+//
+//   {"status": "completed", "sweep": [{"pointer": "/time/step", "values": [0.1, 0.2]}],
+//    "runs": [{"folder": "1-step=0.1", "settings": {"/time/step": 0.1}, "status": "completed",
+//              "message": "", "values": {"H.max_drift": 1e-3, …}}, …]}
+//
+// `action` returns the entry's status, message and values, and "folder" if it wrote one. What it
+// throws is the message of the entry, with the status "wrong" for an ExperimentError and "failed"
+// for anything else. Cases that do not begin have the status "interrupted"; so has the sweep then.
+Json sweep(std::span<const ValueRange> ranges, std::span<const SweepCase> cases,
+           const std::function<Json(const SweepCase&)>& action, const SweepOptions& options);
+
+// The table as comma-separated values: folder, a column for each place, status, values, message.
+std::string sweep_csv(const Json& table);
+
+// Actions. A run of the case in a folder of its own in `folder`; its values are the number of
+// steps and of expectations, what became of every observable, coordinate and constraint, and the
+// work. Besides, "passed": whether it came out as expected.
+Json run_of_case(const SweepCase& one, const std::filesystem::path& folder, Backend backend,
+                 const std::atomic<bool>* stop);
+// The constraint algorithm at the initial point of the case; its values are verdict, index,
+// degrees of freedom, and the gap of the weakest rank decision.
+Json ladder_of_case(const SweepCase& one);
+
+}  // namespace courant

@@ -1,0 +1,84 @@
+#include "courant/reading/setting.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+namespace courant {
+namespace {
+
+Json values(const std::string& text) { return read_range("/a=" + text).values; }
+
+std::string refusal(const std::string& text) {
+  try {
+    read_range(text);
+  } catch (const ExperimentError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(setting)
+
+BOOST_AUTO_TEST_CASE(values_are_json_or_texts) {
+  BOOST_TEST(read_setting("/a/b=0.5").pointer == "/a/b");
+  BOOST_TEST(read_setting("/a=0.5").value == Json(0.5));
+  BOOST_TEST(read_setting("/a=[1, 2]").value == Json({1, 2}));
+  BOOST_TEST(read_setting("/a=2*pi").value == Json("2*pi"));
+  BOOST_TEST(read_setting("/a=x=1").value == Json("x=1"));
+  BOOST_CHECK_THROW(read_setting("a=1"), ExperimentError);
+  BOOST_CHECK_THROW(read_setting("/a"), ExperimentError);
+}
+
+BOOST_AUTO_TEST_CASE(values_go_where_there_is_a_place) {
+  Json document = {{"time", {{"step", 0.1}}}, {"list", {1, 2}}};
+  apply_setting({"/time/step", 0.2}, document);
+  apply_setting({"/time/end", 3}, document);
+  apply_setting({"/list/1", 5}, document);
+  BOOST_TEST(document == Json({{"time", {{"step", 0.2}, {"end", 3}}}, {"list", {1, 5}}}));
+  for (const char* nowhere : {"/tim/step", "/list/2", "/time/step/x", "/~2"})
+    BOOST_CHECK_THROW(apply_setting({nowhere, 1}, document), ExperimentError);
+}
+
+BOOST_AUTO_TEST_CASE(ranges_have_both_ends_and_equal_distances) {
+  BOOST_TEST(values("0:1:11") == Json({0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1}));
+  BOOST_TEST(values("3:1:3") == Json({3, 2, 1}));
+  BOOST_TEST(values("0.1:9:1") == Json::array({0.1}));
+  // The last is b itself, whatever the round-off of what is in between.
+  BOOST_TEST(values("0.7:0.1:7").back() == Json(0.1));
+}
+
+BOOST_AUTO_TEST_CASE(lists_are_parted_outside_brackets) {
+  BOOST_TEST(values("1,2.5,pi") == Json({1, 2.5, "pi"}));
+  BOOST_TEST(values("rk4") == Json::array({"rk4"}));
+  BOOST_TEST(values(R"([1, 2],{"type": "theta", "theta": 0.5},"a,b")") ==
+             Json({Json({1, 2}), {{"type", "theta"}, {"theta", 0.5}}, "a,b"}));
+  BOOST_TEST(values("min(1, 2),3") == Json({"min(1, 2)", 3}));
+}
+
+BOOST_AUTO_TEST_CASE(what_is_no_range_is_refused) {
+  BOOST_TEST(refusal("/a=0:1:x").find("--sweep /a: is 0:1:x; expected a:b:n") == 0u);
+  BOOST_TEST(refusal("/a=0:1:0").find("--sweep /a: has 0 values; expected 1 to") == 0u);
+  BOOST_TEST(refusal("/a=0:1:1000000").find("has 1000000 values") != std::string::npos);
+  BOOST_TEST(refusal("/a=0:1e999:3").find("expected a:b:n") != std::string::npos);
+  BOOST_TEST(refusal("/a=1,,2").find("has a value that is empty") != std::string::npos);
+  BOOST_TEST(refusal("/a=").find("has a value that is empty") != std::string::npos);
+  BOOST_TEST(refusal("a=1").find("is not a change") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(all_combinations_the_last_range_fastest) {
+  const std::vector<ValueRange> ranges = {{"/a", {1, 2}}, {"/b", {"x", "y", "z"}}};
+  const auto all = combinations(ranges);
+  BOOST_TEST_REQUIRE(all.size() == 6u);
+  BOOST_TEST(all[0][0].value == Json(1));
+  BOOST_TEST(all[1][1].value == Json("y"));
+  BOOST_TEST(all[5][0].value == Json(2));
+  BOOST_TEST(all[5][1].value == Json("z"));
+  const std::vector<Json> thousand(1000, 1);
+  BOOST_CHECK_THROW(combinations(std::vector<ValueRange>{{"/a", thousand}, {"/b", thousand}}),
+                    ExperimentError);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace courant

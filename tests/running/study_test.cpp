@@ -1,0 +1,141 @@
+#include "courant/running/study.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+namespace courant {
+namespace {
+
+// Nonlinear, with no closed form.
+const std::string pendulum = R"json({
+  "system": { "type": "hamiltonian", "coordinates": ["q"], "hamiltonian": "p_q^2/2 - cos(q)" },
+  "initial": { "q": 2, "p_q": 0 },
+  "method": "METHOD",
+  "time": { "step": 0.1, "end": 2 },
+  "observe": { "twice": "2*q" }
+})json";
+
+// q' = q²: q = 1/(1 - t).
+const std::string riccati = R"json({
+  "system": { "type": "implicit", "coordinates": ["q"], "equations": ["q' - q^2"] },
+  "initial": { "q": 1 },
+  "method": "METHOD",
+  "time": { "step": 0.05, "end": 0.5 },
+  "expect": [ { "state": { "q": "FORM" }, "tolerance": 0.1 } ]
+})json";
+
+Experiment experiment(std::string text, const std::string& method,
+                      const std::string& form = "1/(1 - t)") {
+  text.replace(text.find("METHOD"), 6, method);
+  if (const auto at = text.find("FORM"); at != std::string::npos) text.replace(at, 4, form);
+  return read_experiment(text);
+}
+
+StudyOptions options() { return {.backend = Backend::interpreter}; }
+
+Json study_of(const Experiment& one, const StudyOptions& how = options()) {
+  const StudySubject subject{"subject", one};
+  return study(std::span(&subject, 1), how).at("methods").front();
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(study_test)
+
+BOOST_AUTO_TEST_CASE(measures_the_order_against_a_closed_form) {
+  const std::pair<const char*, double> orders[] = {
+      {"discretize-first", 2.0}, {"rk2", 2.0}, {"rk4", 4.0}};
+  for (const auto& [method, order] : orders) {
+    const Json found = study_of(experiment(riccati, method));
+    BOOST_TEST(found["reference"] == "closed form");
+    BOOST_TEST(found["reference_error"] == 0.0);
+    BOOST_TEST(found["quantities"] == Json::array({"q"}));
+    BOOST_TEST(std::abs(found["order"].get<double>() - order) < 0.15, method);
+    BOOST_TEST(found["rows"].size() == 5u);
+  }
+}
+
+// The error of a step is that of the run itself.
+BOOST_AUTO_TEST_CASE(an_error_is_the_greatest_along_the_run) {
+  const Json found = study_of(experiment(riccati, "rk2"));
+  double q = 1.0, greatest = 0.0;
+  for (int k = 1; k <= 10; ++k) {
+    const double half = q + 0.025 * q * q;
+    q += 0.05 * half * half;
+    greatest = std::max(greatest, std::abs(q - 1.0 / (1.0 - 0.05 * k)));
+  }
+  BOOST_TEST(found["rows"][0]["error"].get<double>() == greatest,
+             boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(found["rows"][0]["step"] == 0.05);
+  BOOST_TEST(found["rows"][4]["steps"] == 160);
+}
+
+BOOST_AUTO_TEST_CASE(without_a_closed_form_the_reference_is_a_fine_run) {
+  for (const auto& [method, order] : {std::pair("discretize-first", 2.0), std::pair("rk4", 4.0)}) {
+    const Json found = study_of(experiment(pendulum, method));
+    BOOST_TEST(found["reference"].get<std::string>().find("dopri5 at the step 0.00") == 0u);
+    BOOST_TEST(found["reference_error"].get<double>() < 1e-11);
+    BOOST_TEST(found["quantities"] == Json::array({"q", "p_q"}));
+    BOOST_TEST(std::abs(found["order"].get<double>() - order) < 0.15, method);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(quantities_can_be_chosen) {
+  StudyOptions how = options();
+  how.quantities = {"twice"};
+  const Json twice = study_of(experiment(pendulum, "rk4"), how);
+  how.quantities = {"q"};
+  const Json once = study_of(experiment(pendulum, "rk4"), how);
+  BOOST_TEST(
+      twice["rows"][0]["error"].get<double>() == 2.0 * once["rows"][0]["error"].get<double>(),
+      boost::test_tools::tolerance(1e-6));
+  how.quantities = {"thrice"};
+  BOOST_CHECK_THROW(study_of(experiment(pendulum, "rk4"), how), ExperimentError);
+}
+
+// A closed form that is not the solution: the errors stop falling, and the order does not pass for one.
+BOOST_AUTO_TEST_CASE(a_wrong_reference_is_said) {
+  const Json found = study_of(experiment(riccati, "rk4", "1/(1 - t) + 0.001"));
+  BOOST_TEST(std::abs(found["order"].get<double>()) < 0.1);
+  BOOST_TEST(found["remark"].get<std::string>().find("The error does not fall with the step") ==
+             0u);
+}
+
+BOOST_AUTO_TEST_CASE(steps_that_cannot_be_made_are_said) {
+  // q blows up at t = 1, which an implicit step of 2 does not get past.
+  Json document = experiment(riccati, "discretize-first").document;
+  document["time"] = {{"step", 0.45}, {"end", 0.9}};
+  const Json found = study_of(read_experiment_document(document));
+  BOOST_TEST(found["rows"][0]["error"].is_null() ==
+             !found["rows"][0]["message"].get<std::string>().empty());
+  BOOST_TEST(!found["rows"][0]["message"].get<std::string>().empty());
+  BOOST_TEST(found["rows"][4]["error"].get<double>() > 0.0);
+}
+
+BOOST_AUTO_TEST_CASE(methods_share_what_is_the_same) {
+  const StudySubject subjects[] = {{"a", experiment(pendulum, "rk2")},
+                                   {"a", experiment(pendulum, "rk4")}};
+  const Json both = study(subjects, options());
+  BOOST_TEST(both["status"] == "completed");
+  BOOST_TEST(both["reference"].is_string());
+  BOOST_TEST(both["methods"][0]["reference_error"] == both["methods"][1]["reference_error"]);
+  const std::string csv = study_csv(both);
+  BOOST_TEST(std::count(csv.begin(), csv.end(), '\n') == 11);
+  BOOST_TEST(csv.find("experiment,method,step,steps,error,order,iterations,factorizations,seconds,"
+                      "message\na,rk2,0.1,20,") == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_studied_is_refused) {
+  Json document = experiment(pendulum, "rk2").document;
+  document.erase("method");
+  document.erase("time");
+  BOOST_CHECK_THROW(study_of(read_experiment_document(document)), ExperimentError);
+  const std::atomic<bool> stop{true};
+  StudyOptions how = options();
+  how.stop = &stop;
+  const StudySubject subject{"a", experiment(pendulum, "rk2")};
+  BOOST_TEST(study(std::span(&subject, 1), how)["status"] == "interrupted");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace courant

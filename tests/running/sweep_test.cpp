@@ -1,0 +1,136 @@
+#include "courant/running/sweep.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <set>
+
+#include "courant/running/run_files.hpp"
+#include "courant/running/run_folder.hpp"
+#include "temporary_folder.hpp"
+
+namespace courant {
+namespace {
+
+const Json oscillator = Json::parse(R"json({
+  "system": { "type": "hamiltonian", "coordinates": ["q"], "hamiltonian": "(p_q^2 + k*q^2)/2", "parameters": { "k": 1 } },
+  "initial": { "q": 1, "p_q": 0 },
+  "method": { "type": "discretize-first", "discretization": { "type": "theta", "theta": 0.5 } },
+  "time": { "step": 0.1, "end": 1 },
+  "expect": [ { "observable": "H", "max_drift": 1e-12 } ]
+})json");
+
+const std::vector<ValueRange> thetas = {{"/method/discretization/theta", {0.5, 1, 2}}};
+
+Json sweep_runs(const ResultFolder& folder, std::span<const ValueRange> ranges,
+                const std::atomic<bool>* stop = nullptr, unsigned threads = 2) {
+  return sweep(ranges, sweep_cases(oscillator, ranges),
+               [&](const SweepCase& one) {
+                 return run_of_case(one, folder.path(), Backend::interpreter, stop);
+               },
+               {.threads = threads, .stop = stop, .folder = &folder});
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(sweep_test)
+
+BOOST_AUTO_TEST_CASE(cases_have_the_settings_and_names_of_folders) {
+  const std::vector<ValueRange> ranges = {{"/system/parameters/k", {1, "2/3"}},
+                                          {"/time/step", {0.1, 0.05}}};
+  const auto cases = sweep_cases(oscillator, ranges);
+  BOOST_TEST_REQUIRE(cases.size() == 4u);
+  BOOST_TEST(cases[0].name == "1-k=1,step=0.1");
+  BOOST_TEST(cases[3].name == "4-k=2_3,step=0.05");
+  BOOST_TEST(cases[3].document["system"]["parameters"]["k"] == "2/3");
+  BOOST_TEST(cases[3].document["time"]["step"] == 0.05);
+  // In the order of names, however many there are; none longer than a folder's name may be.
+  const std::vector<ValueRange> many = {{"/title", std::vector<Json>(10, std::string(300, 'a'))}};
+  BOOST_TEST(sweep_cases(oscillator, many)[0].name.substr(0, 4) == "01-t");
+  BOOST_TEST(sweep_cases(oscillator, many)[9].name.size() == 80u);
+  BOOST_CHECK_THROW(sweep_cases(oscillator, std::vector<ValueRange>{{"/tim/step", {1}}}),
+                    ExperimentError);
+}
+
+// A run that is as expected, one that is not, and one that cannot be read: all in the table.
+BOOST_AUTO_TEST_CASE(a_table_says_what_became_of_each_run) {
+  const TemporaryFolder temporary;
+  const ResultFolder folder(temporary / "sweep", "sweep", false);
+  const Json table = sweep_runs(folder, thetas);
+  BOOST_TEST(table["status"] == "completed");
+  const Json& runs = table["runs"];
+  BOOST_TEST_REQUIRE(runs.size() == 3u);
+  BOOST_TEST(runs[0]["status"] == "completed");
+  BOOST_TEST(runs[0]["as_expected"] == true);
+  BOOST_TEST(runs[0]["values"]["passed"] == 1);
+  BOOST_TEST(runs[0]["values"]["H.max_drift"].get<double>() < 1e-12);
+  BOOST_TEST(runs[1]["as_expected"] == false);
+  BOOST_TEST(runs[1]["values"]["H.max_drift"].get<double>() > 1e-2);
+  BOOST_TEST(runs[1]["message"].get<std::string>().find("/expect/0: ") == 0u);
+  BOOST_TEST(runs[2]["status"] == "wrong");
+  BOOST_TEST(runs[2]["folder"] == "");
+  BOOST_TEST(runs[2]["message"].get<std::string>().find("/method/discretization/theta: is 2") ==
+             0u);
+
+  // The values are those of the runs in the folders, and the files those of the table.
+  for (const std::size_t i : {0, 1}) {
+    const Run run = read_run(folder.path() / runs[i]["folder"].get<std::string>());
+    BOOST_TEST(run.summary["observables"]["H"]["max_drift"] == runs[i]["values"]["H.max_drift"]);
+    BOOST_TEST(run.trajectory.column("q").back() == runs[i]["values"]["q.final"].get<double>());
+  }
+  Json written = read_json(folder.file("json"));
+  BOOST_TEST(written["kind"] == "sweep");
+  BOOST_TEST(written["runs"] == runs);
+  const std::string csv = read_text(folder.file("csv"));
+  BOOST_TEST(csv == sweep_csv(table));
+  BOOST_TEST(
+      csv.find("folder,/method/discretization/theta,status,verdict,steps,expectations,passed,"
+               "H.initial,") == 0u);
+  BOOST_TEST(csv.find("\n1-theta=0.5,0.5,completed,regular,10,1,1,0.5,") != std::string::npos);
+  BOOST_TEST(csv.find("\n,2,wrong,,") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(the_number_of_threads_changes_nothing) {
+  const std::vector<ValueRange> ranges = {{"/system/parameters/k", {1, 2, 3, 4, 5, 6}}};
+  std::set<std::string> tables;
+  for (const unsigned threads : {1U, 4U}) {
+    const TemporaryFolder temporary;
+    Json table =
+        sweep_runs(ResultFolder(temporary / "sweep", "sweep", false), ranges, nullptr, threads);
+    for (Json& run : table["runs"]) run["values"].erase("wall_seconds");
+    tables.insert(table.dump());
+  }
+  BOOST_TEST(tables.size() == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(an_interrupt_leaves_a_table) {
+  const TemporaryFolder temporary;
+  const ResultFolder folder(temporary / "sweep", "sweep", false);
+  const std::atomic<bool> stop{true};
+  const Json table = sweep_runs(folder, thetas, &stop);
+  BOOST_TEST(table["status"] == "interrupted");
+  for (const Json& run : table["runs"]) {
+    BOOST_TEST(run["status"] == "interrupted");
+    BOOST_TEST(run["folder"] == "");
+  }
+  BOOST_TEST(read_json(folder.file("json"))["status"] == "interrupted");
+}
+
+BOOST_AUTO_TEST_CASE(ladders_are_swept_too) {
+  const Json pendulum = Json::parse(R"json({
+    "system": { "type": "mechanical", "coordinates": ["x", "y"], "potential": "y", "holonomic": "x^2 + y^2 - l^2", "parameters": { "l": 1 } },
+    "initial": { "x": 0.6, "y": -0.8, "p_x": 0.8, "p_y": 0.6 } })json");
+  const std::vector<ValueRange> ranges = {{"/system/parameters/l", {1, 2}}};
+  const Json table = sweep(ranges, sweep_cases(pendulum, ranges),
+                           [](const SweepCase& one) { return ladder_of_case(one); }, {});
+  for (const Json& run : table["runs"]) {
+    BOOST_TEST(run["status"] == "completed", run["message"]);
+    BOOST_TEST(run["values"]["verdict"] == "regular");
+    BOOST_TEST(run["values"]["degrees_of_freedom"] == 2);
+    BOOST_TEST(run["values"]["gap"].get<double>() > 1e3);
+  }
+  BOOST_TEST(table["runs"][0]["values"]["moved"].get<double>() < 1e-12);
+  BOOST_TEST(table["runs"][1]["values"]["moved"].get<double>() > 0.1);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace courant
