@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <chrono>
 #include <mutex>
 #include <new>
@@ -10,7 +11,7 @@
 #include "courant/reading/experiment.hpp"
 #include "courant/running/comma_separated.hpp"
 #include "courant/running/consistent_start.hpp"
-#include "courant/running/ladder_json.hpp"
+#include "courant/running/ladder_report.hpp"
 #include "courant/running/parallel.hpp"
 #include "courant/running/runner.hpp"
 
@@ -154,7 +155,7 @@ Json run_of_case(const SweepCase& one, const std::filesystem::path& folder, Back
                                               .stop = stop,
                                               .on_ladder = {},
                                               .on_progress = {}});
-  const Json& summary = outcome.summary;
+  const RunSummary& summary = outcome.summary;
   std::string message = outcome.message;
   const auto failures = std::ranges::count_if(
       outcome.expectations, [](const ExpectationResult& result) { return !result.passed; });
@@ -163,21 +164,26 @@ Json run_of_case(const SweepCase& one, const std::filesystem::path& folder, Back
       if (!result.passed && message.empty())
         message = result.pointer + ": " + result.description + ": " + result.finding;
   const auto expected = static_cast<long>(outcome.expectations.size());
-  Json values{{"verdict", summary.at("ladder").at("verdict")}, {"steps", summary.at("steps")}};
+  Json values{{"verdict", summary.ladder ? Json(to_string(summary.ladder->verdict)) : Json()},
+              {"steps", summary.steps}};
   if (expected > 0) {
     values["expectations"] = expected;
     values["passed"] = expected - static_cast<long>(failures);
   }
-  for (const auto& [name, o] : summary.at("observables").items())
-    for (const char* key : {"initial", "final", "min", "max", "max_drift", "slope"})
-      values[name + "." + key] = o.at(key);
-  if (summary.at("constraints").contains("max_violation"))
-    values["max_violation"] = summary["constraints"]["max_violation"];
-  for (const auto& [name, value] : summary.at("final").items()) values[name + ".final"] = value;
-  values["iterations_per_step"] = summary.at("solver").at("iterations_per_step");
-  values["wall_seconds"] = summary.at("wall_seconds");
+  for (const auto& [name, o] : summary.observables) {
+    values[name + ".initial"] = o.initial;
+    values[name + ".final"] = o.final;
+    values[name + ".min"] = o.min;
+    values[name + ".max"] = o.max;
+    values[name + ".max_drift"] = o.max_drift;
+    values[name + ".slope"] = o.slope;
+  }
+  if (summary.max_violation) values["max_violation"] = *summary.max_violation;
+  for (const auto& [name, value] : summary.final) values[name + ".final"] = value;
+  values["iterations_per_step"] = summary.solver.iterations_per_step;
+  values["wall_seconds"] = summary.wall_seconds;
   return {{"folder", one.name},
-          {"status", summary.at("status")},
+          {"status", to_string(summary.status)},
           {"message", message},
           {"as_expected", failures == 0},
           {"values", values}};
@@ -185,28 +191,27 @@ Json run_of_case(const SweepCase& one, const std::filesystem::path& folder, Back
 
 Json ladder_of_case(const SweepCase& one) {
   const Experiment experiment = read_experiment_document(one.document);
-  const Json ladder = ladder_json(consistent_start(experiment), *experiment.model.system);
-  Json gap = nullptr;
-  std::string dimensions;
-  Json before;
-  for (const Json& level : ladder.at("levels")) {
-    if (level.at("gap").is_number() && (gap.is_null() || level["gap"] < gap)) gap = level["gap"];
-    const Json pair{level.at("dim_S"), level.at("dim_M")};
+  const LadderReport ladder = ladder_report(consistent_start(experiment), *experiment.model.system);
+  const auto known = [](const std::optional<Index>& count) { return count ? Json(*count) : Json(); };
+  double gap = LadderReport::kUnknown;
+  std::string dimensions, before;
+  for (const LadderReport::Level& level : ladder.levels) {
+    gap = std::fmin(gap, level.gap);
+    const std::string pair = "(" + known(level.dim_S).dump() + " " + known(level.dim_M).dump() + ")";
     if (pair == before) continue;
     before = pair;
-    dimensions += (dimensions.empty() ? "" : " ") + std::string("(") + level.at("dim_S").dump() +
-                  " " + level.at("dim_M").dump() + ")";
+    dimensions += (dimensions.empty() ? "" : " ") + pair;
   }
   return {{"status", "completed"},
-          {"message", ladder.at("reason")},
+          {"message", ladder.reason},
           {"values",
-           {{"verdict", ladder.at("verdict")},
-            {"index", ladder.at("index")},
-            {"degrees_of_freedom", ladder.at("degrees_of_freedom")},
-            {"gauge_dimension", ladder.at("gauge_dimension")},
+           {{"verdict", to_string(ladder.verdict)},
+            {"index", known(ladder.index)},
+            {"degrees_of_freedom", known(ladder.degrees_of_freedom)},
+            {"gauge_dimension", ladder.gauge_dimension},
             {"ladder", dimensions},
-            {"gap", gap},
-            {"moved", ladder.at("moved")}}}};
+            {"gap", std::isfinite(gap) ? Json(gap) : Json()},
+            {"moved", ladder.moved}}}};
 }
 
 }  // namespace courant

@@ -27,6 +27,19 @@ void check_finite(const char* argument, const VectorXd& values) {
                                   " is not a finite number.");
 }
 
+// A zero that is one by the sizes that numbers have there. Those that were met on the way, as after a
+// first step of 10⁸, are no sizes of the problem, and next to them residuals of 1 are round-off.
+Zero find_confirmed(const LinearizableMap& map, const VectorXd& start, const Mobility& mobility) {
+  constexpr double accepted = 1e-10;
+  Zero zero = find_zero(map, start, mobility);
+  for (int look = 0; look < 5 && zero.found && zero.iterations > 0; ++look) {
+    Zero again = find_zero(map, zero.y, mobility);
+    if (again.history.front() <= accepted) break;
+    zero = std::move(again);
+  }
+  return zero;
+}
+
 }  // namespace
 
 ConsistentPoint::ConsistentPoint(std::shared_ptr<const ImplicitSystem> system, InitialGuess guess,
@@ -166,15 +179,14 @@ double ConsistentPoint::distance(const VectorXd& x) const {
       std::max(0.0, metric_.size() == 0 ? moved.squaredNorm() : moved.dot(metric_ * moved)));
 }
 
-ConsistentJet ConsistentPoint::recentred(const DerivativeArray& array, const Zero& zero,
-                                         bool hold) const {
+ConsistentJet ConsistentPoint::recentred(const DerivativeArray& array, const Zero& zero) const {
   const State state = array.state(zero.y);
   ConsistentJet there = {array.at(array.t(), state.x), zero};
   const VectorXd first = there.array.jet(state.v, state.z);
   there.zero.y.head(first.size()) = first;
   // ξ_0 = 0 and ξ_1, z_0 are those of the same state; higher coefficients change with the chart.
   const Zero polished =
-      find_zero(conditions(there.array, hold), there.zero.y, mobility(there, false));
+      find_zero(conditions(there.array, true), there.zero.y, mobility(there, false));
   if (polished.found) {
     there.zero = polished;
     there.zero.iterations += zero.iterations;
@@ -191,13 +203,13 @@ ConsistentJet ConsistentPoint::find(const ConsistentJet& from) const {
   Zero zero = find_zero(F, from.zero.y, mobility(from, false));
   if (zero.found) return {from.array, zero};
   const Mobility free = mobility(from, true);
-  zero = find_zero(F, from.zero.y, free);
+  zero = find_confirmed(F, from.zero.y, free);
   // At a point where equations have no linear part, as x² + y² = 1 at 0, no step leads anywhere.
   if (!zero.found && zero.is_finite) {
     TangentDisplacement displacements(from.array, from.zero.y,
                                       free.typical.cwiseMax(from.zero.y.cwiseAbs()));
     for (const double size : {0.1, 0.3, 1.0}) {
-      const Zero other = find_zero(F, from.zero.y + size * displacements.next(), free);
+      const Zero other = find_confirmed(F, from.zero.y + size * displacements.next(), free);
       if (other.found || (other.is_finite && !is_contradiction({from.array, other}))) zero = other;
       if (zero.found) break;
     }
@@ -205,7 +217,7 @@ ConsistentJet ConsistentPoint::find(const ConsistentJet& from) const {
   if (!zero.found) return {from.array, zero};
   zero = least_zero(
       F, [&](const VectorXd& y) { return displacement(from.array, y); }, zero, free);
-  return recentred(from.array, zero, true);
+  return recentred(from.array, zero);
 }
 
 bool ConsistentPoint::is_contradiction(const ConsistentJet& jet) const {
@@ -224,15 +236,18 @@ bool ConsistentPoint::is_contradiction(const ConsistentJet& jet) const {
 }
 
 ConsistentJet ConsistentPoint::again(const ConsistentJet& jet) const {
-  return recentred(jet.array, jet.zero, true);
+  return recentred(jet.array, jet.zero);
 }
 
 ConsistentPoint::Neighbour ConsistentPoint::find_displaced(const ConsistentJet& from,
-                                                           const VectorXd& displacement) const {
+                                                           const VectorXd& displacement,
+                                                           const SparseMatrixXd& magnitude) const {
   const VectorXd y = from.zero.y + displacement;
-  const Zero zero = find_zero(conditions(from.array, false), y, mobility(from, true));
+  Mobility free = mobility(from, true);
+  free.magnitude = magnitude;
+  const Zero zero = find_zero(conditions(from.array, false), y, free);
   if (!zero.found) return {{from.array, zero}, VectorXd::Zero(y.size())};
-  return {recentred(from.array, zero, false), zero.y - y};
+  return {{from.array, zero}, zero.y - y};
 }
 
 }  // namespace courant

@@ -7,8 +7,8 @@
 
 namespace courant {
 
-// A jet y that solves F^[k] = 0 (if zero.found) in the chart of `array`, whose origin is its point:
-// ξ_0 = 0. zero.reach has the sizes of the unknowns on the way there.
+// A jet y that solves F^[k] = 0 (if zero.found) in the chart of `array`, whose origin is its point
+// (ξ_0 = 0) unless it is a neighbour of one. zero.reach has the sizes of the unknowns on the way there.
 struct ConsistentJet {
   DerivativeArray array;
   Zero zero;
@@ -38,13 +38,15 @@ class ConsistentPoint {
   // The same zero found once more, from its point, velocity and unknowns alone: higher coefficients
   // that the equations leave open lose what the search left in them.
   ConsistentJet again(const ConsistentJet& jet) const;
-  // A zero of F^[k] near `from`, its jet displaced by `displacement`, and how far from there it is
-  // (in the chart of `from`).
+  // A zero of F^[k] near `from`, its jet displaced by `displacement`, and how far from there it is.
+  // Held values may change. The jet stays in the chart of `from`, where its ξ_0 is not 0.
+  // `magnitude`: of the Jacobian around `from` (generic_magnitude).
   struct Neighbour {
     ConsistentJet jet;
     VectorXd correction;
   };
-  Neighbour find_displaced(const ConsistentJet& from, const VectorXd& displacement) const;
+  Neighbour find_displaced(const ConsistentJet& from, const VectorXd& displacement,
+                           const SparseMatrixXd& magnitude) const;
 
   // ‖x - x_given‖_W.
   double distance(const VectorXd& x) const;
@@ -53,7 +55,7 @@ class ConsistentPoint {
   LinearizableMap conditions(const DerivativeArray& array, bool hold) const;
   Mobility mobility(const ConsistentJet& from, bool x_is_free) const;
   Quadratic displacement(const DerivativeArray& array, const VectorXd& y) const;
-  ConsistentJet recentred(const DerivativeArray& array, const Zero& zero, bool hold) const;
+  ConsistentJet recentred(const DerivativeArray& array, const Zero& zero) const;
 
   void drop_round_off();
 

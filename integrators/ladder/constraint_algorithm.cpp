@@ -6,6 +6,7 @@
 
 #include "courant/integrators/ladder/consistent_point.hpp"
 #include "courant/integrators/ladder/ladder_levels.hpp"
+#include "courant/integrators/ladder/natural_scaling.hpp"
 #include "courant/integrators/ladder/obstruction.hpp"
 
 namespace courant {
@@ -153,8 +154,9 @@ std::string singularity(const ConsistentPoint& consistent, const ConsistentJet& 
   std::optional<Obstruction> obstruction;
   if (follow && at.zero.y.size() <= dense_limit)
     obstruction.emplace(at.array, at.zero.y, at.zero.uncertainty, levels.back().all.rank);
+  TangentDisplacement tangents(at.array, at.zero.y, at.zero.reach);
   const auto seen_along = [&](const VectorXd& tangent) -> std::string {
-    const auto near = consistent.find_displaced(at, 1e-3 * tangent);
+    const auto near = consistent.find_displaced(at, 1e-3 * tangent, tangents.magnitude());
     if (near.jet.zero.found) {
       const std::vector<LadderLevel> there = levels_at(near.jet);
       const std::string other = are_certain(there) ? difference(levels, there) : "";
@@ -164,7 +166,6 @@ std::string singularity(const ConsistentPoint& consistent, const ConsistentJet& 
     return "The equations have solutions in fewer directions than their linear parts: one of the "
            "constraints has a vanishing gradient here.";
   };
-  TangentDisplacement tangents(at.array, at.zero.y, at.zero.reach);
   int clean = 0;
   std::string first;
   for (int i = 0; i < 3 && clean < 2; ++i) {
@@ -179,6 +180,22 @@ std::string singularity(const ConsistentPoint& consistent, const ConsistentJet& 
   return "";
 }
 
+// Whether the entries of the Jacobian that count as zero at the jet are small next to what they are
+// nearby. Those whose bounds are as large may have been lost in their errors, and ranks with them.
+bool zeros_are_certain(const ConsistentJet& at) {
+  constexpr double certain = 1e-3;
+  const VectorXd& y = at.zero.y;
+  const Linearization here =
+      at.array.linearize(y, at.zero.uncertainty.cwiseMax(Prolongation::rounding(y)));
+  const SparseMatrixXd nearby = GenericScaling(at.array, y, at.zero.reach).magnitude;
+  for (Index j = 0; j < here.error.outerSize(); ++j)
+    for (SparseMatrixXd::InnerIterator error(here.error, j); error; ++error)
+      if (here.jacobian.coeff(error.row(), j) == 0.0 &&
+          error.value() > certain * nearby.coeff(error.row(), j) && error.value() > 0.0)
+        return false;
+  return true;
+}
+
 // Counts what other points of the final constraint set need as well: a multiplier that is zero at
 // this point, as x₁ of a rod in the plane x₁ = 0, is not along a motion that leaves it.
 void count_differentiations_nearby(ConstraintLadder& ladder, const ConsistentPoint& consistent,
@@ -186,7 +203,7 @@ void count_differentiations_nearby(ConstraintLadder& ladder, const ConsistentPoi
   if (at.array.has_constant_jacobian()) return;
   TangentDisplacement tangents(at.array, at.zero.y, at.zero.reach);
   for (int i = 0; i < 2; ++i) {
-    const auto near = consistent.find_displaced(at, 1e-2 * tangents.next());
+    const auto near = consistent.find_displaced(at, 1e-2 * tangents.next(), tangents.magnitude());
     if (!near.jet.zero.found) continue;
     const std::vector<int> counts = needed_differentiations(
         near.jet.array, near.jet.zero.y, near.jet.zero.uncertainty, ladder.index);
@@ -202,7 +219,7 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
   const ConsistentPoint consistent(system, guess, options_.metric);
   ConsistentJet jet = consistent.start();
   ConstraintLadder ladder;
-  bool stopped = false;
+  bool stopped = false, has_converged = true;
   std::string singular;
   for (Index k = 0; k <= options_.max_level && !stopped; ++k) {
     jet.zero.y = jet.array.resized(jet.zero.y, k);
@@ -221,6 +238,7 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
         if (!singular.empty()) break;
       }
       if (!consistent.is_contradiction(next)) {
+        has_converged = false;
         ladder.reason = "The search for a point of " + level_name("S", k) +
                         " did not converge, and the equations do not contradict each other where "
                         "it ended.";
@@ -254,20 +272,27 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
     ladder.reason = singular;
   }
   ladder.doubts = contradictions(ladder.levels);
+  if (!has_converged) ladder.doubts.push_back("A search that does not converge says nothing.");
   if (!ladder.levels.empty() && !ladder.levels.back().is_solved)
     ladder.doubts.push_back(
         "The equations do not vanish at the point to round-off: their solutions may be singular "
         "there.");
   if (ladder.levels.empty() || ladder.levels.back().is_empty) return ladder;
+  if (ladder.verdict == Verdict::rank_change && !zeros_are_certain(jet))
+    ladder.doubts.push_back(
+        "Derivatives that seem to vanish at the point are not known well enough to say so.");
 
   const LadderLevel& last = ladder.levels.back();
   ladder.degrees_of_freedom = last.dim_M;
   ladder.gauge_dimension = last.fibre();
   if (ladder.verdict == Verdict::rank_change) return ladder;
   if (!stopped) {
-    if (ladder.reason.empty())
+    if (ladder.reason.empty() && contradictions(ladder.levels).empty())
       ladder.reason =
           "The dimensions still fell at level " + std::to_string(last.k) + ", the highest allowed.";
+    else if (ladder.reason.empty())
+      ladder.reason = "The levels contradict each other at level " + std::to_string(last.k) + ": " +
+                      contradictions(ladder.levels).front();
     return ladder;
   }
   ladder.index = last.k - 1;

@@ -208,9 +208,8 @@ TangentDisplacement::TangentDisplacement(const Prolongation& array, const Vector
                                          const VectorXd& reach)
     : generator_(1) {
   const Linearization at = array.linearize(y);
-  const GenericScaling generic(array, y, reach);
-  const NaturalScaling scaling({VectorXd::Zero(at.value.size()), generic.magnitude}, reach, 0.0,
-                               1e-10);
+  magnitude_ = GenericScaling(array, y, reach).magnitude;
+  const NaturalScaling scaling({VectorXd::Zero(at.value.size()), magnitude_}, reach, 0.0, 1e-10);
   units_ = scaling.column_scale;
   jacobian_ = scaling.row_scale.asDiagonal() * at.jacobian * units_.asDiagonal();
 }

@@ -42,13 +42,15 @@ class TangentDisplacement {
  public:
   TangentDisplacement(const Prolongation& array, const VectorXd& y, const VectorXd& reach);
   VectorXd next();
+  // The generic magnitude of the Jacobian at y.
+  const SparseMatrixXd& magnitude() const { return magnitude_; }
   // ‖δ‖ in natural units.
   double size(const VectorXd& delta) const { return delta.cwiseQuotient(units_).norm(); }
 
  private:
   std::mt19937 generator_;
   VectorXd units_;
-  SparseMatrixXd jacobian_;
+  SparseMatrixXd magnitude_, jacobian_;
 };
 
 }  // namespace courant

@@ -78,6 +78,9 @@ class DampedInverse {
   DampedInverse(const SparseMatrixXd& S, const VectorXd& cost, double mu)
       : m_(S.rows()), cost_(cost) {
     const Index n = S.cols();
+    // Scales of numbers that are 10²⁰⁰ apart leave the range of doubles.
+    is_finite_ = S.coeffs().isFinite().all() && std::isfinite(mu);
+    if (!is_finite_) return;
     if (!is_small(S)) {
       const double root = std::sqrt(std::max(mu, 1e-10));
       saddle_.emplace(diagonal(root * cost.cwiseAbs2()), S, root);
@@ -91,8 +94,9 @@ class DampedInverse {
     }
   }
 
-  // Empty if the factorisation broke down.
+  // Empty if the matrix is not finite or the factorisation broke down.
   VectorXd step(const VectorXd& g) const {
+    if (!is_finite_ || !g.allFinite()) return VectorXd();
     if (saddle_) return saddle_->solve(VectorXd::Zero(saddle_->columns()), -g);
     if (least_norm_) return cost_.cwiseInverse().asDiagonal() * least_norm_->solve(-g);
     VectorXd right = VectorXd::Zero(damped_->rows());
@@ -103,6 +107,7 @@ class DampedInverse {
  private:
   Index m_;
   VectorXd cost_;
+  bool is_finite_ = true;
   std::optional<SaddlePoint> saddle_;
   std::optional<CompleteOrthogonalDecomposition> least_norm_;
   std::optional<QrDecomposition> damped_;
@@ -142,7 +147,7 @@ VectorXd uncertainty(const Linearization& at, const NaturalScaling& units,
 // With `safeguard`, every step has to be an improvement; else full steps are made.
 Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& mobility,
             bool safeguard) {
-  constexpr double least_damping = 1e-12, most_damping = 1e8, accepted = 1e-10, noise = 1e-11;
+  constexpr double least_damping = 1e-12, accepted = 1e-10, noise = 1e-11;
   const int most_iterations = safeguard ? 100 : 25;
   Zero zero;
   zero.y = start;
@@ -153,7 +158,9 @@ Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& m
   zero.is_finite = is_finite(at);
   if (!zero.is_finite) return zero;
 
-  SparseMatrixXd magnitude = generic_magnitude(map, start, zero.reach, at);
+  SparseMatrixXd magnitude = mobility.magnitude.size() > 0
+                                 ? mobility.magnitude
+                                 : generic_magnitude(map, start, zero.reach, at);
   double damping = 0.0;
   bool moves = true;
   while (moves) {
@@ -168,7 +175,11 @@ Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& m
     SparseMatrixXd S = units.row_scale.asDiagonal() * at.jacobian * units.column_scale.asDiagonal();
     S.prune([&](Index, Index column, double) { return column >= mobility.frozen; });
     moves = false;
-    const bool is_done = rounded || zero.defect <= eps || zero.iterations == most_iterations;
+    const bool is_done =
+        rounded || zero.defect <= eps || zero.iterations == most_iterations || !g.allFinite();
+    // A step damped by μ has about the length ‖F‖ / μ. Where numbers are small and a zero is far, as
+    // 10⁻⁸ is from a circle of radius 1, ‖F‖ is large in these units.
+    const double most_damping = 1e8 * std::min(std::max(1.0, g.norm()), 1e60);
     // At the level of rounding a step that does not help is the end; far from it, too long.
     for (double mu = damping; !is_done && !moves && mu <= (zero.found ? damping : most_damping);
          mu = std::max(100.0 * mu, least_damping)) {
@@ -197,7 +208,8 @@ Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& m
       zero.reach = zero.reach.cwiseMax(y.cwiseAbs());
       ++zero.iterations;
       at = std::move(next);
-      damping = mu / 1e6 < least_damping ? 0.0 : mu / 1e6;
+      // A large μ was one for the ‖F‖ of that point.
+      damping = mu / 1e6 < least_damping ? 0.0 : std::min(mu / 1e6, 1.0);
       moves = true;
     }
     if (moves || !zero.found) continue;

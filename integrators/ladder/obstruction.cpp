@@ -17,12 +17,13 @@ Obstruction::Obstruction(const Prolongation& array, const VectorXd& y, const Vec
 
 bool Obstruction::is_seen_along(const VectorXd& direction) const {
   if (unseen_.rows() == 0) return false;
-  // From a thousandth of a unit to a unit: g ~ ε² is above round-off from 10⁻⁶ on, ε³ from 10⁻⁴.
-  constexpr double first = 1.0 / 4096.0, ratio = 4.0, least_power = 2.5;
+  // From a thousandth of a unit: g ~ ε² is above round-off from 10⁻⁶ on, ε³ from 10⁻⁴. Near a unit
+  // functions bend away from their powers.
+  constexpr double first = 1.0 / 4096.0, last = 1.0 / 16.0, ratio = 4.0, least_power = 2.5;
   constexpr double measurable = 1e3;    // times the bound of rounding errors
   constexpr double negligible = 1e-13;  // next to all of F, in comparable units
   double before = 0.0;
-  for (double epsilon = first; epsilon <= 1.0; epsilon *= ratio) {
+  for (double epsilon = first; epsilon <= last; epsilon *= ratio) {
     const VectorXd y = y_ + epsilon * direction;
     const Linearization there =
         array_.linearize(y, uncertainty_.cwiseMax(Prolongation::rounding(y)));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -12,24 +13,39 @@ void UncertainEntries::add(Index row, Index column, const Uncertain& entry) {
 }
 
 void UncertainEntries::fill(Linearization& result, Index rows, Index columns) {
-  const auto place = [](const Entry& entry) { return std::pair(entry.column, entry.row); };
-  std::sort(entries_.begin(), entries_.end(),
-            [&](const Entry& a, const Entry& b) { return place(a) < place(b); });
-  std::vector<Eigen::Triplet<double>> values, errors;
-  for (auto at = entries_.begin(); at != entries_.end();) {
-    const auto first = at;
-    Uncertain sum = first->number;
-    for (++at; at != entries_.end() && place(*at) == place(*first); ++at) sum += at->number;
-    const auto row = static_cast<int>(first->row), column = static_cast<int>(first->column);
-    // What is not finite stays for whoever uses the matrix to see.
-    const bool is_zero = std::fabs(sum.value) <= sum.error && std::isfinite(sum.error);
-    if (!is_zero) values.emplace_back(row, column, sum.value);
-    errors.emplace_back(row, column, sum.error + (is_zero ? std::fabs(sum.value) : 0.0));
+  // By column in the order in which they came, then by row within each: columns are short.
+  std::vector<std::size_t> start(static_cast<std::size_t>(columns) + 1, 0);
+  for (const Entry& entry : entries_) ++start[static_cast<std::size_t>(entry.column) + 1];
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  std::vector<Entry> sorted(entries_.size());
+  std::vector<std::size_t> next(start.begin(), start.end() - 1);
+  for (const Entry& entry : entries_)
+    sorted[next[static_cast<std::size_t>(entry.column)]++] = entry;
+
+  for (SparseMatrixXd* matrix : {&result.jacobian, &result.error}) {
+    matrix->resize(rows, columns);
+    matrix->reserve(static_cast<Index>(entries_.size()));
   }
-  result.jacobian.resize(rows, columns);
-  result.jacobian.setFromTriplets(values.begin(), values.end());
-  result.error.resize(rows, columns);
-  result.error.setFromTriplets(errors.begin(), errors.end());
+  for (Index column = 0; column < columns; ++column) {
+    const auto first =
+        sorted.begin() + static_cast<std::ptrdiff_t>(start[static_cast<std::size_t>(column)]);
+    const auto last =
+        sorted.begin() + static_cast<std::ptrdiff_t>(start[static_cast<std::size_t>(column) + 1]);
+    std::stable_sort(first, last, [](const Entry& a, const Entry& b) { return a.row < b.row; });
+    result.jacobian.startVec(column);
+    result.error.startVec(column);
+    for (auto at = first; at != last;) {
+      const Index row = at->row;
+      Uncertain sum = at->number;
+      for (++at; at != last && at->row == row; ++at) sum += at->number;
+      // What is not finite stays for whoever uses the matrix to see.
+      const bool is_zero = std::fabs(sum.value) <= sum.error && std::isfinite(sum.error);
+      if (!is_zero) result.jacobian.insertBack(row, column) = sum.value;
+      result.error.insertBack(row, column) = sum.error + (is_zero ? std::fabs(sum.value) : 0.0);
+    }
+  }
+  result.jacobian.finalize();
+  result.error.finalize();
 }
 
 VectorXd Prolongation::rounding(const VectorXd& y) {

@@ -118,14 +118,18 @@ Problem transformed(const Problem& problem, std::mt19937& generator) {
         });
     return result;
   }
-  // x = x_0 + A (u + ⅒ (u_1², u_2², …, shifted)),  u = x' - x'_0: near u = 0 the derivative is A.
+  // x = x_0 + A (u + ⅒ s(u_2) + ½⅒ u_1 u_2 / (1 + u_1² + u_2²), …),  s(w) = w² / (1 + w²),  shifted:
+  // near u = y - y_0 = 0 the derivative is A, and what is added to u changes by less than u does, so
+  // that these are coordinates wherever a solution is.
   const MatrixXd A = random_matrix(n), B = random_matrix(m);
   const VectorXd x0 = guess.x;
   const auto change = [A, x0, n](const ExprVector& y) {
     ExprVector u(n);
-    for (Index i = 0; i < n; ++i)
-      u[i] = y[i] - 0.5 + 0.1 * square(y[(i + 1) % n] - 0.5) +
-             0.05 * (y[i] - 0.5) * (y[(i + 1) % n] - 0.5);
+    for (Index i = 0; i < n; ++i) {
+      const Expr first = y[i] - 0.5, second = y[(i + 1) % n] - 0.5;
+      u[i] = first + 0.1 * square(second) / (1 + square(second)) +
+             0.05 * first * second / (1 + square(first) + square(second));
+    }
     return ExprVector(constants(x0) + constants(A) * u);
   };
   guess.x = VectorXd::Constant(n, 0.5);
