@@ -6,16 +6,16 @@
 
 namespace courant::cli {
 
-void add_backend(CLI::App& command, Backend& backend) {
+void add_backend(CLI::App& command, Backend::Kind& backend) {
   command
       .add_option(
           "--backend", backend,
           "what evaluates formulas: native code, made by a C compiler; the interpreter, slower "
           "and without a compiler; or auto, native where it is worth while")
-      ->transform(CLI::CheckedTransformer(
-                      std::map<std::string, Backend>{{"auto", Backend::automatic},
-                                                     {"native", Backend::native},
-                                                     {"interpreter", Backend::interpreter}})
+      ->transform(CLI::CheckedTransformer(std::map<std::string, Backend::Kind>{
+                                              {"auto", Backend::Kind::automatic},
+                                              {"native", Backend::Kind::native},
+                                              {"interpreter", Backend::Kind::interpreter}})
                       .description(""))
       ->type_name("NAME");
 }

@@ -9,6 +9,6 @@ class App;
 
 namespace courant::cli {
 
-void add_backend(CLI::App& command, Backend& backend);
+void add_backend(CLI::App& command, Backend::Kind& backend);
 
 }  // namespace courant::cli

@@ -27,6 +27,7 @@ struct Arguments {
   std::vector<std::string> files;
   std::vector<std::string> methods;
   StudyOptions study;
+  Backend::Kind backend = Backend::Kind::automatic;
   std::string folder;
   std::vector<std::string> settings;
   SweepArguments sweep;
@@ -112,6 +113,7 @@ int study_files(const Console& console, const Arguments& arguments) {
       return status;
   }
   StudyOptions options = arguments.study;
+  options.backend = arguments.backend;
   options.stop = console.stop;
   std::optional<Waiting> waiting;
   options.on_progress = [&](const std::string& what) {
@@ -142,6 +144,7 @@ int study_files(const Console& console, const Arguments& arguments) {
 Json study_case(const SweepCase& one, const std::filesystem::path& folder,
                 const Arguments& arguments, const Console& console) {
   StudyOptions options = arguments.study;
+  options.backend = arguments.backend;
   options.stop = console.stop;
   const StudySubject subject{one.name, read_experiment_document(one.document)};
   const Json result = study(std::span(&subject, 1), options);
@@ -222,7 +225,7 @@ void add_study(CLI::App& app, Session& session) {
       ->type_name("NAME")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  add_backend(*study, arguments->study.backend);
+  add_backend(*study, arguments->backend);
   add_settings(*study, arguments->settings);
   add_sweep(*study, arguments->sweep);
   study->get_option("--sweep")->excludes(methods);

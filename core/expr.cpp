@@ -20,9 +20,7 @@ Expr make(Op op, const Expr& a, const Expr& b = {}, const Expr& c = {}, int k = 
 }
 
 // The operation at the root of a, null for a constant.
-const Node* node_of(const Expr& a) {
-  return a.is_constant() ? nullptr : &a.graph().node(a.node());
-}
+const Node* node_of(const Expr& a) { return a.is_constant() ? nullptr : &a.graph().node(a.node()); }
 
 bool is_negation(const Expr& a) {
   const Node* node = node_of(a);

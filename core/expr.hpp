@@ -91,7 +91,7 @@ class Graph {
   const Node& node(std::uint32_t index) const;
   double constant(std::uint32_t index) const;          // of a node with Op::constant
   const std::string& name(std::uint32_t index) const;  // of a node with Op::variable
-  Expr expression(std::uint32_t index) const;  // the handle; constants come back as numbers
+  Expr expression(std::uint32_t index) const;          // the handle; constants come back as numbers
 
  private:
   explicit Graph(NodeStore* nodes) : nodes_(nodes) {}

@@ -67,8 +67,7 @@ void NativeModule::compile(const NativeCompiler& compiler,
   for (const Added* function : functions) {
     Entry& entry = *function->entry;
     entry.owner = code;
-    if (function->has_jacobian)
-      entry.value_and_jacobian = code->function(kAll + function->number);
+    if (function->has_jacobian) entry.value_and_jacobian = code->function(kAll + function->number);
     entry.value = code->function(kValue + function->number);
   }
 }

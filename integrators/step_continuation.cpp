@@ -178,7 +178,15 @@ bool StepContinuation::reaches(double next, const double* const* in, double size
       u_[i] += point_.tangent[i] * length;
   }
   predicted_ = u_;
-  if (!converges(next, in, size, kNear, result)) return false;
+  // Where unknowns are left open, as those of a gauge, the solutions of a step are a surface. What the
+  // iteration takes of it need not be a curve with these tangents.
+  bool is_reached = converges(next, in, size, kNear, result);
+  if (!is_reached && !solver_->is_determined()) {
+    u_ = point_.u;
+    is_reached = converges(next, in, size, kNear, result);
+  }
+  if (!is_reached) return false;
+  if (!solver_->is_determined()) return true;
   double sizes[3];  // of e, of what tangents say it is, and of the difference
   for (int what = 0; what < 3; ++what) {
     for (std::size_t k = 0; k < contained_.size(); ++k) {

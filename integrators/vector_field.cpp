@@ -8,6 +8,7 @@
 #include "courant/core/complete_orthogonal_decomposition.hpp"
 #include "courant/core/derivative.hpp"
 #include "courant/core/elimination.hpp"
+#include "courant/core/expr_vectors.hpp"
 #include "courant/core/message.hpp"
 #include "courant/integrators/ladder/local_formulation.hpp"
 #include "courant/integrators/step_solver.hpp"
@@ -94,11 +95,11 @@ VectorField::VectorField(std::shared_ptr<const ImplicitSystem> system,
   std::sort(others.begin(), others.end());
   std::vector<Expr> left_out;
   for (const Index row : others)
-    if (::courant::jacobian(ExprVector(all.segment(row, 1)), y).values.size() > 0)
-      left_out.push_back(all[row]);
+    if (depends(all.segment(row, 1), y)) left_out.push_back(all[row]);
 
   const Backend together = backend.together();
-  equations_ = Function("vector field", inputs, kept, {.differentiate = {"y"}, .backend = together});
+  equations_ =
+      Function("vector field", inputs, kept, {.differentiate = {"y"}, .backend = together});
   left_out_ =
       Function("left out", inputs,
                Eigen::Map<const ExprVector>(left_out.data(), static_cast<Index>(left_out.size())),

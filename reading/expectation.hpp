@@ -39,7 +39,7 @@ struct RunRecord {
       moments;                                                      // quantities at times asked for
   double max_violation = std::numeric_limits<double>::quiet_NaN();  // of the constraints, if any
   std::map<std::string, EventRecord> events;
-  const ConstraintLadder* ladder = nullptr;                         // null if not reached
+  const ConstraintLadder* ladder = nullptr;  // null if not reached
 };
 
 // One entry of `expectations` in a summary.

@@ -414,7 +414,8 @@ class Run {
     if (event_watch_)
       for (const auto& [name, record] : event_watch_->records())
         told.events.emplace_back(
-            name, RunSummary::Event{.count = record.count, .first = record.first, .last = record.last});
+            name,
+            RunSummary::Event{.count = record.count, .first = record.first, .last = record.last});
     const auto steps = static_cast<double>(steps_);
     told.solver = {
         .iterations_per_step = per(static_cast<double>(solver_.iterations), steps),

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <chrono>
+#include <cmath>
 #include <mutex>
 #include <new>
 
@@ -192,12 +192,15 @@ Json run_of_case(const SweepCase& one, const std::filesystem::path& folder, Back
 Json ladder_of_case(const SweepCase& one) {
   const Experiment experiment = read_experiment_document(one.document);
   const LadderReport ladder = ladder_report(consistent_start(experiment), *experiment.model.system);
-  const auto known = [](const std::optional<Index>& count) { return count ? Json(*count) : Json(); };
+  const auto known = [](const std::optional<Index>& count) {
+    return count ? Json(*count) : Json();
+  };
   double gap = LadderReport::kUnknown;
   std::string dimensions, before;
   for (const LadderReport::Level& level : ladder.levels) {
     gap = std::fmin(gap, level.gap);
-    const std::string pair = "(" + known(level.dim_S).dump() + " " + known(level.dim_M).dump() + ")";
+    const std::string pair =
+        "(" + known(level.dim_S).dump() + " " + known(level.dim_M).dump() + ")";
     if (pair == before) continue;
     before = pair;
     dimensions += (dimensions.empty() ? "" : " ") + pair;

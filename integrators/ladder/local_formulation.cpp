@@ -38,8 +38,8 @@ ExprVector reduced_residual(const ImplicitSystem& system, const ExprMatrix& basi
   return with_reduced_blocks(system, basis, system.residual(x, v, z, t), false);
 }
 
-LocalFormulation::LocalFormulation(const Graph& graph, const ImplicitSystem& system, const ExprVector& x0,
-                                   const ExprMatrix& basis, const Expr& t,
+LocalFormulation::LocalFormulation(const Graph& graph, const ImplicitSystem& system,
+                                   const ExprVector& x0, const ExprMatrix& basis, const Expr& t,
                                    const std::vector<int>& differentiations) {
   const Manifold& M = *system.manifold();
   const std::vector<int> counts = without_basis(system, basis, differentiations);

@@ -284,7 +284,8 @@ BOOST_FIXTURE_TEST_CASE(a_compiler_that_does_not_work_is_a_defect, Cache) {
   setenv("COURANT_CC", "/bin/false", 1);
   BOOST_TEST(machine_compiler()->defect() == "/bin/false failed:");
   setenv("COURANT_CC", "no-such-compiler", 1);
-  BOOST_TEST(machine_compiler()->defect().starts_with("no C compiler: no-such-compiler is not found."));
+  BOOST_TEST(
+      machine_compiler()->defect().starts_with("no C compiler: no-such-compiler is not found."));
 }
 
 BOOST_FIXTURE_TEST_CASE(a_cache_that_others_may_write_to_is_not_used, Cache) {
@@ -327,7 +328,8 @@ BOOST_FIXTURE_TEST_CASE(threads_may_compile_the_same_at_once, Cache) {
   {
     std::vector<std::jthread> threads;
     for (double& value : result)
-      threads.emplace_back([&] { value = call(*machine_compiler()->compile(constant_function(4.0))); });
+      threads.emplace_back(
+          [&] { value = call(*machine_compiler()->compile(constant_function(4.0))); });
   }
   for (const double value : result) BOOST_TEST(value == 4.0);
   BOOST_TEST(objects().size() == 1);
@@ -341,7 +343,8 @@ BOOST_FIXTURE_TEST_CASE(what_goes_wrong_is_said, Cache) {
       return std::string(e.what()).find(text) != std::string::npos;
     };
   };
-  BOOST_CHECK_EXCEPTION(machine_compiler()->compile("void f( {"), std::runtime_error, says("error"));
+  BOOST_CHECK_EXCEPTION(machine_compiler()->compile("void f( {"), std::runtime_error,
+                        says("error"));
   BOOST_CHECK_EXCEPTION(
       machine_compiler()->compile("void undefined(void); void f(void) { undefined(); }"),
       std::runtime_error, says("undefined"));

@@ -97,40 +97,6 @@ BOOST_AUTO_TEST_CASE(coefficients_meet_the_conditions_on_powers) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(orders_on_a_constrained_curved_problem) {
-  const HeldOnSphere held;
-  BOOST_TEST_REQUIRE(to_string(held.ladder.verdict) == "regular", held.ladder.reason);
-  BOOST_TEST(held.ladder.degrees_of_freedom == 4);
-  const State& initial = held.ladder.point;
-  const double time = 1.0;
-  const VectorXd exact = composed(method_2(held), 8)->advance(initial, time / 40, 40).x;
-  // Another method altogether: the equations of S_f, by Dormand and Prince.
-  const ExplicitRungeKutta dopri5(
-      std::make_shared<VectorField>(held.system, held.ladder, Backend::interpreter),
-      ExplicitRungeKutta::Kind::dormand_prince);
-  BOOST_TEST((dopri5.advance(initial, time / 400, 400).x - exact).norm() < 1e-11);
-  for (const int order : {2, 4, 6, 8}) {
-    const Pointer method = composed(method_2(held), order);
-    BOOST_TEST(method->order() == order);
-    const double measured = order_to(*method, initial, time, exact, counts(order));
-    BOOST_TEST(std::abs(measured - order) < 0.15, "order " << order << " shows " << measured);
-  }
-}
-
-BOOST_AUTO_TEST_CASE(constraints_hold_at_every_node) {
-  const HeldOnSphere held;
-  for (const int order : {4, 6, 8}) {
-    const auto stepper = composed(method_2(held), order)->stepper();
-    State state = held.ladder.point;
-    double worst = 0.0;
-    for (int k = 0; k < 100; ++k) {
-      stepper->step(state, 0.2);
-      worst = std::max(worst, HeldOnSphere::violation(state.x));
-    }
-    BOOST_TEST(worst < 1e-13, "order " << order << " leaves M_f by " << worst);
-  }
-}
-
 // The times of the stages are those of the substeps.
 BOOST_AUTO_TEST_CASE(orders_with_explicit_time) {
   const DrivenPendulum pendulum;
@@ -289,6 +255,45 @@ BOOST_AUTO_TEST_CASE(method_1_on_constraints_stays_at_order_2) {
   BOOST_TEST(std::abs(measured - 2.0) < 0.3, "shows " << measured);
   const double right = order_to(*composed(second, 4), initial, 1.0, exact, {8, 16, 32, 64});
   BOOST_TEST(std::abs(right - 4.0) < 0.15, "shows " << right);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+// Steps of a fifth, where each is followed from its state.
+BOOST_AUTO_TEST_SUITE(composition_long)
+
+BOOST_AUTO_TEST_CASE(orders_on_a_constrained_curved_problem) {
+  const HeldOnSphere held;
+  BOOST_TEST_REQUIRE(to_string(held.ladder.verdict) == "regular", held.ladder.reason);
+  BOOST_TEST(held.ladder.degrees_of_freedom == 4);
+  const State& initial = held.ladder.point;
+  const double time = 1.0;
+  const VectorXd exact = composed(method_2(held), 8)->advance(initial, time / 40, 40).x;
+  // Another method altogether: the equations of S_f, by Dormand and Prince.
+  const ExplicitRungeKutta dopri5(
+      std::make_shared<VectorField>(held.system, held.ladder, Backend::interpreter),
+      ExplicitRungeKutta::Kind::dormand_prince);
+  BOOST_TEST((dopri5.advance(initial, time / 400, 400).x - exact).norm() < 1e-11);
+  for (const int order : {2, 4, 6, 8}) {
+    const Pointer method = composed(method_2(held), order);
+    BOOST_TEST(method->order() == order);
+    const double measured = order_to(*method, initial, time, exact, counts(order));
+    BOOST_TEST(std::abs(measured - order) < 0.15, "order " << order << " shows " << measured);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(constraints_hold_at_every_node) {
+  const HeldOnSphere held;
+  for (const int order : {4, 6, 8}) {
+    const auto stepper = composed(method_2(held), order)->stepper();
+    State state = held.ladder.point;
+    double worst = 0.0;
+    for (int k = 0; k < 100; ++k) {
+      stepper->step(state, 0.2);
+      worst = std::max(worst, HeldOnSphere::violation(state.x));
+    }
+    BOOST_TEST(worst < 1e-13, "order " << order << " leaves M_f by " << worst);
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

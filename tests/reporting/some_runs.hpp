@@ -25,7 +25,7 @@ inline Run vortices(const std::string& name, const std::string& method, const Pa
     for (std::size_t i = 0; i < 8; ++i) columns[1 + i].push_back(path[k][i]);
     columns[9].push_back(energy(path[k]));
   }
-  return {name, {names, columns}, summary(path, method), Json::object()};
+  return {name, {names, columns}, read_run_summary(summary(path, method)), Json::object()};
 }
 
 inline Run table(const std::vector<std::string>& names, std::size_t rows,
@@ -37,8 +37,10 @@ inline Run table(const std::vector<std::string>& names, std::size_t rows,
       columns[c].push_back(c == 0 ? t : value(c, t));
     }
   }
-  const Json summary = {
-      {"status", "completed"}, {"system", "s"}, {"method", "m"}, {"steps", rows - 1}};
+  const RunSummary summary{.status = RunStatus::completed,
+                           .system = "s",
+                           .method = "m",
+                           .steps = static_cast<long>(rows - 1)};
   return {"table", {names, columns}, summary, Json::object()};
 }
 

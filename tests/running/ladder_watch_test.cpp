@@ -59,15 +59,13 @@ BOOST_AUTO_TEST_CASE(a_singular_configuration_stops_the_run) {
              outcome.message);
   BOOST_TEST(outcome.message.find("to 0.014") != std::string::npos, outcome.message);
   BOOST_TEST(outcome.message.find("singular") != std::string::npos);
-  BOOST_TEST(outcome.summary.time->end == 0.7,
-             boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(outcome.summary.time->end == 0.7, boost::test_tools::tolerance(1e-12));
 }
 
 // Examined at every step it goes on until just before.
 BOOST_AUTO_TEST_CASE(closer_looks_stop_later) {
   const TemporaryFolder folder;
-  const double stopped =
-      run_in(folder, linkage(0.008, 1.0, 1)).summary.time->end;
+  const double stopped = run_in(folder, linkage(0.008, 1.0, 1)).summary.time->end;
   BOOST_TEST(stopped > 0.7);
   BOOST_TEST(stopped < 0.7264);
 }

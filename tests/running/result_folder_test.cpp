@@ -13,8 +13,10 @@ const Json one_run = {
     {"runs", {{{"folder", "1-k=1"}}, {{"folder", ""}}, {{"folder", "../other"}}}}};
 
 void write_run(const std::filesystem::path& folder) {
-  const RunFolder run(folder, false, Json::object());
-  run.write_summary({{"status", "completed"}, {"ladder", nullptr}});
+  Experiment experiment;
+  experiment.document = Json::object();
+  const RunFolder run(folder, ExistingRun::refuse, experiment);
+  run.write_summary({.status = RunStatus::completed, .ladder = LadderReport()});
 }
 
 std::string refusal(const std::filesystem::path& path, bool replace = false) {

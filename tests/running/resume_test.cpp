@@ -17,15 +17,16 @@ const Json collision = Json::parse(R"json({
   "output": { "epoch": 50 }
 })json");
 
-// All that a run can keep: expectations at times and of deviations, observables that are not
-// numbers at some states, and an energy that an unstable method does not conserve.
+// All that a run can keep: expectations at times, of deviations and of events, observables that are
+// not numbers at some states, and an energy that an unstable method does not conserve.
 const Json oscillator = Json::parse(R"json({
   "system": { "type": "hamiltonian", "coordinates": ["q"], "hamiltonian": "(p_q^2 + q^2)/2 + q^4/10" },
   "initial": { "q": 1, "p_q": 0.5 },
   "method": "rk2",
   "time": { "step": 0.2, "end": 30 },
   "observe": { "speed": "q'", "n": "sqrt(q + 1)" },
-  "expect": [ { "at": 4, "state": { "q": 0.3 }, "tolerance": 1 }, { "at": 24, "state": { "q": 0.3 }, "tolerance": 1 },
+  "events": { "turn": "p_q", "up": { "zero": "q", "direction": "rising" } },
+  "expect": [ { "event": "turn", "number": 2, "time": 4, "state": { "q": 1 }, "tolerance": 3 }, { "at": 4, "state": { "q": 0.3 }, "tolerance": 1 }, { "at": 24, "state": { "q": 0.3 }, "tolerance": 1 },
               { "state": { "q": "cos(t)" }, "tolerance": 3 }, { "observable": "H", "max_drift": 1e-3, "max_slope": 1 } ],
   "output": { "epoch": 40, "every": 7 }
 })json");
@@ -51,40 +52,6 @@ BOOST_AUTO_TEST_SUITE(resume)
 BOOST_AUTO_TEST_CASE(a_run_that_was_killed_goes_on_with_the_same_bytes) {
   for (const Json& experiment : {oscillator, npy(oscillator)})
     check_resumption(experiment, {0, 17, 40, 41, 100, 149, 150}, experiment["output"].dump());
-}
-
-BOOST_AUTO_TEST_CASE(on_curved_spaces) {
-  check_resumption(of_file("heavy_top_so3", 50, 16), {20, 47}, "SO(3), csv");
-  check_resumption(npy(of_file("spherical_vortices", 50, 16)), {20, 47}, "spheres, npy");
-  check_resumption(of_file("geodesic_stiefel", 50, 16), {35}, "Stiefel, csv");
-}
-
-BOOST_AUTO_TEST_CASE(on_constrained_systems) {
-  check_resumption(npy(of_file("point_vortices", 50, 16)), {20, 47}, "Method 2, momentum, npy");
-  check_resumption(of_file("pendulum_holonomic", 50, 16), {20, 47}, "Method 2, csv");
-  check_resumption(of_file("suslov_so3", 50, 16), {40}, "Method 2 on SO(3), csv");
-  check_resumption(of_file("light_ray", 50, 16), {40}, "Method 2, gauge, csv");
-  check_resumption(of_file("rolling_disk", 50, 16), {40}, "Method 1, nonholonomic, csv");
-}
-
-BOOST_AUTO_TEST_CASE(with_every_kind_of_method) {
-  Json pendulum = of_file("pendulum_holonomic", 50, 16);
-  pendulum["observe"]["tension"] = "x'^2 + y'^2";
-  for (const char* method : {"rk4", "dopri5"}) {
-    pendulum["method"] = method;
-    check_resumption(pendulum, {20, 47}, method);
-  }
-  Json angle = of_file("pendulum_angle", 50, 16);
-  for (const char* method : {"discretize-first", "constrain-first", "rk2"}) {
-    angle["method"] = method;
-    check_resumption(angle, {20, 47}, method);
-  }
-}
-
-BOOST_AUTO_TEST_CASE(with_a_watch_over_the_ladder) {
-  Json linkage = of_file("parallelogram_linkage", 60, 12);
-  linkage["examine"] = 5;
-  check_resumption(linkage, {20, 50}, "parallelogram linkage");
 }
 
 BOOST_AUTO_TEST_CASE(a_run_that_was_interrupted_goes_on) {
@@ -176,7 +143,7 @@ BOOST_AUTO_TEST_CASE(epochs_change_nothing_but_round_off) {
 BOOST_AUTO_TEST_CASE(there_may_be_no_method) {
   const TemporaryFolder folder, other;
   Json point = oscillator;
-  for (const char* key : {"method", "time", "expect", "output"}) point.erase(key);
+  for (const char* key : {"method", "time", "events", "expect", "output"}) point.erase(key);
   run_in(folder, point);
   BOOST_CHECK_THROW(resume_in(folder / "run", point), UnusableFolder);
   run_in(other, point);

@@ -17,7 +17,7 @@ class Killer final : public RunWatcher {
   std::optional<RunEnd> watch(const RunMoment& moment) override {
     if (moment.k != k_) return std::nullopt;
     std::filesystem::copy(run_, copy_);
-    for (const char* name : {"trajectory.csv", "trajectory.npy"})
+    for (const char* name : {"trajectory.csv", "trajectory.npy", "events.csv"})
       if (std::filesystem::exists(copy_ / name))
         std::ofstream(copy_ / name, std::ios::binary | std::ios::app) << "0.125,-3.1";
     return std::nullopt;
@@ -46,7 +46,7 @@ inline std::string lasting(const Json& summary) {
 // That the files are those of the same run, and nothing but what changes with it is different.
 inline void check_same_files(const std::filesystem::path& run, const std::filesystem::path& other,
                              const std::string& what) {
-  for (const char* name : {"trajectory.csv", "trajectory.npy", "columns.json"})
+  for (const char* name : {"trajectory.csv", "trajectory.npy", "columns.json", "events.csv"})
     BOOST_TEST((read_text(run / name) == read_text(other / name)), what << ": " << name);
   BOOST_TEST(lasting(Json::parse(read_text(run / "summary.json"))) ==
                  lasting(Json::parse(read_text(other / "summary.json"))),

@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(a_table_says_what_became_of_each_run) {
   // The values are those of the runs in the folders, and the files those of the table.
   for (const std::size_t i : {0, 1}) {
     const Run run = read_run(folder.path() / runs[i]["folder"].get<std::string>());
-    BOOST_TEST(run.summary["observables"]["H"]["max_drift"] == runs[i]["values"]["H.max_drift"]);
+    BOOST_TEST(runs[i]["values"]["H.max_drift"] == run.summary.observable("H")->max_drift);
     BOOST_TEST(run.trajectory.column("q").back() == runs[i]["values"]["q.final"].get<double>());
   }
   Json written = read_json(folder.file("json"));
