@@ -28,6 +28,12 @@ constexpr int kMaxProjections = 30;
 constexpr double kTolerance = 1e-16;
 constexpr double kSafety = 10.0;
 
+// P takes the end of a step to the point of M_f nearby: to a distance below that part of the step.
+// Solutions farther away are other ones, which an old factorisation can lead to.
+constexpr double kNearby = 0.5;
+// Of the coordinates, a part that is no distance.
+constexpr double kNegligible = 1e-10;
+
 // W if it is the same at every x, as for momenta that positions determine; empty otherwise.
 MatrixXd fixed_directions(const Manifold& M, const Projector& projector,
                           const ConstraintLadder& ladder) {
@@ -221,10 +227,21 @@ class ConstrainFirst::Trajectory final : public Stepper {
       aimed_ = y;
       const double* in[] = {y.data(),           guess_.data(), basis_.data(),
                             directions_.data(), near_.data(),  &t};
-      projector_.solve(
-          in, scales(before, attempt.h, largest(near_)).data(), [&] { y = start_; }, attempt,
-          statistics_);
+      const auto sizes = scales(before, attempt.h, largest(near_));
+      const auto begin = [&] { y = start_; };
+      projector_.solve(in, sizes.data(), begin, attempt, statistics_);
       method_.projected_.value(in, found_.data());
+      if (goes_on && !is_nearby(before, sizes[0])) {
+        ++statistics_.failures;
+        projector_.forget();
+        begin();
+        projector_.solve(in, sizes.data(), begin, attempt, statistics_);
+        method_.projected_.value(in, found_.data());
+        if (!is_nearby(before, sizes[0]))
+          throw SolveError(SolveError::Reason::disconnected, method(), attempt.time, attempt.h,
+                           "is too large: the projection onto M_f leads farther than half the "
+                           "step.");
+      }
       const double moved = largest(y.head(n_));
       const double size = largest(found_.head(guess_.size()));
       if (d_ == 0 || constant_directions_) return;
@@ -246,6 +263,14 @@ class ConstrainFirst::Trajectory final : public Stepper {
     }
     throw SolveError(SolveError::Reason::diverged, method(), attempt.time, attempt.h,
                      "is too large: the projection onto M_f does not converge.");
+  }
+
+  // Whether what was found is not far from near_, next to the step from `before` and to coordinates of
+  // that size.
+  bool is_nearby(const State& before, double size) const {
+    const double distance = (found_.head(near_.size()) - near_).lpNorm<Eigen::Infinity>();
+    const double step = (near_ - before.x).lpNorm<Eigen::Infinity>();
+    return distance <= std::max(kNearby * step, kNegligible * size);
   }
 
   // By how much ξ', … and z, … differ, relative to their size: W is computed with them.

@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "courant/core/derivative.hpp"
+#include "courant/core/expr_vectors.hpp"
 #include "courant/integrators/maps/spherical_midpoint.hpp"
 #include "courant/manifolds/sphere.hpp"
+#include "courant/manifolds/tangent_bundle.hpp"
 #include "courant/tests/integrators/example_systems.hpp"
 #include "courant/tests/integrators/vortices.hpp"
 
@@ -288,6 +290,34 @@ BOOST_AUTO_TEST_CASE(few_iterations_to_the_result_of_a_fresh_start) {
       BOOST_TEST((a.x - b.x).lpNorm<Eigen::Infinity>() < 3e-15 * b.x.lpNorm<Eigen::Infinity>());
       BOOST_TEST((a.z - b.z).lpNorm<Eigen::Infinity>() < 1e-12 * (1.0 + b.z.norm()));
     }
+  }
+}
+
+// A spherical pendulum in a field as six equations on TS². After some 2,800 steps an old factorisation
+// leads the projection to a solution with a hundred times the velocity.
+BOOST_AUTO_TEST_CASE(projections_end_nearby) {
+  const auto bundle = std::make_shared<TangentBundle>(std::make_shared<Sphere>(2));
+  const auto system = std::make_shared<FormulaSystem>(
+      bundle, 0, 6,
+      [bundle](const ExprVector& x, const ExprVector& v, const ExprVector&, const Expr&) {
+        const ExprVector q = x.head(3), w = x.tail(3), rate = bundle->frame(x) * v;
+        const ExprVector gradient = examples::equations({q[1], q[0], Expr(1.0)});
+        const Expr force = w.dot(w) - q.dot(gradient);
+        return joined(rate.head(3) - w, rate.tail(3) + gradient + force * q);
+      });
+  const auto energy = [](const VectorXd& x) {
+    return 0.5 * x.tail(3).squaredNorm() + x[0] * x[1] + x[2];
+  };
+  State state{.x = VectorXd(6)};
+  state.x << -0.9084205255016754, -0.4174015892427738, -0.023410727132219894, 0.02299501524101708,
+      -0.12126682000509649, 1.2698375148914907;
+  const ConstraintLadder ladder = ConstraintAlgorithm().run(system, {.x = state.x});
+  const ConstrainFirst method(system, ladder, std::make_shared<Theta>(bundle),
+                              std::make_shared<OrthogonalProjector>());
+  const auto stepper = method.stepper();
+  for (int k = 0; k < 3000; ++k) {
+    stepper->step(state, 0.05);
+    BOOST_REQUIRE(std::abs(energy(state.x) - 1.17) < 0.01);
   }
 }
 
