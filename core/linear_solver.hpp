@@ -55,4 +55,8 @@ class LinearSolver {
   virtual int do_orientation() const { return 0; }
 };
 
+// The solver that is faster for the pattern: a DenseSolver, or from some hundred unknowns on, if most
+// entries are missing, a SparseSolver.
+std::unique_ptr<LinearSolver> linear_solver(const MatrixPattern& pattern);
+
 }  // namespace courant

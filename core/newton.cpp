@@ -6,7 +6,6 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "courant/core/dense_solver.hpp"
 #include "courant/core/unknown_selection.hpp"
 
 namespace courant {
@@ -52,7 +51,7 @@ Newton::Newton(EquationSystem system, std::vector<Index> groups, const Options& 
   contained_ = std::move(contained.places);
   ends_ = group_ends(groups_, contained_);
   solver_ = options_.solver ? options_.solver(contained.pattern)
-                            : std::make_unique<DenseSolver>(contained.pattern);
+                            : linear_solver(contained.pattern);
   all_.resize(function_.output_size() + function_.nonzeros());
   step_.resize(static_cast<Index>(contained_.size()));
   magnitude_.resize(function_.output_size());

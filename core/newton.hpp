@@ -32,7 +32,7 @@ class Newton {
     // Contraction above which a new factorisation is worth its price (about ten evaluations for n =
     // 8).
     double slow = 0.2;
-    // What solves the linear systems; empty: DenseSolver.
+    // What solves the linear systems; empty: linear_solver().
     LinearSolver::Maker solver = {};
   };
   enum class Status { converged, diverged, singular };

@@ -59,6 +59,7 @@ std::vector<std::string> undetermined(const Experiment& experiment,
                                       const ConstraintLadder& ladder) {
   if (ladder.verdict != Verdict::regular && ladder.verdict != Verdict::gauge) return {};
   const InitialValues& initial = experiment.initial;
+  if (initial.x.given.all()) return {};
   const Manifold& M = *experiment.model.system->manifold();
   const MatrixXd basis = M.tangent_basis(ladder.point.x);
   const MatrixXd conormals = ladder.conormals() * basis;

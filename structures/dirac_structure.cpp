@@ -52,10 +52,11 @@ DiracStructure::Matrices DiracStructure::matrices(const VectorXd& x) const {
                  ExprVector::Zero(z.size()));
   MatrixXd A(derivative.rows(), derivative.cols());
   A.reshaped() = values(entries);
+  if (manifold_->dimension() == n) return {A.leftCols(n), A.middleCols(n, n), A.rightCols(m)};
   const MatrixXd basis = manifold_->tangent_basis(x);
   const MatrixXd covectors = manifold_->tangent_projector(x).transpose() * basis;
   // What a tangent vector or covector says across the tangent space is rounding noise.
-  if (basis.cols() < n) A = with_blocks_in_basis(A, basis, tangent_blocks(), basis.cols());
+  A = with_blocks_in_basis(A, basis, tangent_blocks(), basis.cols());
   return {A.leftCols(n) * basis, A.middleCols(n, n) * covectors, A.rightCols(m)};
 }
 

@@ -27,9 +27,12 @@ UncertainMatrix sparse(const UncertainDense& A) {
 // what the equations say; other entries have the rounding of DiracStructure.
 UncertainDense with_errors(const MatrixXd& A) {
   UncertainDense result(A.rows(), A.cols());
+  if (A.size() == 0) return result;
+  const VectorXd of_row = A.cwiseAbs().rowwise().maxCoeff();
+  const VectorXd of_column = A.cwiseAbs().colwise().maxCoeff();
   for (Index i = 0; i < A.rows(); ++i)
     for (Index j = 0; j < A.cols(); ++j) {
-      const double size = std::min(A.row(i).cwiseAbs().maxCoeff(), A.col(j).cwiseAbs().maxCoeff());
+      const double size = std::min(of_row[i], of_column[j]);
       const bool exact = Uncertain::rounded(A(i, j)).error == 0.0;
       result(i, j) = {A(i, j), exact ? 0.0 : DiracStructure::rounding.data_error * size};
     }

@@ -1,0 +1,21 @@
+# KLU as the target SuiteSparse::KLU, as FindSPQR does SuiteSparseQR.
+
+find_package(KLU CONFIG QUIET)
+if(TARGET SuiteSparse::KLU)
+  set(KLU_FOUND TRUE)
+  return()
+endif()
+
+find_path(KLU_INCLUDE_DIR klu.h PATH_SUFFIXES suitesparse)
+find_library(KLU_LIBRARY klu)
+mark_as_advanced(KLU_INCLUDE_DIR KLU_LIBRARY)
+
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(KLU REQUIRED_VARS KLU_LIBRARY KLU_INCLUDE_DIR)
+
+if(KLU_FOUND)
+  add_library(SuiteSparse::KLU UNKNOWN IMPORTED)
+  set_target_properties(SuiteSparse::KLU PROPERTIES
+    IMPORTED_LOCATION ${KLU_LIBRARY}
+    INTERFACE_INCLUDE_DIRECTORIES ${KLU_INCLUDE_DIR})
+endif()
