@@ -16,9 +16,10 @@ namespace {
 // far below any tolerance a user would set.
 constexpr double kRoundOff = 1e-9;
 
-// With a matrix that was made one iteration ago such short steps contract by about their length,
-// unless the root is of high multiplicity. Those that keep nine tenths of their length are
-// round-off, enlarged by a matrix that is nearly singular.
+// With a matrix that was made after such a short change steps contract by about its length, unless the
+// root is of high multiplicity. Those that keep nine tenths of their length are round-off, enlarged by
+// a matrix that is nearly singular. A matrix that was made farther away may contract slowly, to half
+// and more where a step is long: its steps are no round-off because they stay as short as that.
 constexpr double kShort = 1e-4;
 constexpr double kStagnant = 0.9;
 
@@ -50,8 +51,7 @@ Newton::Newton(EquationSystem system, std::vector<Index> groups, const Options& 
   ContainedUnknowns contained(function_);
   contained_ = std::move(contained.places);
   ends_ = group_ends(groups_, contained_);
-  solver_ = options_.solver ? options_.solver(contained.pattern)
-                            : linear_solver(contained.pattern);
+  solver_ = options_.solver ? options_.solver(contained.pattern) : linear_solver(contained.pattern);
   all_.resize(function_.output_size() + function_.nonzeros());
   step_.resize(static_cast<Index>(contained_.size()));
   magnitude_.resize(function_.output_size());
@@ -151,10 +151,13 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
   double previous = std::numeric_limits<double>::infinity();
   double contraction = 0.0;
   bool fresh = false;  // A belongs to a point of this solve
+  bool close = false;  // which a short change led to
   int compared = 0;    // iterations with the same A before, which made `previous`
+  double moved = std::numeric_limits<double>::infinity();
   const auto refactorize = [&] {
     ++result.factorizations;
     fresh = true;
+    close = moved <= kShort;
     compared = 0;
     return factorize(in);
   };
@@ -165,7 +168,7 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
   while (result.iterations < options_.max_iterations) {
     ++result.iterations;
     function_.value(in, all_.data());
-    const double moved = improve(y, scales);
+    moved = improve(y, scales);
     if (!std::isfinite(moved)) {
       result.residuals.push_back(residual.size() == 0 ? 0.0 : residual.lpNorm<Eigen::Infinity>());
       return result;
@@ -193,7 +196,7 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
       const bool stagnant = fresh && compared == 1 && contraction > kStagnant && moved <= kShort;
       const bool rounded =
           stalled && (moved > kRoundOff ? stagnant || is_rounded(y, scales, kRounded)
-                                        : fresh || moved <= std::max(kLeast, 2 * round_off_));
+                                        : close || moved <= std::max(kLeast, 2 * round_off_));
       const bool slow = contraction > options_.slow && moved > 1e3 * options_.tolerance;
       if ((slow && !fresh) || (stalled && !rounded) || (rounded && !accepted())) {
         if (!refactorize()) {
@@ -203,7 +206,7 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
         continue;
       }
       if (rounded) {
-        round_off_ = fresh && moved <= kRoundOff ? moved : kForget * round_off_;
+        round_off_ = close && moved <= kRoundOff ? moved : kForget * round_off_;
         result.status = Status::converged;
         return result;
       }

@@ -180,6 +180,20 @@ BOOST_AUTO_TEST_CASE(slow_is_not_round_off) {
 }
 
 // A solver of one's own gets the pattern of the Jacobian in the unknowns that the equations have.
+// With the matrix of the beginning the changes of y₀ contract to 0.3, those of y₁, which are 10⁸ times
+// smaller, to 0.8: these are what is left in the end, and no round-off.
+BOOST_AUTO_TEST_CASE(a_slow_end_is_not_round_off) {
+  Problem problem = make(2, [](const ExprVector& y, const Expr&) {
+    ExprVector F(2);
+    F << y[0] - 0.15 * square(y[0]) - 0.85, exp(-1.6 * y[0]) * (y[1] - 3e-8);
+    return F;
+  });
+  Newton newton(problem.function, {}, {});
+  BOOST_REQUIRE(problem.solve(newton).status == Newton::Status::converged);
+  BOOST_TEST(std::abs(problem.y[0] - 1.0) < 1e-15);
+  BOOST_TEST(std::abs(problem.y[1] - 3e-8) < 1e-15);
+}
+
 BOOST_AUTO_TEST_CASE(solves_with_the_solver_that_it_is_given) {
   class Diagonal final : public LinearSolver {
    public:
