@@ -49,15 +49,17 @@ VectorXd without_zeros(const VectorXd& sizes) {
 
 // The sizes of the unknowns of level 0 at the jet y, 0 where they are zero but for round-off: of the
 // coordinates, since those of the chart are 0, and of the rates next to each other; of an auxiliary
-// unknown next to the coordinates and rates that it meets in an equation.
+// unknown next to the coordinates, rates and constants that it meets in an equation.
 VectorXd known_sizes(const DerivativeArray& array, const VectorXd& y) {
   const Index n = array.base_size();
   VectorXd sizes = VectorXd::Zero(y.size());
   sizes.head(n) = without_zeros(array.origin_size());
   sizes.segment(n, n) = without_zeros(y.segment(n, n).cwiseAbs());
   const VectorXd without_unknowns = (sizes.array() > 0.0).select(y, 0.0);
-  const SparseMatrixXd terms = array.linearize(without_unknowns).jacobian.cwiseAbs();
-  const VectorXd least = kZero * (terms * sizes);
+  // Equations that divide by an unknown are not finite here, and say nothing.
+  const Linearization known = array.linearize(without_unknowns);
+  const SparseMatrixXd terms = known.jacobian.cwiseAbs();
+  const VectorXd least = kZero * (known.value.cwiseAbs() + terms * sizes);
   const VectorXd unknowns = without_zeros(y.tail(y.size() - 2 * n).cwiseAbs());
   for (Index j = 2 * n; j < y.size(); ++j)
     for (SparseMatrixXd::InnerIterator it(terms, j); it; ++it)

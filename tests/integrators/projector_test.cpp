@@ -266,6 +266,22 @@ BOOST_AUTO_TEST_CASE(natural_units_go_with_the_coordinates) {
   }
 }
 
+// A temperature 300 exp S at S = 0, where it divides an equation, is as large as its constant says.
+BOOST_AUTO_TEST_CASE(natural_units_where_an_unknown_divides) {
+  const auto system = std::make_shared<examples::FormulaSystem>(
+      std::make_shared<Euclidean>(2), 1, 3,
+      [](const ExprVector& x, const ExprVector& v, const ExprVector& z, const Expr&) {
+        return equations({v[0] - square(x[1]) / z[0], v[1] + x[1], z[0] - 300.0 * exp(x[0])});
+      });
+  const ConstraintLadder ladder = ConstraintAlgorithm().run(
+      system, {.x = Eigen::Vector2d(0, 10), .z = VectorXd::Constant(1, 300.0)});
+  BOOST_REQUIRE((ladder.verdict == Verdict::regular));
+  const VectorXd units = natural_units(system, ladder);
+  BOOST_TEST(units.allFinite());
+  BOOST_TEST((units.array() > 1e-6).all());
+  BOOST_TEST((units.array() < 1e6).all());
+}
+
 BOOST_AUTO_TEST_CASE(errors) {
   const Euclidean space(4);
   BOOST_CHECK_THROW(OrthogonalProjector(Vector4d(1, 0, 1, 1)), std::invalid_argument);
