@@ -6,6 +6,7 @@
 #pragma once
 
 #include "courant/core/derivative.hpp"
+#include "courant/core/divided_difference.hpp"
 #include "courant/core/expr.hpp"
 #include "courant/core/function.hpp"
 #include "courant/core/gauss_newton.hpp"
@@ -15,6 +16,7 @@
 #include "courant/core/version.hpp"
 #include "courant/integrators/composition.hpp"
 #include "courant/integrators/constrain_first.hpp"
+#include "courant/integrators/discrete_gradient.hpp"
 #include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/explicit_runge_kutta.hpp"
 #include "courant/integrators/integrator_laws.hpp"
@@ -37,6 +39,7 @@
 #include "courant/integrators/maps/theta.hpp"
 #include "courant/integrators/matched_start.hpp"
 #include "courant/integrators/projector_laws.hpp"
+#include "courant/integrators/step_energies.hpp"
 #include "courant/integrators/vector_field.hpp"
 #include "courant/manifolds/cotangent_bundle.hpp"
 #include "courant/manifolds/euclidean.hpp"

@@ -12,6 +12,7 @@
 #include "courant/core/message.hpp"
 #include "courant/reading/json_document.hpp"
 #include "courant/reading/setting.hpp"
+#include "courant/reading/table.hpp"
 #include "courant/running/output_file.hpp"
 
 namespace courant::cli {
@@ -82,6 +83,7 @@ int with_document(const Console& console, const std::string& file,
   return reporting_errors(console, file, [&] {
     Json document = parse_json(*text);
     for (const std::string& setting : settings) apply_setting(read_setting(setting), document);
+    load_tables(document, std::filesystem::path(file == "-" ? "" : file).parent_path());
     return action(document);
   });
 }

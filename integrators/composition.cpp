@@ -74,8 +74,19 @@ class Composition::Trajectory final : public Stepper {
     count();
   }
 
-  void do_keep(const State&, const State&) override { stage_ = stages_.back()->last().stage; }
-  void do_stage(Step& step) const override { step.stage = stage_; }
+  void do_keep(const State&, const State&) override {
+    const Step& last = stages_.back()->last();
+    stage_ = last.stage;
+    effort_ = last.effort;
+    parts_.resize(stages_.size());
+    if (!tells_parts()) return;
+    for (std::size_t i = 0; i < stages_.size(); ++i) parts_[i] = stages_[i]->last();
+  }
+  void do_stage(Step& step) const override {
+    step.stage = stage_;
+    step.effort = effort_;
+    step.parts = parts_;
+  }
   void do_discard() override { do_forget(); }
   void do_forget() override {
     for (const auto& stage : stages_) stage->forget();
@@ -88,7 +99,10 @@ class Composition::Trajectory final : public Stepper {
   int order_;
   std::span<const double> coefficients_;
   std::vector<std::unique_ptr<Stepper>> stages_;
-  State stage_;  // that of the last stage of the last step that stands
+  // Of the last step that stands: what is known of its last stage, and of all if that is asked for.
+  State stage_;
+  VectorXd effort_;
+  std::vector<Step> parts_;
 };
 
 Composition::Composition(std::shared_ptr<const Integrator> method, int order)

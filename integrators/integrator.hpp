@@ -26,6 +26,9 @@ class Integrator {
   virtual bool is_symmetric() const = 0;
   // Whether the step preserves the symplectic form of its phase space; no value: unknown.
   virtual std::optional<bool> is_symplectic() const { return std::nullopt; }
+  // Whether in each step the energy changes by what is supplied less what is dissipated (StepEnergies),
+  // up to round-off. A claim about the method: others have this where the energy is quadratic, say.
+  virtual bool has_exact_energy() const { return false; }
   virtual bool is_native() const = 0;  // whether compiled C code evaluates the step
 
   // The equations that a step solves, one after the other; none for a method that solves none, or has

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "courant/core/rank_decision.hpp"
+#include "courant/integrators/step_energies.hpp"
 #include "courant/manifolds/measurement.hpp"
 #include "courant/structures/dirac_interconnection.hpp"
 
@@ -20,6 +21,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSymplectic = 1e-8;
 // Two ways to the same state: they differ by what Newton's method leaves and by round-off.
 constexpr double kSame = 1e-9;
+// What round-off leaves of a balance of energies.
+constexpr double kEnergy = 1e-12;
 // The order may be off by so much. Errors below the floor, next to the state, are round-off.
 constexpr double kOrder = 0.15, kFloor = 1e-12;
 
@@ -45,6 +48,7 @@ class IntegratorLaws {
     failure_law();
     empty_law();
     time_law();
+    energy_law();
     return std::move(report_);
   }
 
@@ -323,6 +327,47 @@ class IntegratorLaws {
           return worst;
         },
         where());
+    add(measured);
+  }
+
+  // Next to the greatest energies that take part in a step: H at both ends and what moves.
+  double imbalance(double h) const {
+    const auto system = std::dynamic_pointer_cast<const EnergySystem>(setting_.system);
+    if (!system || !system->has_explicit_energy())
+      throw std::domain_error("the system has no energy that is a function on M");
+    const StepEnergies energies(system);
+    const auto stepper = integrator_.stepper();
+    stepper->tell_parts();
+    State state = setting_.initial;
+    stepper->prepare(state, h);
+    // Multipliers do not count in H.
+    const auto H = [&](State at) {
+      at.z.setZero();
+      return energies.energy(at);
+    };
+    double worst = 0.0, size = 0.0;
+    // Back in time a system with losses does not go far.
+    const int steps = h * setting_.step > 0.0 ? 20 : 5;
+    for (int k = 0; k < steps; ++k) {
+      stepper->step(state, h);
+      const Step& step = stepper->last();
+      const StepEnergies::Energies through = energies(step);
+      const double before = H(step.before), after = H(step.after);
+      size = std::max(size, std::abs(before) + std::abs(after) + through.moved);
+      const double defect = std::abs(after - before - through.supply() + through.loss());
+      if (!(defect <= worst)) worst = defect;
+    }
+    return size > 0.0 ? worst / size : worst;
+  }
+
+  void energy_law() {
+    report_.imbalance = attempt([&] { return imbalance(setting_.step); });
+    if (!integrator_.has_exact_energy()) return;
+    auto measured =
+        law("P10 H changes by what is supplied less what is dissipated, as said", kEnergy);
+    for (const double factor : {1.0, -0.1, 1e-3})
+      measured.add([&] { return imbalance(factor * setting_.step); },
+                   "steps of " + describe("h", VectorXd::Constant(1, factor * setting_.step)));
     add(measured);
   }
 

@@ -48,6 +48,8 @@ struct IntegratorLawOptions {
 //   P8   v and z of the initial state may be empty (if both_ways: a Lagrangian that is not defined
 //        at rest needs them)
 //   P9   the time after k steps is t₀ + k h, and k are counted
+//   P10  H changes in each step by what is supplied less what is dissipated, to 1e-12 of the energies that
+//        take part, if has_exact_energy()
 struct IntegratorReport {
   std::vector<LawResult> laws;
   // No value where there is nothing to measure: the steps fail, or they are exact.
@@ -55,7 +57,10 @@ struct IntegratorReport {
   std::optional<double> asymmetry;      // ‖Φ_{-h}(Φ_h(x)) - x‖ next to ‖x‖
   std::optional<double> symplecticity;  // ‖Φ_h*ω - ω‖ next to ‖ω‖, on T M_f
   std::optional<double> preservation;   // distance of the image of D_x from D_y
-  std::vector<VectorXd> states;         // of the first steps
+  // |ΔH - supplied + dissipated| next to the energies, the greatest of some steps; no value for a system
+  // that knows no powers.
+  std::optional<double> imbalance;
+  std::vector<VectorXd> states;  // of the first steps
 };
 
 // Measures all of it at the setting. Differentials are taken by differences of order 4. Does not

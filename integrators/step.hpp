@@ -1,6 +1,8 @@
 // Step: what is known of a step.
 #pragma once
 
+#include <vector>
+
 #include "courant/structures/state.hpp"
 
 namespace courant {
@@ -12,6 +14,11 @@ struct Step {
   // (x̄, v, z) at time t̄: where the system was evaluated to make the step; of several such points
   // the last.
   State stage = {};
+  // The covector (Ñ) that stands in the place of dH(x̄): a discrete gradient. Empty: dH(x̄) itself.
+  VectorXd effort = {};
+  // Those that it was made of, one after the other, if there are several, as of a Composition: empty
+  // ones unless Stepper::tell_parts() was called before the step.
+  std::vector<Step> parts = {};
 };
 
 // What the steps of a motion were like. A step that begins without those before it takes its solution

@@ -132,9 +132,11 @@ bool StepContinuation::converges(double sigma, const double* const* in, double s
       const double moved = step_[static_cast<Index>(k)];
       u_[i] -= shrinks(i) ? moved / sigma : moved;
     }
-    // The first change says nothing of the other unknowns, which may have been predicted badly.
+    // The first change says nothing of the other unknowns, which may have been predicted badly. Without a
+    // prediction it is no measure of the second one either: multipliers that forces of inertia belong to
+    // wait for the velocity.
     if (iteration == 0 || change > kTolerance) {
-      previous = change;
+      if (iteration > 0 || std::isfinite(near)) previous = change;
       continue;
     }
     const int orientation = solver_->orientation();

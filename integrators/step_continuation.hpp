@@ -13,12 +13,12 @@ namespace courant {
 // the end of the curve σ ↦ y(σ), G(y(σ); σ h) = 0, that begins at the state for σ → 0. This follows
 // the curve up to σ = 1, or to where it turns back or ends.
 //
-// It begins at a thousandth of the step or less, and goes on along the tangent. A prediction must be
-// right to a tenth, Newton's method with a matrix made afresh in each iteration has to contract to a
-// quarter at once, the sign of the determinant stays the same, and the tangents of both ends have to
-// say by how much the prediction was wrong: those of two branches do not, so that turning points are
-// not stepped over, nor pairs of them. Else the step in σ is shortened; the first one tried leads to
-// σ = 1.
+// It begins at a thousandth of the step or less, with a solution from which Newton's method, its matrix
+// made afresh in each iteration, contracts to a quarter after the first one, and goes on along the
+// tangent. A prediction must be right to a tenth, Newton's method has to contract at once, the sign of
+// the determinant stays the same, and the tangents of both ends have to say by how much the prediction
+// was wrong: those of two branches do not, so that turning points are not stepped over, nor pairs of
+// them. Else the step in σ is shortened; the first one tried leads to σ = 1.
 //
 // Where the state does not obey all equations, as after a step of Method 1 with constraints,
 // displacements do not vanish for σ → 0: the curve begins with a jump to where they hold. Where they have

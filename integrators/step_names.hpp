@@ -18,7 +18,7 @@ class StepNames {
   std::vector<std::string> tangent(const std::string& prefix, Index order) const;
   std::vector<std::string> auxiliary(Index order) const;
   std::vector<std::string> basis() const;  // of basis_parameters
-  // Of reduced_residual, with so many equations.
+  // Of reduced_equations, with so many equations.
   std::vector<std::string> equations(Index count) const;
   // Of local.nonzero_equations().
   std::vector<std::string> equations(const LocalFormulation& local) const;

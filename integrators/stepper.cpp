@@ -121,20 +121,23 @@ const Step& Stepper::last() {
   return *last_;
 }
 
-State Stepper::between(double s) {
+State Stepper::between(double s) { return part(s).after; }
+
+Step Stepper::part(double s) {
   if (!has_stepped_) throw std::logic_error(method_ + ": between: no step has been made.");
   if (!(s >= 0.0 && s <= 1.0)) {
     std::ostringstream message;
     message << method_ << ": between: s is " << s << "; expected a number from 0 to 1.";
     throw std::invalid_argument(message.str());
   }
-  if (s == 0.0) return last_->before;
-  if (s == 1.0) return last_->after;
+  if (s == 0.0) return {.before = last_->before, .after = last_->before, .stage = last_->before};
+  if (s == 1.0) return last();
   if (!between_) between_ = do_fresh();
   between_->forget();
+  between_->tells_parts_ = tells_parts_;
   State state = last_->before;
   between_->step(state, s * last_->h);
-  return state;
+  return between_->last();
 }
 
 void Stepper::forget() {

@@ -60,6 +60,12 @@ class Stepper {
   // on M_f where the method is; each point costs what a step costs. Throws std::logic_error before
   // the first step, std::invalid_argument for s outside [0, 1], SolveError.
   State between(double s);
+  // The step from the state before to between(s).
+  Step part(double s);
+
+  // From the next step on last() and part() tell the parts of steps that are made of several, which
+  // costs a copy of each.
+  void tell_parts() { tells_parts_ = true; }
 
   // As if no step had been made; the statistics go on.
   void forget();
@@ -81,6 +87,7 @@ class Stepper {
   const ImplicitSystem& system() const { return *system_; }
   const Manifold& manifold() const { return *system_->manifold(); }
   const std::string& method() const { return method_; }
+  bool tells_parts() const { return tells_parts_; }
 
   SolverStatistics statistics_;
 
@@ -125,6 +132,7 @@ class Stepper {
   bool has_stepped_ = false;  // since the last forget()
   bool has_stage_ = false;    // last_ has that of its step
   bool is_prepared_ = false;  // for a step from last_->after
+  bool tells_parts_ = false;
   std::unique_ptr<Stepper> between_;
 };
 

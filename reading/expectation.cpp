@@ -19,6 +19,7 @@ struct Reading {
   const std::vector<std::string>& events;
   const std::optional<TimeSpan>& time;
   bool is_run;  // there are to be steps, even if their time could not be read
+  bool has_powers;
   Expectations& expectations;
 
   // Whether there are steps along which something could drift.
@@ -357,6 +358,27 @@ bool read_violation(ObjectReader& entry, const Reading& reading) {
   return true;
 }
 
+// {"max_imbalance": 1e-12}: how far any step is from the balance of energy.
+bool read_imbalance(ObjectReader& entry, const Reading& reading) {
+  const auto key = entry.optional("max_imbalance");
+  if (!key) return false;
+  const auto bound = key->number();
+  if (!bound) return true;
+  if (!reading.has_powers) {
+    key->problem(
+        "tests nothing: the system is given by its equations, which do not say what they supply; "
+        "expected another expectation");
+  } else if (is_bound_of_change(*key, *bound, false, reading)) {
+    reading.expectations.imbalance = true;
+    reading.expectations.checks.push_back(
+        [bound = *bound, pointer = entry.place().pointer()](const RunRecord& record) {
+          return compared(pointer, "greatest imbalance of energy in a step",
+                          record.completed ? record.max_imbalance : kUnknown, bound);
+        });
+  }
+  return true;
+}
+
 void read_entry(const JsonReader& value, const Reading& reading) {
   ObjectReader entry(value);
   if (!value.value().is_object()) return;
@@ -365,11 +387,11 @@ void read_entry(const JsonReader& value, const Reading& reading) {
   if (const auto state = entry.optional("state")) return read_state(entry, *state, reading);
   const bool certificate = read_certificate(entry, reading);
   const bool violation = read_violation(entry, reading);
-  if (!certificate && !violation && value.value().empty())
+  const bool imbalance = read_imbalance(entry, reading);
+  if (!certificate && !violation && !imbalance && value.value().empty())
     value.problem(
-        "expects nothing; expected \"observable\", \"state\", \"event\", \"verdict\", \"ladder\" "
-        "or "
-        "\"max_violation\"");
+        "expects nothing; expected \"observable\", \"state\", \"event\", \"verdict\", \"ladder\", "
+        "\"max_violation\" or \"max_imbalance\"");
 }
 
 }  // namespace
@@ -385,11 +407,11 @@ std::optional<long> TimeSpan::step_at(double t) const {
 Expectations read_expectations(const JsonReader& expect, const Vocabulary& vocabulary,
                                const std::vector<std::string>& quantities,
                                const std::vector<std::string>& events,
-                               const std::optional<TimeSpan>& time, bool is_run) {
+                               const std::optional<TimeSpan>& time, bool is_run, bool has_powers) {
   Expectations expectations;
   const auto entries = expect.elements();
   if (!entries) return expectations;
-  const Reading reading{vocabulary, quantities, events, time, is_run, expectations};
+  const Reading reading{vocabulary, quantities, events, time, is_run, has_powers, expectations};
   for (const JsonReader& entry : *entries) read_entry(entry, reading);
   return expectations;
 }

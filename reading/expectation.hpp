@@ -40,6 +40,8 @@ struct RunRecord {
   double max_violation = std::numeric_limits<double>::quiet_NaN();  // of the constraints, if any
   std::map<std::string, EventRecord> events;
   const ConstraintLadder* ladder = nullptr;  // null if not reached
+  // The greatest imbalance of a step, as of PowerAccount, if the system knows its powers.
+  double max_imbalance = std::numeric_limits<double>::quiet_NaN();
 };
 
 // One entry of `expectations` in a summary.
@@ -66,6 +68,7 @@ struct Expectations {
   std::vector<Deviation> deviations;
   std::vector<std::function<ExpectationResult(const RunRecord&)>> checks;
   bool inconsistent = false;  // the verdict that is expected, after which there is nothing to run
+  bool imbalance = false;     // of energy has a bound
   std::vector<std::string> violations;  // pointers of bounds of constraints, which there must be
 };
 
@@ -81,12 +84,14 @@ struct TimeSpan {
 };
 
 // Reads the array `expect`; `quantities` are the names of coordinates and observables, `events` those
-// of events; `is_run` where there are to be steps, though `time` is nothing if it cannot be read. What would
+// of events; `is_run` where there are to be steps, though `time` is nothing if it cannot be read;
+// `has_powers` if the system is an EnergySystem. What would
 // pass or fail whatever the run does is a problem: drifts where there is no trajectory, bounds below
 // zero of what cannot be, values that are not finite.
 Expectations read_expectations(const JsonReader& expect, const Vocabulary& vocabulary,
                                const std::vector<std::string>& quantities,
                                const std::vector<std::string>& events,
-                               const std::optional<TimeSpan>& time, bool is_run);
+                               const std::optional<TimeSpan>& time, bool is_run,
+                               bool has_powers = false);
 
 }  // namespace courant

@@ -6,8 +6,10 @@
 
 #include "courant/core/declaration.hpp"
 #include "courant/core/message.hpp"
+#include "courant/reading/energy_words.hpp"
 #include "courant/reading/json_document.hpp"
 #include "courant/reading/system_kinds.hpp"
+#include "courant/structures/energy_system.hpp"
 
 namespace courant {
 namespace {
@@ -62,50 +64,115 @@ bool observable(const std::string& name, const ImplicitSystem& system, const Sym
          std::find(coordinates.begin(), coordinates.end(), name) == coordinates.end();
 }
 
-std::vector<Observable> read_observables(const JsonReader& value, const Model& model) {
+// The formula of an observable, or {"formula": …, "at": "node" or "stage"}.
+std::optional<Observable> read_observable(const std::string& name, const JsonReader& entry) {
+  if (!entry.value().is_object()) {
+    const auto formula = read_formula(entry);
+    return formula ? std::optional(Observable{name, *formula}) : std::nullopt;
+  }
+  ObjectReader object(entry);
+  const auto key = object.required("formula");
+  const auto formula = key ? read_formula(*key) : std::nullopt;
+  const bool at_stage = object.word("at", "node", {"node", "stage"}) == "stage";
+  return formula ? std::optional(Observable{name, *formula, at_stage}) : std::nullopt;
+}
+
+// Whether a formula has one of the names in it.
+bool is_made_of(const WrittenFormula& formula, const NameList& names) {
+  try {
+    const auto used = names_used(formula.text);
+    return std::any_of(used.begin(), used.end(),
+                       [&](const std::string& name) { return names.contains(name); });
+  } catch (const FormulaError&) {  // is told of later
+    return false;
+  }
+}
+
+bool is_energy_column(const std::string& name) {
+  return name == "supplied" || name == "dissipated" || name == "balance";
+}
+
+// The words for energies that no observable is called by.
+NameList left_words(const NameList& words, const std::vector<Observable>& observables) {
+  NameList left;
+  for (const Declaration& declaration : words.declarations()) {
+    const bool is_used =
+        std::any_of(observables.begin(), observables.end(), [&](const Observable& observable) {
+          return observable.name == declaration.name && observable.formula.text != declaration.name;
+        });
+    if (is_used)
+      left.append_unnamed(declaration.size());
+    else
+      left.append(declaration);
+  }
+  return left;
+}
+
+std::vector<Observable> read_observables(const JsonReader& value, const Model& model,
+                                         Experiment& experiment) {
+  NameList& energies = experiment.energies;
   std::vector<Observable> observables;
   const auto entries = value.entries();
   if (!entries) return observables;
+  std::vector<Observable> written;
+  std::vector<JsonReader> places;
+  for (const auto& [name, entry] : *entries)
+    if (auto observable = read_observable(name, entry)) {
+      written.push_back(std::move(*observable));
+      places.push_back(entry);
+    }
+  energies = left_words(energies, written);
   const ImplicitSystem& system = *model.system;
   const Manifold& M = *system.manifold();
   Graph graph;
   const ExprVector x = graph.variables("x", M.ambient_dimension());
   const ExprVector z = graph.variables("z", system.auxiliary_size());
   const Expr t = graph.variable("t");
-  const SymbolTable symbols = model.symbols(x, graph.variables("v", M.tangent_dimension()), z, t);
+  const ExprVector v = graph.variables("v", M.tangent_dimension());
+  const SymbolTable at_stage = model.symbols(x, v, z, t);
+  SymbolTable symbols = at_stage;
+  energies.add_to(symbols, graph.variables("energies", energies.size()));
   SymbolTable taken = symbols;
   if (taken.find("H") == nullptr && system.energy(x, z, t)) taken.add("H", 0.0);
   taken.add("constraint", 0.0);
-  for (const auto& [name, entry] : *entries) {
-    const auto formula = read_formula(entry);
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    Observable& entry = written[i];
+    const std::string& name = entry.name;
+    entry.uses_energies = !entry.at_stage && is_made_of(entry.formula, energies);
+    const SymbolTable& known = entry.at_stage ? at_stage : symbols;
+    if (name == "balance") experiment.writes_balance = false;
     // A quantity that has this name already is written under it.
-    if (formula && formula->text == name && observable(name, *model.system, symbols)) {
-      observables.push_back({name, *formula});
+    if (entry.formula.text == name && observable(name, *model.system, known)) {
+      if (entry.at_stage || !experiment.writes_energies || !is_energy_column(name) ||
+          !energies.contains(name))
+        observables.push_back(entry);
       continue;
     }
     try {
       if (!parse_declaration(name, taken).shape.empty())
         throw FormulaError(1, "\"" + name + "\" has a size; expected a name");
     } catch (const FormulaError& error) {
-      entry.problem(std::string("key, ") + error.what());
+      places[i].problem(std::string("key, ") + error.what());
       continue;
     }
-    if (formula && check(*formula, symbols, value.findings()))
-      observables.push_back({name, *formula});
+    if (check(entry.formula, known, value.findings())) observables.push_back(entry);
   }
   return observables;
 }
 
-// Coordinates, H where there is an energy, observables: what expectations can be about.
-std::vector<std::string> quantities(const Model& model,
-                                    const std::vector<Observable>& observables) {
-  const ImplicitSystem& system = *model.system;
+// Coordinates, H where there is an energy, energies of steps, observables: what expectations can be
+// about.
+std::vector<std::string> quantities(const Experiment& experiment) {
+  const ImplicitSystem& system = *experiment.model.system;
   std::vector<std::string> names = system.names().coordinates;
   Graph graph;
   if (system.energy(graph.variables("x", system.manifold()->ambient_dimension()),
                     graph.variables("z", system.auxiliary_size()), graph.variable("t")))
     names.push_back("H");
-  for (const Observable& observable : observables) names.push_back(observable.name);
+  for (const char* name : {"supplied", "dissipated"})
+    if (experiment.writes_energies && experiment.energies.contains(name)) names.push_back(name);
+  if (experiment.writes_balance) names.push_back("balance");
+  for (const Observable& observable : experiment.observe) names.push_back(observable.name);
   return names;
 }
 
@@ -165,20 +232,24 @@ Experiment read_experiment_document(const Json& written) {
       if (initial)
         if (const auto values = read_initial_values(*initial, hold, weights, *model))
           experiment.initial = *values;
-      if (observe) experiment.observe = read_observables(*observe, *model);
+      if (method || time) experiment.energies = energy_words(*model);
+      experiment.writes_energies = has_ports(experiment.energies);
+      experiment.writes_balance =
+          experiment.writes_energies && model->vocabulary.symbols({}).find("balance") == nullptr;
+      if (observe) experiment.observe = read_observables(*observe, *model, experiment);
       if (events) experiment.events = read_events(*events, *model);
       std::vector<std::string> event_names;
       for (const Event& event : experiment.events) event_names.push_back(event.name);
       if (expect)
-        experiment.expect =
-            read_expectations(*expect, model->vocabulary, quantities(*model, experiment.observe),
-                              event_names, experiment.time, method || time);
+        experiment.expect = read_expectations(
+            *expect, model->vocabulary, quantities(experiment), event_names, experiment.time,
+            method || time,
+            std::dynamic_pointer_cast<const EnergySystem>(model->system) != nullptr);
     }
     experiment.output =
         read_output(output.value_or(JsonReader(no_output, "/output", findings)),
                     model ? model->vocabulary.symbols({}) : SymbolTable(),
-                    model ? std::optional(quantities(*model, experiment.observe)) : std::nullopt,
-                    experiment.time);
+                    model ? std::optional(quantities(experiment)) : std::nullopt, experiment.time);
   }
   findings.require_clean();
   experiment.document = findings.completed(document);

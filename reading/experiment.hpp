@@ -17,7 +17,10 @@ namespace courant {
 
 struct Observable {
   std::string name;
-  WrittenFormula formula;  // of coordinates, velocities, unknowns, t
+  // Of coordinates, velocities, unknowns, t; of energies since the beginning, but at a stage.
+  WrittenFormula formula;
+  bool at_stage = false;       // of the step that ended at the state
+  bool uses_energies = false;  // of the run
 };
 
 // A system, where it starts, how it is integrated, what is observed and expected. Without a method
@@ -30,6 +33,10 @@ struct Experiment {
   std::optional<MethodChoice> method;  // both or none
   std::optional<TimeSpan> time;
   std::vector<Observable> observe;
+  NameList energies =
+      {};  // energy_words(model) of a run; those that `observe` has for others unnamed
+  // Whether there are columns `supplied` and `dissipated`, where these are words, and `balance`.
+  bool writes_energies = false, writes_balance = false;
   std::vector<Event> events;
   Expectations expect;
   Output output;

@@ -75,6 +75,7 @@ Takes number_matrices() { return {"an array of matrices of numbers", reference("
 Takes coordinates() { return {"names", reference("coordinates")}; }
 Takes names() { return {"names", reference("names")}; }
 Takes parameters() { return {"an object of constants", reference("parameters")}; }
+Takes tables() { return {"an object of tables", reference("tables")}; }
 Takes definitions() { return {"an object of formulas", reference("definitions")}; }
 Takes kind(const std::string& noun) { return {"a " + noun, reference(noun)}; }
 

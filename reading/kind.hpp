@@ -38,6 +38,7 @@ Takes number_matrices();
 Takes coordinates();  // names and arrays of names, at least one
 Takes names();
 Takes parameters();
+Takes tables();
 Takes definitions();
 // One of the kinds of a noun: "manifold", "structure", "discretization", "projector", "method",
 // "system".

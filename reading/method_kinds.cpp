@@ -3,6 +3,7 @@
 #include "courant/core/message.hpp"
 #include "courant/integrators/composition.hpp"
 #include "courant/integrators/constrain_first.hpp"
+#include "courant/integrators/discrete_gradient.hpp"
 #include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/explicit_runge_kutta.hpp"
 #include "courant/integrators/maps/cayley_midpoint.hpp"
@@ -13,6 +14,7 @@
 #include "courant/integrators/maps/spherical_midpoint.hpp"
 #include "courant/integrators/maps/theta.hpp"
 #include "courant/integrators/matched_start.hpp"
+#include "courant/integrators/natural_units.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/torus.hpp"
 
@@ -210,6 +212,29 @@ std::optional<MethodChoice> constrain_first(ObjectReader& object) {
       }};
 }
 
+std::shared_ptr<const DiscreteDifferential> differential(const std::string& name) {
+  if (name == "averaged-vector-field") return std::make_shared<AveragedDifferential>();
+  if (name == "itoh-abe") return std::make_shared<ItohAbeDifferential>();
+  return std::make_shared<GonzalezDifferential>();
+}
+
+std::optional<MethodChoice> discrete_gradient(ObjectReader& object) {
+  const auto map = discretization_kinds().read_key(object, "discretization");
+  const std::string gradient = object.word("gradient");
+  if (!map) return std::nullopt;
+  return MethodChoice{
+      "discrete-gradient, " + gradient + ", " + map->description,
+      [map = *map, gradient](const MethodSetting& at) {
+        const auto on_manifold = map.make(at.system->manifold());
+        return PreparedMethod{
+            std::make_shared<DiscreteGradient>(
+                at.system, on_manifold, differential(gradient),
+                DiscreteGradient::Options{.backend = at.backend,
+                                          .units = natural_units(at.system, at.ladder)}),
+            at.initial, on_manifold};
+      }};
+}
+
 template <ExplicitRungeKutta::Kind kind>
 std::optional<MethodChoice> explicit_runge_kutta(ObjectReader& object) {
   return MethodChoice{object.optional("type")->text().value(), [](const MethodSetting& at) {
@@ -258,6 +283,13 @@ Registry<MethodChoice>& method_kinds() {
          default_key("projector", takes::kind("projector"), "orthogonal",
                      "how points are brought to M_f")}},
        constrain_first},
+      {{"discrete-gradient",
+        "Method 1 with a discrete gradient of H: energy changes by exactly what ports supply and "
+        "resistors take",
+        {map,
+         default_key("gradient", takes::word({"gonzalez", "averaged-vector-field", "itoh-abe"}),
+                     "gonzalez", "which one; itoh-abe is of order 1")}},
+       discrete_gradient},
       {{"rk2", "explicit midpoint rule on S_f, order 2"},
        explicit_runge_kutta<ExplicitRungeKutta::Kind::midpoint>},
       {{"rk4", "classical Runge–Kutta method on S_f, order 4"},

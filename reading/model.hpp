@@ -32,6 +32,15 @@ struct Model {
     return vocabulary.symbols(
         {.x = x, .velocity = (system->manifold()->frame(x) * v).eval(), .z = z, .t = t});
   }
+  // The same at the stage of a step, with its effort.
+  SymbolTable symbols(const ExprVector& x, const ExprVector& v, const ExprVector& z, const Expr& t,
+                      const ExprVector& effort) const {
+    return vocabulary.symbols({.x = x,
+                               .velocity = (system->manifold()->frame(x) * v).eval(),
+                               .z = z,
+                               .t = t,
+                               .effort = effort});
+  }
 };
 
 }  // namespace courant

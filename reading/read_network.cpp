@@ -319,20 +319,23 @@ Vocabulary::Derived quantities(const std::shared_ptr<const Network>& network,
     names.append({name, {}});
     source.emplace_back(static_cast<Index>(node), 2);
   }
-  return {
-      names, [network, source](const Vocabulary::Arguments& given) -> std::optional<ExprVector> {
-        if (!given.x || !given.velocity || !given.z || !given.t) return std::nullopt;
-        const Network::Ports ports = network->ports(*given.x, *given.velocity, *given.z, *given.t);
-        const ExprVector potentials = network->potentials(ports.voltage);
-        ExprVector values(static_cast<Index>(source.size()));
-        for (Index k = 0; k < values.size(); ++k) {
-          const auto& [index, which] = source[at(k)];
-          values[k] = which == 0   ? ports.current[index]
-                      : which == 1 ? ports.voltage[index]
-                                   : potentials[index];
-        }
-        return values;
-      }};
+  return {names,
+          [network, source](const Vocabulary::Arguments& given) -> std::optional<ExprVector> {
+            if (!given.x || !given.velocity || !given.z || !given.t) return std::nullopt;
+            const ExprVector effort =
+                given.effort ? *given.effort : network->effort(*given.x, *given.z, *given.t);
+            const Network::Ports ports =
+                network->ports(*given.x, *given.velocity, effort, *given.z, *given.t);
+            const ExprVector potentials = network->potentials(ports.voltage);
+            ExprVector values(static_cast<Index>(source.size()));
+            for (Index k = 0; k < values.size(); ++k) {
+              const auto& [index, which] = source[at(k)];
+              values[k] = which == 0   ? ports.current[index]
+                          : which == 1 ? ports.voltage[index]
+                                       : potentials[index];
+            }
+            return values;
+          }};
 }
 
 }  // namespace

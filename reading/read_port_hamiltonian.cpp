@@ -152,6 +152,7 @@ std::optional<Model> read_port_hamiltonian(ObjectReader& system) {
     const NameList outputs = port_variables("y", m, *port_names);
     Vocabulary words;
     words.parameters = vocabulary.parameters;
+    words.tables = vocabulary.tables;
     SymbolTable known = words.symbols({.t = Expr(0.0)});
     if (!take(outputs, known, *inputs_key)) return std::nullopt;
     const auto table = [words, outputs](const Expr& t, const ExprVector& y) {
@@ -182,14 +183,33 @@ std::optional<Model> read_port_hamiltonian(ObjectReader& system) {
       ImplicitSystem::Names{
           vocabulary.coordinates.element_names(), vocabulary.unknowns.element_names(), {}});
   model.system = ports;
-  // The outputs are words of observables, unless one of their names has a meaning already.
-  if (const NameList outputs = port_variables("y", m, *port_names);
-      m > 0 && is_free(outputs, taken, vocabulary.definitions))
-    vocabulary.derived.push_back(
-        {outputs, [ports](const Vocabulary::Arguments& at) -> std::optional<ExprVector> {
-           if (!at.x || !at.z || !at.t) return std::nullopt;
-           return ports->output(*at.x, *at.z, *at.t);
-         }});
+  // Outputs, flows and efforts are words of observables, unless a name of theirs has a meaning already.
+  const auto effort = [ports](const Vocabulary::Arguments& at) {
+    return at.effort ? *at.effort : ports->effort(*at.x, *at.z, *at.t);
+  };
+  const auto add_words =
+      [&](const NameList& names,
+          std::function<std::optional<ExprVector>(const Vocabulary::Arguments&)> words) {
+        if (names.size() > 0 && is_free(names, taken, vocabulary.definitions))
+          vocabulary.derived.push_back({names, std::move(words)});
+      };
+  add_words(port_variables("y", m, *port_names),
+            [ports, effort](const Vocabulary::Arguments& at) -> std::optional<ExprVector> {
+              if (!at.x || !at.z || !at.t) return std::nullopt;
+              return ports->output(*at.x, effort(at), *at.z);
+            });
+  // (v, dH) of (28)-(31), in the representation of the manifold.
+  NameList flows, efforts;
+  flows.append({"flow", {n}});
+  efforts.append({"effort", {n}});
+  add_words(efforts, [effort](const Vocabulary::Arguments& at) -> std::optional<ExprVector> {
+    if (!at.x || !at.z || !at.t) return std::nullopt;
+    return effort(at);
+  });
+  add_words(flows, [ports](const Vocabulary::Arguments& at) -> std::optional<ExprVector> {
+    if (!at.x || !at.velocity) return std::nullopt;
+    return ExprVector(ports->manifold()->coframe(*at.x) * *at.velocity);
+  });
   const std::pair<std::string, std::shared_ptr<const DiracStructure>> of_open{
       "open ports", std::make_shared<OpenPortHamiltonian>(space->manifold, *J, m, *B)};
   const std::pair<std::string, std::shared_ptr<const DiracStructure>> of_closed{

@@ -22,6 +22,7 @@ std::vector<Registry<Model>::Kind> with_examples(std::vector<Registry<Model>::Ki
 std::vector<Key> system_keys(std::vector<Key> keys) {
   keys.push_back(optional_key("parameters", takes::parameters(),
                               "constants: numbers, arrays, matrices, or formulas of earlier ones"));
+  keys.push_back(optional_key("tables", takes::tables(), "functions of t by tables of numbers"));
   keys.push_back(
       optional_key("definitions", takes::definitions(), "named formulas for use in later ones"));
   return keys;

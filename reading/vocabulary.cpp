@@ -82,6 +82,25 @@ std::vector<std::pair<std::string, Symbol>> read_parameters(
   return parameters;
 }
 
+// Tables, whose names are none of those of parameters.
+std::vector<std::pair<std::string, Table>> read_named_tables(
+    ObjectReader& system, const std::vector<std::string>& reserved,
+    const std::vector<std::pair<std::string, Symbol>>& parameters) {
+  std::vector<std::pair<std::string, Table>> tables;
+  const auto object = system.optional("tables");
+  if (!object) return tables;
+  SymbolTable known;
+  known.add("t", 0.0);
+  for (const std::string& name : reserved) known.add(name, 0.0);
+  for (const auto& [name, symbol] : parameters) known.add(name, symbol.shape, symbol.values);
+  for (auto& [name, table] : read_tables(*object)) {
+    if (!is_new_name(name, object->pointer() + "/" + name, known, object->findings())) continue;
+    known.add(name, 0.0);
+    tables.emplace_back(name, std::move(table));
+  }
+  return tables;
+}
+
 std::vector<Definition> read_definitions(ObjectReader& system) {
   std::vector<Definition> definitions;
   const auto object = system.optional("definitions");
@@ -105,6 +124,11 @@ void NameList::append(Declaration declaration) {
 
 void NameList::append_unnamed(Index count) {
   if (count > 0) append({"", {count}});
+}
+
+bool NameList::contains(const std::string& name) const {
+  return std::any_of(declarations_.begin(), declarations_.end(),
+                     [&](const Declaration& declaration) { return declaration.name == name; });
 }
 
 std::vector<std::string> NameList::element_names() const {
@@ -163,6 +187,8 @@ SymbolTable Vocabulary::symbols(const Arguments& arguments) const {
   SymbolTable symbols;
   for (const auto& [name, symbol] : parameters) symbols.add(name, symbol.shape, symbol.values);
   if (arguments.t) symbols.add("t", *arguments.t);
+  if (arguments.t)
+    for (const auto& [name, table] : tables) symbols.add(name, table.at(*arguments.t));
   if (arguments.x) coordinates.add_to(symbols, *arguments.x);
   if (arguments.velocity) coordinates.add_velocities_to(symbols, *arguments.velocity);
   if (arguments.z) unknowns.add_to(symbols, *arguments.z);
@@ -200,6 +226,7 @@ bool read_names(const JsonReader& value, SymbolTable& taken, NameList& names) {
 Vocabulary read_vocabulary(ObjectReader& system, const std::vector<std::string>& reserved) {
   Vocabulary vocabulary;
   vocabulary.parameters = read_parameters(system, reserved);
+  vocabulary.tables = read_named_tables(system, reserved, vocabulary.parameters);
   vocabulary.definitions = read_definitions(system);
   return vocabulary;
 }

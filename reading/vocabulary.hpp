@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "courant/core/declaration.hpp"
+#include "courant/reading/table.hpp"
 #include "courant/reading/written_formula.hpp"
 
 namespace courant {
@@ -21,6 +22,7 @@ class NameList {
 
   const std::vector<Declaration>& declarations() const { return declarations_; }
   Index size() const { return size_; }
+  bool contains(const std::string& name) const;  // as that of a declaration
   std::vector<std::string> element_names() const;
   // The entries that a reference such as r[2] (one) or r (all three) stands for: first and count.
   // Throws FormulaError if there are none, with the name that may have been meant.
@@ -42,13 +44,14 @@ struct Definition {
 };
 
 // What the names in the formulas of a system stand for: coordinates x ∈ R^N and their velocities,
-// auxiliary unknowns z, the time t, constant parameters, quantities of the kind of system, and
-// definitions made of all of them.
+// auxiliary unknowns z, the time t, constant parameters, tables, quantities of the kind of system,
+// and definitions made of all of them.
 struct Vocabulary {
   NameList coordinates;
   NameList unknowns;
   std::vector<std::pair<std::string, Symbol>> parameters;
-  std::vector<Definition> definitions;  // later ones may use earlier ones
+  std::vector<std::pair<std::string, Table>> tables = {};  // functions of t
+  std::vector<Definition> definitions;                     // later ones may use earlier ones
 
   // What a formula may depend on; the others are no names in it.
   struct Arguments {
@@ -56,6 +59,8 @@ struct Vocabulary {
     std::optional<ExprVector> velocity = {};  // dx/dt, N
     std::optional<ExprVector> z = {};
     std::optional<Expr> t = {};
+    // α where it is not d_xE at the point: at the stage of a step. Ñ.
+    std::optional<ExprVector> effort = {};
   };
   // Quantities that the kind of system has besides: outputs, voltages. `values` gives nothing where
   // an argument that they need is missing.
@@ -74,8 +79,8 @@ struct Vocabulary {
 // The declarations of an array such as ["x", "r[n][3]"] are appended to `names`; `taken` has the
 // names that may not be used again, and gets the new ones.
 bool read_names(const JsonReader& value, SymbolTable& taken, NameList& names);
-// The keys `parameters` and `definitions` of a system. No parameter may have one of the `reserved`
-// names. Each is evaluated at once; one that is wrong is a problem and stands for 1, so that
+// The keys `parameters`, `tables` and `definitions` of a system. No parameter or table may have one of
+// the `reserved` names. Each is evaluated at once; one that is wrong is a problem and stands for 1, so that
 // formulas with it are not problems too. What definitions mean is not looked into before
 // check_definitions.
 Vocabulary read_vocabulary(ObjectReader& system, const std::vector<std::string>& reserved = {});

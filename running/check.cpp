@@ -239,6 +239,8 @@ class Check {
             {"measured_order", json_of(report.order)},
             {"symmetric", integrator.is_symmetric()},
             {"symmetry_defect", json_of(report.asymmetry)},
+            {"exact_energy", integrator.has_exact_energy()},
+            {"imbalance", json_of(report.imbalance)},
             {"symplectic", is_symplectic(integrator, setting, report)},
             {"symplecticity_defect", json_of(report.symplecticity)},
             {"structure_defect", json_of(report.preservation)}};
@@ -271,7 +273,8 @@ class Check {
     if (const auto energy = system_.energy(x, z, t)) quantities.emplace_back("H", *energy);
     const SymbolTable symbols = experiment_.model.symbols(x, v, z, t);
     for (const Observable& observable : experiment_.observe)
-      quantities.emplace_back(observable.name, evaluate(observable.formula, symbols));
+      if (!observable.uses_energies)
+        quantities.emplace_back(observable.name, evaluate(observable.formula, symbols));
     if (quantities.empty()) return json;
 
     ExprVector outputs(3 * static_cast<Index>(quantities.size()));

@@ -144,6 +144,16 @@ void each_member(Is<EventWatch::Memory> auto& event_watch, const auto& visit) {
   visit("file_size", event_watch.file_size);
 }
 
+void each_member(Is<PowerAccount::Memory> auto& power_account, const auto& visit) {
+  visit("first", power_account.first);
+  visit("last", power_account.last);
+  visit("balance", power_account.balance);
+  visit("greatest", power_account.greatest);
+  visit("size", power_account.size);
+  visit("supplied", power_account.supplied);
+  visit("dissipated", power_account.dissipated);
+}
+
 template <class Record>
 Json record(const Record& value) {
   Json json = Json::object();
@@ -198,6 +208,7 @@ Checkpoint from_json(const Json& json) {
   read_record(json.at("energy_watch"), checkpoint.energy_watch);
   read_record(json.at("ladder_watch"), checkpoint.ladder_watch);
   read_record(json.at("event_watch"), checkpoint.event_watch);
+  read_record(json.at("power_account"), checkpoint.power_account);
   return checkpoint;
 }
 
@@ -217,7 +228,8 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
             {"not_finite", record(checkpoint.not_finite)},
             {"energy_watch", record(checkpoint.energy_watch)},
             {"ladder_watch", record(checkpoint.ladder_watch)},
-            {"event_watch", record(checkpoint.event_watch)}};
+            {"event_watch", record(checkpoint.event_watch)},
+            {"power_account", record(checkpoint.power_account)}};
   for (const auto& [time, row] : checkpoint.rows_at_times)
     json["rows_at_times"].push_back({{"t", written(time)}, {"row", written(row)}});
   write_file(file, json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");

@@ -86,11 +86,11 @@ EventWatch::Zero EventWatch::locate(std::size_t event, double before, const RunM
   Zero nearest{event, moment.t, moment.row};
   double least = std::fabs(after);
   const auto value = [&](double s) {
-    const State state = stepper_->between(s);
-    const VectorXd& row = measure_(state);
+    const Step part = stepper_->part(s);
+    const VectorXd& row = measure_(part);
     if (std::fabs(row[column]) < least) {
       least = std::fabs(row[column]);
-      nearest = {event, state.t, row};
+      nearest = {event, part.after.t, row};
     }
     return row[column];
   };

@@ -26,8 +26,8 @@ namespace courant {
 // zero without passing through it.
 class EventWatch final : public RunWatcher {
  public:
-  // What is measured at a state that is not one of the run's: columns as in the rows of the run.
-  using Measure = std::function<const VectorXd&(const State&)>;
+  // What is measured where a part of the last step ends: columns as in the rows of the run.
+  using Measure = std::function<const VectorXd&(const Step&)>;
 
   // All that is kept of the states so far.
   struct Memory {

@@ -98,15 +98,37 @@ Observer::Observer(const Experiment& experiment, const ConstraintLadder& ladder,
   const Arguments at{graph.variables("x", M.ambient_dimension()),
                      graph.variables("v", M.tangent_dimension()),
                      graph.variables("z", system.auxiliary_size()), graph.variable("t")};
-  std::vector<Expr> quantities;
+  const ExprVector t = ExprVector::Constant(1, at.t);
+  const ExprVector energies = graph.variables("energies", experiment.energies.size());
+  std::vector<Expr> quantities, staged;
   const auto add = [&](std::string name, const Expr& quantity) {
     names_.push_back(std::move(name));
     quantities.push_back(quantity);
   };
-  if (const auto energy = system.energy(at.x, at.z, at.t)) add("H", without_idle(*energy, at, M));
+  if (const auto energy = system.energy(at.x, at.z, at.t)) {
+    H_ = static_cast<Index>(names_.size());
+    add("H", without_idle(*energy, at, M));
+  }
+  for (const Index i : {0, 1}) {
+    const char* name = i == 0 ? "supplied" : "dissipated";
+    if (experiment.writes_energies && experiment.energies.contains(name)) add(name, energies[i]);
+  }
+  if (experiment.writes_balance) {
+    balance_ = static_cast<Index>(names_.size());
+    add("balance", 0.0);
+  }
   SymbolTable symbols = experiment.model.symbols(at.x, at.v, at.z, at.t);
+  experiment.energies.add_to(symbols, energies);
+  const ExprVector effort = graph.variables("effort", M.tangent_dimension());
+  const auto with_energy = std::dynamic_pointer_cast<const EnergySystem>(experiment.model.system);
+  const SymbolTable at_stage =
+      with_energy ? experiment.model.symbols(at.x, at.v, at.z, at.t, effort) : symbols;
   for (const Observable& observable : experiment.observe) {
-    add(observable.name, evaluate(observable.formula, symbols));
+    if (observable.at_stage) {
+      stage_places_.push_back(static_cast<Index>(names_.size()));
+      staged.push_back(evaluate(observable.formula, at_stage));
+    }
+    add(observable.name, observable.at_stage ? Expr(0.0) : evaluate(observable.formula, symbols));
   }
   first_constraint_ = names_.size();
   auto add_constraint = [&, count = 0](const Expr& zero) mutable {
@@ -123,17 +145,19 @@ Observer::Observer(const Experiment& experiment, const ConstraintLadder& ladder,
   }
   written_count_ = names_.size();
 
-  const SymbolTable closed_forms = experiment.model.vocabulary.symbols({.t = at.t});
-  for (const Expectations::Deviation& deviation : experiment.expect.deviations) {
-    const auto index = static_cast<std::size_t>(
-        std::find(names_.begin(), names_.end(), deviation.quantity) - names_.begin());
-    const Expr quantity = index < coordinate_count_ ? at.x[static_cast<Index>(index)]
-                                                    : quantities[index - coordinate_count_];
-    add(deviation.name, abs(quantity - evaluate(deviation.form, closed_forms)));
-  }
   first_event_ = names_.size();
   for (const Event& event : experiment.events)
     add("event[" + event.name + "]", evaluate(event.formula, symbols));
+  const SymbolTable closed_forms = experiment.model.vocabulary.symbols({.t = at.t});
+  ExprVector forms(static_cast<Index>(experiment.expect.deviations.size()));
+  for (const Expectations::Deviation& deviation : experiment.expect.deviations) {
+    forms[std::ssize(deviating_)] = evaluate(deviation.form, closed_forms);
+    deviating_.push_back(place(deviation.quantity));
+    names_.push_back(deviation.name);
+  }
+  const Backend together = backend.together();
+  forms_ = Function("closed forms", {{"t", t}}, forms, {.differentiate = {}, .backend = together});
+  form_.resize(forms.size());
 
   const ExprVector outputs =
       Eigen::Map<ExprVector>(quantities.data(), static_cast<Index>(quantities.size()));
@@ -141,15 +165,36 @@ Observer::Observer(const Experiment& experiment, const ConstraintLadder& ladder,
                          {{"x", at.x},
                           {"v", at.v},
                           {"z", at.z},
-                          {"t", ExprVector::Constant(1, at.t)},
-                          {"left_out", left_out}},
-                         outputs, {.differentiate = {}, .backend = backend});
+                          {"t", t},
+                          {"left_out", left_out},
+                          {"energies", energies}},
+                         outputs, {.differentiate = {}, .backend = together});
+  together.compile();
+  const ExprVector stage_outputs =
+      Eigen::Map<ExprVector>(staged.data(), static_cast<Index>(staged.size()));
+  // Evaluated once a step; to compile it, and the account, takes seconds where ports are many.
+  at_stage_ = Function("observe stages",
+                       {{"x", at.x}, {"v", at.v}, {"z", at.z}, {"t", t}, {"effort", effort}},
+                       stage_outputs);
+  stage_.resize(stage_outputs.size());
+  const bool uses_energies =
+      std::any_of(experiment.observe.begin(), experiment.observe.end(),
+                  [](const Observable& observable) { return observable.uses_energies; });
+  if (with_energy && (experiment.writes_energies || uses_energies || !staged.empty() ||
+                      experiment.expect.imbalance))
+    account_.emplace(StepEnergies(with_energy));
+  energies_ = VectorXd::Zero(energies.size());
+
   is_field_ =
       ladder.verdict == Verdict::regular && (depends(outputs, at.v) || depends(outputs, at.z));
   if (is_field_ && !field_)
     field_ = std::make_unique<VectorField>(experiment.model.system, ladder, backend);
   if (field_) evaluate_field_.emplace(*field_);
-  row_.resize(static_cast<Index>(names_.size()));
+  row_ = VectorXd::Zero(static_cast<Index>(names_.size()));
+}
+
+Index Observer::place(const std::string& name) const {
+  return std::find(names_.begin(), names_.end(), name) - names_.begin();
 }
 
 const VectorXd& Observer::row(const State& state) {
@@ -169,9 +214,60 @@ const VectorXd& Observer::row(const State& state) {
     v = evaluate_field_->v().data();
     z = evaluate_field_->z().data();
   }
-  const double* in[] = {state.x.data(), v, z, &state.t, left_out};
+  const double* in[] = {state.x.data(), v, z, &state.t, left_out, energies_.data()};
   quantities_.value(in, row_.data() + N);
+  if (balance_) row_[*balance_] = account_->balance();
+  for (Index i = 0; i < stage_.size(); ++i)
+    row_[stage_places_[static_cast<std::size_t>(i)]] = stage_[i];
+  const double* time[] = {&state.t};
+  forms_.value(time, form_.data());
+  const Index first = row_.size() - form_.size();
+  for (Index i = 0; i < form_.size(); ++i)
+    row_[first + i] = std::fabs(row_[deviating_[static_cast<std::size_t>(i)]] - form_[i]);
   return row_;
+}
+
+void Observer::observe_stage(const State& at, const VectorXd& effort) {
+  const double* in[] = {at.x.data(), at.v.data(), at.z.data(), &at.t, effort.data()};
+  at_stage_.value(in, stage_.data());
+}
+
+const VectorXd& Observer::begin(const State& state) {
+  if (stage_.size() > 0) {
+    const Step none{.after = state, .stage = state};
+    observe_stage(state, account_ ? account_->energies().effort(none) : VectorXd());
+  }
+  energies_.setZero();
+  const VectorXd& first = row(state);
+  if (account_) account_->open(first[*H_]);
+  return first;
+}
+
+const VectorXd& Observer::advance(const Step& step) {
+  if (account_) {
+    account_->enter(step);
+    take_energies();
+  }
+  if (stage_.size() > 0)
+    observe_stage(step.stage, account_ ? account_->energies().effort(step) : VectorXd());
+  row(step.after);
+  if (account_) {
+    account_->settle(row_[*H_]);
+    if (balance_) row_[*balance_] = account_->balance();
+  }
+  return row_;
+}
+
+void Observer::take_energies() {
+  const PowerAccount::Memory& memory = account_->memory();
+  if (energies_.size() > 0)
+    energies_ << account_->supplied(), account_->dissipated(), memory.supplied, memory.dissipated;
+}
+
+void Observer::recall(const PowerAccount::Memory& memory) {
+  if (!account_) return;
+  account_->recall(memory);
+  take_energies();
 }
 
 void Observer::restart(const State& state) {

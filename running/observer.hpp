@@ -9,12 +9,17 @@
 #include "courant/core/function.hpp"
 #include "courant/integrators/vector_field.hpp"
 #include "courant/reading/experiment.hpp"
+#include "courant/running/power_account.hpp"
 
 namespace courant {
 
-// What a run measures at each state: the coordinates, H where the system has an energy, the
-// experiment's observables, the constraints, and (not written to files) the deviations that its
-// expectations need and the quantities of its events.
+// What a run measures at each state: the coordinates, H where the system has an energy, the energies
+// of its steps where it has ports, the experiment's observables, the constraints, and (not written to
+// files) the quantities of its events and the deviations that its expectations need.
+//
+// `supplied` and `dissipated` are since the beginning, `balance` that of the step which ended at the
+// state, as of PowerAccount. Observables at the stage of that step are evaluated with its effort; at
+// the first state, before any step, they are those of the state.
 //
 // constraint[i] are the equations of the system that contain nothing but x and t, and the total
 // time derivatives of those which the constraint algorithm differentiated more than once: zero on
@@ -36,17 +41,41 @@ class Observer {
   std::size_t constraint_count() const { return written_count_ - first_constraint_; }
   std::size_t first_event() const { return first_event_; }
 
-  // The numbers at a state; the reference is valid until the next call.
+  // The numbers at a state by itself; the reference is valid until the next call.
   const VectorXd& row(const State& state);
+  // The same for the first state of a run, and for the next one with the step that ended there.
+  const VectorXd& begin(const State& state);
+  const VectorXd& advance(const Step& step);
 
-  // The rows after this depend on the state alone, which is near that of the next one; not on the
+  // Of the steps so far; null where nothing asks for it: the system has no ports, no observable is at
+  // a stage, and no bound of the imbalance is expected.
+  const PowerAccount* account() const { return account_ ? &*account_ : nullptr; }
+
+  // Goes on with the account of a run of the same system; nothing where there is no account.
+  void recall(const PowerAccount::Memory& memory);
+
+  // The account aside, the rows after this depend on the state alone, which is near that of the next one; not on the
   // rows before, from which the velocity and the unknowns are looked for otherwise.
   void restart(const State& state);
 
  private:
+  Index place(const std::string& name) const;
+  void observe_stage(const State& at, const VectorXd& effort);
+  void take_energies();
+
   std::vector<std::string> names_;
   std::size_t coordinate_count_, first_constraint_, written_count_, first_event_;
-  Function quantities_;  // x, v, z, t, what the field leaves out ↦ all but the coordinates
+  // x, v, z, t, what the field leaves out, energies ↦ all between the coordinates and the deviations
+  Function quantities_;
+  Function at_stage_;                // x, v, z, t, effort ↦ observables at the stage
+  std::vector<Index> stage_places_;  // of those in a row
+  VectorXd stage_;
+  Function forms_;                // t ↦ what deviations are from
+  std::vector<Index> deviating_;  // the places of what deviates
+  VectorXd form_;
+  std::optional<PowerAccount> account_;
+  VectorXd energies_;
+  std::optional<Index> H_, balance_;
   std::unique_ptr<const VectorField> field_;
   bool is_field_ = false;  // whether v and z are those of the field, not those of the state
   std::optional<VectorField::Evaluation> evaluate_field_;

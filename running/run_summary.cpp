@@ -21,7 +21,7 @@ RunStatus read_status(const std::string& word) {
 }
 
 // The values of keys that may be missing.
-double number(const Json& object, const char* key) {
+double number(const Json& object, const std::string& key) {
   const auto found = object.find(key);
   return found != object.end() && found->is_number() ? found->get<double>() : RunSummary::kUnknown;
 }
@@ -34,6 +34,19 @@ std::string text(const Json& object, const char* key) { return object.value(key,
 const Json& part(const Json& object, const char* key, const Json& otherwise) {
   const auto found = object.find(key);
   return found == object.end() ? otherwise : *found;
+}
+
+using Named = std::vector<std::pair<std::string, double>>;
+
+Json named(const Named& values) {
+  Json json = Json::object();
+  for (const auto& [name, value] : values) json[name] = value;
+  return json;
+}
+Named read_named(const Json& json) {
+  Named values;
+  for (const auto& [name, value] : json.items()) values.emplace_back(name, number(json, name));
+  return values;
 }
 
 LadderReport read_ladder(const Json& json) {
@@ -93,6 +106,12 @@ Json to_json(const RunSummary& summary) {
         {"initial", record.initial}, {"final", record.final},         {"min", record.min},
         {"max", record.max},         {"max_drift", record.max_drift}, {"slope", record.slope}};
   if (summary.max_violation) json["constraints"]["max_violation"] = *summary.max_violation;
+  if (const auto& balance = summary.power_balance)
+    json["power_balance"] = {{"supplied", named(balance->supplied)},
+                             {"dissipated", named(balance->dissipated)},
+                             {"stored", balance->stored},
+                             {"max_balance", balance->max_balance},
+                             {"max_imbalance", balance->max_imbalance}};
   for (const auto& [name, event] : summary.events) {
     const auto when = [&](double t) { return event.count > 0 ? Json(t) : Json(); };
     json["events"][name] = {
@@ -133,7 +152,7 @@ RunSummary read_run_summary(const Json& json) {
   if (const Json& time = part(json, "time", nothing); !time.empty())
     summary.time = {number(time, "start"), number(time, "end"), number(time, "step")};
   for (const auto& [name, value] : part(json, "final", nothing).items())
-    summary.final.emplace_back(name, number(json.at("final"), name.c_str()));
+    summary.final.emplace_back(name, number(json.at("final"), name));
   for (const auto& [name, record] : part(json, "observables", nothing).items())
     summary.observables.emplace_back(name, QuantityRecord{.initial = number(record, "initial"),
                                                           .final = number(record, "final"),
@@ -147,6 +166,14 @@ RunSummary read_run_summary(const Json& json) {
                                                         .last = number(event, "last")});
   if (const Json& constraints = part(json, "constraints", nothing); !constraints.empty())
     summary.max_violation = number(constraints, "max_violation");
+  if (json.contains("power_balance")) {
+    const Json& balance = json.at("power_balance");
+    summary.power_balance = {.supplied = read_named(part(balance, "supplied", nothing)),
+                             .dissipated = read_named(part(balance, "dissipated", nothing)),
+                             .stored = number(balance, "stored"),
+                             .max_balance = number(balance, "max_balance"),
+                             .max_imbalance = number(balance, "max_imbalance")};
+  }
   for (const Json& expectation : part(json, "expectations", nothing))
     summary.expectations.push_back({.pointer = {},
                                     .description = text(expectation, "description"),

@@ -10,6 +10,7 @@
 
 #include "courant/reading/expectation.hpp"
 #include "courant/running/ladder_report.hpp"
+#include "courant/running/power_account.hpp"
 #include "courant/running/run_watcher.hpp"
 
 namespace courant {
@@ -35,7 +36,8 @@ struct RunSummary {
     double first = kUnknown, last = kUnknown;  // times
   };
   std::vector<std::pair<std::string, Event>> events = {};
-  std::optional<double> max_violation = {};  // of constraints, where there are any
+  std::optional<double> max_violation = {};                // of constraints, where there are any
+  std::optional<PowerAccount::Report> power_balance = {};  // where the account is kept
   std::optional<LadderReport> ladder = {};
   std::vector<ExpectationResult> expectations = {};
   struct Solver {

@@ -192,8 +192,11 @@ class Run {
   bool goes_on(const Step& step, long k, long steps) {
     const State& state = step.after;
     const double t = experiment_.time ? experiment_.time->time(k) : state.t;
-    const RunMoment moment{
-        .k = k, .steps = steps, .t = t, .row = observer_.row(state), .step = step};
+    const RunMoment moment{.k = k,
+                           .steps = steps,
+                           .t = t,
+                           .row = k == 0 ? observer_.begin(state) : observer_.advance(step),
+                           .step = step};
     steps_ = k;
     std::optional<RunEnd> end;
     const auto tell = [&](RunWatcher& watcher) {
@@ -213,9 +216,23 @@ class Run {
   // What is measured at states that other steps lead to has an observer of its own, made when it is
   // needed.
   const VectorXd& row_elsewhere(const State& state) {
+    elsewhere(state);
+    return elsewhere_->row(state);
+  }
+  // The account before the step that was made, where something is measured within steps.
+  void keep_account() {
+    if (!event_watch_ && experiment_.output.at.empty()) return;
+    if (const PowerAccount* account = observer_.account()) account_before_ = account->memory();
+  }
+  // At the end of a part of that step, with the energies up to there.
+  const VectorXd& row_within(const Step& part) {
+    elsewhere(part.after);
+    if (account_before_) elsewhere_->recall(*account_before_);
+    return elsewhere_->advance(part);
+  }
+  void elsewhere(const State& state) {
     if (!elsewhere_) elsewhere_.emplace(experiment_, ladder_, Backend::interpreter);
     elsewhere_->restart(state);
-    return elsewhere_->row(state);
   }
 
   // The rows that are asked for between step k - 1 and the one that was made, step k.
@@ -223,7 +240,7 @@ class Run {
     if (experiment_.output.at.empty()) return;
     const TimeSpan& time = *experiment_.time;
     for (const double t : experiment_.output.between(k, time)) {
-      const VectorXd& row = row_elsewhere(stepper.between((t - time.time(k - 1)) / time.step));
+      const VectorXd& row = row_within(stepper.part((t - time.time(k - 1)) / time.step));
       writer_->append(t, row.head(static_cast<Index>(observer_.written_count())));
     }
   }
@@ -265,6 +282,7 @@ class Run {
     if (energy_watch_) now.energy_watch = energy_watch_->memory();
     if (ladder_watch_) now.ladder_watch = ladder_watch_->memory();
     if (event_watch_) now.event_watch = event_watch_->memory();
+    if (const PowerAccount* account = observer_.account()) now.power_account = account->memory();
     return now;
   }
 
@@ -278,6 +296,14 @@ class Run {
         throw UnusableFolder(folder.checkpoint_file().string() + ": has " +
                              std::to_string(row->size()) + " quantities, expected " +
                              std::to_string(observer_.names().size()) + " as the experiment has");
+    if (checkpoint.power_account) {
+      try {
+        observer_.recall(*checkpoint.power_account);
+      } catch (const std::invalid_argument& error) {
+        throw UnusableFolder(folder.checkpoint_file().string() + ": " +
+                             without_place(error.what()));
+      }
+    }
     steps_ = checkpoint.k;
     wall_seconds_ = checkpoint.wall_seconds;
     solver_ = checkpoint.solver;
@@ -302,11 +328,12 @@ class Run {
     const TimeSpan& time = *experiment_.time;
     const long epoch = experiment_.output.epoch;
     const auto stepper = method.integrator->stepper();
+    if (observer_.account()) stepper->tell_parts();
     State state = from ? from->state : method.initial;
     long k = from ? from->k : 0;
     if (event_watch_)
       event_watch_->set_curve(
-          *stepper, [this](const State& at) -> const VectorXd& { return row_elsewhere(at); });
+          *stepper, [this](const Step& part) -> const VectorXd& { return row_within(part); });
     const auto begin = Clock::now();
     try {
       bool going = true;
@@ -320,6 +347,7 @@ class Run {
         const long end = std::min(time.steps, k + epoch);
         for (; going && k < end; ++k) {
           stepper->step(state, time.step, time.time(k + 1));
+          keep_account();
           write_between(*stepper, k + 1);
           going = goes_on(stepper->last(), k + 1, time.steps);
         }
@@ -369,6 +397,8 @@ class Run {
       for (std::size_t i = 0; i < observer_.names().size(); ++i)
         record.quantities[observer_.names()[i]] = statistics_.record(static_cast<Index>(i));
       record.max_violation = max_violation();
+      if (const PowerAccount* account = observer_.account())
+        record.max_imbalance = account->imbalance();
     }
     if (event_watch_) record.events = event_watch_->records();
     std::vector<ExpectationResult> results;
@@ -410,6 +440,8 @@ class Run {
           told.observables.emplace_back(name, record);
       }
       if (observer_.constraint_count() > 0) told.max_violation = max_violation();
+      if (const PowerAccount* account = observer_.account(); account && steps_ > 0)
+        told.power_balance = account->report();
     }
     if (event_watch_)
       for (const auto& [name, record] : event_watch_->records())
@@ -446,6 +478,7 @@ class Run {
   std::optional<EnergyWatch> energy_watch_;
   std::unique_ptr<TrajectoryWriter> writer_;
   std::optional<Observer> elsewhere_;
+  std::optional<PowerAccount::Memory> account_before_;  // the step that was made
   std::optional<EventWatch> event_watch_;
   std::vector<std::unique_ptr<RunWatcher>> watchers_;
   long steps_ = 0;

@@ -35,7 +35,8 @@ class Formulas {
     if (const auto energy = system_.energy(x, z, t)) add("in the energy H", *energy);
     const SymbolTable symbols = experiment.model.symbols(x, v, z, t);
     for (const Observable& observable : experiment.observe)
-      add("in the observable \"" + observable.name + '"', evaluate(observable.formula, symbols));
+      if (!observable.uses_energies)
+        add("in the observable \"" + observable.name + '"', evaluate(observable.formula, symbols));
   }
 
   std::string undefined_at(const State& state, const std::string& where) const {

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "courant/core/derivative.hpp"
+#include "courant/core/expr_vectors.hpp"
 
 namespace courant {
 namespace {
@@ -60,12 +61,12 @@ DiracSystem::DiracSystem(std::shared_ptr<const DiracStructure> structure,
                          std::shared_ptr<const GeneratingFamily> family, Exterior exterior,
                          Names names)
     // Braces evaluate from left to right: the check comes first.
-    : ImplicitSystem{checked(structure, family).manifold(),
-                     family->parameter_size() + exterior.constraint_count + structure->port_size(),
-                     structure->equation_count() + family->parameter_size() +
-                         exterior.constraint_count,
-                     completed(std::move(names), *structure,
-                               family->parameter_size() + exterior.constraint_count)},
+    : EnergySystem{checked(structure, family).manifold(),
+                   family->parameter_size() + exterior.constraint_count + structure->port_size(),
+                   structure->equation_count() + family->parameter_size() +
+                       exterior.constraint_count,
+                   completed(std::move(names), *structure,
+                             family->parameter_size() + exterior.constraint_count)},
       structure_(std::move(structure)),
       family_(std::move(family)),
       exterior_(std::move(exterior)) {
@@ -74,6 +75,18 @@ DiracSystem::DiracSystem(std::shared_ptr<const DiracStructure> structure,
                                 std::to_string(exterior_.constraint_count) + " and " +
                                 (exterior_.constraint ? "a constraint" : "no constraint") +
                                 "; expected a constraint if and only if the count is positive.");
+}
+
+ExprVector DiracSystem::source(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,
+                               const Expr& t) const {
+  const Index expected = 2 * v.size();
+  if (!exterior_.source) return ExprVector::Zero(expected);
+  ExprVector e = exterior_.source(x, v, alpha, t);
+  if (e.size() != expected)
+    throw std::invalid_argument("DiracSystem: the source has " + std::to_string(e.size()) +
+                                " entries; expected a tangent vector and a covector, " +
+                                std::to_string(expected) + ".");
+  return e;
 }
 
 ExprVector DiracSystem::constraint(const ExprVector& x, const ExprVector& v,
@@ -107,28 +120,65 @@ ExprVector DiracSystem::reaction(const ExprVector& x, const ExprVector& v, const
   return result;
 }
 
-ExprVector DiracSystem::do_residual(const ExprVector& x, const ExprVector& v, const ExprVector& z,
-                                    const Expr& t) const {
+Expr DiracSystem::do_generator(const ExprVector& x, const ExprVector& z, const Expr& t) const {
+  return family_->value(x, z.head(family_->parameter_size()), t);
+}
+
+ExprVector DiracSystem::do_effort(const ExprVector& x, const ExprVector& z, const Expr& t) const {
+  return family_->differential(x, z.head(family_->parameter_size()), t);
+}
+
+ExprVector DiracSystem::do_equations(const ExprVector& x, const ExprVector& v,
+                                     const ExprVector& alpha, const ExprVector& z, const Expr& t,
+                                     const ExprVector& y, const Expr& s) const {
   const Index n = v.size(), m = exterior_.constraint_count;
   const ExprVector lambda = z.head(family_->parameter_size()), u = z.tail(structure_->port_size());
-  const ExprVector kappa = z.segment(family_->parameter_size(), m);
-  const ExprVector alpha = family_->differential(x, lambda, t);
   ExprVector pair(2 * n);
   pair << v, alpha;
-  if (exterior_.source) {
-    const ExprVector source = exterior_.source(x, v, alpha, t);
-    if (source.size() != 2 * n)
-      throw std::invalid_argument("DiracSystem: the source has " + std::to_string(source.size()) +
-                                  " entries; expected a tangent vector and a covector, " +
-                                  std::to_string(2 * n) + ".");
-    pair -= source;
+  if (exterior_.source) pair -= source(x, v, alpha, t);
+  if (m > 0) pair -= reaction(x, v, alpha, z.segment(family_->parameter_size(), m), t);
+  ExprVector equations(equation_count());
+  equations.head(equation_count() - m) << structure_->membership(x, pair.head(n), pair.tail(n), u),
+      family_->stationarity(y, lambda, s);
+  if (m > 0) equations.tail(m) = constraint(x, v, alpha, t);
+  return equations;
+}
+
+// ⟨α - a, v - b⟩ = 0 with (b, a) what sources and reactions are together.
+EnergySystem::Powers DiracSystem::do_powers(const ExprVector& x, const ExprVector& v,
+                                            const ExprVector& alpha, const ExprVector& z,
+                                            const Expr& t) const {
+  const Index n = v.size(), m = exterior_.constraint_count;
+  const auto pairing = [n](const ExprVector& a, const ExprVector& b) {
+    return a.tail(n).cwiseProduct(b.head(n)).sum() + b.tail(n).cwiseProduct(a.head(n)).sum();
+  };
+  const auto work = [n](const ExprVector& a) { return a.tail(n).cwiseProduct(a.head(n)).sum(); };
+  ExprVector pair(2 * n);
+  pair << v, alpha;
+  Powers powers;
+  const ExprVector e = source(x, v, alpha, t);
+  if (exterior_.source) powers.supplied.push_back({"forces", pairing(e, pair) - work(e)});
+  ExprVector rest = pair - e;
+  if (m > 0) {
+    const ExprVector r = reaction(x, v, alpha, z.segment(family_->parameter_size(), m), t);
+    powers.supplied.push_back({"constraints", pairing(r, pair) - pairing(r, e) - work(r)});
+    rest -= r;
   }
-  if (m > 0) pair -= reaction(x, v, alpha, kappa, t);
-  ExprVector residual(equation_count());
-  residual.head(equation_count() - m) << structure_->membership(x, pair.head(n), pair.tail(n), u),
-      family_->stationarity(x, lambda, t);
-  if (m > 0) residual.tail(m) = constraint(x, v, alpha, t);
-  return residual;
+  if (!structure_->is_dirac()) powers.supplied.push_back({"ports", work(rest)});
+  return powers;
+}
+
+// E is affine in λ, and the energy where ∂E/∂λ = 0 at any λ: at λ = 0, say.
+bool DiracSystem::do_has_explicit_energy() const {
+  const Index k = family_->parameter_size();
+  if (k == 0) return true;
+  Graph graph;
+  const ExprVector x = graph.variables("x", manifold()->ambient_dimension());
+  const ExprVector lambda = graph.variables("lambda", k);
+  const Expr t = graph.variable("t");
+  ExprVector rates(k + 1);
+  rates << family_->stationarity(x, lambda, t), family_->energy(x, lambda, t);
+  return !depends(rates, lambda);
 }
 
 std::optional<Expr> DiracSystem::do_energy(const ExprVector& x, const ExprVector& z,

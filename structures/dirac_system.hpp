@@ -4,8 +4,8 @@
 #include <functional>
 
 #include "courant/structures/dirac_structure.hpp"
+#include "courant/structures/energy_system.hpp"
 #include "courant/structures/generating_family.hpp"
-#include "courant/structures/implicit_system.hpp"
 
 namespace courant {
 
@@ -24,7 +24,11 @@ namespace courant {
 // covector (0, μ): with D the graph of a two-form that is its restriction to the kernel of μ
 // (Theorem 2.4), nonholonomic mechanics. For g = ⟨α, X(x)⟩ it is the vector (X, 0): with D the graph
 // of a bivector a closed port (Theorem 2.5, equation (23)).
-class DiracSystem final : public ImplicitSystem {
+//
+// Power is supplied by "forces", the sources, by "constraints" that move and, where D is no Dirac
+// structure, by its "ports". A Dirac structure is isotropic, so ⟨α, v⟩ is what is left of the pairing with
+// sources and reactions.
+class DiracSystem final : public EnergySystem {
  public:
   // A function of a point x (N), v and α (Ñ each) and t.
   using Law = std::function<ExprVector(const ExprVector& x, const ExprVector& v,
@@ -54,11 +58,19 @@ class DiracSystem final : public ImplicitSystem {
   }
 
  private:
-  ExprVector do_residual(const ExprVector& x, const ExprVector& v, const ExprVector& z,
-                         const Expr& t) const override;
+  Expr do_generator(const ExprVector& x, const ExprVector& z, const Expr& t) const override;
+  ExprVector do_effort(const ExprVector& x, const ExprVector& z, const Expr& t) const override;
+  ExprVector do_equations(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,
+                          const ExprVector& z, const Expr& t, const ExprVector& y,
+                          const Expr& s) const override;
+  Powers do_powers(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,
+                   const ExprVector& z, const Expr& t) const override;
+  bool do_has_explicit_energy() const override;
   std::optional<Expr> do_energy(const ExprVector& x, const ExprVector& z,
                                 const Expr& t) const override;
   VectorXd do_auxiliary_guess(const VectorXd& x, const VectorXd& v) const override;
+  ExprVector source(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,
+                    const Expr& t) const;
   ExprVector constraint(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,
                         const Expr& t) const;
   ExprVector reaction(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,

@@ -154,10 +154,10 @@ Network::Network(Index node_count, std::vector<NetworkBranch> branches, Energy e
 
 Network::Network(Index node_count, std::vector<NetworkBranch> branches, Energy energy,
                  std::unique_ptr<const Kirchhoff> structure)
-    : ImplicitSystem(std::make_shared<Euclidean>(states(branches)),
-                     static_cast<Index>(branches.size()) - states(branches),
-                     static_cast<Index>(branches.size()),
-                     names_of(branches, *(structure = kirchhoff(node_count, branches)))),
+    : EnergySystem(std::make_shared<Euclidean>(states(branches)),
+                   static_cast<Index>(branches.size()) - states(branches),
+                   static_cast<Index>(branches.size()),
+                   names_of(branches, *(structure = kirchhoff(node_count, branches)))),
       node_count_(node_count),
       branches_(std::move(branches)),
       energy_(std::move(energy)),
@@ -168,24 +168,34 @@ Network::Network(Index node_count, std::vector<NetworkBranch> branches, Energy e
   for (const NetworkBranch& branch : branches_)
     place_.push_back(has_state(branch) ? state++ : unknown++);
   Graph graph;
-  ports(graph.variables("x", state), graph.variables("v", state), graph.variables("z", unknown),
-        graph.variable("t"));
+  const ExprVector x = graph.variables("x", state);
+  const Expr t = graph.variable("t");
+  ports(x, graph.variables("v", state), effort(x, ExprVector(0), t), graph.variables("z", unknown),
+        t);
 }
 
 Network::~Network() = default;
 
-ExprVector Network::efforts(const ExprVector& x, const Expr& t) const {
+Expr Network::do_generator(const ExprVector& x, const ExprVector&, const Expr& t) const {
+  return energy_(x, t);
+}
+
+ExprVector Network::do_effort(const ExprVector& x, const ExprVector&, const Expr& t) const {
   Graph graph;
   ExprVector from(x.size() + 1), to(x.size() + 1);
   from << graph.variables("x", x.size()), graph.variable("t");
   to << x, t;
   const ExprVector at_fresh = from.head(x.size());
-  return substitute(gradient(energy_(at_fresh, from[x.size()]), at_fresh), from, to);
+  ExprVector effort = substitute(gradient(energy_(at_fresh, from[x.size()]), at_fresh), from, to);
+  const Evaluation evaluation(branches_, x, t);
+  for (std::size_t k = 0; k < branches_.size(); ++k)
+    if (has_state(branches_[k]) && branches_[k].law)
+      effort[place_[k]] = branches_[k].law(evaluation);
+  return effort;
 }
 
-Network::Ports Network::ports(const ExprVector& x, const ExprVector& velocity, const ExprVector& z,
-                              const Expr& t) const {
-  const ExprVector effort = efforts(x, t);
+Network::Ports Network::ports(const ExprVector& x, const ExprVector& velocity,
+                              const ExprVector& alpha, const ExprVector& z, const Expr& t) const {
   Evaluation evaluation(branches_, x, t);
   const auto count = static_cast<Index>(branches_.size());
   for (Index k = 0; k < count; ++k) {
@@ -194,11 +204,11 @@ Network::Ports Network::ports(const ExprVector& x, const ExprVector& velocity, c
     switch (branch.kind) {
       case Kind::charge:
         evaluation.set_current(k, velocity[place]);
-        if (!branch.law) evaluation.set_voltage(k, effort[place]);
+        evaluation.set_voltage(k, alpha[place]);
         break;
       case Kind::flux:
         evaluation.set_voltage(k, velocity[place]);
-        if (!branch.law) evaluation.set_current(k, effort[place]);
+        evaluation.set_current(k, alpha[place]);
         break;
       case Kind::current:
         evaluation.set_current(k, z[place]);
@@ -245,11 +255,28 @@ Index Network::flux_cut_set_count() const {
                        [&](Index branch) { return branches_[at(branch)].kind == Kind::flux; });
 }
 
-ExprVector Network::do_residual(const ExprVector& x, const ExprVector& v, const ExprVector& z,
-                                const Expr& t) const {
+EnergySystem::Powers Network::do_powers(const ExprVector& x, const ExprVector& v,
+                                        const ExprVector& alpha, const ExprVector& z,
+                                        const Expr& t) const {
+  const Ports all = ports(x, v, alpha, z, t);
+  Powers powers;
+  for (std::size_t k = 0; k < branches_.size(); ++k) {
+    const auto index = static_cast<Index>(k);
+    const Expr power = all.current[index] * all.voltage[index];
+    if (branches_[k].role == Role::source)
+      powers.supplied.push_back({branches_[k].name, -power});
+    else if (branches_[k].role == Role::resistor)
+      powers.dissipated.push_back({branches_[k].name, power});
+  }
+  return powers;
+}
+
+ExprVector Network::do_equations(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,
+                                 const ExprVector& z, const Expr& t, const ExprVector&,
+                                 const Expr&) const {
   const auto& tree = kirchhoff_->tree();
   const auto& links = kirchhoff_->links();
-  const Ports all = ports(x, v, z, t);
+  const Ports all = ports(x, v, alpha, z, t);
   const auto inner = static_cast<Index>(tree.size());
   ExprVector residual(equation_count()), input(equation_count());
   for (Index k = 0; k < inner; ++k) {
@@ -264,11 +291,6 @@ ExprVector Network::do_residual(const ExprVector& x, const ExprVector& v, const 
     for (SparseMatrixXd::InnerIterator it(M_, column); it; ++it)
       residual[it.row()] -= it.value() * input[column];
   return residual;
-}
-
-std::optional<Expr> Network::do_energy(const ExprVector& x, const ExprVector&,
-                                       const Expr& t) const {
-  return energy_(x, t);
 }
 
 VectorXd Network::do_auxiliary_guess(const VectorXd&, const VectorXd&) const {

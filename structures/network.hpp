@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "courant/core/equilibration.hpp"
-#include "courant/structures/implicit_system.hpp"
+#include "courant/structures/energy_system.hpp"
 
 namespace courant {
 
@@ -57,8 +57,9 @@ struct NetworkBranch {
 // couplers, resistors and energies are strictly passive, M_f has n less these dimensions, and the
 // ladder ends at 0 where there are none, at 1 otherwise.
 //
-// Along solutions dH/dt = supplied power - dissipated power.
-class Network final : public ImplicitSystem {
+// Along solutions dH/dt = supplied power - dissipated power: each source supplies and each resistor
+// dissipates under the name of its branch.
+class Network final : public EnergySystem {
  public:
   using Energy = std::function<Expr(const ExprVector& x, const Expr& t)>;
 
@@ -75,12 +76,13 @@ class Network final : public ImplicitSystem {
   Index charge_loop_count() const;
   Index flux_cut_set_count() const;
 
-  // All currents and voltages (one a branch), at x, x', z, t; x' and z may be any expressions.
+  // All currents and voltages (one a branch), at x, x', z, t and the efforts α of the states, ∂H/∂x
+  // but for a discrete gradient; all of them may be any expressions.
   struct Ports {
     ExprVector current, voltage;
   };
-  Ports ports(const ExprVector& x, const ExprVector& velocity, const ExprVector& z,
-              const Expr& t) const;
+  Ports ports(const ExprVector& x, const ExprVector& velocity, const ExprVector& alpha,
+              const ExprVector& z, const Expr& t) const;
   // The potentials of the nodes (node_count), each less that of the ground or, where no branch
   // leads there, of the first node of its part.
   ExprVector potentials(const ExprVector& voltage) const;
@@ -91,13 +93,15 @@ class Network final : public ImplicitSystem {
  private:
   Network(Index node_count, std::vector<NetworkBranch> branches, Energy energy,
           std::unique_ptr<const Kirchhoff> structure);
-  ExprVector do_residual(const ExprVector& x, const ExprVector& v, const ExprVector& z,
-                         const Expr& t) const override;
-  std::optional<Expr> do_energy(const ExprVector& x, const ExprVector& z,
-                                const Expr& t) const override;
+  Expr do_generator(const ExprVector& x, const ExprVector& z, const Expr& t) const override;
+  ExprVector do_effort(const ExprVector& x, const ExprVector& z, const Expr& t) const override;
+  ExprVector do_equations(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,
+                          const ExprVector& z, const Expr& t, const ExprVector& y,
+                          const Expr& s) const override;
+  Powers do_powers(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,
+                   const ExprVector& z, const Expr& t) const override;
   VectorXd do_auxiliary_guess(const VectorXd& x, const VectorXd& v) const override;
   Expr power(const Ports& ports, NetworkBranch::Role role) const;
-  ExprVector efforts(const ExprVector& x, const Expr& t) const;  // ∂H/∂x
 
   Index node_count_;
   std::vector<NetworkBranch> branches_;

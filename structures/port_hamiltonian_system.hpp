@@ -4,8 +4,8 @@
 #include <functional>
 #include <optional>
 
+#include "courant/structures/energy_system.hpp"
 #include "courant/structures/generating_family.hpp"
-#include "courant/structures/implicit_system.hpp"
 #include "courant/structures/matrix_field.hpp"
 
 namespace courant {
@@ -17,10 +17,10 @@ namespace courant {
 //   closed   v = (J(x) - R(x)) dH + B(x) u,   y = B(x)ᵀ dH + D(x) u,   0 = y
 //
 // Auxiliary unknowns z = u ∈ R^m. Along solutions dH/dt = ⟨y, u⟩ - dHᵀ R dH - uᵀ D u (and ⟨y, u⟩ = 0
-// if closed). J: Ñ × Ñ, skew, with range in T_xM; R: Ñ × Ñ, symmetric, likewise; B: Ñ × m;
+// if closed): each port supplies y_a u_a, "resistance" and "feedthrough" dissipate. J: Ñ × Ñ, skew, with range in T_xM; R: Ñ × Ñ, symmetric, likewise; B: Ñ × m;
 // D, the feedthrough, m × m, in which the ports are passive where D + Dᵀ ⪰ 0. The Dirac
 // structure behind it, without R, is ClosedPortHamiltonian(J, B), or OpenPortHamiltonian(J, B).
-class PortHamiltonianSystem final : public ImplicitSystem {
+class PortHamiltonianSystem final : public EnergySystem {
  public:
   // u for the time and the outputs y (m).
   using Input = std::function<ExprVector(const Expr& t, const ExprVector& y)>;
@@ -36,14 +36,17 @@ class PortHamiltonianSystem final : public ImplicitSystem {
 
   Index tangent_blocks() const override { return 1; }
   bool is_open() const { return input_.has_value(); }
-  // y = B(x)ᵀ dH(x, t) + D(x) u, size m.
-  ExprVector output(const ExprVector& x, const ExprVector& u, const Expr& t) const;
+  // y = B(x)ᵀ α + D(x) u, size m; α = dH(x, t) but for a discrete gradient.
+  ExprVector output(const ExprVector& x, const ExprVector& alpha, const ExprVector& u) const;
 
  private:
-  ExprVector do_residual(const ExprVector& x, const ExprVector& v, const ExprVector& u,
-                         const Expr& t) const override;
-  std::optional<Expr> do_energy(const ExprVector& x, const ExprVector& u,
-                                const Expr& t) const override;
+  Expr do_generator(const ExprVector& x, const ExprVector& u, const Expr& t) const override;
+  ExprVector do_effort(const ExprVector& x, const ExprVector& u, const Expr& t) const override;
+  ExprVector do_equations(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,
+                          const ExprVector& u, const Expr& t, const ExprVector& y,
+                          const Expr& s) const override;
+  Powers do_powers(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,
+                   const ExprVector& u, const Expr& t) const override;
 
   Matrices matrices_;
   std::shared_ptr<const GeneratingFamily> energy_;

@@ -32,10 +32,9 @@ std::vector<int> without_basis(const ImplicitSystem& system, const ExprMatrix& b
 
 }  // namespace
 
-ExprVector reduced_residual(const ImplicitSystem& system, const ExprMatrix& basis,
-                            const ExprVector& x, const ExprVector& v, const ExprVector& z,
-                            const Expr& t) {
-  return with_reduced_blocks(system, basis, system.residual(x, v, z, t), false);
+ExprVector reduced_equations(const ImplicitSystem& system, const ExprMatrix& basis,
+                             const ExprVector& F) {
+  return with_reduced_blocks(system, basis, F, false);
 }
 
 LocalFormulation::LocalFormulation(const Graph& graph, const ImplicitSystem& system,

@@ -33,11 +33,10 @@ struct LocalFormulation {
   ExprVector nonzero_equations() const;  // without those that are the constant 0
 };
 
-// The residual of the system near the chart origin of `basis`, each tangent block r as Bᵀr (n
+// The equations F of the system near the chart origin of `basis`, each tangent block r as Bᵀr (n
 // equations), which near there says the same: as many equations as are independent.
-ExprVector reduced_residual(const ImplicitSystem& system, const ExprMatrix& basis,
-                            const ExprVector& x, const ExprVector& v, const ExprVector& z,
-                            const Expr& t);
+ExprVector reduced_equations(const ImplicitSystem& system, const ExprMatrix& basis,
+                             const ExprVector& F);
 
 // The basis of a chart as an argument of a traced function: the identity where that holds for every
 // point, else fresh variables.

@@ -4,6 +4,7 @@
 
 #include "courant/integrators/composition.hpp"
 #include "courant/integrators/constrain_first.hpp"
+#include "courant/integrators/discrete_gradient.hpp"
 #include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/explicit_runge_kutta.hpp"
 #include "courant/integrators/ladder/constraint_algorithm.hpp"
@@ -17,7 +18,9 @@
 #include "courant/manifolds/special_orthogonal3.hpp"
 #include "courant/manifolds/sphere.hpp"
 #include "courant/structures/canonical_symplectic.hpp"
+#include "courant/structures/constrained_family.hpp"
 #include "courant/structures/dirac_system.hpp"
+#include "courant/structures/port_hamiltonian_system.hpp"
 #include "example_systems.hpp"
 #include "held_on_sphere.hpp"
 
@@ -76,6 +79,14 @@ class Site {
   std::shared_ptr<const Integrator> constrained(const MapPointer& map,
                                                 std::shared_ptr<const Projector> projector) const {
     return std::make_shared<ConstrainFirst>(system_, ladder_, map, std::move(projector));
+  }
+  void discrete_gradients(const std::string& map_name, const MapPointer& map) const {
+    for (const std::shared_ptr<const DiscreteDifferential>& differential :
+         {std::shared_ptr<const DiscreteDifferential>(std::make_shared<GonzalezDifferential>()),
+          std::shared_ptr<const DiscreteDifferential>(std::make_shared<AveragedDifferential>()),
+          std::shared_ptr<const DiscreteDifferential>(std::make_shared<ItohAbeDifferential>())})
+      add("discrete-gradient, " + differential->name() + ", " + map_name,
+          std::make_shared<DiscreteGradient>(system_, map, differential));
   }
   // High orders may want longer steps, whose errors are far from round-off.
   void explicit_methods(double longer = 1.0) const {
@@ -144,6 +155,66 @@ void on_vector_spaces(std::vector<IntegratorEntry>& table) {
       .method_1("midpoint", lift(M, std::make_shared<Theta>(line)));
 }
 
+// Hamiltonians that are no sums of functions of one coordinate each: for these Itoh and Abe's
+// differential would be symmetric.
+void of_energies(std::vector<IntegratorEntry>& table) {
+  const auto line = std::make_shared<Euclidean>(1);
+  const auto M = cotangent(line);
+  const auto driven = hamiltonian(M, [](V x, T t) {
+    return 0.5 * square(x[1]) * (1.0 + 0.3 * square(x[0])) - cos(x[0]) + x[0] * x[1] / 3.0 +
+           0.2 * exp(0.5 * x[0]) * cos(3.0 * t);
+  });
+  const Site coupled("driven, coupled", driven, {.t = 0.3, .x = Eigen::Vector2d(0.7, -0.4)}, 0.2,
+                     table);
+  coupled.discrete_gradients("midpoint", lift(M, std::make_shared<Theta>(line)));
+  coupled.discrete_gradients("theta = 0", std::make_shared<Theta>(M, 0.0));
+
+  // Ports: resistance that depends on the point, an input of time and output, feedthrough.
+  const auto plane = std::make_shared<Euclidean>(2);
+  const auto J = [](V x) {
+    ExprMatrix matrix = ExprMatrix::Zero(2, 2);
+    matrix(0, 1) = 1.0 + 0.2 * square(x[0]);
+    matrix(1, 0) = -matrix(0, 1);
+    return matrix;
+  };
+  const auto resistance = [](V x) {
+    ExprMatrix matrix = ExprMatrix::Zero(2, 2);
+    matrix(1, 1) = 0.1 + 0.1 * square(x[0]);
+    return matrix;
+  };
+  const auto B = [](V x) {
+    ExprMatrix column(2, 1);
+    column << Expr(0.2), 1.0 + 0.5 * x[0];
+    return column;
+  };
+  const auto D = [](V) { return ExprMatrix(ExprMatrix::Constant(1, 1, Expr(0.3))); };
+  const auto energy = std::make_shared<Hamiltonian>(plane, [](V x, T) {
+    return square(x[1]) / 2.0 + square(x[0]) / 2.0 + square(square(x[0])) / 4.0 +
+           x[0] * square(x[1]) / 3.0;
+  });
+  const auto open = std::make_shared<PortHamiltonianSystem>(
+      PortHamiltonianSystem::Matrices{J, resistance, B, 1, D}, energy,
+      [](T t, V y) { return ExprVector(ExprVector::Constant(1, sin(2.0 * t) - 0.5 * y[0])); });
+  Site("open port", open, {.t = 0.2, .x = Eigen::Vector2d(0.4, -0.6)}, 0.2, table)
+      .discrete_gradients("midpoint", std::make_shared<Theta>(plane));
+
+  // A rod: the constraint holds at both ends, and its force does no work.
+  const auto N = cotangent(plane);
+  const auto free = std::make_shared<Hamiltonian>(N, [](V x, T) {
+    return 0.5 * (square(x[2]) + square(x[3])) + x[1] + 0.3 * square(x[0]) * x[2];
+  });
+  const auto rod = std::make_shared<DiracSystem>(
+      std::make_shared<CanonicalSymplectic>(N),
+      std::make_shared<ConstrainedFamily>(
+          free,
+          [](V x, V, T) {
+            return ExprVector(ExprVector::Constant(1, square(x[0]) + square(x[1]) - 1.0));
+          },
+          1));
+  Site("rod", rod, {.x = Eigen::Vector4d(0.6, -0.8, 0.24, 0.18)}, 0.1, table)
+      .discrete_gradients("midpoint", lift(N, std::make_shared<Theta>(plane)));
+}
+
 void with_constraints(std::vector<IntegratorEntry>& table) {
   // The pendulum in Cartesian coordinates, with a spring: index 2.
   const auto space = std::make_shared<Euclidean>(4);
@@ -190,6 +261,7 @@ void on_manifolds(std::vector<IntegratorEntry>& table) {
                       {.x = (VectorXd(6) << 0.6, 0.0, -0.8, 0.4, 0.5, 0.3).finished()}, 0.1, table);
   pendulum.method_1("chordal", lift(M, std::make_shared<Chordal>(sphere)));
   pendulum.method_1("theta = 1", lift(M, std::make_shared<Theta>(sphere, 1.0)));
+  pendulum.discrete_gradients("chordal", lift(M, std::make_shared<Chordal>(sphere)));
 
   // Bases of T(T*S³) turn along the way, and multipliers are found in any of them.
   const examples::HeldOnSphere held;
@@ -207,8 +279,9 @@ void on_manifolds(std::vector<IntegratorEntry>& table) {
   });
   VectorXd x(12);
   x << 1, 0, 0, 0, 0.6, -0.8, 0, 0.8, 0.6, 0.3, -0.5, 0.9;
-  Site("heavy top", top, {.x = x}, 0.1, table)
-      .method_1("cayley", lift(N, std::make_shared<CayleyMidpoint>(rotations)));
+  const Site spinning("heavy top", top, {.x = x}, 0.1, table);
+  spinning.method_1("cayley", lift(N, std::make_shared<CayleyMidpoint>(rotations)));
+  spinning.discrete_gradients("cayley", lift(N, std::make_shared<CayleyMidpoint>(rotations)));
 }
 
 // Nothing moves: M is a point.
@@ -233,6 +306,7 @@ void on_a_point(std::vector<IntegratorEntry>& table) {
 std::vector<IntegratorEntry> integrator_catalogue() {
   std::vector<IntegratorEntry> table;
   on_vector_spaces(table);
+  of_energies(table);
   with_constraints(table);
   on_manifolds(table);
   on_a_point(table);

@@ -189,6 +189,7 @@ BOOST_AUTO_TEST_CASE(powers_of_elements) {
   const VectorXd x = random(network.manifold()->ambient_dimension());
   const Network::Ports ports =
       network.ports(constants(x), constants(random(x.size())),
+                    network.effort(constants(x), ExprVector(0), Expr(0.3)),
                     constants(random(network.auxiliary_size())), Expr(0.3));
   std::map<std::string, double> coupled;
   for (std::size_t k = 0; k < network.branches().size(); ++k) {

@@ -46,36 +46,44 @@ class Numbers {
 
 Checkpoint example() {
   Numbers number;
-  return {
-      .run = "0123456789abcdef",
-      .k = 1234567890123,
-      .state = {.t = 0.1, .x = number(300), .v = number(200), .z = VectorXd(0)},
-      .motion = {.is_predictable = true, .displacements = number(40)},
-      .trajectory_size = 98765432109,
-      .wall_seconds = 12.5,
-      .solver = {.steps = 1,
-                 .iterations = 2,
-                 .factorizations = 3,
-                 .failures = 4,
-                 .second_attempts = 5,
-                 .confirmations = 6},
-      .statistics = {.count = 7.0,
-                     .initial = number(30),
-                     .final = number(30),
-                     .min = number(30),
-                     .max = number(30),
-                     .mean_t = number(),
-                     .variation = number(),
-                     .mean = number(30),
-                     .covariation = number(30)},
-      .rows_at_times = {{0.1, number(30)}, {1.0 / 3.0, number(30)}},
-      .not_finite = NotFinite{.t = 2.5, .value = -Limits::infinity(), .column = 4},
-      .energy_watch = EnergyWatch::Memory{.initial = number(),
-                                          .largest = 2.0,
-                                          .looked_at = 1e-300,
-                                          .finding = "H \"has\"\nchanged: ü"},
-      .ladder_watch = LadderWatch::Memory{
-          .largest = number(9), .last = number(9), .before_last = VectorXd(0), .last_time = 0.7}};
+  return {.run = "0123456789abcdef",
+          .k = 1234567890123,
+          .state = {.t = 0.1, .x = number(300), .v = number(200), .z = VectorXd(0)},
+          .motion = {.is_predictable = true, .displacements = number(40)},
+          .trajectory_size = 98765432109,
+          .wall_seconds = 12.5,
+          .solver = {.steps = 1,
+                     .iterations = 2,
+                     .factorizations = 3,
+                     .failures = 4,
+                     .second_attempts = 5,
+                     .confirmations = 6},
+          .statistics = {.count = 7.0,
+                         .initial = number(30),
+                         .final = number(30),
+                         .min = number(30),
+                         .max = number(30),
+                         .mean_t = number(),
+                         .variation = number(),
+                         .mean = number(30),
+                         .covariation = number(30)},
+          .rows_at_times = {{0.1, number(30)}, {1.0 / 3.0, number(30)}},
+          .not_finite = NotFinite{.t = 2.5, .value = -Limits::infinity(), .column = 4},
+          .energy_watch = EnergyWatch::Memory{.initial = number(),
+                                              .largest = 2.0,
+                                              .looked_at = 1e-300,
+                                              .finding = "H \"has\"\nchanged: ü"},
+          .ladder_watch = LadderWatch::Memory{.largest = number(9),
+                                              .last = number(9),
+                                              .before_last = VectorXd(0),
+                                              .last_time = 0.7},
+          .power_account = PowerAccount::Memory{.first = number(),
+                                                .last = number(),
+                                                .balance = -0.0,
+                                                .greatest = Limits::quiet_NaN(),
+                                                .size = 0.1,
+                                                .supplied = number(20),
+                                                .dissipated = VectorXd(0)}};
 }
 
 void check_same(const Checkpoint& a, const Checkpoint& b) {
@@ -125,6 +133,16 @@ void check_same(const Checkpoint& a, const Checkpoint& b) {
     BOOST_TEST(same(a.ladder_watch->last, b.ladder_watch->last));
     BOOST_TEST(same(a.ladder_watch->before_last, b.ladder_watch->before_last));
     BOOST_TEST(a.ladder_watch->last_time == b.ladder_watch->last_time);
+  }
+  BOOST_TEST_REQUIRE(a.power_account.has_value() == b.power_account.has_value());
+  if (a.power_account) {
+    BOOST_TEST(same(a.power_account->first, b.power_account->first));
+    BOOST_TEST(same(a.power_account->last, b.power_account->last));
+    BOOST_TEST(same(a.power_account->balance, b.power_account->balance));
+    BOOST_TEST(same(a.power_account->greatest, b.power_account->greatest));
+    BOOST_TEST(same(a.power_account->size, b.power_account->size));
+    BOOST_TEST(same(a.power_account->supplied, b.power_account->supplied));
+    BOOST_TEST(same(a.power_account->dissipated, b.power_account->dissipated));
   }
 }
 

@@ -14,7 +14,7 @@ namespace courant {
 namespace {
 
 // Columns by name.
-struct Table {
+struct Waveforms {
   std::vector<std::string> names;
   std::vector<std::vector<double>> rows;
 
@@ -31,9 +31,9 @@ struct Table {
   }
 };
 
-Table read_table(const std::filesystem::path& path, char separator) {
+Waveforms read_table(const std::filesystem::path& path, char separator) {
   std::ifstream file(path);
-  Table table;
+  Waveforms table;
   std::string line;
   const auto words = [&] {
     if (separator == ',') std::replace(line.begin(), line.end(), ',', ' ');
@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(waveforms_of_five_netlists) {
       const Json experiment = import_netlist(netlist);
       const TemporaryFolder folder;
       BOOST_REQUIRE(run_in(folder, experiment).status == RunStatus::completed);
-      const Table ours = read_table(folder / "run/trajectory.csv", ',');
+      const Waveforms ours = read_table(folder / "run/trajectory.csv", ',');
       std::vector<std::string> nodes;
       for (const auto& [key, formula] : experiment.at("observe").items())
         if (key.rfind("potential_", 0) == 0 && key.find("x1_") == std::string::npos)
@@ -94,7 +94,7 @@ BOOST_AUTO_TEST_CASE(waveforms_of_five_netlists) {
           std::system(
               ("ngspice -b " + (folder / "circuit.cir").string() + " > /dev/null 2>&1").c_str()) >=
           0);
-      const Table theirs = read_table(folder / "potentials.txt", ' ');
+      const Waveforms theirs = read_table(folder / "potentials.txt", ' ');
       BOOST_REQUIRE(theirs.rows.size() > 100u);
 
       double largest = 0.0, difference = 0.0;

@@ -54,6 +54,14 @@ BOOST_AUTO_TEST_CASE(a_run_that_was_killed_goes_on_with_the_same_bytes) {
     check_resumption(experiment, {0, 17, 40, 41, 100, 149, 150}, experiment["output"].dump());
 }
 
+BOOST_AUTO_TEST_CASE(with_an_account_of_powers) {
+  Json ports = of_file("discrete_gradient_ports", 50, 16);
+  check_resumption(ports, {20, 47}, "discrete gradient, ports");
+  ports["method"] = "discretize-first";
+  ports["output"]["every"] = 7;
+  check_resumption(npy(ports), {20}, "Method 1, ports, npy");
+}
+
 BOOST_AUTO_TEST_CASE(a_run_that_was_interrupted_goes_on) {
   const TemporaryFolder folder, other;
   const RunOutcome whole = run_in(other, oscillator);

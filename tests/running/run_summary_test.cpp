@@ -20,6 +20,11 @@ RunSummary example() {
                      .time = RunSummary::Time{.start = 0.5, .end = 2.2, .step = 0.1},
                      .final = {{"q", 0.1}, {"p", -1e-300}},
                      .max_violation = 1e-13,
+                     .power_balance = PowerAccount::Report{.supplied = {{"hand", 0.5}, {"1", -2.0}},
+                                                           .dissipated = {},
+                                                           .stored = 0.25,
+                                                           .max_balance = 1e-15,
+                                                           .max_imbalance = 1e-16},
                      .ladder = LadderReport{.verdict = Verdict::regular, .index = 1},
                      .backend = "native",
                      .wall_seconds = 0.25,
@@ -57,6 +62,11 @@ BOOST_AUTO_TEST_CASE(reads_back_to_what_was_written) {
   BOOST_TEST(read.observable("H")->slope == 0.01);
   BOOST_TEST(!read.observable("K"));
   BOOST_TEST(read.max_violation.value() == 1e-13);
+  BOOST_TEST((read.power_balance->supplied == example().power_balance->supplied));
+  BOOST_TEST(read.power_balance->dissipated.empty());
+  BOOST_TEST(read.power_balance->stored == 0.25);
+  BOOST_TEST(read.power_balance->max_balance == 1e-15);
+  BOOST_TEST(read.power_balance->max_imbalance == 1e-16);
   BOOST_TEST(read.expectations[0].passed);
   BOOST_TEST(read.solver.confirmations.value() == 3);
 }
@@ -66,6 +76,7 @@ BOOST_AUTO_TEST_CASE(what_is_missing_or_null_is_not_known) {
       read_run_summary({{"status", "failed"}, {"system", "s"}, {"method", "m"}, {"steps", 0}});
   BOOST_TEST(!least.time);
   BOOST_TEST(!least.max_violation);
+  BOOST_TEST(!least.power_balance);
   BOOST_TEST(!least.solver.failures);
   BOOST_TEST(std::isnan(least.wall_seconds));
   BOOST_TEST(!least.ladder);

@@ -52,7 +52,8 @@ BOOST_AUTO_TEST_CASE(a_series_circuit) {
   }
   BOOST_TEST(circuit.residual(x, v, z, t + 1.0).norm() > 0.4);
 
-  const Network::Ports ports = circuit.ports(exprs(x), exprs(v), exprs(z), Expr(t));
+  const Network::Ports ports = circuit.ports(
+      exprs(x), exprs(v), circuit.effort(exprs(x), exprs(z), Expr(t)), exprs(z), Expr(t));
   const VectorXd current = values(ports.current), voltage = values(ports.voltage);
   BOOST_TEST((current - VectorXd{{-i, i, i, -i}}).norm() < 1e-14);
   BOOST_TEST((voltage - VectorXd{{3.0 * t, 5.0 * i, q / 0.5, rate}}).norm() < 1e-14);
@@ -114,7 +115,8 @@ BOOST_AUTO_TEST_CASE(laws_of_laws) {
   const Network network = chain(2);
   const VectorXd one = VectorXd::Ones(1);
   const Network::Ports ports =
-      network.ports(exprs(one), exprs(one), exprs(VectorXd::Ones(4)), Expr(0.0));
+      network.ports(exprs(one), exprs(one), network.effort(exprs(one), ExprVector(4), Expr(0.0)),
+                    exprs(VectorXd::Ones(4)), Expr(0.0));
   BOOST_TEST(ports.voltage[0].value() == 8.0);  // 2 · 2 · ∂H/∂q
   BOOST_CHECK_EXCEPTION(chain(0), std::invalid_argument, [](const std::invalid_argument& error) {
     return std::string(error.what()).find("in a circle") != std::string::npos;

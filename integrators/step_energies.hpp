@@ -1,0 +1,70 @@
+// StepEnergies: what enters and leaves a system in a step.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "courant/core/function.hpp"
+#include "courant/integrators/step.hpp"
+#include "courant/structures/energy_system.hpp"
+
+namespace courant {
+
+// The discrete power balance of a step. With the powers of the system at the stage (x̄, v, α, z, t̄),
+//
+//   supplied = h Σ supplied power,   dissipated = h Σ dissipated power,   port by port
+//
+// and, where E depends on time, a port "time" that supplies
+//
+//   E(x₁, z, t₁) - E(x₁, z, t̄) + E(x₀, z, t̄) - E(x₀, z, t₀)
+//
+// A step that is made of others has the sums of theirs. For every step that solves the equations of
+// the system at its stage (Methods 1 and 2, discrete gradients)
+//
+//   h ⟨α, v⟩ = supplied - dissipated - what time supplies                            (29), (31)
+//
+// which is E(x₁, z, t̄) - E(x₀, z, t̄), so that the energy is balanced exactly, for discrete gradients,
+// and for the midpoint map on Rⁿ where H is quadratic.
+class StepEnergies {
+ public:
+  explicit StepEnergies(std::shared_ptr<const EnergySystem> system,
+                        Backend backend = Backend::interpreter);
+
+  // Of the ports; both empty for a closed system without losses.
+  const std::vector<std::string>& suppliers() const { return suppliers_; }
+  const std::vector<std::string>& dissipators() const { return dissipators_; }
+
+  struct Energies {
+    VectorXd supplied, dissipated;  // by port
+    // What moves within the system and through its ports: h Σ |α_i v_i| + Σ |supplied| + Σ |dissipated|.
+    // Next to it, and to H, round-off in a balance is small, also where H is zero by cancellation.
+    double moved = 0.0;
+    double supply() const { return supplied.sum(); }
+    double loss() const { return dissipated.sum(); }
+  };
+  // Of a step that is made of several: the stepper has been told to tell_parts(). Throws
+  // std::invalid_argument otherwise.
+  Energies operator()(const Step& step) const;
+  // The same without allocation after the first call with this place and this workspace.
+  void measure(const Step& step, Energies& energies, VectorXd& workspace) const;
+
+  // α of the step: its effort, or d_xE at its stage. Size Ñ.
+  VectorXd effort(const Step& step) const;
+  // E(x, z, t) of a state: H where the constraints of the system hold.
+  double energy(const State& state) const;
+
+ private:
+  std::vector<std::string> suppliers_, dissipators_;
+  bool has_time_ = false;
+  Index size_;  // of points
+  void add(const Step& step, Energies& energies, VectorXd& powers) const;
+
+  // x, v, α, z, t ↦ powers by port, suppliers first, and what moves in a unit of time; for α = d_xE
+  // x, v, z, t ↦ the same.
+  Function powers_, powers_at_stage_;
+  Function effort_;     // x, z, t ↦ d_xE
+  Function generator_;  // the same ↦ E
+};
+
+}  // namespace courant

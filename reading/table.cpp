@@ -1,0 +1,168 @@
+#include "courant/reading/table.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <optional>
+
+#include "courant/core/spelling.hpp"
+
+namespace courant {
+namespace {
+
+// More would make formulas that take longer than a step should.
+constexpr std::size_t kMostRows = 20000;
+
+std::optional<VectorXd> read_numbers(const std::optional<JsonReader>& key) {
+  const auto elements = key ? key->elements() : std::nullopt;
+  if (!elements) return std::nullopt;
+  VectorXd numbers(std::ssize(*elements));
+  bool right = true;
+  for (Index i = 0; i < numbers.size(); ++i) {
+    const auto number = (*elements)[static_cast<std::size_t>(i)].number();
+    right = right && number.has_value();
+    if (number) numbers[i] = *number;
+  }
+  return right ? std::optional(numbers) : std::nullopt;
+}
+
+std::optional<Table> read_table(const JsonReader& value) {
+  ObjectReader object(value);
+  if (!value.value().is_object()) return std::nullopt;
+  if (value.value().contains("file")) {
+    object.optional("file");
+    object.optional("time");
+    object.optional("column");
+    object.optional("interpolation");
+    value.problem("is in a file, which only the command reads; expected \"times\" and \"values\"");
+    return std::nullopt;
+  }
+  const auto times_key = object.required("times"), values_key = object.required("values");
+  const std::string word = object.word("interpolation", "linear", {"steps", "linear", "cubic"});
+  const auto times = read_numbers(times_key), values = read_numbers(values_key);
+  if (!times || !values) return std::nullopt;
+  if (times->size() == 0 || times->size() != values->size()) {
+    values_key->problem("has " + std::to_string(values->size()) + " numbers for " +
+                        std::to_string(times->size()) + " times; expected as many, one at least");
+    return std::nullopt;
+  }
+  if (static_cast<std::size_t>(times->size()) > kMostRows) {
+    times_key->problem("has " + std::to_string(times->size()) + " numbers; expected at most " +
+                       std::to_string(kMostRows));
+    return std::nullopt;
+  }
+  for (Index i = 1; i < times->size(); ++i)
+    if (!((*times)[i] > (*times)[i - 1])) {
+      times_key->problem("has no greater number after that at " + std::to_string(i - 1) +
+                         "; expected increasing times");
+      return std::nullopt;
+    }
+  return Table{*times, *values,
+               word == "steps"   ? Interpolation::steps
+               : word == "cubic" ? Interpolation::cubic
+                                 : Interpolation::linear};
+}
+
+std::vector<std::string> cells(const std::string& line) {
+  std::vector<std::string> result(1);
+  for (const char c : line) {
+    if (c == ',')
+      result.emplace_back();
+    else if (c != '\r')
+      result.back() += c;
+  }
+  for (std::string& cell : result) {
+    const std::size_t first = cell.find_first_not_of(" \t\"");
+    const std::size_t last = cell.find_last_not_of(" \t\"");
+    cell = first == std::string::npos ? "" : cell.substr(first, last - first + 1);
+  }
+  return result;
+}
+
+// One table that may be in a file.
+class File {
+ public:
+  File(const std::string& pointer, const std::filesystem::path& path)
+      : pointer_(pointer), path_(path) {}
+
+  Json load(const Json& table) {
+    std::ifstream stream(path_);
+    if (!stream || std::filesystem::is_directory(path_))
+      refuse("cannot be read; expected a file of comma-separated values");
+    std::string line;
+    if (!std::getline(stream, line)) refuse("is empty; expected names in its first line");
+    const std::vector<std::string> names = cells(line);
+    const std::size_t time = column(table, "time", names, 0);
+    const std::size_t value = column(table, "column", names, 1);
+    Json times = Json::array(), values = Json::array();
+    for (line_ = 2; std::getline(stream, line); ++line_) {
+      if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+      const std::vector<std::string> row = cells(line);
+      if (row.size() != names.size())
+        refuse("has " + std::to_string(row.size()) + " cells; expected " +
+               std::to_string(names.size()));
+      times.push_back(number(row[time]));
+      values.push_back(number(row[value]));
+      if (times.size() > kMostRows)
+        refuse("is more than row " + std::to_string(kMostRows) + "; expected fewer");
+    }
+    Json result = {{"times", times}, {"values", values}};
+    if (table.contains("interpolation")) result["interpolation"] = table["interpolation"];
+    for (const auto& [key, entry] : table.items())
+      if (key != "file" && key != "time" && key != "column" && key != "interpolation")
+        result[key] = entry;  // is told of as unknown
+    return result;
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw ExperimentError(
+        pointer_, path_.string() + (line_ > 0 ? ":" + std::to_string(line_) : "") + " " + what);
+  }
+
+  std::size_t column(const Json& table, const char* key, const std::vector<std::string>& names,
+                     std::size_t otherwise) const {
+    if (!table.contains(key)) {
+      if (otherwise < names.size()) return otherwise;
+      refuse("has one column; expected one of times and one of values");
+    }
+    const std::string name = table[key].is_string() ? table[key].get<std::string>() : "";
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) refuse("has no column \"" + name + "\"" + did_you_mean(name, names));
+    return static_cast<std::size_t>(found - names.begin());
+  }
+
+  double number(const std::string& cell) const {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+    if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
+      refuse("has \"" + cell + "\"; expected a number");
+    return value;
+  }
+
+  std::string pointer_;
+  std::filesystem::path path_;
+  std::size_t line_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::pair<std::string, Table>> read_tables(const JsonReader& object) {
+  std::vector<std::pair<std::string, Table>> tables;
+  const auto entries = object.entries();
+  if (!entries) return tables;
+  for (const auto& [name, value] : *entries)
+    if (auto table = read_table(value)) tables.emplace_back(name, std::move(*table));
+  return tables;
+}
+
+void load_tables(Json& document, const std::filesystem::path& folder) {
+  const Json::json_pointer place("/system/tables");
+  if (!document.is_object() || !document.contains(place) || !document[place].is_object()) return;
+  for (auto& [name, table] : document[place].items())
+    if (table.is_object() && table.contains("file") && table["file"].is_string())
+      table = File("/system/tables/" + name, folder / table["file"].get<std::string>()).load(table);
+}
+
+}  // namespace courant

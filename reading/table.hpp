@@ -1,0 +1,31 @@
+// Tables of numbers that become words of formulas: functions of time.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "courant/core/interpolation.hpp"
+#include "courant/reading/json_reader.hpp"
+
+namespace courant {
+
+// {"times": [0, 1, 3], "values": [2, 5, 4], "interpolation": "linear"}
+struct Table {
+  VectorXd times, values;
+  Interpolation interpolation = Interpolation::linear;
+
+  Expr at(const Expr& t) const { return interpolated(times, values, interpolation, t); }
+};
+
+// The tables of an object by name; a problem for each that is wrong, which is left out.
+std::vector<std::pair<std::string, Table>> read_tables(const JsonReader& object);
+
+// Puts times and values in the place of {"file": "wind.csv", "time": "t", "column": "speed"} in the
+// tables of an experiment's system; files are looked for in `folder`. They are comma-separated, with
+// names in the first line, and the default columns are the first two. Throws ExperimentError with the
+// place in the experiment, the file and the line.
+void load_tables(Json& document, const std::filesystem::path& folder);
+
+}  // namespace courant

@@ -1,0 +1,226 @@
+#include "courant/running/power_account.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <sstream>
+
+#include "../reading/experiment_problems.hpp"
+#include "courant/running/run_files.hpp"
+#include "run_in.hpp"
+
+using namespace courant;
+
+namespace {
+
+// A run and its rows.
+struct RunIn {
+  explicit RunIn(const Json& experiment)
+      : outcome(run_in(folder, experiment)),
+        rows(read_trajectory_csv(folder / "run" / "trajectory.csv")) {}
+  std::vector<double> column(const std::string& name) const {
+    const auto values = rows.column(name);
+    return {values.begin(), values.end()};
+  }
+  bool has_column(const std::string& name) const { return rows.contains(name); }
+  TemporaryFolder folder;
+  RunOutcome outcome;
+  TrajectoryTable rows;
+};
+
+// q' = p, p' = -q³ - c p + u with the force u = sin t at the port "hand".
+Json driven(const Json& method) {
+  return {
+      {"system",
+       {{"type", "port-hamiltonian"},
+        {"parameters", {{"c", 0.5}}},
+        {"coordinates", {"q", "p"}},
+        {"J", {{0, 1}, {-1, 0}}},
+        {"R", {{0, 0}, {0, "c"}}},
+        {"B", {0, 1}},
+        {"hamiltonian", "p^2/2 + q^4/4"},
+        {"ports", "open"},
+        {"port_names", {"hand"}},
+        {"inputs", {"sin(t)"}}}},
+      {"initial", {{"q", 1}, {"p", 0}}},
+      {"method", method},
+      {"time", {{"step", 0.1}, {"end", 5}}},
+      {"observe",
+       {{"u", {{"formula", "u_hand"}, {"at", "stage"}}},
+        {"y", {{"formula", "y_hand"}, {"at", "stage"}}},
+        {"p_stage", {{"formula", "p"}, {"at", "stage"}}},
+        {"lost", {{"formula", "u_hand*y_hand - dot(effort, flow) - c*y_hand^2"}, {"at", "stage"}}},
+        {"supplied_hand", "supplied_hand"},
+        {"efficiency", "dissipated/(1 + supplied)"}}}};
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(power_account_test)
+
+// Rows hold the energies since the beginning, the balance of the last step, and what ports and efforts were
+// at its stage.
+BOOST_AUTO_TEST_CASE(energies_and_stages_of_a_run) {
+  for (const std::string method : {"discrete-gradient", "discretize-first"}) {
+    const RunIn run(driven(method));
+    BOOST_REQUIRE(run.outcome.status == RunStatus::completed);
+    const auto column = [&](const std::string& name) { return run.column(name); };
+    const auto t = column("t"), p = column("p"), H = column("H"), supplied = column("supplied"),
+               dissipated = column("dissipated"), balance = column("balance"), u = column("u"),
+               y = column("y"), p_stage = column("p_stage"), lost = column("lost"),
+               efficiency = column("efficiency");
+    BOOST_TEST((column("supplied_hand") == supplied));
+    BOOST_TEST(supplied[0] == 0.0);
+    BOOST_TEST(std::abs(u[0]) < 1e-15);  // of the first state: sin 0
+    BOOST_TEST(std::abs(y[0] - p[0]) < 1e-15);
+    double greatest = 0.0;
+    for (std::size_t k = 1; k < t.size(); ++k) {
+      const double h = t[k] - t[k - 1];
+      BOOST_TEST(std::abs(u[k] - std::sin(t[k] - h / 2.0)) < 1e-13);
+      BOOST_TEST(std::abs(p_stage[k] - (p[k] + p[k - 1]) / 2.0) < 1e-13);
+      // (29): at the stage efforts and flows balance, whatever the method is.
+      BOOST_TEST(std::abs(lost[k]) < 1e-12);
+      const double in = supplied[k] - supplied[k - 1], out = dissipated[k] - dissipated[k - 1];
+      BOOST_TEST(std::abs(in - h * u[k] * y[k]) < 1e-13);
+      BOOST_TEST(std::abs(out - h * 0.5 * y[k] * y[k]) < 1e-13);
+      BOOST_TEST(out >= 0.0);
+      BOOST_TEST(std::abs(balance[k] - (H[k] - H[k - 1] - in + out)) < 1e-13);
+      BOOST_TEST(std::abs(efficiency[k] - dissipated[k] / (1.0 + supplied[k])) < 1e-13);
+      greatest = std::max(greatest, std::abs(balance[k]));
+    }
+    BOOST_REQUIRE(run.outcome.summary.power_balance.has_value());
+    const PowerAccount::Report& account = *run.outcome.summary.power_balance;
+    using Ports = std::vector<std::pair<std::string, double>>;
+    BOOST_TEST((account.supplied == Ports{{"hand", supplied.back()}}));
+    BOOST_TEST((account.dissipated == Ports{{"resistance", dissipated.back()}}));
+    BOOST_TEST(account.stored == H.back() - H.front());
+    BOOST_TEST(account.max_balance == greatest);
+    const bool exact = method == "discrete-gradient";
+    const double imbalance = account.max_imbalance;
+    BOOST_TEST((exact ? imbalance < 1e-14 : imbalance > 1e-5), method << ": " << imbalance);
+    if (exact) BOOST_TEST(imbalance >= 0.0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(expectations_of_the_balance) {
+  Json experiment = driven("discrete-gradient");
+  experiment["expect"] = {{{"max_imbalance", 1e-13}}, {{"observable", "balance"}, {"max", 1e-13}}};
+  BOOST_TEST(RunIn(experiment).outcome.as_expected());
+  experiment["method"] = "discretize-first";
+  BOOST_TEST(!RunIn(experiment).outcome.as_expected());
+  experiment["expect"] = {{{"max_imbalance", -1}}};
+  BOOST_TEST(problems(experiment).find("/expect/0/max_imbalance: is -1") == 0u,
+             problems(experiment));
+  // Equations alone do not say what they supply.
+  const Json implicit = {
+      {"system", {{"type", "implicit"}, {"coordinates", {"x"}}, {"equations", {"x' + x"}}}},
+      {"initial", {{"x", 1}}},
+      {"method", "discretize-first"},
+      {"time", {{"step", 0.1}, {"end", 1}}},
+      {"expect", {{{"max_imbalance", 1.0}}}}};
+  BOOST_TEST(problems(implicit).find("/expect/0/max_imbalance: tests nothing") == 0u,
+             problems(implicit));
+}
+
+// An epoch changes nothing but what a method knows of the steps before, and where an event is found, the
+// energies are those up to there.
+BOOST_AUTO_TEST_CASE(epochs_and_events) {
+  Json experiment = driven("discrete-gradient");
+  experiment["observe"] = Json::object();
+  experiment["events"] = {{"turn", "p - 0.1"}};
+  const RunIn whole(experiment);
+  experiment["output"]["epoch"] = 7;
+  const RunIn parts(experiment);
+  for (const char* name : {"supplied", "dissipated"})
+    for (std::size_t k = 0; k < whole.column(name).size(); ++k)
+      BOOST_TEST(std::abs(whole.column(name)[k] - parts.column(name)[k]) < 1e-12);
+  BOOST_TEST(parts.outcome.summary.power_balance->max_imbalance < 1e-14);
+  std::istringstream lines(read_text(whole.folder / "run" / "events.csv"));
+  std::string line;
+  std::getline(lines, line);
+  BOOST_TEST(line.find("event,t,q,p,H,supplied,dissipated,balance") == 0u, line);
+  int count = 0;
+  const double H0 = whole.column("H")[0];
+  for (; std::getline(lines, line); ++count) {
+    std::istringstream words(line.substr(line.find(',') + 1));
+    double t = 0, q = 0, p = 0, H = 0, supplied = 0, dissipated = 0, balance = 0;
+    char comma = 0;
+    words >> t >> comma >> q >> comma >> p >> comma >> H >> comma >> supplied >> comma >>
+        dissipated >> comma >> balance;
+    BOOST_TEST(dissipated > 0.0);
+    BOOST_TEST(std::abs(H - H0 - supplied + dissipated) < 1e-13);
+    BOOST_TEST(std::abs(balance) < 1e-14);
+  }
+  BOOST_TEST(count > 0);
+}
+
+// Rows between two steps have the energies up to there.
+BOOST_AUTO_TEST_CASE(rows_at_times) {
+  Json experiment = driven("discrete-gradient");
+  experiment["observe"] = Json::object();
+  experiment["output"]["at"] = {0, 0.02, 0.31, 0.35, 0.4, 4.97};
+  const RunIn run(experiment);
+  const auto H = run.column("H"), supplied = run.column("supplied"),
+             dissipated = run.column("dissipated");
+  BOOST_REQUIRE(H.size() >= 6u);
+  for (std::size_t k = 1; k < H.size(); ++k) {
+    BOOST_TEST(dissipated[k] > dissipated[k - 1]);
+    BOOST_TEST(std::abs(H[k] - H[0] - supplied[k] + dissipated[k]) < 1e-13);
+  }
+}
+
+// Names of one's own come first; wrong ones are told.
+BOOST_AUTO_TEST_CASE(names) {
+  Json experiment = driven("discrete-gradient");
+  experiment["observe"] = {{"supplied", "q + p"}, {"balance", "q - p"}};
+  const RunIn run(experiment);
+  BOOST_TEST(run.column("supplied")[0] == 1.0);
+  BOOST_TEST(run.column("balance").back() == run.column("q").back() - run.column("p").back());
+  experiment["observe"] = {{"a", "supplied_foot"}};
+  BOOST_TEST(problems(experiment).find("unknown name \"supplied_foot\"") != std::string::npos,
+             problems(experiment));
+  experiment["observe"] = {{"a", {{"formula", "supplied"}, {"at", "stage"}}}};
+  BOOST_TEST(problems(experiment).find("unknown name \"supplied\"") != std::string::npos,
+             problems(experiment));
+  experiment["observe"] = {{"a", {{"formula", "q"}, {"at", "end"}}}};
+  BOOST_TEST(problems(experiment).find("/observe/a/at: ") == 0u, problems(experiment));
+  // Without a method there are no steps.
+  experiment.erase("method");
+  experiment.erase("time");
+  experiment["observe"] = {{"a", "supplied"}};
+  BOOST_TEST(problems(experiment).find("unknown name \"supplied\"") != std::string::npos,
+             problems(experiment));
+}
+
+// A system without ports has no such columns, and the energy of each step is still accounted for.
+BOOST_AUTO_TEST_CASE(closed_systems) {
+  const Json pendulum = {
+      {"system",
+       {{"type", "hamiltonian"}, {"coordinates", {"q"}}, {"hamiltonian", "p_q^2/2 - cos(q)"}}},
+      {"initial", {{"q", 1}, {"p_q", 0}}},
+      {"method", {{"type", "discrete-gradient"}, {"gradient", "itoh-abe"}}},
+      {"time", {{"step", 0.1}, {"end", 10}}},
+      {"expect", {{{"max_imbalance", 1e-14}}, {{"observable", "H"}, {"max_drift", 1e-14}}}}};
+  const RunIn run(pendulum);
+  BOOST_TEST(run.outcome.as_expected());
+  BOOST_TEST(!run.has_column("supplied"));
+  BOOST_TEST(!run.has_column("balance"));
+  BOOST_TEST(run.outcome.summary.power_balance.has_value());
+}
+
+// Reactions of constraints alone are accounted for where something asks for them.
+BOOST_AUTO_TEST_CASE(reactions) {
+  Json particle = Json::parse(read_text("experiments/nonholonomic_particle.json"));
+  particle.erase("expect");
+  particle.erase("observe");
+  particle["time"] = {{"step", 0.1}, {"end", 2}};
+  const RunIn plain(particle);
+  BOOST_TEST(!plain.has_column("supplied"));
+  BOOST_TEST(!plain.outcome.summary.power_balance.has_value());
+  particle["observe"] = {{"supplied", "supplied"}, {"work", "supplied_constraints"}};
+  const RunIn asked(particle);
+  BOOST_TEST(asked.outcome.summary.power_balance.has_value());
+  BOOST_TEST((asked.column("supplied") == asked.column("work")));
+  BOOST_TEST(std::abs(asked.column("work").back()) < 1e-13);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
