@@ -62,6 +62,7 @@
 #include "courant/structures/distribution.hpp"
 #include "courant/structures/gauge_transformed.hpp"
 #include "courant/structures/integrability.hpp"
+#include "courant/structures/interconnection.hpp"
 #include "courant/structures/kirchhoff.hpp"
 #include "courant/structures/lagrangian_system.hpp"
 #include "courant/structures/laws.hpp"

@@ -77,6 +77,26 @@ Takes names() { return {"names", reference("names")}; }
 Takes parameters() { return {"an object of constants", reference("parameters")}; }
 Takes tables() { return {"an object of tables", reference("tables")}; }
 Takes definitions() { return {"an object of formulas", reference("definitions")}; }
+Takes systems() {
+  return {"an object of systems",
+          {{"type", "object"},
+           {"patternProperties", {{"^//", true}}},
+           {"additionalProperties", reference("system")}}};
+}
+Takes joint() {
+  return {"a joint",
+          {{"type", "object"},
+           {"patternProperties", {{"^//", true}}},
+           {"properties",
+            {{"ports", {{"type", "array"}, {"minItems", 1}, {"items", {{"type", "string"}}}}},
+             {"shared", {{"enum", {"input", "output"}}}},
+             {"matrix", reference("formulaMatrix")},
+             {"F", reference("formulaMatrix")},
+             {"E", reference("formulaMatrix")},
+             {"input", reference("formula")}}},
+           {"required", {"ports"}},
+           {"additionalProperties", false}}};
+}
 Takes kind(const std::string& noun) { return {"a " + noun, reference(noun)}; }
 
 Takes array_of(const Takes& entry, std::size_t least, std::optional<std::size_t> most) {

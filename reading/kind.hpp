@@ -40,6 +40,8 @@ Takes names();
 Takes parameters();
 Takes tables();
 Takes definitions();
+Takes systems();  // an object of systems
+Takes joint();
 // One of the kinds of a noun: "manifold", "structure", "discretization", "projector", "method",
 // "system".
 Takes kind(const std::string& noun);

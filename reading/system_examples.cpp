@@ -82,6 +82,20 @@ constexpr const char* kExamples = R"json({
   "observe": { "power": "u*p - c*p^2" },
   "expect": [ { "verdict": "regular" },
     { "state": { "q": "0.8*sin(t) - 0.4*cos(t)", "p": "0.8*cos(t) + 0.4*sin(t)" }, "tolerance": 1e-3 } ] },
+"interconnection": {
+  "title": "A mass on a spring, and a coil that brakes it",
+  "system": { "type": "interconnection", "parameters": { "k": 1 },
+    "systems": {
+      "mass": { "type": "port-hamiltonian", "coordinates": ["q", "p"], "hamiltonian": "p^2/2 + q^2/2",
+        "J": [[0, 1], [-1, 0]], "B": [0, 1], "port_names": ["hand"] },
+      "coil": { "type": "port-hamiltonian", "coordinates": ["flux"], "hamiltonian": "flux^2/2",
+        "J": [[0]], "R": [[0.5]], "B": [1], "port_names": ["clamp"] } },
+    "joints": [ { "ports": ["mass_hand", "coil_clamp"], "matrix": [[0, "-k"], ["k", 0]] } ] },
+  "initial": { "mass_q": 1, "mass_p": 0, "coil_flux": 0 },
+  "method": { "type": "discrete-gradient" },
+  "time": { "step": 0.02, "end": 10 },
+  "observe": { "force": "u_mass_hand", "current": "y_coil_clamp" },
+  "expect": [ { "verdict": "regular" }, { "max_imbalance": 1e-12 } ] },
 "implicit": {
   "title": "A pendulum as equations in positions, velocities and the tension",
   "system": { "type": "implicit", "parameters": { "g": 9.81 }, "coordinates": ["x", "y", "v", "w"],

@@ -157,12 +157,26 @@ std::vector<std::pair<std::string, Table>> read_tables(const JsonReader& object)
   return tables;
 }
 
+namespace {
+
+// In a system, and in those that it is made of.
+void load_tables_of(Json& system, const std::string& pointer, const std::filesystem::path& folder) {
+  if (!system.is_object()) return;
+  if (system.contains("tables") && system["tables"].is_object())
+    for (auto& [name, table] : system["tables"].items())
+      if (table.is_object() && table.contains("file") && table["file"].is_string())
+        table = File(pointer + "/tables/" + name, folder / table["file"].get<std::string>())
+                    .load(table);
+  if (system.contains("systems") && system["systems"].is_object())
+    for (auto& [name, part] : system["systems"].items())
+      load_tables_of(part, pointer + "/systems/" + name, folder);
+}
+
+}  // namespace
+
 void load_tables(Json& document, const std::filesystem::path& folder) {
-  const Json::json_pointer place("/system/tables");
-  if (!document.is_object() || !document.contains(place) || !document[place].is_object()) return;
-  for (auto& [name, table] : document[place].items())
-    if (table.is_object() && table.contains("file") && table["file"].is_string())
-      table = File("/system/tables/" + name, folder / table["file"].get<std::string>()).load(table);
+  if (document.is_object() && document.contains("system"))
+    load_tables_of(document["system"], "/system", folder);
 }
 
 }  // namespace courant

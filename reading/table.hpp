@@ -23,7 +23,7 @@ struct Table {
 std::vector<std::pair<std::string, Table>> read_tables(const JsonReader& object);
 
 // Puts times and values in the place of {"file": "wind.csv", "time": "t", "column": "speed"} in the
-// tables of an experiment's system; files are looked for in `folder`. They are comma-separated, with
+// tables of an experiment's system, and of those that it is made of; files are looked for in `folder`. They are comma-separated, with
 // names in the first line, and the default columns are the first two. Throws ExperimentError with the
 // place in the experiment, the file and the line.
 void load_tables(Json& document, const std::filesystem::path& folder);

@@ -23,17 +23,32 @@ std::string port_name(const std::string& input) {
   return input;
 }
 
+PortHamiltonianSystem::Relation relation(std::optional<PortHamiltonianSystem::Input> input) {
+  if (!input) return [](const Expr&, const ExprVector&, const ExprVector& y) { return y; };
+  return [input = std::move(*input)](const Expr& t, const ExprVector& u, const ExprVector& y) {
+    return ExprVector(u - input(t, y));
+  };
+}
+
 }  // namespace
 
 PortHamiltonianSystem::PortHamiltonianSystem(Matrices matrices,
                                              std::shared_ptr<const GeneratingFamily> energy,
                                              std::optional<Input> input, Names names)
+    : PortHamiltonianSystem(std::move(matrices), std::move(energy), relation(input),
+                            std::move(names)) {
+  is_closed_ = !input.has_value();
+}
+
+PortHamiltonianSystem::PortHamiltonianSystem(Matrices matrices,
+                                             std::shared_ptr<const GeneratingFamily> energy,
+                                             Relation relation, Names names)
     // Braces evaluate from left to right: the check comes first.
     : EnergySystem{checked(energy, matrices).manifold(), matrices.m,
                    energy->manifold()->tangent_dimension() + matrices.m, std::move(names)},
       matrices_(std::move(matrices)),
       energy_(std::move(energy)),
-      input_(std::move(input)) {}
+      relation_(std::move(relation)) {}
 
 ExprVector PortHamiltonianSystem::output(const ExprVector& x, const ExprVector& alpha,
                                          const ExprVector& u) const {
@@ -60,7 +75,7 @@ ExprVector PortHamiltonianSystem::do_equations(const ExprVector& x, const ExprVe
   if (matrices_.R) A -= matrices_.R(x);
   const ExprVector y = output(x, alpha, u);
   ExprVector equations(equation_count());
-  equations << v - A * alpha - matrices_.B(x) * u, input_ ? ExprVector(u - (*input_)(t, y)) : y;
+  equations << v - A * alpha - matrices_.B(x) * u, relation_(t, u, y);
   return equations;
 }
 

@@ -15,6 +15,7 @@ namespace courant {
 //
 //   open     v = (J(x) - R(x)) dH + B(x) u,   y = B(x)ᵀ dH + D(x) u,   u = input(t, y)
 //   closed   v = (J(x) - R(x)) dH + B(x) u,   y = B(x)ᵀ dH + D(x) u,   0 = y
+//   joined   v = (J(x) - R(x)) dH + B(x) u,   y = B(x)ᵀ dH + D(x) u,   0 = relation(t, u, y)
 //
 // Auxiliary unknowns z = u ∈ R^m. Along solutions dH/dt = ⟨y, u⟩ - dHᵀ R dH - uᵀ D u (and ⟨y, u⟩ = 0
 // if closed): each port supplies y_a u_a, "resistance" and "feedthrough" dissipate. J: Ñ × Ñ, skew, with range in T_xM; R: Ñ × Ñ, symmetric, likewise; B: Ñ × m;
@@ -24,6 +25,9 @@ class PortHamiltonianSystem final : public EnergySystem {
  public:
   // u for the time and the outputs y (m).
   using Input = std::function<ExprVector(const Expr& t, const ExprVector& y)>;
+  // m equations of inputs and outputs.
+  using Relation =
+      std::function<ExprVector(const Expr& t, const ExprVector& u, const ExprVector& y)>;
   struct Matrices {
     MatrixField J, R, B;  // R may be empty: none
     Index m = 0;
@@ -33,9 +37,16 @@ class PortHamiltonianSystem final : public EnergySystem {
   // std::invalid_argument if the energy has parameters or a matrix is missing.
   PortHamiltonianSystem(Matrices matrices, std::shared_ptr<const GeneratingFamily> energy,
                         std::optional<Input> input, Names names = {});
+  PortHamiltonianSystem(Matrices matrices, std::shared_ptr<const GeneratingFamily> energy,
+                        Relation relation, Names names = {});
 
   Index tangent_blocks() const override { return 1; }
-  bool is_open() const { return input_.has_value(); }
+  const Matrices& matrices() const { return matrices_; }
+  bool is_closed() const { return is_closed_; }
+  // What the ports obey: u - input(t, y), y, or the relation; size m.
+  ExprVector port_equations(const Expr& t, const ExprVector& u, const ExprVector& y) const {
+    return relation_(t, u, y);
+  }
   // y = B(x)ᵀ α + D(x) u, size m; α = dH(x, t) but for a discrete gradient.
   ExprVector output(const ExprVector& x, const ExprVector& alpha, const ExprVector& u) const;
 
@@ -50,7 +61,8 @@ class PortHamiltonianSystem final : public EnergySystem {
 
   Matrices matrices_;
   std::shared_ptr<const GeneratingFamily> energy_;
-  std::optional<Input> input_;
+  Relation relation_;
+  bool is_closed_ = false;
 };
 
 }  // namespace courant
