@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "courant/core/product_scaling.hpp"
 #include "courant/core/rank_cut.hpp"
 #include "courant/core/singular_value_decomposition.hpp"
 
@@ -241,15 +242,13 @@ double norm_bound(const SparseMatrixXd& E) {
   return E.nonZeros() == 0 ? 0.0 : std::sqrt(rows.maxCoeff() * columns.maxCoeff());
 }
 
-// The singular values of a block in units of what they have to be above to count.
-RankDecision decide_block(const UncertainMatrix& A) {
-  const Equilibration<SparseMatrixXd> units = equilibrate(A.value, 0.0);
-  const SparseMatrixXd E = units.row_scale.asDiagonal() * A.error * units.column_scale.asDiagonal();
-  const double error = std::max(norm_bound(E), std::numeric_limits<double>::min());
+// The singular values of a scaled block in units of what they have to be above to count.
+RankDecision decide_scaled(const UncertainMatrix& A) {
+  const double error = std::max(norm_bound(A.error), std::numeric_limits<double>::min());
   const RankOptions options{.magnitude = 1.0, .error_norm = error};
   const bool is_dense = std::max(A.rows(), A.cols()) <= dense_limit;
   RankDecision decision =
-      is_dense ? decide_rank(MatrixXd(units.scaled), options) : decide_rank(units.scaled, options);
+      is_dense ? decide_rank(MatrixXd(A.value), options) : decide_rank(A.value, options);
   // The threshold once more: conclude() of the decision puts a threshold between the values.
   const double largest = decision.singular_values.size() == 0 ? 0.0 : decision.singular_values[0];
   const double floor = noise_level(A.rows(), A.cols(), largest, options).floor;
@@ -257,6 +256,30 @@ RankDecision decide_block(const UncertainMatrix& A) {
   decision.above = decision.rank > 0 ? decision.above / floor : exact;
   decision.below /= floor;
   return decision;
+}
+
+bool is_doubtful(const RankDecision& decision) {
+  return decision.above < clearly_above || decision.below > clearly_below;
+}
+
+// Every scaling proves a rank, and none proves too much. Where the first does not prove all that there
+// could be, the second may: it does not see small entries, the first does not see which are large.
+RankDecision decide_block(const UncertainMatrix& A) {
+  const Equilibration<SparseMatrixXd> units = equilibrate(A.value, 0.0);
+  const UncertainMatrix level{
+      units.scaled, units.row_scale.asDiagonal() * A.error * units.column_scale.asDiagonal()};
+  RankDecision decision = decide_scaled(level);
+  const bool is_full = decision.rank == std::min(A.rows(), A.cols());
+  if (is_full && !is_doubtful(decision)) return decision;
+  const ProductScaling products(level.value);
+  const auto scaled = [&](const SparseMatrixXd& M) {
+    return SparseMatrixXd(products.row_scale.asDiagonal() * M * products.column_scale.asDiagonal());
+  };
+  RankDecision other = decide_scaled({scaled(level.value), scaled(level.error)});
+  const bool proves_more = other.rank > decision.rank;
+  const bool is_clearer =
+      other.rank == decision.rank && is_doubtful(decision) && !is_doubtful(other);
+  return proves_more || is_clearer ? other : decision;
 }
 
 }  // namespace
@@ -287,7 +310,7 @@ RankDecision decide_rank(const UncertainMatrix& A) {
   std::sort(values.begin(), values.end(), std::greater<>());
   decision.singular_values = Eigen::Map<const VectorXd>(values.data(), std::ssize(values));
   decision.gap = decision.above / std::max(1.0, decision.below);
-  decision.is_doubtful = decision.above < clearly_above || decision.below > clearly_below;
+  decision.is_doubtful = is_doubtful(decision);
   return decision;
 }
 

@@ -90,6 +90,32 @@ BOOST_AUTO_TEST_CASE(triangles_in_any_order_and_units) {
   }
 }
 
+// The derivative array of two capacitors in parallel, in nonlinear coordinates near rest, without the
+// columns of the point: x₁, z₀, x₂, z₁, x₃, z₂ with three x and two z. Rows of order i are O(1) in x_i or
+// x_{i+1}, and z_i, and 10⁻¹⁰ in all x before. The fourth row is one of the point alone. Scales that make
+// all entries as equal as can be lose two of the other 14.
+BOOST_AUTO_TEST_CASE(many_small_entries_hide_no_rank) {
+  Random random;
+  for (int trial = 0; trial < 50; ++trial) {
+    MatrixXd A = MatrixXd::Zero(15, 15);
+    const auto x = [&](Index row, Index order, double size) {
+      if (order > 0) A.block(row, 5 * (order - 1), 1, 3) = size * random.dense(1, 3);
+    };
+    for (Index i = 0; i < 3; ++i)
+      for (Index row = 0; row < 5; ++row) {
+        const bool is_dynamic = row < 2 || row == 4;
+        const Index first_small = is_dynamic && row < 2 ? i : i - 1;
+        for (Index j = 1; j <= first_small; ++j) x(5 * i + row, j, 1e-10);
+        if (is_dynamic) x(5 * i + row, i + 1, 1.0);
+        if (row >= 2) x(5 * i + row, i, 1.0);
+        if (row < 3) A.block(5 * i + row, 5 * i + 3, 1, 2) = random.dense(1, 2);
+      }
+    const RankDecision decision = decide_rank(rounded(A, eps));
+    BOOST_TEST(decision.rank == 14);
+    BOOST_TEST(!decision.ambiguous());
+  }
+}
+
 // A number is one at any size; noise is none at any size.
 BOOST_AUTO_TEST_CASE(size_is_told_by_the_error) {
   MatrixXd A = MatrixXd::Identity(3, 3), E = MatrixXd::Zero(3, 3);
