@@ -200,6 +200,7 @@ ConsistentJet ConsistentPoint::recentred(const DerivativeArray& array, const Zer
 
 ConsistentJet ConsistentPoint::find(const ConsistentJet& from) const {
   const LinearizableMap F = conditions(from.array, true);
+  const Index n = from.array.base_size();
   Zero zero = find_zero(F, from.zero.y, mobility(from, false));
   if (zero.found) return {from.array, zero};
   const Mobility free = mobility(from, true);
@@ -208,8 +209,11 @@ ConsistentJet ConsistentPoint::find(const ConsistentJet& from) const {
   if (!zero.found && zero.is_finite) {
     TangentDisplacement displacements(from.array, from.zero.y,
                                       free.typical.cwiseMax(from.zero.y.cwiseAbs()));
-    for (const double size : {0.1, 0.3, 1.0}) {
-      const Zero other = find_confirmed(F, from.zero.y + size * displacements.next(), free);
+    for (const double size : {0.1, 0.3, 1.0, 1e2, 1e4, 1e6, 1e8}) {
+      VectorXd displacement = displacements.next();
+      displacement.head(n) *= size;
+      displacement.tail(displacement.size() - n) *= std::min(size, 1.0);
+      const Zero other = find_confirmed(F, from.zero.y + displacement, free);
       if (other.found || (other.is_finite && !is_contradiction({from.array, other}))) zero = other;
       if (zero.found) break;
     }
@@ -242,8 +246,11 @@ ConsistentJet ConsistentPoint::again(const ConsistentJet& jet) const {
 ConsistentPoint::Neighbour ConsistentPoint::find_displaced(const ConsistentJet& from,
                                                            const VectorXd& displacement,
                                                            const SparseMatrixXd& magnitude) const {
-  const VectorXd y = from.zero.y + displacement;
   Mobility free = mobility(from, true);
+  VectorXd y = from.zero.y + displacement;
+  // Units of 10⁹ are none of angles.
+  for (double part = 0.1; free.admits && !free.admits(y) && part > 1e-20; part *= 0.1)
+    y = from.zero.y + part * displacement;
   free.magnitude = magnitude;
   const Zero zero = find_zero(conditions(from.array, false), y, free);
   if (!zero.found) return {{from.array, zero}, VectorXd::Zero(y.size())};

@@ -29,6 +29,11 @@ class Components {
 
 }  // namespace
 
+VectorXd significant(const Linearization& at) {
+  if (at.value_error.size() != at.value.size()) return at.value;
+  return (at.value.array().abs() <= at.value_error.array()).select(0.0, at.value);
+}
+
 NaturalScaling::NaturalScaling(const Linearization& at, const VectorXd& reach, double noise,
                                double least_size) {
   Equilibration<SparseMatrixXd> equilibrated = equilibrate(at.jacobian, noise);
@@ -50,20 +55,27 @@ NaturalScaling::NaturalScaling(const Linearization& at, const VectorXd& reach, d
   for (Index j = 0; j < n; ++j) column_component.push_back(component_of(m + j));
 
   VectorXd size = VectorXd::Zero(component_count),
-           inverse_residual = VectorXd::Zero(component_count);
+           inverse_residual = VectorXd::Zero(component_count),
+           rounding = VectorXd::Zero(component_count);
   for (Index j = 0; j < n; ++j) {
     double& s = size[column_component[static_cast<std::size_t>(j)]];
     s = std::max(s, reach[j] / column_scale[j]);
   }
+  const VectorXd value = significant(at);
   for (Index i = 0; i < m; ++i) {
     double& s = inverse_residual[row_component[static_cast<std::size_t>(i)]];
-    s = std::max(s, std::abs(at.value[i]) * row_scale[i]);
+    s = std::max(s, std::abs(value[i]) * row_scale[i]);
+    if (at.value_error.size() != m) continue;
+    double& error = rounding[row_component[static_cast<std::size_t>(i)]];
+    error = std::max(error, at.value_error[i] * row_scale[i]);
   }
   // Scales divided by less than 10⁻²⁹⁰ leave the range of doubles.
   const double least = std::max(least_size, 1e-290);
+  // A unit of which rounding errors are not a small part is itself made of them.
+  constexpr double seen = 1e3;
   const auto factor = [&](Index component) {
-    if (size[component] > least) return size[component];
-    return inverse_residual[component] > least ? inverse_residual[component] : 1.0;
+    const double made_of = size[component] > least ? size[component] : inverse_residual[component];
+    return made_of > least ? std::max(made_of, seen * rounding[component]) : 1.0;
   };
   for (Index i = 0; i < m; ++i) row_scale[i] /= factor(row_component[static_cast<std::size_t>(i)]);
   for (Index j = 0; j < n; ++j)
@@ -103,7 +115,7 @@ SparseMatrixXd generic_magnitude(const LinearizableMap& map, const VectorXd& y,
   // An unknown that vanishes at y moves by the unit that the others give it: as many of its column
   // scales as they have on average. Two rounds: entries that vanish at y tell units too.
   for (int round = 0; round < 2; ++round) {
-    const NaturalScaling units({at.value, magnitude}, reach, 1e-9, 1e-10);
+    const NaturalScaling units({at.value, magnitude, at.value_error}, reach, 1e-9, 1e-10);
     VectorXd count = VectorXd::Zero(units.component_count), logarithm = count;
     const auto component = [&](Index j) {
       return units.column_component[static_cast<std::size_t>(j)];

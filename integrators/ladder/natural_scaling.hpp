@@ -9,13 +9,19 @@ namespace courant {
 
 using LinearizableMap = std::function<Linearization(const VectorXd& y)>;
 
+// F with 0 for what is within the bound of its rounding error: that is no size of anything, and no
+// step makes it smaller.
+VectorXd significant(const Linearization& at);
+
 // Row and column scales in which a map near y is comparable with 1: diag(r) J diag(c) is
 // equilibrated, and in each connected component of its pattern (equations that share unknowns) the
 // largest |y_j| / c_j is 1.
 //
 // Equilibration alone leaves one factor free in each component, r → a r, c → c / a; across
 // components a would be arbitrary, and with it every norm that adds them. Where all y_j of a
-// component vanish the largest |F_i| r_i is made 1 instead.
+// component vanish the largest |F_i| r_i is made 1 instead, of those that are significant. In no
+// component is the bound of a rounding error more than 10⁻³: a unit that is smaller is itself made of
+// such errors.
 struct NaturalScaling {
   SparseMatrixXd scaled;
   VectorXd row_scale, column_scale;

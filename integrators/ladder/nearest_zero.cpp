@@ -144,6 +144,17 @@ VectorXd uncertainty(const Linearization& at, const NaturalScaling& units,
   return safety * units.column_scale.cwiseProduct(moved);
 }
 
+// y + c ∘ δ, where unknowns that are round-off of the step that made them are 0: what is left of them
+// must not look like numbers, nor choose units.
+VectorXd stepped(const VectorXd& y, const VectorXd& units, const VectorXd& delta,
+                 const Mobility& mobility) {
+  const double round_off = 8.0 * eps * delta.norm();
+  VectorXd there = y + units.cwiseProduct(delta);
+  for (Index j = mobility.frozen; j < there.size(); ++j)
+    if (std::fabs(there[j]) <= round_off * units[j]) there[j] = 0.0;
+  return there;
+}
+
 // With `safeguard`, every step has to be an improvement; else full steps are made.
 Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& mobility,
             bool safeguard) {
@@ -165,10 +176,11 @@ Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& m
   bool moves = true;
   while (moves) {
     magnitude = SparseMatrixXd(magnitude.cwiseMax(SparseMatrixXd(at.jacobian.cwiseAbs())));
-    const NaturalScaling units({at.value, magnitude}, zero.reach);
-    const VectorXd g = units.row_scale.cwiseProduct(at.value);
+    const NaturalScaling units({at.value, magnitude, at.value_error}, zero.reach);
+    const VectorXd value = significant(at);
+    const VectorXd g = units.row_scale.cwiseProduct(value);
     zero.scaled_value = g;
-    zero.defect = units.defect(at.value, zero.reach);
+    zero.defect = units.defect(value, zero.reach);
     const bool rounded = is_rounded(at);
     zero.found = rounded || zero.defect <= accepted;
     zero.history.push_back(zero.defect);
@@ -190,11 +202,11 @@ Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& m
         const bool stationary = (S * delta + g).squaredNorm() > (1.0 - 1e-6) * g.squaredNorm();
         if (stationary) break;
       }
-      const VectorXd y = zero.y + units.column_scale.cwiseProduct(delta);
+      const VectorXd y = stepped(zero.y, units.column_scale, delta, mobility);
       if (mobility.admits && !mobility.admits(y)) continue;
       Linearization next = map(y);
       if (!is_finite(next)) continue;
-      const VectorXd residual = units.row_scale.cwiseProduct(next.value);
+      const VectorXd residual = units.row_scale.cwiseProduct(significant(next));
       if (residual.norm() >= (1.0 - 1e-3) * g.norm() && (safeguard || zero.found)) {
         // A residual may grow where equations are curved and the next step be shorter all the same
         // (the natural monotonicity of Deuflhard).

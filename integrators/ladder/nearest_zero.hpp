@@ -51,7 +51,8 @@ struct Zero {
 // more than 200 unknowns, where sparse factors of the normal equations are used), and grows only
 // where a step reduces neither ‖F‖ nor the next step. The convergence is that of Gauss–Newton
 // wherever the zeros form a manifold whose normal space is the row space of J (Yamashita, Fukushima
-// 2001), redundant equations or not. Accepted: defect ≤ 10⁻¹⁰, and iterated on until it no longer
+// 2001), redundant equations or not. Residuals within the bounds of their rounding errors count as 0,
+// and so do unknowns that a step leaves at its own round-off. Accepted: defect ≤ 10⁻¹⁰, and iterated on until it no longer
 // falls.
 Zero find_zero(const LinearizableMap& map, const VectorXd& start, const Mobility& mobility);
 
