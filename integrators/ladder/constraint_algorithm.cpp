@@ -1,6 +1,7 @@
 #include "courant/integrators/ladder/constraint_algorithm.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -19,24 +20,46 @@ bool repeats(const std::vector<LadderLevel>& levels) {
   return last.dim_S == before.dim_S && last.dim_M == before.dim_M;
 }
 
-// Where dimensions differ at a point and at one nearby, in words; empty if they do not. A rank can
-// only be higher nearby: where it seems lower a number was taken for noise, and nothing is
-// concluded.
-std::string difference(const std::vector<LadderLevel>& a, const std::vector<LadderLevel>& b) {
-  const auto seems_lower = [](const RankDecision& here, const RankDecision& nearby) {
-    return nearby.rank < here.rank;
+// What a point nearby says of a point.
+struct Comparison {
+  enum class Outcome {
+    alike,      // the same ranks
+    different,  // ranks that are higher nearby: those of the point are not constant around it
+    unknown,    // ranks that are lower nearby, where a number was taken for noise, or no point
   };
-  for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k) {
-    if (a[k].is_empty || (a[k].dim_S == b[k].dim_S && a[k].dim_M == b[k].dim_M)) continue;
-    if (seems_lower(a[k].all, b[k].all) ||
-        seems_lower(a[k].without_tangent, b[k].without_tangent) ||
-        seems_lower(a[k].without_point, b[k].without_point))
+  Outcome outcome = Outcome::unknown;
+  bool is_certain = true;
+  std::string difference = "";  // in words
+};
+
+Comparison compare(const std::vector<LadderLevel>& here, const std::vector<LadderLevel>& nearby) {
+  using Outcome = Comparison::Outcome;
+  Comparison result{.outcome = Outcome::alike};
+  for (std::size_t k = 0; k < std::min(here.size(), nearby.size()); ++k) {
+    const LadderLevel &a = here[k], &b = nearby[k];
+    if (a.is_empty || (a.dim_S == b.dim_S && a.dim_M == b.dim_M)) continue;
+    if (b.all.rank < a.all.rank || b.without_tangent.rank < a.without_tangent.rank ||
+        b.without_point.rank < a.without_point.rank) {
+      result.outcome = Outcome::unknown;
       continue;
+    }
     const std::string level = std::to_string(k);
-    return "(dim S_" + level + ", dim M_" + level + ") is (" + std::to_string(a[k].dim_S) + ", " +
-           std::to_string(a[k].dim_M) + ") here and (" + std::to_string(b[k].dim_S) + ", " +
-           std::to_string(b[k].dim_M) + ") at a consistent point nearby.";
+    return {.outcome = Outcome::different,
+            .difference = "(dim S_" + level + ", dim M_" + level + ") is (" +
+                          std::to_string(a.dim_S) + ", " + std::to_string(a.dim_M) +
+                          ") here and (" + std::to_string(b.dim_S) + ", " +
+                          std::to_string(b.dim_M) + ") at a consistent point nearby."};
   }
+  return result;
+}
+
+// What a search for a point of the next level changed of the levels before, in words; empty if nothing.
+std::string change(const std::vector<LadderLevel>& before, const std::vector<LadderLevel>& now) {
+  for (std::size_t k = 0; k < std::min(before.size(), now.size()); ++k)
+    if (before[k].dim_S != now[k].dim_S || before[k].dim_M != now[k].dim_M)
+      return "Level " + std::to_string(k) + " has other dimensions at the point of level " +
+             std::to_string(before.size() - 1) + " than at that of level " +
+             std::to_string(now.size() - 1) + ".";
   return "";
 }
 
@@ -141,59 +164,98 @@ std::string not_finite(const ImplicitSystem& system, const DerivativeArray& arra
   return "The equations are not finite at the given values";
 }
 
-// What is singular at a zero of the derivative array, in words; empty if nothing is. Zeros of
-// constant rank form a manifold whose tangent space is the kernel of the Jacobian: a point at ε in
-// a tangent direction has a zero within O(ε²), and the same ranks there. A neighbour can be
+// What is singular at a zero of the derivative array.
+struct Singularity {
+  std::string reason = "";     // in words; empty if nothing is
+  std::string seen_once = "";  // the same, of one direction only
+  bool is_unanimous = true;    // whether no direction says that nothing is
+  bool is_compared = true;     // whether there were points nearby to compare with
+};
+
+// Zeros of constant rank form a manifold whose tangent space is the kernel of the Jacobian: a point at
+// ε in a tangent direction has a zero within O(ε²), and the same ranks there. A neighbour can be
 // misjudged where equations are strongly curved in its direction; a singular point looks singular
-// from everywhere. So the majority of three decides. With `follow`, what the Jacobian does not see
-// of the equations is examined too.
-std::string singularity(const ConsistentPoint& consistent, const ConsistentJet& at,
+// from everywhere. So the majority decides, and a direction that says otherwise leaves a doubt. With
+// `follow`, what the Jacobian does not see of the equations is examined too. Searches far from what
+// vanishes are for small systems: they take a third of the time of a ladder of 25 rods.
+Singularity singularity(const ConsistentPoint& consistent, const ConsistentJet& at,
                         const std::vector<LadderLevel>& levels, bool follow) {
-  if (at.array.has_constant_jacobian()) return "";
+  if (at.array.has_constant_jacobian()) return {};
+  using Outcome = Comparison::Outcome;
   constexpr Index dense_limit = 200;
+  const bool is_small = at.zero.y.size() <= dense_limit;
   std::optional<Obstruction> obstruction;
-  if (follow && at.zero.y.size() <= dense_limit)
+  if (follow && is_small)
     obstruction.emplace(at.array, at.zero.y, at.zero.uncertainty, levels.back().all.rank);
   TangentDisplacement tangents(at.array, at.zero.y, at.zero.reach);
-  const auto seen_along = [&](const VectorXd& tangent) -> std::string {
+  const auto look_along = [&](const VectorXd& tangent) -> Comparison {
     const auto near = consistent.find_displaced(at, 1e-3 * tangent, tangents.magnitude());
+    Comparison result;
     if (near.jet.zero.found) {
       const std::vector<LadderLevel> there = levels_at(near.jet);
-      const std::string other = are_certain(there) ? difference(levels, there) : "";
-      if (!other.empty()) return other;
+      result = compare(levels, there);
+      result.is_certain = are_certain(there);
+      if (result.outcome == Outcome::different) return result;
     }
-    if (!obstruction || !obstruction->is_seen_along(tangent)) return "";
-    return "The equations have solutions in fewer directions than their linear parts: one of the "
-           "constraints has a vanishing gradient here.";
+    if (!obstruction || !obstruction->is_seen_along(tangent)) return result;
+    return {.outcome = Outcome::different,
+            .difference =
+                "The equations have solutions in fewer directions than their linear parts: one of "
+                "the constraints has a vanishing gradient here."};
   };
-  int clean = 0;
-  std::string first;
-  for (int i = 0; i < 3 && clean < 2; ++i) {
-    const std::string finding = seen_along(tangents.next());
-    if (finding.empty()) {
-      ++clean;
-      continue;
+  using Units = TangentDisplacement::Units;
+  constexpr std::array units = {Units::own_sizes, Units::large_where_zero, Units::natural,
+                                Units::own_sizes, Units::large_where_zero};
+  int alike = 0, different = 0;
+  std::string certain, uncertain;
+  for (const Units unit : units) {
+    const Comparison comparison = look_along(
+        tangents.next(is_small || unit != Units::large_where_zero ? unit : Units::natural));
+    if (comparison.outcome == Outcome::alike && comparison.is_certain) ++alike;
+    if (comparison.outcome == Outcome::different && !comparison.is_certain)
+      uncertain = comparison.difference;
+    if (comparison.outcome == Outcome::different && comparison.is_certain) {
+      if (++different == 1) certain = comparison.difference;
     }
-    if (!first.empty()) return first;
-    first = finding;
+    if (different == 3 || (alike == 2 && different == 0)) break;
   }
-  return "";
+  const std::string& seen = certain.empty() ? uncertain : certain;
+  if (different >= 2 && different > alike) return {.reason = certain, .is_unanimous = alike == 0};
+  return {.seen_once = seen, .is_compared = alike >= 2};
 }
 
-// Whether the entries of the Jacobian that count as zero at the jet are small next to what they are
-// nearby. Those whose bounds are as large may have been lost in their errors, and ranks with them.
-bool zeros_are_certain(const ConsistentJet& at) {
-  constexpr double certain = 1e-3;
+// Whether the errors of the derivatives at the jet are small next to what the equations are made of
+// around it, each unknown by its natural unit. In a row where they are not, entries may have been lost
+// in their errors, and ranks with them: where numbers of 10¹⁰ cancel, for example, that a search came
+// by.
+bool is_known_well(const ConsistentJet& at) {
+  constexpr double certain = 0.1;
   const VectorXd& y = at.zero.y;
   const Linearization here =
       at.array.linearize(y, at.zero.uncertainty.cwiseMax(Prolongation::rounding(y)));
   const SparseMatrixXd nearby = GenericScaling(at.array, y, at.zero.reach).magnitude;
-  for (Index j = 0; j < here.error.outerSize(); ++j)
-    for (SparseMatrixXd::InnerIterator error(here.error, j); error; ++error)
-      if (here.jacobian.coeff(error.row(), j) == 0.0 &&
-          error.value() > certain * nearby.coeff(error.row(), j) && error.value() > 0.0)
-        return false;
-  return true;
+  const NaturalScaling units({VectorXd::Zero(here.value.size()), nearby}, at.zero.reach, 1e-9,
+                             1e-10);
+  // Of one measure alone too little is known: units come from equations whose entries may vanish, sizes
+  // from unknowns that may.
+  const auto is_small = [&](const VectorXd& size) -> Eigen::Array<bool, Eigen::Dynamic, 1> {
+    const auto largest_by_row = [&](const SparseMatrixXd& M) {
+      VectorXd largest = VectorXd::Zero(M.rows());
+      for (Index j = 0; j < M.outerSize(); ++j)
+        for (SparseMatrixXd::InnerIterator it(M, j); it; ++it)
+          largest[it.row()] = std::max(largest[it.row()], std::fabs(it.value()) * size[j]);
+      return largest;
+    };
+    return largest_by_row(here.error).array() <= certain * largest_by_row(nearby).array();
+  };
+  return (is_small(units.column_scale) || is_small(at.zero.reach)).all();
+}
+
+// Whether the ranks stay those of the levels if the point is taken for exact.
+bool is_same_rank_at(const ConsistentJet& at, const std::vector<LadderLevel>& levels) {
+  const std::vector<LadderLevel> exact =
+      ladder_levels(at.array, at.zero.y, VectorXd::Zero(at.zero.y.size()));
+  return compare(levels, exact).outcome != Comparison::Outcome::different;
 }
 
 // Counts what other points of the final constraint set need as well: a multiplier that is zero at
@@ -220,7 +282,8 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
   ConsistentJet jet = consistent.start();
   ConstraintLadder ladder;
   bool stopped = false, has_converged = true;
-  std::string singular;
+  Singularity singular;
+  std::string changed;
   for (Index k = 0; k <= options_.max_level && !stopped; ++k) {
     jet.zero.y = jet.array.resized(jet.zero.y, k);
     const ConsistentJet next = consistent.find(jet);
@@ -235,7 +298,7 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
       if (k > 0) {
         jet.zero.y = jet.array.resized(jet.zero.y, k - 1);
         singular = singularity(consistent, jet, ladder.levels, true);
-        if (!singular.empty()) break;
+        if (!singular.reason.empty()) break;
       }
       if (!consistent.is_contradiction(next)) {
         has_converged = false;
@@ -257,30 +320,53 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
       break;
     }
     jet = next;
-    ladder.levels = levels_at(consistent, jet);
+    std::vector<LadderLevel> levels = levels_at(consistent, jet);
+    if (changed.empty()) changed = change(ladder.levels, levels);
+    ladder.levels = std::move(levels);
     if (!contradictions(ladder.levels).empty()) break;
     stopped = repeats(ladder.levels);
+    const std::string before = std::move(singular.seen_once);
     singular = singularity(consistent, jet, ladder.levels, stopped);
-    if (!singular.empty()) break;
+    if (singular.seen_once.empty()) singular.seen_once = before;
+    if (!singular.reason.empty()) break;
+  }
+  // Levels that contradict each other at a point that looks singular from one side: so it is.
+  if (singular.reason.empty() && !singular.seen_once.empty() &&
+      !contradictions(ladder.levels).empty()) {
+    singular.reason = std::move(singular.seen_once);
+    singular.is_unanimous = false;
   }
   ladder.point = jet.array.state(jet.zero.y);
   ladder.jet = jet.zero.y;
   ladder.moved = consistent.distance(ladder.point.x);
   ladder.moves = movements(*system, guess, ladder.point);
-  if (!singular.empty()) {
+  if (!singular.reason.empty()) {
     ladder.verdict = Verdict::rank_change;
-    ladder.reason = singular;
+    ladder.reason = singular.reason;
   }
   ladder.doubts = contradictions(ladder.levels);
+  if (!changed.empty()) ladder.doubts.push_back(changed);
+  if (singular.reason.empty() && !singular.seen_once.empty())
+    ladder.doubts.push_back("In one direction the point looks singular: " + singular.seen_once);
+  if (!singular.is_compared)
+    ladder.doubts.push_back("Too few points nearby could be compared with this one.");
+  if (!singular.is_unanimous)
+    ladder.doubts.push_back("In one direction the point does not look singular.");
   if (!has_converged) ladder.doubts.push_back("A search that does not converge says nothing.");
   if (!ladder.levels.empty() && !ladder.levels.back().is_solved)
     ladder.doubts.push_back(
         "The equations do not vanish at the point to round-off: their solutions may be singular "
         "there.");
   if (ladder.levels.empty() || ladder.levels.back().is_empty) return ladder;
-  if (ladder.verdict == Verdict::rank_change && !zeros_are_certain(jet))
+  if (ladder.verdict == Verdict::rank_change && !is_same_rank_at(jet, ladder.levels))
     ladder.doubts.push_back(
-        "Derivatives that seem to vanish at the point are not known well enough to say so.");
+        "The ranks are higher at the point as it was found: they are lower only if it is "
+        "elsewhere, "
+        "within its error.");
+  if (!is_known_well(jet))
+    ladder.doubts.push_back(
+        "The derivatives of the equations are not known well enough at the point to say which of "
+        "them vanish.");
 
   const LadderLevel& last = ladder.levels.back();
   ladder.degrees_of_freedom = last.dim_M;

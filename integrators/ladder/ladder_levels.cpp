@@ -211,14 +211,26 @@ TangentDisplacement::TangentDisplacement(const Prolongation& array, const Vector
   magnitude_ = GenericScaling(array, y, reach).magnitude;
   const NaturalScaling scaling({VectorXd::Zero(at.value.size()), magnitude_}, reach, 0.0, 1e-10);
   units_ = scaling.column_scale;
-  jacobian_ = scaling.row_scale.asDiagonal() * at.jacobian * units_.asDiagonal();
+  // What was met on the way to y is no size of it; a point in the chart is one next to its origin.
+  const Index n = array.base_size();
+  sizes_ = y.cwiseAbs();
+  sizes_.head(n) = reach.head(n);
+  jacobian_ = scaling.row_scale.asDiagonal() * at.jacobian;
 }
 
-VectorXd TangentDisplacement::next() {
+VectorXd TangentDisplacement::next(Units of) {
+  constexpr double vanishing = 1e-10, far = 6.0;
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const VectorXd direction =
       VectorXd::NullaryExpr(units_.size(), [&] { return uniform(generator_); });
-  return units_.cwiseProduct(kernel_part(jacobian_, direction));
+  std::uniform_real_distribution<double> exponent(0.0, far);
+  VectorXd units = units_;
+  for (Index j = 0; j < units.size() && of != Units::natural; ++j) {
+    const bool vanishes = sizes_[j] <= vanishing * units_[j];
+    if (of == Units::own_sizes && !vanishes) units[j] = std::min(units_[j], sizes_[j]);
+    if (of == Units::large_where_zero && vanishes) units[j] *= std::pow(10.0, exponent(generator_));
+  }
+  return units.cwiseProduct(kernel_part(SparseMatrixXd(jacobian_ * units.asDiagonal()), direction));
 }
 
 }  // namespace courant

@@ -41,7 +41,13 @@ void describe(ConstraintLadder& ladder, const DerivativeArray& array, const Vect
 class TangentDisplacement {
  public:
   TangentDisplacement(const Prolongation& array, const VectorXd& y, const VectorXd& reach);
-  VectorXd next();
+  // Nothing tells units for certain: equations do not where unknowns vanish, and sizes do not either.
+  enum class Units {
+    natural,           // of the equations
+    own_sizes,         // but none larger than the unknown itself, unless that vanishes
+    large_where_zero,  // but up to a million times as large for each unknown that vanishes
+  };
+  VectorXd next(Units units = Units::natural);
   // The generic magnitude of the Jacobian at y.
   const SparseMatrixXd& magnitude() const { return magnitude_; }
   // ‖δ‖ in natural units.
@@ -49,7 +55,7 @@ class TangentDisplacement {
 
  private:
   std::mt19937 generator_;
-  VectorXd units_;
+  VectorXd units_, sizes_;
   SparseMatrixXd magnitude_, jacobian_;
 };
 

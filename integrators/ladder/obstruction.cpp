@@ -17,24 +17,34 @@ Obstruction::Obstruction(const Prolongation& array, const VectorXd& y, const Vec
 
 bool Obstruction::is_seen_along(const VectorXd& direction) const {
   if (unseen_.rows() == 0) return false;
-  // From a thousandth of a unit: g ~ ε² is above round-off from 10⁻⁶ on, ε³ from 10⁻⁴. Near a unit
-  // functions bend away from their powers.
-  constexpr double first = 1.0 / 4096.0, last = 1.0 / 16.0, ratio = 4.0, least_power = 2.5;
+  // From 10⁻⁷ of a unit, which may be a large one, to where functions bend away from their powers: g ~ ε²
+  // is above round-off from 10⁻⁶ on, ε³ from 10⁻⁴. What looks like a power at three sizes is one.
+  constexpr double first = 1.0 / 4194304.0, last = 1.0 / 16.0, ratio = 4.0, least_power = 2.5;
   constexpr double measurable = 1e3;    // times the bound of rounding errors
   constexpr double negligible = 1e-13;  // next to all of F, in comparable units
-  double before = 0.0;
+  constexpr double least_growth = 8.0;  // of all of F, which is quadratic along a tangent
+  double before = 0.0, all_before = 0.0;
+  int slow = 0;
   for (double epsilon = first; epsilon <= last; epsilon *= ratio) {
     const VectorXd y = y_ + epsilon * direction;
     const Linearization there =
         array_.linearize(y, uncertainty_.cwiseMax(Prolongation::rounding(y)));
     if (!there.value.allFinite()) return false;
     const double g = (unseen_ * there.value).norm();
+    const double row_noise = row_scale_.cwiseProduct(there.value_error).norm();
     const double noise = (unseen_.cwiseAbs() * there.value_error).norm();
-    if (before > 0.0) return std::log(g / before) < least_power * std::log(ratio);
     const double all = row_scale_.cwiseProduct(there.value).norm();
-    if (g > measurable * noise && g > negligible * all) before = g;
+    // Off the tangent space what J does not see is of second order everywhere.
+    if (all_before > 0.0 && all > measurable * row_noise && all < least_growth * all_before)
+      return false;
+    all_before = all > measurable * row_noise ? all : 0.0;
+    if (before > 0.0) {
+      if (std::log(g / before) >= least_power * std::log(ratio)) return false;
+      if (++slow == 2) return true;
+    }
+    if (before > 0.0 || (g > measurable * noise && g > negligible * all)) before = g;
   }
-  return false;
+  return slow > 0;
 }
 
 }  // namespace courant

@@ -20,7 +20,7 @@ class Obstruction {
   Obstruction(const Prolongation& array, const VectorXd& y, const VectorXd& uncertainty,
               Index rank);
 
-  // Whether g falls like a power below 2.5 at the smallest ε at which it is measurable.
+  // Whether g falls like a power below 2.5 at the smallest three ε at which it is measurable.
   bool is_seen_along(const VectorXd& direction) const;
 
  private:

@@ -1,5 +1,4 @@
-// Every system of the catalogue from ten starts. Known not to be right: a pendulum with its rod twice
-// from 10⁻⁸ is called inconsistent; other starts of the kind end in a search that does not converge.
+// Every system of the catalogue from ten starts: none is wrong in silence.
 #include "ladder_starts.hpp"
 
 #include <boost/test/unit_test.hpp>
@@ -25,8 +24,26 @@ BOOST_AUTO_TEST_CASE(ten_starts_of_every_system) {
                                     << ", " << ladder.reason);
     }
   }
-  BOOST_TEST(wrong_in_silence <= 1);
+  BOOST_TEST(wrong_in_silence == 0);
   BOOST_TEST(doubtful <= 10);
+}
+
+// Where points nearby are compared in one unit only, those of Christ and Lee at r = 0 are too near for
+// r² to be seen beside round-off, in some units.
+BOOST_AUTO_TEST_CASE(planted_round_off_hides_no_singular_point) {
+  std::mt19937 generator(5);
+  for (const KnownLadder& known : catalogue()) {
+    if (known.name != "Christ-Lee") continue;
+    for (const KnownStart& start : ten_starts(known)) {
+      if (start.verdict != Verdict::rank_change) continue;
+      for (int trial = 0; trial < 10; ++trial) {
+        const Problem planted = with_planted_round_off(start.problem, generator);
+        const ConstraintLadder ladder = scaled(planted, generator).ladder();
+        BOOST_TEST_CONTEXT(start.kind << ": " << to_string(ladder.verdict))
+        BOOST_TEST((ladder.verdict == Verdict::rank_change || ladder.is_ambiguous()));
+      }
+    }
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -54,6 +54,16 @@ BOOST_AUTO_TEST_CASE(regular_zeros) {
   BOOST_TEST(!is_seen(twice, 3, vector({1, 0, 0}), 1, vector({0, 0.6, 0.4})));
 }
 
+// Off the tangent space there are no zeros to speak of, and whatever J does not see is quadratic: the
+// circle and its double from (1, 0), along (1, 0).
+BOOST_AUTO_TEST_CASE(a_direction_that_is_no_tangent_says_nothing) {
+  const auto twice = [](V x) {
+    const Expr circle = square(x[0]) + square(x[1]) - 1;
+    return equations({circle, 2 * circle + square(circle)});
+  };
+  BOOST_TEST(!is_seen(twice, 2, vector({1, 0}), 1, vector({0.4, 0.5})));
+}
+
 // As many equations as their rank: nothing is left unseen.
 BOOST_AUTO_TEST_CASE(full_rank) {
   BOOST_TEST(!is_seen([](V x) { return equations({square(x[0]) + square(x[1]) - 1}); }, 2,
