@@ -163,6 +163,11 @@ const Json& ObjectReader::declared_default(const std::string& key) const {
   return known->otherwise;
 }
 
+bool ObjectReader::is_required(const std::string& key) const {
+  const Key* known = declared(key);
+  return known && known->required;
+}
+
 ObjectReader::~ObjectReader() {
   if (!object_.value().is_object()) return;
   constexpr int most = 20;

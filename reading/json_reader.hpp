@@ -90,6 +90,7 @@ class ObjectReader {
   std::string word(const std::string& key);
   std::string text(const std::string& key);
   const Json& declared_default(const std::string& key) const;
+  bool is_required(const std::string& key) const;  // by the kind
 
   // Throws std::logic_error if the object has a key that the kind declares and that nobody asked
   // for.

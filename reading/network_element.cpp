@@ -133,6 +133,8 @@ double ElementReader::constant(const std::string& key) {
   if (const auto given = object_.optional(key)) {
     written = read_formula(*given);
   } else if (!has(key)) {
+    if (object_.is_required(key)) right_ = false;
+    if (!right_) return 1.0;  // what is missing is said already
     const Json& otherwise = object_.declared_default(key);
     object_.default_value(key, otherwise);
     return otherwise.get<double>();
