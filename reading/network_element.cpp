@@ -158,7 +158,7 @@ double ElementReader::positive(const std::string& key) {
 std::optional<WrittenFormula> ElementReader::formula(const std::string& key) {
   const auto given = object_.optional(key);
   auto formula = given ? read_formula(*given) : std::nullopt;
-  if (given && !formula) right_ = false;
+  if (!formula && (given || object_.is_required(key))) right_ = false;
   return formula;
 }
 

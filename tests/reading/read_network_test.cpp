@@ -82,6 +82,7 @@ BOOST_AUTO_TEST_CASE(wrong_elements_are_refused) {
   wrong(R"("type":"resistor","name":"R1")",
         R"(/system/elements/1: has no law; expected "value", "voltage" or "current")");
   wrong(R"("type":"dc-motor","name":"M1")", "/system/elements/1/constant: is missing");
+  wrong(R"("type":"current-source","name":"I1")", "/system/elements/1/value: is missing");
   wrong(R"("type":"capacitor","name":"C2")",
         R"(/system/elements/1: has no law; expected "value", "energy" or "voltage")");
   wrong(R"("type":"capacitor","name":"C2","value":1,"energy":"q_C2^2")",
