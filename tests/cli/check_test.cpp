@@ -3,27 +3,19 @@
 #include <cmath>
 #include <sstream>
 
+#include "answer.hpp"
 #include "courant/cli/command.hpp"
 #include "courant/reading/findings.hpp"
 
 namespace courant {
 namespace {
 
-struct Answer {
-  int status;
-  std::string out, err;
-};
-
-Answer answer(const std::vector<std::string>& arguments, const std::string& input = "") {
-  std::istringstream in(input);
-  std::ostringstream out, err;
-  const int status = cli::command(arguments, {.in = in, .out = out, .err = err});
-  return {status, out.str(), err.str()};
-}
+using test::Answer;
+using test::courant_command;
 
 // The JSON of a check that has to be passed.
 Json checked(const std::string& experiment) {
-  const Answer result = answer({"check", "experiments/" + experiment + ".json", "--json"});
+  const Answer result = courant_command({"check", "experiments/" + experiment + ".json", "--json"});
   BOOST_TEST(result.status == 0, experiment << ": " << result.err << result.out.substr(0, 200));
   return result.status == 0 ? Json::parse(result.out) : Json();
 }
@@ -120,24 +112,24 @@ BOOST_AUTO_TEST_CASE(methods_are_measured) {
 }
 
 BOOST_AUTO_TEST_CASE(a_system_without_a_structure_says_so) {
-  const Answer text = answer({"check", "experiments/pendulum_cartesian.json"});
+  const Answer text = courant_command({"check", "experiments/pendulum_cartesian.json"});
   BOOST_TEST(text.status == 0);
   BOOST_TEST(text.out.find("without a Dirac structure") != std::string::npos, text.out);
   BOOST_TEST(checked("pendulum_cartesian").at("structure").is_null());
 }
 
 BOOST_AUTO_TEST_CASE(the_table_is_readable) {
-  const Answer text = answer({"check", "experiments/structure_restricted_two_form.json"});
+  const Answer text = courant_command({"check", "experiments/structure_restricted_two_form.json"});
   for (const char* part : {"S2 ", "D4 ", "integrable no", "it fails at x = ",
                            "F_D, a basis in columns", "symplectic", "dH/dt", "All laws hold."})
     BOOST_TEST(text.out.find(part) != std::string::npos, part << " is not in\n" << text.out);
 }
 
 BOOST_AUTO_TEST_CASE(exit_status) {
-  BOOST_TEST(answer({"check", "-"}, "{}").status == 2);
-  BOOST_TEST(answer({"check", "no such file"}).status == 2);
+  BOOST_TEST(courant_command({"check", "-"}, "{}").status == 2);
+  BOOST_TEST(courant_command({"check", "no such file"}).status == 2);
   // A law that fails: the distribution of x dx is not regular at 0.
-  const Answer irregular = answer({"check", "-"}, R"json({
+  const Answer irregular = courant_command({"check", "-"}, R"json({
     "system": { "type": "hamiltonian", "coordinates": ["x", "y"],
                 "structure": { "type": "distribution", "forms": ["x", 0] },
                 "hamiltonian": "x^2/2" },
@@ -150,7 +142,7 @@ BOOST_AUTO_TEST_CASE(exit_status) {
 
 // Failures and words: no codes of laws.
 BOOST_AUTO_TEST_CASE(brief_is_a_few_lines) {
-  const Answer brief = answer({"check", "experiments/pendulum.json", "--brief"});
+  const Answer brief = courant_command({"check", "experiments/pendulum.json", "--brief"});
   BOOST_TEST(brief.status == 0);
   for (const char* part : {"manifold: all ", " laws hold\n", " is Dirac and integrable.\n",
                            "has order 2, is symmetric and is symplectic.\n", "All laws hold.\n"})
@@ -158,7 +150,8 @@ BOOST_AUTO_TEST_CASE(brief_is_a_few_lines) {
   BOOST_TEST(std::count(brief.out.begin(), brief.out.end(), '\n') < 15);
   for (const char* code : {" R1 ", " S2 ", " D3 "})
     BOOST_TEST(brief.out.find(code) == std::string::npos);
-  BOOST_TEST(answer({"check", "experiments/pendulum.json", "--brief", "--json"}).status == 2);
+  BOOST_TEST(courant_command({"check", "experiments/pendulum.json", "--brief", "--json"}).status ==
+             2);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

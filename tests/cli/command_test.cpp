@@ -5,24 +5,15 @@
 #include <sstream>
 
 #include "../running/temporary_folder.hpp"
+#include "answer.hpp"
 #include "courant/core/native.hpp"
 #include "courant/running/run_files.hpp"
 
 namespace courant {
 namespace {
 
-struct Answer {
-  int status;
-  std::string out, err;
-};
-
-// The command with these arguments and this standard input.
-Answer courant_command(const std::vector<std::string>& arguments, const std::string& input = "") {
-  std::istringstream in(input);
-  std::ostringstream out, err;
-  const int status = cli::command(arguments, {.in = in, .out = out, .err = err});
-  return {status, out.str(), err.str()};
-}
+using test::Answer;
+using test::courant_command;
 
 const std::string oscillator = R"json({
   "title": "Oscillator",

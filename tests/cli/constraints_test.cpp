@@ -2,23 +2,19 @@
 #include <boost/test/unit_test.hpp>
 #include <sstream>
 
+#include "answer.hpp"
 #include "courant/cli/command.hpp"
 #include "courant/reading/findings.hpp"
 
 namespace courant {
 namespace {
 
-struct Answer {
-  int status;
-  std::string out, err;
-};
+using test::Answer;
+using test::courant_command;
 
 Answer constraints(std::vector<std::string> arguments, const std::string& input = "") {
-  std::istringstream in(input);
-  std::ostringstream out, err;
   arguments.insert(arguments.begin(), "constraints");
-  const int status = cli::command(arguments, {.in = in, .out = out, .err = err});
-  return {status, out.str(), err.str()};
+  return courant_command(arguments, input);
 }
 
 const std::string pendulum = "experiments/pendulum_cartesian.json";

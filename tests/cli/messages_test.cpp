@@ -5,23 +5,15 @@
 #include <sstream>
 
 #include "../running/temporary_folder.hpp"
+#include "answer.hpp"
 #include "courant/cli/command.hpp"
 #include "courant/running/run_files.hpp"
 
 namespace courant {
 namespace {
 
-struct Answer {
-  int status;
-  std::string out, err;
-};
-
-Answer courant_command(const std::vector<std::string>& arguments) {
-  std::istringstream in;
-  std::ostringstream out, err;
-  const int status = cli::command(arguments, {.in = in, .out = out, .err = err});
-  return {status, out.str(), err.str()};
-}
+using test::Answer;
+using test::courant_command;
 
 std::vector<std::filesystem::path> bad_experiments() {
   std::vector<std::filesystem::path> files;

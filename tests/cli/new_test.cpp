@@ -2,25 +2,13 @@
 #include <sstream>
 
 #include "../running/temporary_folder.hpp"
+#include "answer.hpp"
 #include "courant/cli/command.hpp"
 #include "courant/reading/system_kinds.hpp"
 
 namespace courant {
-namespace {
-
-struct Answer {
-  int status;
-  std::string out, err;
-};
-
-Answer courant_command(const std::vector<std::string>& arguments, const std::string& input = "") {
-  std::istringstream in(input);
-  std::ostringstream out, err;
-  const int status = cli::command(arguments, {.in = in, .out = out, .err = err});
-  return {status, out.str(), err.str()};
-}
-
-}  // namespace
+using test::Answer;
+using test::courant_command;
 
 BOOST_AUTO_TEST_SUITE(new_command)
 

@@ -2,22 +2,14 @@
 #include <sstream>
 
 #include "../running/temporary_folder.hpp"
+#include "answer.hpp"
 #include "courant/cli/command.hpp"
 
 namespace courant {
 namespace {
 
-struct Answer {
-  int status;
-  std::string out, err;
-};
-
-Answer courant_command(const std::vector<std::string>& arguments, const std::string& input = "") {
-  std::istringstream in(input);
-  std::ostringstream out, err;
-  const int status = cli::command(arguments, {.in = in, .out = out, .err = err});
-  return {status, out.str(), err.str()};
-}
+using test::Answer;
+using test::courant_command;
 
 bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;

@@ -4,23 +4,14 @@
 #include <sstream>
 
 #include "../running/temporary_folder.hpp"
+#include "answer.hpp"
 #include "courant/running/run_files.hpp"
 
 namespace courant {
 namespace {
 
-struct Answer {
-  int status;
-  std::string out, err;
-};
-
-Answer courant_command(const std::vector<std::string>& arguments, const std::string& input = "",
-                       const std::atomic<bool>* stop = nullptr) {
-  std::istringstream in(input);
-  std::ostringstream out, err;
-  const int status = cli::command(arguments, {.in = in, .out = out, .err = err, .stop = stop});
-  return {status, out.str(), err.str()};
-}
+using test::Answer;
+using test::courant_command;
 
 const std::string oscillator = R"json({
   "system": { "type": "hamiltonian", "coordinates": ["q"], "hamiltonian": "(p_q^2 + q^2)/2" },
