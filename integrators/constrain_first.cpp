@@ -266,9 +266,10 @@ class ConstrainFirst::Trajectory final : public Stepper {
   }
 
   // Whether what was found is not far from near_, next to the step from `before` and to coordinates of
-  // that size.
+  // that size; nor ξ, which may have gone around a compact space.
   bool is_nearby(const State& before, double size) const {
-    const double distance = (found_.head(near_.size()) - near_).lpNorm<Eigen::Infinity>();
+    const double distance = std::max((found_.head(near_.size()) - near_).lpNorm<Eigen::Infinity>(),
+                                     largest(projector_.unknown().head(n_)));
     const double step = (near_ - before.x).lpNorm<Eigen::Infinity>();
     return distance <= std::max(kNearby * step, kNegligible * size);
   }

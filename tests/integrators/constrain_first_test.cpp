@@ -293,8 +293,8 @@ BOOST_AUTO_TEST_CASE(few_iterations_to_the_result_of_a_fresh_start) {
   }
 }
 
-// A spherical pendulum in a field as six equations on TS². After some 2,800 steps an old factorisation
-// leads the projection to a solution with a hundred times the velocity.
+// A spherical pendulum in a field as six equations on TS². Now and then an old factorisation leads the
+// projection to other solutions, whose velocities may be a hundred times larger.
 BOOST_AUTO_TEST_CASE(projections_end_nearby) {
   const auto bundle = std::make_shared<TangentBundle>(std::make_shared<Sphere>(2));
   const auto system = std::make_shared<FormulaSystem>(
@@ -309,16 +309,18 @@ BOOST_AUTO_TEST_CASE(projections_end_nearby) {
     return 0.5 * x.tail(3).squaredNorm() + x[0] * x[1] + x[2];
   };
   State state{.x = VectorXd(6)};
-  state.x << -0.9084205255016754, -0.4174015892427738, -0.023410727132219894, 0.02299501524101708,
-      -0.12126682000509649, 1.2698375148914907;
+  state.x << 0.6, 0.0, 0.8, 0.4, 0.7, -0.3;
+  state.x.tail(3) -= state.x.tail(3).dot(state.x.head(3)) * state.x.head(3);
   const ConstraintLadder ladder = ConstraintAlgorithm().run(system, {.x = state.x});
   const ConstrainFirst method(system, ladder, std::make_shared<Theta>(bundle),
                               std::make_shared<OrthogonalProjector>());
   const auto stepper = method.stepper();
+  const double before = energy(state.x);
   for (int k = 0; k < 3000; ++k) {
-    stepper->step(state, 0.05);
-    BOOST_REQUIRE(std::abs(energy(state.x) - 1.17) < 0.01);
+    stepper->step(state, 0.1);
+    BOOST_REQUIRE(std::abs(energy(state.x) - before) < 0.015);
   }
+  BOOST_TEST(stepper->statistics().failures > 0);
 }
 
 BOOST_AUTO_TEST_CASE(momentum_projector_refuses_position_constraints) {

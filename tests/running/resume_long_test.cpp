@@ -1,6 +1,7 @@
 // Every experiment that is kept goes on with the same bytes.
 #include <boost/test/unit_test.hpp>
 
+#include "courant/reading/table.hpp"
 #include "resumed_run.hpp"
 
 BOOST_AUTO_TEST_SUITE(resume_long)
@@ -11,6 +12,7 @@ BOOST_AUTO_TEST_CASE(every_experiment) {
   for (const auto& entry : std::filesystem::directory_iterator("experiments")) {
     if (entry.path().extension() != ".json" || entry.path().stem() == "schema") continue;
     Json document = Json::parse(read_text(entry.path()));
+    load_tables(document, "experiments");
     const Experiment experiment = read_experiment(document.dump());
     if (!experiment.time || experiment.time->steps > 10'000)
       continue;  // the long ones are of others
