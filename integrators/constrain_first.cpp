@@ -266,12 +266,14 @@ class ConstrainFirst::Trajectory final : public Stepper {
   }
 
   // Whether what was found is not far from near_, next to the step from `before` and to coordinates of
-  // that size; nor ξ, which may have gone around a compact space.
+  // that size; nor ξ from guess_, which may have gone around a compact space.
   bool is_nearby(const State& before, double size) const {
-    const double distance = std::max((found_.head(near_.size()) - near_).lpNorm<Eigen::Infinity>(),
-                                     largest(projector_.unknown().head(n_)));
+    const auto found = found_.head(near_.size());
     const double step = (near_ - before.x).lpNorm<Eigen::Infinity>();
-    return distance <= std::max(kNearby * step, kNegligible * size);
+    const double nearby = std::max(kNearby * step, kNegligible * size);
+    const double foreseen = (guess_ - near_).lpNorm<Eigen::Infinity>();
+    return (found - near_).lpNorm<Eigen::Infinity>() <= nearby &&
+           largest(projector_.unknown().head(n_)) <= nearby + 2.0 * foreseen;
   }
 
   // By how much ξ', … and z, … differ, relative to their size: W is computed with them.
