@@ -1,25 +1,18 @@
 #include "courant/core/dense_solver.hpp"
 
-#include <cmath>
-
 #include "courant/core/complete_orthogonal_decomposition.hpp"
 #include "courant/core/equilibration.hpp"
 #include "courant/core/lu_decomposition.hpp"
+#include "courant/core/regular_matrix.hpp"
 #include "courant/core/static_size.hpp"
 
 namespace courant {
+
+using regular_matrix::kNoise;
+using regular_matrix::kRegular;
+using regular_matrix::kSingular;
+
 namespace {
-
-// Below this ratio of pivots, after equilibration, a square matrix is taken as singular.
-// Round-off alone gives about 1e-16 n; a step whose matrix is that near to singular has no
-// meaningful digits to lose.
-constexpr double kSingular = 1e-13;
-
-// Above this one it is regular whatever its scales are.
-constexpr double kRegular = 1e-7;
-
-// Entries below this part of both their row and their column are left out when scales are chosen.
-constexpr double kNoise = 1e-14;
 
 // Of the entries of a matrix that is taken as singular, next to the largest: what is above about
 // 1e-11 is divided by.
@@ -41,10 +34,9 @@ void multiply(const MatrixXd& A, const double* b, double* x) {
   }
 }
 
-// Divides each scale by a power of two near the size that it led to.
+// For each size.
 void scale_to_one(const VectorXd& size, VectorXd& scale) {
-  for (Index i = 0; i < size.size(); ++i)
-    if (size[i] > 0.0) scale[i] = std::ldexp(scale[i], -std::ilogb(size[i]));
+  for (Index i = 0; i < size.size(); ++i) regular_matrix::scale_to_one(size[i], scale[i]);
 }
 
 }  // namespace

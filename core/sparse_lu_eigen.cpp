@@ -1,6 +1,4 @@
 #include <Eigen/SparseLU>
-#include <algorithm>
-#include <cmath>
 
 #include "courant/core/sparse_lu.hpp"
 

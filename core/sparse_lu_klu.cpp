@@ -1,6 +1,5 @@
 #include <klu.h>
 
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <vector>

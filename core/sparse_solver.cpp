@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "courant/core/regular_matrix.hpp"
 #include "courant/core/sparse_lu.hpp"
 
 namespace courant {
-namespace {
 
-// As in DenseSolver.
-constexpr double kSingular = 1e-13;
-constexpr double kRegular = 1e-7;
-constexpr double kNoise = 1e-14;
+using regular_matrix::kNoise;
+using regular_matrix::kRegular;
+using regular_matrix::kSingular;
+
+namespace {
 
 // S ← diag(r) A diag(c), where S has the entries of A at the same places.
 void scale(const SparseMatrixXd& A, const VectorXd& r, const VectorXd& c, SparseMatrixXd& S) {
@@ -31,8 +32,7 @@ void level(const SparseMatrixXd& S, bool by_row, VectorXd& scales, VectorXd& lar
       double& most = largest[by_row ? it.row() : j];
       most = std::max(most, std::fabs(it.value()));
     }
-  for (Index i = 0; i < scales.size(); ++i)
-    if (largest[i] > 0.0) scales[i] = std::ldexp(scales[i], -std::ilogb(largest[i]));
+  for (Index i = 0; i < scales.size(); ++i) regular_matrix::scale_to_one(largest[i], scales[i]);
 }
 
 }  // namespace
