@@ -229,15 +229,16 @@ class ConstrainFirst::Trajectory final : public Stepper {
                             directions_.data(), near_.data(),  &t};
       const auto sizes = scales(before, attempt.h, largest(near_));
       const auto begin = [&] { y = start_; };
-      projector_.solve(in, sizes.data(), begin, attempt, statistics_);
-      method_.projected_.value(in, found_.data());
-      if (goes_on && !is_nearby(before, sizes[0])) {
+      const auto lands_nearby = [&] {
+        projector_.solve(in, sizes.data(), begin, attempt, statistics_);
+        method_.projected_.value(in, found_.data());
+        return !goes_on || is_nearby(before, sizes[0]);
+      };
+      if (!lands_nearby()) {
         ++statistics_.failures;
         projector_.forget();
         begin();
-        projector_.solve(in, sizes.data(), begin, attempt, statistics_);
-        method_.projected_.value(in, found_.data());
-        if (!is_nearby(before, sizes[0]))
+        if (!lands_nearby())
           throw SolveError(SolveError::Reason::disconnected, method(), attempt.time, attempt.h,
                            "is too large: the projection onto M_f leads farther than half the "
                            "step.");
