@@ -1,7 +1,6 @@
 // `courant check`, on experiments and on what is wrong.
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <sstream>
 
 #include "answer.hpp"
 #include "courant/cli/command.hpp"

@@ -1,5 +1,4 @@
 #include <boost/test/unit_test.hpp>
-#include <sstream>
 
 #include "../running/temporary_folder.hpp"
 #include "answer.hpp"

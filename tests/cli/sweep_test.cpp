@@ -1,7 +1,6 @@
 #include "courant/cli/sweep.hpp"
 
 #include <boost/test/unit_test.hpp>
-#include <sstream>
 
 #include "../running/temporary_folder.hpp"
 #include "answer.hpp"
