@@ -252,6 +252,7 @@ ConsistentPoint::Neighbour ConsistentPoint::find_displaced(const ConsistentJet& 
   for (double part = 0.1; free.admits && !free.admits(y) && part > 1e-20; part *= 0.1)
     y = from.zero.y + part * displacement;
   free.magnitude = magnitude;
+  free.noise *= 1e-3;  // of displacements that are thousandths of natural units
   const Zero zero = find_zero(conditions(from.array, false), y, free);
   if (!zero.found) return {{from.array, zero}, VectorXd::Zero(y.size())};
   return {{from.array, zero}, zero.y - y};

@@ -158,7 +158,7 @@ VectorXd stepped(const VectorXd& y, const VectorXd& units, const VectorXd& delta
 // With `safeguard`, every step has to be an improvement; else full steps are made.
 Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& mobility,
             bool safeguard) {
-  constexpr double least_damping = 1e-12, accepted = 1e-10, noise = 1e-11;
+  constexpr double least_damping = 1e-12, accepted = 1e-10;
   const int most_iterations = safeguard ? 100 : 25;
   Zero zero;
   zero.y = start;
@@ -230,7 +230,7 @@ Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& m
     // computation that they come from. What is proportional to it must not look like a number.
     for (Index j = 0; j < zero.y.size(); ++j) {
       const double offset = j < mobility.offset.size() ? mobility.offset[j] : 0.0;
-      if (const double size = std::fabs(zero.y[j]) + offset; size < noise * units.column_scale[j])
+      if (const double size = std::fabs(zero.y[j]) + offset; size < mobility.noise * units.column_scale[j])
         zero.uncertainty[j] = std::max(zero.uncertainty[j], size);
     }
   }

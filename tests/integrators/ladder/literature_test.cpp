@@ -129,4 +129,19 @@ BOOST_AUTO_TEST_CASE(a_rod_held_twice_from_small_numbers) {
         {{4, 3}, {3, 2}, {2, 2}, {2, 2}});
 }
 
+// A slider crank at rest with its crank upright, where the angle π/2 leaves a cosine of 6·10⁻¹⁷ and the
+// slider moves with it.
+BOOST_AUTO_TEST_CASE(a_slider_crank_released_upright) {
+  const auto crank = flat(6, 2, 8, [](V x, V v, V z, T) {
+    const double a = 0.15, b = 0.3;
+    return equations({v[0] - x[3], v[1] - x[4], v[2] - x[5],
+                      0.1 * v[3] + a * sin(x[0]) * z[0] - a * cos(x[0]) * z[1],
+                      0.2 * v[4] + b * sin(x[1]) * z[0] + b * cos(x[1]) * z[1], v[5] - z[0],
+                      a * cos(x[0]) + b * cos(x[1]) - x[2], a * sin(x[0]) + b * sin(x[1])});
+  });
+  const double right_angle = std::acos(0.0);
+  check("upright", crank, at({right_angle, -0.5, 0.26, 0, 0, 0}), Verdict::regular,
+        {{6, 4}, {4, 2}, {2, 2}, {2, 2}});
+}
+
 BOOST_AUTO_TEST_SUITE_END()
