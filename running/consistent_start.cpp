@@ -111,6 +111,11 @@ void forget_moves_of_what_was_not_given(ConstraintLadder& ladder, const Experime
   });
 }
 
+// Whether the search found no point of the last level: what it was to keep may be why.
+bool has_no_start(const ConstraintLadder& ladder) {
+  return ladder.verdict == Verdict::inconsistent || ladder.verdict == Verdict::not_reached;
+}
+
 ConstraintLadder found_start(const Experiment& experiment) {
   const auto& system = experiment.model.system;
   const Manifold& M = *system->manifold();
@@ -133,21 +138,24 @@ ConstraintLadder found_start(const Experiment& experiment) {
     return algorithm.run(system, guess);
   };
   // What is given is kept if it can be; velocities and unknowns give way first, then coordinates.
-  const Flags nothing = Flags::Constant(initial.x.held.size(), false);
   const bool more_given = initial.velocity.given.any() || initial.z.given.any();
   ConstraintLadder ladder = run(initial.x.given, initial.velocity.given, initial.z.given);
-  if (ladder.verdict == Verdict::inconsistent && more_given)
+  if (has_no_start(ladder) && more_given)
     ladder = run(initial.x.given, initial.velocity.held, initial.z.held);
-  if (ladder.verdict == Verdict::inconsistent) {
+  if (has_no_start(ladder)) {
     ladder = run(initial.x.held, initial.velocity.held, initial.z.held);
-    if (ladder.verdict != Verdict::inconsistent && more_given) {
+    if (!has_no_start(ladder) && more_given) {
       // Velocities and unknowns that can be kept at the point that was found.
       const VectorXd given = guess.x;
       guess.x = ladder.point.x;
-      const ConstraintLadder kept = run(!nothing, initial.velocity.given, initial.z.given);
+      const ConstraintLadder kept = run(initial.x.given, initial.velocity.given, initial.z.given);
       guess.x = given;
-      if (kept.verdict != Verdict::inconsistent) {
-        const auto moves_of_x = ladder.moves;
+      if (!has_no_start(kept) && (!kept.is_ambiguous() || ladder.is_ambiguous())) {
+        std::vector<Movement> moves_of_x = ladder.moves;
+        const std::vector<std::string>& coordinates = system->names().coordinates;
+        std::erase_if(moves_of_x, [&](const Movement& move) {
+          return std::find(coordinates.begin(), coordinates.end(), move.name) == coordinates.end();
+        });
         const double moved = ladder.moved;
         ladder = kept;
         ladder.moved = moved;

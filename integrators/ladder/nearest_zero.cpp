@@ -8,6 +8,7 @@
 #include <random>
 
 #include "courant/core/complete_orthogonal_decomposition.hpp"
+#include "courant/core/lu_decomposition.hpp"
 
 namespace courant {
 namespace {
@@ -42,18 +43,23 @@ class SaddlePoint {
     matrix_.resize(n + m, n + m);
     matrix_.setFromTriplets(entries.begin(), entries.end());
     factors_.compute(matrix_);
+    // Without exchanges a pivot may cancel to 0.
+    if (factors_.info() != Eigen::Success && is_small(matrix_)) pivoted_.emplace(MatrixXd(matrix_));
   }
 
   Index columns() const { return columns_; }
 
   // δ; empty if the factorisation broke down.
   VectorXd solve(const VectorXd& a, const VectorXd& b) const {
-    if (factors_.info() != Eigen::Success) return VectorXd();
+    if (factors_.info() != Eigen::Success && !pivoted_) return VectorXd();
+    const auto applied = [&](const VectorXd& right) -> VectorXd {
+      return pivoted_ ? VectorXd(pivoted_->solve(right)) : VectorXd(factors_.solve(right));
+    };
     VectorXd right(a.size() + b.size());
     right << a, b;
-    VectorXd solution = factors_.solve(right);
+    VectorXd solution = applied(right);
     for (int refinement = 0; refinement < 2; ++refinement)
-      solution += factors_.solve(right - matrix_ * solution);
+      solution += applied(right - matrix_ * solution);
     return solution.head(a.size());
   }
 
@@ -61,6 +67,7 @@ class SaddlePoint {
   Index columns_;
   SparseMatrixXd matrix_;
   Eigen::SimplicialLDLT<SparseMatrixXd, Eigen::Lower> factors_;
+  std::optional<LuDecomposition> pivoted_;
 };
 
 SparseMatrixXd diagonal(const VectorXd& d) {
@@ -230,7 +237,8 @@ Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& m
     // computation that they come from. What is proportional to it must not look like a number.
     for (Index j = 0; j < zero.y.size(); ++j) {
       const double offset = j < mobility.offset.size() ? mobility.offset[j] : 0.0;
-      if (const double size = std::fabs(zero.y[j]) + offset; size < mobility.noise * units.column_scale[j])
+      if (const double size = std::fabs(zero.y[j]) + offset;
+          size < mobility.noise * units.column_scale[j])
         zero.uncertainty[j] = std::max(zero.uncertainty[j], size);
     }
   }
