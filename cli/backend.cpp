@@ -17,7 +17,7 @@ void add_backend(CLI::App& command, Backend::Kind& backend) {
                                               {"native", Backend::Kind::native},
                                               {"interpreter", Backend::Kind::interpreter}})
                       .description(""))
-      ->type_name("NAME");
+      ->type_name("auto|native|interpreter");
 }
 
 }  // namespace courant::cli

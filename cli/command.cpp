@@ -5,6 +5,7 @@
 #include <new>
 #include <ostream>
 
+#include "courant/cli/synopsis.hpp"
 #include "courant/core/message.hpp"
 #include "courant/core/spelling.hpp"
 #include "courant/core/version.hpp"
@@ -32,6 +33,15 @@ std::string unknown_command(const std::string& word, const CLI::App& app) {
          "; `courant --help` lists the commands";
 }
 
+std::string table(const std::string& title, const std::vector<Term>& terms) {
+  std::size_t width = 0;
+  for (const Term& term : terms) width = std::max(width, term.name.size());
+  std::string text = title + ":\n";
+  for (const Term& term : terms)
+    text += "  " + term.name + std::string(width + 2 - term.name.size(), ' ') + term.meaning + "\n";
+  return text;
+}
+
 }  // namespace
 
 void print_error(const Console& console, const std::string& what) {
@@ -56,14 +66,10 @@ int command(const std::vector<std::string>& arguments, const Console& console) {
   add_new(app, session);
   add_tour(app, session);
   add_cache(app, session);
-  app.footer(
-      "Environment:\n"
-      "  COURANT_CC     the C compiler that makes native code of formulas (default: cc)\n"
-      "  COURANT_CACHE  the folder in which that is kept (default: ~/.cache/courant)\n"
-      "  NO_COLOR       no colours on the terminal\n\n"
-      "`courant COMMAND --help` lists the options of a command. Exit status: 0 done; 2 the "
-      "command\n"
-      "line or the experiment is wrong; 3 the numerics or an expectation failed; 130 interrupted.");
+  add_completion(app, session);
+  add_man(app, session);
+  app.footer(table("Environment", environment()) + "\n" + table("Exit status", exit_statuses()) +
+             "\n`courant COMMAND --help` lists the options of a command.");
   try {
     if (!arguments.empty())
       if (const std::string what = unknown_command(arguments[0], app); !what.empty())

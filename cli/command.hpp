@@ -51,6 +51,8 @@ void add_plot(CLI::App& app, Session& session);
 void add_new(CLI::App& app, Session& session);
 void add_cache(CLI::App& app, Session& session);
 void add_tour(CLI::App& app, Session& session);
+void add_man(CLI::App& app, Session& session);
+void add_completion(CLI::App& app, Session& session);
 
 // The command: `arguments` without the name of the program. Errors go to console.err, one line
 // each, `courant: …`.

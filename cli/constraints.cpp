@@ -121,7 +121,8 @@ void add_constraints(CLI::App& app, Session& session) {
   constraints->add_flag("--json", arguments->json, "print JSON");
   CLI::Option* level =
       constraints->add_option("--level", arguments->level, "stop at this level of the ladder")
-          ->check(CLI::NonNegativeNumber)
+          ->check(CLI::NonNegativeNumber.description(""))
+          ->type_name("K")
           ->excludes("--sweep");
   constraints
       ->add_flag("--discrete", arguments->discrete,

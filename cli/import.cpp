@@ -49,8 +49,9 @@ int import(const Console& console, const std::string& file, const std::string& o
 void add_import(CLI::App& app, Session& session) {
   auto file = std::make_shared<std::string>(), output = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("import", "Make an experiment of a SPICE netlist");
-  command->add_option("file", *file, "the netlist, - for standard input")->required();
-  command->add_option("-o,--output", *output, "where to write; by default to standard output");
+  command->add_option("FILE", *file, "the netlist, - for standard input")->required();
+  command->add_option("-o,--output", *output, "where to write; by default to standard output")
+      ->type_name("FILE");
   command->callback([&session, file, output] {
     session.action = [file, output](const Console& console) -> int {
       return import(console, *file, *output);

@@ -5,9 +5,20 @@
 
 #include "courant/cli/command.hpp"
 #include "courant/reading/new_experiment.hpp"
+#include "courant/reading/system_kinds.hpp"
 #include "courant/running/output_file.hpp"
 
 namespace courant::cli {
+namespace {
+
+std::string kinds_with_an_example() {
+  std::string list;
+  for (const KindDescription& kind : system_kinds().descriptions())
+    if (!kind.example.is_null()) list += (list.empty() ? "" : "|") + kind.type;
+  return list;
+}
+
+}  // namespace
 
 void add_new(CLI::App& app, Session& session) {
   struct Arguments {
@@ -15,9 +26,8 @@ void add_new(CLI::App& app, Session& session) {
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("new", "Print a commented experiment to start from");
-  command
-      ->add_option("KIND", arguments->kind,
-                   "the kind of its system, one of those that courant list names")
+  command->add_option("KIND", arguments->kind, "the kind of its system")
+      ->type_name(kinds_with_an_example())
       ->required();
   command
       ->add_option("-o", arguments->file,

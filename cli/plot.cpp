@@ -81,10 +81,9 @@ void add_plot(CLI::App& app, Session& session) {
   plot->add_option("DIR", arguments->folders,
                    "the folder of a run, or several; or that of a sweep or a study")
       ->required();
-  plot->add_option("--figure", arguments->figure,
-                   "phase, coordinates, paths, energy, energy-detail, constraints, observables, "
-                   "sweep or study; not every run has all of them")
-      ->type_name("NAME")
+  plot->add_option("--figure", arguments->figure, "which figure; not every run has all of them")
+      ->type_name(
+          "phase|coordinates|paths|energy|energy-detail|constraints|observables|sweep|study")
       ->required();
   plot->add_option("-o", arguments->output,
                    "where it goes: a name that ends in .svg, .pdf or .png; the numbers go beside "

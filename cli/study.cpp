@@ -215,8 +215,8 @@ void add_study(CLI::App& app, Session& session) {
           ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   study
       ->add_option("--steps", arguments->study.steps,
-                   "how many step sizes, each a half of the one before (default: 5)")
-      ->check(CLI::Range(2, 16))
+                   "how many step sizes, 2 to 16, each a half of the one before (default: 5)")
+      ->check(CLI::Range(2, 16).description(""))
       ->type_name("N");
   study
       ->add_option("--of", arguments->study.quantities,

@@ -129,6 +129,12 @@ void print_page(const Console& console, std::size_t number) {
            "rests on.\n";
 }
 
+std::string chapter_numbers() {
+  std::string list = "1";
+  for (std::size_t i = 2; i <= tour_chapters().size(); ++i) list += "|" + std::to_string(i);
+  return list;
+}
+
 void print_contents(const Console& console) {
   console.out
       << "The constraint algorithm in ten chapters, each one idea on a system that runs.\n\n";
@@ -148,7 +154,8 @@ void add_tour(CLI::App& app, Session& session) {
   CLI::App* tour = app.add_subcommand("tour", "The constraint algorithm in ten chapters");
   CLI::Option* chapter =
       tour->add_option("CHAPTER", arguments->chapter, "its number; without, the contents")
-          ->check(CLI::Range(std::size_t{1}, tour_chapters().size()));
+          ->check(CLI::Range(std::size_t{1}, tour_chapters().size()).description(""))
+          ->type_name(chapter_numbers());
   tour->add_flag("--markdown", arguments->markdown, "print the page of docs/tour")->needs(chapter);
   tour->callback([&session, arguments] {
     session.action = [arguments](const Console& console) -> int {

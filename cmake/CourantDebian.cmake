@@ -1,0 +1,58 @@
+# `cpack -G DEB` packs the command alone, with manual pages, completion and the experiments; scripts/package does it.
+
+if(BUILD_SHARED_LIBS)
+  return() # a command that needs libraries of its own
+endif()
+
+set(COURANT_MAINTAINER "The developers of Courant <developers@courant.example>" CACHE STRING
+    "Whom a Debian package names as its maintainer")
+
+# The licence, and a changelog of one entry, as Debian wants them.
+file(READ ${PROJECT_SOURCE_DIR}/LICENSE licence)
+string(REGEX REPLACE "^[^\n]*\n\n[^\n]*\n[^\n]*\n\n" "" licence "${licence}") # title and owners stand above
+string(STRIP "${licence}" licence)
+string(REPLACE "\n\n" "\n.\n" licence "${licence}")
+string(REPLACE "\n" "\n " licence " ${licence}")
+string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
+if(COURANT_WITH_SUITESPARSE)
+  set(comment "
+Comment:
+ The command is linked with SuiteSparseQR, which is under the GPL, version 2 or
+ later: as a whole it is distributed under those terms, see
+ /usr/share/common-licenses/GPL-2.")
+endif()
+configure_file(cmake/debian/copyright.in debian/copyright @ONLY)
+configure_file(cmake/debian/changelog.in debian/changelog @ONLY)
+
+install(CODE "set(PAGES \"${PROJECT_BINARY_DIR}/pages\")
+set(DEBIAN \"${PROJECT_BINARY_DIR}/debian\")
+set(EXPERIMENTS \"${PROJECT_SOURCE_DIR}/experiments\")" COMPONENT debian EXCLUDE_FROM_ALL)
+install(SCRIPT ${PROJECT_SOURCE_DIR}/cmake/install_debian.cmake COMPONENT debian EXCLUDE_FROM_ALL)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME courant)
+set(CPACK_PACKAGE_CONTACT "${COURANT_MAINTAINER}")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL command debian)
+set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE
+    WORLD_READ WORLD_EXECUTE)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION math)
+set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+# Without a compiler formulas are interpreted; without rsvg-convert figures are written as SVG only.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gcc | c-compiler, librsvg2-bin")
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "geometric integrators from Dirac structures")
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "\
+Courant turns the geometric description of a mechanical or physical system
+(a manifold, a Dirac structure, an energy) into a numerical integrator that
+keeps the geometry, and says beforehand, by a numerical constraint algorithm,
+whether and where the equations have solutions.
+.
+This package contains the command, which reads experiments in JSON and writes
+trajectories, reports and figures. `courant tour` is an introduction.")
+include(CPack)
