@@ -77,5 +77,6 @@
 #include "courant/structures/rank_profile.hpp"
 #include "courant/structures/restricted_bivector.hpp"
 #include "courant/structures/restricted_two_form.hpp"
+#include "courant/structures/symmetry.hpp"
 #include "courant/systems/point_vortices.hpp"
 #include "courant/systems/spherical_vortices.hpp"

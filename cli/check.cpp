@@ -114,6 +114,18 @@ void print_report(const Console& console, const Json& report) {
         << (method.at("structure_defect").is_null() ? "not defined"
                                                     : shown(method.at("structure_defect"), 2))
         << "\n";
+  if (!report.at("symmetries").empty()) {
+    out << "\n  momenta of symmetries\n";
+    for (const Json& symmetry : report.at("symmetries")) {
+      const std::string remark = symmetry.at("remark");
+      out << "    "
+          << (remark.empty() ? symmetry.at("name").get<std::string>() + " is conserved." : remark);
+      if (remark.empty() && !symmetry.at("kept").is_null())
+        out << " The method " << (symmetry.at("kept").get<bool>() ? "keeps" : "does not keep")
+            << " it: drift " << shown(symmetry.at("drift"), 2) << " of its terms.";
+      out << '\n';
+    }
+  }
   if (!report.at("invariants").empty()) {
     out << "\n  along solutions\n";
     for (const Json& quantity : report.at("invariants"))

@@ -119,6 +119,8 @@ void print_outcome(const Console& console, const RunOutcome& outcome,
   if (const long looked_at = solver.confirmations.value_or(0); looked_at > 0)
     console.out << "  " << looked_at << (looked_at == 1 ? " step was" : " steps were")
                 << " confirmed by continuation in h.\n";
+  for (const auto& [name, symmetry] : summary.symmetries)
+    if (!symmetry.remark.empty()) console.out << "  " << symmetry.remark << '\n';
   for (const std::string& warning : summary.warnings)
     console.out << "\n  Warning: " << warning << '\n';
   print_expectations(console, outcome);

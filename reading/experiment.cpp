@@ -135,6 +135,7 @@ std::vector<Observable> read_observables(const JsonReader& value, const Model& m
   SymbolTable taken = symbols;
   if (taken.find("H") == nullptr && system.energy(x, z, t)) taken.add("H", 0.0);
   taken.add("constraint", 0.0);
+  for (const DeclaredSymmetry& symmetry : experiment.symmetries) taken.add(symmetry.name, 0.0);
   for (std::size_t i = 0; i < written.size(); ++i) {
     Observable& entry = written[i];
     const std::string& name = entry.name;
@@ -160,8 +161,8 @@ std::vector<Observable> read_observables(const JsonReader& value, const Model& m
   return observables;
 }
 
-// Coordinates, H where there is an energy, energies of steps, observables: what expectations can be
-// about.
+// Coordinates, H where there is an energy, energies of steps, momenta of symmetries, observables:
+// what expectations can be about.
 std::vector<std::string> quantities(const Experiment& experiment) {
   const ImplicitSystem& system = *experiment.model.system;
   std::vector<std::string> names = system.names().coordinates;
@@ -172,6 +173,7 @@ std::vector<std::string> quantities(const Experiment& experiment) {
   for (const char* name : {"supplied", "dissipated"})
     if (experiment.writes_energies && experiment.energies.contains(name)) names.push_back(name);
   if (experiment.writes_balance) names.push_back("balance");
+  for (const DeclaredSymmetry& symmetry : experiment.symmetries) names.push_back(symmetry.name);
   for (const Observable& observable : experiment.observe) names.push_back(observable.name);
   return names;
 }
@@ -219,6 +221,7 @@ Experiment read_experiment_document(const Json& written) {
     if (time && !method) object.required("method");
     experiment.examine = static_cast<long>(object.integer("examine", 0, 0));
     const auto weights = object.optional("weights");
+    const auto symmetries = object.optional("symmetries");
     const auto observe = object.optional("observe");
     const auto events = object.optional("events");
     if (events && !time) events->problem("need a trajectory; expected \"method\" and \"time\"");
@@ -236,6 +239,7 @@ Experiment read_experiment_document(const Json& written) {
       experiment.writes_energies = has_ports(experiment.energies);
       experiment.writes_balance =
           experiment.writes_energies && model->vocabulary.symbols({}).find("balance") == nullptr;
+      if (symmetries) experiment.symmetries = read_symmetries(*symmetries, *model);
       if (observe) experiment.observe = read_observables(*observe, *model, experiment);
       if (events) experiment.events = read_events(*events, *model);
       std::vector<std::string> event_names;

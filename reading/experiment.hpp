@@ -12,6 +12,7 @@
 #include "courant/reading/method_kinds.hpp"
 #include "courant/reading/model.hpp"
 #include "courant/reading/output.hpp"
+#include "courant/reading/symmetries.hpp"
 
 namespace courant {
 
@@ -32,6 +33,7 @@ struct Experiment {
   InitialValues initial;
   std::optional<MethodChoice> method;  // both or none
   std::optional<TimeSpan> time;
+  std::vector<DeclaredSymmetry> symmetries;
   std::vector<Observable> observe;
   NameList energies =
       {};  // energy_words(model) of a run; those that `observe` has for others unnamed

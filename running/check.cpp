@@ -14,6 +14,7 @@
 #include "courant/integrators/vector_field.hpp"
 #include "courant/manifolds/measurement.hpp"
 #include "courant/running/consistent_start.hpp"
+#include "courant/running/symmetry_check.hpp"
 #include "courant/structures/closed_port_hamiltonian.hpp"
 #include "courant/structures/dirac_system.hpp"
 #include "courant/structures/integrability.hpp"
@@ -27,6 +28,10 @@ namespace {
 using StructurePointer = std::shared_ptr<const DiracStructure>;
 
 constexpr double symplectic_bound = 1e-8;
+// A momentum that a method keeps changes in so many steps by what their equations are solved to, 1e-14
+// or so of its terms each; one that it does not keep by its truncation error.
+constexpr Index kMomentumSteps = 20;
+constexpr double kKept = 1e-11;
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
@@ -66,6 +71,7 @@ class Check {
         system_(*experiment.model.system),
         manifold_(*system_.manifold()),
         ladder_(consistent_start(experiment)),
+        symmetries_(check_symmetries(experiment, ladder_)),
         points_(points()) {}
 
   Json operator()() {
@@ -77,6 +83,8 @@ class Check {
       structures.push_back(describe(name, *structure));
     }
     add_laws(checks, "family", family_laws());
+    for (const SymmetryFinding& finding : symmetries_)
+      add_laws(checks, "symmetry", finding.report.laws);
     add_laws(checks, "ladder", check_ladder(ladder_, manifold_.dimension()));
     const Json method = check_method(checks);
     const bool passed = std::ranges::all_of(
@@ -89,6 +97,7 @@ class Check {
             {"structure", structures.empty() ? Json() : structures.front()},
             {"structures", structures},
             {"method", method},
+            {"symmetries", symmetries()},
             {"invariants", invariants()}};
   }
 
@@ -230,6 +239,7 @@ class Check {
         .structure = !all.empty() && all.front().second->is_dirac() ? all.front().second : nullptr};
     const IntegratorReport report = check_integrator(integrator, setting);
     states_ = report.states;
+    measure_momenta(integrator, method->initial);
     add_laws(checks, "method", report.laws);
     const auto json_of = [](const std::optional<double>& value) {
       return value ? number(*value) : Json();
@@ -244,6 +254,63 @@ class Check {
             {"symplectic", is_symplectic(integrator, setting, report)},
             {"symplecticity_defect", json_of(report.symplecticity)},
             {"structure_defect", json_of(report.preservation)}};
+  }
+
+  // How far the method takes each momentum from its first value in some steps, next to the terms it
+  // is the sum of.
+  void measure_momenta(const Integrator& integrator, State state) {
+    if (symmetries_.empty()) return;
+    Graph graph;
+    const ExprVector x = graph.variables("x", manifold_.ambient_dimension());
+    const auto count = static_cast<Index>(experiment_.symmetries.size());
+    ExprVector outputs(2 * count);
+    for (Index i = 0; i < count; ++i) {
+      const Symmetry& symmetry = experiment_.symmetries[static_cast<std::size_t>(i)].symmetry;
+      const CotangentBundle& T = *symmetry.phase_space();
+      const ExprVector q = T.position(x), p = T.momentum(x);
+      const ExprVector xi = T.base()->coframe(q) * symmetry.field(q);
+      outputs[2 * i] = symmetry.momentum(x);
+      outputs[2 * i + 1] = 0.0;
+      for (Index k = 0; k < p.size(); ++k) outputs[2 * i + 1] += abs(p[k] * xi[k]);
+    }
+    const Function momenta("momenta", {{"x", x}}, outputs);
+    MatrixXd values(2 * count, kMomentumSteps + 1);
+    try {
+      const auto stepper = integrator.stepper();
+      const double start = state.t, h = experiment_.time->step;
+      for (Index k = 0; k <= kMomentumSteps; ++k) {
+        if (k == 0)
+          stepper->prepare(state, h);
+        else
+          stepper->step(state, h, start + static_cast<double>(k) * h);
+        values.col(k) = momenta({state.x});
+      }
+    } catch (const SolveError&) {  // told by the laws of the method
+      return;
+    }
+    momentum_drifts_ = VectorXd(count);
+    for (Index i = 0; i < count; ++i) {
+      const double drift = (values.row(2 * i).array() - values(2 * i, 0)).abs().maxCoeff();
+      (*momentum_drifts_)[i] = drift == 0.0 ? 0.0 : drift / values.row(2 * i + 1).maxCoeff();
+    }
+  }
+
+  Json symmetries() const {
+    Json json = Json::array();
+    for (std::size_t i = 0; i < symmetries_.size(); ++i) {
+      Json entry{{"name", symmetries_[i].name},
+                 {"conserved", symmetries_[i].report.is_conserved()},
+                 {"remark", symmetries_[i].why_not_conserved()},
+                 {"kept", Json()},
+                 {"drift", Json()}};
+      if (momentum_drifts_) {
+        const double drift = (*momentum_drifts_)[static_cast<Index>(i)];
+        entry["drift"] = number(drift);
+        entry["kept"] = drift <= kKept;
+      }
+      json.push_back(std::move(entry));
+    }
+    return json;
   }
 
   // Whether steps are symplectic, as claimed or as measured; null where there is no form.
@@ -271,6 +338,8 @@ class Check {
     const Expr t = graph.variable("t");
     std::vector<std::pair<std::string, Expr>> quantities;
     if (const auto energy = system_.energy(x, z, t)) quantities.emplace_back("H", *energy);
+    for (const DeclaredSymmetry& declared : experiment_.symmetries)
+      quantities.emplace_back(declared.name, declared.symmetry.momentum(x));
     const SymbolTable symbols = experiment_.model.symbols(x, v, z, t);
     for (const Observable& observable : experiment_.observe)
       if (!observable.uses_energies)
@@ -322,8 +391,10 @@ class Check {
   const ImplicitSystem& system_;
   const Manifold& manifold_;
   ConstraintLadder ladder_;
+  std::vector<SymmetryFinding> symmetries_;
   std::vector<VectorXd> points_;
   std::vector<VectorXd> states_ = {};
+  std::optional<VectorXd> momentum_drifts_ = {};  // no value without steps
 };
 
 }  // namespace

@@ -10,12 +10,15 @@ namespace courant {
 //
 //   passed      every law of `checks`
 //   checks      {subject, name, law, statement, passed, defect, bound, where}; subjects are
-//               "manifold", "discretization map", "structure", "family", "ladder" and "method"
+//               "manifold", "discretization map", "structure", "family", "symmetry", "ladder" and
+//               "method"
 //   structure   null where the system has none; dimension, rank_of_F, isotropic, coisotropic,
 //               dirac, integrable, integrability_defect; where it is integrable or not, the pair
 //               (F_D, ω_D), Casimirs, points where ranks jump
 //   structures  where there are several (open and closed ports), each with its name
 //   method      null without one; claims and what is measured
+//   symmetries  {name, conserved, remark, kept, drift}: what Noether's theorem says of the momentum,
+//               and whether the steps of the method keep it
 //   invariants  {name, rate, scale, invariant}: d/dt along S_f
 //
 // Points are the consistent initial point and some around it. The laws of the method are those of

@@ -117,6 +117,8 @@ Observer::Observer(const Experiment& experiment, const ConstraintLadder& ladder,
     balance_ = static_cast<Index>(names_.size());
     add("balance", 0.0);
   }
+  for (const DeclaredSymmetry& declared : experiment.symmetries)
+    add(declared.name, declared.symmetry.momentum(at.x));
   SymbolTable symbols = experiment.model.symbols(at.x, at.v, at.z, at.t);
   experiment.energies.add_to(symbols, energies);
   const ExprVector effort = graph.variables("effort", M.tangent_dimension());

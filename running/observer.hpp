@@ -14,8 +14,9 @@
 namespace courant {
 
 // What a run measures at each state: the coordinates, H where the system has an energy, the energies
-// of its steps where it has ports, the experiment's observables, the constraints, and (not written to
-// files) the quantities of its events and the deviations that its expectations need.
+// of its steps where it has ports, the momenta of its symmetries, the experiment's observables, the
+// constraints, and (not written to files) the quantities of its events and the deviations that its
+// expectations need.
 //
 // `supplied` and `dissipated` are since the beginning, `balance` that of the step which ended at the
 // state, as of PowerAccount. Observables at the stage of that step are evaluated with its effort; at

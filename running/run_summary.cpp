@@ -112,6 +112,8 @@ Json to_json(const RunSummary& summary) {
                              {"stored", balance->stored},
                              {"max_balance", balance->max_balance},
                              {"max_imbalance", balance->max_imbalance}};
+  for (const auto& [name, symmetry] : summary.symmetries)
+    json["symmetries"][name] = {{"conserved", symmetry.is_conserved}, {"remark", symmetry.remark}};
   for (const auto& [name, event] : summary.events) {
     const auto when = [&](double t) { return event.count > 0 ? Json(t) : Json(); };
     json["events"][name] = {
@@ -160,6 +162,10 @@ RunSummary read_run_summary(const Json& json) {
                                                           .max = number(record, "max"),
                                                           .max_drift = number(record, "max_drift"),
                                                           .slope = number(record, "slope")});
+  for (const auto& [name, symmetry] : part(json, "symmetries", nothing).items())
+    summary.symmetries.emplace_back(
+        name, RunSummary::Symmetry{.is_conserved = symmetry.at("conserved").get<bool>(),
+                                   .remark = text(symmetry, "remark")});
   for (const auto& [name, event] : part(json, "events", nothing).items())
     summary.events.emplace_back(name, RunSummary::Event{.count = count(event, "count").value_or(0),
                                                         .first = number(event, "first"),

@@ -31,6 +31,12 @@ struct RunSummary {
   std::optional<Time> time = {};
   std::vector<std::pair<std::string, double>> final = {};  // coordinates
   std::vector<std::pair<std::string, QuantityRecord>> observables = {};
+  // What Noether's theorem says of the momentum of that name, which is an observable.
+  struct Symmetry {
+    bool is_conserved = false;
+    std::string remark = {};  // why not
+  };
+  std::vector<std::pair<std::string, Symmetry>> symmetries = {};
   struct Event {
     long count = 0;
     double first = kUnknown, last = kUnknown;  // times

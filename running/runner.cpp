@@ -18,6 +18,7 @@
 #include "courant/running/quantity_statistics.hpp"
 #include "courant/running/run_folder.hpp"
 #include "courant/running/run_watchers.hpp"
+#include "courant/running/symmetry_check.hpp"
 #include "courant/running/trajectory_writer.hpp"
 #include "courant/running/undefined_formula.hpp"
 
@@ -48,6 +49,7 @@ class Run {
         options_(options),
         ladder_(consistent_start(experiment)),
         ladder_report_(ladder_report(ladder_, *experiment.model.system)),
+        symmetries_(check_symmetries(experiment, ladder_)),
         observer_(experiment, ladder_, options.backend) {
     if (observer_.constraint_count() == 0 && ladder_.verdict != Verdict::inconsistent)
       for (const std::string& pointer : experiment.expect.violations)
@@ -443,6 +445,10 @@ class Run {
       if (const PowerAccount* account = observer_.account(); account && steps_ > 0)
         told.power_balance = account->report();
     }
+    for (const SymmetryFinding& finding : symmetries_)
+      told.symmetries.emplace_back(
+          finding.name, RunSummary::Symmetry{.is_conserved = finding.report.is_conserved(),
+                                             .remark = finding.why_not_conserved()});
     if (event_watch_)
       for (const auto& [name, record] : event_watch_->records())
         told.events.emplace_back(
@@ -465,6 +471,7 @@ class Run {
   const RunOptions& options_;
   const ConstraintLadder ladder_;
   const LadderReport ladder_report_;
+  const std::vector<SymmetryFinding> symmetries_;
   Observer observer_;
 
   std::string id_;

@@ -34,6 +34,8 @@ class Formulas {
     if (!with_quantities) return;
     if (const auto energy = system_.energy(x, z, t)) add("in the energy H", *energy);
     const SymbolTable symbols = experiment.model.symbols(x, v, z, t);
+    for (const DeclaredSymmetry& declared : experiment.symmetries)
+      add("in the symmetry \"" + declared.name + '"', declared.symmetry.momentum(x));
     for (const Observable& observable : experiment.observe)
       if (!observable.uses_energies)
         add("in the observable \"" + observable.name + '"', evaluate(observable.formula, symbols));
