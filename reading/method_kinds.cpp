@@ -15,6 +15,7 @@
 #include "courant/integrators/maps/theta.hpp"
 #include "courant/integrators/matched_start.hpp"
 #include "courant/integrators/natural_units.hpp"
+#include "courant/integrators/reduced_map.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/torus.hpp"
 
@@ -212,6 +213,34 @@ std::optional<MethodChoice> constrain_first(ObjectReader& object) {
       }};
 }
 
+std::optional<MethodChoice> reduced(ObjectReader& object) {
+  const auto map = discretization_kinds().read_key(object, "discretization");
+  const auto order = read_order(object);
+  if (!map || !order) return std::nullopt;
+  return MethodChoice{
+      "reduced, " + map->description + order_text(*order),
+      [map = *map, order = *order](const MethodSetting& at) {
+        const auto system = std::dynamic_pointer_cast<const DiracSystem>(at.system);
+        const auto structure =
+            system ? std::dynamic_pointer_cast<const LiePoisson>(system->structure()) : nullptr;
+        if (!structure)
+          throw std::invalid_argument(
+              "\"reduced\" is for Lie-Poisson structures, as those of \"euler-poincare\"; expected "
+              "another method");
+        const auto group = structure->group() ? structure->group() : group_of(structure->acting());
+        if (!group)
+          throw std::invalid_argument("no group is known for the Lie algebra " +
+                                      structure->acting().name() +
+                                      " in its basis; expected so3, se3 or abelian");
+        const auto on_group = map.make(group);
+        return PreparedMethod{
+            composed(std::make_shared<ReducedMap>(system, on_group,
+                                                  ReducedMap::Options{.backend = at.backend}),
+                     order),
+            at.initial, on_group};
+      }};
+}
+
 std::shared_ptr<const DiscreteDifferential> differential(const std::string& name) {
   if (name == "averaged-vector-field") return std::make_shared<AveragedDifferential>();
   if (name == "itoh-abe") return std::make_shared<ItohAbeDifferential>();
@@ -290,6 +319,13 @@ Registry<MethodChoice>& method_kinds() {
          default_key("gradient", takes::word({"gonzalez", "averaged-vector-field", "itoh-abe"}),
                      "gonzalez", "which one; itoh-abe is of order 1")}},
        discrete_gradient},
+      {{"reduced",
+        "Method 1 on a Lie group, reduced to the dual of its Lie algebra: coadjoint orbits are "
+        "kept",
+        {default_key("discretization", takes::kind("discretization"), "cayley",
+                     "R_d, on the group"),
+         order}},
+       reduced},
       {{"rk2", "explicit midpoint rule on S_f, order 2"},
        explicit_runge_kutta<ExplicitRungeKutta::Kind::midpoint>},
       {{"rk4", "classical Runge–Kutta method on S_f, order 4"},

@@ -4,6 +4,7 @@
 #include "courant/reading/mechanics_keys.hpp"
 #include "courant/reading/system_kinds.hpp"
 #include "courant/structures/euler_poincare.hpp"
+#include "courant/structures/lie_group.hpp"
 
 namespace courant {
 namespace {
@@ -113,6 +114,32 @@ std::optional<std::vector<MatrixXd>> read_representation(ObjectReader& system, c
   return rho;
 }
 
+// The group of an algebra, and names for the coordinates of its points.
+struct Attitude {
+  std::shared_ptr<const Manifold> group;
+  NameList names;
+};
+std::optional<Attitude> read_attitude(const JsonReader& key, const LieAlgebra& g, bool plus,
+                                      SymbolTable& taken) {
+  Attitude attitude{group_of(g), {}};
+  if (!read_names(key, taken, attitude.names)) return std::nullopt;
+  if (!attitude.group) {
+    key.problem("no group is known for the Lie algebra " + g.name() +
+                " in its basis; expected so3, se3 or abelian");
+    return std::nullopt;
+  }
+  if (plus) {
+    key.problem("is for left-invariant systems; expected the sign \"minus\"");
+    return std::nullopt;
+  }
+  if (const Index N = attitude.group->ambient_dimension(); attitude.names.size() != N) {
+    key.problem("names " + std::to_string(attitude.names.size()) + " numbers; expected " +
+                std::to_string(N) + ", those of a point of " + attitude.group->name());
+    return std::nullopt;
+  }
+  return attitude;
+}
+
 }  // namespace
 
 // (μ, a) ∈ (g ⋉ V)*.
@@ -138,15 +165,20 @@ std::optional<Model> read_euler_poincare(ObjectReader& system) {
   const auto momentum = read_array_name(system, "momentum", n, taken);
   const auto velocity = read_array_name(system, "velocity", n, taken);
   const auto advected_key = system.optional("advected");
+  const auto attitude_key = system.optional("attitude");
   const bool named = !advected_key || read_names(*advected_key, taken, words.advected);
   if (!momentum || !velocity || !named) return std::nullopt;
   words.momentum = *momentum;
   words.velocity = *velocity;
   const auto representation = read_representation(system, *algebra, words.advected, advected_key);
-  if (!representation) return std::nullopt;
+  const auto attitude = attitude_key ? read_attitude(*attitude_key, *algebra, plus, taken)
+                                     : std::optional(Attitude());
+  if (!representation || !attitude) return std::nullopt;
 
   vocabulary.coordinates = words.momentum;
   for (const Declaration& declaration : words.advected.declarations())
+    vocabulary.coordinates.append(declaration);
+  for (const Declaration& declaration : attitude->names.declarations())
     vocabulary.coordinates.append(declaration);
   vocabulary.unknowns = words.velocity;
   check_definitions(vocabulary, findings);
@@ -159,7 +191,8 @@ std::optional<Model> read_euler_poincare(ObjectReader& system) {
   const Expr t = graph.variable("t");
   EulerPoincare problem{.algebra = *algebra,
                         .representation = *representation,
-                        .sign = plus ? LiePoisson::Sign::plus : LiePoisson::Sign::minus};
+                        .sign = plus ? LiePoisson::Sign::plus : LiePoisson::Sign::minus,
+                        .group = attitude->group};
   bool right = true;
   const JsonReader& energy_key = lagrangian_key ? *lagrangian_key : *hamiltonian_key;
   const auto energy = read_formula(energy_key);
@@ -208,10 +241,10 @@ std::optional<Model> read_euler_poincare(ObjectReader& system) {
   if (!right) return std::nullopt;
   append_multipliers(vocabulary.unknowns, static_cast<Index>(problem.constraint_names.size()),
                      taken);
-  model.description = std::string(lagrangian_key ? "Euler–Poincaré" : "Lie–Poisson") +
-                      " system on the dual of " + algebra->name() +
-                      (problem.constraint ? " with constraints" : "") +
-                      (problem.input ? " with inputs" : "");
+  model.description =
+      std::string(lagrangian_key ? "Euler–Poincaré" : "Lie–Poisson") + " system on the dual of " +
+      algebra->name() + (problem.group ? " with the attitude" : "") +
+      (problem.constraint ? " with constraints" : "") + (problem.input ? " with inputs" : "");
   model.system = euler_poincare_system(
       problem, {vocabulary.coordinates.element_names(), words.velocity.element_names()});
   return model;

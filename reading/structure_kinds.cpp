@@ -93,9 +93,13 @@ std::optional<StructurePointer> lie_poisson(ObjectReader& object, const Structur
   if (!algebra || (key && !representation)) return std::nullopt;
   const auto whole = representation ? semidirect(*algebra, *representation, *key) : algebra;
   if (!whole) return std::nullopt;
+  const auto sign = plus ? LiePoisson::Sign::plus : LiePoisson::Sign::minus;
   try {
-    return std::make_shared<LiePoisson>(*whole, site.manifold,
-                                        plus ? LiePoisson::Sign::plus : LiePoisson::Sign::minus);
+    // On all of Rⁿ it knows what acts on what.
+    if (*site.manifold == Euclidean(whole->dimension()))
+      return std::make_shared<LiePoisson>(*algebra,
+                                          representation.value_or(std::vector<MatrixXd>()), sign);
+    return std::make_shared<LiePoisson>(*whole, site.manifold, sign);
   } catch (const std::invalid_argument& error) {
     object.place().problem(without_place(error.what()));
     return std::nullopt;

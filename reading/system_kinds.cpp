@@ -118,6 +118,8 @@ Registry<Model>& system_kinds() {
                           "parameters that the group acts on: \"Gamma[3]\""),
              optional_key("representation", takes::number_matrices(),
                           "how: a matrix for each e_i; so3 and so(n) know theirs"),
+             optional_key("attitude", takes::names(),
+                          "points of the group as part of the state: \"R[3][3]\" for so3"),
              inputs,
              optional_key("nonholonomic", takes::formulas(),
                           "constraints: one-forms in velocities that are zero, with reactions "

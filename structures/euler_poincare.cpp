@@ -10,20 +10,20 @@ namespace {
 
 // E(μ, a, ξ) = ⟨μ, ξ⟩ - ℓ(ξ, a, t), whose energy is ⟨∂ℓ/∂ξ, ξ⟩ - ℓ.
 std::shared_ptr<const GeneratingFamily> reduced_lagrangian(
-    const std::shared_ptr<const Manifold>& M, Index n, const EulerPoincare::Function& lagrangian) {
+    const std::shared_ptr<const Manifold>& M, Index n, Index d,
+    const EulerPoincare::Function& lagrangian) {
   return std::make_shared<MorseFamily>(
       M, n,
-      [lagrangian, n](const ExprVector& x, const ExprVector& xi, const Expr& t) {
-        return x.head(n).dot(xi) - lagrangian(xi, x.tail(x.size() - n), t);
+      [lagrangian, n, d](const ExprVector& x, const ExprVector& xi, const Expr& t) {
+        return x.head(n).dot(xi) - lagrangian(xi, x.segment(n, d), t);
       },
-      [lagrangian, n](const ExprVector& x, const ExprVector& xi, const Expr& t) {
-        const Index d = x.size() - n;
+      [lagrangian, n, d](const ExprVector& x, const ExprVector& xi, const Expr& t) {
         Graph graph;
         const ExprVector from = graph.variables("from", n + d + 1);
         const ExprVector velocity = from.head(n);
         const Expr l = lagrangian(velocity, from.segment(n, d), from[n + d]);
         ExprVector to(n + d + 1);
-        to << xi, x.tail(d), t;
+        to << xi, x.segment(n, d), t;
         return substitute(gradient(l, velocity).dot(velocity) - l, from, to);
       });
 }
@@ -37,33 +37,32 @@ std::shared_ptr<const DiracSystem> euler_poincare_system(const EulerPoincare& pr
         "euler_poincare_system: there are both a Lagrangian and a Hamiltonian, or none; expected "
         "one of the two.");
   const Index n = problem.algebra.dimension();
-  const LieAlgebra algebra = problem.representation.empty()
-                                 ? problem.algebra
-                                 : LieAlgebra::semidirect(problem.algebra, problem.representation);
-  const auto structure = std::make_shared<LiePoisson>(algebra, problem.sign);
+  const auto structure = std::make_shared<LiePoisson>(problem.algebra, problem.representation,
+                                                      problem.sign, problem.group);
   const auto& M = structure->manifold();
-  const Index size = algebra.dimension();
+  const Index d = structure->algebra().dimension() - n, size = M->tangent_dimension();
   const std::shared_ptr<const GeneratingFamily> family =
-      problem.lagrangian ? reduced_lagrangian(M, n, problem.lagrangian)
+      problem.lagrangian ? reduced_lagrangian(M, n, d, problem.lagrangian)
                          : std::make_shared<MorseFamily>(
                                M, 0,
-                               [h = problem.hamiltonian, n](const ExprVector& x, const ExprVector&,
-                                                            const Expr& t) {
-                                 return h(x.head(n), x.tail(x.size() - n), t);
+                               [h = problem.hamiltonian, n, d](const ExprVector& x,
+                                                               const ExprVector&, const Expr& t) {
+                                 return h(x.head(n), x.segment(n, d), t);
                                });
   DiracSystem::Exterior exterior;
   if (problem.input)
-    exterior.source = [input = problem.input, n, size](const ExprVector& x, const ExprVector&,
-                                                       const ExprVector& alpha, const Expr& t) {
+    exterior.source = [input = problem.input, n, d, size](const ExprVector& x, const ExprVector&,
+                                                          const ExprVector& alpha, const Expr& t) {
       ExprVector source = ExprVector::Zero(2 * size);
-      source.head(n) = input(x.head(n), x.tail(size - n), alpha.head(n), t);
+      source.head(n) = input(x.head(n), x.segment(n, d), alpha.head(n), t);
       return source;
     };
   if (problem.constraint) {
     exterior.constraint_count = static_cast<Index>(problem.constraint_names.size());
-    exterior.constraint = [g = problem.constraint, n, size](
-                              const ExprVector& x, const ExprVector&, const ExprVector& alpha,
-                              const Expr& t) { return g(x.tail(size - n), alpha.head(n), t); };
+    exterior.constraint = [g = problem.constraint, n, d](const ExprVector& x, const ExprVector&,
+                                                         const ExprVector& alpha, const Expr& t) {
+      return g(x.segment(n, d), alpha.head(n), t);
+    };
   }
 
   ImplicitSystem::Names words{names.coordinates, {}, {}};

@@ -34,11 +34,13 @@ struct EulerPoincare {
   Constraint constraint = {};                  // g, as many as there are names; empty: none
   std::vector<std::string> constraint_names = {};
   LiePoisson::Sign sign = LiePoisson::Sign::minus;
+  // With a group the attitude x ∈ G, ẋ = x ξ, is part of the state (μ, a, x).
+  std::shared_ptr<const Manifold> group = nullptr;
 };
 
-// On Euclidean(n + d). Auxiliary unknowns: ξ with a Lagrangian, then multipliers. `names` has those
+// On Euclidean(n + d), or on its product with the group. Auxiliary unknowns: ξ with a Lagrangian, then multipliers. `names` has those
 // of the coordinates (μ, a) and of ξ; it may be empty. Throws std::invalid_argument unless there is
-// either a Lagrangian or a Hamiltonian, std::domain_error unless ρ is a representation.
+// either a Lagrangian or a Hamiltonian, and as LiePoisson does.
 struct EulerPoincareNames {
   std::vector<std::string> coordinates = {}, velocities = {};
 };

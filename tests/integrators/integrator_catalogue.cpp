@@ -14,12 +14,15 @@
 #include "courant/integrators/maps/cotangent_lift.hpp"
 #include "courant/integrators/maps/theta.hpp"
 #include "courant/integrators/projector.hpp"
+#include "courant/integrators/reduced_map.hpp"
 #include "courant/manifolds/euclidean.hpp"
+#include "courant/manifolds/special_euclidean3.hpp"
 #include "courant/manifolds/special_orthogonal3.hpp"
 #include "courant/manifolds/sphere.hpp"
 #include "courant/structures/canonical_symplectic.hpp"
 #include "courant/structures/constrained_family.hpp"
 #include "courant/structures/dirac_system.hpp"
+#include "courant/structures/euler_poincare.hpp"
 #include "courant/structures/port_hamiltonian_system.hpp"
 #include "example_systems.hpp"
 #include "held_on_sphere.hpp"
@@ -79,6 +82,10 @@ class Site {
   std::shared_ptr<const Integrator> constrained(const MapPointer& map,
                                                 std::shared_ptr<const Projector> projector) const {
     return std::make_shared<ConstrainFirst>(system_, ladder_, map, std::move(projector));
+  }
+  void reduced(const std::string& map_name, const MapPointer& map) const {
+    add("reduced, " + map_name,
+        std::make_shared<ReducedMap>(std::dynamic_pointer_cast<const DiracSystem>(system_), map));
   }
   void discrete_gradients(const std::string& map_name, const MapPointer& map) const {
     for (const std::shared_ptr<const DiscreteDifferential>& differential :
@@ -284,6 +291,36 @@ void on_manifolds(std::vector<IntegratorEntry>& table) {
   spinning.discrete_gradients("cayley", lift(N, std::make_shared<CayleyMidpoint>(rotations)));
 }
 
+// A top in the wind, with its attitude, on (so(3) ⋉ R³)* × SO(3); a body in a fluid on se(3)*.
+void on_duals_of_algebras(std::vector<IntegratorEntry>& table) {
+  EulerPoincare top{.algebra = LieAlgebra::so3(), .group = std::make_shared<SpecialOrthogonal3>()};
+  for (Index i = 0; i < 3; ++i) {
+    top.representation.push_back(MatrixXd::Zero(3, 3));
+    top.representation.back()((i + 2) % 3, (i + 1) % 3) = 1.0;
+    top.representation.back()((i + 1) % 3, (i + 2) % 3) = -1.0;
+  }
+  top.lagrangian = [](V xi, V a, T t) {
+    return 0.5 * (square(xi[0]) + 2.0 * square(xi[1]) + 3.0 * square(xi[2])) - a[2] -
+           0.2 * a[0] * cos(3.0 * t);
+  };
+  top.input = [](V, V, V xi, T t) { return ExprVector{{sin(t), -0.2 * xi[1], Expr(0.1)}}; };
+  VectorXd x(15);
+  x << 0.3, -0.5, 0.9, 0.0, 0.8, 0.6, 1, 0, 0, 0, 0.6, -0.8, 0, 0.8, 0.6;
+  Site("heavy top with the attitude", euler_poincare_system(top), {.t = 0.2, .x = x}, 0.1, table)
+      .reduced("cayley", std::make_shared<CayleyMidpoint>(std::make_shared<SpecialOrthogonal3>()));
+
+  const EulerPoincare body{.algebra = LieAlgebra::se3(), .hamiltonian = [](V mu, V, T) {
+                             return 0.5 * (square(mu[0]) + square(mu[1]) / 2.0 +
+                                           square(mu[2]) / 3.0 + square(mu[3]) +
+                                           1.5 * square(mu[4]) + 0.8 * square(mu[5])) +
+                                    0.2 * mu[0] * mu[4] + 0.1 * square(mu[3] * mu[5]);
+                           }};
+  VectorXd mu(6);
+  mu << 0.3, -0.5, 0.9, 0.7, 0.2, -0.4;
+  Site("body in a fluid", euler_poincare_system(body), {.x = mu}, 0.1, table)
+      .reduced("exponential", std::make_shared<Theta>(std::make_shared<SpecialEuclidean3>()));
+}
+
 // Nothing moves: M is a point.
 void on_a_point(std::vector<IntegratorEntry>& table) {
   const auto point = std::make_shared<Euclidean>(0);
@@ -309,6 +346,7 @@ std::vector<IntegratorEntry> integrator_catalogue() {
   of_energies(table);
   with_constraints(table);
   on_manifolds(table);
+  on_duals_of_algebras(table);
   on_a_point(table);
   return table;
 }

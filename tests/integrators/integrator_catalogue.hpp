@@ -20,7 +20,7 @@ struct IntegratorEntry {
 };
 
 // Both methods and the explicit ones: regular and constrained systems, with multipliers and time,
-// on vector spaces, a group, a sphere and on a point.
+// on vector spaces, a group, a sphere, duals of Lie algebras and on a point.
 std::vector<IntegratorEntry> integrator_catalogue();
 
 }  // namespace courant::test

@@ -49,6 +49,17 @@ MatrixField plane_form(Index n, std::function<Expr(const ExprVector&)> f) {
   };
 }
 
+// ρ(ξ) = ξ × on R³.
+std::vector<MatrixXd> turns_of_space() {
+  std::vector<MatrixXd> rho;
+  for (Index i = 0; i < 3; ++i) {
+    rho.push_back(MatrixXd::Zero(3, 3));
+    rho.back()((i + 2) % 3, (i + 1) % 3) = 1.0;
+    rho.back()((i + 1) % 3, (i + 2) % 3) = -1.0;
+  }
+  return rho;
+}
+
 // One column.
 MatrixField column(std::function<ExprVector(const ExprVector&)> entries) {
   return [=](const ExprVector& x) { return ExprMatrix(entries(x)); };
@@ -140,6 +151,13 @@ std::vector<StructureEntry> make_catalogue() {
       {"so(3)*, plus", make<LiePoisson>(LieAlgebra::so3(), LiePoisson::Sign::plus), true, 2},
       {"se(3)*", make<LiePoisson>(LieAlgebra::se3()), true, 4},
       {"so(4)*", make<LiePoisson>(LieAlgebra::so(4)), true, 4},
+      {"T*SO(3), trivialised",
+       make<LiePoisson>(LieAlgebra::so3(), std::vector<MatrixXd>(), LiePoisson::Sign::minus,
+                        rotations),
+       true, 6},
+      {"T*SO(3) × R³*, trivialised",
+       make<LiePoisson>(LieAlgebra::so3(), turns_of_space(), LiePoisson::Sign::minus, rotations),
+       true, 6},
       {"abelian", make<LiePoisson>(LieAlgebra::abelian(2)), true, 0},
       {"contact planes, not involutive",
        make<Distribution>(Distribution::annihilated_by(space, 1, contact())), false, 2},

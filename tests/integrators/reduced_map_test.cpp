@@ -1,0 +1,315 @@
+#include "courant/integrators/reduced_map.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "courant/integrators/composition.hpp"
+#include "courant/integrators/discretize_first.hpp"
+#include "courant/integrators/maps/cayley_midpoint.hpp"
+#include "courant/integrators/maps/theta.hpp"
+#include "courant/manifolds/euclidean.hpp"
+#include "courant/manifolds/measurement.hpp"
+#include "courant/manifolds/sphere.hpp"
+#include "courant/structures/canonical_symplectic.hpp"
+#include "courant/structures/euler_poincare.hpp"
+
+BOOST_AUTO_TEST_SUITE(reduced_map)
+
+using namespace courant;
+
+namespace {
+
+using V = const ExprVector&;
+using T = const Expr&;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using MapPointer = std::shared_ptr<const DiscretizationMap>;
+
+const auto rotations = std::make_shared<SpecialOrthogonal3>();
+const auto motions = std::make_shared<SpecialEuclidean3>();
+const MapPointer cayley = std::make_shared<CayleyMidpoint>(rotations);
+const MapPointer exponential = std::make_shared<Theta>(rotations);
+
+std::vector<MatrixXd> turns() {
+  std::vector<MatrixXd> rho;
+  for (Index i = 0; i < 3; ++i) {
+    rho.push_back(MatrixXd::Zero(3, 3));
+    rho.back()((i + 2) % 3, (i + 1) % 3) = 1.0;
+    rho.back()((i + 1) % 3, (i + 2) % 3) = -1.0;
+  }
+  return rho;
+}
+
+// Quadratic in μ and not: nothing cancels.
+Expr spin(V mu, V, T) {
+  return 0.5 * (square(mu[0]) + square(mu[1]) / 2.0 + square(mu[2]) / 0.7) +
+         0.1 * square(mu[0] * mu[1]) + 0.2 * mu[2] * square(mu[1]);
+}
+EulerPoincare rigid_body(bool attitude = false) {
+  return {
+      .algebra = LieAlgebra::so3(), .hamiltonian = spin, .group = attitude ? rotations : nullptr};
+}
+Expr weight(V a) { return 0.1 * a[0] + 0.2 * a[1] + a[2]; }
+Expr top_energy(V mu, V a) {
+  return 0.5 * (square(mu[0]) + square(mu[1]) / 1.2 + square(mu[2]) / 0.6) + weight(a);
+}
+EulerPoincare heavy_top(bool attitude = false) {
+  return {.algebra = LieAlgebra::so3(),
+          .representation = turns(),
+          .hamiltonian = [](V mu, V a, T) { return top_energy(mu, a); },
+          .group = attitude ? rotations : nullptr};
+}
+// Kirchhoff's body in a fluid.
+EulerPoincare body_in_fluid(bool attitude = false) {
+  return {.algebra = LieAlgebra::se3(),
+          .hamiltonian = [](V mu, V, T) -> Expr {
+            return 0.5 * (square(mu[0]) + square(mu[1]) / 2.0 + square(mu[2]) / 3.0 +
+                          square(mu[3]) + 1.5 * square(mu[4]) + 0.8 * square(mu[5])) +
+                   0.2 * mu[0] * mu[4] + 0.1 * square(mu[3] * mu[5]);
+          },
+          .group = attitude ? motions : nullptr};
+}
+
+ReducedMap reduced(const EulerPoincare& problem, MapPointer map = cayley) {
+  return {euler_poincare_system(problem), std::move(map), {.backend = Backend::interpreter}};
+}
+const VectorXd kSpin{{0.8, -0.5, 0.6}};
+const VectorXd kTop{{0.3, -0.2, 2.0, 0.19, 0.615, 0.765}};
+const VectorXd kBody{{0.3, -0.5, 0.9, 0.7, 0.2, -0.4}};
+VectorXd with_attitude(const VectorXd& x, const Manifold& group) {
+  VectorXd all(x.size() + group.ambient_dimension());
+  all << x, *group.unit();
+  return all;
+}
+VectorXd step(const Integrator& method, const VectorXd& x, double h, long count = 1) {
+  return method.advance({.x = x}, h, count).x;
+}
+
+// The differential of a step, by central differences of order 8.
+MatrixXd differential(const Integrator& method, const VectorXd& x, double h) {
+  const Index n = x.size();
+  const double e = 0.02;
+  const double weights[] = {4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0};
+  MatrixXd D = MatrixXd::Zero(n, n);
+  for (Index j = 0; j < n; ++j)
+    for (int k = 1; k <= 4; ++k) {
+      const VectorXd shift = k * e * VectorXd::Unit(n, j);
+      D.col(j) += weights[k - 1] / e * (step(method, x + shift, h) - step(method, x - shift, h));
+    }
+  return D;
+}
+// ‖DΦ Λ DΦᵀ - Λ ∘ Φ‖
+double bracket_defect(const Integrator& method, const LiePoisson& structure, const VectorXd& x,
+                      double h) {
+  const MatrixXd D = differential(method, x, h);
+  const MatrixXd before = values(structure.bivector(constants(x)));
+  const MatrixXd after = values(structure.bivector(constants(step(method, x, h))));
+  return (D * before * D.transpose() - after).cwiseAbs().maxCoeff();
+}
+
+Vector3d spatial(const VectorXd& x) {  // R μ of (μ, a, R) with a of three numbers
+  Matrix3d R;
+  for (Index i = 0; i < 3; ++i) R.row(i) = x.segment(x.size() - 9 + 3 * i, 3);
+  return R * x.head(3);
+}
+
+}  // namespace
+
+// μ₁ is μ₀ turned by cay(v/2)⁻²: with the angle 4 atan(‖v‖/4) about the axis v = h ∂h/∂μ at the
+// stage μ₀, turned by half of that, over 1 + ‖v‖²/16.
+BOOST_AUTO_TEST_CASE(the_cayley_step_by_hand) {
+  const double h = 0.3;
+  const ReducedMap method =
+      reduced({.algebra = LieAlgebra::so3(), .hamiltonian = [](V mu, V, T) -> Expr {
+                 return 0.5 * (square(mu[0]) + square(mu[1]) / 2.0 + square(mu[2]) / 0.7);
+               }});
+  const auto turned = [](const Vector3d& v, double part) {
+    return Eigen::AngleAxisd(-part * 4.0 * std::atan(v.norm() / 4.0), v.normalized());
+  };
+  Vector3d v = h * kSpin.cwiseQuotient(Vector3d(1.0, 2.0, 0.7));
+  for (int i = 0; i < 60; ++i) {
+    const Vector3d stage = turned(v, 0.5) * Vector3d(kSpin) / (1.0 + v.squaredNorm() / 16.0);
+    v = h * stage.cwiseQuotient(Vector3d(1.0, 2.0, 0.7));
+  }
+  const Vector3d expected = turned(v, 1.0) * Vector3d(kSpin);
+  BOOST_TEST((step(method, kSpin, h) - expected).norm() < 1e-15);
+}
+
+// Casimirs over 10⁵ steps: |μ|² on so(3)*; |a|², μ·a of a top; |p|², l·p on se(3)*.
+BOOST_AUTO_TEST_CASE(keeps_coadjoint_orbits) {
+  const auto drift = [](const ReducedMap& method, const VectorXd& x, const auto& casimirs) {
+    const auto before = casimirs(x);
+    return (casimirs(step(method, x, 0.1, 100000)) - before).cwiseAbs().maxCoeff();
+  };
+  BOOST_TEST(drift(reduced(rigid_body()), kSpin, [](const VectorXd& x) {
+               return VectorXd(VectorXd::Constant(1, x.squaredNorm()));
+             }) < 1e-12);
+  const auto both = [](const VectorXd& x) {
+    return VectorXd{{x.tail(3).squaredNorm(), x.head(3).dot(x.tail(3))}};
+  };
+  BOOST_TEST(drift(reduced(heavy_top()), kTop, both) < 1e-12);
+  BOOST_TEST(drift(reduced(body_in_fluid(), std::make_shared<CayleyMidpoint>(motions)), kBody,
+                   both) < 1e-12);
+}
+
+// A Poisson map to the accuracy of its differential; the midpoint rule keeps the same Casimirs and
+// is none.
+BOOST_AUTO_TEST_CASE(is_a_poisson_map) {
+  const double h = 0.2;
+  const auto defect = [&](const EulerPoincare& problem, const MapPointer& map, const VectorXd& x) {
+    return bracket_defect(reduced(problem, map),
+                          LiePoisson(problem.algebra, problem.representation), x, h);
+  };
+  BOOST_TEST(defect(rigid_body(), cayley, kSpin) < 1e-12);
+  BOOST_TEST(defect(rigid_body(), exponential, kSpin) < 1e-12);
+  BOOST_TEST(defect(heavy_top(), cayley, kTop) < 1e-12);
+  BOOST_TEST(defect(heavy_top(), exponential, kTop) < 1e-12);
+  BOOST_TEST(defect(body_in_fluid(), std::make_shared<CayleyMidpoint>(motions), kBody) < 1e-12);
+  BOOST_TEST(defect(body_in_fluid(), std::make_shared<Theta>(motions), kBody) < 1e-12);
+  // Not only symmetric maps.
+  BOOST_TEST(defect(rigid_body(), std::make_shared<Theta>(rotations, 0.3), kSpin) < 1e-12);
+
+  const auto system = euler_poincare_system(rigid_body());
+  const DiscretizeFirst midpoint(system, std::make_shared<Theta>(system->manifold()));
+  BOOST_TEST(std::fabs(step(midpoint, kSpin, h).norm() - kSpin.norm()) < 1e-15);
+  BOOST_TEST(bracket_defect(midpoint, LiePoisson(LieAlgebra::so3()), kSpin, h) > 1e-5);
+}
+
+// (R, μ) are those of Method 1 on T*SO(3), with a = Rᵀ e₃, and (μ, a) those without R.
+BOOST_AUTO_TEST_CASE(is_the_reduction_of_method_1) {
+  const auto bundle = std::make_shared<CotangentBundle>(rotations);
+  const auto whole = std::make_shared<DiracSystem>(
+      std::make_shared<CanonicalSymplectic>(bundle),
+      std::make_shared<Hamiltonian>(bundle,
+                                    [](V x, T) { return top_energy(x.tail(3), x.segment(6, 3)); }));
+  const VectorXd R = rotations->retract(*rotations->unit(), VectorXd{{0.4, -0.9, 0.3}});
+  VectorXd x(12), y(15);
+  x << R, kTop.head(3);
+  y << kTop.head(3), R.tail(3), R;
+  for (const MapPointer& map : {cayley, exponential}) {
+    const DiscretizeFirst full(whole, std::make_shared<CotangentLift>(bundle, map));
+    const ReducedMap with = reduced(heavy_top(true), map), without = reduced(heavy_top(), map);
+    const VectorXd end = step(full, x, 0.05, 400), reconstructed = step(with, y, 0.05, 400);
+    BOOST_TEST((reconstructed.tail(9) - end.head(9)).norm() < 1e-11);
+    BOOST_TEST((reconstructed.head(3) - end.tail(3)).norm() < 1e-11);
+    BOOST_TEST((reconstructed.segment(3, 3) - end.segment(6, 3)).norm() < 1e-11);
+    BOOST_TEST((step(without, y.head(6), 0.05, 400) - reconstructed.head(6)).norm() < 1e-11);
+  }
+}
+
+// R μ is the angular momentum in space: kept without weight, about the vertical with one.
+BOOST_AUTO_TEST_CASE(reconstruction_keeps_the_momentum_in_space) {
+  const VectorXd x = with_attitude(kSpin, *rotations);
+  const VectorXd end = step(reduced(rigid_body(true)), x, 0.1, 10000);
+  BOOST_TEST((spatial(end) - Vector3d(kSpin)).norm() < 1e-12);
+  BOOST_TEST(rotations->point_defect(end.tail(9)) < 1e-13);
+
+  const VectorXd body = with_attitude(kBody, *motions);
+  const VectorXd moved =
+      step(reduced(body_in_fluid(true), std::make_shared<Theta>(motions)), body, 0.1, 2000);
+  Matrix3d R;
+  for (Index i = 0; i < 3; ++i) R.row(i) = moved.segment(6 + 3 * i, 3);
+  const Vector3d p = R * moved.segment(3, 3), r = moved.tail(3);
+  BOOST_TEST((p - Vector3d(kBody.tail(3))).norm() < 1e-12);
+  BOOST_TEST((R * moved.head(3) + r.cross(p) - Vector3d(kBody.head(3))).norm() <
+             1e-12 * (1.0 + r.norm()));
+}
+
+BOOST_AUTO_TEST_CASE(orders) {
+  const auto order = [](const Integrator& method, const VectorXd& x, double time,
+                        const VectorXd& exact) {
+    std::vector<double> steps, errors;
+    for (const long count : {16, 32, 64, 128}) {
+      steps.push_back(time / static_cast<double>(count));
+      errors.push_back((step(method, x, steps.back(), count) - exact).norm());
+    }
+    return log_log_slope(steps, errors, 1e-12);
+  };
+  const auto fine = [](const EulerPoincare& problem, const VectorXd& x, double time) {
+    return step(Composition(std::make_shared<ReducedMap>(reduced(problem)), 8), x, time / 400, 400);
+  };
+  const VectorXd exact = fine(heavy_top(), kTop, 2.0);
+  BOOST_TEST(std::fabs(order(reduced(heavy_top()), kTop, 2.0, exact) - 2.0) < 0.15);
+  BOOST_TEST(std::fabs(order(reduced(heavy_top(), exponential), kTop, 2.0, exact) - 2.0) < 0.15);
+  const Composition fourth(std::make_shared<ReducedMap>(reduced(heavy_top())), 4);
+  BOOST_TEST(std::fabs(order(fourth, kTop, 2.0, exact) - 4.0) < 0.15);
+}
+
+// μ' = -ad*_ξ μ is the flow of -h with the other sign; the attitude is by right translation there.
+BOOST_AUTO_TEST_CASE(right_invariant_systems) {
+  EulerPoincare minus = heavy_top(), plus = heavy_top();
+  minus.hamiltonian = [](V mu, V a, T) -> Expr { return -top_energy(mu, a); };
+  plus.sign = LiePoisson::Sign::plus;
+  BOOST_TEST((step(reduced(plus), kTop, 0.1, 10) - step(reduced(minus), kTop, 0.1, 10)).norm() <
+             1e-13);
+  BOOST_TEST(
+      (step(reduced(plus), kTop, 0.1, 10) - step(reduced(heavy_top()), kTop, 0.1, 10)).norm() >
+      0.1);
+  plus.group = rotations;
+  BOOST_CHECK_THROW(euler_poincare_system(plus), std::invalid_argument);
+}
+
+// Torques and reactions: with a damping torque, and a wheel that may not turn about one axis.
+BOOST_AUTO_TEST_CASE(inputs_and_constraints) {
+  EulerPoincare suslov{.algebra = LieAlgebra::so3()};
+  suslov.lagrangian = [](V xi, V, T) -> Expr {
+    return 0.5 * (square(xi[0]) + 2.0 * square(xi[1]) + 3.0 * square(xi[2])) + 0.4 * xi[0] * xi[2];
+  };
+  suslov.input = [](V, V, V xi, T t) { return ExprVector{{-0.2 * xi[0], cos(t), Expr(0.0)}}; };
+  suslov.constraint = [](V, V xi, T) { return ExprVector(ExprVector::Constant(1, xi[2])); };
+  suslov.constraint_names = {"xi[2]"};
+  const ReducedMap method = reduced(suslov);
+  // ξ₂ = 0: μ = (ξ₀, 2 ξ₁, 0.4 ξ₀), μ₀' = -μ₂ ξ₁ - 0.2 ξ₀, μ₁' = μ₂ ξ₀ + cos t.
+  const auto rate = [](const Eigen::Vector2d& xi, double t) {
+    return Eigen::Vector2d(-0.4 * xi[0] * xi[1] - 0.2 * xi[0],
+                           0.5 * (0.4 * xi[0] * xi[0] + std::cos(t)));
+  };
+  Eigen::Vector2d xi(1.0, 0.5);
+  const double time = 1.0, dt = time / 2000;
+  for (int k = 0; k < 2000; ++k) {
+    const double t = k * dt;
+    const Eigen::Vector2d a = rate(xi, t), b = rate(xi + dt / 2 * a, t + dt / 2),
+                          c = rate(xi + dt / 2 * b, t + dt / 2), d = rate(xi + dt * c, t + dt);
+    xi += dt / 6 * (a + 2 * b + 2 * c + d);
+  }
+  std::vector<double> steps, errors;
+  for (const long count : {16, 32, 64, 128}) {
+    steps.push_back(time / static_cast<double>(count));
+    const State end = method.advance(
+        {.x = VectorXd{{1.0, 1.0, 0.4}}, .z = VectorXd{{1.0, 0.5, 0.0, 0.0}}}, steps.back(), count);
+    errors.push_back((Eigen::Vector2d(end.x[0], end.x[1] / 2.0) - xi).norm());
+  }
+  BOOST_TEST(std::fabs(log_log_slope(steps, errors, 1e-12) - 2.0) < 0.15);
+}
+
+BOOST_AUTO_TEST_CASE(at_rest_and_about_an_axis) {
+  BOOST_TEST(step(reduced(rigid_body()), VectorXd::Zero(3), 0.1, 10).norm() == 0.0);
+  const VectorXd axis{{0.0, 0.0, 0.9}};
+  BOOST_TEST((step(reduced(rigid_body()), axis, 0.1, 10) - axis).norm() < 1e-15);
+  const VectorXd hanging{{0.0, 0.0, 0.0, 0.1, 0.2, 1.0}};
+  BOOST_TEST((step(reduced(heavy_top()), hanging, 0.1, 10) - hanging).norm() < 1e-15);
+}
+
+BOOST_AUTO_TEST_CASE(what_is_refused) {
+  const auto system = euler_poincare_system(heavy_top());
+  BOOST_CHECK_THROW(ReducedMap(nullptr, cayley), std::invalid_argument);
+  BOOST_CHECK_THROW(ReducedMap(system, nullptr), std::invalid_argument);
+  BOOST_CHECK_THROW(ReducedMap(system, std::make_shared<Theta>(std::make_shared<Euclidean>(3))),
+                    std::invalid_argument);
+  BOOST_CHECK_THROW(ReducedMap(system, std::make_shared<CayleyMidpoint>(motions)),
+                    std::invalid_argument);
+  // -ρᵀ is a representation too, and R that of its group; half of a copy is none that is known.
+  EulerPoincare other = heavy_top();
+  for (MatrixXd& rho : other.representation) {
+    MatrixXd more = MatrixXd::Zero(4, 4);
+    more.bottomRightCorner(3, 3) = rho;
+    rho = more;
+  }
+  BOOST_CHECK_THROW(ReducedMap(euler_poincare_system(other), cayley), std::invalid_argument);
+  BOOST_CHECK_THROW(ReducedMap(euler_poincare_system(rigid_body(true)),
+                               std::make_shared<Theta>(std::make_shared<SpecialOrthogonal3>(
+                                   SpecialOrthogonal3::cayley()))),
+                    std::invalid_argument);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
