@@ -49,6 +49,7 @@
 #include "courant/manifolds/laws.hpp"
 #include "courant/manifolds/product.hpp"
 #include "courant/manifolds/special_euclidean3.hpp"
+#include "courant/manifolds/special_orthogonal.hpp"
 #include "courant/manifolds/special_orthogonal3.hpp"
 #include "courant/manifolds/sphere.hpp"
 #include "courant/manifolds/stiefel.hpp"

@@ -188,9 +188,10 @@ std::shared_ptr<const LiePoisson> checked(const std::shared_ptr<const DiracSyste
     throw std::invalid_argument("ReducedMap::ReducedMap: the map is on " + map->manifold()->name() +
                                 ", the attitude on " + structure->group()->name() +
                                 "; expected one and the same.");
-  if (!map->has_inverse())
+  if (!map->has_start())
     throw std::invalid_argument("ReducedMap::ReducedMap: " + map->name() +
-                                " has no closed inverse; expected a map that has.");
+                                " has no closed formula for the pairs that begin at a point; "
+                                "expected a map that has.");
   return structure;
 }
 

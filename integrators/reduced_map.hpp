@@ -46,7 +46,7 @@ class ReducedMap final : public Integrator {
   };
 
   // `system` has a LiePoisson structure, and what acts on it acts on μ alone; `map` is on a group
-  // with the algebra that acts, left-invariant, with a closed inverse. Throws std::invalid_argument
+  // with the algebra that acts, left-invariant, with DiscretizationMap::has_start. Throws std::invalid_argument
   // otherwise, and where the representation is not that of a known action (group_action).
   ReducedMap(std::shared_ptr<const DiracSystem> system,
              std::shared_ptr<const DiscretizationMap> map, const Options& options);

@@ -136,10 +136,11 @@ struct StageStep::Trace {
       return reduced_equations(S, basis, all.residual);
     };
     ExprVector y, x1, v, stage(0);
-    if (map.has_inverse()) {
+    if (map.has_start()) {
       const ExprVector xi = graph.variables("xi", n);
       const auto middle = map.from_start(x0, basis * xi);
       x1 = middle.end;
+      if (!map.has_inverse()) stage = middle.x;
       v = middle.v * rate;
       formulas.equations = reduced(middle.x, v, x1);
       formulas.equation_names = names.equations(formulas.equations.size());

@@ -16,7 +16,7 @@ namespace courant {
 // The equations of a step that evaluates a system at one point x̄ between x₀ and x₁, traced and
 // compiled: what Method 1 and the methods of discrete gradients have in common.
 //
-// With a map that has a closed inverse the unknowns of a step are the coordinates ξ of a tangent
+// With a map that has a closed from_start the unknowns of a step are the coordinates ξ of a tangent
 // vector at x₀ and z:
 //   F(x̄, v / h, z, t̄) = 0,   (x̄, v, x₁) = from_start(x₀, B ξ), so that (x̄, v) = R_d⁻¹(x₀, x₁);
 // otherwise (x̄, v, z), with R_d⁻(x̄, h v) = x₀ and then x₁ = R_d⁺(x̄, h v).

@@ -101,7 +101,9 @@ std::optional<DiscretizationChoice> cayley(ObjectReader&) {
         return std::make_shared<CayleyMidpoint>(rotations);
       if (const auto motions = std::dynamic_pointer_cast<const SpecialEuclidean3>(M))
         return std::make_shared<CayleyMidpoint>(motions);
-      refuse("cayley", "so3 and se3", *M);
+      if (const auto all = std::dynamic_pointer_cast<const SpecialOrthogonal>(M))
+        return std::make_shared<CayleyMidpoint>(all);
+      refuse("cayley", "so3, se3 and so", *M);
     });
   });
 }
@@ -231,7 +233,7 @@ std::optional<MethodChoice> reduced(ObjectReader& object) {
         if (!group)
           throw std::invalid_argument("no group is known for the Lie algebra " +
                                       structure->acting().name() +
-                                      " in its basis; expected so3, se3 or abelian");
+                                      " in its basis; expected so3, se3, so or abelian");
         const auto on_group = map.make(group);
         return PreparedMethod{
             composed(std::make_shared<ReducedMap>(system, on_group,
@@ -280,7 +282,7 @@ Registry<DiscretizationChoice>& discretization_kinds() {
       {{"chordal", "the symmetric map (2) of spheres, and of products of them"}, chordal},
       {{"spherical-midpoint", "(x√(1-v²/4) - v/2, x√(1-v²/4) + v/2) on spheres, and products"},
        spherical_midpoint},
-      {{"cayley", "midpoint of the Cayley transform on so3 and se3, and products"}, cayley},
+      {{"cayley", "midpoint of the Cayley transform on so3, se3 and so, and products"}, cayley},
       {{"projected",
         "(P × P) R_d on an implicit submanifold",
         {default_key("map", takes::kind("discretization"), "midpoint",

@@ -125,7 +125,7 @@ std::optional<Attitude> read_attitude(const JsonReader& key, const LieAlgebra& g
   if (!read_names(key, taken, attitude.names)) return std::nullopt;
   if (!attitude.group) {
     key.problem("no group is known for the Lie algebra " + g.name() +
-                " in its basis; expected so3, se3 or abelian");
+                " in its basis; expected so3, se3, so or abelian");
     return std::nullopt;
   }
   if (plus) {

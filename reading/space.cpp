@@ -9,6 +9,7 @@
 #include "courant/manifolds/implicit_submanifold.hpp"
 #include "courant/manifolds/product.hpp"
 #include "courant/manifolds/special_euclidean3.hpp"
+#include "courant/manifolds/special_orthogonal.hpp"
 #include "courant/manifolds/special_orthogonal3.hpp"
 #include "courant/manifolds/sphere.hpp"
 #include "courant/manifolds/stiefel.hpp"
@@ -62,6 +63,16 @@ std::optional<ManifoldPointer> stiefel(ObjectReader& object, const Vocabulary& v
   object.place().problem(
       "the points of a Stiefel manifold are matrices with at least as many rows as columns; "
       "expected coordinates such as \"X[4][2]\"");
+  return std::nullopt;
+}
+
+std::optional<ManifoldPointer> all_rotations(ObjectReader& object, const Vocabulary& vocabulary) {
+  const auto& declarations = vocabulary.coordinates.declarations();
+  if (declarations.size() == 1 && declarations[0].shape.size() == 2 &&
+      declarations[0].shape[0] == declarations[0].shape[1])
+    return std::make_shared<SpecialOrthogonal>(declarations[0].shape[0]);
+  object.place().problem(
+      "the points of SO(n) are square matrices; expected coordinates such as \"X[4][4]\"");
   return std::nullopt;
 }
 
@@ -190,6 +201,10 @@ Registry<ManifoldPointer, Vocabulary>& manifold_kinds() {
         "both in the body; or one array of 12 with a momentum of 6",
         {retraction("cayley")}},
        motions},
+      {{"so",
+        "rotations of Rⁿ by n×n matrices, \"X[n][n]\"; the momentum p_X[n(n-1)/2] is that in the "
+        "body"},
+       all_rotations},
       {{"stiefel", "orthonormal k-frames of Rⁿ by n×k matrices, \"X[n][k]\""}, stiefel},
       {{"symmetric-positive-definite",
         "such n×n matrices by their lower triangle, row after row: \"X[3]\" for 2×2"},

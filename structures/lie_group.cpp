@@ -5,6 +5,7 @@
 #include "courant/manifolds/cotangent_bundle.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/special_euclidean3.hpp"
+#include "courant/manifolds/special_orthogonal.hpp"
 #include "courant/manifolds/special_orthogonal3.hpp"
 
 namespace courant {
@@ -25,9 +26,11 @@ bool is_group_of(const std::shared_ptr<const Manifold>& G, const LieAlgebra& g) 
 }
 
 std::shared_ptr<const Manifold> group_of(const LieAlgebra& g) {
-  const std::vector<std::shared_ptr<const Manifold>> groups = {
+  std::vector<std::shared_ptr<const Manifold>> groups = {
       std::make_shared<SpecialOrthogonal3>(), std::make_shared<SpecialEuclidean3>(),
       std::make_shared<Euclidean>(g.dimension())};
+  for (Index n = 2; n * (n - 1) / 2 <= g.dimension(); ++n)
+    groups.push_back(std::make_shared<SpecialOrthogonal>(n));
   const auto found =
       std::ranges::find_if(groups, [&](const auto& group) { return is_group_of(group, g); });
   return found == groups.end() ? nullptr : *found;
@@ -35,20 +38,21 @@ std::shared_ptr<const Manifold> group_of(const LieAlgebra& g) {
 
 namespace {
 
-// Whether ρ turns each of the copies of R³: e_i × for the first three components, which are those of
-// the angular velocity, 0 for the others.
-bool is_rotation(const std::vector<MatrixXd>& rho) {
-  for (std::size_t i = 0; i < rho.size(); ++i) {
-    MatrixXd expected = MatrixXd::Zero(rho[i].rows(), rho[i].cols());
-    if (i < 3)
-      for (Index c = 0; c + 3 <= expected.rows(); c += 3) {
-        const auto k = static_cast<Index>(i);
-        expected(c + (k + 2) % 3, c + (k + 1) % 3) = 1.0;
-        expected(c + (k + 1) % 3, c + (k + 2) % 3) = -1.0;
-      }
-    if (rho[i] != expected) return false;
-  }
-  return true;
+// The n of the rotations that the points of a group begin with, n × n numbers; 0 if they do not.
+Index rotation_size(const Manifold& G) {
+  if (const auto* rotations = dynamic_cast<const SpecialOrthogonal*>(&G)) return rotations->size();
+  const bool is_of_space = dynamic_cast<const SpecialOrthogonal3*>(&G) != nullptr ||
+                           dynamic_cast<const SpecialEuclidean3*>(&G) != nullptr;
+  return is_of_space ? 3 : 0;
+}
+
+// n × n blocks along the diagonal, d rows in all.
+ExprMatrix copies(const ExprVector& rotation, Index n, Index d) {
+  ExprMatrix A = ExprMatrix::Zero(d, d);
+  for (Index c = 0; c < d; c += n)
+    for (Index i = 0; i < n; ++i)
+      for (Index j = 0; j < n; ++j) A(c + i, c + j) = rotation[n * i + j];
+  return A;
 }
 
 }  // namespace
@@ -57,17 +61,13 @@ GroupAction group_action(const Manifold& G, const std::vector<MatrixXd>& rho) {
   const Index d = rho.empty() ? 0 : rho.front().rows();
   if (std::ranges::all_of(rho, [](const MatrixXd& r) { return r.isZero(0.0); }))
     return [d](const ExprVector&) { return ExprMatrix(ExprMatrix::Identity(d, d)); };
-  const bool turns = dynamic_cast<const SpecialOrthogonal3*>(&G) != nullptr ||
-                     dynamic_cast<const SpecialEuclidean3*>(&G) != nullptr;
-  if (!turns || d % 3 != 0 || std::ssize(rho) != G.tangent_dimension() || !is_rotation(rho))
-    return {};
-  return [d](const ExprVector& x) {
-    ExprMatrix A = ExprMatrix::Zero(d, d);
-    for (Index c = 0; c < d; c += 3)
-      for (Index i = 0; i < 3; ++i)
-        for (Index j = 0; j < 3; ++j) A(c + i, c + j) = x[3 * i + j];
-    return A;
-  };
+  const Index n = rotation_size(G);
+  if (n == 0 || d % n != 0 || std::ssize(rho) != G.tangent_dimension()) return {};
+  const MatrixXd frame = G.frame(*G.unit());
+  for (Index i = 0; i < G.tangent_dimension(); ++i)
+    if (rho[static_cast<std::size_t>(i)] != values(copies(constants(frame.col(i)), n, d)))
+      return {};
+  return [n, d](const ExprVector& x) { return copies(x, n, d); };
 }
 
 }  // namespace courant

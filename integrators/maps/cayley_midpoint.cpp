@@ -13,6 +13,9 @@ CayleyMidpoint::CayleyMidpoint(std::shared_ptr<const SpecialEuclidean3> group)
     : DiscretizationMap("CayleyMidpoint", std::move(group)),
       cayley_(std::make_shared<SpecialEuclidean3>(SpecialEuclidean3::cayley())) {}
 
+CayleyMidpoint::CayleyMidpoint(std::shared_ptr<const SpecialOrthogonal> group)
+    : DiscretizationMap("CayleyMidpoint", group), has_root_(false), cayley_(group) {}
+
 DiscretizationMap::PointPair<Expr> CayleyMidpoint::do_forward(const ExprVector& x,
                                                               const ExprVector& v) const {
   return {cayley_->retract(x, ExprVector(Expr(-0.5) * v)),

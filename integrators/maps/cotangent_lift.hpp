@@ -30,6 +30,7 @@ class CotangentLift final : public DiscretizationMap {
 
   const std::shared_ptr<const DiscretizationMap>& base() const { return base_; }
   bool has_inverse() const override { return base_->has_inverse(); }
+  bool has_start() const override { return base_->has_start(); }
   double domain_radius() const override { return base_->domain_radius(); }
   int order() const override { return base_->order(); }
   double stage_time() const override { return base_->stage_time(); }

@@ -58,7 +58,7 @@ DiscretizationMap::Displacement DiscretizationMap::from_start(const ExprVector& 
                                                               const ExprVector& w) const {
   check_size(name_ + "::from_start", "x0", x0.size(), manifold_->ambient_dimension());
   check_size(name_ + "::from_start", "w", w.size(), manifold_->tangent_dimension());
-  Displacement result = has_inverse() ? do_from_start(x0, w) : from_start_by_inverse(x0, w);
+  Displacement result = has_start() ? do_from_start(x0, w) : from_start_by_inverse(x0, w);
   check_size(name_ + "::do_from_start", "x", result.x.size(), x0.size());
   check_size(name_ + "::do_from_start", "v", result.v.size(), w.size());
   check_size(name_ + "::do_from_start", "the end", result.end.size(), x0.size());

@@ -20,7 +20,7 @@ namespace courant {
 //   D3  inverse(forward(x, v)) = (x, v) for ‖v‖ < domain_radius(), and
 //       forward(inverse(x₀, x₁)) = (x₀, x₁) near the diagonal (Proposition 4.6)
 //   D4  the claims order(), is_symmetric() and is_symplectic() hold
-//   D5  forward(x̄, v) = (x₀, x₁) for (x̄, v, x₁) = from_start(x₀, w), near w = 0
+//   D5  forward(x̄, v) = (x₀, x₁) for (x̄, v, x₁) = from_start(x₀, w), near w = 0, if has_start()
 //   D6  stage_time() is an eigenvalue of K, R⁻(s v) = x - s K v + O(s²): time takes part as a
 //       coordinate would
 //   D7  R_d(g x, v) = g R_d(x, v), if is_left_invariant() claims it
@@ -68,7 +68,7 @@ class DiscretizationMap {
 
   // The pairs that begin at x₀, by tangent vectors w at x₀: (x̄, v, x₁) with R_d(x̄, v) = (x₀, x₁)
   // and v = w to first order. A step has w as unknown, which for most maps is a shorter formula
-  // than R_d⁻¹(x₀, R_{x₀}(w)). Throws std::logic_error if !has_inverse().
+  // than R_d⁻¹(x₀, R_{x₀}(w)). Throws std::logic_error if !has_start().
   Displacement from_start(const ExprVector& x0, const ExprVector& w) const;
 
   // ‖v‖ below which forward is defined and injective, where that is less than the injectivity
@@ -76,6 +76,8 @@ class DiscretizationMap {
   virtual double domain_radius() const { return std::numeric_limits<double>::infinity(); }
   // Whether inverse is a closed formula.
   virtual bool has_inverse() const { return true; }
+  // Whether from_start is one.
+  virtual bool has_start() const { return has_inverse(); }
   // The order of the one-step method that the map gives on an ordinary differential equation.
   virtual int order() const = 0;
   // Where between t and t + h the system is evaluated if it depends on time: t + stage_time() h.

@@ -108,10 +108,8 @@ class DiscretizationMapLaws {
         zero_section(),  difference_to_first_order(), stays_on(), left_inverse(),
         right_inverse(), derivatives_of_forward(),    order(),    symmetry(),
         stage_time()};
-    if (map_.has_inverse()) {
-      results.push_back(derivatives_of_inverse());
-      results.push_back(from_start());
-    }
+    if (map_.has_inverse()) results.push_back(derivatives_of_inverse());
+    if (map_.has_start()) results.push_back(from_start());
     if (map_.is_symplectic().has_value()) results.push_back(symplectic());
     if (map_.is_left_invariant()) results.push_back(left_invariance());
     return results;

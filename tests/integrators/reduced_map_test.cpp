@@ -70,6 +70,27 @@ EulerPoincare body_in_fluid(bool attitude = false) {
           .group = attitude ? motions : nullptr};
 }
 
+// A body in R⁴, with weight or without.
+EulerPoincare top_of_four(bool weight) {
+  EulerPoincare problem{.algebra = LieAlgebra::so(4)};
+  problem.hamiltonian = [](V mu, V a, T) {
+    Expr energy = 0.2 * mu[0] * square(mu[4]);
+    for (Index i = 0; i < 6; ++i) energy += square(mu[i]) / (2.0 + 0.3 * static_cast<double>(i));
+    if (a.size() > 0) energy += a[0] + 0.3 * a[2] * a[3];
+    return energy;
+  };
+  for (Index i = 0; weight && i < 4; ++i)
+    for (Index j = i + 1; j < 4; ++j) {
+      problem.representation.push_back(MatrixXd::Zero(4, 4));
+      problem.representation.back()(i, j) = 1.0;
+      problem.representation.back()(j, i) = -1.0;
+    }
+  return problem;
+}
+const MapPointer cayley_of_four =
+    std::make_shared<CayleyMidpoint>(std::make_shared<SpecialOrthogonal>(4));
+const VectorXd kFour{{0.5, -0.3, 0.8, 0.2, -0.6, 0.4, 0.3, 0.7, -0.2, 0.5}};
+
 ReducedMap reduced(const EulerPoincare& problem, MapPointer map = cayley) {
   return {euler_poincare_system(problem), std::move(map), {.backend = Backend::interpreter}};
 }
@@ -152,6 +173,34 @@ BOOST_AUTO_TEST_CASE(keeps_coadjoint_orbits) {
                    both) < 1e-12);
 }
 
+// Of so(4) ⋉ R⁴ they are |a|² and |μ ∧ a|², of degree four, which the midpoint rule does not keep; on
+// so(4)* alone |μ|² and the Pfaffian.
+BOOST_AUTO_TEST_CASE(keeps_coadjoint_orbits_of_so4) {
+  const auto square_of_wedge = [](const VectorXd& x) {  // (01), (02), (03), (12), (13), (23), a
+    const VectorXd a = x.tail(4);
+    return std::pow(x[0] * a[2] - x[1] * a[1] + x[3] * a[0], 2) +
+           std::pow(x[0] * a[3] - x[2] * a[1] + x[4] * a[0], 2) +
+           std::pow(x[1] * a[3] - x[2] * a[2] + x[5] * a[0], 2) +
+           std::pow(x[3] * a[3] - x[4] * a[2] + x[5] * a[1], 2);
+  };
+  const auto drift = [](const Integrator& method, const VectorXd& x, const auto& casimir) {
+    return std::fabs(casimir(step(method, x, 0.1, 20000)) - casimir(x));
+  };
+  const ReducedMap top = reduced(top_of_four(true), cayley_of_four);
+  BOOST_TEST(drift(top, kFour, square_of_wedge) < 1e-12);
+  BOOST_TEST(drift(top, kFour, [](const VectorXd& x) { return x.tail(4).squaredNorm(); }) < 1e-12);
+  const auto system = euler_poincare_system(top_of_four(true));
+  const DiscretizeFirst midpoint(system, std::make_shared<Theta>(system->manifold()));
+  BOOST_TEST(drift(midpoint, kFour, square_of_wedge) > 1e-6);
+
+  const ReducedMap body = reduced(top_of_four(false), cayley_of_four);
+  const VectorXd mu = kFour.head(6);
+  BOOST_TEST(drift(body, mu, [](const VectorXd& x) { return x.squaredNorm(); }) < 1e-12);
+  BOOST_TEST(drift(body, mu, [](const VectorXd& x) {
+               return x[0] * x[5] - x[1] * x[4] + x[2] * x[3];
+             }) < 1e-12);
+}
+
 // A Poisson map to the accuracy of its differential; the midpoint rule keeps the same Casimirs and
 // is none.
 BOOST_AUTO_TEST_CASE(is_a_poisson_map) {
@@ -166,6 +215,8 @@ BOOST_AUTO_TEST_CASE(is_a_poisson_map) {
   BOOST_TEST(defect(heavy_top(), exponential, kTop) < 1e-12);
   BOOST_TEST(defect(body_in_fluid(), std::make_shared<CayleyMidpoint>(motions), kBody) < 1e-12);
   BOOST_TEST(defect(body_in_fluid(), std::make_shared<Theta>(motions), kBody) < 1e-12);
+  BOOST_TEST(defect(top_of_four(false), cayley_of_four, kFour.head(6)) < 1e-12);
+  BOOST_TEST(defect(top_of_four(true), cayley_of_four, kFour) < 1e-12);
   // Not only symmetric maps.
   BOOST_TEST(defect(rigid_body(), std::make_shared<Theta>(rotations, 0.3), kSpin) < 1e-12);
 
@@ -195,6 +246,34 @@ BOOST_AUTO_TEST_CASE(is_the_reduction_of_method_1) {
     BOOST_TEST((reconstructed.segment(3, 3) - end.segment(6, 3)).norm() < 1e-11);
     BOOST_TEST((step(without, y.head(6), 0.05, 400) - reconstructed.head(6)).norm() < 1e-11);
   }
+}
+
+// The same on SO(4), where the map has no closed inverse; stages included.
+BOOST_AUTO_TEST_CASE(is_the_reduction_of_method_1_on_so4) {
+  const auto group = std::make_shared<SpecialOrthogonal>(4);
+  const auto bundle = std::make_shared<CotangentBundle>(group);
+  EulerPoincare problem = top_of_four(false);
+  const auto whole = std::make_shared<DiracSystem>(
+      std::make_shared<CanonicalSymplectic>(bundle),
+      std::make_shared<Hamiltonian>(
+          bundle, [H = problem.hamiltonian](V x, T t) { return H(x.tail(6), ExprVector(0), t); }));
+  problem.group = group;
+  const DiscretizeFirst full(whole, std::make_shared<CotangentLift>(bundle, cayley_of_four));
+  const ReducedMap method = reduced(problem, cayley_of_four);
+  State a{.x = VectorXd(22)}, b{.x = with_attitude(kFour.head(6), *group)};
+  a.x << *group->unit(), kFour.head(6);
+  const auto first = full.stepper(), second = method.stepper();
+  for (int k = 1; k <= 100; ++k) {
+    first->step(a, 0.1, 0.1 * k);
+    second->step(b, 0.1, 0.1 * k);
+  }
+  BOOST_TEST((a.x.head(16) - b.x.tail(16)).norm() < 1e-12);
+  BOOST_TEST((a.x.tail(6) - b.x.head(6)).norm() < 1e-12);
+  const VectorXd stage = first->last().stage.x, reduced_stage = second->last().stage.x;
+  BOOST_TEST((stage.head(16) - reduced_stage.tail(16)).norm() < 1e-12);
+  BOOST_TEST((stage.tail(6) - reduced_stage.head(6)).norm() < 1e-12);
+  // Between the two ends.
+  BOOST_TEST((stage.head(16) - a.x.head(16)).norm() > 1e-3);
 }
 
 // R μ is the angular momentum in space: kept without weight, about the vertical with one.

@@ -17,6 +17,7 @@
 #include "courant/manifolds/implicit_submanifold.hpp"
 #include "courant/manifolds/product.hpp"
 #include "courant/manifolds/special_euclidean3.hpp"
+#include "courant/manifolds/special_orthogonal.hpp"
 #include "courant/manifolds/special_orthogonal3.hpp"
 #include "courant/manifolds/sphere.hpp"
 #include "courant/manifolds/stiefel.hpp"
@@ -80,6 +81,9 @@ inline std::vector<ManifoldPointer> manifold_catalogue() {
           make<SpecialOrthogonal3>(SpecialOrthogonal3::cayley()),
           motions,
           make<SpecialEuclidean3>(SpecialEuclidean3::cayley()),
+          make<SpecialOrthogonal>(1),
+          make<SpecialOrthogonal>(2),
+          make<SpecialOrthogonal>(4),
           make<Torus>(0),
           make<Torus>(1),
           torus,

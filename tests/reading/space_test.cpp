@@ -52,6 +52,7 @@ BOOST_AUTO_TEST_CASE(each_kind_is_the_manifold_that_it_says) {
   BOOST_TEST(name("so3", "R[3][3]") == "CotangentBundle(SpecialOrthogonal3(exponential))");
   BOOST_TEST(name({{"type", "se3"}, {"retraction", "cayley"}}, "g[12]") ==
              "CotangentBundle(SpecialEuclidean3(cayley))");
+  BOOST_TEST(name("so", "X[4][4]") == "CotangentBundle(SpecialOrthogonal(4))");
   BOOST_TEST(name("stiefel", "X[4][2]") == "CotangentBundle(Stiefel(4, 2))");
   BOOST_TEST(name("symmetric-positive-definite", "X[6]") ==
              "CotangentBundle(SymmetricPositiveDefinite(3))");
@@ -78,6 +79,9 @@ BOOST_AUTO_TEST_CASE(coordinates_that_do_not_fit_are_problems) {
   BOOST_TEST(problems(motion("so3", {"R[8]"}, "0")) ==
              "/system/coordinates: name 11 numbers; expected 12, those of a point of "
              "CotangentBundle(SpecialOrthogonal3(exponential))");
+  BOOST_TEST(problems(motion("so", {"X[2][3]"}, "0")) ==
+             "/system/manifold/base: the points of SO(n) are square matrices; expected coordinates "
+             "such as \"X[4][4]\"");
   BOOST_TEST(problems(motion("stiefel", {"X[2][3]"}, "0")) ==
              "/system/manifold/base: the points of a Stiefel manifold are matrices with at least "
              "as many rows as columns; expected coordinates such as \"X[4][2]\"");

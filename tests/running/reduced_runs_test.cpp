@@ -95,12 +95,15 @@ BOOST_AUTO_TEST_CASE(what_does_not_fit_is_said) {
   Json plus = with(rigid_body, "/system/attitude", {"R[3][3]"});
   plus["system"]["sign"] = "plus";
   BOOST_TEST(says(problem_of(plus), "/system/attitude: is for left-invariant systems"));
-  // so(3) in the basis of matrices.
-  Json basis = with(rigid_body, "/system/algebra", "so");
-  basis["system"]["n"] = 3;
+  // so(3) in a basis of another length.
+  Json basis = rigid_body;
+  basis["system"].erase("algebra");
+  basis["system"]["constants"] = {{{0, 0, 0}, {0, 0, 2}, {0, -2, 0}},
+                                  {{0, 0, -2}, {0, 0, 0}, {2, 0, 0}},
+                                  {{0, 2, 0}, {-2, 0, 0}, {0, 0, 0}}};
   BOOST_TEST(says(problem_of(basis),
-                  "/method: no group is known for the Lie algebra so(3) in its "
-                  "basis; expected so3, se3 or abelian"));
+                  "/method: no group is known for the Lie algebra g in its basis; expected so3, "
+                  "se3, so or abelian"));
   const std::string map = problem_of(with(rigid_body, "/method/discretization", "chordal"));
   BOOST_TEST(says(map, "/method: the discretization \"chordal\" is for spheres"), map);
 }

@@ -5,6 +5,7 @@
 
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/special_euclidean3.hpp"
+#include "courant/manifolds/special_orthogonal.hpp"
 #include "courant/manifolds/special_orthogonal3.hpp"
 #include "courant/manifolds/sphere.hpp"
 
@@ -28,6 +29,18 @@ std::vector<MatrixXd> turns(Index n, Index c) {
   return rho;
 }
 
+// E_ij on R⁴.
+std::vector<MatrixXd> turns_of_four() {
+  std::vector<MatrixXd> rho;
+  for (Index i = 0; i < 4; ++i)
+    for (Index j = i + 1; j < 4; ++j) {
+      rho.push_back(MatrixXd::Zero(4, 4));
+      rho.back()(i, j) = 1.0;
+      rho.back()(j, i) = -1.0;
+    }
+  return rho;
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(groups_of_algebras) {
@@ -44,7 +57,10 @@ BOOST_AUTO_TEST_CASE(groups_of_algebras) {
   BOOST_TEST(group_of(LieAlgebra::so3())->name() == rotations->name());
   BOOST_TEST(group_of(LieAlgebra::se3())->name() == motions->name());
   BOOST_TEST(group_of(LieAlgebra::abelian(2))->name() == Euclidean(2).name());
-  BOOST_TEST((group_of(LieAlgebra::so(4)) == nullptr));
+  BOOST_TEST(group_of(LieAlgebra::so(4))->name() == "SpecialOrthogonal(4)");
+  auto twice = LieAlgebra::so3().constants();
+  for (MatrixXd& c : twice) c *= 2.0;
+  BOOST_TEST((group_of(LieAlgebra("2 so(3)", twice)) == nullptr));
 }
 
 // A(x y) = A(x) A(y), and the differential at the unit is ρ.
@@ -53,7 +69,8 @@ BOOST_AUTO_TEST_CASE(actions_are_representations) {
   for (const auto& [group, rho] :
        {std::pair<std::shared_ptr<const Manifold>, std::vector<MatrixXd>>(rotations, turns(3, 1)),
         {rotations, turns(3, 2)},
-        {motions, turns(6, 1)}}) {
+        {motions, turns(6, 1)},
+        {std::make_shared<SpecialOrthogonal>(4), turns_of_four()}}) {
     const GroupAction action = group_action(*group, rho);
     BOOST_REQUIRE(action);
     const auto A = [&](const VectorXd& x) { return MatrixXd(values(action(constants(x)))); };

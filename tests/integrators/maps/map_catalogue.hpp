@@ -72,6 +72,8 @@ inline std::vector<MapPointer> base_map_catalogue() {
           make<CayleyMidpoint>(rotations),
           make<CayleyMidpoint>(cayley),
           make<CayleyMidpoint>(motions),
+          make<CayleyMidpoint>(make<SpecialOrthogonal>(2)),
+          make<CayleyMidpoint>(make<SpecialOrthogonal>(3)),
           projected(ellipsoid(), 0.5),
           projected(ellipsoid(), 0.3),
           projected(spherical_circle(), 0.5),
