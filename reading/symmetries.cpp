@@ -45,9 +45,11 @@ std::optional<Part> read_part(const std::string& name, const JsonReader& value,
                               !words.vocabulary.coordinates.contains(reference.name);
     const auto [first, count] =
         (is_component ? words.components : words.vocabulary.coordinates).find(reference);
-    if (const auto given = static_cast<Index>(formulas->formulas.size()); given != count)
-      throw FormulaError(1, "has " + std::to_string(given) + " formulas; expected " +
-                                std::to_string(count) + " for \"" + name + "\"");
+    if (const auto given = static_cast<Index>(formulas->formulas.size()); given != count) {
+      value.problem("has " + std::to_string(given) + " formulas; expected " +
+                    std::to_string(count) + " for \"" + name + "\"");
+      return std::nullopt;
+    }
     return Part{first, is_component, *formulas};
   } catch (const FormulaError& error) {
     value.problem(std::string("key, ") + error.what());
