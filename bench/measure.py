@@ -1,0 +1,130 @@
+"""Measures what bench/README.md holds, and writes its tables. Called by scripts/bench.
+
+measure.py BIN ROOT [instructions|check]
+
+Times are medians of several repetitions in one process, and only their ratios are written. Instructions a step are the
+difference of two runs of the command, of which one makes twice as many steps, counted by callgrind; they are the same
+on each machine with the same compiler and libraries.
+"""
+import datetime
+import json
+import os
+import pathlib
+import platform
+import re
+import subprocess
+import sys
+import tempfile
+
+BIN, ROOT = map(pathlib.Path, sys.argv[1:3])
+WHAT = sys.argv[3] if len(sys.argv) > 3 else "all"
+README = ROOT / "bench" / "README.md"
+REPETITIONS = 9
+ALLOWED = 1.05  # instructions a step, of those that were recorded
+
+# What is compared: executable, by hand, and the others with their names in the table.
+RATIOS = [
+    ("point_vortices", "four vortices, regular form on R⁸, h = 1, by Newton", "hand_written_newton",
+     {"courant_step/native": "native", "courant_step/interpreter": "interpreter"}),
+    ("manifold_step", "reduced rigid body on S², chordal map, h = 0.05", "sphere_by_hand",
+     {"sphere/native": "native", "sphere/interpreter": "interpreter"}),
+    ("manifold_step", "free rigid body on T\\*SO(3), Cayley midpoint", "rotations_by_hand",
+     {"rotations/native": "native", "rotations/interpreter": "interpreter"}),
+    ("chain", "10 masses between springs, 50 steps from a fresh start", "by_hand/10",
+     {"generic/10": "interpreter"}),
+    ("chain", "100 masses", "by_hand/100", {"generic/100": "interpreter"}),
+    ("chain", "1,000 masses", "by_hand/1000", {"generic/1000": "interpreter"}),
+]
+
+# Experiments and the number of steps of the shorter run.
+STEPS = {
+    "point_vortices": 1000,
+    "point_vortices_lagrangian": 1000,
+    "point_vortices_method1": 1000,
+    "rigid_body": 1000,
+    "heavy_top_so3": 1000,
+    "spherical_pendulum": 1000,
+    "pendulum_cartesian": 1000,
+    "heavy_top_constrained": 300,
+    "nonholonomic_particle": 500,
+    "network_rlc": 500,
+}
+
+
+def medians(executable, names):
+    """The median time of each benchmark, in one process."""
+    command = [BIN / f"bench_{executable}", f"--benchmark_repetitions={REPETITIONS}",
+               "--benchmark_report_aggregates_only=true", "--benchmark_format=json",
+               "--benchmark_enable_random_interleaving=true",
+               "--benchmark_filter=^(" + "|".join(map(re.escape, names)) + ")$"]
+    answer = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+    return {b["run_name"]: b["cpu_time"] for b in answer["benchmarks"] if b["aggregate_name"] == "median"}
+
+
+def ratio_rows():
+    for executable, what, by_hand, others in RATIOS:
+        print(f"{executable}: {what}", file=sys.stderr)
+        time = medians(executable, [by_hand, *others])
+        ratios = ", ".join(f"{title} {time[name] / time[by_hand]:.2g}" for name, title in others.items())
+        yield f"| `{executable}` | {what} | {ratios} |"
+
+
+def instructions_of(experiment, steps, folder, cache):
+    step = json.loads((ROOT / "experiments" / f"{experiment}.json").read_text())["time"]["step"]
+    counted = folder / "callgrind"
+    command = [BIN / "courant", "run", ROOT / "experiments" / f"{experiment}.json", "-o", folder / "run", "--force",
+               "--quiet", "--set", "/expect=[]", "--set", f"/time/end={step * steps!r}",
+               "--set", f'/output={{"every": {steps}}}']
+    environment = dict(os.environ, COURANT_CACHE=str(cache))
+    subprocess.run(command, check=True, env=environment, stdout=subprocess.DEVNULL)  # compiles
+    subprocess.run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={counted}", *command], check=True,
+                   env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    return int(re.search(r"^(?:summary|totals): (\d+)", counted.read_text(), re.M)[1])
+
+
+def instructions():
+    """Instructions a step of each experiment."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        for experiment, steps in STEPS.items():
+            few, many = (instructions_of(experiment, n, folder, folder / "cache") for n in (steps, 2 * steps))
+            yield experiment, round((many - few) / steps)
+
+
+def recorded():
+    return {name: int(count.replace(",", ""))
+            for name, count in re.findall(r"^\| `(\w+)` \| ([\d,]+) \|$", README.read_text(), re.M)}
+
+
+def written(section, lines):
+    """Puts the lines between the marks of a section of the README."""
+    begin, end = f"<!-- {section} -->\n", f"<!-- end of {section} -->\n"
+    before, rest = README.read_text().split(begin)
+    README.write_text(before + begin + "\n" + "\n".join(lines) + "\n\n" + end + rest.split(end)[1])
+
+
+def machine():
+    info = pathlib.Path("/proc/cpuinfo")
+    model = re.search(r"model name\s*: (.*)", info.read_text()) if info.exists() else None
+    compiler = subprocess.run(["c++", "-dumpfullversion"], capture_output=True, text=True).stdout.strip()
+    return (f"{datetime.date.today()}, {model[1].strip() if model else platform.machine()}, {os.cpu_count()} cores, "
+            f"GCC {compiler}")
+
+
+def main():
+    if WHAT == "check":
+        known, worse = recorded(), 0
+        for name, count in instructions():
+            before = known.get(name)
+            verdict = "is not recorded" if before is None else f"{count / before:.3f} of the recorded {before:,}"
+            print(f"{name}: {count:,} instructions a step, {verdict}")
+            worse += before is None or count > ALLOWED * before
+        sys.exit(worse > 0)
+    if WHAT == "all":
+        written("ratios", [f"{machine()}:", "", "| bench | what | time, by hand = 1 |", "|---|---|---|",
+                           *ratio_rows()])
+    written("instructions", [f"{machine()}:", "", "| experiment | instructions a step |", "|---|---|",
+                             *(f"| `{name}` | {count:,} |" for name, count in instructions())])
+
+
+main()
