@@ -109,8 +109,14 @@ RankDecision decide_rank(const SparseMatrixXd& A, const RankOptions& options) {
   std::sort(values.begin(), values.end(), std::greater<>());
 
   const Index kept = count_above_cut(values, noise);
-  const double below = std::hypot(values.tail(block - kept).norm(), dropped);
-  conclude(decision, r - block + kept, kept > 0 ? values[kept - 1] : 0.0, below, noise);
+  const Index rank = r - block + kept;
+  double above = kept > 0 ? values[kept - 1] : 0.0;
+  double below = std::hypot(values.tail(block - kept).norm(), dropped);
+  if (rank == std::min(A.rows(), A.cols())) {  // no value comes after σ_r, which δ may make smaller
+    above = std::max(0.0, above - dropped);
+    below = 0.0;
+  }
+  conclude(decision, rank, above, below, noise);
   decision.singular_values.resize(kept + 2);
   decision.singular_values << largest, values.head(kept), below;
   return decision;

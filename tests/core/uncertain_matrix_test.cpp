@@ -192,6 +192,27 @@ BOOST_AUTO_TEST_CASE(large_blocks) {
   BOOST_TEST(decide_rank(rounded(A, 4 * eps)).rank == n);
 }
 
+// Where the rank is that of all rows, columns that the factorisation drops are no sign of another one.
+BOOST_AUTO_TEST_CASE(large_wide_blocks_of_full_rank) {
+  constexpr Index n = 240, copies = 40;
+  constexpr double error = 1e-10;
+  Random random;
+  MatrixXd A = MatrixXd::Zero(n, n + copies);
+  for (Index i = 0; i < n; ++i) {
+    A(i, i) = 1.0;
+    A(i, (i + 1) % n) = 0.3;
+    A(i, (i + 7) % n) = -0.2;
+  }
+  A.rightCols(copies) = A.leftCols(copies);
+  for (Index j = 0; j < copies; ++j)
+    for (Index i = 0; i < n; ++i)
+      if (A(i, j) != 0.0) A(i, n + j) += random.sign() * error;
+  const RankDecision decision = decide_rank(rounded(A, error));
+  BOOST_TEST(decision.rank == n);
+  BOOST_TEST(decision.below == 0.0);
+  BOOST_TEST(!decision.ambiguous());
+}
+
 BOOST_AUTO_TEST_SUITE_END()
 
 }  // namespace courant
