@@ -200,6 +200,16 @@ void ElementReader::storage(const NetworkDomain& domain, NetworkTerminal from, N
                             .state = letters});
 }
 
+void ElementReader::port(const NetworkDomain& domain, NetworkTerminal from, NetworkTerminal to,
+                         Kind kind) {
+  element_.ports.push_back({.suffix = "",
+                            .domain = &domain,
+                            .from = std::move(from),
+                            .to = std::move(to),
+                            .kind = kind,
+                            .role = Role::port});
+}
+
 void ElementReader::energy(const WrittenFormula& formula) {
   element_.energy_formulas.push_back(formula);
   element_.energy = [formula, words = site_.words](const ExprVector&, const ExprVector& x,

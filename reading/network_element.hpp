@@ -93,6 +93,7 @@ ElementKinds electrical_elements();
 ElementKinds mechanical_elements();
 ElementKinds thermofluid_elements();
 ElementKinds transducer_elements();
+ElementKinds port_elements();
 
 // Reads the keys of an element, and collects what it is made of.
 class ElementReader {
@@ -126,6 +127,8 @@ class ElementReader {
                       const std::string& suffix = "");
   void storage(const NetworkDomain& domain, NetworkTerminal from, NetworkTerminal to, Kind kind,
                const std::string& letters, const std::string& suffix = "");
+  // A port of the network (NetworkBranch::Role::port).
+  void port(const NetworkDomain& domain, NetworkTerminal from, NetworkTerminal to, Kind kind);
   // The value of a formula that the laws of the element use, which is checked like a law.
   OwnLaw value_of(const WrittenFormula& formula);
   void energy(NetworkElement::Energy energy) { element_.energy = std::move(energy); }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <stdexcept>
 
 #include "courant/core/declaration.hpp"
@@ -11,7 +12,7 @@ namespace {
 // A system with ports, and how its names begin in the whole.
 struct Part {
   std::string name;
-  std::shared_ptr<const PortHamiltonianSystem> system;
+  std::shared_ptr<const PortSystem> system;
   Vocabulary vocabulary;
 };
 
@@ -30,18 +31,19 @@ std::optional<std::vector<Part>> read_parts(const JsonReader& value) {
     }
     const auto model = system_kinds().read(entry);
     if (!model) continue;
-    auto system = std::dynamic_pointer_cast<const PortHamiltonianSystem>(model->system);
+    auto system = std::dynamic_pointer_cast<const PortSystem>(model->system);
     if (!system)
-      entry.problem("has no ports; expected a port-hamiltonian system or an interconnection");
+      entry.problem(
+          "has no ports; expected a port-hamiltonian system, a network or an interconnection");
     else
       parts.push_back({name, std::move(system), model->vocabulary});
   }
   return !parts.empty() && parts.size() == entries->size() ? std::optional(parts) : std::nullopt;
 }
 
-// What the ports, coordinates, inputs and outputs of the whole are called.
+// What the coordinates, unknowns, ports and outputs of the whole are called.
 struct WholeNames {
-  NameList coordinates, ports, inputs, outputs;
+  NameList coordinates, unknowns, ports, outputs;
 };
 
 WholeNames names_of(const std::vector<Part>& parts) {
@@ -49,15 +51,59 @@ WholeNames names_of(const std::vector<Part>& parts) {
   for (const Part& part : parts) {
     for (const Declaration& declaration : part.vocabulary.coordinates.declarations())
       whole.coordinates.append({part.name + "_" + declaration.name, declaration.shape});
-    // u, u[m] or u_<port> of the part.
-    for (const Declaration& input : part.vocabulary.unknowns.declarations()) {
-      const std::string port = part.name + input.name.substr(1);
-      whole.ports.append({port, input.shape});
-      whole.inputs.append({"u_" + port, input.shape});
-      whole.outputs.append({"y_" + port, input.shape});
+    const std::vector<Index>& inputs = part.system->inputs();
+    Index first = 0;
+    for (const Declaration& unknown : part.vocabulary.unknowns.declarations()) {
+      const bool is_input = std::find(inputs.begin(), inputs.end(), first) != inputs.end();
+      first += unknown.size();
+      if (!is_input) {
+        whole.unknowns.append({part.name + "_" + unknown.name, unknown.shape});
+        continue;
+      }
+      // u, u[m] or u_<port> of the part.
+      const std::string port = part.name + unknown.name.substr(1);
+      whole.ports.append({port, unknown.shape});
+      whole.unknowns.append({"u_" + port, unknown.shape});
+      whole.outputs.append({"y_" + port, unknown.shape});
     }
   }
   return whole;
+}
+
+bool is_output(const std::string& name) { return name == "y" || name.starts_with("y_"); }
+
+// The quantities of the parts, their outputs aside, with names that begin with the part; those whose names
+// are taken are left out.
+std::vector<Vocabulary::Derived> quantities(const std::vector<Part>& parts,
+                                            const SymbolTable& taken) {
+  std::vector<Vocabulary::Derived> all;
+  Index point = 0, unknown = 0, tangent = 0;
+  for (const Part& part : parts) {
+    const Index N = part.system->manifold()->ambient_dimension(),
+                n = part.system->manifold()->tangent_dimension(), m = part.system->auxiliary_size();
+    for (const Vocabulary::Derived& derived : part.vocabulary.derived) {
+      NameList names;
+      bool is_free = true;
+      for (const Declaration& declaration : derived.names.declarations()) {
+        names.append({part.name + "_" + declaration.name, declaration.shape});
+        is_free = is_free && !is_output(declaration.name) &&
+                  !taken.find(part.name + "_" + declaration.name);
+      }
+      if (!is_free) continue;
+      all.push_back({names, [=, values = derived.values](const Vocabulary::Arguments& of_whole) {
+                       Vocabulary::Arguments own{.t = of_whole.t};
+                       if (of_whole.x) own.x = of_whole.x->segment(point, N);
+                       if (of_whole.velocity) own.velocity = of_whole.velocity->segment(point, N);
+                       if (of_whole.z) own.z = of_whole.z->segment(unknown, m);
+                       if (of_whole.effort) own.effort = of_whole.effort->segment(tangent, n);
+                       return values(own);
+                     }});
+    }
+    point += N;
+    tangent += n;
+    unknown += m;
+  }
+  return all;
 }
 
 // The numbers of the ports that an array names.
@@ -169,7 +215,7 @@ bool take_ports(const Joint& joint, const WholeNames& names, std::vector<bool>& 
 
 }  // namespace
 
-// Port-Hamiltonian systems that are joined at their ports.
+// Systems that are joined at their ports.
 std::optional<Model> read_interconnection(ObjectReader& system) {
   Findings& findings = system.place().findings();
   Model model;
@@ -183,7 +229,7 @@ std::optional<Model> read_interconnection(ObjectReader& system) {
   SymbolTable taken = vocabulary.symbols({.t = Expr(0.0)});
   for (const Definition& definition : vocabulary.definitions)
     if (!taken.find(definition.name)) taken.add(definition.name, 0.0);
-  for (const NameList* list : {&names.coordinates, &names.inputs, &names.outputs})
+  for (const NameList* list : {&names.coordinates, &names.unknowns, &names.outputs})
     for (const Declaration& declaration : list->declarations()) {
       if (taken.find(declaration.name)) {
         systems_key->problem("the whole has two meanings for \"" + declaration.name +
@@ -194,8 +240,8 @@ std::optional<Model> read_interconnection(ObjectReader& system) {
     }
   std::vector<bool> is_free;
   for (const Part& part : *parts)
-    is_free.insert(is_free.end(), static_cast<std::size_t>(part.system->matrices().m),
-                   part.system->is_closed());
+    for (Index a = 0; a < part.system->port_count(); ++a)
+      is_free.push_back(part.system->is_free(a));
   std::vector<Joint> joints;
   bool right = joints_key.has_value();
   if (const auto elements = joints_key ? joints_key->elements() : std::nullopt)
@@ -206,20 +252,19 @@ std::optional<Model> read_interconnection(ObjectReader& system) {
     }
   if (!right) return std::nullopt;
   vocabulary.coordinates = names.coordinates;
-  vocabulary.unknowns = names.inputs;
+  vocabulary.unknowns = names.unknowns;
   check_definitions(vocabulary, findings);
 
-  std::vector<std::shared_ptr<const PortHamiltonianSystem>> systems;
+  std::vector<Interconnection::Part> systems;
   std::string list;
   for (const Part& part : *parts) {
-    systems.push_back(part.system);
+    systems.push_back({part.name, part.system});
     list += (list.empty() ? "" : ", ") + part.name;
   }
-  const auto whole = interconnected(
-      systems, joints,
-      {vocabulary.coordinates.element_names(), vocabulary.unknowns.element_names(), {}});
+  const auto whole = std::make_shared<Interconnection>(std::move(systems), std::move(joints));
   model.description = "interconnection of " + list + " on " + whole->manifold()->name();
   model.system = whole;
+  vocabulary.derived = quantities(*parts, taken);
   if (names.outputs.size() > 0)
     vocabulary.derived.push_back(
         {names.outputs, [whole](const Vocabulary::Arguments& at) -> std::optional<ExprVector> {

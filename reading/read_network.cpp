@@ -159,9 +159,15 @@ class Assembly {
       if (branch.kind == Kind::current || branch.kind == Kind::voltage)
         words_.vocabulary.unknowns.append(
             {branch.kind == Kind::current ? branch.current_name : branch.voltage_name, {}});
+    for (const NetworkBranch& branch : branches)
+      if (branch.role == Role::port) {
+        words_.vocabulary.unknowns.append({"u_" + branch.name, {}});
+        outputs.append({"y_" + branch.name, {}});
+      }
   }
 
   std::vector<NetworkBranch> branches;
+  NameList outputs;                        // of ports
   std::vector<std::vector<Index>> states;  // of each element
   std::size_t of_elements = 0;             // branches before those that measure potentials
   bool right = true;
@@ -192,6 +198,8 @@ class Assembly {
                          .voltage_name = name(port.domain->across + full, element.pointer)};
     if (port.domain == &domains::thermal && port.kind == Kind::voltage)
       branch.guess = kRoomTemperature;
+    if (port.role == Role::port)
+      for (const char* letter : {"u_", "y_"}) name(letter + full, element.pointer);
     words_.currents[branch.current_name] = index;
     words_.voltages[branch.voltage_name] = index;
     if (!port.state.empty()) {
@@ -344,7 +352,7 @@ Registry<NetworkElement, NetworkSite>& element_kinds() {
   static Registry<NetworkElement, NetworkSite> kinds([] {
     ElementKinds all = electrical_elements();
     for (const ElementKinds& more :
-         {mechanical_elements(), transducer_elements(), thermofluid_elements()})
+         {mechanical_elements(), transducer_elements(), thermofluid_elements(), port_elements()})
       all.insert(all.end(), more.begin(), more.end());
     return all;
   }());
@@ -399,6 +407,13 @@ std::optional<Model> read_network(ObjectReader& system) {
       std::make_shared<Network>(static_cast<Index>(nodes->names.size()), assembly.branches, energy);
   model.vocabulary.derived.push_back(
       quantities(network, model.vocabulary, assembly.of_elements, *nodes, kinds));
+  if (network->port_count() > 0)
+    model.vocabulary.derived.push_back(
+        {assembly.outputs, [network](const Vocabulary::Arguments& at) -> std::optional<ExprVector> {
+           if (!at.x || !at.z || !at.t) return std::nullopt;
+           return network->output(
+               *at.x, at.effort ? *at.effort : network->effort(*at.x, *at.z, *at.t), *at.z);
+         }});
   model.description = "network of " + std::to_string(elements->size()) + " elements between " +
                       std::to_string(nodes->names.size()) + " nodes";
   model.system = network;

@@ -148,9 +148,9 @@ Registry<Model>& system_kinds() {
                           "of open ports: m formulas in t, the parameters and the outputs y (with "
                           "several ports y[0], …)")})},
        read_port_hamiltonian},
-      {{"interconnection", "port-Hamiltonian systems that are joined at their ports",
+      {{"interconnection", "systems that are joined at their ports",
         system_keys({required_key("systems", takes::systems(),
-                                  "by name: port-hamiltonian ones with closed ports"),
+                                  "by name: of type port-hamiltonian, network or interconnection"),
                      required_key("joints", takes::array_of(takes::joint()),
                                   "what ports have in common")})},
        read_interconnection},

@@ -1,6 +1,7 @@
 #include "courant/structures/interconnection.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -31,25 +32,11 @@ MatrixXd sum(Index p) {
   return A;
 }
 
-// Block diagonal, each block of its part of the point.
-MatrixField in_blocks(const std::shared_ptr<const Product>& M, std::vector<MatrixField> fields,
-                      const std::vector<Index>& rows, const std::vector<Index>& columns) {
-  if (std::none_of(fields.begin(), fields.end(), [](const MatrixField& A) { return bool(A); }))
-    return {};
-  Index height = 0, width = 0;
-  for (const Index n : rows) height += n;
-  for (const Index n : columns) width += n;
-  return [=](const ExprVector& x) {
-    ExprMatrix all = ExprMatrix::Zero(height, width);
-    Index row = 0, column = 0;
-    for (std::size_t i = 0; i < fields.size(); ++i) {
-      if (fields[i])
-        all.block(row, column, rows[i], columns[i]) = fields[i](ExprVector(M->point_part(x, i)));
-      row += rows[i];
-      column += columns[i];
-    }
-    return all;
-  };
+// "u_motor" of the part "circuit" is "u_circuit_motor", "u[1]" is "u_circuit[1]"; what is no input begins
+// with the part.
+std::string name_in_whole(const std::string& part, const std::string& unknown, bool is_input) {
+  const bool is_named = is_input && unknown.starts_with("u");
+  return is_named ? "u_" + part + unknown.substr(1) : part + "_" + unknown;
 }
 
 }  // namespace
@@ -106,69 +93,201 @@ ExprVector Joint::equations(const Expr& t, const ExprVector& u, const ExprVector
   return all;
 }
 
-std::shared_ptr<const PortHamiltonianSystem> interconnected(
-    const std::vector<std::shared_ptr<const PortHamiltonianSystem>>& systems,
-    const std::vector<Joint>& joints, ImplicitSystem::Names names) {
-  std::vector<std::shared_ptr<const Manifold>> factors;
-  std::vector<MatrixField> J, R, B, D;
-  std::vector<Index> sizes, ports, owner;
-  for (const auto& system : systems) {
-    if (!system) throw std::invalid_argument("interconnected: a system is missing; expected each.");
-    const PortHamiltonianSystem::Matrices& of = system->matrices();
-    factors.push_back(system->manifold());
-    J.push_back(of.J);
-    R.push_back(of.R);
-    B.push_back(of.B);
-    D.push_back(of.D);
-    sizes.push_back(system->manifold()->tangent_dimension());
-    ports.push_back(of.m);
-    owner.insert(owner.end(), static_cast<std::size_t>(of.m), std::ssize(factors) - 1);
+// Offsets, one more than there are parts.
+struct Interconnection::Layout {
+  std::shared_ptr<const Product> manifold;
+  std::vector<Index> unknown{0}, port{0};
+  std::vector<Index> inputs;     // in the unknowns of the whole
+  std::vector<bool> is_joined;   // of each port
+  std::vector<Index> equations;  // of each part, without those of its ports
+
+  Layout(const std::vector<Part>& parts, const std::vector<Joint>& joints) {
+    std::vector<std::shared_ptr<const Manifold>> factors;
+    std::vector<bool> is_free;
+    for (const Part& part : parts) {
+      if (!part.system)
+        throw std::invalid_argument("Interconnection: a system is missing; expected each.");
+      const PortSystem& system = *part.system;
+      factors.push_back(system.manifold());
+      for (const Index input : system.inputs()) inputs.push_back(unknown.back() + input);
+      for (Index a = 0; a < system.port_count(); ++a) is_free.push_back(system.is_free(a));
+      unknown.push_back(unknown.back() + system.auxiliary_size());
+      port.push_back(port.back() + system.port_count());
+      equations.push_back(system.equation_count() - system.port_count());
+    }
+    manifold = std::make_shared<Product>(std::move(factors));
+    is_joined.assign(inputs.size(), false);
+    for (const Joint& joint : joints)
+      for (const Index a : joint.ports()) {
+        if (a < 0 || a >= port.back())
+          throw std::invalid_argument("Interconnection: there is no port " + std::to_string(a) +
+                                      "; expected one of the " + std::to_string(port.back()) +
+                                      ", from 0 on.");
+        const auto at = static_cast<std::size_t>(a);
+        if (is_joined[at] || !is_free[at])
+          throw std::invalid_argument("Interconnection: port " + std::to_string(a) +
+                                      (is_joined[at]
+                                           ? " is joined twice; expected one joint a port."
+                                           : " obeys an equation of its system; expected a free "
+                                             "one."));
+        is_joined[at] = true;
+      }
   }
-  const Index m = std::ssize(owner);
-  std::vector<bool> is_joined(static_cast<std::size_t>(m), false);
-  for (const Joint& joint : joints)
-    for (const Index port : joint.ports()) {
-      if (port < 0 || port >= m)
-        throw std::invalid_argument("interconnected: there is no port " + std::to_string(port) +
-                                    "; expected one of the " + std::to_string(m) + ", from 0 on.");
-      const auto at = static_cast<std::size_t>(port);
-      if (is_joined[at] || !systems[static_cast<std::size_t>(owner[at])]->is_closed())
-        throw std::invalid_argument("interconnected: port " + std::to_string(port) +
-                                    (is_joined[at] ? " is joined twice; expected one joint a port."
-                                                   : " obeys an equation of its system; expected "
-                                                     "a system with closed ports."));
-      is_joined[at] = true;
+
+  Index equation_count() const {
+    return std::accumulate(equations.begin(), equations.end(), port.back());
+  }
+  // How many equations of a part come in the first block.
+  Index leading(std::size_t part) const {
+    return std::min(equations[part], manifold->factors()[part]->tangent_dimension());
+  }
+  ExprVector unknowns_of(const ExprVector& z, std::size_t part) const {
+    return z.segment(unknown[part], unknown[part + 1] - unknown[part]);
+  }
+  ExprVector ports_of(const ExprVector& u, std::size_t part) const {
+    return u.segment(port[part], port[part + 1] - port[part]);
+  }
+
+  Names names(const std::vector<Part>& parts, const std::vector<Joint>& joints) const {
+    Names all;
+    const auto own = [&](std::size_t i, Index equation) {
+      return parts[i].name + ": " +
+             parts[i].system->names().equations[static_cast<std::size_t>(equation)];
+    };
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const Names& of = parts[i].system->names();
+      for (const std::string& name : of.coordinates)
+        all.coordinates.push_back(parts[i].name + "_" + name);
+      const std::vector<Index>& its = parts[i].system->inputs();
+      for (std::size_t k = 0; k < of.auxiliary.size(); ++k)
+        all.auxiliary.push_back(name_in_whole(
+            parts[i].name, of.auxiliary[k],
+            std::find(its.begin(), its.end(), std::ssize(all.auxiliary) - unknown[i]) !=
+                its.end()));
+      for (Index k = 0; k < leading(i); ++k) all.equations.push_back(own(i, k));
     }
-  const auto M = std::make_shared<Product>(factors);
-  const auto energy =
-      std::make_shared<Hamiltonian>(M, [M, systems](const ExprVector& x, const Expr& t) {
-        Expr H = 0.0;
-        for (std::size_t i = 0; i < systems.size(); ++i)
-          H = H + systems[i]->generator(ExprVector(M->point_part(x, i)), ExprVector(0), t);
-        return H;
-      });
-  const auto relation = [systems, joints, ports, is_joined, m](const Expr& t, const ExprVector& u,
-                                                               const ExprVector& y) {
-    ExprVector all(m);
-    Index count = 0, first = 0;
-    for (std::size_t i = 0; i < systems.size(); first += ports[i++]) {
-      const ExprVector own = systems[i]->port_equations(t, ExprVector(u.segment(first, ports[i])),
-                                                        ExprVector(y.segment(first, ports[i])));
-      for (Index a = 0; a < ports[i]; ++a)
-        if (!is_joined[static_cast<std::size_t>(first + a)]) all[count++] = own[a];
-    }
-    for (const Joint& joint : joints) {
-      const ExprVector equations = joint.equations(t, u, y);
-      all.segment(count, equations.size()) = equations;
-      count += equations.size();
-    }
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      for (Index k = leading(i); k < equations[i]; ++k) all.equations.push_back(own(i, k));
+    const auto first_of_ports = std::ssize(all.equations);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      for (Index a = 0; a < port[i + 1] - port[i]; ++a)
+        all.equations.push_back(own(i, equations[i] + a));
+    for (std::size_t k = 0; k < joints.size(); ++k)
+      for (std::size_t a = 0; a < joints[k].ports().size(); ++a)
+        all.equations[static_cast<std::size_t>(first_of_ports + joints[k].ports()[a])] =
+            "joint " + std::to_string(k) + ", equation " + std::to_string(a);
     return all;
-  };
-  return std::make_shared<PortHamiltonianSystem>(
-      PortHamiltonianSystem::Matrices{in_blocks(M, J, sizes, sizes), in_blocks(M, R, sizes, sizes),
-                                      in_blocks(M, B, sizes, ports), m,
-                                      in_blocks(M, D, ports, ports)},
-      energy, PortHamiltonianSystem::Relation(relation), std::move(names));
+  }
+};
+
+Interconnection::Interconnection(std::vector<Part> parts, std::vector<Joint> joints)
+    : Interconnection(parts, joints, std::make_shared<const Layout>(parts, joints)) {}
+
+Interconnection::Interconnection(std::vector<Part> parts, std::vector<Joint> joints,
+                                 std::shared_ptr<const Layout> layout)
+    : PortSystem(layout->manifold, layout->unknown.back(), layout->equation_count(),
+                 layout->names(parts, joints), layout->inputs),
+      parts_(std::move(parts)),
+      joints_(std::move(joints)),
+      layout_(std::move(layout)) {}
+
+Interconnection::~Interconnection() = default;
+
+Index Interconnection::tangent_blocks() const {
+  return std::all_of(parts_.begin(), parts_.end(),
+                     [](const Part& part) { return part.system->tangent_blocks() > 0; });
+}
+
+Expr Interconnection::do_generator(const ExprVector& x, const ExprVector& z, const Expr& t) const {
+  Expr sum = 0.0;
+  for (std::size_t i = 0; i < parts_.size(); ++i)
+    sum = sum + parts_[i].system->generator(ExprVector(layout_->manifold->point_part(x, i)),
+                                            layout_->unknowns_of(z, i), t);
+  return sum;
+}
+
+ExprVector Interconnection::do_effort(const ExprVector& x, const ExprVector& z,
+                                      const Expr& t) const {
+  ExprVector effort(manifold()->tangent_dimension());
+  for (std::size_t i = 0; i < parts_.size(); ++i)
+    layout_->manifold->tangent_part(effort, i) = parts_[i].system->effort(
+        ExprVector(layout_->manifold->point_part(x, i)), layout_->unknowns_of(z, i), t);
+  return effort;
+}
+
+VectorXd Interconnection::do_auxiliary_guess(const VectorXd& x, const VectorXd& v) const {
+  VectorXd guess(auxiliary_size());
+  for (std::size_t i = 0; i < parts_.size(); ++i)
+    guess.segment(layout_->unknown[i], layout_->unknown[i + 1] - layout_->unknown[i]) =
+        parts_[i].system->auxiliary_guess(
+            VectorXd(layout_->manifold->point_part(x, i)),
+            v.size() == 0 ? v : VectorXd(layout_->manifold->tangent_part(v, i)));
+  return guess;
+}
+
+bool Interconnection::do_is_free(Index port) const {
+  const auto part =
+      static_cast<std::size_t>(std::upper_bound(layout_->port.begin(), layout_->port.end(), port) -
+                               layout_->port.begin() - 1);
+  return !layout_->is_joined[static_cast<std::size_t>(port)] &&
+         parts_[part].system->is_free(port - layout_->port[part]);
+}
+
+ExprVector Interconnection::do_output(const ExprVector& x, const ExprVector& alpha,
+                                      const ExprVector& z) const {
+  ExprVector y(port_count());
+  for (std::size_t i = 0; i < parts_.size(); ++i)
+    y.segment(layout_->port[i], layout_->port[i + 1] - layout_->port[i]) = parts_[i].system->output(
+        ExprVector(layout_->manifold->point_part(x, i)),
+        ExprVector(layout_->manifold->tangent_part(alpha, i)), layout_->unknowns_of(z, i));
+  return y;
+}
+
+ExprVector Interconnection::do_inner_equations(const ExprVector& x, const ExprVector& v,
+                                               const ExprVector& alpha, const ExprVector& z,
+                                               const Expr& t) const {
+  ExprVector all(equation_count() - port_count());
+  Index first = 0, other = 0;
+  for (std::size_t i = 0; i < parts_.size(); ++i) other += layout_->leading(i);
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const Product& M = *layout_->manifold;
+    const ExprVector own = parts_[i].system->inner_equations(
+        ExprVector(M.point_part(x, i)), ExprVector(M.tangent_part(v, i)),
+        ExprVector(M.tangent_part(alpha, i)), layout_->unknowns_of(z, i), t);
+    const Index leading = layout_->leading(i), rest = own.size() - leading;
+    all.segment(first, leading) = own.head(leading);
+    all.segment(other, rest) = own.tail(rest);
+    first += leading;
+    other += rest;
+  }
+  return all;
+}
+
+ExprVector Interconnection::do_port_equations(const Expr& t, const ExprVector& u,
+                                              const ExprVector& y) const {
+  ExprVector all(port_count());
+  for (std::size_t i = 0; i < parts_.size(); ++i)
+    all.segment(layout_->port[i], layout_->port[i + 1] - layout_->port[i]) =
+        parts_[i].system->port_equations(t, layout_->ports_of(u, i), layout_->ports_of(y, i));
+  for (const Joint& joint : joints_) all(joint.ports()) = joint.equations(t, u, y);
+  return all;
+}
+
+EnergySystem::Powers Interconnection::do_inner_powers(const ExprVector& x, const ExprVector& v,
+                                                      const ExprVector& alpha, const ExprVector& z,
+                                                      const Expr& t) const {
+  Powers powers;
+  const Product& M = *layout_->manifold;
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const Powers own = parts_[i].system->inner_powers(
+        ExprVector(M.point_part(x, i)), ExprVector(M.tangent_part(v, i)),
+        ExprVector(M.tangent_part(alpha, i)), layout_->unknowns_of(z, i), t);
+    for (const PortPower& power : own.supplied)
+      powers.supplied.push_back({parts_[i].name + "_" + power.port, power.power});
+    for (const PortPower& power : own.dissipated)
+      powers.dissipated.push_back({parts_[i].name + "_" + power.port, power.power});
+  }
+  return powers;
 }
 
 }  // namespace courant

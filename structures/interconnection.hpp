@@ -1,11 +1,12 @@
-// Interconnection: port-Hamiltonian systems that are joined at their ports.
+// Interconnection: systems that are joined at their ports.
 #pragma once
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
-#include "courant/structures/port_hamiltonian_system.hpp"
+#include "courant/structures/port_system.hpp"
 
 namespace courant {
 
@@ -43,14 +44,46 @@ class Joint {
   Source source_;
 };
 
-// The systems side by side on the product of their manifolds, with the sum of their energies, J, R, B
-// and D in blocks and all of their ports, in their order. Ports of joints obey these; a port without
-// a joint stays as it is in its system, closed or with its input.
+// The systems side by side on the product of their manifolds, with the sum of their energies, the unknowns of
+// each and all of their ports, in their order. Ports of joints obey these. A port without a joint stays
+// as it is in its system, and is free if it is there: so an interconnection can be joined on.
 //
-// Throws std::invalid_argument if a system is null, or a port does not exist, belongs to two joints or
-// to a system with inputs of its own.
-std::shared_ptr<const PortHamiltonianSystem> interconnected(
-    const std::vector<std::shared_ptr<const PortHamiltonianSystem>>& systems,
-    const std::vector<Joint>& joints, ImplicitSystem::Names names = {});
+// The equations of the parts come first, of each as many as its tangent vectors have entries, then the others
+// of each; after them one for each port: that of its system, or in its place one of its joint. In the names of
+// the whole those of each part begin with its name.
+class Interconnection final : public PortSystem {
+ public:
+  struct Part {
+    std::string name;
+    std::shared_ptr<const PortSystem> system;
+  };
+  // Throws std::invalid_argument if a system is null, or a port does not exist, belongs to two joints or
+  // is not free.
+  Interconnection(std::vector<Part> parts, std::vector<Joint> joints);
+  ~Interconnection() override;
+
+  Index tangent_blocks() const override;
+
+ private:
+  struct Layout;  // where the entries of each part are
+  Interconnection(std::vector<Part> parts, std::vector<Joint> joints,
+                  std::shared_ptr<const Layout> layout);
+  Expr do_generator(const ExprVector& x, const ExprVector& z, const Expr& t) const override;
+  ExprVector do_effort(const ExprVector& x, const ExprVector& z, const Expr& t) const override;
+  VectorXd do_auxiliary_guess(const VectorXd& x, const VectorXd& v) const override;
+  bool do_is_free(Index port) const override;
+  ExprVector do_output(const ExprVector& x, const ExprVector& alpha,
+                       const ExprVector& z) const override;
+  ExprVector do_inner_equations(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,
+                                const ExprVector& z, const Expr& t) const override;
+  ExprVector do_port_equations(const Expr& t, const ExprVector& u,
+                               const ExprVector& y) const override;
+  Powers do_inner_powers(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,
+                         const ExprVector& z, const Expr& t) const override;
+
+  std::vector<Part> parts_;
+  std::vector<Joint> joints_;
+  std::shared_ptr<const Layout> layout_;
+};
 
 }  // namespace courant

@@ -1,6 +1,7 @@
 #include "courant/structures/network.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 
@@ -18,6 +19,18 @@ std::size_t at(Index index) { return static_cast<std::size_t>(index); }
 
 bool has_state(const NetworkBranch& branch) {
   return branch.kind == Kind::charge || branch.kind == Kind::flux;
+}
+
+bool is_port(const NetworkBranch& branch) {
+  return branch.role == Role::port && !has_state(branch);
+}
+
+// Branches.
+std::vector<Index> ports_of(const std::vector<NetworkBranch>& branches) {
+  std::vector<Index> ports;
+  for (std::size_t k = 0; k < branches.size(); ++k)
+    if (is_port(branches[k])) ports.push_back(static_cast<Index>(k));
+  return ports;
 }
 
 // What a normal tree takes first.
@@ -56,7 +69,7 @@ std::unique_ptr<const Kirchhoff> kirchhoff(Index node_count,
                                   "\" is between nodes " + std::to_string(branch.from) + " and " +
                                   std::to_string(branch.to) + ", expected nodes below " +
                                   std::to_string(node_count) + ".");
-    if (!has_state(branch) && !branch.law)
+    if (!has_state(branch) && !is_port(branch) && !branch.law)
       throw std::invalid_argument("Network::Network: the branch \"" + branch.name +
                                   "\" has no law, expected one for what is no charge or flux.");
     add_edge(at(branch.from), at(branch.to), CircuitElement{branch.name, weight(branch)}, graph);
@@ -101,11 +114,22 @@ ImplicitSystem::Names names_of(const std::vector<NetworkBranch>& branches,
                                               : branches[at(links[at(row - inner)])].voltage_name,
                                   terms));
   }
+  for (const Index port : ports_of(branches)) {
+    names.auxiliary.push_back("u_" + branches[at(port)].name);
+    names.equations.push_back("0 = y_" + branches[at(port)].name);
+  }
   return names;
 }
 
 Index states(const std::vector<NetworkBranch>& branches) {
   return std::count_if(branches.begin(), branches.end(), has_state);
+}
+
+// Where the inputs of ports are among the unknowns: after those of the branches.
+std::vector<Index> inputs_of(const std::vector<NetworkBranch>& branches) {
+  std::vector<Index> inputs(ports_of(branches).size());
+  std::iota(inputs.begin(), inputs.end(), std::ssize(branches) - states(branches));
+  return inputs;
 }
 
 // Evaluates laws when their results are first asked for.
@@ -154,24 +178,26 @@ Network::Network(Index node_count, std::vector<NetworkBranch> branches, Energy e
 
 Network::Network(Index node_count, std::vector<NetworkBranch> branches, Energy energy,
                  std::unique_ptr<const Kirchhoff> structure)
-    : EnergySystem(std::make_shared<Euclidean>(states(branches)),
-                   static_cast<Index>(branches.size()) - states(branches),
-                   static_cast<Index>(branches.size()),
-                   names_of(branches, *(structure = kirchhoff(node_count, branches)))),
+    : PortSystem(std::make_shared<Euclidean>(states(branches)),
+                 std::ssize(branches) - states(branches) + std::ssize(ports_of(branches)),
+                 std::ssize(branches) + std::ssize(ports_of(branches)),
+                 names_of(branches, *(structure = kirchhoff(node_count, branches))),
+                 inputs_of(branches)),
       node_count_(node_count),
       branches_(std::move(branches)),
       energy_(std::move(energy)),
       kirchhoff_(std::move(structure)),
       M_(kirchhoff_->hybrid_representation().M),
       paths_(kirchhoff_->potentials().transpose()) {
+  ports_ = ports_of(branches_);
   Index state = 0, unknown = 0;
   for (const NetworkBranch& branch : branches_)
     place_.push_back(has_state(branch) ? state++ : unknown++);
   Graph graph;
   const ExprVector x = graph.variables("x", state);
   const Expr t = graph.variable("t");
-  ports(x, graph.variables("v", state), effort(x, ExprVector(0), t), graph.variables("z", unknown),
-        t);
+  ports(x, graph.variables("v", state), effort(x, ExprVector(0), t),
+        graph.variables("z", auxiliary_size()), t);
 }
 
 Network::~Network() = default;
@@ -218,6 +244,13 @@ Network::Ports Network::ports(const ExprVector& x, const ExprVector& velocity,
         break;
     }
   }
+  for (std::size_t a = 0; a < ports_.size(); ++a) {
+    const Expr u = z[inputs()[a]];
+    if (branches_[at(ports_[a])].kind == Kind::current)
+      evaluation.set_voltage(ports_[a], u);
+    else
+      evaluation.set_current(ports_[a], -u);
+  }
   Ports ports{ExprVector(count), ExprVector(count)};
   for (Index k = 0; k < count; ++k) {
     ports.current[k] = evaluation.current(k);
@@ -243,7 +276,9 @@ Expr Network::power(const Ports& ports, Role role) const {
 }
 
 Expr Network::dissipated_power(const Ports& ports) const { return power(ports, Role::resistor); }
-Expr Network::supplied_power(const Ports& ports) const { return -power(ports, Role::source); }
+Expr Network::supplied_power(const Ports& ports) const {
+  return -power(ports, Role::source) - power(ports, Role::port);
+}
 
 Index Network::charge_loop_count() const {
   return std::count_if(kirchhoff_->links().begin(), kirchhoff_->links().end(),
@@ -255,9 +290,9 @@ Index Network::flux_cut_set_count() const {
                        [&](Index branch) { return branches_[at(branch)].kind == Kind::flux; });
 }
 
-EnergySystem::Powers Network::do_powers(const ExprVector& x, const ExprVector& v,
-                                        const ExprVector& alpha, const ExprVector& z,
-                                        const Expr& t) const {
+EnergySystem::Powers Network::do_inner_powers(const ExprVector& x, const ExprVector& v,
+                                              const ExprVector& alpha, const ExprVector& z,
+                                              const Expr& t) const {
   const Ports all = ports(x, v, alpha, z, t);
   Powers powers;
   for (std::size_t k = 0; k < branches_.size(); ++k) {
@@ -271,14 +306,30 @@ EnergySystem::Powers Network::do_powers(const ExprVector& x, const ExprVector& v
   return powers;
 }
 
-ExprVector Network::do_equations(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,
-                                 const ExprVector& z, const Expr& t, const ExprVector&,
-                                 const Expr&) const {
+bool Network::do_is_free(Index) const { return true; }
+
+ExprVector Network::do_output(const ExprVector&, const ExprVector&, const ExprVector& z) const {
+  ExprVector y(port_count());
+  for (Index a = 0; a < y.size(); ++a) {
+    const Index port = ports_[at(a)];
+    const Expr& own = z[place_[at(port)]];
+    y[a] = branches_[at(port)].kind == Kind::current ? -own : own;
+  }
+  return y;
+}
+
+ExprVector Network::do_port_equations(const Expr&, const ExprVector&, const ExprVector& y) const {
+  return y;
+}
+
+ExprVector Network::do_inner_equations(const ExprVector& x, const ExprVector& v,
+                                       const ExprVector& alpha, const ExprVector& z,
+                                       const Expr& t) const {
   const auto& tree = kirchhoff_->tree();
   const auto& links = kirchhoff_->links();
   const Ports all = ports(x, v, alpha, z, t);
   const auto inner = static_cast<Index>(tree.size());
-  ExprVector residual(equation_count()), input(equation_count());
+  ExprVector residual(std::ssize(branches_)), input(std::ssize(branches_));
   for (Index k = 0; k < inner; ++k) {
     residual[k] = all.current[tree[at(k)]];
     input[k] = all.voltage[tree[at(k)]];
@@ -294,7 +345,7 @@ ExprVector Network::do_equations(const ExprVector& x, const ExprVector& v, const
 }
 
 VectorXd Network::do_auxiliary_guess(const VectorXd&, const VectorXd&) const {
-  VectorXd guess(auxiliary_size());
+  VectorXd guess = VectorXd::Zero(auxiliary_size());
   for (std::size_t k = 0; k < branches_.size(); ++k)
     if (!has_state(branches_[k])) guess[place_[k]] = branches_[k].guess;
   return guess;

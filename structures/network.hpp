@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "courant/core/equilibration.hpp"
-#include "courant/structures/energy_system.hpp"
+#include "courant/structures/port_system.hpp"
 
 namespace courant {
 
@@ -27,8 +27,14 @@ struct NetworkBranch {
   //   voltage   an unknown of its own, the voltage; the law gives the current
   enum class Kind { charge, flux, current, voltage };
   // What the power that flows in does: it is stored, lost, or comes from outside; the powers of all
-  // couplers together are zero.
-  enum class Role { storage, resistor, source, coupler };
+  // couplers together are zero. A port has no law. Its input u is an unknown beside that of its kind, its
+  // output y is what power comes in with, y u = -current voltage:
+  //
+  //   current   u = voltage,   y = -current    what is joined holds the voltage
+  //   voltage   u = -current,  y = voltage     what is joined sends a current in at `from`
+  //
+  // So a port of which nothing is said, 0 = y, is open in the first case and shorted in the second.
+  enum class Role { storage, resistor, source, coupler, port };
   using Law = std::function<Expr(const NetworkVariables&)>;
 
   std::string name;
@@ -50,7 +56,8 @@ struct NetworkBranch {
 //
 //   (i₁, v₂) = M (v₁, i₂),   M skew
 //
-// as many as there are branches. The forest is a normal tree: it takes sources of voltage first,
+// as many as there are branches, and one for each port. The inputs of ports come last among the unknowns.
+// The forest is a normal tree: it takes sources of voltage first,
 // then charges, then all that is neither, then fluxes, and sources of current last. So a charge
 // outside the tree closes a loop of charges and sources of voltage, a flux in the tree is cut by
 // fluxes and sources of current alone; the equation of each contains only x and t. If all
@@ -59,7 +66,7 @@ struct NetworkBranch {
 //
 // Along solutions dH/dt = supplied power - dissipated power: each source supplies and each resistor
 // dissipates under the name of its branch.
-class Network final : public EnergySystem {
+class Network final : public PortSystem {
  public:
   using Energy = std::function<Expr(const ExprVector& x, const Expr& t)>;
 
@@ -86,7 +93,7 @@ class Network final : public EnergySystem {
   // The potentials of the nodes (node_count), each less that of the ground or, where no branch
   // leads there, of the first node of its part.
   ExprVector potentials(const ExprVector& voltage) const;
-  // Powers that resistors take in and that sources give.
+  // Powers that resistors take in and that sources and ports give.
   Expr dissipated_power(const Ports& ports) const;
   Expr supplied_power(const Ports& ports) const;
 
@@ -95,11 +102,15 @@ class Network final : public EnergySystem {
           std::unique_ptr<const Kirchhoff> structure);
   Expr do_generator(const ExprVector& x, const ExprVector& z, const Expr& t) const override;
   ExprVector do_effort(const ExprVector& x, const ExprVector& z, const Expr& t) const override;
-  ExprVector do_equations(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,
-                          const ExprVector& z, const Expr& t, const ExprVector& y,
-                          const Expr& s) const override;
-  Powers do_powers(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,
-                   const ExprVector& z, const Expr& t) const override;
+  bool do_is_free(Index port) const override;
+  ExprVector do_output(const ExprVector& x, const ExprVector& alpha,
+                       const ExprVector& z) const override;
+  ExprVector do_inner_equations(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,
+                                const ExprVector& z, const Expr& t) const override;
+  ExprVector do_port_equations(const Expr& t, const ExprVector& u,
+                               const ExprVector& y) const override;
+  Powers do_inner_powers(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,
+                         const ExprVector& z, const Expr& t) const override;
   VectorXd do_auxiliary_guess(const VectorXd& x, const VectorXd& v) const override;
   Expr power(const Ports& ports, NetworkBranch::Role role) const;
 
@@ -107,6 +118,7 @@ class Network final : public EnergySystem {
   std::vector<NetworkBranch> branches_;
   Energy energy_;
   std::vector<Index> place_;  // of each branch: the index of its state or unknown
+  std::vector<Index> ports_;  // branches
   std::unique_ptr<const Kirchhoff> kirchhoff_;
   SparseMatrixXd M_, paths_;  // E × E; E × N, the transpose of Kirchhoff::potentials
 };

@@ -1,5 +1,6 @@
 #include "courant/structures/port_hamiltonian_system.hpp"
 
+#include <numeric>
 #include <stdexcept>
 
 namespace courant {
@@ -16,18 +17,10 @@ const GeneratingFamily& checked(const std::shared_ptr<const GeneratingFamily>& e
   return *energy;
 }
 
-// "motor" of "u_motor", "0" of "u[0]", "u" where there is one port.
-std::string port_name(const std::string& input) {
-  if (input.starts_with("u_")) return input.substr(2);
-  if (input.starts_with("u[")) return input.substr(2, input.size() - 3);
-  return input;
-}
-
-PortHamiltonianSystem::Relation relation(std::optional<PortHamiltonianSystem::Input> input) {
-  if (!input) return [](const Expr&, const ExprVector&, const ExprVector& y) { return y; };
-  return [input = std::move(*input)](const Expr& t, const ExprVector& u, const ExprVector& y) {
-    return ExprVector(u - input(t, y));
-  };
+std::vector<Index> first(Index m) {
+  std::vector<Index> indices(static_cast<std::size_t>(m));
+  std::iota(indices.begin(), indices.end(), Index{0});
+  return indices;
 }
 
 }  // namespace
@@ -35,23 +28,18 @@ PortHamiltonianSystem::Relation relation(std::optional<PortHamiltonianSystem::In
 PortHamiltonianSystem::PortHamiltonianSystem(Matrices matrices,
                                              std::shared_ptr<const GeneratingFamily> energy,
                                              std::optional<Input> input, Names names)
-    : PortHamiltonianSystem(std::move(matrices), std::move(energy), relation(input),
-                            std::move(names)) {
-  is_closed_ = !input.has_value();
-}
-
-PortHamiltonianSystem::PortHamiltonianSystem(Matrices matrices,
-                                             std::shared_ptr<const GeneratingFamily> energy,
-                                             Relation relation, Names names)
     // Braces evaluate from left to right: the check comes first.
-    : EnergySystem{checked(energy, matrices).manifold(), matrices.m,
-                   energy->manifold()->tangent_dimension() + matrices.m, std::move(names)},
+    : PortSystem{checked(energy, matrices).manifold(), matrices.m,
+                 energy->manifold()->tangent_dimension() + matrices.m, std::move(names),
+                 first(matrices.m)},
       matrices_(std::move(matrices)),
       energy_(std::move(energy)),
-      relation_(std::move(relation)) {}
+      input_(std::move(input)) {}
 
-ExprVector PortHamiltonianSystem::output(const ExprVector& x, const ExprVector& alpha,
-                                         const ExprVector& u) const {
+bool PortHamiltonianSystem::do_is_free(Index) const { return !input_.has_value(); }
+
+ExprVector PortHamiltonianSystem::do_output(const ExprVector& x, const ExprVector& alpha,
+                                            const ExprVector& u) const {
   ExprVector y = matrices_.B(x).transpose().eval() * alpha;
   if (matrices_.D) y += matrices_.D(x) * u;
   return y;
@@ -67,26 +55,26 @@ ExprVector PortHamiltonianSystem::do_effort(const ExprVector& x, const ExprVecto
   return energy_->differential(x, ExprVector(0), t);
 }
 
-ExprVector PortHamiltonianSystem::do_equations(const ExprVector& x, const ExprVector& v,
-                                               const ExprVector& alpha, const ExprVector& u,
-                                               const Expr& t, const ExprVector&,
-                                               const Expr&) const {
+ExprVector PortHamiltonianSystem::do_inner_equations(const ExprVector& x, const ExprVector& v,
+                                                     const ExprVector& alpha, const ExprVector& u,
+                                                     const Expr&) const {
   ExprMatrix A = matrices_.J(x);
   if (matrices_.R) A -= matrices_.R(x);
-  const ExprVector y = output(x, alpha, u);
-  ExprVector equations(equation_count());
-  equations << v - A * alpha - matrices_.B(x) * u, relation_(t, u, y);
-  return equations;
+  return v - A * alpha - matrices_.B(x) * u;
 }
 
-EnergySystem::Powers PortHamiltonianSystem::do_powers(const ExprVector& x, const ExprVector&,
-                                                      const ExprVector& alpha, const ExprVector& u,
-                                                      const Expr&) const {
+ExprVector PortHamiltonianSystem::do_port_equations(const Expr& t, const ExprVector& u,
+                                                    const ExprVector& y) const {
+  if (!input_) return y;
+  const auto& input = *input_;
+  return ExprVector(u - input(t, y));
+}
+
+EnergySystem::Powers PortHamiltonianSystem::do_inner_powers(const ExprVector& x, const ExprVector&,
+                                                            const ExprVector& alpha,
+                                                            const ExprVector& u,
+                                                            const Expr&) const {
   Powers powers;
-  const ExprVector y = output(x, alpha, u);
-  for (Index a = 0; a < u.size(); ++a)
-    powers.supplied.push_back(
-        {port_name(names().auxiliary[static_cast<std::size_t>(a)]), y[a] * u[a]});
   if (matrices_.R)
     powers.dissipated.push_back(
         {"resistance", alpha.cwiseProduct(ExprVector(matrices_.R(x) * alpha)).sum()});

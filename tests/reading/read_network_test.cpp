@@ -92,6 +92,8 @@ BOOST_AUTO_TEST_CASE(wrong_elements_are_refused) {
   wrong(R"("type":"resistor","name":"R 1","value":1)", R"(/system/elements/1/name: is "R 1")");
   wrong(R"("type":"resistor","name":"R1","value":"1+v_C2")",
         R"(/system/elements/1/value: column 3: unknown name "v_C2")");
+  wrong(R"("type":"port","name":"P","input":"volt")", R"(/system/elements/1/input: is "volt")");
+  wrong(R"("type":"port","name":"P")", "/system/elements/1/input: is missing");
   wrong(R"("type":"voltage-source","name":"E1","value":"2*v_E1")",
         "/system/elements/1: the law of E1 needs its own result");
   wrong(R"("type":"capacitor","name":"C2","energy":"q_C2*v_C1")",
