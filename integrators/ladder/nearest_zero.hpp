@@ -16,7 +16,7 @@ struct Mobility {
   VectorXd typical = VectorXd();  // sizes |y_j| below which a change of y_j is round-off in the
                                   // map; may be 0
   VectorXd offset = VectorXd();   // sizes of what the map adds to leading unknowns
-  double noise = 1e-11;  // natural units below which what is left of an unknown is noise
+  double noise = 1e-11;           // natural units below which what is left of an unknown is noise
   // The generic magnitude of the derivatives around the start, where it is known; may be empty.
   SparseMatrixXd magnitude = SparseMatrixXd();
   // Whether y may be gone to, as the domain of a chart allows; empty: anything may.
