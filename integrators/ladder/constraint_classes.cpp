@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
+#include "courant/core/linear_solver.hpp"
 #include "courant/core/lu_decomposition.hpp"
 #include "courant/core/uncertain_matrix.hpp"
 #include "courant/structures/dirac_structure.hpp"
@@ -49,6 +51,21 @@ UncertainDense product(const UncertainDense& A, const UncertainDense& B) {
   return result;
 }
 
+// -A⁻¹ B, where A is regular and most of its entries are missing.
+MatrixXd sparse_quotient(const SparseMatrixXd& A, const MatrixXd& B) {
+  MatrixPattern pattern{A.rows(), A.cols(), {}, {}};
+  for (Index j = 0; j < A.outerSize(); ++j)
+    for (SparseMatrixXd::InnerIterator it(A, j); it; ++it) {
+      pattern.row.push_back(it.row());
+      pattern.column.push_back(j);
+    }
+  const std::unique_ptr<LinearSolver> solver = linear_solver(pattern);
+  MatrixXd X(A.cols(), B.cols());
+  if (!solver->factorize(A.valuePtr())) return X.setConstant(std::nan(""));
+  for (Index j = 0; j < B.cols(); ++j) solver->solve(B.col(j).data(), X.col(j).data());
+  return -X;
+}
+
 // ♯ of the graph of a bivector: v = Λα, or ♭ of the graph of a two-form: α = ω♭ v.
 struct Maps {
   std::optional<MatrixXd> bivector, form;
@@ -62,11 +79,13 @@ Maps maps_at(const DiracStructure& structure, const VectorXd& x) {
   if (D.P.cols() == 0 && D.F.rows() == n) {
     const auto solve = [&](const MatrixXd& A, const MatrixXd& B) -> std::optional<MatrixXd> {
       constexpr Index dense = 200;  // singular values of larger ones take seconds
-      const RankDecision decision =
-          n <= dense ? decide_rank(A, DiracStructure::rounding)
-                     : decide_rank(SparseMatrixXd(A.sparseView()), DiracStructure::rounding);
-      if (decision.rank < n) return std::nullopt;
-      return MatrixXd(-LuDecomposition(A).solve(B));
+      if (n <= dense) {
+        if (decide_rank(A, DiracStructure::rounding).rank < n) return std::nullopt;
+        return MatrixXd(-LuDecomposition(A).solve(B));
+      }
+      const SparseMatrixXd sparse = A.sparseView();
+      if (decide_rank(sparse, DiracStructure::rounding).rank < n) return std::nullopt;
+      return sparse_quotient(sparse, B);
     };
     result.bivector = solve(D.F, D.E);
     if (!result.bivector) result.form = solve(D.E, D.F);

@@ -1,6 +1,8 @@
 #include "courant/integrators/ladder/constraint_classes.hpp"
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 #include <numbers>
 
 #include "courant/manifolds/cotangent_bundle.hpp"
@@ -64,6 +66,22 @@ class OscillatorWithMultiplier final : public GeneratingFamily {
  private:
   Expr do_value(V x, V lambda, T) const override {
     return 0.5 * (square(x[0]) + square(x[1])) + lambda[0] * x[2];
+  }
+};
+
+// Masses between springs, of which the first two are held together: E = H + λ (q₁ - q₀).
+class HeldTogether final : public GeneratingFamily {
+ public:
+  explicit HeldTogether(std::shared_ptr<const Manifold> manifold)
+      : GeneratingFamily(std::move(manifold), 1) {}
+
+ private:
+  Expr do_value(V x, V lambda, T) const override {
+    const Index n = x.size() / 2;
+    Expr energy = lambda[0] * (x[1] - x[0]);
+    for (Index i = 0; i < n; ++i) energy += 0.5 * square(x[n + i]);
+    for (Index i = 0; i + 1 < n; ++i) energy += 0.5 * square(x[i + 1] - x[i]);
+    return energy;
   }
 };
 
@@ -251,6 +269,26 @@ BOOST_AUTO_TEST_CASE(casimirs_move_nothing) {
 }
 
 // What is given by equations alone has no brackets.
+// So large that the structure is solved for by sparse factors.
+BOOST_AUTO_TEST_CASE(a_long_chain) {
+  constexpr Index n = 110;
+  const auto phase_space = std::make_shared<CotangentBundle>(std::make_shared<Euclidean>(n));
+  const auto system =
+      std::make_shared<DiracSystem>(std::make_shared<CanonicalSymplectic>(phase_space),
+                                    std::make_shared<HeldTogether>(phase_space));
+  VectorXd x = VectorXd::Zero(2 * n);
+  for (Index i = 0; i < n; ++i) x[i] = std::sin(0.3 * static_cast<double>(std::max<Index>(i, 1)));
+  const ConstraintLadder ladder = ConstraintAlgorithm().run(system, {.x = x});
+  const auto found = constraint_classes(*system, ladder);
+  BOOST_REQUIRE(found);
+  BOOST_REQUIRE(found->brackets);
+  BOOST_TEST(ladder.degrees_of_freedom == 2 * n - 2);
+  BOOST_TEST(found->brackets->second_class == 2);
+  BOOST_TEST(found->brackets->first_class == 0);
+  BOOST_TEST(found->degrees_of_freedom_up_to_gauge == 2 * n - 2);
+  BOOST_TEST(!found->is_ambiguous());
+}
+
 BOOST_AUTO_TEST_CASE(equations_alone_have_no_classes) {
   const SystemPointer system = cartesian_pendulum();
   const ConstraintLadder ladder = Problem{system, at({0.6, -0.8, 0.8, 0.6})}.ladder();
