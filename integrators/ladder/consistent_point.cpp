@@ -92,9 +92,13 @@ void ConsistentPoint::drop_round_off() {
   at.value.setZero();
   // Where all numbers are small the largest is a unit, so that it stays.
   const NaturalScaling units({at.value, magnitude}, reach, 0.0);
+  // Round-off is small next to other numbers too. Units alone do not tell: those of a circuit whose
+  // currents grow like exp (v/25 mV) may be 10¹⁶ of what flows.
+  const double given = reach.size() == 0 ? 0.0 : reach.maxCoeff();
   const auto drop = [&](VectorXd& values, Index first) {
     for (Index i = 0; i < values.size(); ++i)
-      if (std::fabs(values[i]) <= round_off * units.column_scale[first + i]) values[i] = 0.0;
+      if (std::fabs(values[i]) <= round_off * std::min(units.column_scale[first + i], given))
+        values[i] = 0.0;
   };
   drop(guess_.x, 0);
   drop(guess_.v, n);

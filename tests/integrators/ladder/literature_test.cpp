@@ -144,4 +144,17 @@ BOOST_AUTO_TEST_CASE(a_slider_crank_released_upright) {
         {{6, 4}, {4, 2}, {2, 2}, {2, 2}});
 }
 
+// A charge and a flux behind a diode, whose current grows like exp (v / 25 mV): the unit of a flux that is chosen for
+// 10 V at the diode is 10¹⁶ of what flows, and the flux that is given no round-off.
+BOOST_AUTO_TEST_CASE(a_flux_behind_a_diode_stays) {
+  const auto circuit = flat(2, 1, 3, [](V x, V v, V z, T) {
+    const Expr current = x[1] / 1e-3;
+    return equations({v[0] + current, v[1] - x[0] / 1e-6 + z[0],
+                      1e-9 * (exp(z[0] / 0.025852) - 1.0) + 1e-4 * z[0] - current});
+  });
+  const ConstraintLadder ladder = ConstraintAlgorithm().run(circuit, at({1e-5, 1e-4}));
+  BOOST_TEST(is_right(ladder, Verdict::regular, {{2, 2}, {2, 2}}));
+  BOOST_TEST(ladder.point.x[1] == 1e-4);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
