@@ -3,87 +3,49 @@
 #include <stdexcept>
 
 #include "courant/core/expr_vectors.hpp"
-#include "courant/integrators/predictor.hpp"
-#include "courant/integrators/round_off_projection.hpp"
+#include "courant/integrators/displacement_stepper.hpp"
 #include "courant/integrators/step_names.hpp"
-#include "courant/integrators/step_solver.hpp"
 
 namespace courant {
 
-class ReducedMap::Trajectory final : public Stepper {
+class ReducedMap::Trajectory final : public DisplacementStepper {
  public:
   explicit Trajectory(const ReducedMap& method)
-      : Stepper(method.name(), method.system()),
+      : DisplacementStepper(method.name(), method.system(),
+                            {.equations = method.equations_,
+                             .whole = method.whole_,
+                             .advance = method.advance_,
+                             .constraint = method.constraint_,
+                             .displacements = method.rate_.output_size(),
+                             .h = 2}),
         method_(method),
-        projection_(method.constraint_),
-        n_(method.structure_->acting().dimension()),
-        m_(system().auxiliary_size()),
-        solver_(method.equations_, {2 * n_, m_}, method.name(), method.whole_,
-                {.displacements = 2 * n_, .h = 2}),
-        predictor_({2 * n_, m_}, solver_.predicted()),
-        rate_(2 * n_),
-        next_(method.advance_.output_size()),
-        kept_(next_) {}
+        rate_(method.rate_.output_size()) {}
 
  private:
   void do_step(const State& before, double h, State& after) override {
-    VectorXd& y = solver_.unknown();
-    const auto begin = [&] { begin_from(before, h, y); };
-    if (predictor_.is_empty())
-      begin();
-    else
-      predictor_.predict(y);
-    const double* in[] = {y.data(), before.x.data(), &h, &before.t};
-    const double size = largest(before.x);
-    const double scales[] = {size, auxiliary_scale(largest(before.z), size)};
-    solver_.solve_connected(in, scales, begin, {before.t, h}, statistics_);
-
-    method_.advance_.value(in, next_.data());
-    after.x = next_.head(before.x.size());
-    after.v = next_.segment(before.x.size(), before.v.size());
-    after.z = y.tail(m_);
-    projection_.apply(after.x);
+    const double* in[] = {unknown(), before.x.data(), &h, &before.t};
+    make_step(in, before, h, after);
   }
 
-  void begin_from(const State& before, double h, VectorXd& y) {
+  void do_begin(const State& before, double h, VectorXd& y) override {
     const double* in[] = {before.x.data(), before.z.data(), &before.t};
     method_.rate_.value(in, rate_.data());
-    y.head(2 * n_) = h * rate_;
-    y.tail(m_) = before.z;
-  }
-
-  void do_keep(const State&, const State&) override {
-    if (!solver_.is_determined()) predictor_.limit_degree(Predictor::kUndetermined);
-    predictor_.record(solver_.unknown());
-    solver_.keep();
-    kept_.swap(next_);
+    y.head(rate_.size()) = h * rate_;
   }
 
   void do_stage(Step& step) const override {
     step.stage = step.after;
     step.stage.t = step.before.t + method_.map_->stage_time() * step.h;
-    step.stage.x = kept_.tail(step.after.x.size());
+    step.stage.x = kept().tail(step.after.x.size());
     step.effort = VectorXd();
   }
 
-  void do_change_step() override { predictor_.forget(); }
-  void do_forget() override {
-    solver_.forget();
-    predictor_.forget();
-  }
-  Motion do_motion() const override { return solver_.motion(manifold()); }
-  void do_expect(const Motion& motion) override { solver_.expect(motion); }
   std::unique_ptr<Stepper> do_fresh() const override {
     return std::make_unique<Trajectory>(method_);
   }
 
   const ReducedMap method_;  // its functions are shared, not copied
-  RoundOffProjection projection_;
-  Index n_, m_;
-  StepSolver solver_;
-  Predictor predictor_;
   VectorXd rate_;
-  VectorXd next_, kept_;  // what advance_ gives for the step that is made, and the last that stands
 };
 
 // The formulas of a step.

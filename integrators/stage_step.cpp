@@ -3,68 +3,47 @@
 #include <stdexcept>
 
 #include "courant/core/expr_vectors.hpp"
+#include "courant/integrators/displacement_stepper.hpp"
 #include "courant/integrators/ladder/local_formulation.hpp"
 #include "courant/integrators/moving_basis.hpp"
-#include "courant/integrators/predictor.hpp"
-#include "courant/integrators/round_off_projection.hpp"
 #include "courant/integrators/step_names.hpp"
-#include "courant/integrators/step_solver.hpp"
 
 namespace courant {
 
-class StageStep::Trajectory final : public Stepper {
+class StageStep::Trajectory final : public DisplacementStepper {
  public:
   explicit Trajectory(const StageStep& method)
-      : Stepper(method.name_, method.system_),
+      : DisplacementStepper(
+            method.name_, method.system_,
+            {.equations = method.equations_,
+             .whole = method.whole_,
+             .advance = method.advance_,
+             .constraint = method.constraint_,
+             .displacements = method.tangent_blocks_ * method.system_->manifold()->dimension(),
+             .h = 3}),
         method_(method),
-        projection_(method.constraint_),
         n_(manifold().dimension()),
-        m_(system().auxiliary_size()),
         blocks_(method.tangent_blocks_),
-        solver_(method.equations_, {blocks_ * n_, m_}, method.name_, method.whole_,
-                {.displacements = blocks_ * n_, .h = 3}),
-        predictor_({blocks_ * n_, m_}, solver_.predicted()),
-        basis_(manifold(), method.basis_),
-        next_(method.advance_.output_size()),
-        kept_(next_) {}
+        basis_(manifold(), method.basis_) {}
 
  private:
   void do_prepare(State& state, double) override { move_basis(state.x); }
 
   void do_step(const State& before, double h, State& after) override {
-    VectorXd& y = solver_.unknown();
-    const auto begin = [&] { begin_from(before, h, y); };
-    if (predictor_.is_empty())
-      begin();
-    else
-      predictor_.predict(y);
-    const double* in[] = {y.data(), before.x.data(), basis_.data(), &h, &before.t};
-    const double size = largest(before.x);
-    const double scales[] = {size, auxiliary_scale(largest(before.z), size)};
-    solver_.solve_connected(in, scales, begin, {before.t, h}, statistics_);
-
-    method_.advance_.value(in, next_.data());
-    const Index N = before.x.size(), tangent = before.v.size();
-    after.x = next_.head(N);
-    after.v = next_.segment(N, tangent);
-    after.z = y.tail(m_);
-    projection_.apply(after.x);
+    const double* in[] = {unknown(), before.x.data(), basis_.data(), &h, &before.t};
+    make_step(in, before, h, after);
   }
 
   // The displacement of the velocity that is known, half of it where the middle point is sought.
-  void begin_from(const State& before, double h, VectorXd& y) const {
+  void do_begin(const State& before, double h, VectorXd& y) override {
     y.segment((blocks_ - 1) * n_, n_).noalias() = basis_.matrix().transpose() * before.v;
     y.segment((blocks_ - 1) * n_, n_) *= h;
     if (blocks_ == 2) y.head(n_) = 0.5 * y.segment(n_, n_);
-    y.tail(m_) = before.z;
   }
 
-  void do_keep(const State&, const State& after) override {
-    if (!solver_.is_determined()) predictor_.limit_degree(Predictor::kUndetermined);
-    predictor_.record(solver_.unknown());
-    solver_.keep();
+  void do_keep(const State& before, const State& after) override {
+    DisplacementStepper::do_keep(before, after);
     move_basis(after.x);
-    kept_.swap(next_);
   }
 
   void do_stage(Step& step) const override {
@@ -74,34 +53,26 @@ class StageStep::Trajectory final : public Stepper {
       const double* in[] = {step.before.x.data(), step.after.x.data()};
       method_.stage_.value(in, step.stage.x.data());
     } else {
-      step.stage.x = kept_.segment(step.after.x.size() + step.after.v.size(), step.after.x.size());
+      step.stage.x = kept().segment(step.after.x.size() + step.after.v.size(), step.after.x.size());
     }
-    step.effort = kept_.tail(method_.efforts_);
+    step.effort = kept().tail(method_.efforts_);
   }
 
-  void do_change_step() override { predictor_.forget(); }
   void do_forget() override {
     basis_.forget();
-    solver_.forget();
-    predictor_.forget();
+    DisplacementStepper::do_forget();
   }
-  Motion do_motion() const override { return solver_.motion(manifold()); }
-  void do_expect(const Motion& motion) override { solver_.expect(motion); }
   std::unique_ptr<Stepper> do_fresh() const override {
     return std::make_unique<Trajectory>(method_);
   }
 
   void move_basis(const VectorXd& x) {
-    if (!basis_.move_to(x)) predictor_.forget();
+    if (!basis_.move_to(x)) forget_steps();
   }
 
   const StageStep method_;  // its functions are shared, not copied
-  RoundOffProjection projection_;
-  Index n_, m_, blocks_;
-  StepSolver solver_;
-  Predictor predictor_;
-  MovingBasis basis_;     // at the state
-  VectorXd next_, kept_;  // what advance_ gives for the step that is made, and the last that stands
+  Index n_, blocks_;
+  MovingBasis basis_;  // at the state
 };
 
 // The formulas of a step.

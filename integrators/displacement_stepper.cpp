@@ -1,0 +1,54 @@
+#include "courant/integrators/displacement_stepper.hpp"
+
+#include <utility>
+
+namespace courant {
+
+DisplacementStepper::DisplacementStepper(std::string method,
+                                         std::shared_ptr<const ImplicitSystem> system,
+                                         const Formulas& formulas)
+    : Stepper(std::move(method), std::move(system)),
+      advance_(formulas.advance),
+      projection_(formulas.constraint),
+      m_(this->system().auxiliary_size()),
+      solver_(formulas.equations, {formulas.displacements, m_}, this->method(), formulas.whole,
+              {.displacements = formulas.displacements, .h = formulas.h}),
+      predictor_({formulas.displacements, m_}, solver_.predicted()),
+      next_(advance_.output_size()),
+      kept_(next_) {}
+
+void DisplacementStepper::make_step(const double* const* in, const State& before, double h,
+                                    State& after) {
+  VectorXd& y = solver_.unknown();
+  const auto begin = [&] {
+    do_begin(before, h, y);
+    y.tail(m_) = before.z;
+  };
+  if (predictor_.is_empty())
+    begin();
+  else
+    predictor_.predict(y);
+  const double size = largest(before.x);
+  const double scales[] = {size, auxiliary_scale(largest(before.z), size)};
+  solver_.solve_connected(in, scales, begin, {before.t, h}, statistics_);
+
+  advance_.value(in, next_.data());
+  after.x = next_.head(before.x.size());
+  after.v = next_.segment(before.x.size(), before.v.size());
+  after.z = y.tail(m_);
+  projection_.apply(after.x);
+}
+
+void DisplacementStepper::do_keep(const State&, const State&) {
+  if (!solver_.is_determined()) predictor_.limit_degree(Predictor::kUndetermined);
+  predictor_.record(solver_.unknown());
+  solver_.keep();
+  kept_.swap(next_);
+}
+
+void DisplacementStepper::do_forget() {
+  solver_.forget();
+  predictor_.forget();
+}
+
+}  // namespace courant
