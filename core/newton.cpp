@@ -6,6 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "courant/core/damped_newton.hpp"
 #include "courant/core/unknown_selection.hpp"
 
 namespace courant {
@@ -22,6 +23,10 @@ constexpr double kRoundOff = 1e-9;
 // and more where a step is long: its steps are no round-off because they stay as short as that.
 constexpr double kShort = 1e-4;
 constexpr double kStagnant = 0.9;
+
+// The contraction says what error is left where steps are short. The way back from far away contracts by
+// as much as one went astray.
+constexpr double kLong = 1e-2;
 
 // Round-off is measured with a new factorisation, and again when this has made it too small.
 constexpr double kForget = 0.998;
@@ -92,7 +97,8 @@ double Newton::improve(double* y, const double* scales) {
 
 // Whether every residual is at most so many parts: of the terms J_ij y_j, where an unknown that is an increment
 // belongs to a sum of the size of its block's scale.
-bool Newton::is_rounded(const double* y, const double* scales, double few) {
+// `any`: to those of any equation.
+bool Newton::is_rounded(const double* y, const double* scales, double few, bool any) {
   magnitude_.setZero();
   const Index rows = magnitude_.size();
   const auto& row = function_.pattern_row();
@@ -104,16 +110,19 @@ bool Newton::is_rounded(const double* y, const double* scales, double few) {
     const double size = std::max(std::fabs(y[column[k]]), std::min(scales[g], scales[0]));
     magnitude_[row[k]] += std::fabs(all_[rows + static_cast<Index>(k)]) * size;
   }
+  if (any && rows > 0) magnitude_.setConstant(magnitude_.maxCoeff());
   for (Index i = 0; i < rows; ++i)
     if (!(std::fabs(all_[i]) <= few * magnitude_[i])) return false;
   return true;
 }
 
 // Whether small changes mean small residuals. A matrix that is not square, or singular, sees some
-// directions only; one that is old may have lost others.
-bool Newton::is_solved(const double* y, const double* scales) {
+// directions only; one that is old may have lost others. With a matrix of this solve least squares are at
+// their least; what is left of equations that repeat others where their own terms vanish is round-off
+// of theirs.
+bool Newton::is_solved(const double* y, const double* scales, bool fresh) {
   if (solver_->is_determined() && function_.output_size() == step_.size()) return true;
-  return is_rounded(y, scales, kSolved);
+  return is_rounded(y, scales, kSolved, fresh);
 }
 
 void Newton::settle(VectorXd& y, Index first) {
@@ -130,19 +139,65 @@ void Newton::settle(VectorXd& y, Index first) {
   for (std::size_t k = 0; k < contained_.size(); ++k) unknown(k) = step_[static_cast<Index>(k)];
 }
 
-Newton::Result Newton::solve(double* y, const double* const* in, const double* scales) {
-  if (!system_.is_reduced()) return solve_kept(y, in, scales);
+// What the equations that are left take: u in place of y.
+const double* const* Newton::take_kept(const double* y, const double* const* in) {
   std::copy_n(in, in_.size(), in_.begin());
   in_[0] = kept_.data();
   for (Index i = 0; i < kept_.size(); ++i)
     kept_[i] = y[system_.kept()[static_cast<std::size_t>(i)]];
-  Result result = solve_kept(kept_.data(), in_.data(), scales);
+  return in_.data();
+}
+
+// All unknowns by those that are kept.
+void Newton::give(double* y) {
   system_.given().value(in_.data(), given_.data());
   for (Index i = 0; i < kept_.size(); ++i)
     y[system_.kept()[static_cast<std::size_t>(i)]] = kept_[i];
   for (Index i = 0; i < given_.size(); ++i)
     y[system_.eliminated()[static_cast<std::size_t>(i)]] = given_[i];
+}
+
+Newton::Result Newton::solve(double* y, const double* const* in, const double* scales) {
+  if (!system_.is_reduced()) return solve_kept(y, in, scales);
+  const double* const* of_kept = take_kept(y, in);
+  Result result = solve_kept(kept_.data(), of_kept, scales);
+  give(y);
   return result;
+}
+
+bool Newton::approach(double* y, const double* const* in, const double* scales) {
+  const bool is_reduced = system_.is_reduced();
+  const double* const* of_kept = is_reduced ? take_kept(y, in) : in;
+  double* const u = is_reduced ? kept_.data() : y;
+  DampedEquations equations;
+  Index begin = 0;
+  for (const Index end : ends_) {
+    equations.groups.push_back(end - begin);
+    begin = end;
+  }
+  equations.scales = Eigen::Map<const VectorXd>(scales, std::ssize(ends_));
+  const auto move = [&](const VectorXd& to) {
+    for (std::size_t k = 0; k < contained_.size(); ++k)
+      u[contained_[k]] = to[static_cast<Index>(k)];
+  };
+  equations.linearize = [&](const VectorXd& at) {
+    move(at);
+    return factorize(of_kept);
+  };
+  equations.correct = [&](const VectorXd& at, VectorXd& correction) {
+    move(at);
+    function_.value(of_kept, all_.data());
+    solver_->solve(all_.data(), correction.data());
+    return correction.allFinite();
+  };
+  VectorXd at(std::ssize(contained_));
+  for (std::size_t k = 0; k < contained_.size(); ++k) at[static_cast<Index>(k)] = u[contained_[k]];
+  const VectorXd start = at;
+  const bool arrived = damped_newton(equations, at);
+  move(arrived ? at : start);
+  reset();
+  if (arrived && is_reduced) give(y);
+  return arrived;
 }
 
 Newton::Result Newton::solve_kept(double* y, const double* const* in, const double* scales) {
@@ -173,10 +228,11 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
       result.residuals.push_back(residual.size() == 0 ? 0.0 : residual.lpNorm<Eigen::Infinity>());
       return result;
     }
-    // With a matrix of this solve least squares are at their least, solved or not.
-    const auto accepted = [&] { return fresh || is_solved(y, scales); };
+    // Least squares of a matrix of this solve are at their least, but that may be no solution.
+    const auto accepted = [&] { return is_solved(y, scales, fresh); };
     if (moved <= options_.tolerance) {
       if (!accepted()) {
+        if (fresh) break;
         if (refactorize()) continue;
         result.status = Status::singular;
         return result;
@@ -186,8 +242,8 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
     }
     if (compared > 0) {
       contraction = moved / previous;
-      if (contraction < 0.5 && contraction * moved <= (1.0 - contraction) * options_.tolerance &&
-          accepted()) {
+      if (contraction < 0.5 && moved <= kLong &&
+          contraction * moved <= (1.0 - contraction) * options_.tolerance && accepted()) {
         result.status = Status::converged;
         return result;
       }
@@ -195,7 +251,7 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
       const bool stalled = contraction > 0.5;
       const bool stagnant = fresh && compared == 1 && contraction > kStagnant && moved <= kShort;
       const bool rounded =
-          stalled && (moved > kRoundOff ? stagnant || is_rounded(y, scales, kRounded)
+          stalled && (moved > kRoundOff ? stagnant || is_rounded(y, scales, kRounded, false)
                                         : close || moved <= std::max(kLeast, 2 * round_off_));
       const bool slow = contraction > options_.slow && moved > 1e3 * options_.tolerance;
       if ((slow && !fresh) || (stalled && !rounded) || (rounded && !accepted())) {

@@ -51,6 +51,11 @@ class Newton {
   // block g (its current values count too). On failure y holds the last iterate.
   Result solve(double* y, const double* const* in, const double* scales);
 
+  // Moves y by damped steps to where solve() converges, from far away; see damped_newton(), which says what
+  // is to be thought of the zero that is found. Arguments as of solve(). False, y as it was: it does not
+  // get there.
+  bool approach(double* y, const double* const* in, const double* scales);
+
   // Takes from the unknowns from `first` on what the last factorisation leaves open: predictions of
   // it would grow without bounds.
   void settle(VectorXd& y, Index first);
@@ -69,10 +74,12 @@ class Newton {
 
  private:
   Result solve_kept(double* u, const double* const* in, const double* scales);
+  const double* const* take_kept(const double* y, const double* const* in);
+  void give(double* y);
   bool factorize(const double* const* in);
   double improve(double* y, const double* scales);
-  bool is_rounded(const double* y, const double* scales, double few);
-  bool is_solved(const double* y, const double* scales);
+  bool is_rounded(const double* y, const double* scales, double few, bool any);
+  bool is_solved(const double* y, const double* scales, bool fresh);
 
   EquationSystem system_;
   const Function function_;       // of the unknowns that are kept

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "courant/core/damped_newton.hpp"
 #include "courant/core/unknown_selection.hpp"
 
 namespace courant {
@@ -28,6 +29,9 @@ constexpr double kRoundOff = 1e-13;
 // and of the coordinates.
 constexpr double kLeastOfAll = 1e-3;
 constexpr double kLeastOfState = 1e-8;
+// What is not a displacement is measured by its own size where damped steps need it, and by this part
+// of the coordinates at least.
+constexpr double kUnmeasured = 1e-3;
 
 // The curve begins at this part of the step, where equations hardly bend and Newton's method finds
 // their solution from anywhere; or at less, down to kShortest. But not so near that displacements are
@@ -147,6 +151,39 @@ bool StepContinuation::converges(double sigma, const double* const* in, double s
   return false;
 }
 
+// Moves u_ by damped steps to where converges() may succeed.
+bool StepContinuation::approach(double sigma, const double* const* in, double size) {
+  const auto move = [&](const VectorXd& to) {
+    for (std::size_t k = 0; k < contained_.size(); ++k)
+      u_[contained_[k]] = to[static_cast<Index>(k)];
+  };
+  const auto measured = std::count_if(contained_.begin(), contained_.end(),
+                                      [&](Index i) { return i < layout_.displacements; });
+  const DampedEquations equations{
+      .linearize =
+          [&](const VectorXd& at) {
+            move(at);
+            evaluate(sigma, in, true);
+            return all_.allFinite() && solver_->factorize(all_.data() + equations_.output_size());
+          },
+      .correct =
+          [&](const VectorXd& at, VectorXd& correction) {
+            move(at);
+            evaluate(sigma, in, false);
+            solver_->solve(all_.data(), correction.data());
+            for (std::size_t k = 0; k < contained_.size(); ++k)
+              if (shrinks(contained_[k])) correction[static_cast<Index>(k)] /= sigma;
+            return correction.allFinite();
+          },
+      .groups = {measured, std::ssize(contained_) - measured},
+      .scales = Eigen::Vector2d(kLeastOfState * size / sigma, kUnmeasured * size)};
+  VectorXd at(std::ssize(contained_));
+  for (std::size_t k = 0; k < contained_.size(); ++k) at[static_cast<Index>(k)] = u_[contained_[k]];
+  const bool arrived = damped_newton(equations, at);
+  move(at);
+  return arrived;
+}
+
 // du/dσ at u_, with the matrix of the last iteration.
 bool StepContinuation::differentiate(double sigma, const double* const* in) {
   const Index rows = equations_.output_size();
@@ -239,7 +276,13 @@ bool StepContinuation::begins(const Attempt& attempt, const VectorXd& start,
        first *= 0.125) {
     orientation_ = 0;
     u_ = start;
-    if (!converges(first, in, size, anywhere, result)) continue;
+    if (!converges(first, in, size, anywhere, result)) {
+      orientation_ = 0;
+      u_ = start;
+      if (!attempt.leads_back || !approach(first, in, size) ||
+          !converges(first, in, size, anywhere, result))
+        continue;
+    }
     accept(first);
     if (!attempt.leads_back || reaches(0.25 * first, in, size, result)) return true;
   }

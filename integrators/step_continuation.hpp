@@ -14,8 +14,8 @@ namespace courant {
 // the curve up to σ = 1, or to where it turns back or ends.
 //
 // It begins at a thousandth of the step or less, with a solution from which Newton's method, its matrix
-// made afresh in each iteration, contracts to a quarter after the first one, and goes on along the
-// tangent. A prediction must be right to a tenth, Newton's method has to contract at once, the sign of
+// made afresh in each iteration, contracts to a quarter after the first one, if need be after damped
+// steps, and goes on along the tangent. A prediction must be right to a tenth, Newton's method has to contract at once, the sign of
 // the determinant stays the same, and the tangents of both ends have to say by how much the prediction
 // was wrong: those of two branches do not, so that turning points are not stepped over, nor pairs of
 // them. Else the step in σ is shortened; the first one tried leads to σ = 1.
@@ -66,6 +66,7 @@ class StepContinuation {
   // Newton's method from u_, for σ. False: it does not contract, or its first change is more than
   // `near`.
   bool converges(double sigma, const double* const* in, double size, double near, Result& result);
+  bool approach(double sigma, const double* const* in, double size);
   bool differentiate(double sigma, const double* const* in);
   void accept(double sigma);
   void evaluate(double sigma, const double* const* in, bool with_jacobian);

@@ -31,7 +31,8 @@ class StepSolver {
   bool is_determined() const { return newton_.is_determined(); }  // as of Newton
 
   // On return unknown() solves the equations; in[0] is its place. `begin` puts there what a second
-  // try begins with if the first fails. `attempt` is named in the message of a SolveError.
+  // try begins with if the first fails, and a third one, by damped steps. `attempt` is named in the
+  // message of a SolveError.
   struct Attempt {
     double time, h;
   };
@@ -43,6 +44,9 @@ class StepSolver {
     newton_.reset();
     begin();
     if (converges(in, scales, statistics)) return;
+    newton_.reset();
+    begin();
+    if (newton_.approach(y_.data(), in, scales) && converges(in, scales, statistics)) return;
     newton_.reset();
     fail(attempt);
   }

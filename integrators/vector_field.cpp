@@ -164,6 +164,11 @@ void VectorField::Evaluation::solve(const VectorXd& x, VectorXd& rate, double t)
     y_ = field_.start_;
     result = newton_.solve(y_.data(), in, &scale);
   }
+  if (result.status != Newton::Status::converged) {
+    y_ = field_.start_;
+    newton_.reset();
+    if (newton_.approach(y_.data(), in, &scale)) result = newton_.solve(y_.data(), in, &scale);
+  }
   if (result.status != Newton::Status::converged || !y_.allFinite())
     throw std::domain_error("VectorField::operator(): no velocity found at t = " + number_text(t) +
                             "; the state " + whereabouts(M, x) + ".");

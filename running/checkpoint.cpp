@@ -121,6 +121,7 @@ void each_member(Is<EnergyWatch::Memory> auto& energy_watch, const auto& visit) 
   visit("initial", energy_watch.initial);
   visit("largest", energy_watch.largest);
   visit("looked_at", energy_watch.looked_at);
+  visit("found_at", energy_watch.found_at);
   visit("finding", energy_watch.finding);
 }
 

@@ -29,17 +29,23 @@ std::optional<RunEnd> EnergyWatch::watch(const RunMoment& moment) {
   if (moment.k == 0) memory_.initial = H;
   memory_.largest = std::max(memory_.largest, std::fabs(H));
   const double change = std::fabs(H - memory_.initial);
-  if (!memory_.finding.empty() || moment.k == 0 ||
+  if (!finding().empty() || moment.k == 0 ||
       !(change > std::max(kFurther * memory_.looked_at, kLeast * memory_.largest)))
     return std::nullopt;
   memory_.looked_at = change;
-  if (!is_explained(moment.step))
+  if (!is_explained(moment.step)) {
+    memory_.found_at = change;
     memory_.finding =
         "H has changed by " + number_text(H - memory_.initial) +
         " at t = " + number_text(moment.t) +
         ", and shorter steps would not change it less: not the method's order explains it. "
         "The trajectory may be wrong from there on.";
+  }
   return std::nullopt;
+}
+
+std::string EnergyWatch::finding() const {
+  return memory_.found_at > kLeast * memory_.largest ? memory_.finding : "";
 }
 
 bool EnergyWatch::is_explained(const Step& step) const {

@@ -23,14 +23,16 @@ class EnergyWatch final : public RunWatcher {
               std::function<double(const State&)> energy, Index column);
 
   std::optional<RunEnd> watch(const RunMoment& moment) override;
-  // Empty, or a sentence about the first such step.
-  const std::string& finding() const { return memory_.finding; }
+  // Empty, or a sentence about the first such step. One at which H changed by nothing next to what came
+  // later, as from rest, is none.
+  std::string finding() const;
 
   // What it remembers of the states before.
   struct Memory {
     double initial = 0.0;    // H
     double largest = 0.0;    // |H|
     double looked_at = 0.0;  // |H - H(0)| at the last look
+    double found_at = 0.0;   // and at the finding
     std::string finding = {};
   };
   const Memory& memory() const { return memory_; }

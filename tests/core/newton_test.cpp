@@ -297,4 +297,59 @@ BOOST_AUTO_TEST_CASE(an_iterate_that_is_no_number_is_no_zero) {
   BOOST_TEST((problem.solve(newton, 1.0).status != Newton::Status::converged));
 }
 
+// Newton's method goes from 9.95 V to -10²³ V and back to 10 V, which contracts by as much.
+BOOST_AUTO_TEST_CASE(the_way_back_from_far_away_is_no_convergence) {
+  Problem problem = make(1, [](const ExprVector& y, const Expr& a) {
+    const Expr v = 10.0 - y[0];
+    return ExprVector::Constant(1, 1e-9 * (exp(v / 0.025852) - 1.0) + 1e-4 * v - a).eval();
+  });
+  const double given = 9.664e-4;
+  for (const double start : {9.663, 9.9, 11.0, 60.0, 1e20}) {
+    problem.y[0] = start;
+    problem.parameter = given;
+    Newton newton(problem.function, {}, {});
+    if (problem.solve(newton, 1e-3).status != Newton::Status::converged) continue;
+    const VectorXd residual = problem.function({problem.y, VectorXd::Constant(1, given)});
+    BOOST_TEST(std::fabs(residual[0]) < 1e-12, "start " << start << " ends at " << problem.y[0]);
+  }
+}
+
+// A diode takes the current from any voltage, by damped steps, whether it is written as one equation or
+// as two of which one gives its unknown.
+BOOST_AUTO_TEST_CASE(damped_steps_lead_to_where_it_converges) {
+  Graph graph;
+  const ExprVector y = graph.variables("y", 2), a = graph.variables("a", 1);
+  const double saturation = 1e-9, thermal = 0.025852;
+  ExprVector F(2);
+  F << y[1] - saturation * (exp(y[0] / thermal) - 1.0), y[1] - a[0];
+  for (const bool eliminates : {false, true}) {
+    Newton newton(EquationSystem("diode", {{"y", y}, {"a", a}}, F, {.eliminates = eliminates}), {},
+                  {});
+    for (const double current : {1e-3, 0.3, 40.0}) {
+      VectorXd at = Eigen::Vector2d(0.0, 1e-12);
+      const double* in[] = {at.data(), &current};
+      const double scale = 1e-5;
+      newton.reset();
+      BOOST_TEST((newton.solve(at.data(), in, &scale).status != Newton::Status::converged));
+      at = Eigen::Vector2d(0.0, 1e-12);
+      BOOST_TEST_REQUIRE(newton.approach(at.data(), in, &scale));
+      BOOST_TEST((newton.solve(at.data(), in, &scale).status == Newton::Status::converged));
+      BOOST_TEST(std::fabs(at[0] - thermal * std::log1p(current / saturation)) < 1e-13);
+    }
+  }
+}
+
+// Of y₀ = 1 and y₀ = 1.001 there is a least square, and no solution.
+BOOST_AUTO_TEST_CASE(least_squares_are_no_solution) {
+  for (const double apart : {0.0, 1e-3}) {
+    Problem problem = make(1, [&](const ExprVector& y, const Expr&) {
+      ExprVector F(2);
+      F << y[0] - 1.0, y[0] + square(y[0] - 1.0) - 1.0 - apart;
+      return F;
+    });
+    Newton newton(problem.function, {}, {});
+    BOOST_TEST((problem.solve(newton, 1.0).status == Newton::Status::converged) == (apart == 0.0));
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -72,6 +72,7 @@ Checkpoint example() {
           .energy_watch = EnergyWatch::Memory{.initial = number(),
                                               .largest = 2.0,
                                               .looked_at = 1e-300,
+                                              .found_at = 1e-301,
                                               .finding = "H \"has\"\nchanged: ü"},
           .ladder_watch = LadderWatch::Memory{.largest = number(9),
                                               .last = number(9),
@@ -125,6 +126,7 @@ void check_same(const Checkpoint& a, const Checkpoint& b) {
     BOOST_TEST(same(a.energy_watch->initial, b.energy_watch->initial));
     BOOST_TEST(a.energy_watch->largest == b.energy_watch->largest);
     BOOST_TEST(a.energy_watch->looked_at == b.energy_watch->looked_at);
+    BOOST_TEST(a.energy_watch->found_at == b.energy_watch->found_at);
     BOOST_TEST(a.energy_watch->finding == b.energy_watch->finding);
   }
   BOOST_TEST_REQUIRE(a.ladder_watch.has_value() == b.ladder_watch.has_value());
