@@ -74,6 +74,34 @@ Envelope envelope(std::span<const double> x, std::span<const double> y, Interval
   return result;
 }
 
+std::vector<std::size_t> evenly_spaced_rows(std::size_t rows, std::size_t most) {
+  std::vector<std::size_t> kept;
+  const std::size_t count = std::min(rows, std::max<std::size_t>(most, 2));
+  for (std::size_t i = 0; i < count; ++i)
+    kept.push_back(count == 1 ? 0 : i * (rows - 1) / (count - 1));
+  return kept;
+}
+
+std::vector<std::size_t> rows_of_extrema(std::span<const double> y, std::size_t most) {
+  if (y.size() <= most || most < 4) return evenly_spaced_rows(y.size(), most);
+  const std::size_t stretches = (most - 2) / 2;
+  std::vector<std::size_t> kept = {0};
+  for (std::size_t i = 0; i < stretches; ++i) {
+    const std::size_t begin = 1 + i * (y.size() - 2) / stretches;
+    const std::size_t end = 1 + (i + 1) * (y.size() - 2) / stretches;
+    std::size_t least = begin, greatest = begin;
+    for (std::size_t row = begin; row < end; ++row) {
+      if (std::isnan(y[least]) || y[row] < y[least]) least = row;
+      if (std::isnan(y[greatest]) || y[row] > y[greatest]) greatest = row;
+    }
+    const auto [earlier, later] = std::minmax(least, greatest);
+    kept.push_back(earlier);
+    if (later != earlier) kept.push_back(later);
+  }
+  kept.push_back(y.size() - 1);
+  return kept;
+}
+
 std::vector<Vertex> simplified(std::span<const Vertex> path, double tolerance) {
   if (path.size() <= 2) return {path.begin(), path.end()};
   std::vector<Vertex> kept = {path.front()};

@@ -33,6 +33,12 @@ struct Envelope {
 Envelope envelope(std::span<const double> x, std::span<const double> y, Interval interval,
                   int columns);
 
+// At most `most` ≥ 2 rows that stand for all, in order, with the first and the last: as many of
+// them as fit at equal distances, or, with the extrema, the rows of the least and of the greatest
+// value in equal stretches, so that a spike stays. All rows where they are few enough.
+std::vector<std::size_t> evenly_spaced_rows(std::size_t rows, std::size_t most);
+std::vector<std::size_t> rows_of_extrema(std::span<const double> y, std::size_t most);
+
 // A polyline through some of the vertices of `path`, the first and the last among them, from which
 // none of the others is farther than `tolerance`. Linear time: one vertex after the other is left
 // out while a ray from the last one kept passes all of them (the sleeve of Zhao and Saalfeld, 1997)

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "courant/plotting/decimation.hpp"
+#include "courant/plotting/drawing.hpp"
+#include "courant/plotting/space.hpp"
 
 namespace courant::plot {
 
@@ -22,48 +24,6 @@ constexpr std::array<PaletteColour, 7> colours = {{{"#0072b2", "#4aa5e0"},
 
 constexpr double left_margin = 62, right_margin = 18, top_margin = 26, bottom_margin = 42;
 constexpr double padding = 0.03;  // of the axis, between data and frame
-
-std::string colour_class(std::size_t colour) {
-  return "c" + std::to_string(colour % colours.size());
-}
-std::string_view ink(std::size_t colour) { return colours[colour % colours.size()].light; }
-
-// Single letters are variables, and stand in italics; what follows one after an underscore is its
-// subscript.
-Markup mathematics(std::string_view text) {
-  const auto word = [](std::string_view from) {
-    const auto end = std::find_if(from.begin(), from.end(), [](char c) {
-      return std::isalpha(static_cast<unsigned char>(c)) == 0;
-    });
-    return from.substr(0, static_cast<std::size_t>(end - from.begin()));
-  };
-  Markup markup;
-  while (!text.empty()) {
-    const std::size_t size = std::max<std::size_t>(1, word(text).size());
-    const bool variable = word(text).size() == 1;
-    markup += variable ? element("tspan", {{"font-style", "italic"}}, text.substr(0, 1))
-                       : Markup(text.substr(0, size));
-    text.remove_prefix(size);
-    if (!variable || !text.starts_with('_')) continue;
-    const std::string_view index = word(text.substr(1));
-    if (index.empty()) continue;
-    markup += element("tspan", {{"dy", 3.0}, {"font-size", 9.0}, {"font-style", "italic"}}, index);
-    text.remove_prefix(1 + index.size());
-    return text.empty() ? markup : markup + element("tspan", {{"dy", -3.0}}, mathematics(text));
-  }
-  return markup;
-}
-
-Markup text(double x, double y, std::string_view anchor, const Markup& content) {
-  return element("text", {{"x", x}, {"y", y}, {"text-anchor", anchor}}, content);
-}
-
-Markup line(std::string_view style, double x1, double y1, double x2, double y2,
-            std::string_view stroke) {
-  return element(
-      "line",
-      {{"class", style}, {"x1", x1}, {"y1", y1}, {"x2", x2}, {"y2", y2}, {"stroke", stroke}});
-}
 
 // The map from values to pixels: an interval of a scale onto [begin, end].
 class PixelMap {
@@ -143,39 +103,51 @@ std::string with_exponent(const std::string& label, int exponent) {
          (label.empty() ? "" : ")");
 }
 
+Ticks x_ticks(const Panel& panel, const Layout& layout) {
+  const int about = static_cast<int>((layout.right() - layout.left()) / 80);
+  return panel.x.scale->ticks(layout.x_interval(), about);
+}
+
+Ticks y_ticks(const Panel& panel, const Layout& layout) {
+  const int about = std::max(5, static_cast<int>((layout.bottom() - layout.top()) / 40));
+  return panel.y.scale->ticks(layout.y_interval(), about);
+}
+
 Markup x_axis(const Panel& panel, const Layout& layout) {
   const double bottom = layout.bottom();
-  const int about = static_cast<int>((layout.right() - layout.left()) / 80);
-  const Ticks ticks = panel.x.scale->ticks(layout.x_interval(), about);
-  Markup axis = line("frame", layout.left(), bottom, layout.right(), bottom, "#777");
+  const Ticks ticks = x_ticks(panel, layout);
+  Markup marks;
   for (const Tick& tick : ticks.marks) {
     const double x = layout.x(tick.value);
-    axis += line("frame", x, bottom, x, bottom + (tick.label.empty() ? 2.5 : 5), "#777");
-    if (!tick.label.empty()) axis += text(x, bottom + 18, "middle", tick.label);
+    marks += line("frame", x, bottom, x, bottom + (tick.label.empty() ? 2.5 : 5), "#777");
+    if (!tick.label.empty()) marks += text(x, bottom + 18, "middle", tick.label);
   }
   const std::string label = with_exponent(panel.x.label, ticks.exponent);
-  axis += text((layout.left() + layout.right()) / 2, bottom + 36, "middle", mathematics(label));
-  return element("g", {{"class", "axis"}}, axis);
+  return element(
+      "g", {{"class", "axis"}},
+      line("frame", layout.left(), bottom, layout.right(), bottom, "#777") +
+          element("g", {{"class", "x-ticks"}}, marks) +
+          text((layout.left() + layout.right()) / 2, bottom + 36, "middle", mathematics(label)));
 }
 
 Markup y_axis(const Panel& panel, const Layout& layout) {
   const double left = layout.left();
-  const int about = std::max(5, static_cast<int>((layout.bottom() - layout.top()) / 40));
-  const Ticks ticks = panel.y.scale->ticks(layout.y_interval(), about);
-  Markup axis;
+  const Ticks ticks = y_ticks(panel, layout);
+  Markup marks;
   for (const Tick& tick : ticks.marks) {
     const double y = layout.y(tick.value);
     if (!tick.label.empty()) {
-      axis += line(tick.value == 0 && !panel.equal_aspect ? "zero" : "grid", left, y,
-                   layout.right(), y, "#ddd");
-      axis += text(left - 8, y + 4, "end", tick.label);
+      marks += line(tick.value == 0 && !panel.equal_aspect ? "zero" : "grid", left, y,
+                    layout.right(), y, "#ddd");
+      marks += text(left - 8, y + 4, "end", tick.label);
     }
-    axis += line("frame", left - (tick.label.empty() ? 2.5 : 5), y, left, y, "#777");
+    marks += line("frame", left - (tick.label.empty() ? 2.5 : 5), y, left, y, "#777");
   }
-  axis += line("frame", left, layout.top(), left, layout.bottom(), "#777");
-  axis += text(left - 5, layout.top() - 10, "start",
-               mathematics(with_exponent(panel.y.label, ticks.exponent)));
-  return element("g", {{"class", "axis"}}, axis);
+  const std::string label = with_exponent(panel.y.label, ticks.exponent);
+  return element("g", {{"class", "axis"}},
+                 element("g", {{"class", "y-ticks"}}, marks) +
+                     line("frame", left, layout.top(), left, layout.bottom(), "#777") +
+                     text(left - 5, layout.top() - 10, "start", mathematics(label)));
 }
 
 // The part of a symmetric-log axis that is linear, shaded.
@@ -192,10 +164,18 @@ Markup linear_zone(const Panel& panel, const Layout& layout) {
                           {"fill-opacity", 0.1}});
 }
 
+// What is subtracted from the values of a linear axis before they become float32: 0, or, where they
+// are large next to their differences, the least of them, so that six digits of these stay.
+double data_origin(const Scale& scale, Interval shown) {
+  const bool far = std::abs(shown.lower + shown.upper) > 16 * shown.length();
+  return far && std::isinf(scale.linear_zone().upper) ? shown.lower : 0;
+}
+
 // The curves of one series.
 class Curve {
  public:
-  Curve(const Series& series, const Layout& layout) : series_(series), layout_(layout) {
+  Curve(const Series& series, const Panel& panel, const Layout& layout, std::size_t rows)
+      : series_(series), panel_(panel), layout_(layout), rows_(rows) {
     const bool function = std::is_sorted(series.x.begin(), series.x.end());
     const auto columns = static_cast<int>(layout.right() - layout.left());
     for (const Stretch stretch : finite_stretches(series.x, series.y)) {
@@ -225,7 +205,22 @@ class Curve {
                                 {"stroke", ink(series_.colour)},
                                 {"stroke-width", 1.4}});
     }
-    return element("g", {{"class", "series " + style}, {"stroke-linejoin", "round"}}, curve);
+    if (rows_ == 0)
+      return element("g", {{"class", "series " + style}, {"stroke-linejoin", "round"}}, curve);
+    const double x_origin = data_origin(*panel_.x.scale, layout_.x_interval());
+    const double y_origin = data_origin(*panel_.y.scale, layout_.y_interval());
+    const std::vector<std::size_t> kept = series_.t.empty()
+                                              ? rows_of_extrema(series_.y, rows_)
+                                              : evenly_spaced_rows(series_.y.size(), rows_);
+    const std::string t = series_.t.empty() ? "" : float_text(series_.t, kept);
+    return element("g",
+                   {{"class", "series " + style},
+                    {"stroke-linejoin", "round"},
+                    {"data-rows", static_cast<double>(series_.y.size())},
+                    {"data-x", float_text(series_.x, kept, x_origin)},
+                    {"data-y", float_text(series_.y, kept, y_origin)},
+                    {"data-t", t}},
+                   curve);
   }
 
  private:
@@ -260,7 +255,9 @@ class Curve {
   }
 
   const Series& series_;
+  const Panel& panel_;
   const Layout& layout_;
+  std::size_t rows_;
   PathData line_, band_;
 };
 
@@ -268,14 +265,7 @@ Markup points(const Series& series, const Layout& layout) {
   Markup dots;
   for (std::size_t row = 0; row < series.x.size(); ++row) {
     const double x = layout.x(series.x[row]), y = layout.y(series.y[row]);
-    if (!std::isfinite(x) || !std::isfinite(y)) continue;
-    dots += element("circle", {{"class", "end"},
-                               {"cx", x},
-                               {"cy", y},
-                               {"r", 3.0},
-                               {"stroke", ink(series.colour)},
-                               {"stroke-width", 1.0},
-                               {"fill", ink(series.colour)}});
+    if (std::isfinite(x) && std::isfinite(y)) dots += dot("end", x, y, 3, series.colour);
   }
   return element("g", {{"class", "endpoints " + colour_class(series.colour)}}, dots);
 }
@@ -283,26 +273,52 @@ Markup points(const Series& series, const Layout& layout) {
 Markup endpoints(const Series& series, const Layout& layout) {
   const std::vector<Stretch> stretches = finite_stretches(series.x, series.y);
   if (stretches.empty()) return {};
-  const auto dot = [&](std::string_view style, std::size_t row, std::string_view fill) {
-    return element("circle", {{"class", style},
-                              {"cx", layout.x(series.x[row])},
-                              {"cy", layout.y(series.y[row])},
-                              {"r", 3.6},
-                              {"stroke", ink(series.colour)},
-                              {"stroke-width", 1.4},
-                              {"fill", fill}});
+  const auto at = [&](std::string_view style, std::size_t row) {
+    return dot(style, layout.x(series.x[row]), layout.y(series.y[row]), 3.6, series.colour);
   };
   return element("g", {{"class", "endpoints " + colour_class(series.colour)}},
-                 dot("start", stretches.front().begin, "#fff") +
-                     dot("end", stretches.back().end - 1, ink(series.colour)));
+                 at("start", stretches.front().begin) + at("end", stretches.back().end - 1));
+}
+
+// What a script has to know to draw the panel again.
+Markup for_script(const Panel& panel, const Layout& layout, const Markup& content) {
+  const Interval x = layout.x_interval(), y = layout.y_interval();
+  const auto zone = [](const Scale& scale) {
+    const double upper = scale.linear_zone().upper;
+    return std::isfinite(upper) ? upper : std::numeric_limits<double>::max();
+  };
+  const auto exponent = [](const Ticks& ticks) { return static_cast<double>(ticks.exponent); };
+  return element(
+      "g",
+      {{"class", "panel"},
+       {"font-size", 12.0},
+       {"font-family", "serif"},
+       {"data-x-name", panel.x.label},
+       {"data-y-name", panel.y.label},
+       {"data-area", number_list({layout.left(), layout.top(), layout.right(), layout.bottom()})},
+       {"data-view", number_list({x.lower, x.upper, y.lower, y.upper})},
+       {"data-origin",
+        number_list({data_origin(*panel.x.scale, x), data_origin(*panel.y.scale, y)})},
+       {"data-zone", number_list({zone(*panel.x.scale), zone(*panel.y.scale)})},
+       {"data-exponent",
+        number_list({exponent(x_ticks(panel, layout)), exponent(y_ticks(panel, layout))})},
+       {"data-equal", panel.equal_aspect ? "equal" : ""}},
+      content);
 }
 
 }  // namespace
 
-Markup draw(const Panel& panel) {
+Markup draw(const Panel& panel, std::size_t rows) {
+  if (panel.space) return draw_in_space(panel, rows);
   const Layout layout(panel);
   Markup content = linear_zone(panel, layout) + y_axis(panel, layout) + x_axis(panel, layout);
-  for (const Series& series : panel.series) content += Curve(series, layout).markup();
+  for (const Series& series : panel.series) content += Curve(series, panel, layout, rows).markup();
+  if (panel.endpoints) {
+    for (const Series& series : panel.series) content += endpoints(series, layout);
+  }
+  if (panel.points) {
+    for (const Series& series : panel.series) content += points(series, layout);
+  }
   if (!panel.heading.empty()) {
     content += element("text",
                        {{"class", "heading"},
@@ -311,17 +327,15 @@ Markup draw(const Panel& panel) {
                         {"text-anchor", "end"}},
                        panel.heading);
   }
-  if (panel.endpoints) {
-    for (const Series& series : panel.series) content += endpoints(series, layout);
-  }
-  if (panel.points) {
-    for (const Series& series : panel.series) content += points(series, layout);
-  }
-  const Markup styled = element("g", {{"font-size", 12.0}, {"font-family", "serif"}}, content);
+  const Markup styled = rows == 0
+                            ? element("g", {{"font-size", 12.0}, {"font-family", "serif"}}, content)
+                            : for_script(panel, layout, content);
   return svg(panel.width, layout.height(), panel.title, panel.description, styled);
 }
 
-double drawn_height(const Panel& panel) { return Layout(panel).height(); }
+double drawn_height(const Panel& panel) {
+  return panel.space ? panel.height : Layout(panel).height();
+}
 
 Markup legend(std::span<const LegendEntry> entries) {
   Markup items;
@@ -362,6 +376,7 @@ std::string figure_style() {
 .line{stroke:var(--ink)}
 .band{stroke:var(--ink);fill:var(--ink)}
 .endpoints circle{stroke:var(--ink)}
+.wire{stroke:var(--rule)}
 .start{fill:var(--page)}
 .end{fill:var(--ink)}
 )css";

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,12 +20,21 @@ struct Series {
   std::string label;
   std::vector<double> x, y;
   std::size_t colour = 0;
+  std::vector<double> t = {};  // the time of each row, where x is something else
+  std::vector<double> z = {};  // of curves in space
 };
 
 struct Axis {
   std::string label;
   std::shared_ptr<const Scale> scale = std::make_shared<LinearScale>();
   Interval interval = {};  // empty: what the series need
+};
+
+// How curves (x, y, z) in space are seen: from a side, all in a cube about them; or on a sphere about
+// the origin, whose far side is paler.
+struct Space {
+  std::string z_label;
+  double radius = 0;  // of the sphere; 0: there is none
 };
 
 // What a panel shows. The plotted area is `width` pixels less the margins wide; a curve whose x
@@ -38,12 +48,25 @@ struct Panel {
   std::vector<Series> series;
   double width = 720;
   double height = 320;
-  bool equal_aspect = false;  // a circle is a circle: the height follows from the data
-  bool endpoints = false;     // ○ at the start of each curve, ● at its end
-  bool points = false;        // ● at each row, for curves of few
+  bool equal_aspect = false;        // a circle is a circle: the height follows from the data
+  bool endpoints = false;           // ○ at the start of each curve, ● at its end
+  bool points = false;              // ● at each row, for curves of few
+  std::optional<Space> space = {};  // curves in space, then without axes
 };
 
-Markup draw(const Panel& panel);
+// With `rows`, the numbers of at most as many rows of each curve go along, for the script of a page.
+// Then the <g class="panel"> has
+//   data-x-name, data-y-name  the labels of the axes
+//   data-area                 left, top, right and bottom of the plotted area, in pixels
+//   data-view                 least and greatest x and y
+//   data-origin               what has been subtracted from all x and all y
+//   data-zone                 the greatest value within which each axis is linear; 0 on a logarithmic one
+//   data-exponent             the power of ten that the labels at each axis leave out
+//   data-equal                "equal" where a circle is a circle
+// and each <g class="series"> has data-rows, the number of all its rows, and data-x, data-y and, of
+// curves with a time, data-t, as float_text() writes them. draw_in_space() says what panels in space
+// have.
+Markup draw(const Panel& panel, std::size_t rows = 0);
 // The height of what is drawn, in pixels.
 double drawn_height(const Panel& panel);
 

@@ -76,6 +76,13 @@ class Element {
     made.markup_.append("<style>").append(css).append("</style>");
     return made;
   }
+
+  // The comments hide the brackets, which XML needs, from HTML.
+  static Markup make_script(std::string_view javascript) {
+    Markup made;
+    made.markup_.append("<script>//<![CDATA[\n").append(javascript).append("//]]></script>");
+    return made;
+  }
 };
 
 Markup element(std::string_view tag, Attributes attributes, const Markup& content) {
@@ -91,6 +98,15 @@ Markup style_sheet(std::string_view css) {
     throw std::invalid_argument("style_sheet: css has a < or an &, expected neither.");
   }
   return Element::make_style(css);
+}
+
+Markup script(std::string_view javascript) {
+  for (const std::string_view end : {"</", "]]>"}) {
+    if (javascript.find(end) == std::string_view::npos) continue;
+    throw std::invalid_argument("script: javascript has a " + std::string(end) +
+                                ", expected none.");
+  }
+  return Element::make_script(javascript);
 }
 
 Markup svg(double width, double height, std::string_view title, std::string_view description,

@@ -49,6 +49,10 @@ Markup element(std::string_view tag, Attributes attributes);
 // with which it could be more than that.
 Markup style_sheet(std::string_view css);
 
+// The program's own script, as it is. Throws std::invalid_argument when it has a </ or a ]]>, with
+// which it would end early.
+Markup script(std::string_view javascript);
+
 // An <svg> with the user unit of a pixel, a <title> and a <desc> for who cannot see it.
 Markup svg(double width, double height, std::string_view title, std::string_view description,
            const Markup& content);

@@ -120,4 +120,18 @@ BOOST_AUTO_TEST_CASE(short_paths_are_kept) {
   BOOST_TEST(simplified(still, 0.1).size() == 2);
 }
 
+BOOST_AUTO_TEST_CASE(rows_of_extrema_keep_a_spike_the_first_and_the_last) {
+  std::vector<double> y(1000, 0.5);
+  y[500] = 9;
+  y[700] = -9;
+  const std::vector<std::size_t> rows = rows_of_extrema(y, 50);
+  BOOST_TEST(rows.size() <= 50);
+  BOOST_TEST(std::is_sorted(rows.begin(), rows.end()));
+  for (const std::size_t row : {0, 500, 700, 999})
+    BOOST_TEST((std::find(rows.begin(), rows.end(), row) != rows.end()), row);
+  for (const std::size_t few : {0, 1, 2, 3, 50})
+    BOOST_TEST(rows_of_extrema(std::span<const double>(y).first(few), 50).size() == few);
+  BOOST_CHECK(evenly_spaced_rows(9, 3) == (std::vector<std::size_t>{0, 4, 8}));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "courant/plotting/drawing.hpp"
 #include "parsed_markup.hpp"
 
 using namespace courant::plot;
@@ -174,6 +175,37 @@ BOOST_AUTO_TEST_CASE(points_are_drawn_where_there_are_numbers) {
   const auto at = [&](std::size_t i) { return std::stod(attribute(dots[i], "cx")); };
   BOOST_TEST(std::abs((at(2) - at(1)) * 2 - (at(1) - at(0))) < 0.1);
   BOOST_TEST(std::abs(drawn_height(panel) - panel.height) < 1e-9);
+}
+
+BOOST_AUTO_TEST_CASE(numbers_go_along_where_they_are_asked_for) {
+  Panel panel;
+  panel.series = {{"a", {0, 1}, {0, 1}, 0}};
+  BOOST_TEST(draw(panel).str().find("data-") == std::string::npos);
+  const Tree drawing = parsed(draw(panel, 10).str());
+  BOOST_TEST(attribute(find(drawing, "g", "series").at(0), "data-y") == "AAAAAAAAgD8=");
+  BOOST_TEST(attribute(find(drawing, "g", "panel").at(0), "data-area") == "62 26 702 278");
+  BOOST_TEST(attribute(find(drawing, "g", "panel").at(0), "data-view") == "-0.03 1.03 -0.03 1.03");
+  BOOST_TEST(attribute(find(drawing, "g", "panel").at(0), "data-origin") == "0 0");
+}
+
+BOOST_AUTO_TEST_CASE(small_differences_of_large_numbers_survive) {
+  Panel panel;
+  panel.x.interval = {0, 1};
+  panel.y.interval = {1e6, 1e6 + 1e-3};
+  panel.series = {{"a", {0, 1}, {1e6 + 1e-3, 1e6}, 0}};
+  const Tree drawing = parsed(draw(panel, 10).str());
+  std::istringstream origin(attribute(find(drawing, "g", "panel").at(0), "data-origin"));
+  double x = -1, y = -1;
+  origin >> x >> y;
+  BOOST_TEST(x == 0);
+  BOOST_TEST(std::abs(y - 1e6) < 1e-4);
+  const std::vector<std::size_t> rows = {0, 1};
+  BOOST_TEST(attribute(find(drawing, "g", "series").at(0), "data-y") ==
+             float_text(panel.series[0].y, rows, y));
+  // Not on a logarithmic axis, whose small numbers count.
+  panel.y.scale = std::make_shared<LogScale>();
+  BOOST_TEST(attribute(find(parsed(draw(panel, 10).str()), "g", "panel").at(0), "data-origin") ==
+             "0 0");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

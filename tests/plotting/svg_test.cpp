@@ -72,4 +72,11 @@ BOOST_AUTO_TEST_CASE(path_leaves_out_repeated_vertices) {
   BOOST_TEST(path.str() == "M0 1L2 3.3Z");
 }
 
+BOOST_AUTO_TEST_CASE(script_cannot_end_early) {
+  const std::string text = script("if (1 < 2 && true) done();\n").str();
+  BOOST_TEST(parsed(text).get<std::string>("script").find("1 < 2 && true") != std::string::npos);
+  BOOST_CHECK_THROW(script("'</script>'"), std::invalid_argument);
+  BOOST_CHECK_THROW(script("a[b[0]]>1"), std::invalid_argument);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,115 @@
+#include "courant/plotting/drawing.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "courant/plotting/figure.hpp"
+
+namespace courant::plot {
+
+namespace {
+
+// A conversion that overflows is undefined.
+float nearest_float(double value) {
+  constexpr float most = std::numeric_limits<float>::max();
+  if (std::abs(value) > static_cast<double>(most))
+    return std::copysign(std::numeric_limits<float>::infinity(),
+                         static_cast<float>(value < 0 ? -1 : 1));
+  return static_cast<float>(value);
+}
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view letters =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t at = 0; at < bytes.size(); at += 3) {
+    std::uint32_t bits = 0;
+    for (std::size_t i = at; i < at + 3; ++i)
+      bits = bits << 8 | (i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0u);
+    for (std::size_t i = 0; i < 4; ++i)
+      text += at + i <= bytes.size() ? letters[bits >> (18 - 6 * i) & 63] : '=';
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string colour_class(std::size_t colour) {
+  return "c" + std::to_string(colour % palette().size());
+}
+std::string_view ink(std::size_t colour) { return palette()[colour % palette().size()].light; }
+
+Markup mathematics(std::string_view text) {
+  const auto word = [](std::string_view from) {
+    const auto end = std::find_if(from.begin(), from.end(), [](char c) {
+      return std::isalpha(static_cast<unsigned char>(c)) == 0;
+    });
+    return from.substr(0, static_cast<std::size_t>(end - from.begin()));
+  };
+  Markup markup;
+  while (!text.empty()) {
+    const std::size_t size = std::max<std::size_t>(1, word(text).size());
+    const bool variable = word(text).size() == 1;
+    markup += variable ? element("tspan", {{"font-style", "italic"}}, text.substr(0, 1))
+                       : Markup(text.substr(0, size));
+    text.remove_prefix(size);
+    if (!variable || !text.starts_with('_')) continue;
+    const std::string_view index = word(text.substr(1));
+    if (index.empty()) continue;
+    markup += element("tspan", {{"dy", 3.0}, {"font-size", 9.0}, {"font-style", "italic"}}, index);
+    text.remove_prefix(1 + index.size());
+    return text.empty() ? markup : markup + element("tspan", {{"dy", -3.0}}, mathematics(text));
+  }
+  return markup;
+}
+
+Markup text(double x, double y, std::string_view anchor, const Markup& content) {
+  return element("text", {{"x", x}, {"y", y}, {"text-anchor", anchor}}, content);
+}
+
+Markup line(std::string_view style, double x1, double y1, double x2, double y2,
+            std::string_view stroke) {
+  return element(
+      "line",
+      {{"class", style}, {"x1", x1}, {"y1", y1}, {"x2", x2}, {"y2", y2}, {"stroke", stroke}});
+}
+
+Markup dot(std::string_view style, double x, double y, double radius, std::size_t colour) {
+  return element("circle", {{"class", style},
+                            {"cx", x},
+                            {"cy", y},
+                            {"r", radius},
+                            {"stroke", ink(colour)},
+                            {"stroke-width", 1.4},
+                            {"fill", style == "start" ? "#fff" : ink(colour)}});
+}
+
+std::string number_list(std::initializer_list<double> numbers) {
+  std::string text;
+  for (const double number : numbers) {
+    std::array<char, 40> buffer;
+    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number).ptr;
+    text.append(text.empty() ? "" : " ").append(buffer.data(), end);
+  }
+  return text;
+}
+
+std::string float_text(std::span<const double> values, std::span<const std::size_t> rows,
+                       double origin) {
+  std::string bytes;
+  bytes.reserve(4 * rows.size());
+  for (const std::size_t row : rows) {
+    const auto bits = std::bit_cast<std::uint32_t>(nearest_float(values[row] - origin));
+    for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(bits >> shift & 255u);
+  }
+  return base64(bytes);
+}
+
+}  // namespace courant::plot

@@ -1,0 +1,29 @@
+#include "courant/plotting/drawing.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <string>
+#include <vector>
+
+using namespace courant::plot;
+
+BOOST_AUTO_TEST_SUITE(drawing)
+
+// By Python: base64.b64encode(struct.pack("<4f", 1, -2.5, inf, 0)), and of the first 1, 2, 3.
+BOOST_AUTO_TEST_CASE(float_text_is_base64_of_little_endian_floats) {
+  const std::vector<double> values = {1, -2.5, 1e300, 0};
+  const std::vector<std::size_t> rows = {0, 1, 2, 3};
+  const std::vector<std::string> expected = {"", "AACAPw==", "AACAPwAAIMA=", "AACAPwAAIMAAAIB/",
+                                             "AACAPwAAIMAAAIB/AAAAAA=="};
+  for (std::size_t count = 0; count <= 4; ++count) {
+    BOOST_TEST(float_text(values, std::span(rows).first(count)) == expected[count]);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(float_text_has_the_rows_that_are_asked_for) {
+  const std::vector<double> values = {7, 1, 7, -2.5};
+  const std::vector<std::size_t> rows = {1, 3};
+  BOOST_TEST(float_text(values, rows) == "AACAPwAAIMA=");
+  BOOST_TEST(float_text(values, rows, 6) == float_text(std::vector<double>{-5, -8.5}, {{0, 1}}));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
