@@ -83,7 +83,8 @@ void add_plot(CLI::App& app, Session& session) {
       ->required();
   plot->add_option("--figure", arguments->figure, "which figure; not every run has all of them")
       ->type_name(
-          "phase|coordinates|paths|energy|energy-detail|constraints|observables|sweep|study")
+          "phase|coordinates|axes|sphere|space|paths|energy|energy-detail|constraints|"
+          "observables|sweep|study")
       ->required();
   plot->add_option("-o", arguments->output,
                    "where it goes: a name that ends in .svg, .pdf or .png; the numbers go beside "

@@ -74,6 +74,7 @@ std::vector<Column> columns(const Figure& figure) {
         found.push_back({of_panel + (is_shared ? "" : of_curve) + panel.x.label, &one.x});
       }
       found.push_back({of_panel + of_curve + panel.y.label, &one.y});
+      if (panel.space) found.push_back({of_panel + of_curve + panel.space->z_label, &one.z});
       x = &one.x;
     }
   }

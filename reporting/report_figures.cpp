@@ -6,6 +6,7 @@
 #include <set>
 
 #include "courant/reporting/energy_figures.hpp"
+#include "courant/reporting/space_figures.hpp"
 
 namespace courant {
 
@@ -85,8 +86,8 @@ Figure phase_portrait(std::span<const Run> runs, const std::string& q, const std
     if (!table.contains(q) || !table.contains(p)) continue;
     const std::size_t rows = legible_rows(table, std::span(&plane, 1));
     all = all && rows == table.rows();
-    panel.series.push_back(
-        {labels[i], first(table.column(q), rows), first(table.column(p), rows), i});
+    panel.series.push_back({labels[i], first(table.column(q), rows), first(table.column(p), rows),
+                            i, first(table.column("t"), rows)});
   }
   panel.description =
       "The curves (" + q + ", " + p + ") of " + count_of(panel.series.size(), "run") + ".";
@@ -120,9 +121,9 @@ Figure planar_figure(std::span<const Run> runs, std::span<const PlanarBody> bodi
     until = std::max(until, table.column("t")[rows - 1]);
     for (std::size_t b = 0; b < present.size(); ++b) {
       const auto& [first_name, second_name] = present[b];
-      panel.series.push_back({"(" + first_name + ", " + second_name + ")",
-                              first(table.column(first_name), rows),
-                              first(table.column(second_name), rows), b});
+      panel.series.push_back(
+          {"(" + first_name + ", " + second_name + ")", first(table.column(first_name), rows),
+           first(table.column(second_name), rows), b, first(table.column("t"), rows)});
       x.include(panel.series.back().x);
       y.include(panel.series.back().y);
     }
@@ -228,8 +229,18 @@ std::vector<Figure> motion_figures(std::span<const Run> runs) {
     return {phase_portrait(runs, coordinates[0], coordinates[1]),
             over_time(runs, coordinates, caption, "coordinates")};
   }
-  const std::vector<PlanarBody> bodies = planar_bodies(coordinates);
-  if (!bodies.empty()) return {planar_figure(runs, bodies)};
+  std::vector<Figure> figures = space_figures(runs);
+  std::vector<PlanarBody> bodies = planar_bodies(coordinates);
+  // What is seen in space is not seen in a plane once more; rows of a rotation are no places.
+  for (const SpatialPoints& seen : spatial_points(runs[0])) {
+    std::erase_if(bodies, [&](const PlanarBody& body) {
+      return std::ranges::any_of(seen.points, [&](const SpatialPoint& point) {
+        return std::ranges::find(point.columns, body.first) != point.columns.end();
+      });
+    });
+  }
+  if (!bodies.empty()) figures.push_back(planar_figure(runs, bodies));
+  if (!figures.empty()) return figures;
   return {over_time(runs, coordinates, caption, "coordinates")};
 }
 

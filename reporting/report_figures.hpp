@@ -35,9 +35,9 @@ std::vector<PlanarBody> planar_bodies(std::span<const std::string> coordinates);
 // least 50.
 std::size_t legible_rows(const TrajectoryTable& trajectory, std::span<const PlanarBody> bodies);
 
-// The motion. A system with two coordinates: its phase portrait and both over time. With planar
-// bodies: their trajectories, a panel for each run. Any other: its coordinates over time, the first
-// twelve.
+// The motion. A system with two coordinates: its phase portrait and both over time. With rotations,
+// points of spheres, points in space or planar bodies: the paths of all of these, a panel for each
+// run. Any other: its coordinates over time, the first twelve.
 std::vector<Figure> motion_figures(std::span<const Run> runs);
 
 // Every other observable over time.
@@ -47,7 +47,7 @@ std::optional<Figure> observable_figure(std::span<const Run> runs);
 std::optional<Figure> constraint_figure(std::span<const Run> runs);
 
 // All of these and those of the energy, in the order of a report. Their names are phase, coordinates,
-// paths, energy, energy-detail, constraints, observables.
+// axes, sphere, space, paths, energy, energy-detail, constraints, observables.
 std::vector<Figure> all_figures(std::span<const Run> runs);
 
 // A column of all runs that have it, over time; a run's curve has its colour.
