@@ -9,6 +9,7 @@
 #include "courant/reporting/energy_figures.hpp"
 #include "courant/reporting/ladder_diagram.hpp"
 #include "courant/reporting/report_figures.hpp"
+#include "courant/reporting/report_script.hpp"
 #include "courant/reporting/report_tables.hpp"
 
 namespace courant {
@@ -32,6 +33,7 @@ main{max-width:48rem;margin:0 auto;padding:2.2rem 1.2rem 4rem}
 h1{font-size:1.75rem;line-height:1.2;font-weight:normal;margin:0 0 .3rem}
 h2{font-size:1.2rem;font-weight:normal;font-variant:small-caps;letter-spacing:.03em;margin:2.6rem 0 .6rem;
 border-bottom:1px solid var(--faint)}
+h1,p,figcaption,li,summary{overflow-wrap:anywhere}
 sub{font-size:.72em;line-height:0}
 .lead{color:var(--soft);margin:0 0 1rem}
 figure{margin:1.2rem 0 2.2rem}
@@ -61,8 +63,36 @@ details{margin:.5rem 0}
 summary{cursor:pointer}
 pre{font:13px/1.45 var(--mono);overflow-x:auto;background:color-mix(in srgb,var(--faint) 40%,transparent);padding:.8rem 1rem}
 footer{margin-top:3rem;color:var(--soft);font-size:.85rem}
-@media (max-width:44rem){.panels:not(.abreast) svg,.diagram svg{min-width:34rem;max-width:none}}
-@media print{:root{--page:#fff}body{font-size:10.5pt}main{max-width:none;padding:0}figure,table{break-inside:avoid}h2{break-after:avoid}
+@media (max-width:44rem){.panels:not(.abreast) svg{min-width:34rem;max-width:none}.diagram svg{max-width:none}}
+.scripted .panels{overflow:visible}
+.chart{position:relative;touch-action:pan-y;outline-offset:4px;border-radius:3px;user-select:none;-webkit-user-select:none}
+.chart:focus{outline:none}
+.chart:focus-visible{outline:2px solid var(--c0)}
+.chart>svg{min-width:0!important;max-width:100%!important;cursor:crosshair}
+.series path{vector-effect:non-scaling-stroke}
+.cross,.now,.selection{pointer-events:none}
+.cross line{stroke:var(--soft);stroke-width:.8;stroke-dasharray:3 3}
+.now line{stroke:var(--bad);stroke-width:1}
+.now .spoke{stroke:var(--ink);stroke-width:1.6}
+.panel:has(.now circle) .endpoints{opacity:.35}
+.dot{fill:var(--ink);stroke:var(--page);stroke-width:1.5}
+.selection{fill:var(--c0);fill-opacity:.15;stroke:var(--c0);stroke-width:.8}
+.readout{position:absolute;z-index:2;pointer-events:none;background:var(--page);border:1px solid var(--rule);border-radius:3px;padding:.25rem .5rem;
+box-shadow:0 1px 5px rgb(0 0 0/.18);font-size:.82rem;max-width:100%}
+.readout table{border:0;font-size:inherit}
+.readout th,.readout td{padding:.02rem .5rem .02rem 0;min-width:0;white-space:nowrap}
+.readout td{text-align:right;padding-right:0;font-variant-numeric:tabular-nums lining-nums}
+.readout tr:has(.strong){color:var(--soft)}
+.swatch{display:inline-block;width:.9em;height:3px;background:var(--ink);vertical-align:middle;margin-right:.45em}
+.swatch.none{display:none}
+button{font:inherit;font-size:.82rem;color:var(--text);background:var(--page);border:1px solid var(--rule);border-radius:3px;padding:.1rem .5rem;cursor:pointer}
+.whole{position:absolute;z-index:1;right:0;bottom:.3rem}
+.moment{position:sticky;top:0;z-index:3;display:flex;align-items:center;gap:.8rem;margin:0 -1.2rem;padding:.5rem 1.2rem;background:var(--page);
+border-bottom:1px solid var(--faint)}
+.moment input{flex:1;min-width:0;height:1.8rem;accent-color:var(--c0)}
+.moment .time{min-width:7.5rem;font-variant-numeric:tabular-nums lining-nums;white-space:nowrap}
+.moment .play{min-width:2.4rem;min-height:2rem}
+@media print{.moment,.readout,.whole,.now,.cross{display:none}:root{--page:#fff}body{font-size:10.5pt}main{max-width:none;padding:0}figure,table{break-inside:avoid}h2{break-after:avoid}
 .panels.abreast{grid-template-columns:1fr 1fr}.scroll,.panels{overflow:visible}table{font-size:7.5pt}}
 )css";
 
@@ -96,14 +126,30 @@ Markup typeset(std::string_view text) {
   return markup;
 }
 
+// How many rows of each curve go along for the script, so that all of them stay below 320 KB: two to
+// four numbers a row, 16/3 letters a number. No curve needs more than 4000, six for a pixel.
+std::size_t rows_for_script(const std::vector<Figure>& figures) {
+  constexpr std::size_t numbers = 60'000, most = 4000, fewest = 16;
+  std::size_t columns = 0;
+  for (const Figure& figure : figures) {
+    for (const plot::Panel& panel : figure.panels) {
+      for (const plot::Series& series : panel.series)
+        columns += 2 + (series.t.empty() ? 0 : 1) + (series.z.empty() ? 0 : 1);
+    }
+  }
+  return std::clamp(numbers / std::max<std::size_t>(columns, 1), fewest, most);
+}
+
 // Numbers the figures as they come.
 class Figures {
  public:
+  explicit Figures(std::size_t rows) : rows_(rows) {}
+
   Markup add(const Figure& figure) {
     Markup panels;
     bool abreast = figure.panels.size() > 1;
     for (const plot::Panel& panel : figure.panels) {
-      panels += plot::draw(panel);
+      panels += plot::draw(panel, rows_);
       abreast = abreast && panel.width < 400;
     }
     const std::string style = abreast ? "panels abreast" : "panels";
@@ -126,6 +172,7 @@ class Figures {
     return element("figcaption", {}, element("b", {}, number) + " " + text);
   }
 
+  std::size_t rows_;
   int count_ = 0;
 };
 
@@ -217,7 +264,7 @@ std::string report_html(std::span<const Run> runs) {
     throw std::invalid_argument("report_html: there are no runs, expected at least one.");
   const std::vector<std::string> labels = run_labels(runs);
   const std::string title = page_title(runs);
-  Figures figures;
+  Figures figures(rows_for_script(all_figures(runs)));
   Markup body = element("h1", {}, title) + lead(runs) + messages(runs, labels);
   body += section("Motion", figures.add(motion_figures(runs)));
   body += section("Energy", figures.add(energy_figures(runs)));
@@ -236,7 +283,8 @@ std::string report_html(std::span<const Run> runs) {
       plot::style_sheet(std::string(page_style) + plot::figure_style());
   const Markup page =
       element("html", {{"lang", "en"}, {"xmlns", "http://www.w3.org/1999/xhtml"}},
-              element("head", {}, head) + element("body", {}, element("main", {}, body)));
+              element("head", {}, head) +
+                  element("body", {}, element("main", {}, body) + plot::script(report_script())));
   return "<!DOCTYPE html>\n" + page.str() + "\n";
 }
 

@@ -1,0 +1,71 @@
+// Numbers, names and elements.
+
+const minus = '\u2212';
+
+// float32, little-endian, in base64.
+function numbers(text, origin) {
+  const bytes = Uint8Array.from(atob(text || ''), (letter) => letter.charCodeAt(0));
+  const view = new DataView(bytes.buffer);
+  return Float64Array.from({length: bytes.length / 4}, (_, i) => view.getFloat32(4 * i, true) + origin);
+}
+
+function powerOfTen(exponent) {
+  const raised = {'-': '⁻', 0: '⁰', 1: '¹', 2: '²', 3: '³', 4: '⁴', 5: '⁵', 6: '⁶', 7: '⁷', 8: '⁸', 9: '⁹'};
+  return '10' + Array.from(String(exponent), (digit) => raised[digit]).join('');
+}
+
+// As plot::readable: "0.697421", "−1.16 × 10⁻⁴".
+function readable(value, digits) {
+  if (Number.isNaN(value)) return 'NaN';
+  const sign = value < 0 ? minus : '';
+  const size = Math.abs(value);
+  if (size === Infinity) return sign + '∞';
+  if (size === 0) return '0';
+  const trimmed = (text) => text.includes('.') ? text.replace(/\.?0+$/, '') : text;
+  const [mantissa, exponent] = size.toExponential(digits - 1).split('e');
+  const power = Number(exponent);
+  if (power >= -3 && power < Math.max(digits, 6))
+    return sign + trimmed(size.toFixed(Math.max(0, digits - 1 - power)));
+  return sign + trimmed(mantissa) + ' × ' + powerOfTen(power);
+}
+
+// As plot::mathematics: single letters in italics, with what follows an underscore as a subscript.
+function typeset(text) {
+  const all = document.createDocumentFragment();
+  for (const [piece, letters, index] of text.matchAll(/([A-Za-z]+)(?:_([A-Za-z]+))?|[^A-Za-z]+/g)) {
+    if (!letters || letters.length > 1) {
+      all.append(piece);
+      continue;
+    }
+    all.append(html('i', {}, letters));
+    if (index) all.append(html('sub', {}, html('i', {}, index)));
+  }
+  return all;
+}
+
+// "distance [m]" as its name and its unit.
+function nameAndUnit(label) {
+  const found = label.match(/^(.*) \[([^\]]*)\]$/);
+  return found ? {name: found[1], unit: ' ' + found[2]} : {name: label, unit: ''};
+}
+
+function html(tag, attributes, ...content) {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+  made.append(...content);
+  return made;
+}
+
+const svgNamespace = (document.querySelector('svg') || {}).namespaceURI;
+
+function svg(tag, attributes, ...content) {
+  const made = document.createElementNS(svgNamespace, tag);
+  set(made, attributes);
+  made.append(...content);
+  return made;
+}
+
+function set(element, attributes) {
+  for (const [name, value] of Object.entries(attributes))
+    element.setAttribute(name, typeof value === 'number' ? Math.round(value * 100) / 100 : value);
+}
