@@ -93,6 +93,8 @@ def dot(flowchart):
 
 def prepare(app, docname, source):
     text = re.sub(r"^```math$", "```{math}", source[0], flags=re.M)
+    # A formula in a sentence, as hosts of repositories write it: $`x^2`$.
+    text = re.sub(r"``.*?``|\$`([^`\n]+)`\$", lambda found: f"{{math}}`{found[1]}`" if found[1] else found[0], text)
     text = re.sub(r"^```mermaid\n(.*?)\n```$", dot, text, flags=re.M | re.S)
     folder = (root / docname).parent
 
