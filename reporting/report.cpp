@@ -1,7 +1,6 @@
 #include "courant/reporting/report.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <fstream>
 #include <stdexcept>
 #include <system_error>
@@ -11,6 +10,7 @@
 #include "courant/reporting/report_figures.hpp"
 #include "courant/reporting/report_script.hpp"
 #include "courant/reporting/report_tables.hpp"
+#include "courant/reporting/typesetting.hpp"
 
 namespace courant {
 
@@ -34,7 +34,7 @@ h1{font-size:1.75rem;line-height:1.2;font-weight:normal;margin:0 0 .3rem}
 h2{font-size:1.2rem;font-weight:normal;font-variant:small-caps;letter-spacing:.03em;margin:2.6rem 0 .6rem;
 border-bottom:1px solid var(--faint)}
 h1,p,figcaption,li,summary{overflow-wrap:anywhere}
-sub{font-size:.72em;line-height:0}
+sub,sup{font-size:.72em;line-height:0}
 .lead{color:var(--soft);margin:0 0 1rem}
 figure{margin:1.2rem 0 2.2rem}
 figcaption{color:var(--soft);font-size:.9rem;margin-top:.4rem;max-width:42rem}
@@ -99,31 +99,6 @@ border-bottom:1px solid var(--faint)}
 Markup section(std::string_view title, const Markup& content) {
   if (content.str().empty()) return {};
   return element("section", {}, element("h2", {}, title) + content);
-}
-
-// A sentence with its mathematics set: S_k and S_{k+1} with subscripts, single letters (but the
-// word "a") and the tangent bundle TM in italics.
-Markup typeset(std::string_view text) {
-  const auto letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
-  Markup markup;
-  while (!text.empty()) {
-    std::size_t size = 1;
-    if (letter(text[0])) {
-      while (size < text.size() && letter(text[size])) ++size;
-      const std::string_view word = text.substr(0, size);
-      const bool symbol = (size == 1 && word != "a") || word == "TM";
-      markup += symbol ? element("i", {}, word) : Markup(word);
-    } else if (text[0] == '_') {
-      const bool braced = text.starts_with("_{") && text.find('}') != std::string_view::npos;
-      size = braced ? text.find('}') + 1 : std::min<std::size_t>(2, text.size());
-      markup += element("sub", {}, typeset(braced ? text.substr(2, size - 3) : text.substr(1, 1)));
-    } else {
-      while (size < text.size() && text[size] != '_' && !letter(text[size])) ++size;
-      markup += text.substr(0, size);
-    }
-    text.remove_prefix(size);
-  }
-  return markup;
 }
 
 // How many rows of each curve go along for the script, so that all of them stay below 320 KB: two to
@@ -199,7 +174,7 @@ Markup lead(std::span<const Run> runs) {
   std::string text;
   for (const std::string& system : systems) text += (text.empty() ? "" : ", ") + system;
   text += runs.size() == 1 ? " — one run" : " — " + std::to_string(runs.size()) + " runs";
-  return element("p", {{"class", "lead"}}, text);
+  return element("p", {{"class", "lead"}}, typeset_manifolds(text));
 }
 
 // What went wrong, of the runs that did not complete.

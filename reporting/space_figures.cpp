@@ -166,7 +166,9 @@ plot::Panel panel_of(const Run& run, const SpatialPoints& all, std::size_t rows)
     panel.series.push_back({all.points[i].label, first(columns[0], rows), first(columns[1], rows),
                             i, first(run.trajectory.column("t"), rows), first(columns[2], rows)});
   }
-  panel.points = std::ranges::any_of(panel.series, is_coarse);
+  // All of them in one way, that of most.
+  const auto coarse = static_cast<std::size_t>(std::ranges::count_if(panel.series, is_coarse));
+  panel.points = 2 * coarse > panel.series.size();
   return panel;
 }
 

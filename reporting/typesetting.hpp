@@ -1,0 +1,19 @@
+// Text with its mathematics set, for pages.
+#pragma once
+
+#include <string_view>
+
+#include "courant/plotting/svg.hpp"
+
+namespace courant {
+
+// A sentence: S_k and S_{k+1} with subscripts, single letters (but the word "a") and the tangent
+// bundle TM in italics.
+plot::Markup typeset(std::string_view text);
+
+// A text with names of manifolds in it as one writes them: "CotangentBundle(Sphere(2, exponential))"
+// is T*S² then, and "Product(Euclidean(3), SpecialOrthogonal3(cayley))" is ℝ³ × SO(3). Names that are
+// not known stay as they are.
+plot::Markup typeset_manifolds(std::string_view text);
+
+}  // namespace courant
