@@ -24,7 +24,7 @@ std::string names_of(const std::vector<ArgumentSynopsis>& options) {
   return joined(names, " ");
 }
 
-std::string branch(const CommandSynopsis& command) {
+std::string case_of(const CommandSynopsis& command) {
   std::string text = "    " + command.name + ")\n      case $before in\n";
   for (const ArgumentSynopsis& option : command.options)
     if (!option.value.empty())
@@ -64,7 +64,7 @@ _courant() {
                      names_of(synopsis.main.options) + "' ;;\n      *) _courant_offer -W '" +
                      joined(commands, " ") + "' ;;\n    esac\n    return\n  fi\n" +
                      "  case ${COMP_WORDS[1]} in\n";
-  for (const CommandSynopsis& command : synopsis.commands) text += branch(command);
+  for (const CommandSynopsis& command : synopsis.commands) text += case_of(command);
   return text + "  esac\n}\n\ncomplete -F _courant courant\n";
 }
 

@@ -15,7 +15,7 @@
 namespace courant::cli {
 namespace {
 
-struct Arguments {
+struct PlotArguments {
   std::vector<std::filesystem::path> folders;
   std::string figure;
   std::filesystem::path output;
@@ -44,7 +44,7 @@ std::vector<Figure> figures_of(const std::vector<std::filesystem::path>& folders
   return all_figures(runs);
 }
 
-int plot_figure(const Console& console, const Arguments& arguments) {
+int plot_figure(const Console& console, const PlotArguments& arguments) {
   std::vector<Figure> figures = figures_of(arguments.folders);
   std::vector<std::string> names;
   for (const Figure& figure : figures) names.push_back(figure.name);
@@ -75,7 +75,7 @@ int plot_figure(const Console& console, const Arguments& arguments) {
 }  // namespace
 
 void add_plot(CLI::App& app, Session& session) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<PlotArguments>();
   CLI::App* plot =
       app.add_subcommand("plot", "Write one figure of runs, a sweep or a study, for a paper");
   plot->add_option("DIR", arguments->folders,

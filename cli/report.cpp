@@ -16,13 +16,13 @@
 namespace courant::cli {
 namespace {
 
-struct Arguments {
+struct ReportArguments {
   std::vector<std::filesystem::path> folders;
   std::filesystem::path output;
 };
 
 // Beside the files of one run; above the folders of several.
-std::filesystem::path page_of(const Arguments& arguments) {
+std::filesystem::path page_of(const ReportArguments& arguments) {
   if (!arguments.output.empty()) return arguments.output;
   const std::filesystem::path& first = arguments.folders.front();
   if (arguments.folders.size() == 1) return first / "report.html";
@@ -73,7 +73,7 @@ void print_energies(const Console& console, const std::vector<Run>& runs) {
 }  // namespace
 
 void add_report(CLI::App& app, Session& session) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ReportArguments>();
   CLI::App* report =
       app.add_subcommand("report", "Compare finished runs, and make a page of HTML of them");
   report->add_option("DIR", arguments->folders, "the folder of a run, or several")->required();

@@ -17,7 +17,7 @@
 namespace courant::cli {
 namespace {
 
-struct Arguments {
+struct RunArguments {
   std::string file;
   std::string folder;
   Backend::Kind backend = Backend::Kind::automatic;
@@ -41,7 +41,7 @@ void report_failures(const Console& console, const std::string& file, const RunO
                   file + ": " + result.pointer + ": " + result.description + ": " + result.finding);
 }
 
-int run_experiment(const Console& console, const Arguments& arguments,
+int run_experiment(const Console& console, const RunArguments& arguments,
                    const Experiment& experiment) {
   RunOptions options{.folder = arguments.output(),
                      .backend = arguments.backend,
@@ -84,7 +84,7 @@ int run_experiment(const Console& console, const Arguments& arguments,
   return outcome.as_expected() ? done : failed;
 }
 
-int run_cases(const Console& console, const Arguments& arguments) {
+int run_cases(const Console& console, const RunArguments& arguments) {
   return run_sweep(console,
                    {.file = arguments.file,
                     .settings = arguments.settings,
@@ -108,7 +108,7 @@ int run_cases(const Console& console, const Arguments& arguments) {
 }  // namespace
 
 void add_run(CLI::App& app, Session& session) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<RunArguments>();
   CLI::App* run =
       app.add_subcommand("run", "Run an experiment and write its trajectory and summary");
   run->add_option("FILE", arguments->file, "the experiment, or - for standard input")->required();

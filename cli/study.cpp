@@ -23,7 +23,7 @@
 namespace courant::cli {
 namespace {
 
-struct Arguments {
+struct StudyArguments {
   std::vector<std::string> files;
   std::vector<std::string> methods;
   StudyOptions study;
@@ -93,7 +93,7 @@ void write_files(const ResultFolder& folder, const Json& study) {
   if (const auto figure = study_figure(study)) write_file(folder.file("svg"), figure_svg(*figure));
 }
 
-int status_of(const Json& study) {
+int status_of_study(const Json& study) {
   if (study.at("status") == "interrupted") return interrupted;
   for (const Json& method : study.at("methods"))
     for (const Json& row : method.at("rows"))
@@ -101,7 +101,7 @@ int status_of(const Json& study) {
   return done;
 }
 
-int study_files(const Console& console, const Arguments& arguments) {
+int study_files(const Console& console, const StudyArguments& arguments) {
   if (!arguments.folder.empty()) ResultFolder::check(arguments.folder, "study", arguments.force);
   std::vector<StudySubject> subjects;
   for (const std::string& file : arguments.files) {
@@ -138,11 +138,11 @@ int study_files(const Console& console, const Arguments& arguments) {
   else
     print_study(console, result);
   if (result.at("status") == "interrupted") print_error(console, names + ": interrupted");
-  return status_of(result);
+  return status_of_study(result);
 }
 
 Json study_case(const SweepCase& one, const std::filesystem::path& folder,
-                const Arguments& arguments, const Console& console) {
+                const StudyArguments& arguments, const Console& console) {
   StudyOptions options = arguments.study;
   options.backend = arguments.backend;
   options.stop = console.stop;
@@ -164,7 +164,7 @@ Json study_case(const SweepCase& one, const std::filesystem::path& folder,
   return {{"folder", written},
           {"status", "completed"},
           {"message", message},
-          {"as_expected", status_of(result) == done},
+          {"as_expected", status_of_study(result) == done},
           {"values",
            {{"method", method.at("method")},
             {"order", method.at("order")},
@@ -176,7 +176,7 @@ Json study_case(const SweepCase& one, const std::filesystem::path& folder,
             {"reference_error", method.at("reference_error")}}}};
 }
 
-int study_cases(const Console& console, const Arguments& arguments) {
+int study_cases(const Console& console, const StudyArguments& arguments) {
   return run_sweep(console, {.file = arguments.files.front(),
                              .settings = arguments.settings,
                              .sweep = arguments.sweep,
@@ -197,7 +197,7 @@ int study_cases(const Console& console, const Arguments& arguments) {
 }  // namespace
 
 void add_study(CLI::App& app, Session& session) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<StudyArguments>();
   CLI::App* study = app.add_subcommand(
       "study", "Measure the error of methods against step size and work, and their order");
   study

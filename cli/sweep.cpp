@@ -80,7 +80,7 @@ void print_messages(const Console& console, const SweepTask& task, const Json& t
   }
 }
 
-int status_of(const Json& table) {
+int status_of_sweep(const Json& table) {
   if (table.at("status") == "interrupted") return interrupted;
   return std::ranges::all_of(table.at("runs"), is_as_wanted) ? done : failed;
 }
@@ -111,7 +111,7 @@ int sweep_of(const Console& console, const SweepTask& task, const Json& document
                 << folder->file("csv").string() << (figure ? ", and a figure: " : "")
                 << (figure ? folder->file("svg").filename().string() : "") << '\n';
   print_messages(console, task, table);
-  return status_of(table);
+  return status_of_sweep(table);
 }
 
 }  // namespace

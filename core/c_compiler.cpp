@@ -8,7 +8,6 @@
 
 #include <array>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -17,17 +16,14 @@
 #include <system_error>
 #include <vector>
 
+#include "courant/core/host.hpp"
+
 extern char** environ;
 
 namespace courant {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string environment(const char* name) {
-  const char* value = std::getenv(name);
-  return value != nullptr ? value : "";
-}
 
 // The file that a program name stands for, as a shell would find it; empty if there is none.
 fs::path find_program(const std::string& name) {
@@ -36,7 +32,7 @@ fs::path find_program(const std::string& name) {
     return fs::is_regular_file(file, unreadable) && access(file.c_str(), X_OK) == 0;
   };
   if (name.find('/') != std::string::npos) return executable(name) ? fs::path(name) : fs::path();
-  std::istringstream path(environment("PATH"));
+  std::istringstream path(environment_variable("PATH"));
   for (std::string folder; std::getline(path, folder, ':');) {
     fs::path file = fs::path(folder.empty() ? "." : folder) / name;
     if (executable(file)) return file;
@@ -62,11 +58,6 @@ std::vector<std::string> flags(std::size_t source_size) {
                            "cosh", "tanh", "pow", "atan2"})
     result.push_back(std::string("-fno-builtin-") + name);
   return result;
-}
-
-std::string read(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
 fs::path temporary_directory() {
@@ -109,7 +100,7 @@ void run_compiler(const fs::path& compiler, const std::vector<std::string>& opti
       waited == child ? !(WIFEXITED(status) && WEXITSTATUS(status) == 0) : !fs::exists(object);
   if (failed)
     throw std::runtime_error("CCompiler::compile: " + compiler.string() + " failed:\n" +
-                             read(log).substr(0, 2000));
+                             content_of(log).substr(0, 2000));
 }
 
 // A shared object, unloaded with the last owner.
@@ -141,7 +132,7 @@ CCompiler::CCompiler(std::string program, std::optional<NativeCache> cache)
     : program_(std::move(program)), cache_(std::move(cache)) {}
 
 CCompiler CCompiler::from_environment() {
-  const std::string wanted = environment("COURANT_CC");
+  const std::string wanted = environment_variable("COURANT_CC");
   return CCompiler(wanted.empty() ? "cc" : wanted, NativeCache::open());
 }
 

@@ -10,7 +10,7 @@
 namespace courant {
 namespace {
 
-constexpr Index kAbsent = -1;
+constexpr Index kNoIndex = -1;
 
 void check_size(const char* function, const char* argument, Index size, Index expected) {
   if (size != expected)
@@ -19,9 +19,9 @@ void check_size(const char* function, const char* argument, Index size, Index ex
                                 std::to_string(expected) + ".");
 }
 
-// For each node of y its index in x, or kAbsent.
+// For each node of y its index in x, or kNoIndex.
 std::vector<Index> indices(const char* function, const ExprVector& x, const Subgraph& y) {
-  std::vector<Index> result(y.size(), kAbsent);
+  std::vector<Index> result(y.size(), kNoIndex);
   for (Index i = 0; i < x.size(); ++i) {
     const auto fail = [&](const std::string& what) {
       throw std::invalid_argument(std::string(function) + ": x[" + std::to_string(i) + "] is " +
@@ -31,7 +31,7 @@ std::vector<Index> indices(const char* function, const ExprVector& x, const Subg
       fail("; expected a variable.");
     if (!y.contains(x[i])) continue;
     Index& index = result[y.position(x[i])];
-    if (index != kAbsent)
+    if (index != kNoIndex)
       fail(", like x[" + std::to_string(index) + "]; expected each variable once.");
     index = i;
   }
@@ -217,7 +217,7 @@ ExprVector pull_back(const ExprVector& y, const ExprVector& x, const ExprVector&
   for (std::size_t at = subgraph.size(); at-- > 0;) {
     const Adjoint& here = adjoint[at];
     if (here.is_zero()) continue;
-    if (index[at] != kAbsent) result[index[at]] = here.masked();
+    if (index[at] != kNoIndex) result[index[at]] = here.masked();
     const Operation operation(subgraph, at);
     if (const auto chosen = choice(operation)) {
       adjoint[operation.at[chosen->then]].add(here.weight(),
@@ -239,7 +239,7 @@ ExprVector tangent(const ExprVector& y, const ExprVector& x, const ExprVector& d
   const auto index = indices("tangent", x, subgraph);
   std::vector<Expr> dot(subgraph.size());
   for (std::size_t at = 0; at < subgraph.size(); ++at) {
-    if (index[at] != kAbsent) dot[at] = dx[index[at]];
+    if (index[at] != kNoIndex) dot[at] = dx[index[at]];
     const Operation operation(subgraph, at);
     if (const auto chosen = choice(operation)) {
       dot[at] = select(chosen->condition, dot[operation.at[chosen->then]],
@@ -268,7 +268,7 @@ SparseExprMatrix jacobian(const ExprVector& y, const ExprVector& x) {
   const auto index = indices("jacobian", x, subgraph);
   std::vector<Row> rows(subgraph.size());
   for (std::size_t at = 0; at < subgraph.size(); ++at) {
-    if (index[at] != kAbsent) rows[at] = {{index[at], 1.0}};
+    if (index[at] != kNoIndex) rows[at] = {{index[at], 1.0}};
     const Operation operation(subgraph, at);
     if (const auto chosen = choice(operation)) {
       rows[at] =
@@ -308,7 +308,7 @@ ExprVector substitute(const ExprVector& y, const ExprVector& x, const ExprVector
   for (std::size_t at = 0; at < subgraph.size(); ++at) {
     const Operation operation(subgraph, at);
     if (operation.count == 0)
-      image[at] = index[at] != kAbsent ? replacement[index[at]] : operation.value;
+      image[at] = index[at] != kNoIndex ? replacement[index[at]] : operation.value;
     else
       image[at] = apply(operation.node.op, operation.node.k, image[operation.at[0]],
                         operation.count > 1 ? image[operation.at[1]] : Expr(),

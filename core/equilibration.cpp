@@ -108,7 +108,7 @@ class Scaling {
   VectorXd row_, column_;
 };
 
-void equilibrate(Scaling& scaling, double noise) {
+void balance(Scaling& scaling, double noise) {
   scaling.level_maxima();
   scaling.forget_entries_below(noise);
   scaling.level_sizes();
@@ -122,7 +122,7 @@ Equilibration<MatrixXd> equilibrate(const Eigen::Ref<const MatrixXd>& A, double 
   for (Index j = 0; j < A.cols(); ++j) {
     for (Index i = 0; i < A.rows(); ++i) scaling.add(i, j, A(i, j));
   }
-  equilibrate(scaling, noise);
+  balance(scaling, noise);
   Equilibration<MatrixXd> result{MatrixXd::Zero(A.rows(), A.cols()), scaling.row_scale(),
                                  scaling.column_scale()};
   for (const auto& [i, j, size] : scaling.entries()) {
@@ -136,7 +136,7 @@ Equilibration<SparseMatrixXd> equilibrate(const SparseMatrixXd& A, double noise)
   for (Index j = 0; j < A.cols(); ++j) {
     for (SparseMatrixXd::InnerIterator it(A, j); it; ++it) scaling.add(it.row(), j, it.value());
   }
-  equilibrate(scaling, noise);
+  balance(scaling, noise);
   Equilibration<SparseMatrixXd> result{SparseMatrixXd(A.rows(), A.cols()), scaling.row_scale(),
                                        scaling.column_scale()};
   std::vector<Eigen::Triplet<double>> triplets;

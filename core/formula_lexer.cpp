@@ -12,49 +12,49 @@ namespace {
 
 constexpr std::size_t kLongestFormula = 1'000'000;  // characters; a typing error beyond this
 
-struct Symbol {
+struct Spelling {
   std::string_view text;
   TokenKind kind;
   std::string_view meant = {};  // for what people write, or paste from a paper, instead
 };
 
 // A symbol stands before its beginnings.
-constexpr std::array kSymbols{
-    Symbol{"<=", TokenKind::less_equal},
-    Symbol{">=", TokenKind::greater_equal},
-    Symbol{"==", TokenKind::equal},
-    Symbol{"!=", TokenKind::unequal},
-    Symbol{"&&", TokenKind::logical_and},
-    Symbol{"||", TokenKind::logical_or},
-    Symbol{"**", TokenKind::end, "^"},
-    Symbol{"+", TokenKind::plus},
-    Symbol{"-", TokenKind::minus},
-    Symbol{"*", TokenKind::times},
-    Symbol{"/", TokenKind::over},
-    Symbol{"^", TokenKind::hat},
-    Symbol{"<", TokenKind::less},
-    Symbol{">", TokenKind::greater},
-    Symbol{"!", TokenKind::logical_not},
-    Symbol{"(", TokenKind::left_parenthesis},
-    Symbol{")", TokenKind::right_parenthesis},
-    Symbol{"[", TokenKind::left_bracket},
-    Symbol{"]", TokenKind::right_bracket},
-    Symbol{",", TokenKind::comma},
-    Symbol{"'", TokenKind::prime},
-    Symbol{"=", TokenKind::end, "=="},
-    Symbol{"&", TokenKind::end, "&&"},
-    Symbol{"|", TokenKind::end, "||"},
-    Symbol{"−", TokenKind::end, "-"},
-    Symbol{"·", TokenKind::end, "*"},
-    Symbol{"×", TokenKind::end, "*"},
-    Symbol{"÷", TokenKind::end, "/"},
-    Symbol{"²", TokenKind::end, "^2"},
-    Symbol{"³", TokenKind::end, "^3"},
-    Symbol{"≤", TokenKind::end, "<="},
-    Symbol{"≥", TokenKind::end, ">="},
-    Symbol{"≠", TokenKind::end, "!="},
-    Symbol{"’", TokenKind::end, "'"},
-    Symbol{"′", TokenKind::end, "'"},
+constexpr std::array kSpellings{
+    Spelling{"<=", TokenKind::less_equal},
+    Spelling{">=", TokenKind::greater_equal},
+    Spelling{"==", TokenKind::equal},
+    Spelling{"!=", TokenKind::unequal},
+    Spelling{"&&", TokenKind::logical_and},
+    Spelling{"||", TokenKind::logical_or},
+    Spelling{"**", TokenKind::end, "^"},
+    Spelling{"+", TokenKind::plus},
+    Spelling{"-", TokenKind::minus},
+    Spelling{"*", TokenKind::times},
+    Spelling{"/", TokenKind::over},
+    Spelling{"^", TokenKind::hat},
+    Spelling{"<", TokenKind::less},
+    Spelling{">", TokenKind::greater},
+    Spelling{"!", TokenKind::logical_not},
+    Spelling{"(", TokenKind::left_parenthesis},
+    Spelling{")", TokenKind::right_parenthesis},
+    Spelling{"[", TokenKind::left_bracket},
+    Spelling{"]", TokenKind::right_bracket},
+    Spelling{",", TokenKind::comma},
+    Spelling{"'", TokenKind::prime},
+    Spelling{"=", TokenKind::end, "=="},
+    Spelling{"&", TokenKind::end, "&&"},
+    Spelling{"|", TokenKind::end, "||"},
+    Spelling{"−", TokenKind::end, "-"},
+    Spelling{"·", TokenKind::end, "*"},
+    Spelling{"×", TokenKind::end, "*"},
+    Spelling{"÷", TokenKind::end, "/"},
+    Spelling{"²", TokenKind::end, "^2"},
+    Spelling{"³", TokenKind::end, "^3"},
+    Spelling{"≤", TokenKind::end, "<="},
+    Spelling{"≥", TokenKind::end, ">="},
+    Spelling{"≠", TokenKind::end, "!="},
+    Spelling{"’", TokenKind::end, "'"},
+    Spelling{"′", TokenKind::end, "'"},
 };
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -128,7 +128,7 @@ Token number_token(std::string_view text, std::size_t column) {
 }
 
 Token symbol_token(std::string_view text, std::size_t column) {
-  for (const Symbol& symbol : kSymbols) {
+  for (const Spelling& symbol : kSpellings) {
     if (!text.starts_with(symbol.text)) continue;
     if (!symbol.meant.empty())
       throw FormulaError(column, "unexpected \"" + std::string(symbol.text) +

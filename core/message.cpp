@@ -67,4 +67,10 @@ std::string printable(std::string_view text) {
   return result;
 }
 
+std::string in_quotes(std::string_view text) { return '"' + std::string(text) + '"'; }
+
+std::string size_text(std::ptrdiff_t rows, std::ptrdiff_t columns) {
+  return std::to_string(rows) + " × " + std::to_string(columns);
+}
+
 }  // namespace courant

@@ -7,11 +7,11 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <system_error>
+
+#include "courant/core/host.hpp"
 
 namespace courant {
 namespace {
@@ -19,11 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kCompilation = "courant-compile-";
-
-std::string environment(const char* name) {
-  const char* value = std::getenv(name);
-  return value != nullptr ? value : "";
-}
 
 // 128 bits: FNV-1a from two starting points.
 std::string hash_of(const std::string& content) {
@@ -36,11 +31,6 @@ std::string hash_of(const std::string& content) {
   return digits;
 }
 
-std::string read(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 std::string sum_of(const std::string& object) {
   return std::to_string(object.size()) + ' ' + hash_of(object) + '\n';
 }
@@ -48,10 +38,10 @@ std::string sum_of(const std::string& object) {
 }  // namespace
 
 std::optional<NativeCache> NativeCache::open() {
-  fs::path folder = environment("COURANT_CACHE");
+  fs::path folder = environment_variable("COURANT_CACHE");
   if (folder.empty()) {
-    const fs::path base = environment("XDG_CACHE_HOME");
-    const fs::path home = environment("HOME");
+    const fs::path base = environment_variable("XDG_CACHE_HOME");
+    const fs::path home = environment_variable("HOME");
     if (base.is_absolute())
       folder = base / "courant";
     else if (home.is_absolute())
@@ -74,8 +64,8 @@ std::optional<fs::path> NativeCache::find(const std::string& content) const {
   const std::string name = hash_of(content);
   const fs::path object = file(name, ".so"), sum = file(name, ".sum");
   std::error_code error;
-  if (!fs::exists(sum, error) || read(file(name, ".c")) != content ||
-      read(sum) != sum_of(read(object)))
+  if (!fs::exists(sum, error) || content_of(file(name, ".c")) != content ||
+      content_of(sum) != sum_of(content_of(object)))
     return std::nullopt;
   const auto now = fs::file_time_type::clock::now();
   if (now - fs::last_write_time(sum, error) > std::chrono::hours(24))
@@ -87,7 +77,7 @@ fs::path NativeCache::add(const std::string& content, const fs::path& source,
                           const fs::path& object) const {
   const std::string name = hash_of(content);
   const fs::path sum = object.parent_path() / "sum";
-  std::ofstream(sum, std::ios::binary) << sum_of(read(object));
+  std::ofstream(sum, std::ios::binary) << sum_of(content_of(object));
   fs::rename(source, file(name, ".c"));
   fs::rename(object, file(name, ".so"));
   fs::rename(sum, file(name, ".sum"));

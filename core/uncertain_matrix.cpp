@@ -15,8 +15,6 @@
 namespace courant {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-
 // Singular values cost 4 m n min(m, n) operations; from here on sparse factorisation is faster.
 constexpr Index dense_limit = 200;
 
@@ -26,7 +24,7 @@ constexpr Index dense_limit = 200;
 constexpr double clearly_above = 10.0, clearly_below = 0.5;
 
 // How many times its error a pivot can be said to be.
-constexpr double exact = 1.0 / eps;
+constexpr double kExact = 1.0 / std::numeric_limits<double>::epsilon();
 
 // The matrix while pivots that are alone in their row or column are taken away, and the blocks that
 // are left.
@@ -70,7 +68,7 @@ class Peeling {
                                    [&](std::size_t v) { return is_there(values_[v]); });
       const Entry pivot = values_[*at];
       const double margin = std::fabs(pivot.value) / pivot.error;
-      margins.push_back(std::min(margin, exact));
+      margins.push_back(std::min(margin, kExact));
       carry_errors(pivot);
       for (Line* gone : {&rows_[pivot.row], &columns_[pivot.column]}) {
         for (const std::size_t v : gone->values) {
@@ -253,7 +251,7 @@ RankDecision decide_scaled(const UncertainMatrix& A) {
   const double largest = decision.singular_values.size() == 0 ? 0.0 : decision.singular_values[0];
   const double floor = noise_level(A.rows(), A.cols(), largest, options).floor;
   decision.singular_values /= floor;
-  decision.above = decision.rank > 0 ? decision.above / floor : exact;
+  decision.above = decision.rank > 0 ? decision.above / floor : kExact;
   decision.below /= floor;
   return decision;
 }
@@ -298,7 +296,7 @@ RankDecision decide_rank(const UncertainMatrix& A) {
 
   std::vector<double> values = peeling.pivots();
   decision.rank = static_cast<Index>(values.size());
-  decision.above = exact;
+  decision.above = kExact;
   for (const double margin : values) decision.above = std::min(decision.above, margin);
   for (const UncertainMatrix& block : peeling.blocks()) {
     const RankDecision part = decide_block(block);

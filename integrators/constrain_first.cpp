@@ -32,7 +32,7 @@ constexpr double kSafety = 10.0;
 // Solutions farther away are other ones, which an old factorisation can lead to.
 constexpr double kNearby = 0.5;
 // Of the coordinates, a part that is no distance.
-constexpr double kNegligible = 1e-10;
+constexpr double kNoDistance = 1e-10;
 
 // W if it is the same at every x, as for momenta that positions determine; empty otherwise.
 MatrixXd fixed_directions(const Manifold& M, const Projector& projector,
@@ -271,7 +271,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
   bool is_nearby(const State& before, double size) const {
     const auto found = found_.head(near_.size());
     const double step = (near_ - before.x).lpNorm<Eigen::Infinity>();
-    const double nearby = std::max(kNearby * step, kNegligible * size);
+    const double nearby = std::max(kNearby * step, kNoDistance * size);
     const double foreseen = (guess_ - near_).lpNorm<Eigen::Infinity>();
     return (found - near_).lpNorm<Eigen::Infinity>() <= nearby &&
            largest(projector_.unknown().head(n_)) <= nearby + 2.0 * foreseen;

@@ -20,7 +20,7 @@ constexpr std::array<std::pair<double, double>, 4> kGauss = {{
 
 // Displacements shorter than this, in units, are none: the squares of their squares, by which
 // derivatives of a quotient are divided, would have no digits.
-constexpr double kShortest = 1e-75;
+constexpr double kShortestDifference = 1e-75;
 
 Expr difference_of(const EnergyDifference& f) { return f.end - f.start; }
 
@@ -38,7 +38,7 @@ ExprVector corrected(const ExprVector& alpha, const EnergyDifference& f, const V
   const ExprVector in_units = f.v.cwiseQuotient(constants(units));
   const Expr size = in_units.squaredNorm();
   const Expr missing = exact - alpha.cwiseProduct(f.v).sum();
-  const Expr c = select(size > kShortest * kShortest, missing / size, 0.0);
+  const Expr c = select(size > kShortestDifference * kShortestDifference, missing / size, 0.0);
   return alpha + c * in_units.cwiseQuotient(constants(units));
 }
 

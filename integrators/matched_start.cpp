@@ -4,15 +4,10 @@
 
 #include "courant/core/message.hpp"
 #include "courant/core/newton.hpp"
+#include "courant/integrators/step_solver.hpp"
 #include "courant/manifolds/cotangent_bundle.hpp"
 
 namespace courant {
-namespace {
-
-double largest(const VectorXd& x) { return x.size() == 0 ? 0.0 : x.lpNorm<Eigen::Infinity>(); }
-
-}  // namespace
-
 State matched_start(const ImplicitSystem& system, const DiscretizationMap& map,
                     const State& initial, const VectorXd& q1, double h) {
   const auto* bundle = dynamic_cast<const CotangentBundle*>(system.manifold().get());

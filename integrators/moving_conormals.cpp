@@ -17,7 +17,7 @@ constexpr double kNoise = 1e-14;
 
 // w is as good as its first error times the contraction when it has moved by no more than this, and
 // counts for x only times the distance from M_f.
-constexpr double kTolerance = 1e-13;
+constexpr double kConormalTolerance = 1e-13;
 
 }  // namespace
 
@@ -54,7 +54,7 @@ MovingConormals::MovingConormals(Functions functions, Index n, Index d)
     : functions_(std::move(functions)),
       n_(n),
       d_(d),
-      newton_(functions_.equations, {}, {.tolerance = kTolerance}),
+      newton_(functions_.equations, {}, {.tolerance = kConormalTolerance}),
       predictor_({d * functions_.constraints.output_size()}),
       conormals_(MatrixXd::Zero(n, d)),
       kept_(conormals_),

@@ -30,9 +30,9 @@ Function compiled(const char* name, const Manifold& manifold,
   const ExprVector x = graph.variables("x", manifold.ambient_dimension());
   const ExprMatrix matrix = formula(x);
   if (matrix.rows() != size || matrix.cols() != size)
-    throw std::invalid_argument(std::string(name) + ": metric is " + std::to_string(matrix.rows()) +
-                                " × " + std::to_string(matrix.cols()) + "; expected " +
-                                std::to_string(size) + " × " + std::to_string(size) + ".");
+    throw std::invalid_argument(std::string(name) + ": metric is " +
+                                size_text(matrix.rows(), matrix.cols()) + "; expected " +
+                                size_text(size, size) + ".");
   return Function("metric", {{"x", x}}, matrix.reshaped());
 }
 

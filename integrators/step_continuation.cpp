@@ -22,7 +22,7 @@ constexpr double kNear = 0.1;
 // An iteration that changes displacements by less has found them to twice as many digits; what is
 // left is up to the iteration that takes over. Changes that are round-off of the coordinates count
 // as found.
-constexpr double kTolerance = 1e-4;
+constexpr double kPathTolerance = 1e-4;
 constexpr double kRoundOff = 1e-13;
 
 // A displacement is measured by its own size, but not by less than these parts of the largest one
@@ -130,7 +130,7 @@ bool StepContinuation::converges(double sigma, const double* const* in, double s
     solver_->solve(all_.data(), step_.data());
     const double change = largest_part(step_, sigma, size);
     if (!std::isfinite(change) || (iteration == 0 && change > near)) return false;
-    if (iteration > 0 && change > kTolerance && change > kContraction * previous) return false;
+    if (iteration > 0 && change > kPathTolerance && change > kContraction * previous) return false;
     for (std::size_t k = 0; k < contained_.size(); ++k) {
       const Index i = contained_[k];
       const double moved = step_[static_cast<Index>(k)];
@@ -139,7 +139,7 @@ bool StepContinuation::converges(double sigma, const double* const* in, double s
     // The first change says nothing of the other unknowns, which may have been predicted badly. Without a
     // prediction it is no measure of the second one either: multipliers that forces of inertia belong to
     // wait for the velocity.
-    if (iteration == 0 || change > kTolerance) {
+    if (iteration == 0 || change > kPathTolerance) {
       if (iteration > 0 || std::isfinite(near)) previous = change;
       continue;
     }

@@ -9,11 +9,11 @@ namespace {
 
 // Of the coordinates, a part that is no displacement. Of the sizes of displacements each step
 // forgets so much.
-constexpr double kNegligible = 1e-10;
+constexpr double kNoDisplacement = 1e-10;
 constexpr double kForgotten = 0.98;
 
 // What two ways to the same solution may differ by.
-constexpr double kSame = 1e-3;
+constexpr double kSameSolution = 1e-3;
 
 // Two digits of a step, towards zero.
 double rounded_down(double h) {
@@ -70,7 +70,7 @@ void StepSolver::keep() {
 bool StepSolver::is_as_predicted(double part, double size) const {
   for (Index i = 0; i < usual_.size(); ++i) {
     const double change = std::fabs(y_[i] - other_[i]);
-    if (!(change <= std::max(part * std::max(std::fabs(y_[i]), usual_[i]), kNegligible * size)))
+    if (!(change <= std::max(part * std::max(std::fabs(y_[i]), usual_[i]), kNoDisplacement * size)))
       return false;
   }
   return true;
@@ -78,10 +78,11 @@ bool StepSolver::is_as_predicted(double part, double size) const {
 
 bool StepSolver::is_same(double size) const {
   const Index count = usual_.size();
-  const double least = count == 0 ? 0.0 : kSame * y_.head(count).lpNorm<Eigen::Infinity>();
+  const double least = count == 0 ? 0.0 : kSameSolution * y_.head(count).lpNorm<Eigen::Infinity>();
   for (Index i = 0; i < count; ++i) {
     const double change = std::fabs(y_[i] - other_[i]);
-    if (!(change <= kSame * (std::fabs(y_[i]) + least) + kNegligible * size)) return false;
+    if (!(change <= kSameSolution * (std::fabs(y_[i]) + least) + kNoDisplacement * size))
+      return false;
   }
   return true;
 }

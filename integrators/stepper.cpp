@@ -11,7 +11,7 @@ namespace {
 // A stage of a composition begins at most so many lengths of its last step away from where that
 // ended: the coefficients of compositions lie between 0.1 and 2. A state farther off belongs to
 // another curve.
-constexpr double kNear = 16.0;
+constexpr double kNearSteps = 16.0;
 
 void check_size(const std::string& method, const char* part, Index size, Index expected,
                 bool may_be_empty) {
@@ -63,8 +63,9 @@ bool Stepper::is_near_last(const State& state) const {
   const auto largest = [](const VectorXd& x) {
     return x.size() == 0 ? 0.0 : x.lpNorm<Eigen::Infinity>();
   };
-  return std::fabs(state.t - last_->after.t) <= kNear * std::fabs(last_->h) &&
-         largest(state.x - last_->after.x) <= kNear * largest(last_->after.x - last_->before.x);
+  return std::fabs(state.t - last_->after.t) <= kNearSteps * std::fabs(last_->h) &&
+         largest(state.x - last_->after.x) <=
+             kNearSteps * largest(last_->after.x - last_->before.x);
 }
 
 void Stepper::prepare(State& state, double h) {

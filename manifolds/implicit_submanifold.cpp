@@ -16,7 +16,7 @@ namespace {
 constexpr int kNewtonSteps = 6;
 constexpr int kRandomStarts = 100;
 
-const Manifold& checked(const std::string& name, const std::shared_ptr<const Manifold>& M) {
+const Manifold& checked_ambient(const std::string& name, const std::shared_ptr<const Manifold>& M) {
   if (!M)
     throw std::invalid_argument(name + "::ImplicitSubmanifold: M is null; expected a manifold.");
   return *M;
@@ -26,8 +26,9 @@ const Manifold& checked(const std::string& name, const std::shared_ptr<const Man
 
 ImplicitSubmanifold::ImplicitSubmanifold(const std::string& name, std::shared_ptr<const Manifold> M,
                                          Equations equations, Index count)
-    : Manifold(name, checked(name, M).dimension() - count, checked(name, M).ambient_dimension(),
-               checked(name, M).tangent_dimension()),
+    : Manifold(name, checked_ambient(name, M).dimension() - count,
+               checked_ambient(name, M).ambient_dimension(),
+               checked_ambient(name, M).tangent_dimension()),
       surrounding_(std::move(M)),
       equations_(std::move(equations)),
       count_(count) {

@@ -8,6 +8,7 @@
 
 #include "courant/core/derivative.hpp"
 #include "courant/core/gauss_newton.hpp"
+#include "courant/core/message.hpp"
 #include "courant/core/qr_decomposition.hpp"
 
 namespace courant {
@@ -19,9 +20,8 @@ Matrix with_size(Matrix result, const std::string& name, const char* function, I
                  Index columns) {
   if (result.rows() != rows || result.cols() != columns)
     throw std::invalid_argument(name + "::do_" + function + ": the result is " +
-                                std::to_string(result.rows()) + " × " +
-                                std::to_string(result.cols()) + ", expected " +
-                                std::to_string(rows) + " × " + std::to_string(columns) + ".");
+                                size_text(result.rows(), result.cols()) + ", expected " +
+                                size_text(rows, columns) + ".");
   return result;
 }
 

@@ -9,20 +9,20 @@
 namespace courant {
 namespace {
 
-ExprMatrix rotation(const ExprVector& x) { return matrix_of(x.head(9), 3, 3); }
+ExprMatrix rotation_of_pose(const ExprVector& x) { return matrix_of(x.head(9), 3, 3); }
 
 ExprVector composed(const ExprVector& x, const ExprMatrix& rotation_part,
                     const ExprVector& translation) {
-  const ExprMatrix R = rotation(x);
+  const ExprMatrix R = rotation_of_pose(x);
   return joined(vector_of(R * rotation_part), x.tail(3) + R * translation);
 }
 
 // The parts of x⁻¹ y.
 ExprMatrix rotation_quotient(const ExprVector& x, const ExprVector& y) {
-  return rotation(x).transpose() * rotation(y);
+  return rotation_of_pose(x).transpose() * rotation_of_pose(y);
 }
 ExprVector translation_quotient(const ExprVector& x, const ExprVector& y) {
-  return rotation(x).transpose() * (y.tail(3) - x.tail(3));
+  return rotation_of_pose(x).transpose() * (y.tail(3) - x.tail(3));
 }
 
 }  // namespace
@@ -99,14 +99,14 @@ ExprVector SpecialEuclidean3::do_velocity_along(const ExprVector& x, const ExprV
 ExprMatrix SpecialEuclidean3::do_frame(const ExprVector& x) const {
   ExprMatrix result = ExprMatrix::Zero(12, 6);
   result.topLeftCorner(9, 3) = rotations_.frame(x.head(9));
-  result.bottomRightCorner(3, 3) = rotation(x);
+  result.bottomRightCorner(3, 3) = rotation_of_pose(x);
   return result;
 }
 
 ExprMatrix SpecialEuclidean3::do_coframe(const ExprVector& x) const {
   ExprMatrix result = ExprMatrix::Zero(6, 12);
   result.topLeftCorner(3, 9) = rotations_.coframe(x.head(9));
-  result.bottomRightCorner(3, 3) = rotation(x).transpose();
+  result.bottomRightCorner(3, 3) = rotation_of_pose(x).transpose();
   return result;
 }
 

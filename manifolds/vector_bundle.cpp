@@ -11,7 +11,7 @@
 namespace courant {
 namespace {
 
-const Manifold& checked(const std::string& kind, const std::shared_ptr<const Manifold>& base) {
+const Manifold& checked_base(const std::string& kind, const std::shared_ptr<const Manifold>& base) {
   if (!base)
     throw std::invalid_argument(kind + "::" + kind + ": base is null; expected a manifold.");
   return *base;
@@ -20,9 +20,11 @@ const Manifold& checked(const std::string& kind, const std::shared_ptr<const Man
 }  // namespace
 
 VectorBundle::VectorBundle(const std::string& kind, std::shared_ptr<const Manifold> base)
-    : Manifold(kind + "(" + checked(kind, base).name() + ")", 2 * checked(kind, base).dimension(),
-               checked(kind, base).ambient_dimension() + checked(kind, base).tangent_dimension(),
-               2 * checked(kind, base).tangent_dimension()),
+    : Manifold(kind + "(" + checked_base(kind, base).name() + ")",
+               2 * checked_base(kind, base).dimension(),
+               checked_base(kind, base).ambient_dimension() +
+                   checked_base(kind, base).tangent_dimension(),
+               2 * checked_base(kind, base).tangent_dimension()),
       base_(std::move(base)) {}
 
 ExprVector VectorBundle::do_retract(const ExprVector& x, const ExprVector& v) const {

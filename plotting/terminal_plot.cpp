@@ -15,7 +15,7 @@ namespace courant::plot {
 
 namespace {
 
-constexpr int margin = 8;  // columns left of the plotted area, for labels
+constexpr int label_margin = 8;  // columns left of the plotted area, for labels
 
 char letter(std::size_t series) { return static_cast<char>('a' + series % 26); }
 
@@ -137,7 +137,7 @@ void check(const TerminalOptions& options) {
 
 // Text right-aligned in the margin; `width` counts the characters that it shows.
 std::string in_margin(const std::string& text, int width) {
-  return spaces(margin - 1 - width) + text + " ";
+  return spaces(label_margin - 1 - width) + text + " ";
 }
 
 int shown_width(std::string_view text) {
@@ -148,14 +148,14 @@ int shown_width(std::string_view text) {
 
 std::string horizontal_axis(Interval x, int columns, const TerminalOptions& options) {
   const std::string begin = scientific(x.lower, options), end = scientific(x.upper, options);
-  return spaces(margin) + (options.unicode ? "└" : "+") +
-         repeated(options.unicode ? "─" : "-", columns) + "\n" + spaces(margin + 1) + begin +
+  return spaces(label_margin) + (options.unicode ? "└" : "+") +
+         repeated(options.unicode ? "─" : "-", columns) + "\n" + spaces(label_margin + 1) + begin +
          spaces(columns - shown_width(begin) - shown_width(end)) + end + "\n";
 }
 
 std::string legend_line(const Series& series, std::size_t index, const std::string& note,
                         const TerminalOptions& options) {
-  return spaces(margin + 1) +
+  return spaces(label_margin + 1) +
          coloured(std::string(1, letter(index)) + "  " + series.label, series.colour, options) +
          (note.empty() ? "" : "   " + note) + "\n";
 }
@@ -184,7 +184,7 @@ std::string terminal_log_plot(std::string_view title, std::span<const Series> se
   const int highest = static_cast<int>(std::ceil(std::log10(sizes.upper) + 1e-9));
 
   const int names = static_cast<int>(std::min<std::size_t>(series.size(), 6)) + 1;
-  const int columns = options.width - margin - 1 - names;
+  const int columns = options.width - label_margin - 1 - names;
   Canvas canvas(columns, options.height, options);
   const double bottom = canvas.dot_rows() - 1.0, per_decade = bottom / (highest - lowest);
   const auto height = [&](double size) {
@@ -224,7 +224,7 @@ std::string terminal_log_plot(std::string_view title, std::span<const Series> se
     const std::string label = options.unicode ? power_of_ten(power) : "1e" + std::to_string(power);
     labels[static_cast<std::size_t>(std::clamp(line, 0, options.height - 1))] = label;
   }
-  std::string text = spaces(margin) + std::string(title) + "\n";
+  std::string text = spaces(label_margin) + std::string(title) + "\n";
   for (int line = 0; line < options.height; ++line) {
     const std::string& label = labels[static_cast<std::size_t>(line)];
     const std::string_view axis =
@@ -254,7 +254,7 @@ std::string terminal_paths(std::string_view title, std::span<const Series> serie
   y = linear.padded(y, 0.02);
 
   // A character is twice as high as wide, so a dot of Braille is square and one of ASCII is not.
-  const int columns = options.width - margin - 1;
+  const int columns = options.width - label_margin - 1;
   const double wanted = columns * y.length() / x.length() / 2;
   const int rows =
       static_cast<int>(std::clamp(std::ceil(wanted), 4.0, static_cast<double>(options.height)));
@@ -289,7 +289,7 @@ std::string terminal_paths(std::string_view title, std::span<const Series> serie
                shown_y = unit * dot_aspect * (canvas.dot_rows() - 1);
   const Interval across{(x.lower + x.upper - shown_x) / 2, (x.lower + x.upper + shown_x) / 2};
   const Interval up{(y.lower + y.upper - shown_y) / 2, (y.lower + y.upper + shown_y) / 2};
-  std::string text = spaces(margin) + std::string(title) + "\n";
+  std::string text = spaces(label_margin) + std::string(title) + "\n";
   for (int line = 0; line < rows; ++line) {
     const bool is_end = line == 0 || line == rows - 1;
     const std::string label = is_end ? scientific(line == 0 ? up.upper : up.lower, options) : "";

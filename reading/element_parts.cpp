@@ -8,6 +8,8 @@ using Role = NetworkBranch::Role;
 Key name() { return required_key("name", takes::text(), "letters, digits and _"); }
 Key from(const char* summary) { return required_key("from", takes::text(), summary); }
 Key to(const char* summary) { return required_key("to", takes::text(), summary); }
+Key current_from() { return from("the node where the current enters"); }
+Key current_to() { return to("the node where it leaves"); }
 Key value(const char* summary) { return required_key("value", takes::formula(), summary); }
 
 Read source(const NetworkDomain& domain, Kind kind) {

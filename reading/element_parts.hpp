@@ -10,6 +10,8 @@ using Read = Registry<NetworkElement, NetworkSite>::Read;
 Key name();
 Key from(const char* summary);
 Key to(const char* summary);
+Key current_from();
+Key current_to();
 Key value(const char* summary);
 
 // A branch between "from" and "to" whose law is the formula under "value".

@@ -14,14 +14,14 @@
 namespace courant {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnread = std::numeric_limits<double>::quiet_NaN();
 
 // A number, or a formula of constants such as "2*pi/100"; NaN, and a problem, if it is neither.
 double read_constant(const JsonReader& value, const SymbolTable& constants) {
   const auto formula = read_formula(value);
-  if (!formula) return kUnknown;
+  if (!formula) return kUnread;
   const auto number = evaluate_constants({{}, {*formula}}, constants, value.findings());
-  return number ? (*number)[0] : kUnknown;
+  return number ? (*number)[0] : kUnread;
 }
 
 // The number of steps must be whole: a last step of another size would be another method.
@@ -33,13 +33,13 @@ std::optional<TimeSpan> read_time(const JsonReader& value, const SymbolTable& co
   else
     object.default_value("start", 0.0);
   const auto step_key = object.required("step");
-  time.step = step_key ? read_constant(*step_key, constants) : kUnknown;
+  time.step = step_key ? read_constant(*step_key, constants) : kUnread;
   if (time.step <= 0.0) {
     step_key->expected("a number greater than 0");
-    time.step = kUnknown;
+    time.step = kUnread;
   }
   const auto end_key = object.required("end");
-  const double end = end_key ? read_constant(*end_key, constants) : kUnknown;
+  const double end = end_key ? read_constant(*end_key, constants) : kUnread;
   if (std::isnan(time.start) || std::isnan(time.step) || std::isnan(end)) return std::nullopt;
   const double steps = (end - time.start) / time.step;
   if (!(steps >= 0.0 && steps <= 1e15)) {

@@ -22,9 +22,7 @@ std::string shown(const Json& value) {
   return text.substr(0, end) + "…";
 }
 
-std::string in_quotes(const std::string& word) { return "\"" + word + "\""; }
-
-std::string listed(const std::vector<std::string>& words) {
+std::string alternatives(const std::vector<std::string>& words) {
   std::string list;
   for (std::size_t i = 0; i < words.size(); ++i)
     list += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + in_quotes(words[i]);
@@ -125,7 +123,7 @@ std::optional<std::string> JsonReader::word(const std::vector<std::string>& word
       return std::nullopt;
     }
   }
-  expected(listed(words));
+  expected(alternatives(words));
   return std::nullopt;
 }
 
@@ -178,7 +176,7 @@ ObjectReader::~ObjectReader() {
     const std::string meant = did_you_mean(key, known_);
     object_.findings().problem(
         object_.pointer() + "/" + pointer_token(key),
-        "unknown key" + (meant.empty() ? "; expected " + listed(known_) : meant));
+        "unknown key" + (meant.empty() ? "; expected " + alternatives(known_) : meant));
   }
   if (unknown > most)
     object_.problem("has " + std::to_string(unknown - most) + " more unknown keys");

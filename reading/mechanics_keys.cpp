@@ -2,6 +2,7 @@
 
 #include "courant/core/derivative.hpp"
 #include "courant/core/expr_vectors.hpp"
+#include "courant/core/message.hpp"
 
 namespace courant {
 namespace {
@@ -16,12 +17,6 @@ struct Trial {
   ExprVector x, w;
   Expr t;
 };
-
-std::vector<std::string> texts(const WrittenFormulas& formulas) {
-  std::vector<std::string> result;
-  for (const WrittenFormula& formula : formulas.formulas) result.push_back(formula.text);
-  return result;
-}
 
 std::optional<Mechanics::Constraints> read_holonomic(const JsonReader& value,
                                                      const PhaseWords& words, const Trial& at) {
@@ -331,9 +326,8 @@ std::optional<WrittenFormulas> read_square(const JsonReader& value, Index n) {
   if (!formulas) return std::nullopt;
   if (formulas->shape.size() == 2) {
     if (formulas->shape[0] == n && formulas->shape[1] == n) return formulas;
-    value.problem("is a " + std::to_string(formulas->shape[0]) + " × " +
-                  std::to_string(formulas->shape[1]) + " matrix; expected " + std::to_string(n) +
-                  " × " + std::to_string(n));
+    value.problem("is a " + size_text(formulas->shape[0], formulas->shape[1]) +
+                  " matrix; expected " + size_text(n, n));
     return std::nullopt;
   }
   const bool scalar = formulas->shape.empty();

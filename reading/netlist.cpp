@@ -25,7 +25,7 @@ std::string identifier(const std::string& text) {
 }
 
 // A number where it is one.
-Json value_of(const std::string& formula) {
+Json written_value(const std::string& formula) {
   if (const auto value = number(formula)) return *value;
   return formula;
 }
@@ -216,7 +216,7 @@ class Import {
         try {
           std::string global = identifier(prefix + name);
           while (name_is_taken(global)) global += "_";
-          parameter_values_[global] = value_of(formula(value, scope, line));
+          parameter_values_[global] = written_value(formula(value, scope, line));
           scope[name] = global;
         } catch (const LineError& unknown) {
           error = unknown;
@@ -285,14 +285,14 @@ class Import {
       case 'r':
         element["type"] = "resistor";
         between();
-        element["value"] = value_of(value(3));
+        element["value"] = written_value(value(3));
         break;
       case 'c':
       case 'l': {
         const bool is_capacitor = type == 'c';
         element["type"] = is_capacitor ? "capacitor" : "inductor";
         between();
-        element["value"] = value_of(value(3));
+        element["value"] = written_value(value(3));
         std::optional<std::string> given;
         if (const auto ic = card.value("ic")) given = formula(*ic, scope, line.number);
         storages_.push_back({name, (is_capacitor ? "q_" : "phi_") + name, value(3), element["from"],
@@ -303,7 +303,7 @@ class Import {
       case 'i':
         element["type"] = type == 'v' ? "voltage-source" : "current-source";
         between();
-        element["value"] = value_of(
+        element["value"] = written_value(
             source({card.words.begin() + 3, card.words.end()}, scope, times_, line.number));
         formulas_.push_back(element["value"]);
         if (type == 'v' && prefix.empty()) sources_.push_back(name);
@@ -313,7 +313,7 @@ class Import {
         element["inductors"] = {
             this->element(card.word(1, "inductor"), prefix, line.number),
             this->element(card.word(2, "second inductor"), prefix, line.number)};
-        element["coupling"] = value_of(value(3));
+        element["coupling"] = written_value(value(3));
         break;
       case 'd': {
         element["type"] = "diode";
@@ -323,8 +323,8 @@ class Import {
           throw LineError{line.number, "unknown model \"" + card.words[3] + "\""};
         std::string saturation = formula(model->second.saturation, scope, line.number);
         if (card.words.size() > 4) saturation += "*" + value(4);
-        element["saturation"] = value_of(saturation);
-        element["emission"] = value_of(formula(model->second.emission, scope, line.number));
+        element["saturation"] = written_value(saturation);
+        element["emission"] = written_value(formula(model->second.emission, scope, line.number));
         element["thermal_voltage"] = kThermalVoltage;
         element["leak"] = kLeastConductance;
         break;
@@ -425,7 +425,7 @@ class Import {
       if (!given && storage.is_capacitor && from && to)
         given = *to == "0" ? *from : "(" + *from + " - " + *to + ")";
       if (given)
-        initial[storage.state] = value_of(storage.value + "*" + *given);
+        initial[storage.state] = written_value(storage.value + "*" + *given);
       else if (all_zero)
         initial[storage.state] = 0;
       else

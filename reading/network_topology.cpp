@@ -3,7 +3,9 @@
 #include <boost/graph/connected_components.hpp>
 #include <set>
 
+#include "courant/core/as_size.hpp"
 #include "courant/core/formula.hpp"
+#include "courant/core/message.hpp"
 #include "courant/core/spelling.hpp"
 #include "courant/structures/kirchhoff.hpp"
 
@@ -13,10 +15,6 @@ namespace {
 using Kind = NetworkBranch::Kind;
 using Role = NetworkBranch::Role;
 using Port = NetworkElement::Port;
-
-std::size_t at(Index index) { return static_cast<std::size_t>(index); }
-
-std::string in_quotes(const std::string& name) { return "\"" + name + "\""; }
 
 // `a`, `a and b`, `a, b and c`
 std::string listed(const std::vector<std::string>& names) {
@@ -37,7 +35,7 @@ std::vector<Edge> edges_of(const NetworkNodes& nodes, const std::vector<NetworkE
   std::vector<Edge> edges;
   for (const NetworkElement& element : elements)
     for (const Port& port : element.ports)
-      edges.push_back({&element, &port, at(nodes.at(port.from)), at(nodes.at(port.to))});
+      edges.push_back({&element, &port, as_size(nodes.at(port.from)), as_size(nodes.at(port.to))});
   return edges;
 }
 
@@ -153,7 +151,7 @@ void tell(const std::vector<const Edge*>& edges, const SparseMatrixXd& columns,
     std::set<std::string> types;
     const Edge* last = nullptr;
     for (SparseMatrixXd::InnerIterator it(columns, column); it; ++it) {
-      last = edges[at(it.row())];
+      last = edges[as_size(it.row())];
       names.push_back(last->element->name);
       types.insert(words_of(*last->element));
     }
@@ -183,7 +181,7 @@ bool check_sources(const std::vector<Edge>& edges, const NetworkNodes& nodes, Fi
   SparseMatrixXd cut_sets(static_cast<Index>(of_all.size()), 0);
   std::vector<Index> columns;
   for (std::size_t k = 0; k < of_network.tree().size(); ++k)
-    if (is_source(*of_all[at(of_network.tree()[k])]->port, Kind::voltage))
+    if (is_source(*of_all[as_size(of_network.tree()[k])]->port, Kind::voltage))
       columns.push_back(static_cast<Index>(k));
   const SparseMatrixXd whole = of_network.cut_sets();
   cut_sets.resize(whole.rows(), static_cast<Index>(columns.size()));
@@ -221,9 +219,9 @@ bool check_circles(const std::vector<NetworkElement>& elements, const NetworkWor
   const auto owner = [&](const std::string& name) -> Index {
     Index branch = -1;
     if (const auto found = words.currents.find(name); found != words.currents.end()) {
-      if (branches[at(found->second)].kind == Kind::voltage) branch = found->second;
+      if (branches[as_size(found->second)].kind == Kind::voltage) branch = found->second;
     } else if (const auto other = words.voltages.find(name); other != words.voltages.end()) {
-      if (branches[at(other->second)].kind == Kind::current) branch = other->second;
+      if (branches[as_size(other->second)].kind == Kind::current) branch = other->second;
     }
     if (branch < 0) return -1;
     for (std::size_t k = 0; k < elements.size(); ++k) {
@@ -247,24 +245,25 @@ bool check_circles(const std::vector<NetworkElement>& elements, const NetworkWor
     state[start] = 1;
     while (!way.empty()) {
       auto& [element, next] = way.back();
-      if (next == needs[at(element)].size()) {
-        state[at(element)] = 2;
+      if (next == needs[as_size(element)].size()) {
+        state[as_size(element)] = 2;
         way.pop_back();
         continue;
       }
-      const Index other = needs[at(element)][next++];
-      if (state[at(other)] == 1) {
+      const Index other = needs[as_size(element)][next++];
+      if (state[as_size(other)] == 1) {
         std::vector<std::string> names;
         for (auto it = way.begin(); it != way.end(); ++it)
-          if (!names.empty() || it->first == other) names.push_back(elements[at(it->first)].name);
-        findings.problem(elements[at(other)].pointer,
+          if (!names.empty() || it->first == other)
+            names.push_back(elements[as_size(it->first)].name);
+        findings.problem(elements[as_size(other)].pointer,
                          names.size() == 1
                              ? "the law of " + names[0] + " needs its own result"
                              : "the laws of " + listed(names) + " need each other's results");
         return false;
       }
-      if (state[at(other)] == 0) {
-        state[at(other)] = 1;
+      if (state[as_size(other)] == 0) {
+        state[as_size(other)] = 1;
         way.emplace_back(other, 0);
       }
     }
@@ -279,7 +278,7 @@ std::vector<const NetworkDomain*> node_domains(const NetworkNodes& nodes,
     for (const Port& port : element.ports)
       for (const NetworkTerminal* terminal : {&port.from, &port.to}) {
         const Index node = nodes.at(*terminal);
-        if (node > 0 && !domains[at(node)]) domains[at(node)] = port.domain;
+        if (node > 0 && !domains[as_size(node)]) domains[as_size(node)] = port.domain;
       }
   return domains;
 }

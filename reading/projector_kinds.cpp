@@ -1,4 +1,5 @@
 #include "courant/core/cholesky_decomposition.hpp"
+#include "courant/core/message.hpp"
 #include "courant/integrators/natural_units.hpp"
 #include "courant/reading/method_kinds.hpp"
 
@@ -49,8 +50,8 @@ Projector::MatrixFormula metric_formula(const MetricChoice& metric, Index size,
                                         const std::function<MatrixXd(const MatrixXd&)>& seen) {
   const WrittenFormulas& formulas = *metric.formulas;
   if (formulas.shape != Shape{size, size})
-    throw ExperimentError(metric.pointer, "is no " + std::to_string(size) + " × " +
-                                              std::to_string(size) + " matrix; expected one");
+    throw ExperimentError(metric.pointer,
+                          "is no " + size_text(size, size) + " matrix; expected one");
   const Vocabulary vocabulary = names(at);
   Graph graph;
   Findings findings;

@@ -4,12 +4,6 @@
 namespace courant {
 namespace {
 
-std::vector<std::string> texts(const WrittenFormulas& formulas) {
-  std::vector<std::string> result;
-  for (const WrittenFormula& formula : formulas.formulas) result.push_back(formula.text);
-  return result;
-}
-
 // S = {(x, v) : F(x, E(x) v, z, t) = 0 for some z}, with F (and perhaps an energy) in formulas.
 class FormulaSystem final : public ImplicitSystem {
  public:

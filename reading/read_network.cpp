@@ -1,6 +1,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "courant/core/as_size.hpp"
 #include "courant/core/declaration.hpp"
 #include "courant/core/formula.hpp"
 #include "courant/reading/network_topology.hpp"
@@ -14,8 +15,6 @@ using Role = NetworkBranch::Role;
 
 // Where the temperatures of branches are looked for: at 0 K the laws have no value.
 constexpr double kRoomTemperature = 300.0;
-
-std::size_t at(Index index) { return static_cast<std::size_t>(index); }
 
 std::optional<NetworkNodes> read_nodes(ObjectReader& system) {
   const auto key = system.required("nodes");
@@ -111,7 +110,8 @@ std::optional<CoupledInductors> couple(const std::vector<NetworkElement>& elemen
   const auto n = static_cast<Index>(coupled.members.size());
   MatrixXd L = MatrixXd::Zero(n, n);
   VectorXd root(n);
-  for (Index i = 0; i < n; ++i) root[i] = std::sqrt(*elements[coupled.members[at(i)]].inductance);
+  for (Index i = 0; i < n; ++i)
+    root[i] = std::sqrt(*elements[coupled.members[as_size(i)]].inductance);
   for (const auto& [i, j, element] : pairs) {
     const double M =
         element->mutual->value / (element->mutual->is_coupling ? 1.0 : root[i] * root[j]);
@@ -337,7 +337,7 @@ Vocabulary::Derived quantities(const std::shared_ptr<const Network>& network,
             const ExprVector potentials = network->potentials(ports.voltage);
             ExprVector values(static_cast<Index>(source.size()));
             for (Index k = 0; k < values.size(); ++k) {
-              const auto& [index, which] = source[at(k)];
+              const auto& [index, which] = source[as_size(k)];
               values[k] = which == 0   ? ports.current[index]
                           : which == 1 ? ports.voltage[index]
                                        : potentials[index];
@@ -392,7 +392,7 @@ std::optional<Model> read_network(ObjectReader& system) {
     Expr sum = 0.0;
     const auto own = [&](std::size_t element) {
       ExprVector result(static_cast<Index>(states[element].size()));
-      for (Index k = 0; k < result.size(); ++k) result[k] = x[states[element][at(k)]];
+      for (Index k = 0; k < result.size(); ++k) result[k] = x[states[element][as_size(k)]];
       return result;
     };
     for (std::size_t k = 0; k < elements.size(); ++k)
@@ -400,7 +400,7 @@ std::optional<Model> read_network(ObjectReader& system) {
           std::find(coupled.members.begin(), coupled.members.end(), k) == coupled.members.end())
         sum += elements[k].energy(own(k), x, t);
     ExprVector flux(static_cast<Index>(coupled.members.size()));
-    for (Index k = 0; k < flux.size(); ++k) flux[k] = own(coupled.members[at(k)])[0];
+    for (Index k = 0; k < flux.size(); ++k) flux[k] = own(coupled.members[as_size(k)])[0];
     return flux.size() > 0 ? sum + coupled.energy(flux) : sum;
   };
   const auto network =

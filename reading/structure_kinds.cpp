@@ -151,12 +151,12 @@ SymbolTable taken_names(const Vocabulary& vocabulary, bool with_coordinates) {
 
 // The keys `coordinates`, `manifold` and `structure`: a space with names of its own, and a
 // structure on it, or on its product with R^ports.
-struct Part {
+struct StructurePart {
   Space space;
   StructurePointer structure;
 };
-std::optional<Part> read_part(ObjectReader& object, const Vocabulary& outer, SymbolTable& taken,
-                              Index ports = 0) {
+std::optional<StructurePart> read_structure_part(ObjectReader& object, const Vocabulary& outer,
+                                                 SymbolTable& taken, Index ports = 0) {
   const auto key = object.required("structure");
   auto space = read_structure_space(object, outer, taken);
   if (!key || !space) return std::nullopt;
@@ -168,7 +168,7 @@ std::optional<Part> read_part(ObjectReader& object, const Vocabulary& outer, Sym
   const auto structure = structure_kinds().read(*key, site);
   if (!structure) return std::nullopt;
   if (ports == 0) space->manifold = (*structure)->manifold();
-  return Part{*space, *structure};
+  return StructurePart{*space, *structure};
 }
 
 std::string spelled(const NameList& names) {
@@ -178,16 +178,17 @@ std::string spelled(const NameList& names) {
 }
 
 // The parts in an array, whose coordinates together must be those of the site, in order.
-std::optional<std::vector<Part>> read_parts(const JsonReader& value, const StructureSite& site,
-                                            Index ports) {
+std::optional<std::vector<StructurePart>> read_structure_parts(const JsonReader& value,
+                                                               const StructureSite& site,
+                                                               Index ports) {
   const auto elements = value.elements();
   if (!elements) return std::nullopt;
   SymbolTable taken = taken_names(site.vocabulary, false);
-  std::vector<Part> parts;
+  std::vector<StructurePart> parts;
   NameList names;
   for (const JsonReader& element : *elements) {
     ObjectReader object(element);
-    if (auto part = read_part(object, site.vocabulary, taken, ports)) {
+    if (auto part = read_structure_part(object, site.vocabulary, taken, ports)) {
       for (const Declaration& declaration : part->space.coordinates.declarations())
         names.append(declaration);
       parts.push_back(std::move(*part));
@@ -205,23 +206,23 @@ std::optional<std::vector<Part>> read_parts(const JsonReader& value, const Struc
 
 std::optional<StructurePointer> product_of_parts(ObjectReader& object, const StructureSite& site) {
   const auto key = object.required("factors");
-  const auto factors = key ? read_parts(*key, site, 0) : std::nullopt;
+  const auto factors = key ? read_structure_parts(*key, site, 0) : std::nullopt;
   if (!factors) return std::nullopt;
   std::vector<StructurePointer> structures;
-  for (const Part& factor : *factors) structures.push_back(factor.structure);
+  for (const StructurePart& factor : *factors) structures.push_back(factor.structure);
   return std::make_shared<ProductStructure>(std::move(structures));
 }
 
 std::optional<StructurePointer> composed_parts(ObjectReader& object, const StructureSite& site) {
   const Index ports = object.integer("ports");
   const auto key = object.required("parts");
-  const auto parts = key ? read_parts(*key, site, ports) : std::nullopt;
+  const auto parts = key ? read_structure_parts(*key, site, ports) : std::nullopt;
   if (!parts) return std::nullopt;
   if (parts->size() != 2) {
     key->problem("are " + std::to_string(parts->size()) + "; expected 2");
     return std::nullopt;
   }
-  const Part &A = (*parts)[0], &B = (*parts)[1];
+  const StructurePart &A = (*parts)[0], &B = (*parts)[1];
   try {
     return std::make_shared<Composed>(A.structure, A.space.manifold, B.structure, B.space.manifold,
                                       ports);
@@ -262,7 +263,7 @@ std::optional<SmoothMap> read_map(const JsonReader& value, const StructureSite& 
 std::optional<StructurePointer> pulled_back(ObjectReader& object, const StructureSite& site) {
   const auto map_key = object.required("map");
   SymbolTable taken = taken_names(site.vocabulary, true);
-  const auto target = read_part(object, site.vocabulary, taken);
+  const auto target = read_structure_part(object, site.vocabulary, taken);
   if (!map_key || !target) return std::nullopt;
   const auto map = read_map(*map_key, site, target->space.manifold);
   if (!map) return std::nullopt;
@@ -272,7 +273,7 @@ std::optional<StructurePointer> pulled_back(ObjectReader& object, const Structur
 std::optional<StructurePointer> pushed_forward(ObjectReader& object, const StructureSite& site) {
   const auto map_key = object.required("map"), section_key = object.required("section");
   SymbolTable taken = taken_names(site.vocabulary, true);
-  const auto source = read_part(object, site.vocabulary, taken);
+  const auto source = read_structure_part(object, site.vocabulary, taken);
   if (!map_key || !section_key || !source) return std::nullopt;
   StructureSite inner{source->space.manifold, site.vocabulary};
   inner.vocabulary.coordinates = source->space.coordinates;

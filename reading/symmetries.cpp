@@ -29,14 +29,15 @@ struct ConfigurationWords {
 };
 
 // Formulas of some entries of a vector.
-struct Part {
+struct FormulaPart {
   Index first;
   bool is_component;  // of the tangent vector
   WrittenFormulas formulas;
 };
 
-std::optional<Part> read_part(const std::string& name, const JsonReader& value,
-                              const ConfigurationWords& words, const SymbolTable& symbols) {
+std::optional<FormulaPart> read_formula_part(const std::string& name, const JsonReader& value,
+                                             const ConfigurationWords& words,
+                                             const SymbolTable& symbols) {
   const auto formulas = read_formulas(value);
   if (!formulas || !check(*formulas, symbols, value.findings())) return std::nullopt;
   try {
@@ -50,7 +51,7 @@ std::optional<Part> read_part(const std::string& name, const JsonReader& value,
                     std::to_string(count) + " for \"" + name + "\"");
       return std::nullopt;
     }
-    return Part{first, is_component, *formulas};
+    return FormulaPart{first, is_component, *formulas};
   } catch (const FormulaError& error) {
     value.problem(std::string("key, ") + error.what());
     return std::nullopt;
@@ -65,11 +66,11 @@ std::optional<Symmetry> read_symmetry(const JsonReader& value, const Configurati
   Graph graph;
   const SymbolTable symbols =
       words.vocabulary.symbols({.x = graph.variables("q", Q.ambient_dimension())});
-  std::vector<Part> parts;
+  std::vector<FormulaPart> parts;
   bool right = true;
   std::vector<std::pair<bool, Index>> given;
   for (const auto& [name, entry] : *entries) {
-    const auto part = read_part(name, entry, words, symbols);
+    const auto part = read_formula_part(name, entry, words, symbols);
     right = right && part;
     if (!part) continue;
     for (Index i = 0; i < std::ssize(part->formulas.formulas); ++i) {
@@ -94,7 +95,7 @@ std::optional<Symmetry> read_symmetry(const JsonReader& value, const Configurati
     const SymbolTable at = words.vocabulary.symbols({.x = q});
     ExprVector rates = ExprVector::Zero(q.size());
     ExprVector components = ExprVector::Zero(base->tangent_dimension());
-    for (const Part& part : parts) {
+    for (const FormulaPart& part : parts) {
       const ExprVector values = evaluate(part.formulas, at);
       (part.is_component ? components : rates).segment(part.first, values.size()) += values;
     }

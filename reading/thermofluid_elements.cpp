@@ -7,8 +7,8 @@ using namespace element_parts;
 using Kind = NetworkBranch::Kind;
 using Role = NetworkBranch::Role;
 
-Key from() { return element_parts::from("the node where the flow enters"); }
-Key to() { return element_parts::to("the node where it leaves"); }
+Key flow_from() { return element_parts::from("the node where the flow enters"); }
+Key flow_to() { return element_parts::to("the node where it leaves"); }
 Key place(const char* summary) { return required_key("at", takes::text(), summary); }
 
 std::optional<NetworkElement> read_tank(ObjectReader& object, const NetworkSite& site) {
@@ -107,22 +107,22 @@ ElementKinds thermofluid_elements() {
        read_tank},
       {{"inertance",
         "the momentum gamma_<name> in Pa·s of the fluid in a pipe",
-        {name(), from(), to(), value("in kg/m⁴, a constant")}},
+        {name(), flow_from(), flow_to(), value("in kg/m⁴, a constant")}},
        read_inertance},
       {{"pipe",
         "a loss of pressure P = R Q, or a law of its own",
-        {name(), from(), to(),
+        {name(), flow_from(), flow_to(),
          optional_key("value", takes::formula(), "R in Pa·s/m³; may depend on anything"),
          optional_key("flow", takes::formula(), "Q in m³/s as a function of the loss P_<name>")},
         {{"value", "flow"}}},
        read_pipe},
       {{"pressure-source",
         "holds the pressure of from less that of to",
-        {name(), from(), to(), value("in Pa; may depend on t and anything else")}},
+        {name(), flow_from(), flow_to(), value("in Pa; may depend on t and anything else")}},
        source(hydraulic, Kind::current)},
       {{"flow-source",
         "pumps from from to to",
-        {name(), from(), to(), value("in m³/s; may depend on t and anything else")}},
+        {name(), flow_from(), flow_to(), value("in m³/s; may depend on t and anything else")}},
        source(hydraulic, Kind::voltage)},
       {{"heat-capacity",
         "an entropy S_<name> in J/K, 0 at the temperature T₀; the energy is C T₀ exp(S/C)",
@@ -131,11 +131,11 @@ ElementKinds thermofluid_elements() {
        read_heat_capacity},
       {{"thermal-conductor",
         "the heat G (T₁ - T₂) from from to to; it makes entropy",
-        {name(), from(), to(), value("G in W/K; may depend on anything")}},
+        {name(), flow_from(), flow_to(), value("G in W/K; may depend on anything")}},
        read_thermal_conductor},
       {{"temperature-source",
         "holds the temperature of from, in K, above that of to",
-        {name(), from(), to(), value("in K; may depend on t and anything else")}},
+        {name(), flow_from(), flow_to(), value("in K; may depend on t and anything else")}},
        source(thermal, Kind::current)},
       {{"heat-source",
         "brings heat to a node",

@@ -7,9 +7,6 @@ using namespace element_parts;
 using Kind = NetworkBranch::Kind;
 using Role = NetworkBranch::Role;
 
-Key from() { return element_parts::from("the node where the current enters"); }
-Key to() { return element_parts::to("the node where it leaves"); }
-
 // v = K times a velocity against the ground, and K i pushes there.
 Read read_motor(const NetworkDomain& domain, const char* moving) {
   return [&domain, moving](ObjectReader& object, const NetworkSite& site) {
@@ -40,17 +37,19 @@ ElementKinds transducer_elements() {
   return {
       {{"dc-motor",
         "v = K omega, torque K i on the shaft; winding and rotor are elements besides",
-        {name(), from(), to(), required_key("shaft", takes::text(), "the rotational node"),
+        {name(), current_from(), current_to(),
+         required_key("shaft", takes::text(), "the rotational node"),
          required_key("constant", takes::formula(), "K in V·s/rad = N·m/A, a constant")}},
        read_motor(domains::rotation, "shaft")},
       {{"voice-coil",
         "v = K times the velocity of the cone, force K i on the cone",
-        {name(), from(), to(), required_key("cone", takes::text(), "the translational node"),
+        {name(), current_from(), current_to(),
+         required_key("cone", takes::text(), "the translational node"),
          required_key("constant", takes::formula(), "K = B l in V·s/m = N/A, a constant")}},
        read_motor(domains::translation, "cone")},
       {{"electromagnet",
         "a flux phi_<name> in Wb and a position x_<name> in m, with the energy phi²/(2 L(x))",
-        {name(), from(), to(),
+        {name(), current_from(), current_to(),
          required_key("armature", takes::text(), "the translational node; x is its position"),
          required_key("inductance", takes::formula(), "L in H, as a function of x_<name>")}},
        read_electromagnet},

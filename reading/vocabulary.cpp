@@ -2,12 +2,11 @@
 
 #include <algorithm>
 
+#include "courant/core/message.hpp"
 #include "courant/core/spelling.hpp"
 
 namespace courant {
 namespace {
-
-std::string in_quotes(const std::string& name) { return "\"" + name + "\""; }
 
 // The key of a parameter or definition as a new name; nothing, and a problem, if it cannot be one.
 bool is_new_name(const std::string& name, const std::string& pointer, const SymbolTable& taken,

@@ -42,6 +42,12 @@ std::optional<WrittenFormulas> read_rows(const std::vector<JsonReader>& rows) {
 
 }  // namespace
 
+std::vector<std::string> texts(const WrittenFormulas& formulas) {
+  std::vector<std::string> result;
+  for (const WrittenFormula& formula : formulas.formulas) result.push_back(formula.text);
+  return result;
+}
+
 std::optional<WrittenFormula> read_formula(const JsonReader& value) {
   if (value.value().is_number())
     return WrittenFormula{exact_text(*value.number()), value.pointer()};

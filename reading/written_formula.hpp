@@ -29,6 +29,9 @@ std::optional<WrittenFormulas> read_formula_vector(const JsonReader& value);
 std::optional<WrittenFormulas> read_formula_matrix(const JsonReader& value, Index rows,
                                                    Index columns);
 
+// Their texts.
+std::vector<std::string> texts(const WrittenFormulas& formulas);
+
 // The values. Throw FormulaError, which cannot happen once `check` has passed for the same names.
 Expr evaluate(const WrittenFormula& formula, const SymbolTable& symbols);
 ExprVector evaluate(const WrittenFormulas& formulas, const SymbolTable& symbols);

@@ -16,14 +16,7 @@ constexpr std::size_t most_panels = 8;
 constexpr double alike = 30;            // sizes that one linear axis shows
 constexpr std::size_t beginning = 501;  // rows that show an oscillation itself
 constexpr std::size_t many = 2000;      // rows of which the oscillation is seen as a band
-constexpr double narrow = 352, narrow_height = 180;
-
-double greatest(std::span<const double> values) {
-  double size = 0;
-  for (const double value : values)
-    if (std::isfinite(value)) size = std::max(size, std::abs(value));
-  return size;
-}
+constexpr double energy_width = 352, energy_height = 180;
 
 // The median of |value| among those that are finite and not zero; 0 if there is none.
 double median_size(std::span<const double> values) {
@@ -54,7 +47,7 @@ Panel energy_panel(std::span<const Run> runs, std::vector<Series> series) {
   const std::string label = axis_label(runs, "H");
   panel.y.label = "H − H(0)" + (label.starts_with("H ") ? label.substr(1) : "");
   for (const Series& one : series)
-    panel.description += one.label + ": at most " + plot::readable(greatest(one.y), 3) + ". ";
+    panel.description += one.label + ": at most " + plot::readable(greatest_size(one.y), 3) + ". ";
   panel.series = std::move(series);
   return panel;
 }
@@ -63,12 +56,12 @@ Panel energy_panel(std::span<const Run> runs, std::vector<Series> series) {
 // of them when there is no such gap.
 std::vector<Series> without_greatest(std::vector<Series> errors) {
   std::vector<double> sizes;
-  for (const Series& error : errors) sizes.push_back(greatest(error.y));
+  for (const Series& error : errors) sizes.push_back(greatest_size(error.y));
   std::sort(sizes.begin(), sizes.end(), std::greater<>());
   const auto gap = std::adjacent_find(
       sizes.begin(), sizes.end(), [](double above, double below) { return above >= 10 * below; });
   if (gap != sizes.end() && *gap > 0) {
-    std::erase_if(errors, [&](const Series& error) { return greatest(error.y) >= *gap; });
+    std::erase_if(errors, [&](const Series& error) { return greatest_size(error.y) >= *gap; });
   }
   return errors;
 }
@@ -76,7 +69,7 @@ std::vector<Series> without_greatest(std::vector<Series> errors) {
 bool are_alike(std::span<const Series> errors) {
   double least = 0, most = 0;
   for (const Series& error : errors) {
-    const double size = greatest(error.y);
+    const double size = greatest_size(error.y);
     if (size > 0 && (least == 0 || size < least)) least = size;
     most = std::max(most, size);
   }
@@ -141,8 +134,8 @@ Figure detail(std::span<const Run> runs, const std::vector<Series>& kept, bool i
     for (Series& part : parts) {
       Panel panel = energy_panel(runs, {std::move(part)});
       panel.y.interval = y;
-      panel.height = narrow_height;
-      if (is_long) panel.width = narrow;
+      panel.height = energy_height;
+      if (is_long) panel.width = energy_width;
       figure.panels.push_back(std::move(panel));
     }
   }
@@ -155,12 +148,19 @@ Figure detail(std::span<const Run> runs, const std::vector<Series>& kept, bool i
 
 }  // namespace
 
+double greatest_size(std::span<const double> values) {
+  double size = 0;
+  for (const double value : values)
+    if (std::isfinite(value)) size = std::max(size, std::abs(value));
+  return size;
+}
+
 double symmetric_log_threshold(std::span<const Series> series) {
   double smallest = 0, largest = 0;
   for (const Series& one : series) {
     const double size = median_size(one.y);
     if (size > 0 && (smallest == 0 || size < smallest)) smallest = size;
-    largest = std::max(largest, greatest(one.y));
+    largest = std::max(largest, greatest_size(one.y));
   }
   if (largest == 0) return 1e-16;
   // A power of ten itself may be a little below it.
@@ -174,7 +174,7 @@ std::optional<EnergyTrend> energy_trend(const Run& run) {
   const auto H = run.trajectory.column("H");
   std::vector<double> error(H.begin(), H.end());
   for (double& value : error) value -= H.front();
-  return energy_trend(run.trajectory.column("t"), error, greatest(H));
+  return energy_trend(run.trajectory.column("t"), error, greatest_size(H));
 }
 
 std::vector<Figure> energy_figures(std::span<const Run> runs) {

@@ -20,6 +20,9 @@ std::vector<Figure> energy_figures(std::span<const Run> runs);
 // The trend of the energy error of a run; nothing without H.
 std::optional<EnergyTrend> energy_trend(const Run& run);
 
+// The greatest |value| of those that are finite; 0 if there is none.
+double greatest_size(std::span<const double> values);
+
 // The threshold of a symmetric-log axis that shows all of the curves: the power of ten below the
 // median |y| of the curve where that is least, so that this curve swings inside the linear zone and
 // single outliers of it do not matter; but no more than twelve decades below the greatest of all.

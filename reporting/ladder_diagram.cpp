@@ -1,12 +1,12 @@
 #include "courant/reporting/ladder_diagram.hpp"
 
-#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "courant/plotting/scale.hpp"
+#include "courant/reporting/ladder_explanation.hpp"
 
 namespace courant {
 
@@ -16,16 +16,6 @@ using plot::element;
 using plot::Markup;
 
 constexpr double column_width = 132, first_column = 46, upper_row = 40, lower_row = 128;
-
-std::string subscript(Index k) {
-  static constexpr std::array<const char*, 10> digits = {"₀", "₁", "₂", "₃", "₄",
-                                                         "₅", "₆", "₇", "₈", "₉"};
-  std::string text;
-  for (const char digit : std::to_string(k)) {
-    text += digit == '-' ? "₋" : digits[static_cast<std::size_t>(digit - '0')];
-  }
-  return text;
-}
 
 Markup label(double x, double y, std::string_view style, const Markup& content) {
   return element("text", {{"class", style}, {"x", x}, {"y", y}, {"text-anchor", "middle"}},

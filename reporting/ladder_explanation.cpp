@@ -1,6 +1,7 @@
 #include "courant/reporting/ladder_explanation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -8,15 +9,6 @@
 
 namespace courant {
 namespace {
-
-std::string subscript(Index k) {
-  std::string text;
-  for (const char digit : std::to_string(k)) {
-    text += "\xE2\x82";
-    text += static_cast<char>(0x80 + (digit - '0'));
-  }
-  return text;
-}
 
 std::string plural(Index count, const std::string& noun) {
   return (count == 1 ? "one " : std::to_string(count) + " ") + noun + (count == 1 ? "" : "s");
@@ -253,6 +245,16 @@ void explain_unknowns(const LadderReport& ladder, std::vector<std::string>& line
 }
 
 }  // namespace
+
+std::string subscript(Index k) {
+  static constexpr std::array<const char*, 10> digits = {"₀", "₁", "₂", "₃", "₄",
+                                                         "₅", "₆", "₇", "₈", "₉"};
+  std::string text;
+  for (const char digit : std::to_string(k)) {
+    text += digit == '-' ? "₋" : digits[static_cast<std::size_t>(digit - '0')];
+  }
+  return text;
+}
 
 std::vector<std::string> ladder_text_diagram(const LadderReport& ladder) {
   std::string S = "  ", arrows = "  ", M = "  ", dim_S = "dim S  ", dim_M = "dim M  ";

@@ -25,14 +25,6 @@ std::vector<double> first(std::span<const double> values, std::size_t rows) {
           values.begin() + static_cast<std::ptrdiff_t>(std::min(rows, values.size()))};
 }
 
-double greatest(std::span<const double> values) {
-  double size = 0;
-  for (const double value : values) {
-    if (std::isfinite(value)) size = std::max(size, std::abs(value));
-  }
-  return size;
-}
-
 // An entry for each series, when there is something to tell apart.
 std::vector<LegendEntry> entries(std::span<const Series> series) {
   std::vector<LegendEntry> legend;
@@ -284,7 +276,7 @@ std::optional<Figure> constraint_figure(std::span<const Run> runs) {
   panel.height = 220;
   for (const Series& one : series) {
     panel.y.interval.include(one.y);
-    panel.description += one.label + ": at most " + plot::readable(greatest(one.y), 3) + ". ";
+    panel.description += one.label + ": at most " + plot::readable(greatest_size(one.y), 3) + ". ";
   }
   panel.series = series;
   return Figure{{panel},

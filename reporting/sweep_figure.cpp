@@ -13,7 +13,7 @@ namespace {
 using plot::Panel;
 using plot::Series;
 
-constexpr std::size_t most_panels = 8;
+constexpr std::size_t most_quantities = 8;
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 // "theta" of "/method/theta".
@@ -106,7 +106,7 @@ std::vector<std::pair<std::string, std::string>> shown_values(const Json& runs) 
   const std::size_t before = shown.size();
   ends(true);
   if (shown.size() == before) ends(false);
-  if (shown.size() > most_panels) shown.resize(most_panels);
+  if (shown.size() > most_quantities) shown.resize(most_quantities);
   return shown;
 }
 

@@ -46,17 +46,17 @@ void read(const Json& json, VectorXd& values) {
   for (const Json& entry : json) read(entry, values[i++]);
 }
 
-using Named = std::map<std::string, double, std::less<>>;
+using NamedNumbers = std::map<std::string, double, std::less<>>;
 
 // Objects, the keys as text.
-Json written(const std::map<long, Named>& rows) {
+Json written(const std::map<long, NamedNumbers>& rows) {
   Json json = Json::object();
   for (const auto& [number, row] : rows)
     for (const auto& [name, value] : row) json[std::to_string(number)][name] = written(value);
   return json;
 }
 
-void read(const Json& json, std::map<long, Named>& rows) {
+void read(const Json& json, std::map<long, NamedNumbers>& rows) {
   for (const auto& [number, row] : json.items())
     for (const auto& [name, value] : row.items()) read(value, rows[std::stol(number)][name]);
 }

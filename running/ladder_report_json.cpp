@@ -84,7 +84,7 @@ const Json& part(const Json& object, const char* key) {
   const auto found = object.find(key);
   return found == object.end() ? nothing : *found;
 }
-double number(const Json& object, const char* key) {
+double number_at(const Json& object, const char* key) {
   const Json& value = part(object, key);
   return value.is_number() ? value.get<double>() : LadderReport::kUnknown;
 }
@@ -117,7 +117,7 @@ LadderReport::Origin read_origin(const Json& json) {
   for (const Json& term : json)
     origin.push_back({.equation = term.value("equation", ""),
                       .derivative = whole(term, "derivative").value_or(0),
-                      .coefficient = number(term, "coefficient")});
+                      .coefficient = number_at(term, "coefficient")});
   return origin;
 }
 
@@ -158,7 +158,7 @@ LadderReport::End read_end(const Json& json) {
   LadderReport::End end;
   for (const auto& [name, entry] : part(json, "unknowns").items()) {
     end.unknowns.push_back({.name = name,
-                            .value = number(entry, "value"),
+                            .value = number_at(entry, "value"),
                             .is_determined = entry.value("determined", false)});
     if (entry.contains("formula")) end.unknowns.back().formula = entry.value("formula", "");
   }
@@ -220,7 +220,7 @@ LadderReport read_ladder_report(const Json& json) {
                       .degrees_of_freedom = whole(json, "degrees_of_freedom"),
                       .dimension = whole(json, "dimension"),
                       .consistent_point = read_values(part(json, "consistent_point")),
-                      .moved = number(json, "moved"),
+                      .moved = number_at(json, "moved"),
                       .is_ambiguous = json.value("ambiguous", false),
                       .reason = json.value("reason", "")};
   for (const Json& level : part(json, "levels"))
@@ -228,13 +228,14 @@ LadderReport read_ladder_report(const Json& json) {
                              .dim_S = whole(level, "dim_S"),
                              .dim_M = whole(level, "dim_M"),
                              .fibre = whole(level, "fibre"),
-                             .gap = number(level, "gap"),
-                             .smallest_counted = number(level, "smallest_counted"),
-                             .largest_neglected = number(level, "largest_neglected"),
-                             .residual = number(level, "residual")});
+                             .gap = number_at(level, "gap"),
+                             .smallest_counted = number_at(level, "smallest_counted"),
+                             .largest_neglected = number_at(level, "largest_neglected"),
+                             .residual = number_at(level, "residual")});
   for (const Json& move : part(json, "moves"))
-    ladder.moves.push_back(
-        {.name = move.value("name", ""), .from = number(move, "from"), .to = number(move, "to")});
+    ladder.moves.push_back({.name = move.value("name", ""),
+                            .from = number_at(move, "from"),
+                            .to = number_at(move, "to")});
   for (const Json& doubt : part(json, "doubts")) ladder.doubts.push_back(doubt.get<std::string>());
   if (json.contains("classes")) ladder.classes = read_classes(json);
   if (json.contains("constraints")) {

@@ -11,7 +11,7 @@
 namespace courant {
 namespace {
 
-[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
+[[noreturn]] void refuse_file(const std::filesystem::path& path, const std::string& reason) {
   throw OutputError(path.string() + ": cannot be written: " + reason);
 }
 
@@ -32,7 +32,7 @@ OutputFile::~OutputFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-void OutputFile::fail() const { refuse(path_, last_error()); }
+void OutputFile::fail() const { refuse_file(path_, last_error()); }
 
 void OutputFile::write(std::string_view bytes) {
   while (!bytes.empty()) {
@@ -53,8 +53,8 @@ void OutputFile::cut(std::uintmax_t size) {
   const auto there = ::lseek(descriptor_, 0, SEEK_END);
   if (there < 0) fail();
   if (static_cast<std::uintmax_t>(there) < size)
-    refuse(path_,
-           "it has " + std::to_string(there) + " bytes, expected at least " + std::to_string(size));
+    refuse_file(path_, "it has " + std::to_string(there) + " bytes, expected at least " +
+                           std::to_string(size));
   const auto end = static_cast<off_t>(size);
   if (::ftruncate(descriptor_, end) != 0 || ::lseek(descriptor_, end, SEEK_SET) != end) fail();
 }
@@ -74,7 +74,7 @@ void write_file(const std::filesystem::path& path, std::string_view content) {
     file.write(content);
     file.close();
     std::filesystem::rename(temporary, path, error);
-    if (error) refuse(path, error.message());
+    if (error) refuse_file(path, error.message());
   } catch (const OutputError&) {
     std::filesystem::remove(temporary, error);
     throw;

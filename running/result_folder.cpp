@@ -17,10 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const fs::path& path, const std::string& what) {
-  throw UnusableFolder(path.string() + ": " + what);
-}
-
 std::string article(const std::string& kind) { return "a " + kind; }
 
 std::vector<fs::path> files_of(const fs::path& path, const std::string& kind) {
@@ -60,7 +56,7 @@ void remove_all_of(const fs::path& path, const std::string& kind) {
   const auto remove = [](const fs::path& file) {
     std::error_code error;
     fs::remove(file, error);
-    if (error) refuse(file, "cannot be replaced: " + error.message());
+    if (error) refuse_folder(file, "cannot be replaced: " + error.message());
   };
   for (const fs::path& folder : run_folders(path, result_in(path, kind))) {
     RunFolder::remove(folder);
@@ -72,22 +68,23 @@ void remove_all_of(const fs::path& path, const std::string& kind) {
   for (const fs::path& file : files_of(path, kind)) remove(file);
 }
 
-constexpr const char* kInUse =
+constexpr const char* kResultIsWritten =
     "something is being written to this folder; expected another folder (-o)";
 
 }  // namespace
 
 void ResultFolder::check(const fs::path& path, const std::string& kind, bool replace) {
   RunFolder::check_place(path);
-  if (RunFolder::is_in_use(path)) refuse(path, kInUse);
+  if (RunFolder::is_in_use(path)) refuse_folder(path, kResultIsWritten);
   const std::vector<fs::path> files = files_of(path, kind);
   if (files.empty()) return;
   if (result_in(path, kind).is_null())
-    refuse(files.front(),
-           "is there already, and no " + kind + " wrote it; expected another folder (-o)");
+    refuse_folder(files.front(),
+                  "is there already, and no " + kind + " wrote it; expected another folder (-o)");
   if (!replace)
-    refuse(path, "there is " + article(kind) +
-                     " in this folder; expected another folder (-o), or --force to replace it");
+    refuse_folder(path,
+                  "there is " + article(kind) +
+                      " in this folder; expected another folder (-o), or --force to replace it");
 }
 
 ResultFolder::ResultFolder(fs::path path, std::string kind, bool replace)
@@ -97,7 +94,7 @@ ResultFolder::ResultFolder(fs::path path, std::string kind, bool replace)
     make_folder(path_);
     lock_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-      refuse(path_, kInUse);
+      refuse_folder(path_, kResultIsWritten);
     remove_all_of(path_, kind_);
   } catch (const OutputError& error) {
     if (lock_ >= 0) ::close(lock_);

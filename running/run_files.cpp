@@ -61,7 +61,7 @@ std::vector<std::string> split(std::string_view line) {
 }
 
 // A piece of a file as it may stand in a message: not all of a long one.
-std::string in_quotes(std::string_view text) {
+std::string excerpt(std::string_view text) {
   return '"' + std::string(text.substr(0, 40)) + (text.size() > 40 ? "…" : "") + '"';
 }
 
@@ -76,7 +76,7 @@ std::optional<std::string> append_row(std::string_view line,
     if (error != std::errc{} || (stop != end && *stop != ',')) {
       const std::string_view rest(at, static_cast<std::size_t>(end - at));
       return "field " + std::to_string(field + 1) + " is " +
-             in_quotes(rest.substr(0, rest.find(','))) + ", expected a number.";
+             excerpt(rest.substr(0, rest.find(','))) + ", expected a number.";
     }
     const bool last = field + 1 == columns.size();
     if (last != (stop == end)) {
@@ -110,7 +110,7 @@ TrajectoryTable::TrajectoryTable(std::vector<std::string> names,
     throw std::invalid_argument("TrajectoryTable: " + what);
   };
   if (names_.empty() || names_.front() != "t") {
-    reject("the first column is " + (names_.empty() ? "missing" : in_quotes(names_.front())) +
+    reject("the first column is " + (names_.empty() ? "missing" : excerpt(names_.front())) +
            ", expected t.");
   }
   if (columns_.size() != names_.size()) {
@@ -120,9 +120,9 @@ TrajectoryTable::TrajectoryTable(std::vector<std::string> names,
   std::set<std::string_view> seen;
   for (std::size_t i = 0; i < names_.size(); ++i) {
     if (!seen.insert(names_[i]).second)
-      reject("two columns have the name " + in_quotes(names_[i]) + ".");
+      reject("two columns have the name " + excerpt(names_[i]) + ".");
     if (columns_[i].size() != rows()) {
-      reject("column " + in_quotes(names_[i]) + " has " + std::to_string(columns_[i].size()) +
+      reject("column " + excerpt(names_[i]) + " has " + std::to_string(columns_[i].size()) +
              " rows, expected " + std::to_string(rows()) + ".");
     }
   }
@@ -135,7 +135,7 @@ bool TrajectoryTable::contains(std::string_view name) const {
 std::span<const double> TrajectoryTable::column(std::string_view name) const {
   const auto found = std::find(names_.begin(), names_.end(), name);
   if (found == names_.end()) {
-    throw std::invalid_argument("TrajectoryTable::column: there is no column " + in_quotes(name) +
+    throw std::invalid_argument("TrajectoryTable::column: there is no column " + excerpt(name) +
                                 ".");
   }
   return columns_[static_cast<std::size_t>(found - names_.begin())];
@@ -270,7 +270,7 @@ TrajectoryTable read_trajectory_npy(const std::filesystem::path& file,
   const std::string_view header = std::string_view(bytes).substr(start, size);
   const std::string_view type = npy_entry(header, "'descr'", ",}");
   if (type != "'<f8'")
-    fail(file, "the numbers are " + in_quotes(type) + ", expected '<f8', float64.");
+    fail(file, "the numbers are " + excerpt(type) + ", expected '<f8', float64.");
   const bool by_column = npy_entry(header, "'fortran_order'", ",}") == "True";
   const std::string_view shape = npy_entry(header, "'shape'", ")");
   std::size_t rows = 0, width = 0;
@@ -280,7 +280,7 @@ TrajectoryTable read_trajectory_npy(const std::filesystem::path& file,
   const char* const second =
       std::find_if(first.ptr, end, [](char c) { return c >= '0' && c <= '9'; });
   if (first.ec != std::errc{} || std::from_chars(second, end, width).ec != std::errc{}) {
-    fail(file, "the shape is " + in_quotes(shape) + ", expected (rows, columns).");
+    fail(file, "the shape is " + excerpt(shape) + ", expected (rows, columns).");
   }
   if (width != names.size()) {
     fail(file, "has " + std::to_string(width) + " columns, expected " +

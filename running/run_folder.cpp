@@ -35,11 +35,6 @@ Json json_in(const fs::path& file) {
   return Json::parse(stream, nullptr, false);
 }
 
-bool file_exists(const fs::path& file) {
-  std::error_code error;
-  return fs::exists(file, error);
-}
-
 // Whether the files are those of a run: its summary says so, or its experiment where it was killed
 // before there was one.
 bool is_of_a_run(const fs::path& folder) {
@@ -47,10 +42,6 @@ bool is_of_a_run(const fs::path& folder) {
   if (summary.is_object()) return summary.contains("status") && summary.contains("ladder");
   const Json experiment = json_in(folder / "experiment.json");
   return experiment.is_object() && experiment.contains("$run");
-}
-
-[[noreturn]] void refuse(const fs::path& path, const std::string& what) {
-  throw UnusableFolder(path.string() + ": " + what);
 }
 
 std::string new_id() {
@@ -67,11 +58,13 @@ std::vector<fs::path> replaceable(const fs::path& path, bool replace) {
     if (file_exists(path / name)) found.push_back(path / name);
   if (found.empty()) return found;
   if (!is_of_a_run(path))
-    refuse(found.front(), "is there already, and no run wrote it; expected another folder (-o)");
+    refuse_folder(found.front(),
+                  "is there already, and no run wrote it; expected another folder (-o)");
   if (!replace)
-    refuse(path,
-           "there is a run in this folder; expected another folder (-o), --force to replace it, or "
-           "--resume to go on with it");
+    refuse_folder(
+        path,
+        "there is a run in this folder; expected another folder (-o), --force to replace it, or "
+        "--resume to go on with it");
   for (const char* name : kTorn)
     if (file_exists(path / name)) found.push_back(path / name);
   return found;
@@ -81,11 +74,11 @@ void remove_files(const std::vector<fs::path>& files) {
   for (const fs::path& file : files) {
     std::error_code error;
     fs::remove(file, error);
-    if (error) refuse(file, "cannot be replaced: " + error.message());
+    if (error) refuse_folder(file, "cannot be replaced: " + error.message());
   }
 }
 
-constexpr const char* kInUse =
+constexpr const char* kRunIsWritten =
     "another run is being written to this folder; expected another folder (-o)";
 
 }  // namespace
@@ -96,16 +89,17 @@ void RunFolder::check_place(const fs::path& path) {
   while (!file_exists(nearest) && nearest.has_relative_path()) nearest = nearest.parent_path();
   const bool is_there = nearest == fs::absolute(path, error).lexically_normal();
   if (!fs::is_directory(nearest, error))
-    refuse(path, "the folder cannot be made: " +
-                     std::generic_category().message(static_cast<int>(std::errc::not_a_directory)));
+    refuse_folder(
+        path, "the folder cannot be made: " +
+                  std::generic_category().message(static_cast<int>(std::errc::not_a_directory)));
   if (access(nearest.c_str(), W_OK | X_OK) != 0)
-    refuse(path, (is_there ? "cannot be written: " : "the folder cannot be made: ") +
-                     std::generic_category().message(errno));
+    refuse_folder(path, (is_there ? "cannot be written: " : "the folder cannot be made: ") +
+                            std::generic_category().message(errno));
 }
 
 void RunFolder::check(const fs::path& path, ExistingRun existing, const Experiment& experiment) {
   check_place(path);
-  if (is_in_use(path)) refuse(path, kInUse);
+  if (is_in_use(path)) refuse_folder(path, kRunIsWritten);
   if (existing == ExistingRun::resume)
     unfinished_run(path, experiment);
   else
@@ -135,7 +129,7 @@ RunFolder::RunFolder(fs::path path, ExistingRun existing, const Experiment& expe
     lock_.descriptor = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (lock_.descriptor >= 0 && flock(lock_.descriptor, LOCK_EX | LOCK_NB) != 0 &&
         errno == EWOULDBLOCK)
-      refuse(path_, kInUse);
+      refuse_folder(path_, kRunIsWritten);
     if (goes_on)
       run_ = unfinished_run(path_, experiment);
     else

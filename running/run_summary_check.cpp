@@ -27,18 +27,18 @@ Kind satisfying(bool (*holds)(const Json&), std::string_view expected) {
   };
 }
 
-const Kind number =
+const Kind a_number =
     satisfying([](const Json& v) { return v.is_number() || v.is_null(); }, "a number");
-const Kind text = satisfying([](const Json& v) { return v.is_string(); }, "a string");
-const Kind truth = satisfying([](const Json& v) { return v.is_boolean(); }, "true or false");
-const Kind object = satisfying([](const Json& v) { return v.is_object(); }, "an object");
-const Kind array = satisfying([](const Json& v) { return v.is_array(); }, "an array");
+const Kind a_text = satisfying([](const Json& v) { return v.is_string(); }, "a string");
+const Kind a_truth = satisfying([](const Json& v) { return v.is_boolean(); }, "true or false");
+const Kind an_object = satisfying([](const Json& v) { return v.is_object(); }, "an object");
+const Kind an_array = satisfying([](const Json& v) { return v.is_array(); }, "an array");
 const Kind plain = satisfying([](const Json& v) { return !v.is_object(); },
                               "a number, a string, a truth value or an array");
 
-Kind record(const std::vector<Field>& fields) {
+Kind an_object_of(const std::vector<Field>& fields) {
   return [=](const Json& value, const std::string& pointer) -> std::optional<std::string> {
-    if (auto defect = object(value, pointer)) return defect;
+    if (auto defect = an_object(value, pointer)) return defect;
     for (const Field& field : fields) {
       const std::string at = pointer + "/" + std::string(field.name);
       const auto found = value.find(field.name);
@@ -54,7 +54,7 @@ Kind record(const std::vector<Field>& fields) {
 
 Kind dictionary_of(const Kind& kind) {
   return [=](const Json& value, const std::string& pointer) -> std::optional<std::string> {
-    if (auto defect = object(value, pointer)) return defect;
+    if (auto defect = an_object(value, pointer)) return defect;
     for (const auto& [key, entry] : value.items()) {
       if (auto defect = kind(entry, pointer + "/" + key)) return defect;
     }
@@ -64,7 +64,7 @@ Kind dictionary_of(const Kind& kind) {
 
 Kind array_of(const Kind& kind) {
   return [=](const Json& value, const std::string& pointer) -> std::optional<std::string> {
-    if (auto defect = array(value, pointer)) return defect;
+    if (auto defect = an_array(value, pointer)) return defect;
     for (std::size_t i = 0; i < value.size(); ++i) {
       if (auto defect = kind(value[i], pointer + "/" + std::to_string(i))) return defect;
     }
@@ -73,62 +73,65 @@ Kind array_of(const Kind& kind) {
 }
 
 Kind summary_kind() {
-  const Kind level = record({{"k", number, true},
-                             {"dim_S", number},
-                             {"dim_M", number},
-                             {"fibre", number},
-                             {"gap", number},
-                             {"residual", number}});
-  const Kind ladder = record({{"verdict", text, true},
-                              {"index", number},
-                              {"gauge_dimension", number},
-                              {"degrees_of_freedom", number},
-                              {"degrees_of_freedom_up_to_gauge", number},
-                              {"classes", record({{"primary", number, true},
-                                                  {"secondary", number, true},
-                                                  {"first_class", number},
-                                                  {"second_class", number},
-                                                  {"primary_first_class", number},
-                                                  {"ambiguous", truth, true}})},
-                              {"levels", array_of(level), true},
-                              {"moved", number}});
-  const Kind observable = record({{"initial", number},
-                                  {"final", number},
-                                  {"min", number},
-                                  {"max", number},
-                                  {"max_drift", number}});
-  const Kind expectation = record(
-      {{"description", text, true}, {"passed", truth, true}, {"value", plain}, {"bound", plain}});
-  const Kind solver = record({{"iterations_per_step", number},
-                              {"factorizations_per_step", number},
-                              {"failures", number},
-                              {"second_attempts", number},
-                              {"confirmations", number}});
-  return record(
-      {{"id", text},
-       {"status", text, true},
-       {"message", text},
-       {"warnings", array_of(text)},
-       {"title", text},
-       {"system", text, true},
-       {"method", text, true},
-       {"steps", number, true},
-       {"time", record({{"start", number}, {"end", number}, {"step", number}})},
-       {"final", dictionary_of(number)},
+  const Kind level = an_object_of({{"k", a_number, true},
+                                   {"dim_S", a_number},
+                                   {"dim_M", a_number},
+                                   {"fibre", a_number},
+                                   {"gap", a_number},
+                                   {"residual", a_number}});
+  const Kind ladder = an_object_of({{"verdict", a_text, true},
+                                    {"index", a_number},
+                                    {"gauge_dimension", a_number},
+                                    {"degrees_of_freedom", a_number},
+                                    {"degrees_of_freedom_up_to_gauge", a_number},
+                                    {"classes", an_object_of({{"primary", a_number, true},
+                                                              {"secondary", a_number, true},
+                                                              {"first_class", a_number},
+                                                              {"second_class", a_number},
+                                                              {"primary_first_class", a_number},
+                                                              {"ambiguous", a_truth, true}})},
+                                    {"levels", array_of(level), true},
+                                    {"moved", a_number}});
+  const Kind observable = an_object_of({{"initial", a_number},
+                                        {"final", a_number},
+                                        {"min", a_number},
+                                        {"max", a_number},
+                                        {"max_drift", a_number}});
+  const Kind expectation = an_object_of({{"description", a_text, true},
+                                         {"passed", a_truth, true},
+                                         {"value", plain},
+                                         {"bound", plain}});
+  const Kind solver = an_object_of({{"iterations_per_step", a_number},
+                                    {"factorizations_per_step", a_number},
+                                    {"failures", a_number},
+                                    {"second_attempts", a_number},
+                                    {"confirmations", a_number}});
+  return an_object_of(
+      {{"id", a_text},
+       {"status", a_text, true},
+       {"message", a_text},
+       {"warnings", array_of(a_text)},
+       {"title", a_text},
+       {"system", a_text, true},
+       {"method", a_text, true},
+       {"steps", a_number, true},
+       {"time", an_object_of({{"start", a_number}, {"end", a_number}, {"step", a_number}})},
+       {"final", dictionary_of(a_number)},
        {"observables", dictionary_of(observable)},
-       {"symmetries", dictionary_of(record({{"conserved", truth, true}, {"remark", text}}))},
-       {"constraints", record({{"max_violation", number}})},
-       {"power_balance", record({{"supplied", dictionary_of(number)},
-                                 {"dissipated", dictionary_of(number)},
-                                 {"stored", number},
-                                 {"max_balance", number},
-                                 {"max_imbalance", number}})},
+       {"symmetries",
+        dictionary_of(an_object_of({{"conserved", a_truth, true}, {"remark", a_text}}))},
+       {"constraints", an_object_of({{"max_violation", a_number}})},
+       {"power_balance", an_object_of({{"supplied", dictionary_of(a_number)},
+                                       {"dissipated", dictionary_of(a_number)},
+                                       {"stored", a_number},
+                                       {"max_balance", a_number},
+                                       {"max_imbalance", a_number}})},
        {"ladder", ladder},
        {"expectations", array_of(expectation)},
        {"solver", solver},
-       {"backend", text},
-       {"wall_seconds", number},
-       {"steps_per_second", number}});
+       {"backend", a_text},
+       {"wall_seconds", a_number},
+       {"steps_per_second", a_number}});
 }
 
 }  // namespace

@@ -42,9 +42,9 @@ SolverStatistics operator+(const SolverStatistics& a, const SolverStatistics& b)
 
 double per(double amount, double count) { return count > 0.0 ? amount / count : 0.0; }
 
-class Run {
+class RunUnderway {
  public:
-  Run(const Experiment& experiment, const RunOptions& options)
+  RunUnderway(const Experiment& experiment, const RunOptions& options)
       : experiment_(experiment),
         options_(options),
         ladder_(consistent_start(experiment)),
@@ -503,7 +503,7 @@ bool RunOutcome::as_expected() const {
 
 RunOutcome run(const Experiment& experiment, const RunOptions& options) {
   RunFolder::check(options.folder, options.existing, experiment);
-  return Run(experiment, options)();
+  return RunUnderway(experiment, options)();
 }
 
 }  // namespace courant

@@ -34,9 +34,9 @@ struct Flight {
 };
 
 // Where and how a subject starts, and which of its quantities are looked at.
-class Problem {
+class StudiedProblem {
  public:
-  Problem(const StudySubject& subject, const StudyOptions& options)
+  StudiedProblem(const StudySubject& subject, const StudyOptions& options)
       : subject_(subject),
         options_(options),
         ladder_(consistent_start(experiment())),
@@ -172,7 +172,7 @@ MethodChoice dormand_prince() {
 
 // Runs at ever shorter steps, until that changes the values no more than round-off does: of all,
 // the one that differs least from the one before, by which it may be off.
-Truth by_run(Problem& problem, const StudyOptions& options) {
+Truth by_run(StudiedProblem& problem, const StudyOptions& options) {
   constexpr double enough = 1e-14, small = 1e-10;  // of the size of the values
   constexpr long most_steps = 2'000'000;           // of the last run
   const Experiment& experiment = problem.experiment();
@@ -213,13 +213,13 @@ Truth by_run(Problem& problem, const StudyOptions& options) {
   return best;
 }
 
-Truth reference_for(Problem& problem, const StudyOptions& options) {
+Truth reference_for(StudiedProblem& problem, const StudyOptions& options) {
   if (problem.has_closed_form()) return {"closed form", 0.0, {}};
   return by_run(problem, options);
 }
 
 // A run at one step size, made again where it is too short for a clock.
-Flight timed(const Problem& problem, long parts) {
+Flight timed(const StudiedProblem& problem, long parts) {
   constexpr double long_enough = 0.02;  // seconds
   constexpr int most = 5;
   const MethodChoice& method = *problem.experiment().method;
@@ -265,9 +265,9 @@ std::string remark_on(const std::vector<Row>& rows, const std::optional<double>&
   return "";
 }
 
-Json known(double value) { return std::isnan(value) ? Json() : Json(value); }
+Json known_or_null(double value) { return std::isnan(value) ? Json() : Json(value); }
 
-Json method_json(const StudySubject& subject, const Problem& problem, const Truth& reference,
+Json method_json(const StudySubject& subject, const StudiedProblem& problem, const Truth& reference,
                  const std::vector<Row>& rows, double size) {
   const double floor = std::max(10.0 * reference.error, 1e-12 * size);
   const std::optional<double> order = fitted_order(rows, floor);
@@ -284,13 +284,13 @@ Json method_json(const StudySubject& subject, const Problem& problem, const Trut
     const bool comparable = i > 0 && rows[i - 1].error > floor && row.error > floor;
     json["rows"].push_back({{"step", row.step},
                             {"steps", row.steps},
-                            {"error", known(row.error)},
+                            {"error", known_or_null(row.error)},
                             {"order", comparable ? Json(std::log(rows[i - 1].error / row.error) /
                                                         std::log(rows[i - 1].step / row.step))
                                                  : Json()},
                             {"iterations", row.iterations},
                             {"factorizations", row.factorizations},
-                            {"seconds", known(row.seconds)},
+                            {"seconds", known_or_null(row.seconds)},
                             {"message", row.message}});
   }
   return json;
@@ -306,7 +306,7 @@ std::string problem_of(const Experiment& experiment) {
 
 Json study_of(const StudySubject& subject, const StudyOptions& options,
               std::map<std::string, Truth>& references) {
-  Problem problem(subject, options);
+  StudiedProblem problem(subject, options);
   const std::string key = problem_of(subject.experiment);
   if (!references.contains(key)) references[key] = reference_for(problem, options);
   const Truth& reference = references[key];

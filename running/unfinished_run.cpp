@@ -12,42 +12,33 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const fs::path& path, const std::string& what) {
-  throw UnusableFolder(path.string() + ": " + what);
-}
-
-bool file_exists(const fs::path& file) {
-  std::error_code error;
-  return fs::exists(file, error);
-}
-
 void check_unfinished(const fs::path& folder, const std::string& id, const Experiment& experiment) {
   const fs::path file = folder / "summary.json";
   if (!file_exists(file)) return;  // killed before there was one
   const RunSummary summary = read_summary(file);
   if (!summary.id.empty() && summary.id != id)
-    refuse(file, "is of another run than experiment.json");
+    refuse_folder(file, "is of another run than experiment.json");
   if (summary.status != RunStatus::completed && summary.status != RunStatus::not_finite) return;
-  if (!experiment.time) refuse(folder, "the run is complete");
+  if (!experiment.time) refuse_folder(folder, "the run is complete");
   if (experiment.time->steps <= summary.steps)
-    refuse(folder,
-           "the run is complete up to t = " + exact_text(experiment.time->time(summary.steps)) +
-               "; expected a later /time/end to go on to");
+    refuse_folder(folder, "the run is complete up to t = " +
+                              exact_text(experiment.time->time(summary.steps)) +
+                              "; expected a later /time/end to go on to");
 }
 
 void check_size(const fs::path& file, std::uintmax_t expected) {
   std::error_code error;
   const std::uintmax_t size = fs::file_size(file, error);
-  if (error) refuse(file, "cannot be read: " + error.message());
+  if (error) refuse_folder(file, "cannot be read: " + error.message());
   if (size < expected)
-    refuse(file, "has " + std::to_string(size) + " bytes, expected at least the " +
-                     std::to_string(expected) + " that the run wrote");
+    refuse_folder(file, "has " + std::to_string(size) + " bytes, expected at least the " +
+                            std::to_string(expected) + " that the run wrote");
 }
 
 void check_checkpoint(const fs::path& folder, const std::string& id, const Experiment& experiment,
                       const Checkpoint& checkpoint) {
   if (checkpoint.run != id)
-    refuse(folder / "checkpoint.json", "is of another run than experiment.json");
+    refuse_folder(folder / "checkpoint.json", "is of another run than experiment.json");
   const TimeSpan& time = *experiment.time;
   if (checkpoint.k >= time.steps)
     throw ExperimentError("/time/end",
@@ -59,12 +50,21 @@ void check_checkpoint(const fs::path& folder, const std::string& id, const Exper
 
 }  // namespace
 
+void refuse_folder(const fs::path& path, const std::string& what) {
+  throw UnusableFolder(path.string() + ": " + what);
+}
+
+bool file_exists(const fs::path& file) {
+  std::error_code error;
+  return fs::exists(file, error);
+}
+
 UnfinishedRun unfinished_run(const fs::path& folder, const Experiment& experiment) {
   const fs::path begun_with = folder / "experiment.json", file = folder / "checkpoint.json";
   try {
     const Json begun = file_exists(begun_with) ? read_json(begun_with) : Json();
     const Json id = begun.is_object() ? begun.value("$run", Json()) : Json();
-    if (!id.is_string()) refuse(folder, "there is no run in this folder that could go on");
+    if (!id.is_string()) refuse_folder(folder, "there is no run in this folder that could go on");
     UnfinishedRun run{.id = id.get<std::string>(), .checkpoint = {}};
     if (auto changes = experiment_changes(begun, experiment.document); !changes.empty())
       throw ExperimentError(std::move(changes));

@@ -17,6 +17,12 @@ class UnusableFolder : public OutputError {
   using OutputError::OutputError;
 };
 
+// Throws UnusableFolder with the path in front.
+[[noreturn]] void refuse_folder(const std::filesystem::path& path, const std::string& what);
+
+// Whether the file is there, as far as one may see.
+bool file_exists(const std::filesystem::path& file);
+
 struct UnfinishedRun {
   std::string id;
   std::optional<Checkpoint> checkpoint;  // nothing: from the start, no epoch was reached

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "courant/core/expr_vectors.hpp"
+#include "courant/core/message.hpp"
 #include "courant/core/rank_decision.hpp"
 #include "courant/manifolds/product.hpp"
 
@@ -45,10 +46,9 @@ Joint::Joint(std::vector<Index> ports, MatrixXd F, MatrixXd E)
     : ports_(std::move(ports)), F_(std::move(F)), E_(std::move(E)) {
   const Index p = std::ssize(ports_);
   if (F_.rows() != p || F_.cols() != p || E_.rows() != p || E_.cols() != p)
-    throw std::invalid_argument("Joint: F is " + std::to_string(F_.rows()) + " × " +
-                                std::to_string(F_.cols()) + " and E " + std::to_string(E_.rows()) +
-                                " × " + std::to_string(E_.cols()) + "; expected both " +
-                                std::to_string(p) + " × " + std::to_string(p) + " for the ports.");
+    throw std::invalid_argument("Joint: F is " + size_text(F_.rows(), F_.cols()) + " and E " +
+                                size_text(E_.rows(), E_.cols()) + "; expected both " +
+                                size_text(p, p) + " for the ports.");
   if (std::set<Index>(ports_.begin(), ports_.end()).size() != ports_.size())
     throw std::invalid_argument("Joint: a port is there twice; expected each once.");
   if (p == 0) return;

@@ -8,12 +8,12 @@
 #include <iterator>
 #include <utility>
 
+#include "courant/core/as_size.hpp"
+
 namespace courant {
 namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
-
-std::size_t at(Index index) { return static_cast<std::size_t>(index); }
 
 SparseMatrixXd sparse(Index rows, Index columns, const Triplets& triplets) {
   SparseMatrixXd matrix(rows, columns);
@@ -48,7 +48,7 @@ struct InForest {
   const std::vector<bool>* in_forest = nullptr;
 
   bool operator()(const SkeletonEdge& edge) const {
-    return (*in_forest)[at((*skeleton)[edge].element)];
+    return (*in_forest)[as_size((*skeleton)[edge].element)];
   }
 };
 
@@ -76,7 +76,7 @@ SparseMatrixXd selection(const std::vector<Index>& indices, Index n) {
   SparseMatrixXd result(n, static_cast<Index>(indices.size()));
   for (Index k = 0; k < result.cols(); ++k) {
     result.startVec(k);
-    result.insertBack(indices[at(k)], k) = 1.0;
+    result.insertBack(indices[as_size(k)], k) = 1.0;
   }
   result.finalize();
   return result;
@@ -117,23 +117,23 @@ Kirchhoff::Kirchhoff(const CircuitGraph& graph)
   std::vector<SkeletonEdge> forest;
   boost::kruskal_minimum_spanning_tree(skeleton, std::back_inserter(forest),
                                        boost::weight_map(get(&Connection::weight, skeleton)));
-  for (const SkeletonEdge& edge : forest) in_forest[at(skeleton[edge].element)] = true;
+  for (const SkeletonEdge& edge : forest) in_forest[as_size(skeleton[edge].element)] = true;
   for (Index element = 0; element < element_count(); ++element) {
-    (in_forest[at(element)] ? tree_ : links_).push_back(element);
+    (in_forest[as_size(element)] ? tree_ : links_).push_back(element);
   }
 
-  parent_.resize(at(node_count_));
-  parent_element_.resize(at(node_count_), -1);
-  depth_.resize(at(node_count_), 0);
+  parent_.resize(as_size(node_count_));
+  parent_element_.resize(as_size(node_count_), -1);
+  depth_.resize(as_size(node_count_), 0);
   const boost::filtered_graph<Skeleton, InForest> trees(skeleton, InForest{&skeleton, &in_forest});
-  std::vector<boost::default_color_type> color(at(node_count_), boost::white_color);
+  std::vector<boost::default_color_type> color(as_size(node_count_), boost::white_color);
   for (Index node = 0; node < node_count_; ++node) {
-    if (color[at(node)] != boost::white_color) continue;
+    if (color[as_size(node)] != boost::white_color) continue;
     roots_.push_back(node);
-    parent_[at(node)] = node;
+    parent_[as_size(node)] = node;
     boost::queue<std::size_t> queue;
     boost::breadth_first_visit(
-        trees, at(node), queue, RecordWayBack(parent_, parent_element_, depth_),
+        trees, as_size(node), queue, RecordWayBack(parent_, parent_element_, depth_),
         boost::make_iterator_property_map(color.begin(), get(boost::vertex_index, trees)));
   }
 }
@@ -142,10 +142,10 @@ SparseMatrixXd Kirchhoff::incidence() const {
   Triplets triplets;
   triplets.reserve(2 * source_.size());
   for (Index element = 0; element < element_count(); ++element) {
-    if (source_[at(element)] == target_[at(element)])
+    if (source_[as_size(element)] == target_[as_size(element)])
       continue;  // what enters a node also leaves it
-    add(triplets, source_[at(element)], element, 1.0);
-    add(triplets, target_[at(element)], element, -1.0);
+    add(triplets, source_[as_size(element)], element, 1.0);
+    add(triplets, target_[as_size(element)], element, -1.0);
   }
   return sparse(node_count_, element_count(), triplets);
 }
@@ -153,7 +153,7 @@ SparseMatrixXd Kirchhoff::incidence() const {
 SparseMatrixXd Kirchhoff::reduced_incidence() const {
   std::vector<Index> kept;
   for (Index node = 0; node < node_count_; ++node) {
-    if (parent_[at(node)] != node) kept.push_back(node);
+    if (parent_[as_size(node)] != node) kept.push_back(node);
   }
   return selection(kept, node_count_).transpose() * incidence();
 }
@@ -164,18 +164,18 @@ SparseMatrixXd Kirchhoff::loops() const {
   SparseMatrixXd result(element_count(), static_cast<Index>(links_.size()));
   std::vector<std::pair<Index, double>> loop;
   for (Index column = 0; column < result.cols(); ++column) {
-    const Index link = links_[at(column)];
+    const Index link = links_[as_size(column)];
     loop.assign(1, {link, 1.0});
-    Index a = source_[at(link)], b = target_[at(link)];
+    Index a = source_[as_size(link)], b = target_[as_size(link)];
     while (a != b) {
-      if (depth_[at(b)] >= depth_[at(a)]) {  // up from b
-        const Index element = parent_element_[at(b)];
-        loop.emplace_back(element, source_[at(element)] == b ? 1.0 : -1.0);
-        b = parent_[at(b)];
+      if (depth_[as_size(b)] >= depth_[as_size(a)]) {  // up from b
+        const Index element = parent_element_[as_size(b)];
+        loop.emplace_back(element, source_[as_size(element)] == b ? 1.0 : -1.0);
+        b = parent_[as_size(b)];
       } else {  // down to a
-        const Index element = parent_element_[at(a)];
-        loop.emplace_back(element, target_[at(element)] == a ? 1.0 : -1.0);
-        a = parent_[at(a)];
+        const Index element = parent_element_[as_size(a)];
+        loop.emplace_back(element, target_[as_size(element)] == a ? 1.0 : -1.0);
+        a = parent_[as_size(a)];
       }
     }
     std::ranges::sort(loop);
@@ -197,9 +197,10 @@ SparseMatrixXd Kirchhoff::cut_sets() const {
 SparseMatrixXd Kirchhoff::potentials() const {
   Triplets triplets;
   for (Index node = 0; node < node_count_; ++node) {
-    for (Index at_node = node; parent_[at(at_node)] != at_node; at_node = parent_[at(at_node)]) {
-      const Index element = parent_element_[at(at_node)];
-      add(triplets, node, element, source_[at(element)] == at_node ? 1.0 : -1.0);
+    for (Index at_node = node; parent_[as_size(at_node)] != at_node;
+         at_node = parent_[as_size(at_node)]) {
+      const Index element = parent_element_[as_size(at_node)];
+      add(triplets, node, element, source_[as_size(element)] == at_node ? 1.0 : -1.0);
     }
   }
   return sparse(node_count_, element_count(), triplets);

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
+#include "courant/core/as_size.hpp"
+
 namespace courant {
 namespace {
-
-std::size_t at(Index index) { return static_cast<std::size_t>(index); }
 
 double largest(const SparseMatrixXd& matrix) {
   double result = 0.0;
@@ -40,23 +40,23 @@ SparseMatrixXd columns(const SparseMatrixXd& A, const std::vector<Index>& of_A,
 // hence regular if square.
 Index columns_after_peeling(const SparseMatrixXd& matrix) {
   const SparseMatrixXd by_row = matrix.transpose();
-  std::vector<Index> entries(at(matrix.rows()), 0);
-  std::vector<bool> taken(at(matrix.cols()), false);
+  std::vector<Index> entries(as_size(matrix.rows()), 0);
+  std::vector<bool> taken(as_size(matrix.cols()), false);
   std::vector<Index> single;
   for (Index row = 0; row < matrix.rows(); ++row) {
-    entries[at(row)] = by_row.col(row).nonZeros();
-    if (entries[at(row)] == 1) single.push_back(row);
+    entries[as_size(row)] = by_row.col(row).nonZeros();
+    if (entries[as_size(row)] == 1) single.push_back(row);
   }
   Index remaining = matrix.cols();
   while (!single.empty()) {
     const Index row = single.back();
     single.pop_back();
     for (SparseMatrixXd::InnerIterator pivot(by_row, row); pivot; ++pivot) {
-      if (taken[at(pivot.row())]) continue;
-      taken[at(pivot.row())] = true;
+      if (taken[as_size(pivot.row())]) continue;
+      taken[as_size(pivot.row())] = true;
       --remaining;
       for (SparseMatrixXd::InnerIterator it(matrix, pivot.row()); it; ++it) {
-        if (--entries[at(it.row())] == 1) single.push_back(it.row());
+        if (--entries[as_size(it.row())] == 1) single.push_back(it.row());
       }
     }
   }

@@ -39,8 +39,7 @@ LieAlgebra::LieAlgebra(std::string name, std::vector<MatrixXd> constants)
   for (const MatrixXd& c : constants_)
     if (c.rows() != n || c.cols() != n)
       throw std::invalid_argument("LieAlgebra: a matrix of constants is " +
-                                  std::to_string(c.rows()) + " × " + std::to_string(c.cols()) +
-                                  "; expected " + std::to_string(n) + " × " + std::to_string(n) +
+                                  size_text(c.rows(), c.cols()) + "; expected " + size_text(n, n) +
                                   ".");
   const double size = largest(constants_), bound = 1e-12 * size;
   for (const MatrixXd& c : constants_)

@@ -9,16 +9,13 @@
 #include <vector>
 
 #include "courant/core/lu_decomposition.hpp"
+#include "courant/core/message.hpp"
 #include "courant/core/qr_decomposition.hpp"
 #include "courant/core/singular_value_decomposition.hpp"
 #include "courant/structures/blocks.hpp"
 
 namespace courant {
 namespace {
-
-std::string size(const Eigen::Ref<const MatrixXd>& matrix) {
-  return std::to_string(matrix.rows()) + " × " + std::to_string(matrix.cols());
-}
 
 std::string number(double value) {
   std::ostringstream text;
@@ -30,8 +27,9 @@ std::string number(double value) {
 void require_size(const std::string& name, const Eigen::Ref<const MatrixXd>& matrix, Index rows,
                   Index columns) {
   if (matrix.rows() == rows && matrix.cols() == columns) return;
-  throw std::invalid_argument("LinearDirac: " + name + " is " + size(matrix) + "; expected " +
-                              std::to_string(rows) + " × " + std::to_string(columns) + ".");
+  throw std::invalid_argument("LinearDirac: " + name + " is " +
+                              size_text(matrix.rows(), matrix.cols()) + "; expected " +
+                              size_text(rows, columns) + ".");
 }
 
 MatrixXd skew_part(const MatrixXd& matrix) { return 0.5 * (matrix - matrix.transpose()); }

@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "courant/core/expr_vectors.hpp"
+#include "courant/core/message.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/product.hpp"
 #include "courant/structures/closed_port_hamiltonian.hpp"
@@ -29,9 +30,8 @@ ExprMatrix at(const MatrixField& field, const ExprVector& x, Index rows, Index c
   ExprMatrix value = field(x);
   if (value.rows() == rows && value.cols() == columns) return value;
   throw std::invalid_argument(name + "::membership: " + matrix + " is " +
-                              std::to_string(value.rows()) + " × " + std::to_string(value.cols()) +
-                              "; expected " + std::to_string(rows) + " × " +
-                              std::to_string(columns) + ".");
+                              size_text(value.rows(), value.cols()) + "; expected " +
+                              size_text(rows, columns) + ".");
 }
 
 // v = Λ α + X λ, Xᵀα = 0, as a residual.

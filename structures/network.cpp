@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "courant/core/as_size.hpp"
 #include "courant/core/derivative.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/structures/kirchhoff.hpp"
@@ -14,8 +15,6 @@ namespace {
 
 using Kind = NetworkBranch::Kind;
 using Role = NetworkBranch::Role;
-
-std::size_t at(Index index) { return static_cast<std::size_t>(index); }
 
 bool has_state(const NetworkBranch& branch) {
   return branch.kind == Kind::charge || branch.kind == Kind::flux;
@@ -62,7 +61,7 @@ std::vector<NetworkBranch> named(std::vector<NetworkBranch> branches) {
 
 std::unique_ptr<const Kirchhoff> kirchhoff(Index node_count,
                                            const std::vector<NetworkBranch>& branches) {
-  CircuitGraph graph(at(node_count));
+  CircuitGraph graph(as_size(node_count));
   for (const NetworkBranch& branch : branches) {
     if (std::min(branch.from, branch.to) < 0 || std::max(branch.from, branch.to) >= node_count)
       throw std::invalid_argument("Network::Network: the branch \"" + branch.name +
@@ -72,7 +71,8 @@ std::unique_ptr<const Kirchhoff> kirchhoff(Index node_count,
     if (!has_state(branch) && !is_port(branch) && !branch.law)
       throw std::invalid_argument("Network::Network: the branch \"" + branch.name +
                                   "\" has no law, expected one for what is no charge or flux.");
-    add_edge(at(branch.from), at(branch.to), CircuitElement{branch.name, weight(branch)}, graph);
+    add_edge(as_size(branch.from), as_size(branch.to), CircuitElement{branch.name, weight(branch)},
+             graph);
   }
   return std::make_unique<const Kirchhoff>(graph);
 }
@@ -107,16 +107,18 @@ ImplicitSystem::Names names_of(const std::vector<NetworkBranch>& branches,
   for (Index row = 0; row < M.cols(); ++row) {
     std::vector<std::pair<double, std::string>> terms;
     for (SparseMatrixXd::InnerIterator it(M, row); it; ++it)
-      terms.emplace_back(it.value(), it.row() < inner
-                                         ? branches[at(tree[at(it.row())])].voltage_name
-                                         : branches[at(links[at(it.row() - inner)])].current_name);
-    names.equations.push_back(sum(row < inner ? branches[at(tree[at(row)])].current_name
-                                              : branches[at(links[at(row - inner)])].voltage_name,
+      terms.emplace_back(it.value(),
+                         it.row() < inner
+                             ? branches[as_size(tree[as_size(it.row())])].voltage_name
+                             : branches[as_size(links[as_size(it.row() - inner)])].current_name);
+    names.equations.push_back(sum(row < inner
+                                      ? branches[as_size(tree[as_size(row)])].current_name
+                                      : branches[as_size(links[as_size(row - inner)])].voltage_name,
                                   terms));
   }
   for (const Index port : ports_of(branches)) {
-    names.auxiliary.push_back("u_" + branches[at(port)].name);
-    names.equations.push_back("0 = y_" + branches[at(port)].name);
+    names.auxiliary.push_back("u_" + branches[as_size(port)].name);
+    names.equations.push_back("0 = y_" + branches[as_size(port)].name);
   }
   return names;
 }
@@ -138,8 +140,8 @@ class Evaluation final : public NetworkVariables {
   Evaluation(const std::vector<NetworkBranch>& branches, const ExprVector& x, const Expr& t)
       : branches_(branches), x_(x), t_(t), known_(branches.size()) {}
 
-  void set_current(Index branch, const Expr& value) { known_[at(branch)].current = value; }
-  void set_voltage(Index branch, const Expr& value) { known_[at(branch)].voltage = value; }
+  void set_current(Index branch, const Expr& value) { known_[as_size(branch)].current = value; }
+  void set_voltage(Index branch, const Expr& value) { known_[as_size(branch)].voltage = value; }
 
   Expr current(Index branch) const override { return of(branch, &Known::current); }
   Expr voltage(Index branch) const override { return of(branch, &Known::voltage); }
@@ -153,14 +155,14 @@ class Evaluation final : public NetworkVariables {
   };
 
   Expr of(Index branch, std::optional<Expr> Known::*variable) const {
-    Known& known = known_.at(at(branch));
+    Known& known = known_.at(as_size(branch));
     if (!(known.*variable)) {
       if (known.asked)
         throw std::invalid_argument("Network::Network: the law of the branch \"" +
-                                    branches_[at(branch)].name +
+                                    branches_[as_size(branch)].name +
                                     "\" needs its own result, expected none in a circle.");
       known.asked = true;
-      known.*variable = branches_[at(branch)].law(*this);
+      known.*variable = branches_[as_size(branch)].law(*this);
     }
     return *(known.*variable);
   }
@@ -225,8 +227,8 @@ Network::Ports Network::ports(const ExprVector& x, const ExprVector& velocity,
   Evaluation evaluation(branches_, x, t);
   const auto count = static_cast<Index>(branches_.size());
   for (Index k = 0; k < count; ++k) {
-    const NetworkBranch& branch = branches_[at(k)];
-    const Index place = place_[at(k)];
+    const NetworkBranch& branch = branches_[as_size(k)];
+    const Index place = place_[as_size(k)];
     switch (branch.kind) {
       case Kind::charge:
         evaluation.set_current(k, velocity[place]);
@@ -246,7 +248,7 @@ Network::Ports Network::ports(const ExprVector& x, const ExprVector& velocity,
   }
   for (std::size_t a = 0; a < ports_.size(); ++a) {
     const Expr u = z[inputs()[a]];
-    if (branches_[at(ports_[a])].kind == Kind::current)
+    if (branches_[as_size(ports_[a])].kind == Kind::current)
       evaluation.set_voltage(ports_[a], u);
     else
       evaluation.set_current(ports_[a], -u);
@@ -281,13 +283,14 @@ Expr Network::supplied_power(const Ports& ports) const {
 }
 
 Index Network::charge_loop_count() const {
-  return std::count_if(kirchhoff_->links().begin(), kirchhoff_->links().end(),
-                       [&](Index branch) { return branches_[at(branch)].kind == Kind::charge; });
+  return std::count_if(kirchhoff_->links().begin(), kirchhoff_->links().end(), [&](Index branch) {
+    return branches_[as_size(branch)].kind == Kind::charge;
+  });
 }
 
 Index Network::flux_cut_set_count() const {
   return std::count_if(kirchhoff_->tree().begin(), kirchhoff_->tree().end(),
-                       [&](Index branch) { return branches_[at(branch)].kind == Kind::flux; });
+                       [&](Index branch) { return branches_[as_size(branch)].kind == Kind::flux; });
 }
 
 EnergySystem::Powers Network::do_inner_powers(const ExprVector& x, const ExprVector& v,
@@ -311,9 +314,9 @@ bool Network::do_is_free(Index) const { return true; }
 ExprVector Network::do_output(const ExprVector&, const ExprVector&, const ExprVector& z) const {
   ExprVector y(port_count());
   for (Index a = 0; a < y.size(); ++a) {
-    const Index port = ports_[at(a)];
-    const Expr& own = z[place_[at(port)]];
-    y[a] = branches_[at(port)].kind == Kind::current ? -own : own;
+    const Index port = ports_[as_size(a)];
+    const Expr& own = z[place_[as_size(port)]];
+    y[a] = branches_[as_size(port)].kind == Kind::current ? -own : own;
   }
   return y;
 }
@@ -331,12 +334,12 @@ ExprVector Network::do_inner_equations(const ExprVector& x, const ExprVector& v,
   const auto inner = static_cast<Index>(tree.size());
   ExprVector residual(std::ssize(branches_)), input(std::ssize(branches_));
   for (Index k = 0; k < inner; ++k) {
-    residual[k] = all.current[tree[at(k)]];
-    input[k] = all.voltage[tree[at(k)]];
+    residual[k] = all.current[tree[as_size(k)]];
+    input[k] = all.voltage[tree[as_size(k)]];
   }
   for (Index k = inner; k < residual.size(); ++k) {
-    residual[k] = all.voltage[links[at(k - inner)]];
-    input[k] = all.current[links[at(k - inner)]];
+    residual[k] = all.voltage[links[as_size(k - inner)]];
+    input[k] = all.current[links[as_size(k - inner)]];
   }
   for (Index column = 0; column < M_.outerSize(); ++column)
     for (SparseMatrixXd::InnerIterator it(M_, column); it; ++it)

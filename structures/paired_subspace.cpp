@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "courant/core/message.hpp"
 #include "courant/core/singular_value_decomposition.hpp"
 #include "courant/structures/blocks.hpp"
 
@@ -19,7 +20,7 @@ void require(bool condition, const std::string& function, const std::string& pro
 }
 
 std::string size(const Eigen::Ref<const MatrixXd>& matrix) {
-  return std::to_string(matrix.rows()) + " × " + std::to_string(matrix.cols());
+  return size_text(matrix.rows(), matrix.cols());
 }
 
 double spectral_norm(const MatrixXd& matrix) {

@@ -71,7 +71,7 @@ struct Sum {
 // Relative sizes of what is no invariance: rounding of sums of some hundred terms is 1e-14.
 constexpr double kBound = 1e-9;
 // A sum that is nothing but round-off of the energy is no change of it.
-constexpr double kRoundOff = 1e-14;
+constexpr double kEnergyRoundOff = 1e-14;
 
 // The measured functions of (x, λ, t), and the points where they are measured.
 class Measurement {
@@ -103,7 +103,7 @@ class Measurement {
 
     Sum energy;
     energy.add(alpha, X);
-    energy.size += kRoundOff / kBound * abs(system.family()->value(x, lambda, t[0]));
+    energy.size += kEnergyRoundOff / kBound * abs(system.family()->value(x, lambda, t[0]));
     add(energy);
 
     const auto equations = static_cast<std::size_t>(system.structure()->equation_count());

@@ -25,9 +25,9 @@ bool is_number(const std::string& text) {
 }
 
 // Equations on the way to their reduced form.
-class Elimination {
+class EquationReduction {
  public:
-  Elimination(const ImplicitSystem& system, const State& point)
+  EquationReduction(const ImplicitSystem& system, const State& point)
       : point_(point), x_(named(graph_, system.names().coordinates)), t_(graph_.variable("t")) {
     const ExprVector v = named(graph_, velocity_names(system));
     const ExprVector z = named(graph_, system.names().auxiliary);
@@ -274,7 +274,7 @@ class Derivation {
   }
 
   const ConstraintLadder& ladder_;
-  Elimination elimination_;
+  EquationReduction elimination_;
   MatrixXd known_;           // orthonormal: the gradients so far
   std::vector<Expr> found_;  // constraints of this level
   std::vector<bool> is_told_;

@@ -76,7 +76,7 @@ SparseEntries errors(const UncertainRow& row) {
 }
 
 // The matrix while it is reduced.
-class Elimination {
+class RowElimination {
  public:
   struct Working {
     RowReduction::Row row;  // without entries
@@ -85,8 +85,8 @@ class Elimination {
     bool done = false;
   };
 
-  Elimination(const UncertainMatrix& A, const std::vector<Index>& row_level,
-              const std::vector<Index>& column_group)
+  RowElimination(const UncertainMatrix& A, const std::vector<Index>& row_level,
+                 const std::vector<Index>& column_group)
       : column_group_(column_group),
         rows_(static_cast<std::size_t>(A.rows())),
         rows_of_column_(static_cast<std::size_t>(A.cols())) {
@@ -235,9 +235,9 @@ RowReduction::RowReduction(const UncertainMatrix& A, const std::vector<Index>& r
   for (std::size_t i = 0; i < row_level.size(); ++i)
     rows_of_level[static_cast<std::size_t>(row_level[i])].push_back(static_cast<Index>(i));
 
-  Elimination elimination(A, row_level, column_group);
+  RowElimination elimination(A, row_level, column_group);
   for (Index g = 0; g < groups; ++g) {
-    std::vector<const Elimination::Working*> found;
+    std::vector<const RowElimination::Working*> found;
     for (const std::vector<Index>& candidates : rows_of_level)
       elimination.eliminate(g, candidates, found);
     std::vector<Row>& rows = groups_.emplace_back();

@@ -16,7 +16,7 @@
 namespace courant {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 // A nonlinear vector field on M that depends on time, f(x, t) = Π(x) A sin(x + b + c t), one step
 // of a discretization map on it, from t = 0, and its flow by the classical Runge–Kutta method on ẋ
@@ -223,7 +223,7 @@ class DiscretizationMapLaws {
               const double far = (values(v) - w).norm() / (length + 1e-12);
               return (M_.separation(x0, s.x) + M_.separation(x1, values(end))) /
                          (1.0 + s.x.norm()) +
-                     (length < 1e-2 && far > 0.1 * (1.0 + s.x.norm()) ? kInfinity : 0.0);
+                     (length < 1e-2 && far > 0.1 * (1.0 + s.x.norm()) ? kUnbounded : 0.0);
             },
             describe("x₀", s.x) + ", ‖w‖ = " + number_text(length));
     return measured.result();
@@ -289,7 +289,7 @@ class DiscretizationMapLaws {
   LawResult symmetry() const {
     if (!map_.is_symmetric())
       return not_claimed("D4 not symmetric, as said", [&] {
-        double largest = M_.dimension() == 0 ? kInfinity : 0.0;
+        double largest = M_.dimension() == 0 ? kUnbounded : 0.0;
         for_vectors(samples_, [&](const LawSample& s, const VectorXd& v) {
           largest = std::max(largest, asymmetry(s.x, v));
         });
@@ -332,7 +332,7 @@ class DiscretizationMapLaws {
     auto measured = law("D7 left invariant, as said: R_d(g x, v) = g R_d(x, v)", 1e-10);
     const auto unit = M_.unit();
     if (!unit) {
-      measured.add(kInfinity, M_.name() + " is no group with left-trivialised vectors");
+      measured.add(kUnbounded, M_.name() + " is no group with left-trivialised vectors");
       return measured.result();
     }
     const auto seen_from = [&](const VectorXd& x, const VectorXd& v) {
@@ -362,7 +362,7 @@ class DiscretizationMapLaws {
   LawResult symplectic() {
     if (!symplecticity_) {
       auto measured = law("D4 is_symplectic() is claimed off a cotangent bundle", 0.0);
-      measured.add(kInfinity, M_.name());
+      measured.add(kUnbounded, M_.name());
       return measured.result();
     }
     if (!*map_.is_symplectic())

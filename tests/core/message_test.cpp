@@ -24,6 +24,12 @@ BOOST_AUTO_TEST_CASE(numbers_have_the_digits_that_they_need) {
   BOOST_TEST(exact_text(std::copysign(nan, -1.0)) == "nan");
 }
 
+BOOST_AUTO_TEST_CASE(sizes_are_rows_by_columns) { BOOST_TEST(size_text(3, 14) == "3 × 14"); }
+
+BOOST_AUTO_TEST_CASE(quoted_text_is_between_quotation_marks) {
+  BOOST_TEST(in_quotes("x y") == "\"x y\"");
+}
+
 BOOST_AUTO_TEST_CASE(messages_lose_the_place_in_the_code_and_nothing_else) {
   for (const auto& [message, text] : {
            std::pair("Sphere(2, exponential)::retract: x has 2 entries", "x has 2 entries"),

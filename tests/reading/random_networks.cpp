@@ -6,13 +6,12 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "courant/core/as_size.hpp"
 #include "courant/integrators/ladder/constraint_algorithm.hpp"
 #include "courant/reading/system_kinds.hpp"
 
 namespace courant::test {
 namespace {
-
-std::size_t at(Index index) { return static_cast<std::size_t>(index); }
 
 enum Type { R, C, L, V, I };
 
@@ -25,18 +24,18 @@ struct Element {
 // Parts of the nodes 0 … n-1 that elements join.
 class Parts {
  public:
-  explicit Parts(Index nodes) : parent_(at(nodes)) {
+  explicit Parts(Index nodes) : parent_(as_size(nodes)) {
     std::iota(parent_.begin(), parent_.end(), Index{0});
   }
   Index of(Index node) const {
-    while (parent_[at(node)] != node) node = parent_[at(node)];
+    while (parent_[as_size(node)] != node) node = parent_[as_size(node)];
     return node;
   }
   // Whether these were two parts before.
   bool join(Index a, Index b) {
     a = of(a);
     b = of(b);
-    parent_[at(a)] = b;
+    parent_[as_size(a)] = b;
     return a != b;
   }
 
@@ -124,15 +123,15 @@ VectorXd random_currents(Dice& dice, Index nodes, const std::vector<Element>& el
   const Index count = std::ssize(elements);
   VectorXd current = VectorXd::Zero(count), left = VectorXd::Zero(nodes);
   for (Index k = count - 1; k >= nodes - 1; --k) {
-    const Element& element = elements[at(k)];
+    const Element& element = elements[as_size(k)];
     current[k] = element.type == I ? element.value * at_start : ampere * dice.uniform(-1.0, 1.0);
     left[element.from] -= current[k];
     left[element.to] += current[k];
   }
   // The tree leads from each node to a smaller one.
   for (Index k = nodes - 2; k >= 0; --k) {
-    current[k] = left[elements[at(k)].from];
-    left[elements[at(k)].to] += current[k];
+    current[k] = left[elements[as_size(k)].from];
+    left[elements[as_size(k)].to] += current[k];
   }
   return current;
 }
@@ -180,8 +179,10 @@ RandomNetwork random_network(std::mt19937& generator, Index most_nodes, Spread s
     const auto& [type, from, to, value] = elements[k];
     const char* types[] = {"resistor", "capacitor", "inductor", "voltage-source", "current-source"};
     const std::string name = "RCLVI"[type] + std::to_string(k);
-    Json element{
-        {"type", types[type]}, {"name", name}, {"from", names[at(from)]}, {"to", names[at(to)]}};
+    Json element{{"type", types[type]},
+                 {"name", name},
+                 {"from", names[as_size(from)]},
+                 {"to", names[as_size(to)]}};
     if (type == V || type == I) {
       const double frequency = in_units ? 1.0 / time : dice.power_of_ten(0.0, 9.0);
       element["value"] = Json(value).dump() + " * sin(" + Json(frequency).dump() + " * t + 0.5)";
