@@ -5,7 +5,11 @@
 #include <limits>
 #include <random>
 
+#include "courant/core/singular_value_decomposition.hpp"
+
 namespace courant {
+BOOST_AUTO_TEST_SUITE(uncertain_matrix_test)
+
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
@@ -49,8 +53,6 @@ UncertainMatrix within(const MatrixXd& A, const MatrixXd& E) {
 UncertainMatrix rounded(const MatrixXd& A, double error) { return within(A, error * A.cwiseAbs()); }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(uncertain_matrix_test)
 
 // R1, R2, R3 on products of known rank, whose entries are as uncertain as their sums make them.
 BOOST_AUTO_TEST_CASE(rank_of_products_in_any_order_and_units) {
@@ -151,11 +153,10 @@ BOOST_AUTO_TEST_CASE(every_matrix_of_the_set_has_the_rank) {
   for (int trial = 0; trial < 300; ++trial) {
     const Index n = 2 + random.below(6);
     const MatrixXd A = random.dense(n, n);
-    const Eigen::JacobiSVD<MatrixXd> svd(A, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const SingularValueDecomposition svd = singular_value_decomposition(A);
     // The nearest singular matrix, by a rank-one change; the set contains it, or not.
-    const double smallest = svd.singularValues()[n - 1];
-    const MatrixXd change =
-        smallest * svd.matrixU().col(n - 1) * svd.matrixV().col(n - 1).transpose();
+    const double smallest = svd.values[n - 1];
+    const MatrixXd change = smallest * svd.U.col(n - 1) * svd.V.col(n - 1).transpose();
     const RankDecision contains = decide_rank(within(A, change.cwiseAbs()));
     BOOST_TEST((contains.rank < n || contains.ambiguous()));
     const RankDecision away = decide_rank(within(A, 1e-6 * change.cwiseAbs()));

@@ -1,6 +1,6 @@
 #include "courant/integrators/projector.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <boost/test/unit_test.hpp>
 
 #include "courant/integrators/ladder/constraint_algorithm.hpp"
@@ -12,6 +12,8 @@
 #include "courant/structures/constrained_family.hpp"
 #include "courant/structures/dirac_system.hpp"
 #include "example_systems.hpp"
+
+BOOST_AUTO_TEST_SUITE(projector)
 
 using namespace courant;
 using Eigen::Vector4d;
@@ -71,8 +73,6 @@ std::shared_ptr<const ImplicitSystem> knife_edge(double unit) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(projector)
 
 BOOST_AUTO_TEST_CASE(laws_hold) {
   const Euclidean space(4);

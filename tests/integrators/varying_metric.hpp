@@ -1,7 +1,7 @@
 // A particle in R⁴ with a varying metric and two constraints on its velocity, by hand.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 
 namespace courant::varying_metric {
 

@@ -1,4 +1,4 @@
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <boost/test/unit_test.hpp>
 
 #include "../integrators/varying_metric.hpp"
@@ -6,6 +6,8 @@
 #include "problems.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(projector_kinds_test)
+
 namespace {
 
 // Section 8 with two constraints and a metric that is not constant, gⁱʲ = diag(1, 1/(1 + q₀²), 0.7,
@@ -71,8 +73,6 @@ std::string problem_of(const Json& experiment, const Json& projector) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(projector_kinds_test)
 
 // The metric of the kinetic energy by default; given, it is the same; another one is not.
 BOOST_AUTO_TEST_CASE(equations_39_to_43_from_json) {
