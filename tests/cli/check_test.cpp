@@ -7,6 +7,8 @@
 #include "courant/reading/findings.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(check_command)
+
 namespace {
 
 using test::Answer;
@@ -26,8 +28,6 @@ Json law(const Json& report, const std::string& name) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(check_command)
 
 BOOST_AUTO_TEST_CASE(the_json_has_the_names_of_the_contract) {
   const Json report = checked("pendulum");

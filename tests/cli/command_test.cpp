@@ -10,6 +10,8 @@
 #include "courant/running/run_files.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(command)
+
 namespace {
 
 using test::Answer;
@@ -29,8 +31,6 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(command)
 
 BOOST_AUTO_TEST_CASE(runs_a_file) {
   const TemporaryFolder folder;

@@ -7,6 +7,8 @@
 #include "courant/reading/findings.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(constraints_test)
+
 namespace {
 
 using test::Answer;
@@ -24,8 +26,6 @@ bool contains(const std::string& text, const std::string& part) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(constraints_test)
 
 BOOST_AUTO_TEST_CASE(stops_at_a_level) {
   const Answer answer = constraints({pendulum, "--level", "1"});

@@ -10,6 +10,8 @@
 #include "courant/running/run_files.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(messages)
+
 namespace {
 
 using test::Answer;
@@ -41,8 +43,6 @@ void check_errors(const Answer& answer, const std::string& file, const std::stri
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(messages)
 
 // Nothing is written where the experiment is wrong, and a summary where the numerics failed.
 BOOST_AUTO_TEST_CASE(a_bad_experiment_is_refused_with_its_place_or_fails_with_a_summary) {

@@ -6,10 +6,10 @@
 #include "courant/reading/system_kinds.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(new_command)
+
 using test::Answer;
 using test::courant_command;
-
-BOOST_AUTO_TEST_SUITE(new_command)
 
 // Of every kind: it passes its checks, runs, and is as it expects.
 BOOST_AUTO_TEST_CASE(what_is_written_passes_and_runs) {

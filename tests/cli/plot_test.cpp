@@ -5,6 +5,8 @@
 #include "courant/cli/command.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(plot)
+
 namespace {
 
 using test::Answer;
@@ -15,8 +17,6 @@ bool contains(const std::string& text, const std::string& part) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(plot)
 
 BOOST_AUTO_TEST_CASE(one_figure_of_a_run_with_its_numbers) {
   const TemporaryFolder folder;

@@ -7,6 +7,8 @@
 #include "courant/cli/command.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(readme_test)
+
 namespace {
 
 // The first block of README.md in this language.
@@ -21,8 +23,6 @@ std::string block(const std::string& language) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(readme_test)
 
 // The experiment on the front page runs, keeps what it expects, and has the ladder that is shown.
 BOOST_AUTO_TEST_CASE(the_front_page_is_true) {

@@ -13,6 +13,8 @@
 #include "courant/reading/system_kinds.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(schema_and_reader)
+
 namespace {
 
 using Words = std::set<std::string>;
@@ -101,8 +103,6 @@ Json with(const std::string& pointer, const Json& value) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(schema_and_reader)
 
 BOOST_AUTO_TEST_CASE(the_program_prints_the_file) {
   const Json frame = Json::parse(cli::schema_text());

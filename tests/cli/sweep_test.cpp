@@ -7,6 +7,8 @@
 #include "courant/running/run_files.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(sweep_command)
+
 namespace {
 
 using test::Answer;
@@ -28,8 +30,6 @@ bool contains(const std::string& text, const std::string& part) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(sweep_command)
 
 BOOST_AUTO_TEST_CASE(a_sweep_is_a_folder_of_runs_with_a_table_and_a_figure) {
   const TemporaryFolder folder;

@@ -8,6 +8,8 @@
 #include "courant/cli/manual_page.hpp"
 
 namespace courant::cli {
+BOOST_AUTO_TEST_SUITE(synopsis_test)
+
 namespace {
 
 using test::Answer;
@@ -43,8 +45,6 @@ struct Brew {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(synopsis_test)
 
 BOOST_AUTO_TEST_CASE(says_what_a_command_takes) {
   const Brew brew;

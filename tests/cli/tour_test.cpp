@@ -7,6 +7,8 @@
 #include "courant/cli/tour_chapters.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(tour_test)
+
 namespace {
 
 std::string tour(std::vector<std::string> arguments) {
@@ -19,8 +21,6 @@ std::string tour(std::vector<std::string> arguments) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(tour_test)
 
 // The pages are what `courant tour N --markdown` prints, outputs included.
 BOOST_AUTO_TEST_CASE(pages_are_those_of_the_documents) {

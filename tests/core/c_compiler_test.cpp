@@ -16,6 +16,10 @@
 #include "random_expressions.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(c_compiler_test, *boost::unit_test::precondition([](auto) {
+                        return machine_compiler()->is_available();
+                      }))
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -65,10 +69,6 @@ bool same_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b) ||
          (std::isnan(a) && std::isnan(b));
 }
-
-BOOST_AUTO_TEST_SUITE(c_compiler_test, *boost::unit_test::precondition([](auto) {
-                        return machine_compiler()->is_available();
-                      }))
 
 BOOST_FIXTURE_TEST_CASE(every_operation_gives_the_bits_of_the_interpreter, Cache) {
   Graph graph;
@@ -360,7 +360,7 @@ BOOST_FIXTURE_TEST_CASE(what_goes_wrong_is_said, Cache) {
   BOOST_TEST(!fs::exists(folder() / "touched"));
 }
 
-BOOST_AUTO_TEST_SUITE_END()
-
 }  // namespace
+
+BOOST_AUTO_TEST_SUITE_END()
 }  // namespace courant

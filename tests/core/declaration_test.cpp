@@ -2,9 +2,9 @@
 
 #include <boost/test/unit_test.hpp>
 
-using namespace courant;
-
 BOOST_AUTO_TEST_SUITE(declaration_test)
+
+using namespace courant;
 
 namespace {
 

@@ -9,6 +9,8 @@
 #include "random_expressions.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(derivative_test)
+
 namespace {
 
 // The values of expressions in x at a point.
@@ -36,8 +38,6 @@ MatrixXd differences(const ExprVector& y, const ExprVector& x, const VectorXd& p
 double relative(const MatrixXd& a, const MatrixXd& b) {
   return (a - b).lpNorm<Eigen::Infinity>() / (1.0 + b.lpNorm<Eigen::Infinity>());
 }
-
-BOOST_AUTO_TEST_SUITE(derivative_test)
 
 BOOST_AUTO_TEST_CASE(operations_have_their_textbook_derivatives) {
   using std::cos, std::cosh, std::exp, std::log, std::pow, std::sin, std::sinh, std::sqrt, std::tan,
@@ -310,7 +310,7 @@ BOOST_AUTO_TEST_CASE(wrong_arguments_are_refused) {
   BOOST_CHECK(gradient(Expr(2.0), x)[1] == Expr(0.0));
 }
 
-BOOST_AUTO_TEST_SUITE_END()
-
 }  // namespace
+
+BOOST_AUTO_TEST_SUITE_END()
 }  // namespace courant

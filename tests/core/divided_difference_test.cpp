@@ -6,6 +6,8 @@
 #include "courant/core/derivative.hpp"
 #include "operation_catalogue.hpp"
 
+BOOST_AUTO_TEST_SUITE(divided_difference_test)
+
 using namespace courant;
 
 namespace {
@@ -41,8 +43,6 @@ VectorXd direction(Index size) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(divided_difference_test)
 
 // Small steps: the Taylor series, whose terms are known without cancellation; s = 0: the derivative.
 BOOST_AUTO_TEST_CASE(small_differences_of_every_operation) {

@@ -7,6 +7,8 @@
 #include "courant/core/function.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(elimination_test)
+
 namespace {
 
 Elimination eliminated(const ExprVector& F, const ExprVector& y,
@@ -45,8 +47,6 @@ double defect(const ExprVector& F, const ExprVector& y, const ExprVector& p, con
   }
   return worst;
 }
-
-BOOST_AUTO_TEST_SUITE(elimination_test)
 
 BOOST_AUTO_TEST_CASE(definitions_of_definitions_are_put_in) {
   Graph graph;
@@ -217,7 +217,7 @@ BOOST_AUTO_TEST_CASE(pivots_do_not_depend_on_the_unit_of_time) {
     BOOST_TEST(pivots(T) == expected, boost::test_tools::per_element());
 }
 
-BOOST_AUTO_TEST_SUITE_END()
-
 }  // namespace
+
+BOOST_AUTO_TEST_SUITE_END()
 }  // namespace courant

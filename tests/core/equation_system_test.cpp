@@ -6,6 +6,8 @@
 #include "courant/core/newton.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(equation_system_test)
+
 namespace {
 
 // x' = v, v' = -λ x, … in small: four unknowns are given by the first.
@@ -37,8 +39,6 @@ Solution solve(const EquationSystem& system, const VectorXd& start, const Vector
   solution.result = newton.solve(solution.y.data(), in, scales);
   return solution;
 }
-
-BOOST_AUTO_TEST_SUITE(equation_system_test)
 
 BOOST_AUTO_TEST_CASE(newton_finds_the_same_solution) {
   const Example example;
@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(a_function_is_a_system) {
       std::invalid_argument);
 }
 
-BOOST_AUTO_TEST_SUITE_END()
-
 }  // namespace
+
+BOOST_AUTO_TEST_SUITE_END()
 }  // namespace courant

@@ -5,6 +5,8 @@
 #include <random>
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(equilibration_test)
+
 namespace {
 
 constexpr double noise = 1e-14;
@@ -35,8 +37,6 @@ double largest_ratio(const MatrixXd& A, const MatrixXd& B) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(equilibration_test)
 
 BOOST_AUTO_TEST_CASE(levels_maxima_by_powers_of_two) {
   std::mt19937 generator(1);

@@ -4,9 +4,9 @@
 #include "courant/core/expr.hpp"
 
 namespace courant {
-namespace {
-
 BOOST_AUTO_TEST_SUITE(expr_printing_test)
+
+namespace {
 
 struct Names {
   Graph graph;
@@ -81,7 +81,7 @@ BOOST_FIXTURE_TEST_CASE(streams_and_matrices_print, Names) {
   BOOST_TEST(out.str() == "x + y; x x");
 }
 
-BOOST_AUTO_TEST_SUITE_END()
-
 }  // namespace
+
+BOOST_AUTO_TEST_SUITE_END()
 }  // namespace courant

@@ -6,6 +6,8 @@
 #include "operation_catalogue.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(expr_test)
+
 namespace {
 
 template <class T>
@@ -15,8 +17,6 @@ concept Conditional = requires(T a) {
 static_assert(!Conditional<Expr>, "branching on an expression must not compile");
 static_assert(Conditional<double>);
 static_assert(sizeof(Expr) == 16);
-
-BOOST_AUTO_TEST_SUITE(expr_test)
 
 BOOST_AUTO_TEST_CASE(the_catalogue_of_the_tests_has_every_operation) {
   std::vector<bool> found(kOpCount, false);
@@ -189,7 +189,7 @@ BOOST_AUTO_TEST_CASE(eigen_takes_expressions_as_scalars) {
   BOOST_CHECK(solution[0] == v[0] - v[0] * v[1]);
 }
 
-BOOST_AUTO_TEST_SUITE_END()
-
 }  // namespace
+
+BOOST_AUTO_TEST_SUITE_END()
 }  // namespace courant

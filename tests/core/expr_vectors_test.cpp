@@ -3,9 +3,9 @@
 #include <boost/test/unit_test.hpp>
 
 namespace courant {
-namespace {
-
 BOOST_AUTO_TEST_SUITE(expr_vectors_test)
+
+namespace {
 
 BOOST_AUTO_TEST_CASE(parts_keep_their_order) {
   Graph graph;
@@ -27,7 +27,7 @@ BOOST_AUTO_TEST_CASE(a_variable_that_cancels_is_none_that_is_depended_on) {
   BOOST_TEST(!depends(ExprVector(0), x));
 }
 
-BOOST_AUTO_TEST_SUITE_END()
-
 }  // namespace
+
+BOOST_AUTO_TEST_SUITE_END()
 }  // namespace courant

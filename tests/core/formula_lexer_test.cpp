@@ -4,11 +4,11 @@
 
 #include "courant/core/formula_error.hpp"
 
+BOOST_AUTO_TEST_SUITE(formula_lexer_test)
+
 using namespace courant;
 using formula::tokenize;
 using formula::TokenKind;
-
-BOOST_AUTO_TEST_SUITE(formula_lexer_test)
 
 namespace {
 

@@ -4,9 +4,9 @@
 
 #include "courant/core/formula.hpp"
 
-using namespace courant;
-
 BOOST_AUTO_TEST_SUITE(formula_parser_test)
+
+using namespace courant;
 
 namespace {
 

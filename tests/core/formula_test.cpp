@@ -10,9 +10,9 @@
 #include "courant/core/derivative.hpp"
 #include "courant/core/function.hpp"
 
-using namespace courant;
-
 BOOST_AUTO_TEST_SUITE(formula_test)
+
+using namespace courant;
 
 namespace {
 

@@ -7,9 +7,9 @@
 #include "random_expressions.hpp"
 
 namespace courant {
-namespace {
-
 BOOST_AUTO_TEST_SUITE(function_test)
+
+namespace {
 
 struct Polar {
   Graph graph;
@@ -133,7 +133,7 @@ BOOST_FIXTURE_TEST_CASE(wrong_arguments_are_refused, Polar) {
                         std::invalid_argument, says("1 x 2"));
 }
 
-BOOST_AUTO_TEST_SUITE_END()
-
 }  // namespace
+
+BOOST_AUTO_TEST_SUITE_END()
 }  // namespace courant

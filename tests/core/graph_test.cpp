@@ -6,9 +6,9 @@
 #include "courant/core/function.hpp"
 
 namespace courant {
-namespace {
-
 BOOST_AUTO_TEST_SUITE(graph_test)
+
+namespace {
 
 BOOST_AUTO_TEST_CASE(equal_subexpressions_are_one_node) {
   Graph graph;
@@ -144,7 +144,7 @@ BOOST_AUTO_TEST_CASE(several_threads_extend_one_graph) {
              boost::test_tools::tolerance(1e-9));
 }
 
-BOOST_AUTO_TEST_SUITE_END()
-
 }  // namespace
+
+BOOST_AUTO_TEST_SUITE_END()
 }  // namespace courant

@@ -6,6 +6,8 @@
 
 #include "courant/core/derivative.hpp"
 
+BOOST_AUTO_TEST_SUITE(interpolation_test)
+
 using namespace courant;
 
 namespace {
@@ -30,8 +32,6 @@ constexpr Interpolation kinds[] = {Interpolation::steps, Interpolation::linear,
                                    Interpolation::cubic};
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(interpolation_test)
 
 BOOST_AUTO_TEST_CASE(through_the_points_and_constant_outside) {
   for (const Interpolation kind : kinds) {

@@ -7,6 +7,8 @@
 #include "courant/core/function.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(native_test)
+
 namespace {
 
 // A host's own compiler, which knows the code of what was compiled beforehand.
@@ -26,8 +28,6 @@ class KnownCode final : public NativeCompiler, public NativeCode {
   bool available = true;
   std::shared_ptr<int> compiled = std::make_shared<int>(0);
 };
-
-BOOST_AUTO_TEST_SUITE(native_test)
 
 BOOST_AUTO_TEST_CASE(a_function_is_compiled_by_the_compiler_that_it_is_given) {
   const auto compiler = std::make_shared<KnownCode>();
@@ -82,7 +82,7 @@ BOOST_AUTO_TEST_CASE(backends_are_compared_with_their_compilers) {
   BOOST_CHECK(Backend::native.with(compiler).compiler() == compiler);
 }
 
-BOOST_AUTO_TEST_SUITE_END()
-
 }  // namespace
+
+BOOST_AUTO_TEST_SUITE_END()
 }  // namespace courant

@@ -5,6 +5,8 @@
 #include <random>
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(product_scaling_test)
+
 namespace {
 
 MatrixXd scaled(const MatrixXd& A) {
@@ -41,8 +43,6 @@ double largest_product(const MatrixXd& A) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(product_scaling_test)
 
 // Entries of at most 1, and a permutation of entries of 1, each to the factor that powers of two and
 // the mean of two scalings leave.

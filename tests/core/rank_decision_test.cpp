@@ -11,6 +11,8 @@
 #include "courant/core/qr_decomposition.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(rank_decision_test)
+
 namespace {
 
 class Random {
@@ -52,8 +54,6 @@ double relative_product(const MatrixXd& A, const MatrixXd& B) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(rank_decision_test)
 
 BOOST_AUTO_TEST_CASE(finds_the_rank_of_products) {
   Random random;

@@ -6,6 +6,8 @@
 #include "courant/core/qr_decomposition.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(singular_value_decomposition_test)
+
 namespace {
 
 class Random {
@@ -36,8 +38,6 @@ void check(const MatrixXd& A) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(singular_value_decomposition_test)
 
 BOOST_AUTO_TEST_CASE(of_random_matrices) {
   Random random;

@@ -7,6 +7,8 @@
 #include "courant/core/rank_decision.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(sparse_rank_decision_test)
+
 namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
@@ -35,8 +37,6 @@ SparseMatrixXd grid_incidence(int k) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(sparse_rank_decision_test)
 
 BOOST_AUTO_TEST_CASE(agrees_with_the_dense_decision) {
   std::mt19937 generator(2);

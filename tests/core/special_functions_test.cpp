@@ -5,6 +5,8 @@
 #include <limits>
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(special_functions_test)
+
 namespace {
 
 // Reference values from arithmetic with 120 decimal digits: c_k by its series; g_k by the
@@ -85,8 +87,6 @@ constexpr double kArccosFactor[9][13] = {
 };
 // clang-format on
 
-BOOST_AUTO_TEST_SUITE(special_functions_test)
-
 BOOST_AUTO_TEST_CASE(stumpff_is_accurate_for_every_argument) {
   for (int k = 0; k <= 12; ++k) {
     for (int i = 0; i < 12; ++i) {
@@ -158,7 +158,7 @@ BOOST_AUTO_TEST_CASE(arccos_factor_has_its_closed_forms) {
   BOOST_TEST(std::isnan(arccos_factor(0, -1.1)));
 }
 
-BOOST_AUTO_TEST_SUITE_END()
-
 }  // namespace
+
+BOOST_AUTO_TEST_SUITE_END()
 }  // namespace courant

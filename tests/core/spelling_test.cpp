@@ -4,9 +4,9 @@
 #include <boost/test/unit_test.hpp>
 #include <random>
 
-using namespace courant;
-
 BOOST_AUTO_TEST_SUITE(spelling_test)
+
+using namespace courant;
 
 BOOST_AUTO_TEST_CASE(distances_known_by_hand) {
   BOOST_TEST(edit_distance("", "") == 0);

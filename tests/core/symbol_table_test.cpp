@@ -4,9 +4,9 @@
 #include <numbers>
 #include <stdexcept>
 
-using namespace courant;
-
 BOOST_AUTO_TEST_SUITE(symbol_table_test)
+
+using namespace courant;
 
 namespace {
 

@@ -9,6 +9,8 @@
 #include "random_expressions.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(taylor_test)
+
 namespace {
 
 constexpr Index K = 10;
@@ -36,8 +38,6 @@ double error(const Series& a, const Series& b) {
   return ((a - b).array().abs() / (b.array().abs() + 1e-2 * b.lpNorm<Eigen::Infinity>()))
       .maxCoeff();
 }
-
-BOOST_AUTO_TEST_SUITE(taylor_test)
 
 BOOST_AUTO_TEST_CASE(known_series_come_out) {
   const auto sign = [](double n) { return std::fmod(n, 2.0) == 0.0 ? 1.0 : -1.0; };
@@ -193,7 +193,7 @@ BOOST_AUTO_TEST_CASE(a_selection_follows_its_condition) {
   BOOST_TEST(out(0, 2) == 1.0);
 }
 
-BOOST_AUTO_TEST_SUITE_END()
-
 }  // namespace
+
+BOOST_AUTO_TEST_SUITE_END()
 }  // namespace courant

@@ -8,6 +8,8 @@
 #include "courant/core/function.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(uncertain_test)
+
 namespace {
 
 // f and its Jacobian as series of order K at x with these uncertainties, by the interpreter.
@@ -54,8 +56,6 @@ Series all_functions(Index order) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(uncertain_test)
 
 BOOST_AUTO_TEST_CASE(values_are_those_of_doubles_to_the_last_bit) {
   std::mt19937 generator(1);

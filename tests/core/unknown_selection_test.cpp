@@ -3,9 +3,9 @@
 #include <boost/test/unit_test.hpp>
 
 namespace courant {
-namespace {
-
 BOOST_AUTO_TEST_SUITE(unknown_selection_test)
+
+namespace {
 
 BOOST_AUTO_TEST_CASE(the_pattern_is_that_of_the_unknowns_that_are_contained) {
   Graph graph;
@@ -28,7 +28,7 @@ BOOST_AUTO_TEST_CASE(groups_end_among_the_places) {
   BOOST_TEST(group_ends({}, {1}).empty());
 }
 
-BOOST_AUTO_TEST_SUITE_END()
-
 }  // namespace
+
+BOOST_AUTO_TEST_SUITE_END()
 }  // namespace courant

@@ -4,6 +4,8 @@
 #include <numbers>
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(written_number_test)
+
 namespace {
 
 void check(double value, const char* above, const char* below) {
@@ -11,8 +13,6 @@ void check(double value, const char* above, const char* below) {
   BOOST_TEST(written.above == above);
   BOOST_TEST(written.below == below);
 }
-
-BOOST_AUTO_TEST_SUITE(written_number_test)
 
 BOOST_AUTO_TEST_CASE(numbers_are_written_as_people_do) {
   check(1.0, "", "");
@@ -34,7 +34,7 @@ BOOST_AUTO_TEST_CASE(near_is_not_enough) {
   BOOST_TEST(!is_same_number(0.33333333, 1.0 / 3.0));
 }
 
-BOOST_AUTO_TEST_SUITE_END()
-
 }  // namespace
+
+BOOST_AUTO_TEST_SUITE_END()
 }  // namespace courant

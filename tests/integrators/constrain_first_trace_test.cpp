@@ -10,6 +10,8 @@
 #include "courant/tests/integrators/ladder/ladder_catalogue.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(constrain_first_trace_test)
+
 namespace {
 
 constexpr double kTheta = 0.3, kStep = 0.2, kTime = 1.7;
@@ -35,8 +37,6 @@ struct OnLine {
     return y;
   }
 };
-
-BOOST_AUTO_TEST_SUITE(constrain_first_trace_test)
 
 BOOST_AUTO_TEST_CASE(a_step_goes_through_its_stage_from_a_start_that_is_shifted_along_w) {
   const OnLine line;
@@ -68,7 +68,7 @@ BOOST_AUTO_TEST_CASE(a_projection_ends_on_the_constraints_where_w_leads_back) {
   BOOST_TEST(F({line.unknowns(xi, rate, 0.0), line.start, none, W, near, t}).norm() > 0.5);
 }
 
-BOOST_AUTO_TEST_SUITE_END()
-
 }  // namespace
+
+BOOST_AUTO_TEST_SUITE_END()
 }  // namespace courant

@@ -15,6 +15,8 @@
 #include "courant/manifolds/sphere.hpp"
 #include "courant/structures/generating_family.hpp"
 
+BOOST_AUTO_TEST_SUITE(discrete_differential_test)
+
 using namespace courant;
 
 namespace {
@@ -100,8 +102,6 @@ std::vector<Place> places() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(discrete_differential_test)
 
 // C1, for long and short v, along axes, and where components of v are zero.
 BOOST_AUTO_TEST_CASE(c1_the_difference_is_exact) {

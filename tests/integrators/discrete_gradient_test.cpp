@@ -17,6 +17,8 @@
 #include "courant/structures/port_hamiltonian_system.hpp"
 #include "example_systems.hpp"
 
+BOOST_AUTO_TEST_SUITE(discrete_gradient_test)
+
 using namespace courant;
 
 namespace {
@@ -52,8 +54,6 @@ double drift(const Integrator& method, const StepEnergies& energies, State state
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(discrete_gradient_test)
 
 // Section 7.1, end: of Method 1 ⟨dH, R_d⁻¹⟩ = 0, and H changes by 3e-4; a discrete gradient keeps H.
 BOOST_AUTO_TEST_CASE(exact_energy) {

@@ -5,6 +5,8 @@
 #include "courant/core/derivative.hpp"
 #include "courant/tests/integrators/vortices.hpp"
 
+BOOST_AUTO_TEST_SUITE(discrete_lagrangian)
+
 using namespace courant;
 
 namespace {
@@ -61,8 +63,6 @@ void check(const Formula& L, const VectorXd& x0, double theta, double h, double 
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(discrete_lagrangian)
 
 // The singular Lagrangian of four vortices, from momenta on M_0 and off.
 BOOST_AUTO_TEST_CASE(of_four_vortices) {

@@ -10,6 +10,8 @@
 #include "courant/structures/open_port_hamiltonian.hpp"
 #include "courant/structures/port_hamiltonian_system.hpp"
 
+BOOST_AUTO_TEST_SUITE(discrete_ports)
+
 using namespace courant;
 
 namespace {
@@ -46,8 +48,6 @@ struct Ports {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(discrete_ports)
 
 // Equations (28) and (29): a step of the open system is a pair of points with dH at the base point
 // in the discrete structure, and h⟨y, u⟩ = ⟨dH, R_d⁻¹(x₀, x₁)⟩, which is not H(x₁) - H(x₀).

@@ -9,6 +9,8 @@
 #include "courant/integrators/maps/theta.hpp"
 #include "courant/tests/integrators/ladder/ladder_catalogue.hpp"
 
+BOOST_AUTO_TEST_SUITE(explicit_time)
+
 using namespace courant;
 
 namespace {
@@ -41,8 +43,6 @@ ConstraintLadder ladder(const examples::SystemPointer& system, const VectorXd& x
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(explicit_time)
 
 // w_{k+1} = w_k + h cos(t_k + θ h), t_k = t_0 + k h.
 BOOST_AUTO_TEST_CASE(method_1_evaluates_at_its_stage) {

@@ -9,9 +9,9 @@
 #include "courant/manifolds/manifold.hpp"
 #include "integrator_catalogue.hpp"
 
-using namespace courant;
-
 BOOST_AUTO_TEST_SUITE(fresh_steps_long_test)
+
+using namespace courant;
 
 BOOST_AUTO_TEST_CASE(of_every_integrator_of_the_catalogue) {
   for (const auto& [name, integrator, setting, both_ways] : test::integrator_catalogue()) {

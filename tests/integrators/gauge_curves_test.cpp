@@ -7,6 +7,8 @@
 #include "courant/integrators/explicit_runge_kutta.hpp"
 #include "courant/tests/integrators/ladder/ladder_catalogue.hpp"
 
+BOOST_AUTO_TEST_SUITE(gauge_curves)
+
 using namespace courant;
 using namespace courant::examples;
 
@@ -45,8 +47,6 @@ std::vector<KnownLadder> gauge_systems() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(gauge_curves)
 
 BOOST_AUTO_TEST_CASE(a_curve_through_any_point_of_s_f_stays_in_it) {
   std::mt19937 generator(4);

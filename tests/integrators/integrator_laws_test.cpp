@@ -13,6 +13,8 @@
 #include "courant/structures/canonical_symplectic.hpp"
 #include "integrator_catalogue.hpp"
 
+BOOST_AUTO_TEST_SUITE(integrator_laws)
+
 using namespace courant;
 
 namespace {
@@ -130,8 +132,6 @@ const test::IntegratorEntry& midpoint() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(integrator_laws)
 
 BOOST_AUTO_TEST_CASE(every_integrator_keeps_every_law) {
   for (const auto& [name, integrator, setting, both_ways] : catalogue())

@@ -10,7 +10,10 @@
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/structures/lagrangian_system.hpp"
 
-namespace courant {
+BOOST_AUTO_TEST_SUITE(matched_starts)
+
+using namespace courant;
+
 namespace {
 
 // A Lagrangian with a position-dependent mass: regular and not separable.
@@ -33,11 +36,6 @@ State at(const VectorXd& x) {
 }
 
 }  // namespace
-}  // namespace courant
-
-BOOST_AUTO_TEST_SUITE(matched_starts)
-
-using namespace courant;
 
 // p₀ = -D₁L_d(q₀, q₁) with L_d = h L((q₀+q₁)/2, (q₁-q₀)/h), differentiated as it is written.
 BOOST_AUTO_TEST_CASE(is_the_derivative_of_the_discrete_lagrangian) {

@@ -10,6 +10,8 @@
 #include "courant/manifolds/sphere.hpp"
 #include "courant/manifolds/stiefel.hpp"
 
+BOOST_AUTO_TEST_SUITE(moving_basis)
+
 using namespace courant;
 
 namespace {
@@ -27,8 +29,6 @@ double defect(const Manifold& M, const VectorXd& x, const MatrixXd& B) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(moving_basis)
 
 // Along a curve it stays an orthonormal basis, and turns by no more than the tangent space does.
 BOOST_AUTO_TEST_CASE(follows_a_curve) {

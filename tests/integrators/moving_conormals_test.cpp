@@ -5,6 +5,8 @@
 
 #include "courant/core/qr_decomposition.hpp"
 
+BOOST_AUTO_TEST_SUITE(moving_conormals)
+
 using namespace courant;
 
 namespace {
@@ -61,8 +63,6 @@ struct Pendulum {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(moving_conormals)
 
 BOOST_AUTO_TEST_CASE(follow_a_curve) {
   Pendulum pendulum;

@@ -7,9 +7,9 @@
 #include "courant/core/qr_decomposition.hpp"
 #include "courant/core/singular_value_decomposition.hpp"
 
-using namespace courant;
-
 BOOST_AUTO_TEST_SUITE(nearest_orthonormal)
+
+using namespace courant;
 
 // The polar factor U Vᵀ of the singular value decomposition, for all sizes with code of their own
 // and larger ones, at distances from round-off to where it gives up.

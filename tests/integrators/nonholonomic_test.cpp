@@ -16,6 +16,8 @@
 #include "courant/structures/dirac_system.hpp"
 #include "varying_metric.hpp"
 
+BOOST_AUTO_TEST_SUITE(nonholonomic)
+
 using namespace courant;
 using Eigen::Matrix2d;
 using namespace varying_metric;
@@ -102,8 +104,6 @@ VectorXd stacked(const Vector4d& a, const Vector4d& b) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(nonholonomic)
 
 // L = K_g - V has the motion of H.
 BOOST_AUTO_TEST_CASE(equation_33) {

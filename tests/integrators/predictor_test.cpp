@@ -4,6 +4,8 @@
 #include <cmath>
 #include <random>
 
+BOOST_AUTO_TEST_SUITE(predictor)
+
 using namespace courant;
 
 namespace {
@@ -25,8 +27,6 @@ std::vector<double> errors(Predictor& predictor, int count, const Sequence& y) {
 VectorXd two(double first, double second) { return Eigen::Vector2d(first, second); }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(predictor)
 
 // Unknowns at other places are neither read nor written.
 BOOST_AUTO_TEST_CASE(places) {

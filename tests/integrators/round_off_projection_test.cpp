@@ -7,6 +7,8 @@
 #include "courant/manifolds/special_orthogonal3.hpp"
 #include "courant/manifolds/sphere.hpp"
 
+BOOST_AUTO_TEST_SUITE(round_off_projection)
+
 using namespace courant;
 
 namespace {
@@ -16,8 +18,6 @@ RoundOffProjection projection_of(const Manifold& M) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(round_off_projection)
 
 // Back onto the manifold, by no more than a few times the distance from it: the equations of a
 // bundle repeat each other up to round-off, and nothing may be divided by that.

@@ -4,6 +4,8 @@
 #include <cmath>
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(step_continuation_test)
+
 namespace {
 
 // y = h f(y), a displacement y from x = 0.
@@ -27,8 +29,6 @@ Followed follow(StepContinuation& curve, double h, double prediction) {
   followed.result = curve.follow(followed.y, in, 1.0);
   return followed;
 }
-
-BOOST_AUTO_TEST_SUITE(step_continuation_test)
 
 // y = h (1 - 100 y²) has the solutions (-1 ± √(1 + 400 h²))/(200 h); the positive one begins at 0.
 BOOST_AUTO_TEST_CASE(the_solution_that_begins_at_the_state_is_found) {
@@ -97,7 +97,7 @@ BOOST_AUTO_TEST_CASE(a_curve_does_not_depend_on_the_one_before) {
   BOOST_TEST(follow(curve, 1.0, 1.0).y[0] == first[0]);
 }
 
-BOOST_AUTO_TEST_SUITE_END()
-
 }  // namespace
+
+BOOST_AUTO_TEST_SUITE_END()
 }  // namespace courant

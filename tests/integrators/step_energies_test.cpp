@@ -15,6 +15,8 @@
 #include "courant/structures/dirac_system.hpp"
 #include "courant/structures/port_hamiltonian_system.hpp"
 
+BOOST_AUTO_TEST_SUITE(step_energies_test)
+
 using namespace courant;
 
 namespace {
@@ -71,8 +73,6 @@ struct Balance {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(step_energies_test)
 
 // By hand at the middle of a step: y and u of each port, dHᵀ R dH, uᵀ D u.
 BOOST_AUTO_TEST_CASE(powers_by_port) {

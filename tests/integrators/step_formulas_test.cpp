@@ -8,6 +8,8 @@
 #include "courant/tests/integrators/vortices.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(step_formulas_test)
+
 namespace {
 
 using vortices::Degenerate;
@@ -27,8 +29,6 @@ std::unique_ptr<Integrator> method_2(const Degenerate& vortices) {
   return vortices.method_2(vortices::positions(),
                            std::make_shared<MomentumProjector>(vortices.phase_space));
 }
-
-BOOST_AUTO_TEST_SUITE(step_formulas_test)
 
 // Of Method 2's unknowns those of the scheme (15) are left, one for each position coordinate, and the
 // projection p = α(q) is explicit.
@@ -92,7 +92,7 @@ BOOST_AUTO_TEST_CASE(an_explanation_names_what_goes_and_what_stays) {
   BOOST_TEST(contains(text, "left, for Δ" + names[0] + ", "), text);
 }
 
-BOOST_AUTO_TEST_SUITE_END()
-
 }  // namespace
+
+BOOST_AUTO_TEST_SUITE_END()
 }  // namespace courant

@@ -8,6 +8,8 @@
 #include "example_systems.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(step_names_test)
+
 namespace {
 
 using Names = std::vector<std::string>;
@@ -27,8 +29,6 @@ class Named final : public ImplicitSystem {
     return F;
   }
 };
-
-BOOST_AUTO_TEST_SUITE(step_names_test)
 
 BOOST_AUTO_TEST_CASE(coordinates_of_flat_space_keep_their_names) {
   const Named system;
@@ -62,7 +62,7 @@ BOOST_AUTO_TEST_CASE(curved_spaces_are_numbered) {
   BOOST_TEST(names.basis().size() == 6);
 }
 
-BOOST_AUTO_TEST_SUITE_END()
-
 }  // namespace
+
+BOOST_AUTO_TEST_SUITE_END()
 }  // namespace courant

@@ -5,9 +5,9 @@
 
 #include "courant/manifolds/laws.hpp"
 
-using namespace courant;
-
 BOOST_AUTO_TEST_SUITE(manifold_catalogue)
+
+using namespace courant;
 
 BOOST_AUTO_TEST_CASE(every_manifold_keeps_every_law) {
   for (const auto& manifold : test::manifold_catalogue())

@@ -6,6 +6,8 @@
 #include "catalogue.hpp"
 #include "courant/core/derivative.hpp"
 
+BOOST_AUTO_TEST_SUITE(cotangent_bundle)
+
 using namespace courant;
 using Eigen::Vector3d;
 
@@ -38,8 +40,6 @@ double ambient_form(const CotangentBundle& M, const VectorXd& x, const VectorXd&
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cotangent_bundle)
 
 BOOST_AUTO_TEST_CASE(the_canonical_form_in_frames_is_that_of_the_ambient_space) {
   std::mt19937 generator(9);

@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+BOOST_AUTO_TEST_SUITE(hyperbolic)
+
 using namespace courant;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -14,8 +16,6 @@ Vector2d at(double distance) { return {std::cosh(distance), std::sinh(distance)}
 double lorentz(const VectorXd& x, const VectorXd& y) { return x.dot(y) - 2.0 * x[0] * y[0]; }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(hyperbolic)
 
 // H¹ is a line with the hyperbolic angle as its length.
 BOOST_AUTO_TEST_CASE(the_line_adds_hyperbolic_angles) {

@@ -5,6 +5,8 @@
 
 #include "catalogue.hpp"
 
+BOOST_AUTO_TEST_SUITE(implicit_submanifold)
+
 using namespace courant;
 using Eigen::Vector3d;
 
@@ -20,8 +22,6 @@ ImplicitSubmanifold unit_sphere() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(implicit_submanifold)
 
 // The sphere as {‖x‖² = 1} has the frame of Sphere and the orthographic retraction
 // v + √(1 - ‖v‖²) x, curvature 1.

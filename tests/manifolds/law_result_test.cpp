@@ -6,9 +6,9 @@
 #include <sstream>
 #include <stdexcept>
 
-using namespace courant;
-
 BOOST_AUTO_TEST_SUITE(law_result)
+
+using namespace courant;
 
 BOOST_AUTO_TEST_CASE(keeps_the_worst_defect_and_where_it_was) {
   LawMeasurement measured("Sphere(2)", "M1", 1e-3);

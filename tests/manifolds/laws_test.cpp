@@ -10,6 +10,8 @@
 
 #include "courant/manifolds/sphere.hpp"
 
+BOOST_AUTO_TEST_SUITE(manifold_laws)
+
 using namespace courant;
 
 namespace {
@@ -76,8 +78,6 @@ bool fails(const Planted::Parts& parts, const std::string& law) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(manifold_laws)
 
 BOOST_AUTO_TEST_CASE(the_manifold_that_nothing_is_planted_in_passes) {
   Planted::Parts parts;

@@ -5,6 +5,8 @@
 
 #include "courant/manifolds/euclidean.hpp"
 
+BOOST_AUTO_TEST_SUITE(manifold)
+
 using namespace courant;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -46,8 +48,6 @@ class Sized final : public Manifold {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(manifold)
 
 BOOST_AUTO_TEST_CASE(inverse_by_newton) {
   const Bare M;

@@ -3,9 +3,9 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-using namespace courant;
-
 BOOST_AUTO_TEST_SUITE(measurement)
+
+using namespace courant;
 
 BOOST_AUTO_TEST_CASE(slope_of_a_power_law) {
   std::vector<double> steps, errors;

@@ -8,9 +8,9 @@
 #include "courant/manifolds/sphere.hpp"
 #include "courant/manifolds/torus.hpp"
 
-using namespace courant;
-
 BOOST_AUTO_TEST_SUITE(product)
+
+using namespace courant;
 
 BOOST_AUTO_TEST_CASE(every_map_is_that_of_the_factors) {
   const auto sphere = std::make_shared<Sphere>(2, Sphere::projective());

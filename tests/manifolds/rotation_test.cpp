@@ -8,6 +8,8 @@
 
 #include "courant/core/derivative.hpp"
 
+BOOST_AUTO_TEST_SUITE(rotation)
+
 using namespace courant;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -24,8 +26,6 @@ Matrix3d rotation_about(const Vector3d& axis, double angle) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(rotation)
 
 BOOST_AUTO_TEST_CASE(hat_is_the_cross_product) {
   const Vector3d v(1.0, 2.0, 3.0);

@@ -6,6 +6,8 @@
 
 #include "courant/manifolds/rotation.hpp"
 
+BOOST_AUTO_TEST_SUITE(special_euclidean3)
+
 using namespace courant;
 using Eigen::Matrix4d;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
@@ -41,8 +43,6 @@ Matrix4d matrix_exponential(const Matrix4d& A) {
 Vector6d generic() { return (Vector6d() << 0.5, -1.2, 0.7, 2.0, 0.3, -1.0).finished(); }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(special_euclidean3)
 
 BOOST_AUTO_TEST_CASE(exponential_is_that_of_matrices) {
   const SpecialEuclidean3 G;

@@ -4,6 +4,8 @@
 #include <boost/test/unit_test.hpp>
 #include <numbers>
 
+BOOST_AUTO_TEST_SUITE(special_orthogonal3)
+
 using namespace courant;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -13,8 +15,6 @@ namespace {
 VectorXd point(const Matrix3d& R) { return R.reshaped<Eigen::RowMajor>(); }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(special_orthogonal3)
 
 BOOST_AUTO_TEST_CASE(points_are_stored_row_after_row) {
   const SpecialOrthogonal3 G;

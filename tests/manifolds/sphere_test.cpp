@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numbers>
 
+BOOST_AUTO_TEST_SUITE(sphere)
+
 using namespace courant;
 using Eigen::Vector3d;
-
-BOOST_AUTO_TEST_SUITE(sphere)
 
 // A geodesic is a rotation about x × v: Eigen's rotation is the other route.
 BOOST_AUTO_TEST_CASE(exponential_rotates_along_the_great_circle) {

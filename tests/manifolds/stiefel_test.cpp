@@ -4,6 +4,8 @@
 
 #include "courant/core/lu_decomposition.hpp"
 
+BOOST_AUTO_TEST_SUITE(stiefel)
+
 using namespace courant;
 
 namespace {
@@ -11,8 +13,6 @@ namespace {
 MatrixXd matrix(const VectorXd& x, Index n, Index k) { return x.reshaped<Eigen::RowMajor>(n, k); }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(stiefel)
 
 // By the definition, with Eigen's inverse of 1 - W/2.
 BOOST_AUTO_TEST_CASE(cayley_retraction) {

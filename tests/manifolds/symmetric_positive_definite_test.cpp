@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
+BOOST_AUTO_TEST_SUITE(symmetric_positive_definite)
+
 using namespace courant;
 using Eigen::Vector3d;
-
-BOOST_AUTO_TEST_SUITE(symmetric_positive_definite)
 
 // On 1 × 1 matrices R_x(v) = x exp(v/x).
 BOOST_AUTO_TEST_CASE(numbers_are_scaled_exponentially) {

@@ -3,12 +3,12 @@
 #include <boost/test/unit_test.hpp>
 #include <numbers>
 
+BOOST_AUTO_TEST_SUITE(torus)
+
 using namespace courant;
 using Eigen::Vector2d;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-
-BOOST_AUTO_TEST_SUITE(torus)
 
 BOOST_AUTO_TEST_CASE(whole_turns_make_no_difference) {
   const Torus T(2);

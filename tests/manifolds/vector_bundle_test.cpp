@@ -10,10 +10,10 @@
 #include "courant/manifolds/sphere.hpp"
 #include "courant/manifolds/tangent_bundle.hpp"
 
+BOOST_AUTO_TEST_SUITE(vector_bundle)
+
 using namespace courant;
 using Eigen::Vector3d;
-
-BOOST_AUTO_TEST_SUITE(vector_bundle)
 
 // On a group nothing turns: the fibre is simply added to.
 BOOST_AUTO_TEST_CASE(trivialised_bundles_add) {

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <random>
 
+BOOST_AUTO_TEST_SUITE(decimation)
+
 using namespace courant::plot;
 
 namespace {
@@ -31,8 +33,6 @@ double deviation(const std::vector<Vertex>& path, const std::vector<Vertex>& kep
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(decimation)
 
 BOOST_AUTO_TEST_CASE(stretches_end_where_a_value_is_not_finite) {
   const double nan = std::nan("");

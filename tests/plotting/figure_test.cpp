@@ -7,6 +7,8 @@
 #include "courant/plotting/drawing.hpp"
 #include "parsed_markup.hpp"
 
+BOOST_AUTO_TEST_SUITE(figure)
+
 using namespace courant::plot;
 using namespace courant::test;
 
@@ -40,8 +42,6 @@ double tick_pixel(const Tree& drawing, const std::string& label, const std::stri
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(figure)
 
 BOOST_AUTO_TEST_CASE(has_exactly_the_series_it_was_given) {
   Panel panel;

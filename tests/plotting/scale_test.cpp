@@ -6,6 +6,8 @@
 #include <random>
 #include <stdexcept>
 
+BOOST_AUTO_TEST_SUITE(scale)
+
 using namespace courant::plot;
 
 namespace {
@@ -27,8 +29,6 @@ double said(std::string text, int exponent) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(scale)
 
 BOOST_AUTO_TEST_CASE(interval_leaves_out_what_is_not_finite) {
   Interval interval;

@@ -4,6 +4,8 @@
 
 #include "parsed_markup.hpp"
 
+BOOST_AUTO_TEST_SUITE(sheet)
+
 using namespace courant::plot;
 using namespace courant::test;
 
@@ -26,8 +28,6 @@ std::vector<std::string> places(const Sheet& sheet) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(sheet)
 
 BOOST_AUTO_TEST_CASE(wide_panels_stand_one_under_the_other) {
   const Sheet two{"title", "", {}, {panel(720), panel(720)}};

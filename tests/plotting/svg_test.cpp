@@ -7,6 +7,8 @@
 #include <limits>
 #include <sstream>
 
+BOOST_AUTO_TEST_SUITE(svg)
+
 using namespace courant::plot;
 
 namespace {
@@ -21,8 +23,6 @@ boost::property_tree::ptree parsed(const std::string& xml) {
 const std::string nasty = "a<b & \"c\" 'd' > e</text><script>alert(1)</script> ₀τ";
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(svg)
 
 BOOST_AUTO_TEST_CASE(escapes_what_could_be_markup) {
   BOOST_TEST(escape("a<b>&\"'") == "a&lt;b&gt;&amp;&quot;&#39;");

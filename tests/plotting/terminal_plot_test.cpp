@@ -6,6 +6,8 @@
 #include <numbers>
 #include <sstream>
 
+BOOST_AUTO_TEST_SUITE(terminal_plot)
+
 using namespace courant::plot;
 
 namespace {
@@ -45,8 +47,6 @@ std::vector<std::pair<std::size_t, std::size_t>> places(const std::string& text,
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(terminal_plot)
 
 BOOST_AUTO_TEST_CASE(plots_fit_their_width) {
   const std::vector<Series> series = {exponential("drifts", -8, -1, 0),

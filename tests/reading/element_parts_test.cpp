@@ -7,6 +7,8 @@
 #include "experiment_problems.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(element_parts_test)
+
 namespace {
 
 // A network of these elements between the node a and the ground 0.
@@ -22,8 +24,6 @@ double energy(const Model& model, double x) {
       ->energy(constants(VectorXd{{x}}), ExprVector::Zero(model.system->auxiliary_size()), 0.0)
       ->value();
 }
-
-BOOST_AUTO_TEST_SUITE(element_parts_test)
 
 // By their values, energies and laws; the value of a spring is its stiffness.
 BOOST_AUTO_TEST_CASE(energies_of_storages) {
@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(sources_and_resistances) {
   BOOST_TEST(residual(-0.4, 0.1) > 0.1);
 }
 
-BOOST_AUTO_TEST_SUITE_END()
-
 }  // namespace
+
+BOOST_AUTO_TEST_SUITE_END()
 }  // namespace courant

@@ -6,6 +6,8 @@
 #include "experiment_problems.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(experiment)
+
 namespace {
 
 const Json vortices = Json::parse(R"json({
@@ -39,8 +41,6 @@ std::string problems_without(Json experiment, const char* parent, const char* ke
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(experiment)
 
 BOOST_AUTO_TEST_CASE(reads_an_experiment) {
   const Experiment experiment = read_experiment(vortices.dump());

@@ -4,6 +4,8 @@
 #include <string>
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(json_document)
+
 namespace {
 
 // The problem of a text that is not a document, as `where: what`.
@@ -17,8 +19,6 @@ std::string problem(const std::string& text) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(json_document)
 
 BOOST_AUTO_TEST_CASE(keeps_values_and_the_order_of_keys) {
   const Json document = parse_json(

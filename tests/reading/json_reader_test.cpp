@@ -5,6 +5,8 @@
 #include "courant/reading/registry.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(json_reader)
+
 namespace {
 
 // The problems as lines `pointer: what`.
@@ -14,8 +16,6 @@ std::string lines(const Findings& findings) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(json_reader)
 
 BOOST_AUTO_TEST_CASE(reads_typed_values) {
   const Json json =

@@ -6,6 +6,8 @@
 #include "courant/reading/registry.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(kind)
+
 namespace {
 
 KindDescription spring() {
@@ -50,8 +52,6 @@ std::string problems(const Json& json) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(kind)
 
 BOOST_AUTO_TEST_CASE(defaults_come_from_the_declaration) {
   Findings findings;

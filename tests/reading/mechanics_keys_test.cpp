@@ -7,7 +7,10 @@
 #include "courant/structures/dirac_system.hpp"
 #include "experiment_problems.hpp"
 
-namespace courant {
+BOOST_AUTO_TEST_SUITE(mechanics_keys_test)
+
+using namespace courant;
+
 namespace {
 
 // A mechanical system with more keys.
@@ -31,11 +34,6 @@ VectorXd rates(const Json& keys) {
 bool equal(const VectorXd& a, const VectorXd& b) { return (a - b).norm() < 1e-15; }
 
 }  // namespace
-}  // namespace courant
-
-BOOST_AUTO_TEST_SUITE(mechanics_keys_test)
-
-using namespace courant;
 
 BOOST_AUTO_TEST_CASE(forces_by_list_and_by_name) {
   BOOST_TEST(equal(rates({{"forces", {"t*x'", "y"}}}), VectorXd{{0.28, -0.2}}));

@@ -8,6 +8,8 @@
 #include "courant/reading/netlist_sources.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(netlist_test)
+
 namespace {
 
 using Words = std::vector<std::string>;
@@ -33,8 +35,6 @@ void refused(const std::string& body, const std::string& expected) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(netlist_test)
 
 BOOST_AUTO_TEST_CASE(numbers_with_units) {
   const auto is = [](const char* word, double value) {

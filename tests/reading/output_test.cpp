@@ -5,6 +5,8 @@
 #include "courant/reading/experiment.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(output)
+
 namespace {
 
 Json oscillator(const Json& output) {
@@ -34,8 +36,6 @@ std::string problem(const Json& output) {
 const TimeSpan time_span{.start = 1, .step = 0.5, .steps = 6};
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(output)
 
 BOOST_AUTO_TEST_CASE(heads_of_columns_have_units) {
   const Output with =

@@ -8,6 +8,8 @@
 #include "experiment_problems.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(read_network_test)
+
 namespace {
 
 Json network(const Json& nodes, const char* elements) {
@@ -31,8 +33,6 @@ double quantity(const Model& model, const char* name, const VectorXd& x, const V
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(read_network_test)
 
 BOOST_AUTO_TEST_CASE(wrong_networks_are_refused_in_their_own_words) {
   refused({"0", "a"}, R"([{"type":"voltage-source","name":"V1","from":"a","to":"0","value":1},

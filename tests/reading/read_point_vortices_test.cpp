@@ -5,6 +5,8 @@
 #include "courant/systems/point_vortices.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(read_point_vortices_test)
+
 namespace {
 
 VectorXd random(Index size, std::mt19937& generator) {
@@ -23,8 +25,6 @@ const char* in_formulas = R"json({
 })json";
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(read_point_vortices)
 
 // Written as a formula in an experiment it is the same system.
 BOOST_AUTO_TEST_CASE(the_catalogue_and_the_formulas_agree) {

@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(setting)
+
 namespace {
 
 Json values(const std::string& text) { return read_range("/a=" + text).values; }
@@ -17,8 +19,6 @@ std::string refusal(const std::string& text) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(setting)
 
 BOOST_AUTO_TEST_CASE(values_are_json_or_texts) {
   BOOST_TEST(read_setting("/a/b=0.5").pointer == "/a/b");

@@ -8,6 +8,8 @@
 #include "experiment_problems.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(space)
+
 namespace {
 
 // A free motion on the cotangent bundle of a base.
@@ -36,8 +38,6 @@ std::string map_of(const Json& choice, const Json& experiment) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(space)
 
 BOOST_AUTO_TEST_CASE(each_kind_is_the_manifold_that_it_says) {
   const auto name = [](const Json& base, const char* coordinates) {

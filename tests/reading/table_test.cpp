@@ -6,6 +6,8 @@
 
 #include "experiment_problems.hpp"
 
+BOOST_AUTO_TEST_SUITE(table_test)
+
 using namespace courant;
 
 namespace {
@@ -52,8 +54,6 @@ std::string refusal(const std::string& text, Json table = Json::object()) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(table_test)
 
 // At t = 0.5 the wind is 3.5 between 2 and 5: x' = -x + 7.
 BOOST_AUTO_TEST_CASE(words_of_inputs_and_observables) {

@@ -5,6 +5,8 @@
 
 #include "some_runs.hpp"
 
+BOOST_AUTO_TEST_SUITE(energy_figures_test)
+
 using namespace courant;
 using courant::test::labels;
 using courant::test::table;
@@ -24,8 +26,6 @@ bool is_linear(const plot::Panel& panel) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(energy_figures_test)
 
 // One under the other and by the same axis, so that none hides another.
 BOOST_AUTO_TEST_CASE(each_run_has_its_panel) {

@@ -7,6 +7,8 @@
 #include <random>
 #include <vector>
 
+BOOST_AUTO_TEST_SUITE(energy_trend_test)
+
 using namespace courant;
 using Growth = EnergyTrend::Growth;
 
@@ -28,8 +30,6 @@ std::string found(const std::function<double(double)>& error, double end = 100,
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(energy_trend_test)
 
 BOOST_AUTO_TEST_CASE(oscillations_are_bounded) {
   BOOST_TEST(found([](double t) { return 1e-3 * std::sin(t); }) == "bounded");

@@ -7,6 +7,8 @@
 #include "../running/temporary_folder.hpp"
 #include "courant/running/output_file.hpp"
 
+BOOST_AUTO_TEST_SUITE(figure_file)
+
 using namespace courant;
 using namespace courant::test;
 
@@ -28,8 +30,6 @@ Figure two_curves() {
 bool has_converter() { return std::system("rsvg-convert --version > /dev/null 2>&1") == 0; }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(figure_file)
 
 BOOST_AUTO_TEST_CASE(numbers_stand_by_columns) {
   BOOST_TEST(figure_csv(two_curves()) == "t,one: H,\"two, long: H\"\n0,0,3\n1,0.1,4\n2,0.2,5\n");

@@ -5,6 +5,8 @@
 
 #include "../plotting/parsed_markup.hpp"
 
+BOOST_AUTO_TEST_SUITE(ladder_diagram_test)
+
 using namespace courant;
 using namespace courant::test;
 
@@ -42,8 +44,6 @@ std::vector<std::string> texts(const LadderReport& ladder, const std::string& st
 using Texts = std::vector<std::string>;
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(ladder_diagram)
 
 BOOST_AUTO_TEST_CASE(pendulum_has_four_levels_and_their_relations) {
   const LadderReport pendulum =

@@ -6,6 +6,8 @@
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/ladder_report.hpp"
 
+BOOST_AUTO_TEST_SUITE(ladder_explanation_test)
+
 using namespace courant;
 
 namespace {
@@ -49,8 +51,6 @@ std::string all(const std::vector<std::string>& lines) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(ladder_explanation_test)
 
 // x v + y w = 0 by differentiating the length, and T = (v² + w² - y)/(x² + y²) from the second
 // derivative.

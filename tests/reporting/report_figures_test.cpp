@@ -6,6 +6,8 @@
 
 #include "some_runs.hpp"
 
+BOOST_AUTO_TEST_SUITE(report_figures)
+
 using namespace courant;
 using courant::test::labels;
 using courant::test::Path;
@@ -20,8 +22,6 @@ double oscillation(std::size_t column, double t) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(report_figures)
 
 BOOST_AUTO_TEST_CASE(planar_bodies_are_found_by_their_names) {
   const auto bodies = [](const Texts& names) { return planar_bodies(names); };

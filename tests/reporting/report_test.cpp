@@ -9,6 +9,8 @@
 #include "courant/reporting/report_script.hpp"
 #include "some_runs.hpp"
 
+BOOST_AUTO_TEST_SUITE(report)
+
 using namespace courant;
 using namespace courant::test;
 
@@ -39,8 +41,6 @@ std::string text_of(const std::filesystem::path& file) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(report)
 
 BOOST_AUTO_TEST_CASE(page_of_the_three_methods_has_its_figures_and_tables) {
   const TemporaryFolder folder;

@@ -5,6 +5,8 @@
 
 #include "courant/reporting/study_figure.hpp"
 
+BOOST_AUTO_TEST_SUITE(sweep_figure_test)
+
 using namespace courant;
 
 namespace {
@@ -35,8 +37,6 @@ Json table() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(sweep_figure_test)
 
 BOOST_AUTO_TEST_CASE(a_curve_for_each_value_of_the_other_places) {
   const auto figure = sweep_figure(table());

@@ -6,6 +6,8 @@
 #include "temporary_folder.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(checkpoint_keeper)
+
 namespace {
 
 struct Files {
@@ -21,8 +23,6 @@ struct Files {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(checkpoint_keeper)
 
 BOOST_FIXTURE_TEST_CASE(rows_are_in_the_file_before_the_checkpoint_that_stands_on_them, Files) {
   CheckpointKeeper keeper(file, *writer, std::chrono::seconds(0));

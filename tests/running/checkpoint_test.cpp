@@ -11,6 +11,8 @@
 #include "temporary_folder.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(checkpoint)
+
 namespace {
 
 using Limits = std::numeric_limits<double>;
@@ -149,8 +151,6 @@ void check_same(const Checkpoint& a, const Checkpoint& b) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(checkpoint)
 
 BOOST_AUTO_TEST_CASE(reads_back_to_the_same_bits) {
   const TemporaryFolder folder;

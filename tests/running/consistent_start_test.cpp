@@ -4,7 +4,10 @@
 #include <cmath>
 #include <fstream>
 
-namespace courant {
+BOOST_AUTO_TEST_SUITE(consistent_start_test)
+
+using namespace courant;
+
 namespace {
 
 // A pendulum with its rod as a constraint: x² + y² = 1, and x v + y w = 0 behind it.
@@ -32,11 +35,6 @@ std::string problem(const Json& experiment) {
 }
 
 }  // namespace
-}  // namespace courant
-
-BOOST_AUTO_TEST_SUITE(consistent_start_test)
-
-using namespace courant;
 
 BOOST_AUTO_TEST_CASE(consistent_values_stay) {
   const ConstraintLadder ladder =

@@ -10,6 +10,8 @@
 #include "run_in.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(event_watch)
+
 namespace {
 
 constexpr double kStep = 0.1;
@@ -53,8 +55,6 @@ std::vector<Line> lines(const std::filesystem::path& file) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(event_watch)
 
 BOOST_AUTO_TEST_CASE(zeros_are_on_the_curve_of_the_step) {
   const TemporaryFolder folder;

@@ -8,7 +8,10 @@
 #include "courant/running/run_files.hpp"
 #include "run_in.hpp"
 
-namespace courant {
+BOOST_AUTO_TEST_SUITE(expectations)
+
+using namespace courant;
+
 namespace {
 
 // x' = rate from x = 0 to t = 1.
@@ -49,11 +52,6 @@ bool passes(const Json& experiment, const Json& expectation) {
 }
 
 }  // namespace
-}  // namespace courant
-
-BOOST_AUTO_TEST_SUITE(expectations)
-
-using namespace courant;
 
 // Upwards or downwards, a drift is a drift.
 BOOST_AUTO_TEST_CASE(slopes_and_drifts_have_no_sign) {

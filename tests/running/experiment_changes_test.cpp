@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(experiment_changes_test)
+
 namespace {
 
 const Json begun = {{"title", "one"},
@@ -24,8 +26,6 @@ Json with(const char* pointer, const Json& value) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(experiment_changes_test)
 
 BOOST_AUTO_TEST_CASE(the_end_and_the_id_may_change) {
   BOOST_TEST(changes(begun) == "");

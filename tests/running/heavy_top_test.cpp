@@ -5,6 +5,8 @@
 #include "problems.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(heavy_top)
+
 namespace {
 
 using test::method_1, test::method_2;
@@ -20,8 +22,6 @@ const VectorXd& vertical() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(heavy_top)
 
 BOOST_AUTO_TEST_CASE(on_the_rotations) {
   const auto top = test::problem(test::experiment_file("heavy_top_so3"));

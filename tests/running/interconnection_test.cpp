@@ -5,6 +5,8 @@
 #include "../reading/experiment_problems.hpp"
 #include "run_in.hpp"
 
+BOOST_AUTO_TEST_SUITE(interconnection)
+
 using namespace courant;
 
 namespace {
@@ -94,8 +96,6 @@ void check_same(const Json& joined, const Json& at_once,
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(interconnection)
 
 BOOST_AUTO_TEST_CASE(a_motor_with_a_load) {
   const Json joined = Json::parse(read_text("experiments/interconnection.json"));

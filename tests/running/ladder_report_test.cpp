@@ -6,6 +6,8 @@
 #include "courant/running/consistent_start.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(ladder_report_test)
+
 namespace {
 
 LadderReport report(const Json& experiment) {
@@ -38,8 +40,6 @@ const Json inconsistent = {
     {"initial", {{"q", 0}}}};
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(ladder_report_test)
 
 BOOST_AUTO_TEST_CASE(reads_back_to_what_was_written) {
   for (const Json& experiment : {gauge, redundant, pendulum, inconsistent}) {

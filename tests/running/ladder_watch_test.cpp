@@ -5,6 +5,8 @@
 #include "courant/integrators/ladder/constraint_algorithm.hpp"
 #include "run_in.hpp"
 
+BOOST_AUTO_TEST_SUITE(ladder_watch_test)
+
 using namespace courant;
 
 namespace {
@@ -33,8 +35,6 @@ Json linkage(double step, double end, long examine) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(ladder_watch_test)
 
 // Without the torque the bars carry no load: the multipliers are zero, and nearer and nearer to the
 // singular point (at t = 0.7) round-off moves them further and further.

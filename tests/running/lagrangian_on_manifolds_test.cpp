@@ -5,6 +5,8 @@
 #include "problems.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(lagrangian_on_manifolds)
+
 namespace {
 
 using test::method_1, test::method_2;
@@ -56,8 +58,6 @@ std::vector<Pair> pairs() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(lagrangian_on_manifolds)
 
 BOOST_AUTO_TEST_CASE(agree_with_hamiltonians) {
   for (const Pair& both : pairs()) {

@@ -7,6 +7,8 @@
 #include "waveforms.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(lossless_network_long)
+
 namespace {
 
 // The times at the beginning and the end that are written, in steps.
@@ -38,8 +40,6 @@ std::vector<double> energies_of_ngspice(const TemporaryFolder& folder, std::stri
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(lossless_network_long)
 
 // The trapezoidal rule of both keeps the energy of a linear circuit, whatever the step. ngspice begins, and
 // goes on after each breakpoint, with steps of another rule, of order 1, and that costs energy.

@@ -7,9 +7,9 @@
 
 namespace courant {
 
-using test::method_1, test::method_2;
-
 BOOST_AUTO_TEST_SUITE(manifold_orders)
+
+using test::method_1, test::method_2;
 
 BOOST_AUTO_TEST_CASE(all_are_two) {
   const double time = 1.0;

@@ -7,6 +7,8 @@
 #include "problems.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(manifolds_long)
+
 namespace {
 
 using test::method_1, test::method_2;
@@ -65,8 +67,6 @@ double momentum_in_space(const VectorXd& x, Index i) { return x.segment(3 * i, 3
 const Eigen::Vector3d kInertia(1.0, 2.0, 3.0);
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(manifolds_long)
 
 BOOST_AUTO_TEST_CASE(reduced_rigid_body) {
   const auto body = test::problem(test::experiment_file("rigid_body"));

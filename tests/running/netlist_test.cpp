@@ -10,6 +10,8 @@
 #include "waveforms.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(netlists_against_ngspice)
+
 namespace {
 
 // The netlist with accurate steps and with what makes ngspice write potentials to a file.
@@ -31,8 +33,6 @@ std::string for_ngspice(std::string netlist, const std::vector<std::string>& nod
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(netlists_against_ngspice)
 
 // Every potential within 1e-3 of the largest one of the circuit.
 BOOST_AUTO_TEST_CASE(waveforms_of_five_netlists) {

@@ -6,6 +6,8 @@
 #include "temporary_folder.hpp"
 
 namespace courant::test {
+BOOST_AUTO_TEST_SUITE(network_runs)
+
 namespace {
 
 // A source of current, a resistor, a capacitor and an inductor side by side, with time, voltage and
@@ -85,8 +87,6 @@ VectorXd end_of(const std::string& type, const Json& method, double time, double
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(network_runs)
 
 BOOST_AUTO_TEST_CASE(three_ways_to_one_circuit) {
   for (const Json& method : {method_1("midpoint"), method_2("midpoint")}) {

@@ -6,6 +6,8 @@
 #include "problems.hpp"
 
 namespace courant::test {
+BOOST_AUTO_TEST_SUITE(observer_test)
+
 namespace {
 
 // The largest |constraint[i]| that the row of a state has.
@@ -18,8 +20,6 @@ double violation(Observer& observer, const State& state) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(observer_test)
 
 // The two rolling constraints of a snakeboard are seen through the velocity alone. They give x' and y'
 // as well as the momenta do, but not where the axles are parallel, phi = 0: there, too, a state that

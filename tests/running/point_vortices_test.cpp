@@ -7,6 +7,8 @@
 #include "courant/integrators/ladder/constraint_algorithm.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(point_vortices)
+
 namespace {
 
 // dα = Σ_i Γ_i dx_i ∧ dy_i as a matrix.
@@ -33,8 +35,6 @@ double preservation_defect(const std::function<VectorXd(const VectorXd&)>& map,
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(point_vortices)
 
 // The vector field whose graph S_f is, found by the constraint algorithm from the singular
 // Lagrangian on T*R⁸, has a flow on M_0 = Im α that preserves ω_{M_0} = -dα.

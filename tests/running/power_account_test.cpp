@@ -8,6 +8,8 @@
 #include "courant/running/run_files.hpp"
 #include "run_in.hpp"
 
+BOOST_AUTO_TEST_SUITE(power_account_test)
+
 using namespace courant;
 
 namespace {
@@ -54,8 +56,6 @@ Json driven(const Json& method) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(power_account_test)
 
 // Rows hold the energies since the beginning, the balance of the last step, and what ports and efforts were
 // at its stage.

@@ -3,7 +3,10 @@
 #include "../reading/experiment_problems.hpp"
 #include "run_in.hpp"
 
-namespace courant {
+BOOST_AUTO_TEST_SUITE(read_port_hamiltonian_test)
+
+using namespace courant;
+
 namespace {
 
 // A damped oscillator: R = [[0, 0], [0, d]], driven through one port.
@@ -22,11 +25,6 @@ Json damped(const Json& R) {
 }
 
 }  // namespace
-}  // namespace courant
-
-BOOST_AUTO_TEST_SUITE(read_port_hamiltonian_test)
-
-using namespace courant;
 
 // q' = p, p' = -q - d p + u with u = sin t - 2 p: resistors take, inputs see time and output.
 BOOST_AUTO_TEST_CASE(resistors_and_feedback) {

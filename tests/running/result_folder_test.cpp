@@ -6,6 +6,8 @@
 #include "temporary_folder.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(result_folder)
+
 namespace {
 
 const Json one_run = {
@@ -29,8 +31,6 @@ std::string refusal(const std::filesystem::path& path, bool replace = false) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(result_folder)
 
 BOOST_AUTO_TEST_CASE(an_earlier_one_is_replaced_with_its_runs_and_nothing_else) {
   const TemporaryFolder temporary;

@@ -6,6 +6,8 @@
 #include "resumed_run.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(resume)
+
 namespace {
 
 // Ends where q = 0, at t = 1.886.
@@ -46,8 +48,6 @@ Json npy(Json experiment) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(resume)
 
 BOOST_AUTO_TEST_CASE(a_run_that_was_killed_goes_on_with_the_same_bytes) {
   for (const Json& experiment : {oscillator, npy(oscillator)})

@@ -6,6 +6,8 @@
 #include "problems.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(rigid_body)
+
 namespace {
 
 using Eigen::Vector3d;
@@ -31,8 +33,6 @@ Vector3d body_momentum(double t) {
 Vector3d turned(const Vector3d& xi) { return xi.cross(xi.cwiseQuotient(kInertia)); }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(rigid_body)
 
 // Both forms of the discrete equation, as printed; and the control, that another map does not
 // satisfy them.

@@ -10,6 +10,8 @@
 
 #include "vortex_runs.hpp"
 
+BOOST_AUTO_TEST_SUITE(run_files)
+
 using namespace courant;
 using namespace courant::test;
 
@@ -53,8 +55,6 @@ std::string npy(const std::string& dictionary, const std::vector<double>& number
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(run_files)
 
 // The hand-written schemes of the fixture are the ones of the paper: the table of the reading
 // notes.

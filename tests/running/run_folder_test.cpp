@@ -5,6 +5,8 @@
 #include "run_in.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(run_folder)
+
 namespace {
 
 Experiment titled(const char* title) {
@@ -33,8 +35,6 @@ std::string refusal(const std::filesystem::path& path, ExistingRun existing) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(run_folder)
 
 BOOST_AUTO_TEST_CASE(a_run_is_replaced_only_if_it_may_be) {
   const TemporaryFolder folder;

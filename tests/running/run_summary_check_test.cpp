@@ -4,6 +4,8 @@
 
 #include "vortex_runs.hpp"
 
+BOOST_AUTO_TEST_SUITE(run_summary_check)
+
 using courant::summary_defect;
 using Json = nlohmann::ordered_json;
 
@@ -19,8 +21,6 @@ std::string said(const std::string& pointer, const Json& value) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(run_summary_check)
 
 BOOST_AUTO_TEST_CASE(summary_of_the_contract_is_accepted) {
   BOOST_TEST(!summary_defect(good));

@@ -6,6 +6,8 @@
 #include "vortex_runs.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(run_summary)
+
 namespace {
 
 RunSummary example() {
@@ -48,8 +50,6 @@ RunSummary example() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(run_summary)
 
 BOOST_AUTO_TEST_CASE(reads_back_to_what_was_written) {
   const Json json = to_json(example());

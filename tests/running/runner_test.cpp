@@ -8,6 +8,8 @@
 #include "run_in.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(runner)
+
 namespace {
 
 const Json oscillator = Json::parse(R"json({
@@ -28,8 +30,6 @@ const Json collision = Json::parse(R"json({
 })json");
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(runner)
 
 BOOST_AUTO_TEST_CASE(writes_what_it_computes) {
   const TemporaryFolder folder;

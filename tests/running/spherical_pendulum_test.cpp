@@ -5,6 +5,8 @@
 #include "problems.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(spherical_pendulum)
+
 namespace {
 
 using Eigen::Vector3d;
@@ -43,8 +45,6 @@ VectorXd after_one_period(double azimuth = kAzimuth) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(spherical_pendulum)
 
 BOOST_AUTO_TEST_CASE(on_the_sphere_against_elliptic_integrals) {
   const auto pendulum = test::problem(test::experiment_file("spherical_pendulum"));

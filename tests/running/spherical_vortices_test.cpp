@@ -7,6 +7,8 @@
 #include "problems.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(spherical_vortices)
+
 namespace {
 
 using Eigen::Vector3d;
@@ -15,8 +17,6 @@ using test::method_1, test::method_2;
 constexpr double kPi = std::numbers::pi;
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(spherical_vortices)
 
 // Two vortices turn about Σ Γ_i x_i at the rate ‖Σ Γ_i x_i‖/(2π ‖x₀ - x₁‖²).
 BOOST_AUTO_TEST_CASE(two_vortices_turn_about_their_moment) {

@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(study_test)
+
 namespace {
 
 // Nonlinear, with no closed form.
@@ -38,8 +40,6 @@ Json study_of(const Experiment& one, const StudyOptions& how = options()) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(study_test)
 
 BOOST_AUTO_TEST_CASE(measures_the_order_against_a_closed_form) {
   const std::pair<const char*, double> orders[] = {

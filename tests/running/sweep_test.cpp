@@ -8,6 +8,8 @@
 #include "temporary_folder.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(sweep_test)
+
 namespace {
 
 const Json oscillator = Json::parse(R"json({
@@ -30,8 +32,6 @@ Json sweep_runs(const ResultFolder& folder, std::span<const ValueRange> ranges,
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(sweep_test)
 
 BOOST_AUTO_TEST_CASE(cases_have_the_settings_and_names_of_folders) {
   const std::vector<ValueRange> ranges = {{"/system/parameters/k", {1, "2/3"}},

@@ -8,6 +8,8 @@
 #include "problems.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(symplectic_steps)
+
 namespace {
 
 using test::method_1;
@@ -58,8 +60,6 @@ double defect_of(const char* file, const Json& method) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(symplectic_steps)
 
 BOOST_AUTO_TEST_CASE(on_the_sphere) {
   for (const char* map : {"exponential", "chordal", "spherical-midpoint"})

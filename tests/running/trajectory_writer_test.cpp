@@ -8,6 +8,8 @@
 #include "temporary_folder.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(trajectory_writer)
+
 namespace {
 
 using Format = Output::Format;
@@ -36,8 +38,6 @@ void check_equal(const TrajectoryTable& table, const std::vector<std::vector<dou
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(trajectory_writer)
 
 BOOST_AUTO_TEST_CASE(every_number_reads_back_to_itself) {
   const TemporaryFolder folder;

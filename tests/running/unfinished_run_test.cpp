@@ -5,6 +5,8 @@
 #include "resumed_run.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(unfinished_run_test)
+
 namespace {
 
 const Json oscillator = Json::parse(R"json({
@@ -72,8 +74,6 @@ class Interrupted {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(unfinished_run_test)
 
 BOOST_AUTO_TEST_CASE(a_run_that_was_interrupted_is_unfinished) {
   const Interrupted run;

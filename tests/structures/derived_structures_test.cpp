@@ -19,6 +19,8 @@
 #include "courant/structures/pushforward.hpp"
 #include "courant/structures/rank_profile.hpp"
 
+BOOST_AUTO_TEST_SUITE(derived_structures)
+
 using namespace courant;
 
 namespace {
@@ -49,8 +51,6 @@ std::shared_ptr<const Poisson> oscillator_with_port() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(derived_structures)
 
 BOOST_AUTO_TEST_CASE(gauge_transformations) {
   const auto D = std::make_shared<LiePoisson>(LieAlgebra::so3());

@@ -7,6 +7,8 @@
 #include <vector>
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(dirac_interconnection_test)
+
 namespace {
 
 constexpr double tolerance = 1e-8;
@@ -79,8 +81,6 @@ PairedSubspace composition_by_equations(const LinearDirac& A, const std::vector<
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(dirac_interconnection_test)
 
 BOOST_AUTO_TEST_CASE(images_of_dirac_structures_are_dirac) {
   Random random(1);

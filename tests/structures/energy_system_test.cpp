@@ -11,6 +11,8 @@
 #include "courant/structures/open_port_hamiltonian.hpp"
 #include "courant/structures/port_hamiltonian_system.hpp"
 
+BOOST_AUTO_TEST_SUITE(energy_system_test)
+
 using namespace courant;
 
 namespace {
@@ -58,8 +60,6 @@ double defect(const EnergySystem& system, const VectorXd& x, const VectorXd& v,
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(energy_system_test)
 
 // For any covector in the place of dH, and any u.
 BOOST_AUTO_TEST_CASE(port_hamiltonian_systems_balance_any_effort) {

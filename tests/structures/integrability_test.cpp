@@ -16,6 +16,8 @@
 #include "courant/structures/poisson.hpp"
 #include "courant/structures/presymplectic.hpp"
 
+BOOST_AUTO_TEST_SUITE(integrability_test)
+
 using namespace courant;
 
 namespace {
@@ -57,8 +59,6 @@ MatrixXd difference(const MatrixField& field, const VectorXd& x, Index k) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(integrability_test)
 
 // Integrable exactly where it is known to be.
 BOOST_AUTO_TEST_CASE(remark_2_6) {

@@ -8,6 +8,8 @@
 #include "courant/structures/network.hpp"
 #include "courant/structures/port_hamiltonian_system.hpp"
 
+BOOST_AUTO_TEST_SUITE(interconnection_test)
+
 using namespace courant;
 
 namespace {
@@ -47,8 +49,6 @@ VectorXd random(Index size, std::mt19937& generator) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(interconnection_test)
 
 // Each system has its own equations in its own block, on the product of their manifolds, and the joint comes
 // in the place of the equations of its ports.

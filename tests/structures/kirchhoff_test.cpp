@@ -7,6 +7,8 @@
 #include "courant/structures/kirchhoff_laws.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(kirchhoff_test)
+
 namespace {
 
 // Any graph: components, isolated nodes, self-loops and parallel elements come out.
@@ -51,8 +53,6 @@ bool all_exact(const std::vector<LawResult>& results) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(kirchhoff_test)
 
 BOOST_AUTO_TEST_CASE(all_representations_of_random_graphs) {
   std::mt19937 generator(1);

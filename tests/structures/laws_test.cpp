@@ -10,6 +10,8 @@
 #include "courant/structures/poisson.hpp"
 #include "courant/structures/rank_profile.hpp"
 
+BOOST_AUTO_TEST_SUITE(structure_laws)
+
 using namespace courant;
 
 namespace {
@@ -45,8 +47,6 @@ std::set<std::string> failing(const DiracStructure& structure) {
 using Laws = std::set<std::string>;
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(structure_laws)
 
 BOOST_AUTO_TEST_CASE(every_structure_keeps_every_law) {
   for (const auto& entry : test::structure_catalogue()) BOOST_TEST_CONTEXT(entry.description) {

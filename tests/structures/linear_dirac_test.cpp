@@ -13,6 +13,8 @@
 #include "courant/core/qr_decomposition.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(linear_dirac_test)
+
 namespace {
 
 constexpr double tolerance = 1e-9;
@@ -99,8 +101,6 @@ double span_distance(const MatrixXd& A, const MatrixXd& B) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(linear_dirac_test)
 
 BOOST_AUTO_TEST_CASE(definition_2_1) {
   for_each_kind(1, [](const LinearDirac& D, Random&) {

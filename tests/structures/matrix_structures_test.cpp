@@ -22,6 +22,8 @@
 #include "courant/structures/restricted_bivector.hpp"
 #include "courant/structures/restricted_two_form.hpp"
 
+BOOST_AUTO_TEST_SUITE(matrix_structures)
+
 using namespace courant;
 
 namespace {
@@ -56,8 +58,6 @@ VectorXd residual(const DiracStructure& D, const VectorXd& v, const VectorXd& al
 MatrixXd annihilator(const MatrixXd& A) { return kernel(A.transpose()); }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(matrix_structures)
 
 BOOST_AUTO_TEST_CASE(dirac_on_a_manifold) {
   // D_x is a linear Dirac structure on T_xM at each x, here of S², n = 2 < 3 = Ñ.

@@ -4,6 +4,8 @@
 #include <random>
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(network_test)
+
 namespace {
 
 using Kind = NetworkBranch::Kind;
@@ -32,8 +34,6 @@ Network series() {
 ExprVector exprs(const VectorXd& x) { return constants(x); }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(network_test)
 
 // A current i from the source by R and C to L, which is against its direction: q' = i, phi/2 = -i,
 // 3 t = 5 i + q/0.5 - phi'.

@@ -5,6 +5,8 @@
 #include <sstream>
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(paired_subspace_test)
+
 namespace {
 
 class Random {
@@ -37,8 +39,6 @@ class Random {
 constexpr double tolerance = 1e-11;
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(paired_subspace_test)
 
 BOOST_AUTO_TEST_CASE(pairing_is_that_of_section_2_1) {
   const VectorXd v1{{1, 2}}, alpha1{{3, 5}}, v2{{7, 11}}, alpha2{{13, 17}};

@@ -12,6 +12,8 @@
 #include "courant/structures/closed_port_hamiltonian.hpp"
 #include "courant/structures/dirac_system.hpp"
 
+BOOST_AUTO_TEST_SUITE(port_hamiltonian_system)
+
 using namespace courant;
 
 namespace {
@@ -70,8 +72,6 @@ VectorXd fed_back(const VectorXd& y) {
 double power(const VectorXd& v) { return dH().dot(v); }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(port_hamiltonian_system)
 
 // v = (J - R) dH + B u with each of J, R, B at the point, and dH at the time.
 BOOST_AUTO_TEST_CASE(motion_of_the_open_system) {

@@ -9,6 +9,8 @@
 #include "courant/core/lu_decomposition.hpp"
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(point_vortices)
+
 namespace {
 
 VectorXd random(Index size, std::mt19937& generator) {
@@ -40,8 +42,6 @@ MatrixXd d_alpha(const VectorXd& strengths) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(point_vortices)
 
 // The value in the errata: each pair of vortices once.
 BOOST_AUTO_TEST_CASE(energy_of_the_four_vortices_of_the_paper) {

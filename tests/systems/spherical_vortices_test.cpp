@@ -6,6 +6,8 @@
 #include <random>
 
 namespace courant {
+BOOST_AUTO_TEST_SUITE(spherical_vortices)
+
 namespace {
 
 using Eigen::Vector3d;
@@ -13,8 +15,6 @@ using Eigen::Vector3d;
 constexpr double kPi = std::numbers::pi;
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(spherical_vortices)
 
 // The velocities of the class comment, by hand.
 BOOST_AUTO_TEST_CASE(equations) {

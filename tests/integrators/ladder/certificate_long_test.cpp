@@ -5,6 +5,8 @@
 
 #include "ladder_catalogue.hpp"
 
+BOOST_AUTO_TEST_SUITE(certificate_long_test)
+
 using namespace courant;
 using namespace courant::examples;
 
@@ -35,8 +37,6 @@ void count(const KnownLadder& known, const Problem& problem, int variants, std::
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(certificate_long_test)
 
 BOOST_AUTO_TEST_CASE(twenty_thousand_ladders) {
   std::mt19937 generator(11);

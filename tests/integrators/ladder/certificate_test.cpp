@@ -5,6 +5,8 @@
 
 #include "ladder_catalogue.hpp"
 
+BOOST_AUTO_TEST_SUITE(certificate_test)
+
 using namespace courant;
 using namespace courant::examples;
 
@@ -37,8 +39,6 @@ SystemPointer pendulum() {
 const Dimensions index_2 = {{4, 3}, {3, 2}, {2, 2}, {2, 2}};
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(certificate_test)
 
 // Wherever a pendulum is, and however fast: (4,3), (3,2), (2,2).
 BOOST_AUTO_TEST_CASE(pendulum_from_rest_and_from_the_axes) {

@@ -12,6 +12,8 @@
 #include "courant/structures/port_hamiltonian_system.hpp"
 #include "ladder_catalogue.hpp"
 
+BOOST_AUTO_TEST_SUITE(constraint_algorithm_test)
+
 using namespace courant;
 using namespace courant::examples;
 
@@ -44,8 +46,6 @@ void check_table(const std::string& name) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(constraint_algorithm_test)
 
 // Section 6.1: M_0 = Im α, S_1 is the graph of the vector field (6) on it.
 BOOST_AUTO_TEST_CASE(four_vortices) {

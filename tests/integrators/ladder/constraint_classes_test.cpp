@@ -14,6 +14,8 @@
 #include "courant/structures/pullback.hpp"
 #include "ladder_catalogue.hpp"
 
+BOOST_AUTO_TEST_SUITE(constraint_classes_test)
+
 using namespace courant;
 using namespace courant::examples;
 
@@ -200,8 +202,6 @@ std::vector<Textbook> textbook() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(constraint_classes_test)
 
 BOOST_AUTO_TEST_CASE(systems_of_the_textbooks) {
   for (const Textbook& known : textbook()) check(known);

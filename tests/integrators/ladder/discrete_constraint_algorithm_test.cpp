@@ -6,6 +6,8 @@
 #include "courant/manifolds/sphere.hpp"
 #include "ladder_catalogue.hpp"
 
+BOOST_AUTO_TEST_SUITE(discrete_constraint_algorithm_test)
+
 using namespace courant;
 using namespace courant::examples;
 
@@ -18,8 +20,6 @@ ConstraintLadder discrete(const SystemPointer& system, const InitialGuess& guess
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(discrete_constraint_algorithm_test)
 
 // The vortices on T*R⁸ by the midpoint rule: Method 1 is a map on all of T*Q, while S stops at S_1
 // over the image of α.

@@ -2,6 +2,8 @@
 
 #include <boost/test/unit_test.hpp>
 
+BOOST_AUTO_TEST_SUITE(ladder_catalogue_test)
+
 using namespace courant;
 using namespace courant::examples;
 
@@ -36,8 +38,6 @@ void check_ladder(const std::string& name, const ConstraintLadder& ladder,
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(ladder_catalogue_test)
 
 BOOST_AUTO_TEST_CASE(known_ladders) {
   const std::vector<KnownLadder> table = catalogue();

@@ -5,6 +5,8 @@
 
 #include "ladder_catalogue.hpp"
 
+BOOST_AUTO_TEST_SUITE(ladder_laws)
+
 using namespace courant;
 
 namespace {
@@ -25,8 +27,6 @@ std::string failed(const std::function<void(ConstraintLadder&)>& plant) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(ladder_laws)
 
 BOOST_AUTO_TEST_CASE(every_ladder_of_the_catalogue_keeps_every_law) {
   for (const examples::KnownLadder& known : examples::catalogue()) {

@@ -6,6 +6,8 @@
 
 #include "ladder_starts.hpp"
 
+BOOST_AUTO_TEST_SUITE(ladder_starts_long_test)
+
 using namespace courant;
 using namespace courant::examples;
 
@@ -45,8 +47,6 @@ void count(const KnownLadder& known, const KnownStart& start, std::mt19937& gene
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(ladder_starts_long_test)
 
 BOOST_AUTO_TEST_CASE(ten_starts_of_every_system_in_eight_variants) {
   Count counted;

@@ -3,10 +3,10 @@
 
 #include <boost/test/unit_test.hpp>
 
+BOOST_AUTO_TEST_SUITE(ladder_starts_test)
+
 using namespace courant;
 using namespace courant::examples;
-
-BOOST_AUTO_TEST_SUITE(ladder_starts_test)
 
 BOOST_AUTO_TEST_CASE(ten_starts_of_every_system) {
   int wrong_in_silence = 0, doubtful = 0;

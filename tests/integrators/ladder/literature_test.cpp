@@ -6,6 +6,8 @@
 
 #include "ladder_catalogue.hpp"
 
+BOOST_AUTO_TEST_SUITE(literature_test)
+
 using namespace courant;
 using namespace courant::examples;
 
@@ -31,8 +33,6 @@ void check(const std::string& name, const SystemPointer& system, const InitialGu
 InitialGuess zeros(Index n) { return {.x = VectorXd::Zero(n)}; }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(literature_test)
 
 // A robot arm with two links whose end follows a path (Campbell, Griepentrog 1995): x₁, x₃ from the
 // path, x₄, x₆ from its derivative; the second derivative has both x₄' and x₆' in u₁ - u₂ and x₂, which

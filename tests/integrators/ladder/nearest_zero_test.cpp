@@ -4,6 +4,8 @@
 #include <boost/test/unit_test.hpp>
 #include <limits>
 
+BOOST_AUTO_TEST_SUITE(nearest_zero_test)
+
 using namespace courant;
 
 namespace {
@@ -24,8 +26,6 @@ VectorXd vector(std::initializer_list<double> values) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(nearest_zero_test)
 
 BOOST_AUTO_TEST_CASE(a_residual_within_its_error_is_none) {
   const Linearization at =

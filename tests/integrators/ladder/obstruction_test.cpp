@@ -5,6 +5,8 @@
 #include "courant/integrators/ladder/derivative_array.hpp"
 #include "ladder_catalogue.hpp"
 
+BOOST_AUTO_TEST_SUITE(obstruction_test)
+
 using namespace courant;
 using namespace courant::examples;
 
@@ -27,8 +29,6 @@ bool is_seen(const std::function<ExprVector(V x)>& F, Index n, const VectorXd& x
 VectorXd vector(std::initializer_list<double> values) { return at(values).x; }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(obstruction_test)
 
 // z² = 0 at 0 has no linear part; the cone x² + y² = z² neither; nor the node of a lemniscate.
 BOOST_AUTO_TEST_CASE(singular_zeros) {

@@ -9,9 +9,9 @@
 #include "courant/manifolds/special_orthogonal3.hpp"
 #include "courant/tests/integrators/example_systems.hpp"
 
-using namespace courant;
-
 BOOST_AUTO_TEST_SUITE(adjoint)
+
+using namespace courant;
 
 // Implicit Euler is the adjoint of explicit Euler; 1-θ of θ.
 BOOST_AUTO_TEST_CASE(of_theta_is_one_minus_theta) {

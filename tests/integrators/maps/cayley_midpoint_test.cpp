@@ -5,9 +5,9 @@
 
 #include "courant/integrators/maps/theta.hpp"
 
-using namespace courant;
-
 BOOST_AUTO_TEST_SUITE(cayley_midpoint)
+
+using namespace courant;
 
 // The closed inverse against Newton's method on the same map, on both groups.
 template <class Group>

@@ -5,10 +5,10 @@
 
 #include "courant/integrators/maps/theta.hpp"
 
+BOOST_AUTO_TEST_SUITE(chordal)
+
 using namespace courant;
 using Eigen::Vector3d;
-
-BOOST_AUTO_TEST_SUITE(chordal)
 
 // The point between is the middle of the geodesic, and v leads along the chord, with
 // ‖v‖ = 2 tan(angle/2).

@@ -10,6 +10,8 @@
 #include "courant/manifolds/special_orthogonal3.hpp"
 #include "courant/manifolds/sphere.hpp"
 
+BOOST_AUTO_TEST_SUITE(cotangent_lift)
+
 using namespace courant;
 using Eigen::Vector3d;
 
@@ -39,8 +41,6 @@ class Bent final : public DiscretizationMap {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cotangent_lift)
 
 // Example 4.13, and the same for any θ: q ∓ …, p₀ = p - (1-θ) ṗ, p₁ = p + θ ṗ.
 BOOST_AUTO_TEST_CASE(on_vector_spaces) {

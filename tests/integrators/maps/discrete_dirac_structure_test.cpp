@@ -13,6 +13,8 @@
 #include "courant/structures/canonical_symplectic.hpp"
 #include "courant/structures/poisson.hpp"
 
+BOOST_AUTO_TEST_SUITE(discrete_dirac_structure)
+
 using namespace courant;
 using Eigen::Vector3d;
 
@@ -38,8 +40,6 @@ VectorXd log_sphere(const Vector3d& x, const Vector3d& y) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(discrete_dirac_structure)
 
 // Over each x the elements (R_d(x, v), α), (v, α) ∈ D_x, and no others; isotropic for the pairing.
 BOOST_AUTO_TEST_CASE(definition_5_1) {

@@ -8,11 +8,11 @@
 #include "courant/integrators/maps/theta.hpp"
 #include "courant/manifolds/stiefel.hpp"
 
+BOOST_AUTO_TEST_SUITE(discretization_map)
+
 using namespace courant;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-BOOST_AUTO_TEST_SUITE(discretization_map)
 
 BOOST_AUTO_TEST_CASE(inverse_by_newton) {
   const auto frames = std::make_shared<Stiefel>(4, 2);

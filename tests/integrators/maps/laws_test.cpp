@@ -10,6 +10,8 @@
 #include "courant/integrators/maps/theta.hpp"
 #include "courant/manifolds/special_orthogonal3.hpp"
 
+BOOST_AUTO_TEST_SUITE(discretization_laws)
+
 using namespace courant;
 
 namespace {
@@ -85,8 +87,6 @@ const CotangentLift& lift() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(discretization_laws)
 
 BOOST_AUTO_TEST_CASE(the_map_that_nothing_is_planted_in_passes) {
   BOOST_TEST(all_passed(

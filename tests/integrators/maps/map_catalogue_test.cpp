@@ -5,9 +5,9 @@
 
 #include "courant/integrators/maps/laws.hpp"
 
-using namespace courant;
-
 BOOST_AUTO_TEST_SUITE(map_catalogue)
+
+using namespace courant;
 
 BOOST_AUTO_TEST_CASE(every_map_keeps_every_law) {
   for (const auto& map : test::base_map_catalogue())

@@ -6,9 +6,9 @@
 #include "courant/integrators/maps/theta.hpp"
 #include "courant/manifolds/euclidean.hpp"
 
-using namespace courant;
-
 BOOST_AUTO_TEST_SUITE(product_map)
+
+using namespace courant;
 
 BOOST_AUTO_TEST_CASE(every_factor_moves_by_its_own_map) {
   const auto sphere = std::make_shared<Sphere>(2);

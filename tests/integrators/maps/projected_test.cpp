@@ -11,6 +11,8 @@
 #include "courant/manifolds/measurement.hpp"
 #include "courant/tests/integrators/example_systems.hpp"
 
+BOOST_AUTO_TEST_SUITE(projected)
+
 using namespace courant;
 using Eigen::Vector3d;
 
@@ -69,8 +71,6 @@ bool fails(const DiscretizationMap& map, const std::string& law) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(projected)
 
 // P(x ± v/2) on {‖x‖² = 1} is (x ± v/2)/‖x ± v/2‖.
 BOOST_AUTO_TEST_CASE(on_the_sphere_it_is_chordal) {

@@ -7,9 +7,9 @@
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/sphere.hpp"
 
-using namespace courant;
-
 BOOST_AUTO_TEST_SUITE(symplecticity)
+
+using namespace courant;
 
 // T*R = R²: of the maps (x - θ v, x + (1-θ) v) the midpoint rule pulls Ω₁₂ back to d_Tω, and for
 // the others Ω₁₂ - d_Tω = (1-2θ) dq̇ ∧ dṗ. On unit vectors that is at most |1-2θ|.

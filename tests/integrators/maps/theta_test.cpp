@@ -7,6 +7,8 @@
 #include "courant/manifolds/special_orthogonal3.hpp"
 #include "courant/manifolds/sphere.hpp"
 
+BOOST_AUTO_TEST_SUITE(theta)
+
 using namespace courant;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -72,8 +74,6 @@ double defect_18(const Forms& f) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(theta)
 
 // (16), (17), (18) are the dq ∧ dq, dq ∧ dq̇ and dq̇ ∧ dq̇ parts of R_d*(-dα + dα) = d_T dα, with
 // one ∂R/∂q̇ in (17), two in (18), and the signs of (19) on the left of (16) and (17).
