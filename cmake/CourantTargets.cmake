@@ -22,6 +22,18 @@ function(courant_precompile target room suffix)
   endif()
 endfunction()
 
+# courant_unite(<target>)
+#
+# Compiles a dozen sources of a target as one if COURANT_UNITY is on. Names in their unnamed namespaces must differ then;
+# those of a test are in its suite.
+function(courant_unite target)
+  if(COURANT_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+    # What is included, GCC takes for a header: there an unnamed namespace would make different types of one.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
+endfunction()
+
 # courant_library(<room> [PUBLIC <links>...] [PRIVATE <links>...])
 #
 # The library courant_<room> of all sources of this folder and its parts but those in ${left_out}, linked to the rooms
@@ -40,6 +52,7 @@ function(courant_library room)
   add_library(Courant::${room} ALIAS ${target})
   courant_settings(${target})
   courant_precompile(${target} ${room} "")
+  courant_unite(${target})
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
@@ -71,8 +84,9 @@ function(courant_tests room)
   add_executable(${target} ${sources})
   courant_settings(${target})
   courant_precompile(${target} ${room} _tests <Eigen/Geometry> <boost/test/unit_test.hpp>)
+  courant_unite(${target})
   # The one file that defines BOOST_TEST_MODULE before it includes Boost.Test.
-  set_source_files_properties(${room}/main.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+  set_source_files_properties(${room}/main.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
   # Tests run for seconds and compile for minutes.
   target_compile_options(${target} PRIVATE -O1 -Wno-maybe-uninitialized) # at -O1 GCC sees it in Eigen
   target_compile_definitions(${target} PRIVATE BOOST_TEST_DYN_LINK)

@@ -55,6 +55,7 @@ build_in() {
   if [ ! -f "$dir/CMakeCache.txt" ]; then
     command -v ninja >/dev/null && options+=(-G Ninja)
     command -v ccache >/dev/null && options+=(-D CMAKE_CXX_COMPILER_LAUNCHER=ccache)
+    options=(-D COURANT_UNITY=ON "${options[@]}")
     printf 'Building in %s (some minutes the first time) ...\n' "$dir" >&2
   fi
   quietly "$dir/configure.log" cmake -S "$root" -B "$dir" "${options[@]}"
