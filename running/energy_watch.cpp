@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -14,6 +15,13 @@ namespace {
 // as large.
 constexpr double kLeast = 1e-6;
 constexpr double kFurther = 4.0;
+
+// Coordinates are rounded by about so many of the least part of the largest of them, in each step.
+constexpr double kRoundings = 4.0 * std::numeric_limits<double>::epsilon();
+constexpr double kFirstSteps = 10.0;
+
+// Slopes of H are differences over this part of a coordinate.
+constexpr double kDifference = 1e-6;
 
 // A method of order 1 has a third; errors that do not fall at all, one or more.
 constexpr double kConvergent = 0.6;
@@ -33,6 +41,10 @@ std::optional<RunEnd> EnergyWatch::watch(const RunMoment& moment) {
       !(change > std::max(kFurther * memory_.looked_at, kLeast * memory_.largest)))
     return std::nullopt;
   memory_.looked_at = change;
+  // Where H is a sum of terms that cancel, |H| is no measure of them, nor of its round-off.
+  const auto [terms, round_off] = sizes(moment.step);
+  const double noise = (kFirstSteps + static_cast<double>(moment.k)) * round_off;
+  if (!(change > std::max(noise, kLeast * terms))) return std::nullopt;
   if (!is_explained(moment.step)) {
     memory_.found_at = change;
     memory_.finding =
@@ -46,6 +58,30 @@ std::optional<RunEnd> EnergyWatch::watch(const RunMoment& moment) {
 
 std::string EnergyWatch::finding() const {
   return memory_.found_at > kLeast * memory_.largest ? memory_.finding : "";
+}
+
+EnergyWatch::Sizes EnergyWatch::sizes(const Step& step) const {
+  const VectorXd& x = step.after.x;
+  if (x.size() == 0) return {};
+  State moved = step.after;
+  const VectorXd change = (x - step.before.x).cwiseAbs().cwiseMax(x.cwiseAbs());
+  const double rounding = kRoundings * x.lpNorm<Eigen::Infinity>();
+  Sizes result;
+  try {
+    const double H = energy_(step.after);
+    for (Index i = 0; i < x.size(); ++i) {
+      const double difference = kDifference * change[i];
+      if (difference == 0.0) continue;
+      moved.x[i] = x[i] + difference;
+      const double slope = std::fabs(energy_(moved) - H) / difference;
+      moved.x[i] = x[i];
+      if (!std::isfinite(slope)) continue;
+      result.terms += slope * std::fabs(x[i]);
+      result.round_off += slope * rounding;
+    }
+  } catch (const std::domain_error&) {  // then what was found so far will do
+  }
+  return result;
 }
 
 bool EnergyWatch::is_explained(const Step& step) const {
