@@ -8,6 +8,7 @@
 #include "courant/core/complete_orthogonal_decomposition.hpp"
 #include "courant/core/derivative.hpp"
 #include "courant/core/elimination.hpp"
+#include "courant/core/equilibration.hpp"
 #include "courant/core/expr_vectors.hpp"
 #include "courant/core/message.hpp"
 #include "courant/integrators/ladder/local_formulation.hpp"
@@ -15,6 +16,9 @@
 
 namespace courant {
 namespace {
+
+// Entries below this part of both their row and their column are left out when scales are chosen.
+constexpr double kNoise = 1e-14;
 
 // What may be the matter with a point that has no velocity.
 std::string whereabouts(const Manifold& M, const VectorXd& x) {
@@ -66,8 +70,12 @@ VectorField::VectorField(std::shared_ptr<const ImplicitSystem> system,
   const Function full("vector field", inputs, all, {.differentiate = {"y"}});
   VectorXd entries = VectorXd::Zero(0);
   if (n < M.tangent_dimension()) entries = Eigen::Map<const VectorXd>(B.data(), B.size());
+  // Without units: the entries of a force of 10⁻⁸ N are no round-off next to those of 10⁹ s⁻³.
   const MatrixXd J =
-      full.jacobian({start_, ladder.point.x, entries, VectorXd::Constant(1, ladder.point.t)});
+      equilibrate(
+          full.jacobian({start_, ladder.point.x, entries, VectorXd::Constant(1, ladder.point.t)}),
+          kNoise)
+          .scaled;
   VectorXd scale = J.rowwise().norm();
   scale = scale.unaryExpr([](double s) { return s > 0 ? 1.0 / s : 0.0; });
   // Equations before their derivatives: with the velocity from the derivative of a constraint
@@ -114,16 +122,20 @@ VectorField::VectorField(std::shared_ptr<const ImplicitSystem> system,
 
 VectorField::Evaluation::Evaluation(const VectorField& field)
     : field_(field),
-      newton_(field.equations_, {}, {}),
+      // Velocities, accelerations and forces have no unit in common: each is measured by itself.
+      newton_(field.equations_,
+              std::vector<Index>(static_cast<std::size_t>(field.start_.size()), 1), {}),
       y_(field.start_),
       kept_(y_),
       out_(field.rate_.output_size()),
       v_(VectorXd::Zero(field.system_->manifold()->tangent_dimension())),
       z_(VectorXd::Zero(field.system_->auxiliary_size())),
       left_out_(VectorXd::Zero(field.left_out_count())),
+      sizes_(VectorXd::Zero(std::max<Index>(1, field.start_.size()))),
       basis_(*field.system_->manifold(), field.basis_) {}
 
 void VectorField::Evaluation::start(const State& state) {
+  sizes_.setZero();
   basis_.move_to(state.x);
   y_ = field_.start_;
   const MatrixXd& B = basis_.matrix();
@@ -135,9 +147,11 @@ void VectorField::Evaluation::start(const State& state) {
 void VectorField::Evaluation::discard() {
   newton_.reset();
   y_ = kept_;
+  sizes_.head(y_.size()) = y_.cwiseAbs();
 }
 
 void VectorField::Evaluation::forget() {
+  sizes_.setZero();
   newton_.reset();
   basis_.forget();
   kept_ = y_ = field_.start_;
@@ -157,12 +171,12 @@ void VectorField::Evaluation::operator()(const State& state, VectorXd& rate) {
 void VectorField::Evaluation::solve(const VectorXd& x, VectorXd& rate, double t) {
   const Manifold& M = *field_.system_->manifold();
   const double* in[] = {y_.data(), x.data(), basis_.data(), &t};
-  const double scale = largest(y_);
-  auto result = newton_.solve(y_.data(), in, &scale);
+  auto result = newton_.solve(y_.data(), in, sizes_.data());
   if (result.status != Newton::Status::converged) {
     newton_.reset();
     y_ = field_.start_;
-    result = newton_.solve(y_.data(), in, &scale);
+    sizes_.setConstant(largest(y_));
+    result = newton_.solve(y_.data(), in, sizes_.data());
   }
   if (result.status != Newton::Status::converged) {
     y_ = field_.start_;
@@ -172,6 +186,7 @@ void VectorField::Evaluation::solve(const VectorXd& x, VectorXd& rate, double t)
   if (result.status != Newton::Status::converged || !y_.allFinite())
     throw std::domain_error("VectorField::operator(): no velocity found at t = " + number_text(t) +
                             "; the state " + whereabouts(M, x) + ".");
+  sizes_.head(y_.size()) = sizes_.head(y_.size()).cwiseMax(y_.cwiseAbs());
   field_.rate_.value(in, out_.data());
   field_.left_out_.value(in, left_out_.data());
   rate = out_.head(x.size());

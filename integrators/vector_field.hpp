@@ -60,6 +60,7 @@ class VectorField {
     const VectorField& field_;
     Newton newton_;
     VectorXd y_, kept_, out_, v_, z_, left_out_;
+    VectorXd sizes_;  // the largest that each of y_ was; one entry where there is no y_
     MovingBasis basis_;
   };
 

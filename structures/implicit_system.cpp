@@ -48,7 +48,8 @@ ExprVector ImplicitSystem::residual(const ExprVector& x, const ExprVector& v, co
 
 VectorXd ImplicitSystem::auxiliary_guess(const VectorXd& x, const VectorXd& v) const {
   check_size("auxiliary_guess", "x", x.size(), manifold_->ambient_dimension());
-  if (v.size() == 0) return auxiliary_guess(x, VectorXd::Zero(manifold_->tangent_dimension()));
+  if (v.size() == 0 && manifold_->tangent_dimension() > 0)
+    return auxiliary_guess(x, VectorXd::Zero(manifold_->tangent_dimension()));
   check_size("auxiliary_guess", "v", v.size(), manifold_->tangent_dimension());
   VectorXd result = do_auxiliary_guess(x, v);
   check_size("do_auxiliary_guess", "the result", result.size(), auxiliary_size_);
