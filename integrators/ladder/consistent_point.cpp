@@ -202,6 +202,31 @@ ConsistentJet ConsistentPoint::recentred(const DerivativeArray& array, const Zer
   return there;
 }
 
+std::optional<ConsistentJet> ConsistentPoint::find_beyond(const ConsistentJet& ended) const {
+  constexpr int most_charts = 20;
+  constexpr double outside = 0.5;  // of the domain of a chart; searches end at 0.9 of it
+  ConsistentJet at = ended;
+  const Index n = at.array.base_size();
+  for (int chart = 0; chart < most_charts; ++chart) {
+    const auto extent = system_->manifold()->extent_at(at.array.origin());
+    if (at.zero.found || !at.zero.is_finite ||
+        !(extent(at.array.basis() * at.zero.y.head(n)) > outside))
+      return std::nullopt;
+    const State state = at.array.state(at.zero.y);
+    at.array = at.array.at(at.array.t(), state.x);
+    const VectorXd first = at.array.jet(state.v, state.z);
+    at.zero.y.head(first.size()) = first;
+    const LinearizableMap F = conditions(at.array, true);
+    const Mobility free = mobility(at, true);
+    at.zero = find_confirmed(F, at.zero.y, free);
+    if (!at.zero.found) continue;
+    at.zero = least_zero(
+        F, [&](const VectorXd& y) { return displacement(at.array, y); }, at.zero, free);
+    return recentred(at.array, at.zero);
+  }
+  return std::nullopt;
+}
+
 ConsistentJet ConsistentPoint::find(const ConsistentJet& from) const {
   const LinearizableMap F = conditions(from.array, true);
   const Index n = from.array.base_size();
@@ -209,6 +234,7 @@ ConsistentJet ConsistentPoint::find(const ConsistentJet& from) const {
   if (zero.found) return {from.array, zero};
   const Mobility free = mobility(from, true);
   zero = find_confirmed(F, from.zero.y, free);
+  if (const auto far = find_beyond({from.array, zero}); far) return *far;
   // At a point where equations have no linear part, as x² + y² = 1 at 0, no step leads anywhere.
   if (!zero.found && zero.is_finite) {
     TangentDisplacement displacements(from.array, from.zero.y,
@@ -250,16 +276,32 @@ ConsistentJet ConsistentPoint::again(const ConsistentJet& jet) const {
 ConsistentPoint::Neighbour ConsistentPoint::find_displaced(const ConsistentJet& from,
                                                            const VectorXd& displacement,
                                                            const SparseMatrixXd& magnitude) const {
+  return find_around(from, from.array, from.zero.y, displacement, magnitude);
+}
+
+ConsistentPoint::Neighbour ConsistentPoint::find_later(const ConsistentJet& from,
+                                                       const VectorXd& displacement,
+                                                       double later) const {
+  // Entries that contain t may vanish now and not later, so that magnitudes of now tell nothing.
+  return find_around(from, from.array.at(from.array.t() + later, from.array.origin()),
+                     from.array.carried(from.zero.y, later), displacement, SparseMatrixXd());
+}
+
+ConsistentPoint::Neighbour ConsistentPoint::find_around(const ConsistentJet& from,
+                                                        const DerivativeArray& array,
+                                                        const VectorXd& start,
+                                                        const VectorXd& displacement,
+                                                        const SparseMatrixXd& magnitude) const {
   Mobility free = mobility(from, true);
-  VectorXd y = from.zero.y + displacement;
+  VectorXd y = start + displacement;
   // Units of 10⁹ are none of angles.
   for (double part = 0.1; free.admits && !free.admits(y) && part > 1e-20; part *= 0.1)
-    y = from.zero.y + part * displacement;
+    y = start + part * displacement;
   free.magnitude = magnitude;
   free.noise *= 1e-3;  // of displacements that are thousandths of natural units
-  const Zero zero = find_zero(conditions(from.array, false), y, free);
-  if (!zero.found) return {{from.array, zero}, VectorXd::Zero(y.size())};
-  return {{from.array, zero}, zero.y - y};
+  const Zero zero = find_zero(conditions(array, false), y, free);
+  if (!zero.found) return {{array, zero}, VectorXd::Zero(y.size())};
+  return {{array, zero}, zero.y - y};
 }
 
 }  // namespace courant

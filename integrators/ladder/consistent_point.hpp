@@ -47,6 +47,8 @@ class ConsistentPoint {
   };
   Neighbour find_displaced(const ConsistentJet& from, const VectorXd& displacement,
                            const SparseMatrixXd& magnitude) const;
+  // The same, `later` in time: from where the curve leads whose jet `from` is.
+  Neighbour find_later(const ConsistentJet& from, const VectorXd& displacement, double later) const;
 
   // ‖x - x_given‖_W.
   double distance(const VectorXd& x) const;
@@ -55,8 +57,14 @@ class ConsistentPoint {
   LinearizableMap conditions(const DerivativeArray& array, bool hold) const;
   Mobility mobility(const ConsistentJet& from, bool x_is_free) const;
   Quadratic displacement(const DerivativeArray& array, const VectorXd& y) const;
+  // From where a search ended at the edge of a chart, as that of the sphere does on T*S², the zero
+  // that it was on the way to, in charts farther on; empty if there is none or no edge.
+  std::optional<ConsistentJet> find_beyond(const ConsistentJet& ended) const;
   ConsistentJet recentred(const DerivativeArray& array, const Zero& zero) const;
 
+  Neighbour find_around(const ConsistentJet& from, const DerivativeArray& array,
+                        const VectorXd& start, const VectorXd& displacement,
+                        const SparseMatrixXd& magnitude) const;
   void drop_round_off();
 
   std::shared_ptr<const ImplicitSystem> system_;

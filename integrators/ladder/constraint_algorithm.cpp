@@ -32,7 +32,8 @@ struct Comparison {
   std::string difference = "";  // in words
 };
 
-Comparison compare(const std::vector<LadderLevel>& here, const std::vector<LadderLevel>& nearby) {
+Comparison compare(const std::vector<LadderLevel>& here, const std::vector<LadderLevel>& nearby,
+                   const std::string& place = "at a consistent point nearby") {
   using Outcome = Comparison::Outcome;
   Comparison result{.outcome = Outcome::alike};
   for (std::size_t k = 0; k < std::min(here.size(), nearby.size()); ++k) {
@@ -48,7 +49,7 @@ Comparison compare(const std::vector<LadderLevel>& here, const std::vector<Ladde
             .difference = "(dim S_" + level + ", dim M_" + level + ") is (" +
                           std::to_string(a.dim_S) + ", " + std::to_string(a.dim_M) +
                           ") here and (" + std::to_string(b.dim_S) + ", " +
-                          std::to_string(b.dim_M) + ") at a consistent point nearby."};
+                          std::to_string(b.dim_M) + ") " + place + "."};
   }
   return result;
 }
@@ -219,6 +220,20 @@ Singularity singularity(const ConsistentPoint& consistent, const ConsistentJet& 
     }
     if (different == 3 || (alike == 2 && different == 0)) break;
   }
+  // Ranks that hold at this instant only, as that of t at t = 0, are not those of a motion.
+  if (at.array.depends_on_time() && different == 0) {
+    constexpr std::array moments = {1e-3, 1e-2};
+    const VectorXd nothing = VectorXd::Zero(at.zero.y.size());
+    for (const double moment : moments) {
+      const auto near = consistent.find_later(at, nothing, moment * tangents.time_unit());
+      if (!near.jet.zero.found) continue;
+      const std::vector<LadderLevel> there = levels_at(near.jet);
+      const Comparison comparison = compare(levels, there, "a moment later");
+      if (comparison.outcome != Outcome::different || !are_certain(there)) continue;
+      if (++different == 1) certain = comparison.difference;
+    }
+    if (different == 2) return {.reason = certain};
+  }
   const std::string& seen = certain.empty() ? uncertain : certain;
   if (different >= 2 && different > alike) return {.reason = certain, .is_unanimous = alike == 0};
   return {.seen_once = seen, .is_compared = alike >= 2};
@@ -258,14 +273,20 @@ bool is_same_rank_at(const ConsistentJet& at, const std::vector<LadderLevel>& le
   return compare(levels, exact).outcome != Comparison::Outcome::different;
 }
 
-// Counts what other points of the final constraint set need as well: a multiplier that is zero at
-// this point, as x₁ of a rod in the plane x₁ = 0, is not along a motion that leaves it.
+// Counts what other points of the final constraint set need as well, now and a moment later: a
+// multiplier that is zero at this point, as x₁ of a rod in the plane x₁ = 0, is not along a motion
+// that leaves it, nor that of a rope that hangs straight until its crane begins to move.
 void count_differentiations_nearby(ConstraintLadder& ladder, const ConsistentPoint& consistent,
                                    const ConsistentJet& at) {
   if (at.array.has_constant_jacobian()) return;
   TangentDisplacement tangents(at.array, at.zero.y, at.zero.reach);
-  for (int i = 0; i < 2; ++i) {
-    const auto near = consistent.find_displaced(at, 1e-2 * tangents.next(), tangents.magnitude());
+  constexpr double nearby = 1e-2;
+  const int looks = at.array.depends_on_time() ? 4 : 2;
+  for (int i = 0; i < looks; ++i) {
+    const VectorXd displacement = nearby * tangents.next();
+    const auto near = i < 2
+                          ? consistent.find_displaced(at, displacement, tangents.magnitude())
+                          : consistent.find_later(at, displacement, nearby * tangents.time_unit());
     if (!near.jet.zero.found) continue;
     const std::vector<int> counts = needed_differentiations(
         near.jet.array, near.jet.zero.y, near.jet.zero.uncertainty, ladder.index);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "courant/core/derivative.hpp"
+#include "courant/core/expr_vectors.hpp"
 #include "courant/integrators/ladder/local_formulation.hpp"
 
 namespace courant {
@@ -97,6 +98,7 @@ DerivativeArray::DerivativeArray(std::shared_ptr<const ImplicitSystem> system, d
   const SparseExprMatrix d_equations = courant::jacobian(local.equations, by);
   constant_jacobian_ = std::all_of(d_equations.values.begin(), d_equations.values.end(),
                                    [](const Expr& entry) { return entry.is_constant(); });
+  depends_on_time_ = depends(local.equations, ExprVector::Constant(1, time));
   move_to(t, x0);
 }
 
@@ -131,14 +133,31 @@ VectorXd DerivativeArray::resized(const VectorXd& y, Index k) const {
   return result;
 }
 
+VectorXd DerivativeArray::carried(const VectorXd& y, double later) const {
+  const Index k = level_of(y);
+  VectorXd result = y;
+  // The i-th coefficient of a polynomial of degree `last` at s + later, by Horner's rule.
+  const auto carry = [&](Index last, Index size, const auto& offset) {
+    for (Index i = 0; i < last; ++i)
+      for (Index j = last - 1; j >= i; --j)
+        result.segment(offset(j), size) += later * result.segment(offset(j + 1), size);
+  };
+  carry(k + 1, base_size(), [&](Index i) { return x_offset(i); });
+  carry(k, auxiliary_size(), [&](Index i) { return z_offset(i); });
+  return result;
+}
+
 VectorXd DerivativeArray::basis_entries() const {
   if (base_size() == basis_.rows()) return VectorXd(0);
   return Eigen::Map<const VectorXd>(basis_.data(), basis_.size());
 }
 
 VectorXd DerivativeArray::origin_size() const {
-  const VectorXd in_frame = system_->manifold()->coframe(origin_) * origin_;
-  return (basis_.transpose() * in_frame).cwiseAbs();
+  const MatrixXd coframe = system_->manifold()->coframe(origin_);
+  const VectorXd size = (basis_.transpose() * (coframe * origin_)).cwiseAbs();
+  const VectorXd terms = basis_.cwiseAbs().transpose() * (coframe.cwiseAbs() * origin_.cwiseAbs());
+  constexpr double round_off = 16.0 * Uncertain::unit;
+  return (size.array() > round_off * terms.array()).select(size, 0.0);
 }
 
 VectorXd DerivativeArray::do_residual(const VectorXd& y, Index k) const {

@@ -35,7 +35,8 @@ class DerivativeArray final : public Prolongation {
   double t() const { return t_; }
   const VectorXd& origin() const { return origin_; }  // x₀
   const MatrixXd& basis() const { return basis_; }    // B, Ñ × n
-  // |Bᵀ C(x₀) x₀|: what the chart coordinates, which are 0 at x₀, are small next to.
+  // |Bᵀ C(x₀) x₀|: what the chart coordinates, which are 0 at x₀, are small next to; 0 where only
+  // round-off is left, as of a point of a sphere, which is normal to it.
   VectorXd origin_size() const;
 
   // The jet of level 0 with ξ_0 = 0 that has the tangent vector v (Ñ) and z (m); empty vectors are
@@ -48,6 +49,12 @@ class DerivativeArray final : public Prolongation {
   State state(const VectorXd& y) const;
   Linearization state_map(const VectorXd& y) const;
 
+  // y, moved along the curve that it is the jet of, by `later` in time: to first order in what is left
+  // out, a jet of at(t() + later, origin()).
+  VectorXd carried(const VectorXd& y, double later) const;
+
+  // Whether t stands in F.
+  bool depends_on_time() const { return depends_on_time_; }
   // F is affine in (x, v, z) with constant coefficients.
   bool has_constant_jacobian() const override { return constant_jacobian_; }
 
@@ -61,7 +68,7 @@ class DerivativeArray final : public Prolongation {
   std::shared_ptr<const ImplicitSystem> system_;
   Function equations_;  // (xi, xi', z; x0, basis, t) ↦ F, with Jacobian by the first three
   Function state_;      // the same ↦ (x, v)
-  bool constant_jacobian_ = false;
+  bool constant_jacobian_ = false, depends_on_time_ = false;
   double t_ = 0.0;
   VectorXd origin_;
   MatrixXd basis_;

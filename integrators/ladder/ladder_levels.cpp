@@ -211,8 +211,10 @@ TangentDisplacement::TangentDisplacement(const Prolongation& array, const Vector
   magnitude_ = GenericScaling(array, y, reach).magnitude;
   const NaturalScaling scaling({VectorXd::Zero(at.value.size()), magnitude_}, reach, 0.0, 1e-10);
   units_ = scaling.column_scale;
-  // What was met on the way to y is no size of it; a point in the chart is one next to its origin.
   const Index n = array.base_size();
+  if (n > 0)
+    time_unit_ = std::exp((units_.head(n).array() / units_.segment(n, n).array()).log().mean());
+  // What was met on the way to y is no size of it; a point in the chart is one next to its origin.
   sizes_ = y.cwiseAbs();
   sizes_.head(n) = reach.head(n);
   jacobian_ = scaling.row_scale.asDiagonal() * at.jacobian;

@@ -50,12 +50,15 @@ class TangentDisplacement {
   VectorXd next(Units units = Units::natural);
   // The generic magnitude of the Jacobian at y.
   const SparseMatrixXd& magnitude() const { return magnitude_; }
+  // That of time: of a coordinate by that of its velocity, in the geometric mean.
+  double time_unit() const { return time_unit_; }
   // ‖δ‖ in natural units.
   double size(const VectorXd& delta) const { return delta.cwiseQuotient(units_).norm(); }
 
  private:
   std::mt19937 generator_;
   VectorXd units_, sizes_;
+  double time_unit_ = 1.0;
   SparseMatrixXd magnitude_, jacobian_;
 };
 

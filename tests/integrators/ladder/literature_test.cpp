@@ -157,4 +157,47 @@ BOOST_AUTO_TEST_CASE(a_flux_behind_a_diode_stays) {
   BOOST_TEST(ladder.point.x[1] == 1e-4);
 }
 
+// t x' = x is x = c t: at t = 0 all of these meet in x = 0, where x' is free for this instant only.
+// Bessel's equation t v' + v + t x = 0 is singular there too.
+BOOST_AUTO_TEST_CASE(instants_at_which_the_rank_changes) {
+  const auto line = flat(1, 0, 1, [](V x, V v, V, T t) { return equations({t * v[0] - x[0]}); });
+  check("x = c t at 0", line, at({0}), Verdict::rank_change, {});
+  const auto bessel = flat(2, 0, 2, [](V x, V v, V, T t) {
+    return equations({v[0] - x[1], t * v[1] + x[1] + t * x[0]});
+  });
+  check("Bessel at 0", bessel, at({1, 0}), Verdict::rank_change, {});
+  InitialGuess later = at({0.4});
+  later.t = 0.8;
+  check("x = c t at 0.8", line, later, Verdict::regular, {{1, 1}, {1, 1}});
+  // Where nothing but the time of a source is new, the instant is as any other.
+  const auto driven = flat(2, 0, 2, [](V x, V v, V, T t) {
+    return equations({v[0] - x[1], x[0] - 0.25 * square(square(t))});
+  });
+  check("a given path", driven, at({0, 0}), Verdict::regular, {{2, 1}, {1, 0}, {0, 0}, {0, 0}});
+}
+
+// A crane whose load follows a path (Blajer, Kołodziejczyk 2004) from rest, where its rope hangs straight:
+// z gives the tension, x the place of the trolley, whose derivatives give its velocity and its force. In
+// this order F is found after as many derivatives of the tension, which are not seen in x while the
+// rope is straight.
+BOOST_AUTO_TEST_CASE(a_crane_from_rest) {
+  const auto crane = flat(8, 3, 11, [](V x, V v, V u, T t) {
+    const Expr &s = x[0], &l = x[6], across = x[2] - s, path = square(square(t)) * (1 - t / 4) / 4;
+    return equations({v[0] - x[1], v[2] - x[3], v[4] - x[5], v[6] - x[7],
+                      10 * v[1] - u[0] - u[2] * across / l, 100 * v[3] + u[2] * across / l,
+                      100 * v[5] - 981 + u[2] * x[4] / l, 10 * v[7] - u[2] + u[1], x[2] - path,
+                      x[4] - 4 + square(square(t)) / 10,
+                      square(l) - square(across) - square(x[4])});
+  });
+  const Dimensions expected = {{8, 5}, {5, 2}, {2, 1}, {1, 0}, {0, 0}, {0, 0}};
+  check("at rest", crane, at({0, 0, 0, 0, 4, 0, 4, 0}), Verdict::regular, expected);
+  InitialGuess moving = at({0.1, 0.6, 0, 0, 4, 0, 4, 0});
+  moving.t = 0.3;
+  check("moving", crane, moving, Verdict::regular, expected);
+  const ConstraintLadder rest = ConstraintAlgorithm().run(crane, at({0, 0, 0, 0, 4, 0, 4, 0}));
+  const ConstraintLadder later = ConstraintAlgorithm().run(crane, moving);
+  BOOST_TEST(rest.differentiations[6] == 2);  // of the tension
+  BOOST_TEST(rest.differentiations == later.differentiations, boost::test_tools::per_element());
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,142 @@
+// Problems of the literature in the units and from the starts that they are given with, run by the
+// methods that apply, against closed forms and the same problem in other units.
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <utility>
+
+#include "problems.hpp"
+#include "run_in.hpp"
+
+namespace courant {
+namespace {
+
+const Json kRungeKutta = {{"type", "rk4"}};
+const Json kMethod1 = {{"type", "discretize-first"}};
+const Json kMethod2 = {{"type", "constrain-first"}};
+
+// A pendulum with mass m on a rod of length l, in its Cartesian coordinates, from the horizontal.
+test::Problem pendulum(double m, double l) {
+  return test::problem({{"system",
+                         {{"type", "mechanical"},
+                          {"parameters", {{"m", m}, {"l", l}}},
+                          {"coordinates", {"x", "y"}},
+                          {"metric", "m"},
+                          {"potential", "m*9.81*y"},
+                          {"holonomic", "x^2 + y^2 - l^2"}}},
+                        {"initial", {{"x", l}, {"y", 0}, {"p_x", 0}, {"p_y", 0}}}});
+}
+
+// A crane (Blajer, Kołodziejczyk 2004) that carries its load along (X(t), Z(t)) from rest: what the
+// equations are solved for at the start does without derivatives that the motion needs.
+test::Problem crane() {
+  const Json equations = {"s' - vs",
+                          "x' - vx",
+                          "z' - vz",
+                          "l' - vl",
+                          "10*vs' - F - T*(x - s)/l",
+                          "100*vx' + T*(x - s)/l",
+                          "100*vz' - 981 + T*z/l",
+                          "10*vl' - T + u",
+                          "x - t^4*(1 - t/4)/4",
+                          "z - 4 + t^4/10",
+                          "l^2 - (x - s)^2 - z^2"};
+  return test::problem(
+      {{"system",
+        {{"type", "implicit"},
+         {"coordinates", {"s", "vs", "x", "vx", "z", "vz", "l", "vl"}},
+         {"unknowns", {"F", "u", "T"}},
+         {"equations", equations}}},
+       {"initial",
+        {{"s", 0}, {"vs", 0}, {"x", 0}, {"vx", 0}, {"z", 4}, {"vz", 0}, {"l", 4}, {"vl", 0}}}});
+}
+
+Json on_a_circle_of_latitude(const Json& point) {
+  return {{"system",
+           {{"type", "mechanical"},
+            {"manifold", "sphere"},
+            {"coordinates", {"xi[3]"}},
+            {"holonomic", "xi[2] - 0.6"}}},
+          {"initial", {{"xi", point}, {"p_xi", {0, 0, 0}}}}};
+}
+
+}  // namespace
+}  // namespace courant
+
+BOOST_AUTO_TEST_SUITE(literature_runs)
+
+using namespace courant;
+
+// l² m and the time √l are the units. Forces of 10⁻⁸ N and derivatives of 10⁹ are solved for together.
+BOOST_AUTO_TEST_CASE(a_pendulum_of_a_micrometre) {
+  const test::Problem large = pendulum(1.0, 1.0), small = pendulum(1e-9, 1e-6);
+  // The metric of a projector may differ, within the method's error.
+  for (const auto& [method, bound] : {std::pair{kRungeKutta, 1e-10}, std::pair{kMethod2, 1e-4}}) {
+    const VectorXd expected = large.end(method, 0.3, 60), found = small.end(method, 3e-4, 60);
+    BOOST_TEST((1e6 * found.head(2) - expected.head(2)).norm() < bound);
+    BOOST_TEST((1e12 * found.tail(2) - expected.tail(2)).norm() < bound);
+  }
+}
+
+// s = X + Z X''/(g - Z'').
+BOOST_AUTO_TEST_CASE(a_crane_from_rest) {
+  const test::Problem problem = crane();
+  const double t = 1.0, Z = 4.0 - 0.1, s = 0.1875 + Z * (3.0 - 1.25) / (9.81 + 1.2);
+  for (const Json& method : {kRungeKutta, kMethod2}) {
+    const VectorXd end = problem.end(method, t, 50);
+    BOOST_TEST(std::fabs(end[0] - s) < 1e-7);
+    BOOST_TEST(std::fabs(end[2] - 0.1875) < 1e-7);
+  }
+  // The velocity of the trolley is a constraint of the motion as well: its rate of change between steps.
+  const double h = 1e-3, before = problem.end(kMethod2, t - h, 40)[0],
+               after = problem.end(kMethod2, t + h, 40)[0];
+  BOOST_TEST(std::fabs(problem.end(kMethod2, t, 40)[1] - (after - before) / (2 * h)) < 1e-5);
+}
+
+// At rest nothing tells a unit of time; what is left of a point in its tangent space is no size.
+BOOST_AUTO_TEST_CASE(at_rest_on_a_circle_of_latitude) {
+  const test::Problem problem = test::problem(on_a_circle_of_latitude({0.8, 0, 0.6}));
+  for (const Json& method : {kRungeKutta, kMethod1, kMethod2}) {
+    const VectorXd end = problem.end(method, 1.0, 10);
+    BOOST_TEST((end - problem.ladder.point.x).norm() < 1e-14);
+  }
+}
+
+// The circle is farther from the start than a chart of T*S² reaches.
+BOOST_AUTO_TEST_CASE(a_start_that_is_charts_away) {
+  for (const double angle : {0.0, 1.5}) {
+    const ConstraintLadder ladder =
+        test::problem(on_a_circle_of_latitude({std::cos(angle), 0, std::sin(angle)})).ladder;
+    BOOST_TEST((ladder.verdict == Verdict::regular));
+    BOOST_TEST((ladder.point.x.head(3) - Eigen::Vector3d(0.8, 0, 0.6)).norm() < 1e-12);
+    BOOST_TEST(!ladder.is_ambiguous());
+  }
+}
+
+// H is 0 all the time, a sum of terms that cancel: p·f - 1 of time-optimal motion (Zermelo 1931), and of
+// the Lagrangian of Faddeev and Jackiw's method. Its round-off is no finding.
+BOOST_AUTO_TEST_CASE(round_off_of_an_energy_of_zero_is_not_said) {
+  const Json zermelo = {{"system",
+                         {{"type", "optimal-control"},
+                          {"states", {"x", "y"}},
+                          {"controls", {"u"}},
+                          {"dynamics", {"cos(u) + y/2", "sin(u)"}},
+                          {"cost", 1}}},
+                        {"initial", {{"x", 0}, {"y", 0}, {"p_x", 1}, {"p_y", 0}}}};
+  const Json first_order = {{"system",
+                             {{"type", "lagrangian"},
+                              {"coordinates", {"a", "b", "c", "d"}},
+                              {"lagrangian", "(b + c)*a' + d*c' + (d^2 - 2*b*c - c^2)/2"}}},
+                            {"initial", {{"a", 0}, {"b", 1}, {"c", 0}, {"d", 0}}}};
+  for (Json experiment : {zermelo, first_order})
+    for (const Json& method : {kRungeKutta, kMethod1, kMethod2})
+      for (const double step : {0.01, 0.005}) {
+        experiment["method"] = method;
+        experiment["time"] = {{"step", step}, {"end", 1}};
+        const TemporaryFolder folder;
+        const RunOutcome outcome = run_in(folder, experiment);
+        BOOST_TEST((outcome.status == RunStatus::completed));
+        BOOST_TEST(outcome.summary.warnings.empty());
+      }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
