@@ -26,7 +26,7 @@ constexpr double kStagnant = 0.9;
 
 // The contraction says what error is left where steps are short. The way back from far away contracts by
 // as much as one went astray.
-constexpr double kLong = 1e-2;
+constexpr double kLongStep = 1e-2;
 
 // Round-off is measured with a new factorisation, and again when this has made it too small.
 constexpr double kForget = 0.998;
@@ -242,7 +242,7 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
     }
     if (compared > 0) {
       contraction = moved / previous;
-      if (contraction < 0.5 && moved <= kLong &&
+      if (contraction < 0.5 && moved <= kLongStep &&
           contraction * moved <= (1.0 - contraction) * options_.tolerance && accepted()) {
         result.status = Status::converged;
         return result;

@@ -181,7 +181,8 @@ void VectorField::Evaluation::solve(const VectorXd& x, VectorXd& rate, double t)
   if (result.status != Newton::Status::converged) {
     y_ = field_.start_;
     newton_.reset();
-    if (newton_.approach(y_.data(), in, &scale)) result = newton_.solve(y_.data(), in, &scale);
+    if (newton_.approach(y_.data(), in, sizes_.data()))
+      result = newton_.solve(y_.data(), in, sizes_.data());
   }
   if (result.status != Newton::Status::converged || !y_.allFinite())
     throw std::domain_error("VectorField::operator(): no velocity found at t = " + number_text(t) +

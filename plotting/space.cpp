@@ -16,7 +16,7 @@ using Point = std::array<double, 3>;
 
 constexpr double azimuth = 0.6, elevation = 0.42;
 constexpr double eye_distance = 6;  // of half the cube's edge
-constexpr double top_margin = 24, margin = 14;
+constexpr double space_top = 24, space_margin = 14;
 
 double dot_product(const Point& a, const Point& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -25,8 +25,8 @@ double dot_product(const Point& a, const Point& b) {
 class Camera {
  public:
   explicit Camera(const Panel& panel) : radius_(panel.space->radius) {
-    left_ = margin, right_ = panel.width - margin;
-    top_ = top_margin, bottom_ = panel.height - margin;
+    left_ = space_margin, right_ = panel.width - space_margin;
+    top_ = space_top, bottom_ = panel.height - space_margin;
     middle_ = {(left_ + right_) / 2, (top_ + bottom_) / 2};
     const double half = std::min(right_ - left_, bottom_ - top_) / 2;
     Interval x, y, z;
@@ -270,10 +270,12 @@ Markup draw_in_space(const Panel& panel, std::size_t rows) {
   if (panel.endpoints)
     for (const Series& series : panel.series) content += endpoints(series, camera);
   if (!panel.heading.empty())
-    content += element(
-        "text",
-        {{"class", "heading"}, {"x", panel.width - margin}, {"y", 16.0}, {"text-anchor", "end"}},
-        panel.heading);
+    content += element("text",
+                       {{"class", "heading"},
+                        {"x", panel.width - space_margin},
+                        {"y", 16.0},
+                        {"text-anchor", "end"}},
+                       panel.heading);
   const Markup styled = rows == 0
                             ? element("g", {{"font-size", 12.0}, {"font-family", "serif"}}, content)
                             : element("g",

@@ -20,11 +20,6 @@ using plot::Series;
 constexpr double narrow = 352, narrow_height = 200;  // two panels abreast
 constexpr std::size_t most_small_panels = 12;
 
-std::vector<double> first(std::span<const double> values, std::size_t rows) {
-  return {values.begin(),
-          values.begin() + static_cast<std::ptrdiff_t>(std::min(rows, values.size()))};
-}
-
 // An entry for each series, when there is something to tell apart.
 std::vector<LegendEntry> entries(std::span<const Series> series) {
   std::vector<LegendEntry> legend;
@@ -78,8 +73,9 @@ Figure phase_portrait(std::span<const Run> runs, const std::string& q, const std
     if (!table.contains(q) || !table.contains(p)) continue;
     const std::size_t rows = legible_rows(table, std::span(&plane, 1));
     all = all && rows == table.rows();
-    panel.series.push_back({labels[i], first(table.column(q), rows), first(table.column(p), rows),
-                            i, first(table.column("t"), rows)});
+    panel.series.push_back({labels[i], first_rows(table.column(q), rows),
+                            first_rows(table.column(p), rows), i,
+                            first_rows(table.column("t"), rows)});
   }
   panel.description =
       "The curves (" + q + ", " + p + ") of " + count_of(panel.series.size(), "run") + ".";
@@ -114,8 +110,8 @@ Figure planar_figure(std::span<const Run> runs, std::span<const PlanarBody> bodi
     for (std::size_t b = 0; b < present.size(); ++b) {
       const auto& [first_name, second_name] = present[b];
       panel.series.push_back(
-          {"(" + first_name + ", " + second_name + ")", first(table.column(first_name), rows),
-           first(table.column(second_name), rows), b, first(table.column("t"), rows)});
+          {"(" + first_name + ", " + second_name + ")", first_rows(table.column(first_name), rows),
+           first_rows(table.column(second_name), rows), b, first_rows(table.column("t"), rows)});
       x.include(panel.series.back().x);
       y.include(panel.series.back().y);
     }
@@ -139,10 +135,15 @@ std::vector<Series> columns_over_time(std::span<const Run> runs, const std::stri
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const TrajectoryTable& table = runs[i].trajectory;
     if (!table.contains(column)) continue;
-    series.push_back({labels[i], first(table.column("t"), table.rows()),
-                      first(table.column(column), table.rows()), i});
+    series.push_back({labels[i], first_rows(table.column("t"), table.rows()),
+                      first_rows(table.column(column), table.rows()), i});
   }
   return series;
+}
+
+std::vector<double> first_rows(std::span<const double> values, std::size_t rows) {
+  return {values.begin(),
+          values.begin() + static_cast<std::ptrdiff_t>(std::min(rows, values.size()))};
 }
 
 std::string axis_label(std::span<const Run> runs, const std::string& quantity) {
@@ -263,7 +264,8 @@ std::optional<Figure> constraint_figure(std::span<const Run> runs) {
             std::isnan(values[row]) ? values[row] : std::max(violation[row], std::abs(values[row]));
       }
     }
-    series.push_back({labels[i], first(table.column("t"), table.rows()), std::move(violation), i});
+    series.push_back(
+        {labels[i], first_rows(table.column("t"), table.rows()), std::move(violation), i});
   }
   if (series.empty()) return std::nullopt;
   Panel panel;

@@ -53,6 +53,9 @@ std::vector<Figure> all_figures(std::span<const Run> runs);
 // A column of all runs that have it, over time; a run's curve has its colour.
 std::vector<plot::Series> columns_over_time(std::span<const Run> runs, const std::string& column);
 
+// The values of the first rows, or of all where there are fewer.
+std::vector<double> first_rows(std::span<const double> values, std::size_t rows);
+
 // What an axis says of a quantity: its label and its unit, as the first run that has it gives them.
 std::string axis_label(std::span<const Run> runs, const std::string& quantity);
 

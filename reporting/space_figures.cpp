@@ -146,10 +146,6 @@ bool is_coarse(const plot::Series& series) {
   return *middle > extent.length() / 4;
 }
 
-std::vector<double> first(std::span<const double> values, std::size_t rows) {
-  return {values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rows)};
-}
-
 plot::Panel panel_of(const Run& run, const SpatialPoints& all, std::size_t rows) {
   plot::Panel panel;
   const bool named = all.points.size() == 1 && all.kind != Kind::body_axes;
@@ -163,8 +159,9 @@ plot::Panel panel_of(const Run& run, const SpatialPoints& all, std::size_t rows)
   for (std::size_t i = 0; i < all.points.size(); ++i) {
     if (!has(run, all.points[i])) continue;
     const Columns columns = columns_of(run, all.points[i]);
-    panel.series.push_back({all.points[i].label, first(columns[0], rows), first(columns[1], rows),
-                            i, first(run.trajectory.column("t"), rows), first(columns[2], rows)});
+    panel.series.push_back(
+        {all.points[i].label, first_rows(columns[0], rows), first_rows(columns[1], rows), i,
+         first_rows(run.trajectory.column("t"), rows), first_rows(columns[2], rows)});
   }
   // All of them in one way, that of most.
   const auto coarse = static_cast<std::size_t>(std::ranges::count_if(panel.series, is_coarse));
