@@ -139,4 +139,26 @@ BOOST_AUTO_TEST_CASE(round_off_of_an_energy_of_zero_is_not_said) {
       }
 }
 
+// Kunkel and Mehrmann (2006), Example 3.54: one solution, x₂ of the derivative of the first equation, but
+// the matrix of a step of Method 1 is singular whatever the step. What least squares of it leave is no
+// solution.
+BOOST_AUTO_TEST_CASE(a_singular_step_is_refused) {
+  Json experiment = {{"system",
+                      {{"type", "implicit"},
+                       {"coordinates", {"x1", "x2"}},
+                       {"equations", {"x1 - t*x2 - sin(t)", "x1' - t*x2' - cos(2*t)"}}}},
+                     {"initial", {{"x1", 0}, {"x2", 0}}},
+                     {"time", {{"step", 0.01}, {"end", 1}}}};
+  experiment["method"] = kMethod1;
+  const TemporaryFolder refused;
+  BOOST_TEST((run_in(refused, experiment).status == RunStatus::failed));
+  experiment["method"] = kMethod2;
+  const TemporaryFolder folder;
+  const RunOutcome outcome = run_in(folder, experiment);
+  BOOST_TEST_REQUIRE((outcome.status == RunStatus::completed));
+  // (x₁ - t x₂)' = cos t, so x₂ = cos 2t - cos t.
+  const double exact = std::cos(2.0) - std::cos(1.0);
+  BOOST_TEST(std::abs(outcome.summary.final[1].second - exact) < 1e-12);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
