@@ -14,6 +14,7 @@
 #include "courant/running/energy_watch.hpp"
 #include "courant/running/event_watch.hpp"
 #include "courant/running/ladder_report.hpp"
+#include "courant/running/left_constraints.hpp"
 #include "courant/running/observer.hpp"
 #include "courant/running/quantity_statistics.hpp"
 #include "courant/running/run_folder.hpp"
@@ -373,6 +374,9 @@ class RunUnderway {
     }
     if (energy_watch_ && !energy_watch_->finding().empty())
       warnings_.push_back(energy_watch_->finding());
+    else if (status_ == RunStatus::completed)
+      if (std::string left = left_constraints(observer_, statistics_, state); !left.empty())
+        warnings_.push_back(std::move(left));
   }
 
   std::optional<Index> energy() const {
