@@ -37,12 +37,13 @@ struct IntegratorLawOptions {
 
 // What was measured, and the laws:
 //
-//   P1   the measured order is order(): within 0.15, from both sides if both_ways
+//   P1   the measured order is order(): within 0.15, from both sides if both_ways; with the step of the
+//        setting, or else with one that is shorter by up to 8⁵
 //   P2   Φ_{-h} ∘ Φ_h = id, if is_symmetric(); not so, if it is denied and both_ways
 //   P3   Φ_h*ω = ω on T M_f, if is_symplectic(); ω of the structure
 //   P4   Φ_h preserves D, if is_symplectic(): the forward image of D_x is D_y, where M_f is M
 //   P5   the step from a state is that of a fresh stepper: nothing else is remembered
-//   P6   a step with h < 0 goes back in time, with the order claimed
+//   P6   a step with h < 0 goes back in time, with the order claimed; with a step as for P1
 //   P7   a step that fails throws SolveError and leaves state and stepper as they were; none leads
 //        to numbers that are not finite
 //   P8   v and z of the initial state may be empty (if both_ways: a Lagrangian that is not defined

@@ -12,12 +12,10 @@
 #include "courant/running/checkpoint_keeper.hpp"
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/energy_watch.hpp"
-#include "courant/running/event_watch.hpp"
 #include "courant/running/ladder_report.hpp"
 #include "courant/running/left_constraints.hpp"
-#include "courant/running/observer.hpp"
-#include "courant/running/quantity_statistics.hpp"
 #include "courant/running/run_folder.hpp"
+#include "courant/running/run_results.hpp"
 #include "courant/running/run_watchers.hpp"
 #include "courant/running/symmetry_check.hpp"
 #include "courant/running/trajectory_writer.hpp"
@@ -40,8 +38,6 @@ SolverStatistics operator+(const SolverStatistics& a, const SolverStatistics& b)
           .second_attempts = a.second_attempts + b.second_attempts,
           .confirmations = a.confirmations + b.confirmations};
 }
-
-double per(double amount, double count) { return count > 0.0 ? amount / count : 0.0; }
 
 class RunUnderway {
  public:
@@ -70,7 +66,7 @@ class RunUnderway {
       fail("The system is inconsistent near the initial values. " + ladder_.reason);
     }
     const RunFolder folder(options_.folder, options_.existing, experiment_);
-    id_ = folder.id();
+    results_.id = folder.id();
     const auto checkpoint = folder.checkpoint();
     const long first = checkpoint ? checkpoint->k : 0;
     if (method) watch_energy(*method);
@@ -78,7 +74,7 @@ class RunUnderway {
     if (checkpoint) recall(*checkpoint, folder);
     if (options_.on_resume && options_.existing == ExistingRun::resume)
       options_.on_resume(first, experiment_.time ? experiment_.time->time(first) : 0.0);
-    folder.write_summary(summary(RunStatus::running, {}));
+    folder.write_summary(results_.summary(RunStatus::running, {}));
     writer_ = make_writer(folder);
     if (method && !experiment_.events.empty()) watch_events(folder);
     make_watchers(first);
@@ -90,16 +86,16 @@ class RunUnderway {
     writer_->flush();
     keeper.flush();
 
-    RunOutcome outcome{status_, message_, {}, expectations()};
-    outcome.summary = summary(status_, outcome.expectations);
+    RunOutcome outcome{results_.status, results_.message, {}, results_.expectations()};
+    outcome.summary = results_.summary(results_.status, outcome.expectations);
     folder.write_summary(outcome.summary);
     return outcome;
   }
 
  private:
   void fail(std::string message) {
-    status_ = RunStatus::failed;
-    message_ = std::move(message);
+    results_.status = RunStatus::failed;
+    results_.message = std::move(message);
   }
 
   // What a step that failed says, and which formula has no value where it was to lead.
@@ -138,7 +134,7 @@ class RunUnderway {
                                        .step = experiment_.time->step,
                                        .backend = options_.backend,
                                        .vocabulary = &experiment_.model.vocabulary});
-      backend_ = method.integrator->is_native() ? "native" : "interpreter";
+      results_.backend = method.integrator->is_native() ? "native" : "interpreter";
       if (options_.on_method) options_.on_method(*method.integrator);
       return method;
     } catch (const std::invalid_argument& error) {
@@ -146,7 +142,7 @@ class RunUnderway {
     } catch (const std::runtime_error& error) {
       fail(without_place(error.what()));
     } catch (const std::domain_error& error) {
-      fail((steps_ == 0 ? "/method: " : "") + without_place(error.what()));
+      fail((results_.steps == 0 ? "/method: " : "") + without_place(error.what()));
     }
     return std::nullopt;
   }
@@ -169,7 +165,7 @@ class RunUnderway {
 
   // All that is told of the states of the run, in this order. What ends the run is told last.
   void make_watchers(long first) {
-    watchers_.push_back(keep_statistics(statistics_));
+    watchers_.push_back(keep_statistics(results_.statistics));
     watchers_.push_back(write_rows(
         *writer_,
         [this](long k) {
@@ -182,7 +178,7 @@ class RunUnderway {
       std::multimap<long, double> due;
       for (const double moment : experiment_.expect.times)
         due.emplace(*experiment_.time->step_at(moment), moment);
-      watchers_.push_back(keep_rows(std::move(due), rows_at_times_));
+      watchers_.push_back(keep_rows(std::move(due), results_.rows_at_times));
     }
     if (options_.on_progress && experiment_.time)
       watchers_.push_back(show_progress(
@@ -200,7 +196,7 @@ class RunUnderway {
                            .t = t,
                            .row = k == 0 ? observer_.begin(state) : observer_.advance(step),
                            .step = step};
-    steps_ = k;
+    results_.steps = k;
     std::optional<RunEnd> end;
     const auto tell = [&](RunWatcher& watcher) {
       if (auto its_end = watcher.watch(moment); its_end && !end) end = std::move(its_end);
@@ -210,8 +206,8 @@ class RunUnderway {
     if (event_watch_) tell(*event_watch_);
     for (RunWatcher* watcher : options_.watchers) tell(*watcher);
     if (end) {
-      status_ = end->status;
-      message_ = end->message;
+      results_.status = end->status;
+      results_.message = end->message;
     }
     return !end;
   }
@@ -261,6 +257,7 @@ class RunUnderway {
     event_watch_.emplace(experiment_.events, static_cast<Index>(observer_.first_event()),
                          written_names(), experiment_.expect.occurrences, folder.path(),
                          std::move(memory));
+    results_.event_watch = &*event_watch_;
   }
 
   void watch_ladder() {
@@ -272,15 +269,15 @@ class RunUnderway {
   // or went on.
   Checkpoint checkpoint(long k, const State& state, const Motion& motion,
                         const SolverStatistics& solver, double seconds) const {
-    Checkpoint now{.run = id_,
+    Checkpoint now{.run = results_.id,
                    .k = k,
                    .state = state,
                    .motion = motion,
                    .trajectory_size = writer_->size(),
-                   .wall_seconds = wall_seconds_ + seconds,
-                   .solver = solver_ + solver,
-                   .statistics = statistics_.memory(),
-                   .rows_at_times = rows_at_times_,
+                   .wall_seconds = results_.wall_seconds + seconds,
+                   .solver = results_.solver + solver,
+                   .statistics = results_.statistics.memory(),
+                   .rows_at_times = results_.rows_at_times,
                    .not_finite = not_finite_};
     if (energy_watch_) now.energy_watch = energy_watch_->memory();
     if (ladder_watch_) now.ladder_watch = ladder_watch_->memory();
@@ -307,11 +304,11 @@ class RunUnderway {
                              without_place(error.what()));
       }
     }
-    steps_ = checkpoint.k;
-    wall_seconds_ = checkpoint.wall_seconds;
-    solver_ = checkpoint.solver;
-    statistics_.recall(checkpoint.statistics);
-    rows_at_times_ = checkpoint.rows_at_times;
+    results_.steps = checkpoint.k;
+    results_.wall_seconds = checkpoint.wall_seconds;
+    results_.solver = checkpoint.solver;
+    results_.statistics.recall(checkpoint.statistics);
+    results_.rows_at_times = checkpoint.rows_at_times;
     not_finite_ = checkpoint.not_finite;
     if (energy_watch_ && checkpoint.energy_watch) energy_watch_->recall(*checkpoint.energy_watch);
     if (ladder_watch_ && checkpoint.ladder_watch) ladder_watch_->recall(*checkpoint.ladder_watch);
@@ -362,21 +359,21 @@ class RunUnderway {
     } catch (const SolveError& error) {
       fail(words_of(error, state) + (ladder_watch_ ? ladder_watch_->decline() : ""));
     } catch (const std::domain_error& error) {
-      fail((steps_ == 0 ? "/method: " : "") + without_place(error.what()));
+      fail((results_.steps == 0 ? "/method: " : "") + without_place(error.what()));
     }
-    wall_seconds_ += seconds_since(begin);
-    solver_ = solver_ + stepper->statistics();
-    if (status_ == RunStatus::completed && not_finite_) {
-      status_ = RunStatus::not_finite;
-      message_ = observer_.names()[static_cast<std::size_t>(not_finite_->column)] + " is " +
-                 number_text(not_finite_->value) + " at t = " + number_text(not_finite_->t) +
-                 ", and maybe later.";
+    results_.wall_seconds += seconds_since(begin);
+    results_.solver = results_.solver + stepper->statistics();
+    if (results_.status == RunStatus::completed && not_finite_) {
+      results_.status = RunStatus::not_finite;
+      results_.message = observer_.names()[static_cast<std::size_t>(not_finite_->column)] + " is " +
+                         number_text(not_finite_->value) +
+                         " at t = " + number_text(not_finite_->t) + ", and maybe later.";
     }
     if (energy_watch_ && !energy_watch_->finding().empty())
-      warnings_.push_back(energy_watch_->finding());
-    else if (status_ == RunStatus::completed)
-      if (std::string left = left_constraints(observer_, statistics_, state); !left.empty())
-        warnings_.push_back(std::move(left));
+      results_.warnings.push_back(energy_watch_->finding());
+    else if (results_.status == RunStatus::completed)
+      if (std::string left = left_constraints(observer_, results_.statistics, state); !left.empty())
+        results_.warnings.push_back(std::move(left));
   }
 
   std::optional<Index> energy() const {
@@ -387,88 +384,8 @@ class RunUnderway {
   double energy_drift() const {
     const auto H = energy();
     if (!H) return std::numeric_limits<double>::quiet_NaN();
-    const QuantityRecord record = statistics_.record(*H);
+    const QuantityRecord record = results_.statistics.record(*H);
     return record.final - record.initial;
-  }
-
-  std::vector<ExpectationResult> expectations() const {
-    RunRecord record;
-    record.completed = (status_ == RunStatus::completed || status_ == RunStatus::not_finite) &&
-                       !statistics_.empty();
-    for (const auto& [time, row] : rows_at_times_)
-      for (std::size_t i = 0; i < observer_.names().size(); ++i)
-        record.moments[time][observer_.names()[i]] = row[static_cast<Index>(i)];
-    record.ladder = &ladder_;
-    if (!statistics_.empty()) {
-      for (std::size_t i = 0; i < observer_.names().size(); ++i)
-        record.quantities[observer_.names()[i]] = statistics_.record(static_cast<Index>(i));
-      record.max_violation = max_violation();
-      if (const PowerAccount* account = observer_.account())
-        record.max_imbalance = account->imbalance();
-    }
-    if (event_watch_) record.events = event_watch_->records();
-    std::vector<ExpectationResult> results;
-    for (const auto& check : experiment_.expect.checks) results.push_back(check(record));
-    return results;
-  }
-
-  // The greatest |constraint[i]|, NaN where there are none.
-  double max_violation() const {
-    double greatest = std::numeric_limits<double>::quiet_NaN();
-    for (std::size_t i = 0; i < observer_.constraint_count(); ++i) {
-      const auto record = statistics_.record(static_cast<Index>(observer_.first_constraint() + i));
-      greatest = std::fmax(greatest, std::max(record.max, -record.min));
-    }
-    return greatest;
-  }
-
-  RunSummary summary(RunStatus status, const std::vector<ExpectationResult>& expectations) const {
-    RunSummary told{
-        .id = id_,
-        .status = status,
-        .message = message_,
-        .warnings = warnings_,
-        .title = experiment_.title,
-        .system = experiment_.model.description,
-        .method = experiment_.method ? experiment_.method->description : "constraint algorithm",
-        .steps = steps_,
-        .ladder = ladder_report_,
-        .expectations = expectations};
-    if (const auto& time = experiment_.time)
-      told.time = {.start = time->start, .end = time->time(steps_), .step = time->step};
-    if (!statistics_.empty()) {
-      for (std::size_t i = 0; i < observer_.first_constraint(); ++i) {
-        const std::string& name = observer_.names()[i];
-        const QuantityRecord record = statistics_.record(static_cast<Index>(i));
-        if (i < observer_.coordinate_count())
-          told.final.emplace_back(name, record.final);
-        else
-          told.observables.emplace_back(name, record);
-      }
-      if (observer_.constraint_count() > 0) told.max_violation = max_violation();
-      if (const PowerAccount* account = observer_.account(); account && steps_ > 0)
-        told.power_balance = account->report();
-    }
-    for (const SymmetryFinding& finding : symmetries_)
-      told.symmetries.emplace_back(
-          finding.name, RunSummary::Symmetry{.is_conserved = finding.report.is_conserved(),
-                                             .remark = finding.why_not_conserved()});
-    if (event_watch_)
-      for (const auto& [name, record] : event_watch_->records())
-        told.events.emplace_back(
-            name,
-            RunSummary::Event{.count = record.count, .first = record.first, .last = record.last});
-    const auto steps = static_cast<double>(steps_);
-    told.solver = {
-        .iterations_per_step = per(static_cast<double>(solver_.iterations), steps),
-        .factorizations_per_step = per(static_cast<double>(solver_.factorizations), steps),
-        .failures = solver_.failures,
-        .second_attempts = solver_.second_attempts,
-        .confirmations = solver_.confirmations};
-    told.backend = backend_;
-    told.wall_seconds = wall_seconds_;
-    told.steps_per_second = per(steps, wall_seconds_);
-    return told;
   }
 
   const Experiment& experiment_;
@@ -478,12 +395,11 @@ class RunUnderway {
   const std::vector<SymmetryFinding> symmetries_;
   Observer observer_;
 
-  std::string id_;
-  RunStatus status_ = RunStatus::completed;
-  std::string message_;
-  std::vector<std::string> warnings_;
-  QuantityStatistics statistics_;
-  std::map<double, VectorXd> rows_at_times_;
+  RunResults results_{.experiment = experiment_,
+                      .ladder = ladder_,
+                      .ladder_report = ladder_report_,
+                      .symmetries = symmetries_,
+                      .observer = observer_};
   std::optional<NotFinite> not_finite_;
   std::optional<LadderWatch> ladder_watch_;
   std::optional<EnergyWatch> energy_watch_;
@@ -492,10 +408,6 @@ class RunUnderway {
   std::optional<PowerAccount::Memory> account_before_;  // the step that was made
   std::optional<EventWatch> event_watch_;
   std::vector<std::unique_ptr<RunWatcher>> watchers_;
-  long steps_ = 0;
-  SolverStatistics solver_;
-  std::string backend_ = "interpreter";
-  double wall_seconds_ = 0.0;
 };
 
 }  // namespace

@@ -153,6 +153,15 @@ BOOST_AUTO_TEST_CASE(brief_is_a_few_lines) {
              2);
 }
 
+// The diode of a rectifier at rest makes 10⁻⁸ s of a circuit that is run in steps of 10⁻⁵: the order shows
+// in shorter ones, and the circuit goes back in time by shorter ones alone.
+BOOST_AUTO_TEST_CASE(the_order_of_a_stiff_system_shows_in_short_steps) {
+  const Json report = checked("network_rectifier");
+  BOOST_TEST(law(report, "P1").at("passed") == true);
+  BOOST_TEST(law(report, "P6").at("passed") == true);
+  BOOST_TEST(std::abs(report.at("method").at("measured_order").get<double>() - 2.0) < 0.15);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
 
 }  // namespace courant
