@@ -37,8 +37,8 @@ std::optional<RunEnd> EnergyWatch::watch(const RunMoment& moment) {
   if (moment.k == 0) memory_.initial = H;
   memory_.largest = std::max(memory_.largest, std::fabs(H));
   const double change = std::fabs(H - memory_.initial);
-  if (!finding().empty() || moment.k == 0 ||
-      !(change > std::max(kFurther * memory_.looked_at, kLeast * memory_.largest)))
+  if (!(change > std::max(kFurther * memory_.looked_at, kLeast * memory_.largest)) ||
+      moment.k == 0 || !finding().empty())
     return std::nullopt;
   memory_.looked_at = change;
   // Where H is a sum of terms that cancel, |H| is no measure of them, nor of its round-off.
