@@ -15,7 +15,8 @@ namespace courant {
 // again in one, three and nine parts. What a method of order p does to H on the way differs
 // between these by less and less, about 3^-p times as much each time. Where it does not, H changes
 // by something else than the error of the method: an unstable method, a solution that has been left.
-// H need not be conserved; what is round-off of its terms, which may cancel, is not looked at. Costs a few dozen steps a run. Looks no further after a finding.
+// H need not be conserved; what is round-off of its terms, which may cancel, is not looked at. Costs
+// a few dozen steps a run. Looks no further after a finding.
 class EnergyWatch final : public RunWatcher {
  public:
   // `energy`: H of a state that a step ended at; `column`: of H in the rows.
