@@ -46,6 +46,7 @@ void add_study(CLI::App& app, Session& session);
 void add_list(CLI::App& app, Session& session);
 void add_schema(CLI::App& app, Session& session);
 void add_import(CLI::App& app, Session& session);
+void add_export(CLI::App& app, Session& session);
 void add_report(CLI::App& app, Session& session);
 void add_plot(CLI::App& app, Session& session);
 void add_new(CLI::App& app, Session& session);

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "courant/core/special_functions.hpp"
+#include "courant/core/c_prelude.hpp"
 
 namespace courant {
 namespace {
@@ -12,21 +12,6 @@ constexpr const char* kAll = "courant_value_and_jacobian_";
 
 // CCompiler takes longer sources for long.
 constexpr std::size_t kLong = 50'000;
-
-// What the functions of programs call.
-std::string c_prelude() {
-  std::string source = "#include <math.h>\n";
-  source += special_functions_source();
-  source +=
-      "\nstatic double courant_power(int k, double base) {\n"
-      "  unsigned exponent = k < 0 ? 0u - (unsigned)k : (unsigned)k;\n"
-      "  double result = 1.0;\n  int first = 1;\n"
-      "  while (exponent) {\n"
-      "    if (exponent & 1u) { result = first ? base : result * base; first = 0; }\n"
-      "    exponent >>= 1;\n    if (exponent) base = base * base;\n  }\n"
-      "  return k < 0 ? 1.0 / result : result;\n}\n";
-  return source;
-}
 
 }  // namespace
 
@@ -61,9 +46,9 @@ void NativeModule::compile(const NativeCompiler& compiler) {
 
 void NativeModule::compile(const NativeCompiler& compiler,
                            const std::vector<const Added*>& functions) {
-  std::string source = c_prelude();
+  std::string source;
   for (const Added* function : functions) source += function->source;
-  const auto code = compiler.compile(source);
+  const auto code = compiler.compile(c_prelude(source) + source);
   for (const Added* function : functions) {
     Entry& entry = *function->entry;
     entry.owner = code;

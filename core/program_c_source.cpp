@@ -168,11 +168,12 @@ std::string Program::c_source(const std::string& symbol) const {
     const std::string part = symbol + "_" + std::to_string(i);
     source += (whole ? "static void " : "__attribute__((noinline)) static void ") + part +
               "(const double *const *in, double *w, double *out) {\n" +
-              parts[parts.size() - 1 - i] + "}\n";
+              parts[parts.size() - 1 - i] + "  (void)in, (void)w, (void)out;\n}\n";
     calls += "  " + part + "(in, w, out);\n";
   }
   return source + "void " + symbol + "(const double *const *in, double *out) {\n  double w[" +
-         std::to_string(slots_ - first_value + 1) + "];\n" + calls + "}\n";
+         std::to_string(slots_ - first_value + 1) + "];\n" + calls +
+         "  (void)in, (void)w, (void)out;\n}\n";
 }
 
 }  // namespace courant

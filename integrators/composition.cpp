@@ -134,6 +134,14 @@ std::string Composition::name() const {
   return method_->name() + " of order " + std::to_string(order_);
 }
 
+StepProgram Composition::program() const {
+  StepProgram program = step_program(*method_);
+  const auto parts = coefficients(order_);
+  program.method = name();
+  program.substeps.assign(parts.begin(), parts.end());
+  return program;
+}
+
 std::vector<StepFormulas> Composition::do_formulas() const { return method_->formulas(); }
 
 std::unique_ptr<Stepper> Composition::do_stepper() const {

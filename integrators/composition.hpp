@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "courant/integrators/integrator.hpp"
+#include "courant/integrators/step_program.hpp"
 
 namespace courant {
 
@@ -29,7 +30,7 @@ namespace courant {
 //
 // Φ_h(x) → x as h → 0 is needed for every x, not only on M_f. Method 1 on a system with
 // constraints takes their defect δ at the nodes to -δ, so that compositions of it have order 2.
-class Composition final : public Integrator {
+class Composition final : public Integrator, public Programmed {
  public:
   // order: 4, 6 or 8. Throws std::invalid_argument otherwise, and unless `method` is symmetric and
   // of order 2.
@@ -43,6 +44,7 @@ class Composition final : public Integrator {
   bool is_symmetric() const override { return true; }
   std::optional<bool> is_symplectic() const override { return method_->is_symplectic(); }
   bool is_native() const override { return method_->is_native(); }
+  StepProgram program() const override;
 
  private:
   class Trajectory;

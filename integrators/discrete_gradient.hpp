@@ -25,7 +25,7 @@ namespace courant {
 //
 // Conditions c(x) = 0 that are ∂E/∂λ hold at x₁. Those that contain α, as of closed ports 0 = Bᵀα, and
 // nonholonomic ones hold of α and v: x₁ is as near to M_f as the step is good.
-class DiscreteGradient final : public Integrator {
+class DiscreteGradient final : public Integrator, public Programmed {
  public:
   struct Options {
     Backend backend = Backend::automatic;
@@ -51,6 +51,7 @@ class DiscreteGradient final : public Integrator {
   }
   bool has_exact_energy() const override { return true; }
   bool is_native() const override { return step_.is_native(); }
+  StepProgram program() const override { return step_.program(); }
 
  private:
   std::unique_ptr<Stepper> do_stepper() const override { return step_.stepper(); }

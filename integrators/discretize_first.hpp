@@ -9,7 +9,7 @@ namespace courant {
 // The discrete system (S₀)_d^h = {(x₀, x₁) ∈ M × M : (1/h) R_d⁻¹(x₀, x₁) ∈ S} of an implicit system
 // as a one-step method (Option 1 of Section 5.2, equations (3), (12), (28), (30), (36)-(38)): a
 // StageStep with the equations of the system.
-class DiscretizeFirst final : public Integrator {
+class DiscretizeFirst final : public Integrator, public Programmed {
  public:
   struct Options {
     Backend backend = Backend::automatic;
@@ -34,6 +34,7 @@ class DiscretizeFirst final : public Integrator {
     return std::nullopt;
   }
   bool is_native() const override { return step_.is_native(); }
+  StepProgram program() const override { return step_.program(); }
 
  private:
   std::unique_ptr<Stepper> do_stepper() const override { return step_.stepper(); }

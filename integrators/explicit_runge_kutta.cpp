@@ -109,6 +109,38 @@ int ExplicitRungeKutta::order() const {
   return 5;
 }
 
+// What odeint's classes have in them.
+StepProgram ExplicitRungeKutta::program() const {
+  check_program_space(name(), *system()->manifold());
+  StepProgram program{.method = name()};
+  switch (kind_) {
+    case Kind::midpoint:
+      program.explicit_steps = {.times = {0.0, 0.5}, .rows = {{0.5}, {0.0, 1.0}}};
+      break;
+    case Kind::classical:
+      program.explicit_steps = {
+          .times = {0.0, 0.5, 0.5, 1.0},
+          .rows = {
+              {0.5}, {0.0, 0.5}, {0.0, 0.0, 1.0}, {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0}}};
+      break;
+    case Kind::dormand_prince:
+      program.explicit_steps = {
+          .times = {0.0, 1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0},
+          .rows = {{1.0 / 5.0},
+                   {3.0 / 40.0, 9.0 / 40.0},
+                   {44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0},
+                   {19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0},
+                   {9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0,
+                    -5103.0 / 18656.0},
+                   {35.0 / 384.0, std::nullopt, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0,
+                    11.0 / 84.0}},
+          .keeps_rate = true};
+      break;
+  }
+  program.explicit_steps->field = &field_->formulas();
+  return program;
+}
+
 std::unique_ptr<Stepper> ExplicitRungeKutta::do_stepper() const {
   switch (kind_) {
     case Kind::midpoint:

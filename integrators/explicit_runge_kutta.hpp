@@ -2,6 +2,7 @@
 #pragma once
 
 #include "courant/integrators/integrator.hpp"
+#include "courant/integrators/step_program.hpp"
 #include "courant/integrators/vector_field.hpp"
 
 namespace courant {
@@ -9,7 +10,7 @@ namespace courant {
 // Boost.Odeint's methods on ẋ = E(x) v(x, t) in the ambient space of the manifold; what geometric
 // methods are compared with. They keep neither M_f nor the manifold: how far they leave them is
 // part of the comparison.
-class ExplicitRungeKutta final : public Integrator {
+class ExplicitRungeKutta final : public Integrator, public Programmed {
  public:
   enum class Kind {
     midpoint,        // "rk2", order 2: the explicit midpoint rule
@@ -23,6 +24,7 @@ class ExplicitRungeKutta final : public Integrator {
   bool is_symmetric() const override { return false; }
   std::optional<bool> is_symplectic() const override { return false; }
   bool is_native() const override { return field_->is_native(); }
+  StepProgram program() const override;
 
  private:
   std::unique_ptr<Stepper> do_stepper() const override;

@@ -186,6 +186,28 @@ StageStep::StageStep(std::string name, std::shared_ptr<const ImplicitSystem> sys
 
 StepFormulas StageStep::formulas() const { return Trace(*this).formulas; }
 
+StepProgram StageStep::program() const {
+  const Manifold& M = *system_->manifold();
+  check_program_space(name_, M);
+  Trace trace(*this);
+  const ExprVector x0 = trace.formulas.inputs[1].variables;
+  const ExprVector x1 = trace.formulas.graph.variables("x1", M.ambient_dimension());
+  const bool has_inverse = map_->has_inverse();
+  StepProgram program{.method = name_};
+  program.solve = {.formulas = trace.formulas,
+                   .is_affine = trace.formulas.is_affine(),
+                   .tangent_blocks = trace.tangent_blocks,
+                   .displacements = trace.tangent_blocks * M.dimension(),
+                   .auxiliaries = system_->auxiliary_size(),
+                   .advanced = trace.advanced,
+                   .effort = trace.effort,
+                   .stage_inputs = {{"x0", x0}, {"x1", x1}},
+                   .stage = has_inverse ? map_->inverse(x0, x1).x : ExprVector(0),
+                   .stage_time = map_->stage_time(),
+                   .stage_is_advanced = !has_inverse};
+  return program;
+}
+
 std::unique_ptr<Stepper> StageStep::stepper() const { return std::make_unique<Trajectory>(*this); }
 
 }  // namespace courant

@@ -8,6 +8,7 @@
 #include "courant/core/equation_system.hpp"
 #include "courant/integrators/maps/discretization_map.hpp"
 #include "courant/integrators/step_formulas.hpp"
+#include "courant/integrators/step_program.hpp"
 #include "courant/integrators/stepper.hpp"
 #include "courant/structures/implicit_system.hpp"
 
@@ -44,6 +45,8 @@ class StageStep {
   const DiscretizationMap& map() const { return *map_; }
   bool is_native() const { return equations_.is_native(); }
   StepFormulas formulas() const;
+  // As of Programmed.
+  StepProgram program() const;
   std::unique_ptr<Stepper> stepper() const;
 
  private:

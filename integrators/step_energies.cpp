@@ -8,44 +8,52 @@
 
 namespace courant {
 
-StepEnergies::StepEnergies(std::shared_ptr<const EnergySystem> system, Backend backend)
-    : size_(system->manifold()->ambient_dimension()) {
-  const EnergySystem& S = *system;
+StepEnergies::Formulas::Formulas(const EnergySystem& S) {
   const Manifold& M = *S.manifold();
-  Graph graph;
-  const ExprVector x = graph.variables("x", M.ambient_dimension());
-  const ExprVector v = graph.variables("v", M.tangent_dimension());
-  const ExprVector alpha = graph.variables("alpha", M.tangent_dimension());
-  const ExprVector z = graph.variables("z", S.auxiliary_size());
-  const ExprVector t = graph.variables("t", 1);
-  const EnergySystem::Powers powers = S.powers(x, v, alpha, z, t[0]);
+  const Graph graph;
+  x = graph.variables("x", M.ambient_dimension());
+  v = graph.variables("v", M.tangent_dimension());
+  alpha = graph.variables("alpha", M.tangent_dimension());
+  z = graph.variables("z", S.auxiliary_size());
+  t = graph.variables("t", 1);
+  const EnergySystem::Powers of = S.powers(x, v, alpha, z, t[0]);
   std::vector<Expr> all;
-  for (const PortPower& port : powers.supplied) {
-    suppliers_.push_back(port.port);
+  for (const PortPower& port : of.supplied) {
+    suppliers.push_back(port.port);
     all.push_back(port.power);
   }
-  for (const PortPower& port : powers.dissipated) {
-    dissipators_.push_back(port.port);
+  for (const PortPower& port : of.dissipated) {
+    dissipators.push_back(port.port);
     all.push_back(port.power);
   }
   Expr moved = 0.0;
   for (const Expr& power : all) moved = moved + abs(power);
   for (Index i = 0; i < v.size(); ++i) moved = moved + abs(alpha[i] * v[i]);
   all.push_back(moved);
-  const ExprVector rates = Eigen::Map<const ExprVector>(all.data(), std::ssize(all));
-  const ExprVector E = ExprVector::Constant(1, S.generator(x, z, t[0]));
-  has_time_ = depends(E, t);
-  if (has_time_) suppliers_.push_back("time");
-  const ExprVector differential = S.effort(x, z, t[0]);
-  powers_ = Function("powers", {{"x", x}, {"v", v}, {"alpha", alpha}, {"z", z}, {"t", t}}, rates,
-                     {.differentiate = {}, .backend = backend});
-  powers_at_stage_ =
-      Function("powers", {{"x", x}, {"v", v}, {"z", z}, {"t", t}},
-               substitute(rates, alpha, differential), {.differentiate = {}, .backend = backend});
-  effort_ = Function("effort", {{"x", x}, {"z", z}, {"t", t}}, differential,
-                     {.differentiate = {}, .backend = backend});
-  generator_ = Function("energy", {{"x", x}, {"z", z}, {"t", t}}, E,
-                        {.differentiate = {}, .backend = backend});
+  powers = Eigen::Map<const ExprVector>(all.data(), std::ssize(all));
+  generator = ExprVector::Constant(1, S.generator(x, z, t[0]));
+  has_time = depends(generator, t);
+  if (has_time) suppliers.push_back("time");
+  effort = S.effort(x, z, t[0]);
+}
+
+ExprVector StepEnergies::Formulas::powers_at_stage() const {
+  return substitute(powers, alpha, effort);
+}
+
+StepEnergies::StepEnergies(const Formulas& of, Backend backend)
+    : suppliers_(of.suppliers),
+      dissipators_(of.dissipators),
+      has_time_(of.has_time),
+      size_(of.x.size()) {
+  const Function::Options compiled = {.differentiate = {}, .backend = backend};
+  powers_ =
+      Function("powers", {{"x", of.x}, {"v", of.v}, {"alpha", of.alpha}, {"z", of.z}, {"t", of.t}},
+               of.powers, compiled);
+  powers_at_stage_ = Function("powers", {{"x", of.x}, {"v", of.v}, {"z", of.z}, {"t", of.t}},
+                              of.powers_at_stage(), compiled);
+  effort_ = Function("effort", {{"x", of.x}, {"z", of.z}, {"t", of.t}}, of.effort, compiled);
+  generator_ = Function("energy", {{"x", of.x}, {"z", of.z}, {"t", of.t}}, of.generator, compiled);
 }
 
 VectorXd StepEnergies::effort(const Step& step) const {

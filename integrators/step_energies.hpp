@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,9 @@
 #include "courant/structures/energy_system.hpp"
 
 namespace courant {
+
+// Σ a_i from the first to the last, as programs in other languages add.
+inline double sum_in_order(const VectorXd& a) { return std::accumulate(a.begin(), a.end(), 0.0); }
 
 // The discrete power balance of a step. With the powers of the system at the stage (x̄, v, α, z, t̄),
 //
@@ -28,8 +32,21 @@ namespace courant {
 // and for the midpoint map on Rⁿ where H is quadratic.
 class StepEnergies {
  public:
+  // What is evaluated for a step.
+  struct Formulas {
+    explicit Formulas(const EnergySystem& system);
+
+    std::vector<std::string> suppliers, dissipators;
+    bool has_time = false;         // the last of the suppliers, which has no power
+    ExprVector x, v, alpha, z, t;  // variables
+    ExprVector powers;             // by port, suppliers first, and what moves in a unit of time
+    ExprVector effort, generator;  // d_xE; E
+    ExprVector powers_at_stage() const;  // with d_xE for α
+  };
   explicit StepEnergies(std::shared_ptr<const EnergySystem> system,
-                        Backend backend = Backend::interpreter);
+                        Backend backend = Backend::interpreter)
+      : StepEnergies(Formulas(*system), backend) {}
+  StepEnergies(const Formulas& formulas, Backend backend);
 
   // Of the ports; both empty for a closed system without losses.
   const std::vector<std::string>& suppliers() const { return suppliers_; }
@@ -40,8 +57,8 @@ class StepEnergies {
     // What moves within the system and through its ports: h Σ |α_i v_i| + Σ |supplied| + Σ |dissipated|.
     // Next to it, and to H, round-off in a balance is small, also where H is zero by cancellation.
     double moved = 0.0;
-    double supply() const { return supplied.sum(); }
-    double loss() const { return dissipated.sum(); }
+    double supply() const { return sum_in_order(supplied); }
+    double loss() const { return sum_in_order(dissipated); }
   };
   // Of a step that is made of several: the stepper has been told to tell_parts(). Throws
   // std::invalid_argument otherwise.

@@ -29,23 +29,23 @@ std::string whereabouts(const Manifold& M, const VectorXd& x) {
 
 }  // namespace
 
-VectorField::VectorField(std::shared_ptr<const ImplicitSystem> system,
-                         const ConstraintLadder& ladder, Backend backend, Freedom freedom)
-    : system_(std::move(system)) {
-  if (!system_) throw std::invalid_argument("VectorField::VectorField: system is null.");
+VectorFieldFormulas::VectorFieldFormulas(std::shared_ptr<const ImplicitSystem> of,
+                                         const ConstraintLadder& ladder, Freedom freedom)
+    : system(std::move(of)) {
+  if (!system) throw std::invalid_argument("VectorField::VectorField: system is null.");
   if (ladder.verdict != Verdict::regular &&
       !(freedom == Freedom::gauge && ladder.verdict == Verdict::gauge))
     throw std::invalid_argument(
         "VectorField::VectorField: the ladder's verdict is " + to_string(ladder.verdict) +
         "; expected regular: S_f is not the graph of a vector field. " + ladder.reason);
-  check_ladder("VectorField::VectorField", *system_, ladder);
-  const Manifold& M = *system_->manifold();
+  check_ladder("VectorField::VectorField", *system, ladder);
+  const Manifold& M = *system->manifold();
   const Index n = M.dimension();
   Graph graph;
   const ExprVector x = graph.variables("x", M.ambient_dimension());
   const ExprMatrix basis = basis_variables(graph, M);
   const ExprVector t = graph.variables("t", 1);
-  const LocalFormulation local(graph, *system_, x, basis, t[0], ladder.differentiations);
+  const LocalFormulation local(graph, *system, x, basis, t[0], ladder.differentiations);
   // At ξ = 0 the chart is at x itself.
   const auto at_origin = [&](const ExprVector& y) {
     return substitute(y, local.xi[0], ExprVector::Zero(n));
@@ -56,15 +56,14 @@ VectorField::VectorField(std::shared_ptr<const ImplicitSystem> system,
     unknowns.insert(unknowns.end(), local.xi[j].begin(), local.xi[j].end());
   for (const ExprVector& z : local.z) unknowns.insert(unknowns.end(), z.begin(), z.end());
   const ExprVector y = Eigen::Map<ExprVector>(unknowns.data(), static_cast<Index>(unknowns.size()));
-  const std::vector<Function::Input> inputs = {
-      {"y", y}, {"x", x}, {"basis", basis_parameters(M, basis)}, {"t", t}};
+  inputs = {{"y", y}, {"x", x}, {"basis", basis_parameters(M, basis)}, {"t", t}};
 
   // Values at the ladder's point, by the jet's leading coefficients; the other jets start at zero.
   const MatrixXd B = M.tangent_basis(ladder.point.x);
-  start_ = VectorXd::Zero(y.size());
-  start_.head(n) = B.transpose() * ladder.point.v;
-  z_offset_ = static_cast<Index>(local.xi.size() - 1) * n;
-  start_.segment(z_offset_, system_->auxiliary_size()) = ladder.point.z;
+  start = VectorXd::Zero(y.size());
+  start.head(n) = B.transpose() * ladder.point.v;
+  z_offset = static_cast<Index>(local.xi.size() - 1) * n;
+  start.segment(z_offset, system->auxiliary_size()) = ladder.point.z;
 
   const ExprVector all = at_origin(local.equations);
   const Function full("vector field", inputs, all, {.differentiate = {"y"}});
@@ -73,7 +72,7 @@ VectorField::VectorField(std::shared_ptr<const ImplicitSystem> system,
   // Without units: the entries of a force of 10⁻⁸ N are no round-off next to those of 10⁹ s⁻³.
   const MatrixXd J =
       equilibrate(
-          full.jacobian({start_, ladder.point.x, entries, VectorXd::Constant(1, ladder.point.t)}),
+          full.jacobian({start, ladder.point.x, entries, VectorXd::Constant(1, ladder.point.t)}),
           kNoise)
           .scaled;
   VectorXd scale = J.rowwise().norm();
@@ -82,7 +81,7 @@ VectorField::VectorField(std::shared_ptr<const ImplicitSystem> system,
   // instead of the equation for it, momenta would be free to leave M_f. And those that give an unknown
   // explicitly before the others: their pivots cannot vanish, as those of two rolling constraints do
   // where the wheels are parallel.
-  std::vector<int> order(static_cast<std::size_t>(system_->equation_count()), 0);
+  std::vector<int> order(static_cast<std::size_t>(system->equation_count()), 0);
   std::vector<Index> given;
   for (Index i = 0; i < all.size(); ++i) {
     int& derivatives = order[static_cast<std::size_t>(local.source[static_cast<std::size_t>(i)])];
@@ -97,26 +96,31 @@ VectorField::VectorField(std::shared_ptr<const ImplicitSystem> system,
   // The ladder decided this rank with a gap; here it only has to be found again.
   constexpr double data_error = 2e-14;
   const CompleteOrthogonalDecomposition rows((scale.asDiagonal() * J).transpose(), data_error);
-  ExprVector kept(rows.rank());
-  for (Index i = 0; i < kept.size(); ++i) kept[i] = all[rows.order()[static_cast<std::size_t>(i)]];
+  equations.resize(rows.rank());
+  for (Index i = 0; i < equations.size(); ++i)
+    equations[i] = all[rows.order()[static_cast<std::size_t>(i)]];
   std::vector<Index> others(rows.order().begin() + rows.rank(), rows.order().end());
   std::sort(others.begin(), others.end());
-  std::vector<Expr> left_out;
+  std::vector<Expr> not_kept;
   for (const Index row : others)
-    if (depends(all.segment(row, 1), y)) left_out.push_back(all[row]);
+    if (depends(all.segment(row, 1), y)) not_kept.push_back(all[row]);
 
-  const Backend together = backend.together();
-  equations_ =
-      Function("vector field", inputs, kept, {.differentiate = {"y"}, .backend = together});
-  left_out_ =
-      Function("left out", inputs,
-               Eigen::Map<const ExprVector>(left_out.data(), static_cast<Index>(left_out.size())),
-               {.backend = together});
+  left_out = Eigen::Map<const ExprVector>(not_kept.data(), static_cast<Index>(not_kept.size()));
+
   const ExprVector v = at_origin(local.v);
-  ExprVector rate(x.size() + v.size() + local.z[0].size());
+  rate.resize(x.size() + v.size() + local.z[0].size());
   rate << M.frame(x) * v, v, local.z[0];
-  rate_ = Function("rate", inputs, rate, {.backend = together});
-  basis_ = MovingBasis::projection(M, together);
+}
+
+VectorField::VectorField(VectorFieldFormulas formulas, Backend backend)
+    : formulas_(std::move(formulas)) {
+  const auto& inputs = formulas_.inputs;
+  const Backend together = backend.together();
+  equations_ = Function("vector field", inputs, formulas_.equations,
+                        {.differentiate = {"y"}, .backend = together});
+  left_out_ = Function("left out", inputs, formulas_.left_out, {.backend = together});
+  rate_ = Function("rate", inputs, formulas_.rate, {.backend = together});
+  basis_ = MovingBasis::projection(*formulas_.system->manifold(), together);
   together.compile();
 }
 
@@ -124,23 +128,23 @@ VectorField::Evaluation::Evaluation(const VectorField& field)
     : field_(field),
       // Velocities, accelerations and forces have no unit in common: each is measured by itself.
       newton_(field.equations_,
-              std::vector<Index>(static_cast<std::size_t>(field.start_.size()), 1), {}),
-      y_(field.start_),
+              std::vector<Index>(static_cast<std::size_t>(field.formulas_.start.size()), 1), {}),
+      y_(field.formulas_.start),
       kept_(y_),
       out_(field.rate_.output_size()),
-      v_(VectorXd::Zero(field.system_->manifold()->tangent_dimension())),
-      z_(VectorXd::Zero(field.system_->auxiliary_size())),
+      v_(VectorXd::Zero(field.formulas_.system->manifold()->tangent_dimension())),
+      z_(VectorXd::Zero(field.formulas_.system->auxiliary_size())),
       left_out_(VectorXd::Zero(field.left_out_count())),
-      sizes_(VectorXd::Zero(std::max<Index>(1, field.start_.size()))),
-      basis_(*field.system_->manifold(), field.basis_) {}
+      sizes_(VectorXd::Zero(std::max<Index>(1, field.formulas_.start.size()))),
+      basis_(*field.formulas_.system->manifold(), field.basis_) {}
 
 void VectorField::Evaluation::start(const State& state) {
   sizes_.setZero();
   basis_.move_to(state.x);
-  y_ = field_.start_;
+  y_ = field_.formulas_.start;
   const MatrixXd& B = basis_.matrix();
   if (state.v.size() == B.rows()) y_.head(B.cols()) = B.transpose() * state.v;
-  if (state.z.size() == z_.size()) y_.segment(field_.z_offset_, z_.size()) = state.z;
+  if (state.z.size() == z_.size()) y_.segment(field_.formulas_.z_offset, z_.size()) = state.z;
   kept_ = y_;
 }
 
@@ -154,7 +158,7 @@ void VectorField::Evaluation::forget() {
   sizes_.setZero();
   newton_.reset();
   basis_.forget();
-  kept_ = y_ = field_.start_;
+  kept_ = y_ = field_.formulas_.start;
 }
 
 void VectorField::Evaluation::operator()(const VectorXd& x, VectorXd& rate, double t) {
@@ -169,17 +173,17 @@ void VectorField::Evaluation::operator()(const State& state, VectorXd& rate) {
 }
 
 void VectorField::Evaluation::solve(const VectorXd& x, VectorXd& rate, double t) {
-  const Manifold& M = *field_.system_->manifold();
+  const Manifold& M = *field_.formulas_.system->manifold();
   const double* in[] = {y_.data(), x.data(), basis_.data(), &t};
   auto result = newton_.solve(y_.data(), in, sizes_.data());
   if (result.status != Newton::Status::converged) {
     newton_.reset();
-    y_ = field_.start_;
+    y_ = field_.formulas_.start;
     sizes_.setConstant(largest(y_));
     result = newton_.solve(y_.data(), in, sizes_.data());
   }
   if (result.status != Newton::Status::converged) {
-    y_ = field_.start_;
+    y_ = field_.formulas_.start;
     newton_.reset();
     if (newton_.approach(y_.data(), in, sizes_.data()))
       result = newton_.solve(y_.data(), in, sizes_.data());

@@ -9,6 +9,23 @@
 
 namespace courant {
 
+// The equations that a VectorField solves, as formulas.
+struct VectorFieldFormulas {
+  // Which ladders there is a field for: with gauge freedom it is one of many, that nearest to the
+  // last velocity that was evaluated.
+  enum class Freedom { none, gauge };
+  // Throws std::invalid_argument unless the ladder is regular, or gauge where that is allowed.
+  VectorFieldFormulas(std::shared_ptr<const ImplicitSystem> system, const ConstraintLadder& ladder,
+                      Freedom freedom);
+
+  std::shared_ptr<const ImplicitSystem> system;
+  std::vector<Function::Input> inputs;  // y = (ξ', …, z, …), x, basis, t
+  ExprVector equations, rate,
+      left_out;        // the equations kept; ẋ, v, z; those of y that are not kept
+  VectorXd start;      // y at the ladder's point
+  Index z_offset = 0;  // of z in it
+};
+
 // x ↦ v with (x, v) ∈ S_f, for a regular ladder: the equations of S_f solved for (v, z, jets) at
 // given x.
 //
@@ -18,14 +35,15 @@ namespace courant {
 // violation of the constraints at x.
 class VectorField {
  public:
-  // Which ladders there is a field for: with gauge freedom it is one of many, that nearest to the
-  // last velocity that was evaluated.
-  enum class Freedom { none, gauge };
-  // Throws std::invalid_argument unless the ladder is regular, or gauge where that is allowed.
+  using Freedom = VectorFieldFormulas::Freedom;
+  VectorField(VectorFieldFormulas formulas, Backend backend);
+  // Throws as VectorFieldFormulas do.
   VectorField(std::shared_ptr<const ImplicitSystem> system, const ConstraintLadder& ladder,
-              Backend backend, Freedom freedom = Freedom::none);
+              Backend backend, Freedom freedom = Freedom::none)
+      : VectorField(VectorFieldFormulas(std::move(system), ladder, freedom), backend) {}
 
-  const std::shared_ptr<const ImplicitSystem>& system() const { return system_; }
+  const VectorFieldFormulas& formulas() const { return formulas_; }
+  const std::shared_ptr<const ImplicitSystem>& system() const { return formulas_.system; }
   bool is_native() const { return equations_.is_native(); }
   // How many equations are left out, of those that contain v, z or jets.
   Index left_out_count() const { return left_out_.output_size(); }
@@ -65,9 +83,7 @@ class VectorField {
   };
 
  private:
-  std::shared_ptr<const ImplicitSystem> system_;
-  VectorXd start_;      // (ξ', …, z, …) at the ladder's point
-  Index z_offset_;      // of z in it
+  VectorFieldFormulas formulas_;
   Function equations_;  // y = (ξ', …, z, …); x, basis, t ↦ the equations kept
   Function rate_;       // the same ↦ ẋ, v, z
   Function left_out_;   // the same ↦ the equations of y that are not kept

@@ -9,6 +9,7 @@
 #include "courant/core/function.hpp"
 #include "courant/integrators/vector_field.hpp"
 #include "courant/reading/experiment.hpp"
+#include "courant/running/observed_quantities.hpp"
 #include "courant/running/power_account.hpp"
 
 namespace courant {
@@ -33,6 +34,7 @@ namespace courant {
 class Observer {
  public:
   Observer(const Experiment& experiment, const ConstraintLadder& ladder, Backend backend);
+  Observer(const ObservedQuantities& quantities, Backend backend);
 
   // The names of a row's numbers, and how many of them are coordinates, are written to files.
   const std::vector<std::string>& names() const { return names_; }
@@ -60,7 +62,6 @@ class Observer {
   void restart(const State& state);
 
  private:
-  Index place(const std::string& name) const;
   void observe_stage(const State& at, const VectorXd& effort);
   void take_energies();
 

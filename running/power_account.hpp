@@ -30,8 +30,8 @@ class PowerAccount {
   void settle(double H);
 
   // Since the beginning, of all ports.
-  double supplied() const { return memory_.supplied.sum(); }
-  double dissipated() const { return memory_.dissipated.sum(); }
+  double supplied() const { return sum_in_order(memory_.supplied); }
+  double dissipated() const { return sum_in_order(memory_.dissipated); }
   double balance() const { return memory_.balance; }  // of the last step
   double imbalance() const;                           // 0 before the first step
 

@@ -1,0 +1,66 @@
+// StepProgram: all that a step evaluates, as formulas.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "courant/integrators/step_formulas.hpp"
+#include "courant/integrators/vector_field.hpp"
+
+namespace courant {
+
+class Integrator;
+
+// How a step is made, for whoever carries it out without this library: another language, say. Either of
+//
+//   solves    y with the equations = 0, then (x₁, v, …) = advanced(y; …)      DisplacementStepper
+//   explicit  a tableau of evaluations of a VectorField                       ExplicitRungeKutta
+//
+// For spaces without equations of their own, whose tangent vectors need no basis: Rⁿ and tori.
+struct StepProgram {
+  std::string method;
+
+  // y = (displacements, z); inputs y, x₀, basis (none), h, t.
+  struct Solve {
+    StepFormulas formulas;
+    bool is_affine = false;  // no step is looked at by continuation
+    Index tangent_blocks = 1;
+    Index displacements = 0, auxiliaries = 0;
+    ExprVector advanced;  // the same inputs ↦ x₁, v, x̄ unless `stage` has it, the effort
+    ExprVector effort;    // the last of those
+    std::vector<Function::Input> stage_inputs;  // x₀, x₁
+    ExprVector stage;                           // x̄
+    double stage_time = 0.0;                    // of h
+    bool stage_is_advanced = false;
+  };
+  std::optional<Solve> solve = {};
+  // A step is made of steps of these parts of h, each with a workspace of its own.
+  std::vector<double> substeps = {1.0};
+
+  // k_i = ẋ(x₀ + h Σ_{j<i} a_ij k_j, t + c_i h), x₁ = x₀ + h Σ b_j k_j, the products h a_ij first; what is not
+  // added up is no value.
+  struct Explicit {
+    std::vector<double> times;                             // c_i
+    std::vector<std::vector<std::optional<double>>> rows;  // a_i, in the end b
+    bool keeps_rate = false;                     // ẋ(x₁) is the first of the next step
+    const VectorFieldFormulas* field = nullptr;  // of the method, which has to outlive this
+  };
+  std::optional<Explicit> explicit_steps = {};
+};
+
+// A method that knows its steps as formulas.
+class Programmed {
+ public:
+  virtual ~Programmed() = default;
+  // Throws std::invalid_argument, with what is the matter, for steps that a StepProgram does not describe.
+  virtual StepProgram program() const = 0;
+};
+
+// Throws std::invalid_argument unless a StepProgram describes steps on this space.
+void check_program_space(const std::string& method, const Manifold& M);
+
+// That of a method that has one. Throws std::invalid_argument as program() does.
+StepProgram step_program(const Integrator& method);
+
+}  // namespace courant

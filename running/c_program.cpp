@@ -1,0 +1,441 @@
+#include "courant/running/c_program.hpp"
+
+#include <sstream>
+
+#include "courant/core/message.hpp"
+#include "courant/core/version.hpp"
+#include "courant/integrators/step_energies.hpp"
+#include "courant/integrators/step_program.hpp"
+#include "courant/running/c_functions.hpp"
+#include "courant/running/c_program_text.hpp"
+#include "courant/running/consistent_start.hpp"
+#include "courant/running/observed_quantities.hpp"
+
+namespace courant {
+namespace {
+
+namespace text = c_program_text;
+
+constexpr const char* kMethod = "/method";
+
+std::string join(const std::vector<std::string>& words, const std::string& between) {
+  std::string result;
+  for (const std::string& word : words) result += (result.empty() ? "" : between) + word;
+  return result;
+}
+
+// The lines of a comment, each indented.
+std::string comment_lines(const std::string& lines) {
+  std::string result;
+  std::istringstream stream(lines);
+  for (std::string line; std::getline(stream, line);)
+    result += line.empty() ? "\n" : "   " + c_comment(line) + "\n";
+  return result;
+}
+
+std::string define(const char* name, Index value) {
+  return std::string("#define ") + name + ' ' + std::to_string(value) + '\n';
+}
+
+class CProgram {
+ public:
+  explicit CProgram(const Experiment& experiment)
+      : experiment_(experiment),
+        system_(*experiment.model.system),
+        ladder_(start(experiment)),
+        prepared_(prepare()),
+        step_(step_program(*prepared_.integrator)),
+        observed_(experiment, ladder_) {
+    if (step_.explicit_steps && (observed_.account || observed_.staged.size() > 0))
+      throw ExperimentError("/observe",
+                            "what goes through ports in explicit steps is measured by a run "
+                            "alone; expected no energies and no observables at the stage");
+    if (observed_.account) energies_.emplace(*observed_.account);
+    const Manifold& M = *system_.manifold();
+    coordinates_ = M.ambient_dimension();
+    velocities_ = M.tangent_dimension();
+    measures_ = observed_.account || observed_.staged.size() > 0;
+  }
+
+  std::string source() {
+    const auto stepper = prepared_.integrator->stepper();
+    State state = prepared_.initial;
+    stepper->prepare(state, experiment_.time->step);
+
+    // What is written last says how large the arrays of the first have to be.
+    add_functions();
+    const std::string steps = step_.solve ? solved_steps() : explicit_steps();
+    const std::string rows = measurement();
+    std::string all = head() + sizes(state);
+    all += text::numbers();
+    all += text::newton();
+    all += functions_.source();
+    if (field()) all += text::field();
+    return all + steps + rows + std::string(text::main());
+  }
+
+ private:
+  static ConstraintLadder start(const Experiment& experiment) {
+    if (!experiment.method)
+      throw ExperimentError(kMethod, "is missing; expected the method whose steps are exported");
+    if (!experiment.output.at.empty())
+      throw ExperimentError("/output/at",
+                            "asks for rows between steps, which a program in C does not write; "
+                            "expected \"every\"");
+    ConstraintLadder ladder = consistent_start(experiment);
+    if (ladder.verdict == Verdict::inconsistent)
+      throw ExperimentError("/initial",
+                            "the system is inconsistent near the initial values. " + ladder.reason);
+    return ladder;
+  }
+
+  PreparedMethod prepare() const {
+    return experiment_.method->prepare({.system = experiment_.model.system,
+                                        .ladder = ladder_,
+                                        .initial = ladder_.point,
+                                        .step = experiment_.time->step,
+                                        .backend = Backend::interpreter,
+                                        .vocabulary = &experiment_.model.vocabulary});
+  }
+
+  // That of the steps or of the rows: for one ladder they are the same.
+  const VectorFieldFormulas* field() const {
+    if (step_.explicit_steps) return step_.explicit_steps->field;
+    return observed_.field ? &*observed_.field : nullptr;
+  }
+
+  void add_functions() {
+    if (const auto* field = this->field()) {
+      functions_.add(
+          {.symbol = "field",
+           .inputs = field->inputs,
+           .equations = field->equations,
+           .groups = std::vector<Index>(static_cast<std::size_t>(field->start.size()), 1)});
+      functions_.add("field_rate", field->inputs, field->rate, "x', v, z");
+      functions_.add("field_left_out", field->inputs, field->left_out,
+                     "equations that the velocity is not found from");
+    }
+    if (step_.solve) {
+      const StepProgram::Solve& solve = *step_.solve;
+      const std::vector<Index> kept = functions_.add(
+          {.symbol = "step",
+           .inputs = solve.formulas.inputs,
+           .equations = solve.formulas.equations,
+           .groups = {solve.displacements, solve.auxiliaries},
+           .elimination = solve.formulas.eliminates ? &solve.formulas.elimination : nullptr});
+      for (Index i = 0; i < solve.formulas.inputs[0].variables.size(); ++i)
+        if (std::ranges::find(kept, i) != kept.end() ||
+            (!solve.is_affine && i < solve.displacements))
+          predicted_.push_back(i);
+      functions_.add("advance", solve.formulas.inputs, solve.advanced,
+                     "where the step leads: x, v, what is known of the stage");
+      if (measures_ && !solve.stage_is_advanced)
+        functions_.add("stage_point", solve.stage_inputs, solve.stage,
+                       "the point between x0 and x1 that the system is evaluated at");
+    }
+    functions_.add("observe", observed_.inputs, observed_.quantities,
+                   "the rows after the coordinates");
+    if (observed_.staged.size() > 0)
+      functions_.add("observe_stage", observed_.stage_inputs, observed_.staged,
+                     "observables at the stage of a step");
+    if (!energies_) return;
+    const StepEnergies::Formulas& of = *energies_;
+    if (has_effort())
+      functions_.add("powers",
+                     {{"x", of.x}, {"v", of.v}, {"alpha", of.alpha}, {"z", of.z}, {"t", of.t}},
+                     of.powers, "powers by port, what is supplied first");
+    else
+      functions_.add("powers", {{"x", of.x}, {"v", of.v}, {"z", of.z}, {"t", of.t}},
+                     of.powers_at_stage(), "powers by port, what is supplied first");
+    if (observed_.staged.size() > 0)
+      functions_.add("effort", {{"x", of.x}, {"z", of.z}, {"t", of.t}}, of.effort, "dE");
+    if (of.has_time)
+      functions_.add("energy", {{"x", of.x}, {"z", of.z}, {"t", of.t}}, of.generator, "E");
+  }
+  bool has_effort() const { return step_.solve && step_.solve->effort.size() > 0; }
+
+  std::string head() const {
+    std::ostringstream out;
+    out << "/* " << c_comment(experiment_.title.empty() ? "A run of Courant" : experiment_.title)
+        << "\n\n"
+        << comment_lines(experiment_.model.description + "\n" + experiment_.method->description)
+        << "\n   Writes the rows of its trajectory.csv. Written by courant " COURANT_VERSION_STRING
+           "; compile with\n\n"
+           "     cc -std=c99 -O2 -ffp-contract=off FILE.c -lm\n\n"
+           "   Status 3: a step needs more than Newton's method, and the rows end before it.\n";
+    if (step_.solve)
+      out << "\n   The equations of a step, with its unknowns those of the arrays y:\n\n"
+          << comment_lines(explanation(step_.solve->formulas));
+    out << "\n   x = (" << c_comment(join(system_.names().coordinates, ", ")) << ")\n";
+    if (system_.auxiliary_size() > 0)
+      out << "   z = (" << c_comment(join(system_.names().auxiliary, ", ")) << ")\n";
+    out << "*/\n\n#include <float.h>\n"
+        << functions_.prelude().substr(0, functions_.prelude().find('\n') + 1)
+        << "#include <stdio.h>\n#include <stdlib.h>\n#include <string.h>\n"
+        << functions_.prelude().substr(functions_.prelude().find('\n') + 1);
+    return out.str();
+  }
+
+  std::string state_text(const State& state) const {
+    return "{" + c_number(state.t) + ",\n  " + c_array(state.x) + ",\n  " + c_array(state.v) +
+           ",\n  " + c_array(state.z) + "}";
+  }
+
+  std::string sizes(const State& first) const {
+    const TimeSpan& time = *experiment_.time;
+    std::vector<std::string> names = observed_.names;
+    names.resize(observed_.written_count);
+    names.insert(names.begin(), "t");
+    for (std::string& name : names) name = experiment_.output.heading(name);
+    std::string all = define("COORDINATES", coordinates_) + define("VELOCITIES", velocities_) +
+                      define("AUXILIARIES", system_.auxiliary_size()) +
+                      define("COLUMNS", static_cast<Index>(observed_.written_count)) +
+                      define("STEPS", time.steps) + define("EVERY", experiment_.output.every) +
+                      "/* After so many steps nothing but the state is known, as in a run that is "
+                      "resumed there. */\n" +
+                      define("EPOCH", experiment_.output.epoch) +
+                      "/* What the arrays of Newton's method hold. */\n" +
+                      define("MOST_UNKNOWNS", functions_.most_unknowns()) +
+                      define("MOST_SIZE", functions_.most_size()) +
+                      define("MOST_ENTRIES", functions_.most_entries()) + define("INPUTS", 5);
+    if (const auto* field = this->field())
+      all += define("FIELD_UNKNOWNS", field->start.size()) + define("FIELD_Z", field->z_offset) +
+             define("LEFT_OUT", field->left_out.size());
+    all +=
+        "\nstruct state {\n  double t, x[COORDINATES + 1], v[VELOCITIES + 1], z[AUXILIARIES + "
+        "1];\n};\n\n";
+    all += "static const double start_time = " + c_number(time.start) +
+           ", step_size = " + c_number(time.step) + ";\n";
+    all += "static const struct state first = " + state_text(first) + ";\n";
+    if (const auto* field = this->field())
+      all += "static const double field_start[] = " + c_array(field->start) + ";\n";
+    all += "static const char heading[] = " + c_string(join(names, ",")) + ";\n\n";
+    return all + "static long step_number = 0;\n\n";
+  }
+
+  std::string solved_steps() const {
+    const StepProgram::Solve& solve = *step_.solve;
+    std::vector<Index> group;
+    for (const Index place : predicted_) group.push_back(place < solve.displacements ? 0 : 1);
+    return "/* Of a step: its unknowns are displacements, then z. */\n" +
+           define("UNKNOWNS", solve.displacements + solve.auxiliaries) +
+           define("DISPLACEMENTS", solve.displacements) +
+           define("TANGENT_BLOCKS", solve.tangent_blocks) +
+           define("ADVANCED", solve.advanced.size()) + define("PARTS", std::ssize(step_.substeps)) +
+           define("PREDICTED", std::ssize(predicted_)) +
+           define("LOOKS_AT_STEPS", solve.is_affine ? 0 : 1) +
+           define("MEASURES_STEPS", measures_ ? 1 : 0) + "\n" +
+           "static const int predicted_at[] = " + c_array(predicted_) + ";\n" +
+           "static const int predicted_group[] = " + c_array(group) + ";\n" +
+           "/* A step is made of steps of these parts of it. */\n" +
+           "static const double parts[PARTS] = " +
+           c_array(Eigen::Map<const VectorXd>(step_.substeps.data(), std::ssize(step_.substeps))) +
+           ";\n\n" + std::string(text::predictor()) + measured_parts() +
+           std::string(text::solved_step());
+  }
+
+  // x <- x + h (a_0 k_0 + …)
+  static std::string stage_sum(const std::string& to,
+                               const std::vector<std::optional<double>>& row) {
+    std::string sum = "1.0 * state->x[i]";
+    for (std::size_t j = 0; j < row.size(); ++j)
+      if (row[j]) sum += " + h * " + c_number(*row[j]) + " * k[" + std::to_string(j) + "][i]";
+    return "  for (i = 0; i < COORDINATES; ++i) " + to + "[i] = " + sum + ";\n";
+  }
+
+  std::string explicit_steps() const {
+    const StepProgram::Explicit& of = *step_.explicit_steps;
+    const std::size_t stages = of.times.size();
+    std::string body =
+        "/* ---- a step "
+        "------------------------------------------------------------------------------------------"
+        "--"
+        " */\n\n"
+        "static struct field stepped;\n"
+        "static double k[" +
+        std::to_string(stages) +
+        "][COORDINATES + 1]; /* rates */\n"
+        "static int has_rate; /* k[0] is that of the state */\n\n"
+        "static void find_rate(const double *x, double t, double *rate) {\n"
+        "  evaluate_field(&stepped, x, t);\n"
+        "  memcpy(rate, stepped.rate, COORDINATES * sizeof *rate);\n}\n\n"
+        "/* From t to the time `end`. */\n"
+        "static void step(struct state *state, double h, double end) {\n"
+        "  double x[COORDINATES + 1];\n  const double t = state->t;\n  int i;\n"
+        "  if (!has_rate) find_rate(state->x, t, k[0]);\n";
+    for (std::size_t i = 0; i + 1 < stages; ++i)
+      body += stage_sum("x", of.rows[i]) + "  find_rate(x, t + " + c_number(of.times[i + 1]) +
+              " * h, k[" + std::to_string(i + 1) + "]);\n";
+    body += stage_sum("state->x", of.rows[stages - 1]);
+    if (of.keeps_rate) body += "  find_rate(state->x, t + h, k[0]);\n  has_rate = 1;\n";
+    return body +
+           "  memcpy(state->v, stepped.rate + COORDINATES, VELOCITIES * sizeof *state->v);\n"
+           "  memcpy(state->z, stepped.rate + COORDINATES + VELOCITIES, AUXILIARIES * sizeof "
+           "*state->z);\n"
+           "  for (i = 0; i < COORDINATES; ++i)\n"
+           "    if (!isfinite(state->x[i])) fail(\"leads to a state that is not finite\");\n"
+           "  state->t = end;\n}\n\n"
+           "static void begin_epoch(const struct state *state) {\n"
+           "  has_rate = 0;\n  start_field(&stepped, state);\n}\n\n";
+  }
+
+  // What is known of the stage of a step, and the energies that go through the ports.
+  std::string measured_parts() const {
+    if (!measures_) return "";
+    const StepProgram::Solve& solve = *step_.solve;
+    const Index kept = coordinates_ + velocities_;
+    std::ostringstream out;
+    out << "/* ---- the stage of a step, and the energies through its ports "
+           "--------------------------------------------- */\n\n"
+        << "static struct state stage; /* where the system was evaluated */\n";
+    if (has_effort() || (energies_ && observed_.staged.size() > 0))
+      out << "static double stage_effort[VELOCITIES + 1];\n";
+    if (energies_) {
+      const Index suppliers = std::ssize(energies_->suppliers),
+                  losses = std::ssize(energies_->dissipators);
+      out << define("SUPPLIERS", suppliers) << define("DISSIPATORS", losses)
+          << "static double step_supplied[SUPPLIERS + 1], step_dissipated[DISSIPATORS + 1];\n"
+             "static double all_supplied[SUPPLIERS + 1], all_dissipated[DISSIPATORS + 1];\n"
+             "static double balance, last_energy;\n\n"
+             "static double sum(const double *a, int count) {\n"
+             "  double result = 0.0;\n  int i;\n"
+             "  for (i = 0; i < count; ++i) result += a[i];\n  return result;\n}\n\n";
+      if (energies_->has_time)
+        out << "static double energy_at(const struct state *state, double t) {\n"
+               "  const double *in[] = {state->x, stage.z, &t};\n  double value;\n"
+               "  energy(in, &value);\n  return value;\n}\n\n";
+    }
+    out << "static void open_step(void) {\n";
+    if (energies_)
+      out << "  memset(step_supplied, 0, sizeof step_supplied);\n"
+             "  memset(step_dissipated, 0, sizeof step_dissipated);\n";
+    out << "}\n\n"
+        << "static void see_part(const struct state *before, const struct state *after, double h,\n"
+           "                     const double *advanced) {\n";
+    if (energies_)
+      out << "  double power[SUPPLIERS + DISSIPATORS + 2];\n  const int ports = SUPPLIERS - "
+          << (energies_->has_time ? 1 : 0) << ";\n  int i;\n";
+    out << "  stage = *after;\n  stage.t = before->t + " << c_number(solve.stage_time) << " * h;\n";
+    if (solve.stage_is_advanced)
+      out << "  memcpy(stage.x, advanced + " << kept << ", COORDINATES * sizeof *stage.x);\n";
+    else
+      out << "  {\n    const double *in[] = {before->x, after->x};\n    stage_point(in, "
+             "stage.x);\n  }\n";
+    if (has_effort())
+      out << "  memcpy(stage_effort, advanced + " << solve.advanced.size() - solve.effort.size()
+          << ", VELOCITIES * sizeof *stage_effort);\n";
+    if (energies_) {
+      out << "  {\n    const double *in[] = {stage.x, stage.v, "
+          << (has_effort() ? "stage_effort, " : "")
+          << "stage.z, &stage.t};\n    powers(in, power);\n  }\n"
+          << "  for (i = 0; i < ports; ++i) step_supplied[i] += h * power[i];\n"
+             "  for (i = 0; i < DISSIPATORS; ++i) step_dissipated[i] += h * power[ports + i];\n";
+      if (energies_->has_time)
+        out << "  step_supplied[ports] += energy_at(after, after->t) - energy_at(after, stage.t) "
+               "+\n"
+               "                          energy_at(before, stage.t) - energy_at(before, "
+               "before->t);\n";
+    }
+    out << "  (void)before, (void)advanced;\n}\n\n";
+    return out.str();
+  }
+
+  std::string measurement() const {
+    std::ostringstream out;
+    const bool has_field = observed_.field.has_value();
+    const Index energies = observed_.inputs.back().variables.size();
+    const Index staged = observed_.staged.size();
+    out << "/* ---- rows "
+           "---------------------------------------------------------------------------------------"
+           "--------- */\n\n"
+        << "static double row[" << coordinates_ + observed_.quantities.size() + 1 << "];\n";
+    if (has_field)
+      out << "static struct field observed;\n/* Where the run asks first what rows are. */\n"
+          << "static const struct state ladder_point = " << state_text(ladder_.point) << ";\n";
+    if (energies > 0) out << "static double energies[" << energies << "];\n";
+    if (staged > 0) out << "static double at_stage[" << staged << "];\n";
+    out << "\nstatic void measure(const struct state *state) {\n";
+    const bool of_field = observed_.is_field;
+    if (has_field && !of_field) out << "  start_field(&observed, state);\n";
+    if (has_field) out << "  evaluate_field(&observed, state->x, state->t);\n";
+    out << "  {\n    const double *in[] = {state->x, "
+        << (of_field ? "observed.rate + COORDINATES, observed.rate + COORDINATES + VELOCITIES"
+                     : "state->v, state->z")
+        << ", &state->t, " << (has_field ? "observed.left_out" : "NULL") << ", "
+        << (energies > 0 ? "energies" : "NULL") << "};\n"
+        << "    memcpy(row, state->x, COORDINATES * sizeof *row);\n"
+           "    observe(in, row + COORDINATES);\n  }\n";
+    if (observed_.balance) out << "  row[" << *observed_.balance << "] = balance;\n";
+    for (Index i = 0; i < staged; ++i)
+      out << "  row[" << observed_.stage_places[static_cast<std::size_t>(i)] << "] = at_stage[" << i
+          << "];\n";
+    out << "}\n\n";
+    if (staged > 0) {
+      out << "static void measure_stage(int has_effort) {\n";
+      if (energies_)
+        out << "  if (!has_effort) {\n    const double *in[] = {stage.x, stage.z, &stage.t};\n"
+               "    effort(in, stage_effort);\n  }\n";
+      out << "  {\n    const double *in[] = {stage.x, stage.v, stage.z, &stage.t, "
+          << (energies_ ? "stage_effort" : "NULL") << "};\n    observe_stage(in, at_stage);\n  }\n"
+          << "  (void)has_effort;\n}\n\n";
+    }
+    out << "/* Of the first state. */\nstatic const double *begin_rows(const struct state *state) "
+           "{\n";
+    if (has_field) out << "  start_field(&observed, NULL);\n  measure(&ladder_point);\n";
+    if (staged > 0) out << "  stage = *state;\n  measure_stage(0);\n";
+    out << "  measure(state);\n";
+    if (energies_) out << "  last_energy = row[" << *observed_.H << "];\n";
+    out << "  return row;\n}\n\n/* Where an epoch begins. */\n"
+        << "static void begin_rows_again(const struct state *state) {\n"
+        << (has_field ? "  start_field(&observed, state);\n" : "  (void)state;\n") << "}\n\n"
+        << "/* Of the state that the last step led to. */\n"
+        << "static const double *next_row(const struct state *state) {\n";
+    if (energies_) {
+      out << "  int i;\n"
+             "  for (i = 0; i < SUPPLIERS; ++i) all_supplied[i] += step_supplied[i];\n"
+             "  for (i = 0; i < DISSIPATORS; ++i) all_dissipated[i] += step_dissipated[i];\n";
+      if (energies > 0)
+        out << "  energies[0] = sum(all_supplied, SUPPLIERS);\n"
+               "  energies[1] = sum(all_dissipated, DISSIPATORS);\n"
+               "  memcpy(energies + 2, all_supplied, SUPPLIERS * sizeof *energies);\n"
+               "  memcpy(energies + 2 + SUPPLIERS, all_dissipated, DISSIPATORS * sizeof "
+               "*energies);\n";
+    }
+    if (staged > 0) out << "  measure_stage(" << (has_effort() ? 1 : 0) << ");\n";
+    out << "  measure(state);\n";
+    if (energies_) {
+      const Index H = *observed_.H;
+      out << "  balance = row[" << H << "] - last_energy - sum(step_supplied, SUPPLIERS) +\n"
+          << "            sum(step_dissipated, DISSIPATORS);\n  last_energy = row[" << H << "];\n";
+      if (observed_.balance) out << "  row[" << *observed_.balance << "] = balance;\n";
+    }
+    out << "  return row;\n}\n\n";
+    return out.str();
+  }
+
+  const Experiment& experiment_;
+  const ImplicitSystem& system_;
+  const ConstraintLadder ladder_;
+  const PreparedMethod prepared_;
+  const StepProgram step_;
+  const ObservedQuantities observed_;
+  std::optional<StepEnergies::Formulas> energies_;
+  Index coordinates_, velocities_;
+  bool measures_;
+  CFunctions functions_;
+  std::vector<Index> predicted_;
+};
+
+}  // namespace
+
+std::string c_program(const Experiment& experiment) {
+  try {
+    return CProgram(experiment).source();
+  } catch (const ExperimentError&) {
+    throw;
+  } catch (const std::invalid_argument& error) {
+    throw ExperimentError(kMethod, "cannot be exported: " + without_place(error.what()));
+  }
+}
+
+}  // namespace courant

@@ -1,0 +1,226 @@
+/* ---- equations and Newton's method --------------------------------------------------------------------- */
+
+/* (in[0], in[1], ...) -> out */
+typedef void map(const double *const *in, double *out);
+
+/* G(u; p) = 0, for those unknowns u of y that are kept; the others are given by u. */
+struct equations {
+  int size;             /* equations, and unknowns that they contain */
+  int kept, given;      /* unknowns */
+  int groups;           /* of unknowns that are measured by one scale */
+  int entries;          /* of the Jacobian */
+  const int *kept_at, *given_at; /* places in y */
+  const int *contained; /* places in u of the unknowns that the equations contain */
+  const int *group;     /* of each of u */
+  const int *row, *column, *contained_column; /* of each entry, in u and among those that are contained */
+  map *value, *value_and_jacobian, *give;
+};
+
+/* Simplified Newton: u <- u - A G(u), A the inverse of an earlier Jacobian as long as it contracts well. */
+struct newton {
+  const struct equations *of;
+  int is_factorized, factorizations;
+  double round_off; /* by how much iterates moved when they stalled with a new factorisation */
+  double u[MOST_UNKNOWNS], given[MOST_UNKNOWNS];
+  double all[MOST_SIZE + MOST_ENTRIES]; /* G and the entries of its Jacobian */
+  double change[MOST_SIZE];
+  double inverse[MOST_SIZE * MOST_SIZE]; /* column by column */
+};
+
+static double largest_of(double a, double b) { return a < b ? b : a; }
+
+static double largest(const double *x, int count) {
+  double result = 0.0;
+  int i;
+  for (i = 0; i < count; ++i) result = largest_of(result, fabs(x[i]));
+  return result;
+}
+
+static void forget_matrix(struct newton *N) {
+  N->is_factorized = 0;
+  N->round_off = 0.0;
+}
+
+/* Divides a scale by a power of two near the size that it led to. */
+static double scaled_to_one(double size, double scale) {
+  return size > 0.0 ? ldexp(scale, -ilogb(size)) : scale;
+}
+
+/* P S = L U in place, with the same exchanges in the rows of X. The ratio of the least pivot to the largest. */
+static double factor(double *S, double *X, int n) {
+  double least = INFINITY, most = 0.0;
+  int i, j, k, pivot;
+  for (k = 0; k < n; ++k) {
+    pivot = k;
+    for (i = k + 1; i < n; ++i)
+      if (fabs(S[i + k * n]) > fabs(S[pivot + k * n])) pivot = i;
+    if (S[pivot + k * n] == 0.0) return 0.0;
+    for (j = 0; pivot != k && j < n; ++j) {
+      const double s = S[k + j * n], x = X[k + j * n];
+      S[k + j * n] = S[pivot + j * n];
+      S[pivot + j * n] = s;
+      X[k + j * n] = X[pivot + j * n];
+      X[pivot + j * n] = x;
+    }
+    for (i = k + 1; i < n; ++i) S[i + k * n] /= S[k + k * n];
+    for (j = k + 1; j < n; ++j)
+      for (i = k + 1; i < n; ++i) S[i + j * n] -= S[i + k * n] * S[k + j * n];
+    least = fabs(S[k + k * n]) < least ? fabs(S[k + k * n]) : least;
+    most = largest_of(most, fabs(S[k + k * n]));
+  }
+  return n > 0 ? least / most : 1.0;
+}
+
+/* X <- U^-1 L^-1 X */
+static void substitute(const double *LU, double *X, int n) {
+  int i, j, k;
+  for (j = 0; j < n; ++j) {
+    double *const x = X + j * n;
+    for (k = 0; k < n; ++k)
+      for (i = k + 1; i < n; ++i) x[i] -= LU[i + k * n] * x[k];
+    for (k = n - 1; k >= 0; --k) {
+      x[k] /= LU[k + k * n];
+      for (i = 0; i < k; ++i) x[i] -= LU[i + k * n] * x[k];
+    }
+  }
+}
+
+/* The inverse of the Jacobian, by rows and columns of comparable size. Zero if it is singular, or nearly so. */
+static int factorize(struct newton *N, const double *const *in) {
+  static double A[MOST_SIZE * MOST_SIZE], S[MOST_SIZE * MOST_SIZE];
+  double row[MOST_SIZE], column[MOST_SIZE];
+  const int n = N->of->size;
+  int i, j, k, sweep;
+  ++N->factorizations;
+  N->is_factorized = 0;
+  N->of->value_and_jacobian(in, N->all);
+  for (k = 0; k < n * n; ++k) A[k] = 0.0;
+  for (k = 0; k < N->of->entries; ++k) {
+    if (!isfinite(N->all[n + k])) return 0;
+    A[N->of->row[k] + N->of->contained_column[k] * n] = N->all[n + k];
+  }
+  for (i = 0; i < n; ++i) row[i] = column[i] = 1.0;
+  for (k = 0; k < n * n; ++k) S[k] = A[k];
+  for (sweep = 0; sweep < 2; ++sweep) {
+    for (j = 0; j < n; ++j) column[j] = scaled_to_one(largest(S + j * n, n), column[j]);
+    for (i = 0; i < n; ++i) {
+      double size = 0.0;
+      for (j = 0; j < n; ++j) size = largest_of(size, fabs(row[i] * (A[i + j * n] * column[j])));
+      row[i] = scaled_to_one(size, row[i]);
+    }
+    for (j = 0; j < n; ++j)
+      for (i = 0; i < n; ++i) S[i + j * n] = row[i] * A[i + j * n] * column[j];
+  }
+  for (k = 0; k < n * n; ++k) N->inverse[k] = 0.0;
+  for (i = 0; i < n; ++i) N->inverse[i + i * n] = 1.0;
+  if (!(factor(S, N->inverse, n) > 1e-7)) return 0;
+  substitute(S, N->inverse, n);
+  for (j = 0; j < n; ++j)
+    for (i = 0; i < n; ++i) {
+      N->inverse[i + j * n] = column[i] * N->inverse[i + j * n] * row[j];
+      if (!isfinite(N->inverse[i + j * n])) return 0;
+    }
+  return N->is_factorized = 1;
+}
+
+/* u <- u - A G. The largest change of a group relative to its scale. */
+static double improve(struct newton *N, const double *scales) {
+  const struct equations *const of = N->of;
+  const int n = of->size;
+  double result = 0.0, total = 0.0;
+  int g, i = 0, j;
+  for (j = 0; j < n; ++j) N->change[j] = 0.0;
+  for (j = 0; j < n; ++j)
+    for (i = 0; i < n; ++i) N->change[i] += N->inverse[i + j * n] * N->all[j];
+  for (g = 0, i = 0; g < of->groups; ++g) {
+    double moved = 0.0, size = scales[g];
+    for (; i < n && of->group[of->contained[i]] == g; ++i) {
+      double *const unknown = N->u + of->contained[i];
+      const double change = fabs(N->change[i]);
+      *unknown -= N->change[i];
+      moved = largest_of(moved, change);
+      size = largest_of(size, fabs(*unknown));
+      total += change;
+    }
+    if (moved > 0.0) result = largest_of(result, size > 0.0 ? moved / size : 1.0);
+  }
+  return isfinite(total) ? result : INFINITY;
+}
+
+/* Whether every residual is round-off of the terms J_ij u_j. */
+static int is_rounded(const struct newton *N, const double *scales) {
+  const struct equations *const of = N->of;
+  double magnitude[MOST_SIZE];
+  int i, k;
+  for (i = 0; i < of->size; ++i) magnitude[i] = 0.0;
+  for (k = 0; k < of->entries; ++k) {
+    const double scale = scales[of->group[of->column[k]]];
+    const double size = largest_of(fabs(N->u[of->column[k]]), scales[0] < scale ? scales[0] : scale);
+    magnitude[of->row[k]] += fabs(N->all[of->size + k]) * size;
+  }
+  for (i = 0; i < of->size; ++i)
+    if (!(fabs(N->all[i]) <= 16.0 * DBL_EPSILON * magnitude[i])) return 0;
+  return 1;
+}
+
+/* Iterates to round-off: until changes are so small, or contract so well, that nothing is left, or until they
+   only move by round-off. Zero if that fails. */
+static int iterate(struct newton *N, const double *const *in, const double *scales) {
+  const double tolerance = 1e-17, round_off = 1e-9, brief = 1e-4;
+  double previous = INFINITY, contraction, moved = INFINITY;
+  int iteration, compared = 0;
+  int fresh = 0; /* A belongs to a point of this solve */
+  int close = 0; /* which a short change led to */
+  if (!N->is_factorized) {
+    fresh = 1;
+    if (!factorize(N, in)) return 0;
+  }
+  for (iteration = 0; iteration < 60; ++iteration) {
+    N->of->value(in, N->all);
+    moved = improve(N, scales);
+    if (!isfinite(moved)) return 0;
+    if (moved <= tolerance) return 1;
+    if (compared > 0) {
+      int stalled, stagnant, rounded, slow;
+      contraction = moved / previous;
+      if (contraction < 0.5 && moved <= 1e-2 && contraction * moved <= (1.0 - contraction) * tolerance)
+        return 1;
+      stalled = contraction > 0.5;
+      stagnant = fresh && compared == 1 && contraction > 0.9 && moved <= brief;
+      rounded = stalled && (moved > round_off
+                                ? stagnant || is_rounded(N, scales)
+                                : close || moved <= largest_of(2.0 * DBL_EPSILON, 2 * N->round_off));
+      slow = contraction > 0.2 && moved > 1e3 * tolerance;
+      if ((slow && !fresh) || (stalled && !rounded)) {
+        fresh = 1;
+        close = moved <= brief;
+        compared = 0;
+        if (!factorize(N, in)) return 0;
+        continue;
+      }
+      if (rounded) {
+        N->round_off = close && moved <= round_off ? moved : 0.998 * N->round_off;
+        return 1;
+      }
+    }
+    previous = moved;
+    ++compared;
+  }
+  return 0;
+}
+
+/* in[0] is y, which holds what the iteration begins with, and in the end the solution. */
+static int solve(struct newton *N, double *y, const double *const *in, const double *scales) {
+  const double *of_kept[INPUTS];
+  int i, converged;
+  for (i = 1; i < INPUTS; ++i) of_kept[i] = in[i];
+  of_kept[0] = N->u;
+  for (i = 0; i < N->of->kept; ++i) N->u[i] = y[N->of->kept_at[i]];
+  N->factorizations = 0;
+  converged = iterate(N, of_kept, scales);
+  if (N->of->given > 0) N->of->give(of_kept, N->given);
+  for (i = 0; i < N->of->kept; ++i) y[N->of->kept_at[i]] = N->u[i];
+  for (i = 0; i < N->of->given; ++i) y[N->of->given_at[i]] = N->given[i];
+  return converged;
+}
+

@@ -1,0 +1,47 @@
+#include <boost/test/unit_test.hpp>
+
+#include "../running/temporary_folder.hpp"
+#include "answer.hpp"
+
+namespace courant {
+BOOST_AUTO_TEST_SUITE(export_command)
+
+using test::Answer;
+using test::courant_command;
+
+BOOST_AUTO_TEST_CASE(a_program_is_written_to_a_file_or_to_standard_output) {
+  const TemporaryFolder folder;
+  const std::string file = (folder / "pendulum.c").string();
+  const Answer written =
+      courant_command({"export", "experiments/pendulum.json", "--language", "c", "-o", file});
+  BOOST_TEST(written.status == 0, written.err);
+  BOOST_TEST(written.out == "");
+  const Answer printed =
+      courant_command({"export", "experiments/pendulum.json", "--language", "c"});
+  BOOST_TEST(printed.status == 0);
+  BOOST_TEST((printed.out == read_text(file)));
+  BOOST_TEST(printed.out.find("int main(void)") != std::string::npos);
+  const Answer changed = courant_command(
+      {"export", "experiments/pendulum.json", "--language", "c", "--set", "/time/step=0.25"});
+  BOOST_TEST(changed.out.find("step_size = 0.25") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_exported_is_one_line) {
+  const Answer sphere =
+      courant_command({"export", "experiments/rigid_body.json", "--language", "c"});
+  BOOST_TEST(sphere.status == 2);
+  BOOST_TEST(sphere.out == "");
+  BOOST_TEST(
+      sphere.err.find("courant: experiments/rigid_body.json: /method: cannot be exported: ") == 0u,
+      sphere.err);
+  BOOST_TEST(std::count(sphere.err.begin(), sphere.err.end(), '\n') == 1);
+  BOOST_TEST(courant_command({"export", "experiments/pendulum.json"}).status == 2);
+  const Answer fortran =
+      courant_command({"export", "experiments/pendulum.json", "--language", "fortran"});
+  BOOST_TEST(fortran.status == 2);
+  BOOST_TEST(fortran.err.find("courant: --language: fortran") == 0u, fortran.err);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace courant

@@ -1,0 +1,186 @@
+#include "courant/running/c_program.hpp"
+
+#include <bit>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <random>
+#include <sstream>
+
+#include "c_runs.hpp"
+#include "courant/core/message.hpp"
+#include "courant/running/c_program_text.hpp"
+
+namespace courant {
+BOOST_AUTO_TEST_SUITE(c_programs)
+
+namespace {
+
+using test::CRun;
+using test::rows_of_run;
+using test::run_c;
+
+Json experiment_named(const std::string& name) {
+  return Json::parse(read_text("experiments/" + name + ".json"), nullptr, true, true);
+}
+
+void check_same_bytes(const std::string& name, const Json& experiment) {
+  const TemporaryFolder folder;
+  const CRun program = run_c(folder, experiment);
+  BOOST_TEST(program.compiler == "", name);
+  BOOST_TEST(program.status == 0, name << ": " << program.err);
+  const std::string rows = rows_of_run(folder, experiment);
+  BOOST_TEST(std::count(rows.begin(), rows.end(), '\n') > 2, name);
+  BOOST_TEST((program.out == rows), name << ": other bytes");
+}
+
+std::string refusal(const Json& experiment) {
+  try {
+    c_program(read_experiment(experiment.dump()));
+  } catch (const ExperimentError& error) {
+    return error.problems().front().where + ": " + error.problems().front().what;
+  }
+  return "";
+}
+
+const Json oscillator = Json::parse(R"json({
+  "title": "A title with a */ in it, \"quotes\" and ??/",
+  "system": { "type": "hamiltonian", "coordinates": ["q"], "hamiltonian": "(p_q^2 + q^4)/2" },
+  "initial": { "q": 1, "p_q": 0 },
+  "method": { "type": "discretize-first" },
+  "time": { "step": 0.03, "end": 30 },
+  "observe": { "speed": "q'" },
+  "output": { "units": { "q": "m" } }
+})json");
+
+}  // namespace
+
+// Regular and with constraints; energies through ports; substeps; steps that evaluate a field.
+BOOST_AUTO_TEST_CASE(programs_write_the_bytes_of_runs) {
+  for (const char* name : {"point_vortices_hamiltonian", "point_vortices_lagrangian_method1",
+                           "discrete_gradient_ports", "discrete_gradient_holonomic",
+                           "port_hamiltonian_open", "kepler_order_8", "point_vortices_rk2"})
+    check_same_bytes(name, experiment_named(name));
+  check_same_bytes("oscillator", oscillator);
+}
+
+// With the bytes after it: what is forgotten there is forgotten by both.
+BOOST_AUTO_TEST_CASE(programs_forget_where_runs_do) {
+  Json vortices = experiment_named("point_vortices_hamiltonian");
+  vortices["time"] = {{"step", 0.1}, {"end", 450}};  // an epoch is 4096 steps
+  vortices["output"] = {{"every", 50}};
+  check_same_bytes("vortices", vortices);
+  for (const char* type : {"rk2", "rk4", "dopri5", "discretize-first"}) {
+    Json experiment = oscillator;
+    experiment["method"] = {{"type", type}};
+    experiment["output"]["epoch"] = 37;
+    check_same_bytes(type, experiment);
+  }
+  Json composed = oscillator;
+  composed["method"]["order"] = 6;
+  composed["output"]["epoch"] = 100;
+  check_same_bytes("order 6", composed);
+}
+
+BOOST_AUTO_TEST_CASE(starts_that_people_use_are_exported_too) {
+  Json at_rest = oscillator;
+  at_rest["initial"] = {{"q", 0}, {"p_q", 0}};
+  check_same_bytes("at rest", at_rest);
+  Json in_si = oscillator;
+  in_si["system"]["hamiltonian"] = "p_q^2/(2*1e-27) + 1e3*q^2/2";
+  in_si["initial"] = {{"q", 1e-10}, {"p_q", 0}};
+  in_si["time"] = {{"step", 1e-16}, {"end", 3e-14}};
+  check_same_bytes("atoms", in_si);
+  Json forced = oscillator;
+  forced["system"]["hamiltonian"] = "p_q^2/2 - cos(q) - q*sin(3*t)";
+  forced["time"]["start"] = 2.5;
+  forced["time"]["end"] = 32.5;
+  check_same_bytes("forced", forced);
+}
+
+// The fewest digits that read back, in all sizes, and next to powers of two.
+BOOST_AUTO_TEST_CASE(numbers_are_written_as_the_library_does) {
+  std::vector<double> numbers = {0.0, -0.0, 1.0, 0.1, -0.3, 1e5, 123456.0, 1e6, 1e22, 1e23, 5e-324};
+  for (int exponent = -1074; exponent < 1024; ++exponent) {
+    const double power = std::ldexp(1.0, exponent);
+    for (const double number :
+         {power, -std::nextafter(power, 0.0), std::nextafter(power, 2 * power)})
+      numbers.push_back(number);
+  }
+  for (int exponent = -30; exponent < 30; ++exponent)
+    for (const double digits : {1.0, 3.0, 12.0, 1.0 / 3.0, 1234567.0})
+      numbers.push_back(digits * std::pow(10.0, exponent));
+  std::mt19937_64 generator(1);
+  for (int i = 0; i < 20'000; ++i) {
+    const auto number = std::bit_cast<double>(generator());
+    if (std::isfinite(number)) numbers.push_back(number);
+  }
+  std::ostringstream source, expected;
+  source << "#include <math.h>\n#include <stdio.h>\n#include <stdlib.h>\n#include <string.h>\n"
+            "static long step_number = 0;\n"
+         << c_program_text::numbers() << "static const double numbers[] = {";
+  for (const double number : numbers) {
+    source << std::hexfloat << number << ",\n";
+    expected << exact_text(number) << '\n';
+  }
+  source << "};\nint main(int count, char **words) {\n  int i;\n"
+            "  if (count > 1) fail(words[1]);\n"
+            "  for (i = 0; i < "
+         << std::to_string(numbers.size())
+         << "; ++i) {\n    write_number(numbers[i]);\n    putchar('\\n');\n  }\n  return 0;\n}\n";
+  const TemporaryFolder folder;
+  const CRun program = run_c(folder, source.str());
+  BOOST_TEST(program.compiler == "");
+  BOOST_TEST(program.status == 0);
+  std::istringstream found(program.out), right(expected.str());
+  int wrong = 0;
+  for (std::string a, b; std::getline(right, b);)
+    if (!std::getline(found, a) || a != b)
+      if (++wrong < 5) BOOST_TEST(a == b);
+  BOOST_TEST(wrong == 0);
+}
+
+// It says what it is.
+BOOST_AUTO_TEST_CASE(the_head_explains_the_program) {
+  const std::string source = c_program(read_experiment(oscillator.dump()));
+  for (const char* words :
+       {"/* A title with a * / in it", "Written by courant ", "cc -std=c99 -O2 -ffp-contract=off",
+        "discretize-first", "2 equations for 2 unknowns", "x = (q, p_q)", "int main(void)",
+        "\"t,q [m],p_q,H,speed\""})
+    BOOST_TEST(source.find(words) != std::string::npos, words);
+}
+
+// A step that needs more than Newton's method ends the program before its row.
+BOOST_AUTO_TEST_CASE(what_is_left_to_a_run_ends_the_program) {
+  Json runaway = oscillator;
+  runaway["system"] = {
+      {"type", "implicit"}, {"coordinates", {"x"}}, {"equations", {"x' - 1 - x^2"}}};
+  runaway["initial"] = {{"x", 0}};
+  runaway["time"] = {{"step", 0.4}, {"end", 4}};
+  runaway.erase("observe");
+  runaway.erase("output");
+  const TemporaryFolder folder;
+  const CRun program = run_c(folder, runaway);
+  BOOST_TEST(program.compiler == "");
+  BOOST_TEST(program.status == 3);
+  BOOST_TEST(program.err.find("step ") == 0u, program.err);
+  BOOST_TEST(program.err.find("`courant run` may know another way") != std::string::npos);
+  const std::string rows = rows_of_run(folder, runaway);
+  BOOST_TEST(rows.find(program.out) == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(what_has_no_program_is_refused_by_name) {
+  BOOST_TEST(refusal(experiment_named("rigid_body")).find("/method: cannot be exported: ") == 0u);
+  BOOST_TEST(refusal(experiment_named("rigid_body")).find("Sphere(2") != std::string::npos);
+  BOOST_TEST(refusal(experiment_named("toda_lattice")) ==
+             "/method: cannot be exported: solves 150 equations together; expected at most 63 in "
+             "a program in C");
+  BOOST_TEST(refusal(experiment_named("rolling_disk")).find("least squares") != std::string::npos);
+  BOOST_TEST(refusal(experiment_named("martinet_abnormal")).find("/method: is missing") == 0u);
+  Json between = oscillator;
+  between["output"] = {{"at", {0.1}}};
+  BOOST_TEST(refusal(between).find("/output/at: ") == 0u);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace courant
