@@ -423,6 +423,39 @@ std::vector<StepFormulas> ConstrainFirst::do_formulas() const {
   return {trace.step, trace.projection};
 }
 
+StepProgram ConstrainFirst::program() const {
+  const Manifold& M = *system()->manifold();
+  check_program_space(name(), M);
+  if (codimension_ > 0 && fixed_directions_.size() == 0)
+    throw std::invalid_argument(
+        name() +
+        " projects along directions that change from point to point, which are not among the "
+        "formulas of a step; expected the momentum projector, or a system without constraints");
+  const Trace trace(*this);
+  StepProgram program{.method = name()};
+  program.solve = {.formulas = trace.step,
+                   .is_affine = trace.step.is_affine(),
+                   .tangent_blocks = trace.blocks,
+                   .displacements = M.dimension(),
+                   .auxiliaries = trace.auxiliaries,
+                   .advanced = trace.advanced,
+                   .effort = ExprVector(0),
+                   .stage_inputs = {},
+                   .stage = ExprVector(0),
+                   .stage_time = map_->stage_time(),
+                   .stage_is_advanced = true,
+                   .projection = StepProgram::Solve::Projection{
+                       .formulas = trace.projection,
+                       .shifts = codimension_,
+                       .projected = trace.projected,
+                       .shift_inputs = {{"near", trace.near}, {"s", trace.s}},
+                       .correction_inputs =
+                           {{"near", trace.near}, {"s", trace.s}, {"x0", trace.x0}, {"x", trace.x}},
+                       .shifted = trace.shifted,
+                       .corrected = trace.corrected}};
+  return program;
+}
+
 std::unique_ptr<Stepper> ConstrainFirst::do_stepper() const {
   return std::make_unique<Trajectory>(*this);
 }

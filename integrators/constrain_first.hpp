@@ -7,6 +7,7 @@
 #include "courant/integrators/maps/discretization_map.hpp"
 #include "courant/integrators/moving_conormals.hpp"
 #include "courant/integrators/projector.hpp"
+#include "courant/integrators/step_program.hpp"
 #include "courant/structures/implicit_system.hpp"
 
 namespace courant {
@@ -19,7 +20,7 @@ namespace courant {
 // in one solve for (x̄, v, z, jets, μ). (x̄, v) ∈ S_f means: the equations of the system and those of
 // their time derivatives that the ladder needed. All of it is written in the chart at x_k. The
 // points x_k are on M_f to round-off, hidden constraints included.
-class ConstrainFirst final : public Integrator {
+class ConstrainFirst final : public Integrator, public Programmed {
  public:
   struct Options {
     Backend backend = Backend::automatic;
@@ -49,6 +50,8 @@ class ConstrainFirst final : public Integrator {
     return std::nullopt;
   }
   bool is_native() const override { return equations_.is_native(); }
+  // For projections along directions that are the same at every x.
+  StepProgram program() const override;
 
  private:
   class Trajectory;

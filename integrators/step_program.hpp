@@ -15,6 +15,7 @@ class Integrator;
 // How a step is made, for whoever carries it out without this library: another language, say. Either of
 //
 //   solves    y with the equations = 0, then (x₁, v, …) = advanced(y; …)      DisplacementStepper
+//             the same with a projection after it                             ConstrainFirst
 //   explicit  a tableau of evaluations of a VectorField                       ExplicitRungeKutta
 //
 // For spaces without equations of their own, whose tangent vectors need no basis: Rⁿ and tori.
@@ -33,6 +34,18 @@ struct StepProgram {
     ExprVector stage;                           // x̄
     double stage_time = 0.0;                    // of h
     bool stage_is_advanced = false;
+
+    // Where steps end on M_f, along directions that are the same everywhere: y = (ξ, ξ', …, z, …, μ), in the
+    // inputs W after the basis, advanced = (R_d⁺, x̄, v).
+    struct Projection {
+      StepFormulas formulas;  // inputs y, x of the chart, basis (none), W, near, t
+      Index shifts = 0;       // the size of μ
+      ExprVector projected;   // the same inputs ↦ x, v, z
+      std::vector<Function::Input> shift_inputs, correction_inputs;  // near, s; near, s, x₀, x
+      ExprVector shifted;                                            // R_near(s)
+      ExprVector corrected;  // what leads to x if s leads to x₀
+    };
+    std::optional<Projection> projection = {};
   };
   std::optional<Solve> solve = {};
   // A step is made of steps of these parts of h, each with a workspace of its own.

@@ -104,7 +104,7 @@ std::vector<Index> CFunctions::add(const Equations& of) {
     source_ += "static const int " + of.symbol + "_" + name + "[] = " + c_array(numbers) + ";\n";
   };
   array("kept", kept);
-  array("at", given);
+  array("given_at", given);
   array("contained", contained);
   array("group", group);
   array("row", jacobian.row);
@@ -115,7 +115,7 @@ std::vector<Index> CFunctions::add(const Equations& of) {
   source_ += "static const struct equations " + of.symbol + "_equations = {\n  " + number(size) +
              number(std::ssize(kept)) + number(std::ssize(given)) +
              number(std::max<Index>(1, std::ssize(of.groups))) + number(jacobian.values.size()) +
-             "\n  " + name("kept") + ", " + name("at") + ", " + name("contained") + ", " +
+             "\n  " + name("kept") + ", " + name("given_at") + ", " + name("contained") + ", " +
              name("group") + ",\n  " + name("row") + ", " + name("column") + ", " +
              name("contained_column") + ",\n  " + name("residual") + ", " + name("jacobian") +
              ", " + (given.empty() ? "NULL" : name("given")) + "};\n\n";

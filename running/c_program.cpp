@@ -58,9 +58,10 @@ class CProgram {
   }
 
   std::string source() {
-    const auto stepper = prepared_.integrator->stepper();
+    // What is not given is zero, as where steps begin.
     State state = prepared_.initial;
-    stepper->prepare(state, experiment_.time->step);
+    if (state.v.size() == 0) state.v = VectorXd::Zero(velocities_);
+    if (state.z.size() == 0) state.z = VectorXd::Zero(system_.auxiliary_size());
 
     // What is written last says how large the arrays of the first have to be.
     add_functions();
@@ -121,12 +122,13 @@ class CProgram {
           {.symbol = "step",
            .inputs = solve.formulas.inputs,
            .equations = solve.formulas.equations,
-           .groups = {solve.displacements, solve.auxiliaries},
+           .groups = groups(),
            .elimination = solve.formulas.eliminates ? &solve.formulas.elimination : nullptr});
       for (Index i = 0; i < solve.formulas.inputs[0].variables.size(); ++i)
         if (std::ranges::find(kept, i) != kept.end() ||
             (!solve.is_affine && i < solve.displacements))
           predicted_.push_back(i);
+      if (solve.projection) add_projection(*solve.projection);
       functions_.add("advance", solve.formulas.inputs, solve.advanced,
                      "where the step leads: x, v, what is known of the stage");
       if (measures_ && !solve.stage_is_advanced)
@@ -151,6 +153,39 @@ class CProgram {
       functions_.add("effort", {{"x", of.x}, {"z", of.z}, {"t", of.t}}, of.effort, "dE");
     if (of.has_time)
       functions_.add("energy", {{"x", of.x}, {"z", of.z}, {"t", of.t}}, of.generator, "E");
+  }
+  void add_projection(const StepProgram::Solve::Projection& of) {
+    ends_predicted_ = functions_.add(
+        {.symbol = "projection",
+         .inputs = of.formulas.inputs,
+         .equations = of.formulas.equations,
+         .groups = groups(),
+         .elimination = of.formulas.eliminates ? &of.formulas.elimination : nullptr});
+    if (of.shifts == 0) {  // then all unknowns are predicted
+      ends_predicted_.clear();
+      for (Index i = 0; i < of.formulas.inputs[0].variables.size(); ++i)
+        ends_predicted_.push_back(i);
+    }
+    functions_.add("projected", of.formulas.inputs, of.projected, "x, v and z where it leads");
+    functions_.add("shift_from", of.shift_inputs, of.shifted, "where the vector s leads from near");
+    functions_.add("corrected_shift", of.correction_inputs, of.corrected,
+                   "the vector that leads to x, if s leads to x0");
+  }
+  // Of unknowns with one scale.
+  std::vector<Index> groups() const {
+    const StepProgram::Solve& solve = *step_.solve;
+    const Index n = solve.displacements;
+    if (!solve.projection) return {n, solve.auxiliaries};
+    return {n, n, (solve.tangent_blocks - 2) * n + solve.auxiliaries, solve.projection->shifts};
+  }
+  // The unknowns that are predicted, in a group of their own up to `end`.
+  static std::string places(const std::string& name, const std::vector<Index>& at, Index end) {
+    std::vector<Index> group;
+    for (const Index place : at) group.push_back(place < end ? 0 : 1);
+    return "static const int " + name + "_places_at[] = " + c_array(at) + ";\n" +
+           "static const int " + name + "_places_group[] = " + c_array(group) + ";\n" +
+           "static const struct places " + name + "_places = {" + std::to_string(at.size()) + ", " +
+           name + "_places_at, " + name + "_places_group};\n";
   }
   bool has_effort() const { return step_.solve && step_.solve->effort.size() > 0; }
 
@@ -197,7 +232,7 @@ class CProgram {
                       "/* What the arrays of Newton's method hold. */\n" +
                       define("MOST_UNKNOWNS", functions_.most_unknowns()) +
                       define("MOST_SIZE", functions_.most_size()) +
-                      define("MOST_ENTRIES", functions_.most_entries()) + define("INPUTS", 5);
+                      define("MOST_ENTRIES", functions_.most_entries()) + define("INPUTS", 6);
     if (const auto* field = this->field())
       all += define("FIELD_UNKNOWNS", field->start.size()) + define("FIELD_Z", field->z_offset) +
              define("LEFT_OUT", field->left_out.size());
@@ -215,23 +250,37 @@ class CProgram {
 
   std::string solved_steps() const {
     const StepProgram::Solve& solve = *step_.solve;
-    std::vector<Index> group;
-    for (const Index place : predicted_) group.push_back(place < solve.displacements ? 0 : 1);
-    return "/* Of a step: its unknowns are displacements, then z. */\n" +
-           define("UNKNOWNS", solve.displacements + solve.auxiliaries) +
-           define("DISPLACEMENTS", solve.displacements) +
-           define("TANGENT_BLOCKS", solve.tangent_blocks) +
-           define("ADVANCED", solve.advanced.size()) + define("PARTS", std::ssize(step_.substeps)) +
-           define("PREDICTED", std::ssize(predicted_)) +
-           define("LOOKS_AT_STEPS", solve.is_affine ? 0 : 1) +
-           define("MEASURES_STEPS", measures_ ? 1 : 0) + "\n" +
-           "static const int predicted_at[] = " + c_array(predicted_) + ";\n" +
-           "static const int predicted_group[] = " + c_array(group) + ";\n" +
-           "/* A step is made of steps of these parts of it. */\n" +
-           "static const double parts[PARTS] = " +
-           c_array(Eigen::Map<const VectorXd>(step_.substeps.data(), std::ssize(step_.substeps))) +
-           ";\n\n" + std::string(text::predictor()) + measured_parts() +
-           std::string(text::solved_step());
+    const bool projects = solve.projection.has_value();
+    const Index n = solve.displacements;
+    const Index tangent = projects ? solve.tangent_blocks * n : n;
+    const Index unknowns = solve.formulas.inputs[0].variables.size();
+    std::string all =
+        "/* Of a step: its unknowns are displacements" +
+        std::string(projects ? ", their derivatives, z, and what moves the start" : ", then z") +
+        ". */\n" + define("UNKNOWNS", unknowns) + define("DISPLACEMENTS", n) +
+        define("TANGENT_BLOCKS", solve.tangent_blocks) + define("ADVANCED", solve.advanced.size()) +
+        define("PARTS", std::ssize(step_.substeps)) +
+        define("MOST_PREDICTED", std::max(unknowns, velocities_)) +
+        define("LOOKS_AT_STEPS", solve.is_affine ? 0 : 1) +
+        define("MEASURES_STEPS", measures_ ? 1 : 0);
+    if (projects)
+      all += define("SHIFTS", solve.projection->shifts) +
+             define("DIRECTIONS", n * solve.projection->shifts);
+    all += "\n" + std::string(text::predictor()) + places("step", predicted_, tangent);
+    if (projects) {
+      std::vector<Index> shift;
+      for (Index i = 0; i < velocities_; ++i) shift.push_back(i);
+      all += places("end", ends_predicted_, tangent) + places("shift", shift, velocities_);
+    }
+    all +=
+        "/* A step is made of steps of these parts of it. */\nstatic const double parts[PARTS] = " +
+        c_array(Eigen::Map<const VectorXd>(step_.substeps.data(), std::ssize(step_.substeps))) +
+        ";\n\n" + measured_parts();
+    for (const std::string_view part :
+         {projects ? text::projected() : text::displaced(), text::looks(),
+          projects ? text::projected_part() : text::displaced_part(), text::step()})
+      all += part;
+    return all;
   }
 
   // x <- x + h (a_0 k_0 + …)
@@ -275,7 +324,7 @@ class CProgram {
            "  for (i = 0; i < COORDINATES; ++i)\n"
            "    if (!isfinite(state->x[i])) fail(\"leads to a state that is not finite\");\n"
            "  state->t = end;\n}\n\n"
-           "static void begin_epoch(const struct state *state) {\n"
+           "static void begin_epoch(struct state *state) {\n"
            "  has_rate = 0;\n  start_field(&stepped, state);\n}\n\n";
   }
 
@@ -283,7 +332,7 @@ class CProgram {
   std::string measured_parts() const {
     if (!measures_) return "";
     const StepProgram::Solve& solve = *step_.solve;
-    const Index kept = coordinates_ + velocities_;
+    const Index kept = coordinates_ + (solve.projection ? 0 : velocities_);
     std::ostringstream out;
     out << "/* ---- the stage of a step, and the energies through its ports "
            "--------------------------------------------- */\n\n"
@@ -311,11 +360,15 @@ class CProgram {
              "  memset(step_dissipated, 0, sizeof step_dissipated);\n";
     out << "}\n\n"
         << "static void see_part(const struct state *before, const struct state *after, double h,\n"
-           "                     const double *advanced) {\n";
+           "                     const double *y, const double *advanced) {\n";
     if (energies_)
       out << "  double power[SUPPLIERS + DISSIPATORS + 2];\n  const int ports = SUPPLIERS - "
           << (energies_->has_time ? 1 : 0) << ";\n  int i;\n";
     out << "  stage = *after;\n  stage.t = before->t + " << c_number(solve.stage_time) << " * h;\n";
+    if (solve.projection)
+      out << "  memcpy(stage.v, advanced + " << coordinates_ + coordinates_
+          << ", VELOCITIES * sizeof *stage.v);\n  memcpy(stage.z, y + "
+          << solve.tangent_blocks * solve.displacements << ", AUXILIARIES * sizeof *stage.z);\n";
     if (solve.stage_is_advanced)
       out << "  memcpy(stage.x, advanced + " << kept << ", COORDINATES * sizeof *stage.x);\n";
     else
@@ -336,7 +389,7 @@ class CProgram {
                "                          energy_at(before, stage.t) - energy_at(before, "
                "before->t);\n";
     }
-    out << "  (void)before, (void)advanced;\n}\n\n";
+    out << "  (void)before, (void)y, (void)advanced;\n}\n\n";
     return out.str();
   }
 
@@ -423,7 +476,7 @@ class CProgram {
   Index coordinates_, velocities_;
   bool measures_;
   CFunctions functions_;
-  std::vector<Index> predicted_;
+  std::vector<Index> predicted_, ends_predicted_;
 };
 
 }  // namespace

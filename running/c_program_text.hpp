@@ -9,7 +9,12 @@ std::string_view numbers();
 std::string_view newton();
 std::string_view field();
 std::string_view predictor();
-std::string_view solved_step();
+std::string_view displaced();
+std::string_view displaced_part();
+std::string_view projected();
+std::string_view projected_part();
+std::string_view looks();
+std::string_view step();
 std::string_view main();
 
 }  // namespace courant::c_program_text

@@ -19,8 +19,8 @@ int main(void) {
     const double t = start_time + (double)step_number * step_size;
     const double *row;
     if (step_number > 1 && (step_number - 1) % EPOCH == 0) {
-      begin_epoch(&state);
       begin_rows_again(&state);
+      begin_epoch(&state);
     }
     step(&state, step_size, t);
     row = next_row(&state);

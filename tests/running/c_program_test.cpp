@@ -56,9 +56,10 @@ const Json oscillator = Json::parse(R"json({
 
 // Regular and with constraints; energies through ports; substeps; steps that evaluate a field.
 BOOST_AUTO_TEST_CASE(programs_write_the_bytes_of_runs) {
-  for (const char* name : {"point_vortices_hamiltonian", "point_vortices_lagrangian_method1",
-                           "discrete_gradient_ports", "discrete_gradient_holonomic",
-                           "port_hamiltonian_open", "kepler_order_8", "point_vortices_rk2"})
+  for (const char* name :
+       {"point_vortices", "point_vortices_hamiltonian", "point_vortices_lagrangian_method1",
+        "discrete_gradient_ports", "discrete_gradient_holonomic", "port_hamiltonian_open",
+        "kepler_order_8", "point_vortices_rk2"})
     check_same_bytes(name, experiment_named(name));
   check_same_bytes("oscillator", oscillator);
 }
@@ -75,6 +76,17 @@ BOOST_AUTO_TEST_CASE(programs_forget_where_runs_do) {
     experiment["output"]["epoch"] = 37;
     check_same_bytes(type, experiment);
   }
+  Json constrained = experiment_named("point_vortices");
+  constrained["time"] = {{"step", 0.2}, {"end", 60}};
+  constrained["output"] = {{"epoch", 70}};
+  constrained.erase("expect");
+  check_same_bytes("Method 2", constrained);
+  constrained["method"]["order"] = 4;
+  check_same_bytes("Method 2 of order 4", constrained);
+  Json free = oscillator;
+  free["method"] = {{"type", "constrain-first"}};
+  free["output"]["epoch"] = 100;
+  check_same_bytes("Method 2 without constraints", free);
   Json composed = oscillator;
   composed["method"]["order"] = 6;
   composed["output"]["epoch"] = 100;
@@ -176,6 +188,8 @@ BOOST_AUTO_TEST_CASE(what_has_no_program_is_refused_by_name) {
              "a program in C");
   BOOST_TEST(refusal(experiment_named("rolling_disk")).find("least squares") != std::string::npos);
   BOOST_TEST(refusal(experiment_named("martinet_abnormal")).find("/method: is missing") == 0u);
+  BOOST_TEST(refusal(experiment_named("pendulum_cartesian")).find("from point to point") !=
+             std::string::npos);
   Json between = oscillator;
   between["output"] = {{"at", {0.1}}};
   BOOST_TEST(refusal(between).find("/output/at: ") == 0u);

@@ -1,0 +1,21 @@
+static void forget(struct stepper *S) { forget_looks(S); }
+
+static void prepare(struct stepper *S, struct state *state, double h) { (void)S, (void)state, (void)h; }
+
+static void make_part(struct stepper *S, struct state *state, double h, double end) {
+  const struct state before = *state;
+  const double size = largest(before.x, COORDINATES);
+  const double scales[2] = {size, 1e7 * largest(before.z, AUXILIARIES) + 1e-3 * size};
+  if (S->predictor.count == 0)
+    begin(S, &before, h, S->y);
+  else
+    predict(&S->predictor, S->y);
+  solve_connected(S, &before, scales, h);
+  state->t = end;
+  memcpy(state->x, S->advanced, COORDINATES * sizeof *state->x);
+  memcpy(state->v, S->advanced + COORDINATES, VELOCITIES * sizeof *state->v);
+  memcpy(state->z, S->y + DISPLACEMENTS, AUXILIARIES * sizeof *state->z);
+  check_finite(state);
+  keep(S, &before, state, h);
+}
+
