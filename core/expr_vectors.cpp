@@ -16,6 +16,12 @@ ExprVector joined(const std::vector<ExprVector>& parts) {
   return result;
 }
 
+std::vector<bool> each_depends(const ExprVector& y, const ExprVector& x) {
+  std::vector<bool> result(static_cast<std::size_t>(y.size()), false);
+  for (const Index row : jacobian(y, x).row) result[static_cast<std::size_t>(row)] = true;
+  return result;
+}
+
 bool depends(const ExprVector& y, const ExprVector& x) { return jacobian(y, x).values.size() > 0; }
 
 }  // namespace courant

@@ -17,5 +17,7 @@ ExprVector joined(const Parts&... parts) {
 // Whether an entry of y changes with some of the variables x: whether ∂y/∂x has an entry that is not
 // identically zero.
 bool depends(const ExprVector& y, const ExprVector& x);
+// The same of each entry of y by itself, in one pass.
+std::vector<bool> each_depends(const ExprVector& y, const ExprVector& x);
 
 }  // namespace courant

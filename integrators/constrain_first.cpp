@@ -39,7 +39,7 @@ MatrixXd fixed_directions(const Manifold& M, const Projector& projector,
                           const ConstraintLadder& ladder) {
   const Index n = M.dimension(), d = n - ladder.degrees_of_freedom;
   if (d == 0 || n != M.tangent_dimension() || !projector.has_constant_directions(d)) return {};
-  const MatrixXd W = projector.directions(ladder.point.x, MatrixXd::Identity(n, n),
+  const MatrixXd W = projector.directions(ladder.point.x, LinearMap<double>::identity(n),
                                           orthonormalized(ladder.conormals().transpose()));
   // Unit vectors where their span is the same: formulas become simpler.
   constexpr double round_off = 1e-12;
@@ -90,7 +90,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
     if (!basis_.move_to(state.x)) forget_motion();
     VectorXd& y = projector_.unknown();
     y = jets_;
-    y.segment(n_, n_) = basis_.matrix().transpose() * state.v;
+    basis_.coordinates_of(state.v, y.segment(n_, n_));
     y.segment(method_.blocks_ * n_, state.z.size()) = state.z;
     near_ = state.x;
     project(state, {state.t, h}, state.t, 0.0, false);
@@ -290,10 +290,10 @@ class ConstrainFirst::Trajectory final : public Stepper {
   void move_basis(const VectorXd& x, VectorXd& y) {
     if (n_ == manifold().tangent_dimension()) return;
     vectors_.noalias() =
-        basis_.matrix() * y.head(method_.blocks_ * n_).reshaped(n_, method_.blocks_);
+        basis_.map().entries() * y.head(method_.blocks_ * n_).reshaped(n_, method_.blocks_);
     if (!basis_.move_to(x)) is_turned_ = true;
     y.head(method_.blocks_ * n_).reshaped(n_, method_.blocks_).noalias() =
-        basis_.matrix().transpose() * vectors_;
+        basis_.map().entries().transpose() * vectors_;
   }
 
   // W at x, with columns near those of the last step, so that μ and the kept factorisations go on.
@@ -304,7 +304,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
     if (method_.projector_->is_orthogonal()) {
       directions_ = conormals_.matrix();
     } else {
-      directions_ = method_.projector_->directions(x, basis_.matrix(), conormals_.matrix());
+      directions_ = method_.projector_->directions(x, basis_.map(), conormals_.matrix());
       if (last_directions_.size() > 0) {
         turned_ = directions_ * (directions_.transpose() * last_directions_);
         make_orthonormal_(turned_, directions_);

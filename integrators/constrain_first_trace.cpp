@@ -28,8 +28,8 @@ ConstrainFirst::Trace::Trace(const ConstrainFirst& method) {
   const Index n = M.dimension(), d = method.codimension_;
   const Graph& graph = step.graph;
   x0 = graph.variables("x0", M.ambient_dimension());
-  const ExprMatrix basis = basis_variables(graph, M);
-  basis_entries = basis_parameters(M, basis);
+  const LinearMap<Expr> basis = basis_variables(graph, M);
+  basis_entries = basis_parameters(basis);
   t = graph.variables("t", 1);
   const ExprVector h = graph.variables("h", 1);
   const ExprVector directions = graph.variables("W", n * d);

@@ -14,20 +14,24 @@ constexpr double kRightAngle = 1e-2;
 Function MovingBasis::projection(const Manifold& manifold, Backend backend) {
   Graph graph;
   const ExprVector x = graph.variables("x", manifold.ambient_dimension());
-  const ExprMatrix basis = basis_variables(graph, manifold);
-  const ExprVector entries = basis_parameters(manifold, basis);
-  const ExprVector projected = entries.size() == 0
-                                   ? entries
-                                   : ExprVector((manifold.tangent_projector(x) * basis).reshaped());
+  const LinearMap<Expr> basis = basis_variables(graph, manifold);
+  const ExprVector entries = basis_parameters(basis);
+  const ExprVector projected =
+      entries.size() == 0
+          ? entries
+          : ExprVector((manifold.tangent_projector(x) * basis).entries().reshaped());
   return Function("basis", {{"x", x}, {"basis", entries}}, projected, {.backend = backend});
 }
 
 MovingBasis::MovingBasis(const Manifold& manifold, Function projection)
     : manifold_(manifold),
       projection_(std::move(projection)),
-      basis_(MatrixXd::Identity(manifold.tangent_dimension(), manifold.dimension())),
+      basis_(projection_.output_size() == 0
+                 ? LinearMap<double>::identity(manifold.dimension())
+                 : LinearMap<double>(
+                       MatrixXd::Identity(manifold.tangent_dimension(), manifold.dimension()))),
       kept_(basis_),
-      projected_(basis_),
+      projected_(basis_.entries()),
       make_orthonormal_(basis_.cols()) {}
 
 bool MovingBasis::move_to(const VectorXd& x) {
@@ -37,18 +41,25 @@ bool MovingBasis::move_to(const VectorXd& x) {
     is_set_ = true;
     return false;
   }
-  const double* in[] = {x.data(), basis_.data()};
+  const double* in[] = {x.data(), data()};
   projection_.value(in, projected_.data());
-  if (make_orthonormal_(projected_, basis_)) return true;
+  if (make_orthonormal_(projected_, basis_.entries())) return true;
   if (projected_.allFinite()) {
     const auto [values, U, V] = singular_value_decomposition(projected_);
     if (values.minCoeff() > kRightAngle * values.maxCoeff()) {
-      basis_ = U.leftCols(V.cols()) * V.transpose();
+      basis_.entries() = U.leftCols(V.cols()) * V.transpose();
       return true;
     }
   }
   basis_ = manifold_.tangent_basis(x);
   return false;
+}
+
+void MovingBasis::coordinates_of(const VectorXd& v, Eigen::Ref<VectorXd> coordinates) const {
+  if (basis_.is_identity())
+    coordinates = v;
+  else
+    coordinates.noalias() = basis_.entries().transpose() * v;
 }
 
 }  // namespace courant

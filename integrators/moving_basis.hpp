@@ -11,7 +11,7 @@ namespace courant {
 // one projected to the new tangent space, made orthonormal by its polar factor. What was factorised
 // or extrapolated in it stays good, which a basis made afresh at every point would spoil.
 //
-// Nothing is computed where n = Ñ: B is the identity. Nothing is allocated by move_to, but for
+// Nothing is computed or stored where n = Ñ: B is the identity. Nothing is allocated by move_to, but for
 // points far apart. One object a trajectory.
 class MovingBasis {
  public:
@@ -28,13 +28,17 @@ class MovingBasis {
   void keep() { kept_ = basis_; }
   void discard() { basis_ = kept_; }  // back to what keep() left
   void forget() { is_set_ = false; }
-  const MatrixXd& matrix() const { return basis_; }
-  const double* data() const { return basis_.data(); }
+  const LinearMap<double>& map() const { return basis_; }
+  // Bᵀv, the coordinates of a tangent vector: `coordinates` = n numbers, `v` = Ñ.
+  void coordinates_of(const VectorXd& v, Eigen::Ref<VectorXd> coordinates) const;
+  // As an argument of the functions that take basis_parameters.
+  const double* data() const { return basis_.entries().data(); }
 
  private:
   const Manifold& manifold_;
   Function projection_;
-  MatrixXd basis_, kept_, projected_;
+  LinearMap<double> basis_, kept_;
+  MatrixXd projected_;
   bool is_set_ = false;
   NearestOrthonormal make_orthonormal_;
 };

@@ -142,8 +142,8 @@ Projector::MatrixFormula metric_of_lagrangian(const std::shared_ptr<const Implic
     ExprMatrix g = -jacobian(gradient(E, w), w).dense();
     // Across Q the family has -‖w - Π w‖²/2, where there is nothing to be moved.
     if (Q.dimension() < Q.tangent_dimension())
-      g += 2.0 *
-           (ExprMatrix::Identity(p.size(), p.size()) - Q.tangent_projector(bundle->position(y)));
+      g += 2.0 * (ExprMatrix::Identity(p.size(), p.size()) -
+                  Q.tangent_projector(bundle->position(y)).matrix());
     ExprVector other(p.size() + lambda.size() + 1);
     other << p, lambda, t;
     const ExprVector entries = g.reshaped();
@@ -175,7 +175,7 @@ Projector::Projector(std::string name, VectorXd units)
     }
 }
 
-MatrixXd Projector::directions(const VectorXd& x, const MatrixXd& basis,
+MatrixXd Projector::directions(const VectorXd& x, const LinearMap<double>& basis,
                                const MatrixXd& conormals) const {
   const Index d = conormals.cols();
   if (d == 0) return conormals;
@@ -190,8 +190,10 @@ MatrixXd Projector::directions(const VectorXd& x, const MatrixXd& basis,
   if (units_.size() == 0) {
     sine = least_pairing(W, conormals);
   } else {
-    const VectorXd size =
-        (basis.cwiseAbs2().transpose() * units_.cwiseAbs2()).cwiseSqrt();  // of coordinates
+    const VectorXd size =  // of coordinates
+        basis.is_identity()
+            ? units_
+            : VectorXd((basis.entries().cwiseAbs2().transpose() * units_.cwiseAbs2()).cwiseSqrt());
     sine = least_pairing(size.cwiseInverse().asDiagonal() * W, size.asDiagonal() * conormals);
   }
   if (!(sine > kTransversality)) {
@@ -208,7 +210,7 @@ OrthogonalProjector::OrthogonalProjector(const Manifold& manifold, const MatrixF
       metric_(compiled("OrthogonalProjector::OrthogonalProjector", manifold, metric,
                        manifold.tangent_dimension())) {}
 
-MatrixXd OrthogonalProjector::do_directions(const VectorXd& x, const MatrixXd& basis,
+MatrixXd OrthogonalProjector::do_directions(const VectorXd& x, const LinearMap<double>& basis,
                                             const MatrixXd& conormals) const {
   if (is_orthogonal()) return conormals;
   const Index size = basis.rows();
@@ -216,8 +218,9 @@ MatrixXd OrthogonalProjector::do_directions(const VectorXd& x, const MatrixXd& b
     const MatrixXd G = basis.transpose() * value_at(metric_, x, size) * basis;
     return LuDecomposition(G).solve(conormals);
   }
-  if (basis.isIdentity(0.0)) return units().cwiseAbs2().asDiagonal() * conormals;
-  const MatrixXd G = basis.transpose() * units().cwiseAbs2().cwiseInverse().asDiagonal() * basis;
+  if (basis.is_identity()) return units().cwiseAbs2().asDiagonal() * conormals;
+  const MatrixXd& B = basis.entries();
+  const MatrixXd G = B.transpose() * units().cwiseAbs2().cwiseInverse().asDiagonal() * B;
   return LuDecomposition(G).solve(conormals);
 }
 
@@ -256,9 +259,9 @@ Projector::MatrixFormula MomentumProjector::kinetic_metric(
   return metric ? metric : metric_of_lagrangian(system, momenta, x);
 }
 
-MatrixXd MomentumProjector::do_directions(const VectorXd& x, const MatrixXd& basis,
+MatrixXd MomentumProjector::do_directions(const VectorXd& x, const LinearMap<double>& basis,
                                           const MatrixXd& conormals) const {
-  const MatrixXd momentum_basis = rows_of(basis, momenta_);
+  const MatrixXd momentum_basis = rows_of(basis.matrix(), momenta_);
   MatrixXd covectors = momentum_basis * conormals;  // β: vectors at q
   if (metric_.output_size() > 0)
     covectors = value_at(metric_, x, covectors.rows()) * covectors;

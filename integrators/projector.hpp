@@ -44,7 +44,8 @@ class Projector {
   // An orthonormal W(x). x: N; basis: Ñ × n, orthonormal; conormals: n × d, an orthonormal basis of
   // the annihilator of T_xM_f in the coordinates of that basis. Throws std::domain_error if the
   // directions are no complement of T_xM_f, as seen in the units.
-  MatrixXd directions(const VectorXd& x, const MatrixXd& basis, const MatrixXd& conormals) const;
+  MatrixXd directions(const VectorXd& x, const LinearMap<double>& basis,
+                      const MatrixXd& conormals) const;
 
  protected:
   // `units`: typical sizes of the Ñ numbers of a tangent vector, all positive, or empty for 1.
@@ -53,7 +54,7 @@ class Projector {
   const VectorXd& units() const { return units_; }
 
  private:
-  virtual MatrixXd do_directions(const VectorXd& x, const MatrixXd& basis,
+  virtual MatrixXd do_directions(const VectorXd& x, const LinearMap<double>& basis,
                                  const MatrixXd& conormals) const = 0;
 
   std::string name_;
@@ -74,7 +75,7 @@ class OrthogonalProjector final : public Projector {
   bool is_orthogonal() const override { return metric_.output_size() == 0 && units().size() == 0; }
 
  private:
-  MatrixXd do_directions(const VectorXd& x, const MatrixXd& basis,
+  MatrixXd do_directions(const VectorXd& x, const LinearMap<double>& basis,
                          const MatrixXd& conormals) const override;
 
   Function metric_;  // x ↦ G, or empty
@@ -109,7 +110,7 @@ class MomentumProjector final : public Projector {
   }
 
  private:
-  MatrixXd do_directions(const VectorXd& x, const MatrixXd& basis,
+  MatrixXd do_directions(const VectorXd& x, const LinearMap<double>& basis,
                          const MatrixXd& conormals) const override;
 
   std::vector<Index> momenta_;

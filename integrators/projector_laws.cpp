@@ -19,8 +19,8 @@ MatrixXd random_rotation(Index n, std::mt19937& generator) {
 double angle(const MatrixXd& A, const MatrixXd& B) { return (A - B * (B.transpose() * A)).norm(); }
 
 // W at a point, as tangent vectors.
-MatrixXd directions(const Projector& projector, const ConstrainedPoint& at, const MatrixXd& basis,
-                    const MatrixXd& turn) {
+MatrixXd directions(const Projector& projector, const ConstrainedPoint& at,
+                    const LinearMap<double>& basis, const MatrixXd& turn) {
   const MatrixXd conormals = orthonormalized(basis.transpose() * at.conormals.transpose()) * turn;
   return basis * projector.directions(at.x, basis, conormals);
 }
@@ -39,7 +39,8 @@ std::vector<LawResult> check_projector(const Projector& projector, const Manifol
   for (const ConstrainedPoint& at : points) {
     const std::string where = describe("x", at.x);
     const Index d = at.conormals.rows();
-    const MatrixXd basis = manifold.tangent_basis(at.x), one = MatrixXd::Identity(d, d);
+    const LinearMap<double> basis = manifold.tangent_basis(at.x);
+    const MatrixXd one = MatrixXd::Identity(d, d);
     complement.add(
         [&] {
           const MatrixXd W = directions(projector, at, basis, one);

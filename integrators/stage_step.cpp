@@ -36,7 +36,7 @@ class StageStep::Trajectory final : public DisplacementStepper {
 
   // The displacement of the velocity that is known, half of it where the middle point is sought.
   void do_begin(const State& before, double h, VectorXd& y) override {
-    y.segment((blocks_ - 1) * n_, n_).noalias() = basis_.matrix().transpose() * before.v;
+    basis_.coordinates_of(before.v, y.segment((blocks_ - 1) * n_, n_));
     y.segment((blocks_ - 1) * n_, n_) *= h;
     if (blocks_ == 2) y.head(n_) = 0.5 * y.segment(n_, n_);
   }
@@ -85,7 +85,7 @@ struct StageStep::Trace {
     formulas.name = method.name_;
     const Graph& graph = formulas.graph;
     const ExprVector x0 = graph.variables("x0", M.ambient_dimension());
-    const ExprMatrix basis = basis_variables(graph, M);
+    const LinearMap<Expr> basis = basis_variables(graph, M);
     const ExprVector h = graph.variables("h", 1);
     const ExprVector t = graph.variables("t", 1);
     const ExprVector z = graph.variables("z", S.auxiliary_size());
@@ -139,7 +139,7 @@ struct StageStep::Trace {
     }
     append(unknowns, S.names().auxiliary);
     formulas.inputs = {
-        {"y", y}, {"x0", x0}, {"basis", basis_parameters(M, basis)}, {"h", h}, {"t", t}};
+        {"y", y}, {"x0", x0}, {"basis", basis_parameters(basis)}, {"h", h}, {"t", t}};
     formulas.input_names = {
         std::move(unknowns), S.names().coordinates, names.basis(), {"h"}, {"t"}};
     // z converges with the displacements.

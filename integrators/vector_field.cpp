@@ -43,7 +43,7 @@ VectorFieldFormulas::VectorFieldFormulas(std::shared_ptr<const ImplicitSystem> o
   const Index n = M.dimension();
   Graph graph;
   const ExprVector x = graph.variables("x", M.ambient_dimension());
-  const ExprMatrix basis = basis_variables(graph, M);
+  const LinearMap<Expr> basis = basis_variables(graph, M);
   const ExprVector t = graph.variables("t", 1);
   const LocalFormulation local(graph, *system, x, basis, t[0], ladder.differentiations);
   // At ξ = 0 the chart is at x itself.
@@ -56,10 +56,10 @@ VectorFieldFormulas::VectorFieldFormulas(std::shared_ptr<const ImplicitSystem> o
     unknowns.insert(unknowns.end(), local.xi[j].begin(), local.xi[j].end());
   for (const ExprVector& z : local.z) unknowns.insert(unknowns.end(), z.begin(), z.end());
   const ExprVector y = Eigen::Map<ExprVector>(unknowns.data(), static_cast<Index>(unknowns.size()));
-  inputs = {{"y", y}, {"x", x}, {"basis", basis_parameters(M, basis)}, {"t", t}};
+  inputs = {{"y", y}, {"x", x}, {"basis", basis_parameters(basis)}, {"t", t}};
 
   // Values at the ladder's point, by the jet's leading coefficients; the other jets start at zero.
-  const MatrixXd B = M.tangent_basis(ladder.point.x);
+  const LinearMap<double> B = M.tangent_basis(ladder.point.x);
   start = VectorXd::Zero(y.size());
   start.head(n) = B.transpose() * ladder.point.v;
   z_offset = static_cast<Index>(local.xi.size() - 1) * n;
@@ -67,8 +67,7 @@ VectorFieldFormulas::VectorFieldFormulas(std::shared_ptr<const ImplicitSystem> o
 
   const ExprVector all = at_origin(local.equations);
   const Function full("vector field", inputs, all, {.differentiate = {"y"}});
-  VectorXd entries = VectorXd::Zero(0);
-  if (n < M.tangent_dimension()) entries = Eigen::Map<const VectorXd>(B.data(), B.size());
+  const VectorXd entries = B.entries().reshaped();
   // Without units: the entries of a force of 10⁻⁸ N are no round-off next to those of 10⁹ s⁻³.
   const MatrixXd J =
       equilibrate(
@@ -101,9 +100,10 @@ VectorFieldFormulas::VectorFieldFormulas(std::shared_ptr<const ImplicitSystem> o
     equations[i] = all[rows.order()[static_cast<std::size_t>(i)]];
   std::vector<Index> others(rows.order().begin() + rows.rank(), rows.order().end());
   std::sort(others.begin(), others.end());
+  const std::vector<bool> contains_unknowns = each_depends(all, y);
   std::vector<Expr> not_kept;
   for (const Index row : others)
-    if (depends(all.segment(row, 1), y)) not_kept.push_back(all[row]);
+    if (contains_unknowns[static_cast<std::size_t>(row)]) not_kept.push_back(all[row]);
 
   left_out = Eigen::Map<const ExprVector>(not_kept.data(), static_cast<Index>(not_kept.size()));
 
@@ -142,8 +142,9 @@ void VectorField::Evaluation::start(const State& state) {
   sizes_.setZero();
   basis_.move_to(state.x);
   y_ = field_.formulas_.start;
-  const MatrixXd& B = basis_.matrix();
-  if (state.v.size() == B.rows()) y_.head(B.cols()) = B.transpose() * state.v;
+  const Manifold& M = *field_.formulas_.system->manifold();
+  if (state.v.size() == M.tangent_dimension())
+    basis_.coordinates_of(state.v, y_.head(M.dimension()));
   if (state.z.size() == z_.size()) y_.segment(field_.formulas_.z_offset, z_.size()) = state.z;
   kept_ = y_;
 }

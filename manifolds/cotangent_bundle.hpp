@@ -33,7 +33,7 @@ class CotangentBundle final : public VectorBundle {
   ExprVector torsion(const ExprVector& q, const ExprVector& p, const ExprVector& v) const;
 
  private:
-  ExprMatrix fibre_projector(const ExprVector& q) const override {
+  LinearMap<Expr> fibre_projector(const ExprVector& q) const override {
     return base()->tangent_projector(q).transpose();
   }
 };

@@ -51,7 +51,7 @@ ImplicitSubmanifold::Normal ImplicitSubmanifold::normal(const ExprVector& x) con
 ExprMatrix ImplicitSubmanifold::projector(const ExprVector& x) const {
   const auto [A, W] = normal(x);
   const ExprMatrix coefficients = solve(A * W, A);
-  return surrounding_->tangent_projector(x) - W * coefficients;
+  return surrounding_->tangent_projector(x).matrix() - W * coefficients;
 }
 
 ExprVector ImplicitSubmanifold::projection(const ExprVector& y) const {

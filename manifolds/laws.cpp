@@ -161,7 +161,7 @@ class ManifoldLaws {
             const MatrixXd C = M_.coframe(s.x);
             return (C * E * C - C).norm() / (1.0 + C.norm()) +
                    (E * C * E - E).norm() / (1.0 + E.norm()) +
-                   (C * E - M_.tangent_projector(s.x)).norm();
+                   (C * E - M_.tangent_projector(s.x).matrix()).norm();
           },
           describe("x", s.x));
     return measured.result();

@@ -75,18 +75,20 @@ ExprVector Manifold::checked_inverse_retract(const ExprVector& x, const ExprVect
   return with_size(do_inverse_retract(x, y), name_, "inverse_retract", tangent_dimension_, 1);
 }
 
-ExprMatrix Manifold::checked_frame(const ExprVector& x) const {
+LinearMap<Expr> Manifold::checked_frame(const ExprVector& x) const {
   check_size("frame", "x", x.size(), ambient_dimension_, "ambient_dimension()");
+  if (has_identity_frame()) return LinearMap<Expr>::identity(dimension_);
   return with_size(do_frame(x), name_, "frame", ambient_dimension_, tangent_dimension_);
 }
 
-ExprMatrix Manifold::checked_coframe(const ExprVector& x) const {
+LinearMap<Expr> Manifold::checked_coframe(const ExprVector& x) const {
   check_size("coframe", "x", x.size(), ambient_dimension_, "ambient_dimension()");
+  if (has_identity_frame()) return LinearMap<Expr>::identity(dimension_);
   return with_size(do_coframe(x), name_, "coframe", tangent_dimension_, ambient_dimension_);
 }
 
-ExprMatrix Manifold::checked_projector(const ExprVector& x) const {
-  if (dimension_ == tangent_dimension_) return ExprMatrix::Identity(dimension_, dimension_);
+LinearMap<Expr> Manifold::checked_projector(const ExprVector& x) const {
+  if (dimension_ == tangent_dimension_) return LinearMap<Expr>::identity(dimension_);
   return checked_coframe(x) * checked_frame(x);
 }
 
@@ -131,13 +133,13 @@ ExprVector Manifold::do_constraint(const ExprVector&) const {
   return ExprVector(0);
 }
 
-MatrixXd Manifold::tangent_basis(const VectorXd& x) const {
-  if (dimension_ == tangent_dimension_) return MatrixXd::Identity(dimension_, dimension_);
+LinearMap<double> Manifold::tangent_basis(const VectorXd& x) const {
+  if (dimension_ == tangent_dimension_) return LinearMap<double>::identity(dimension_);
   const MatrixXd projector = tangent_projector(x);
   const MatrixXd basis = QrDecomposition::pivoted(projector).Q(dimension_);
   // Zeros that are round-off become zeros: what is computed in the basis would see dependences that
   // are not there.
-  return (basis.array().abs() < 1e-15).select(0.0, basis);
+  return MatrixXd((basis.array().abs() < 1e-15).select(0.0, basis));
 }
 
 double Manifold::point_defect(const VectorXd& x) const {
@@ -228,7 +230,7 @@ VectorXd Manifold::newton_inverse(const VectorXd& x, const VectorXd& y) const {
   check_size("inverse_retract", "y", y.size(), ambient_dimension_, "ambient_dimension()");
   Graph graph;
   const ExprVector xi = graph.variables("xi", dimension_);
-  const MatrixXd basis = tangent_basis(x);
+  const LinearMap<double> basis = tangent_basis(x);
   const ExprVector image = chart(constants(x), constants(basis), xi);
   const SparseExprMatrix d_image = jacobian(image, xi);
   const auto d_image_at = [&](const VectorXd& at) {

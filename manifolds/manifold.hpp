@@ -8,6 +8,7 @@
 #include <string>
 
 #include "courant/core/expr.hpp"
+#include "courant/core/linear_map.hpp"
 
 namespace courant {
 
@@ -85,6 +86,10 @@ class Manifold {
     return on<X>([&] { return checked_constraint(x.template cast<Expr>()); });
   }
 
+  // Whether E(x) and C(x) are the identity at every x, as on Rⁿ: frame and coframe then return it as
+  // such (LinearMap), which takes no memory.
+  bool has_identity_frame() const { return do_has_identity_frame(); }
+
   // Π(x) = C(x) E(x), Ñ × Ñ: the identity where n = Ñ, since no vector needs projecting there.
   template <class X>
   auto tangent_projector(const Eigen::MatrixBase<X>& x) const {
@@ -95,6 +100,11 @@ class Manifold {
   auto chart(const Eigen::MatrixBase<X>& x0, const Eigen::MatrixBase<B>& basis,
              const Eigen::MatrixBase<Xi>& xi) const {
     return retract(x0, (basis * xi).eval());
+  }
+  template <class X, class Scalar, class Xi>
+  auto chart(const Eigen::MatrixBase<X>& x0, const LinearMap<Scalar>& basis,
+             const Eigen::MatrixBase<Xi>& xi) const {
+    return retract(x0, basis * xi);
   }
 
   // Whether inverse_retract is a closed formula, so that it works on expressions.
@@ -114,7 +124,7 @@ class Manifold {
 
   // An orthonormal basis of T_xM in the tangent representation, Ñ × n; the identity where n = Ñ.
   // Constant where that holds.
-  MatrixXd tangent_basis(const VectorXd& x) const;
+  LinearMap<double> tangent_basis(const VectorXd& x) const;
 
   // ‖constraint(x)‖_∞, +∞ outside an open domain: 0 on M.
   double point_defect(const VectorXd& x) const;
@@ -151,6 +161,8 @@ class Manifold {
   virtual ExprMatrix do_coframe(const ExprVector& x) const = 0;
 
   // May override:
+  // See has_identity_frame; do_frame and do_coframe are then not asked.
+  virtual bool do_has_identity_frame() const { return false; }
   // Whether another object of this class is the same manifold; false by default, which is always
   // safe. Where the name holds all parameters: other.name() == name().
   virtual bool do_equals(const Manifold&) const { return false; }
@@ -185,9 +197,9 @@ class Manifold {
   }
   ExprVector checked_retract(const ExprVector& x, const ExprVector& v) const;
   ExprVector checked_inverse_retract(const ExprVector& x, const ExprVector& y) const;
-  ExprMatrix checked_frame(const ExprVector& x) const;
-  ExprMatrix checked_coframe(const ExprVector& x) const;
-  ExprMatrix checked_projector(const ExprVector& x) const;
+  LinearMap<Expr> checked_frame(const ExprVector& x) const;
+  LinearMap<Expr> checked_coframe(const ExprVector& x) const;
+  LinearMap<Expr> checked_projector(const ExprVector& x) const;
   ExprVector checked_constraint(const ExprVector& x) const;
   VectorXd newton_inverse(const VectorXd& x, const VectorXd& y) const;
   void check_size(const char* function, const char* argument, Index size, Index expected,

@@ -82,6 +82,11 @@ std::optional<VectorXd> Product::do_unit() const {
   return result;
 }
 
+bool Product::do_has_identity_frame() const {
+  return std::all_of(factors_.begin(), factors_.end(),
+                     [](const auto& factor) { return factor->has_identity_frame(); });
+}
+
 ExprMatrix Product::do_frame(const ExprVector& x) const {
   ExprMatrix result = ExprMatrix::Zero(ambient_dimension(), tangent_dimension());
   for (std::size_t i = 0; i < factors_.size(); ++i) {

@@ -33,6 +33,7 @@ class Product final : public Manifold {
   bool do_equals(const Manifold& other) const override;
   ExprVector do_retract(const ExprVector& x, const ExprVector& v) const override;
   ExprVector do_inverse_retract(const ExprVector& x, const ExprVector& y) const override;
+  bool do_has_identity_frame() const override;
   std::optional<VectorXd> do_unit() const override;
   ExprMatrix do_frame(const ExprVector& x) const override;
   ExprMatrix do_coframe(const ExprVector& x) const override;

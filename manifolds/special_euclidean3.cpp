@@ -98,14 +98,14 @@ ExprVector SpecialEuclidean3::do_velocity_along(const ExprVector& x, const ExprV
 
 ExprMatrix SpecialEuclidean3::do_frame(const ExprVector& x) const {
   ExprMatrix result = ExprMatrix::Zero(12, 6);
-  result.topLeftCorner(9, 3) = rotations_.frame(x.head(9));
+  result.topLeftCorner(9, 3) = rotations_.frame(x.head(9)).matrix();
   result.bottomRightCorner(3, 3) = rotation_of_pose(x);
   return result;
 }
 
 ExprMatrix SpecialEuclidean3::do_coframe(const ExprVector& x) const {
   ExprMatrix result = ExprMatrix::Zero(6, 12);
-  result.topLeftCorner(3, 9) = rotations_.coframe(x.head(9));
+  result.topLeftCorner(3, 9) = rotations_.coframe(x.head(9)).matrix();
   result.bottomRightCorner(3, 3) = rotation_of_pose(x).transpose();
   return result;
 }

@@ -14,7 +14,7 @@ class TangentBundle final : public VectorBundle {
       : VectorBundle("TangentBundle", std::move(base)) {}
 
  private:
-  ExprMatrix fibre_projector(const ExprVector& x) const override {
+  LinearMap<Expr> fibre_projector(const ExprVector& x) const override {
     return base()->tangent_projector(x);
   }
 };

@@ -24,6 +24,7 @@ class Torus final : public Manifold {
   ExprVector do_velocity_along(const ExprVector&, const ExprVector& v, const Expr&) const override {
     return v;
   }
+  bool do_has_identity_frame() const override { return true; }
   ExprMatrix do_frame(const ExprVector& x) const override;
   ExprMatrix do_coframe(const ExprVector& x) const override { return do_frame(x); }
   double do_separation(const VectorXd& x, const VectorXd& y) const override;

@@ -64,8 +64,8 @@ ExprMatrix VectorBundle::fibre_motion(const ExprVector& x) const {
 ExprMatrix VectorBundle::do_frame(const ExprVector& x) const {
   const Index n = base_->tangent_dimension();
   ExprMatrix result = ExprMatrix::Zero(ambient_dimension(), tangent_dimension());
-  result.topLeftCorner(base_->ambient_dimension(), n) = base_->frame(position(x));
-  result.bottomRightCorner(n, n) = fibre_projector(position(x));
+  result.topLeftCorner(base_->ambient_dimension(), n) = base_->frame(position(x)).matrix();
+  result.bottomRightCorner(n, n) = fibre_projector(position(x)).matrix();
   if (!is_trivialised()) result.bottomLeftCorner(n, n) = fibre_motion(x);
   return result;
 }
@@ -73,8 +73,8 @@ ExprMatrix VectorBundle::do_frame(const ExprVector& x) const {
 ExprMatrix VectorBundle::do_coframe(const ExprVector& x) const {
   const Index n = base_->tangent_dimension();
   ExprMatrix result = ExprMatrix::Zero(tangent_dimension(), ambient_dimension());
-  result.topLeftCorner(n, base_->ambient_dimension()) = base_->coframe(position(x));
-  result.bottomRightCorner(n, n) = fibre_projector(position(x));
+  result.topLeftCorner(n, base_->ambient_dimension()) = base_->coframe(position(x)).matrix();
+  result.bottomRightCorner(n, n) = fibre_projector(position(x)).matrix();
   return result;
 }
 
@@ -102,7 +102,7 @@ double VectorBundle::turning_rate(const VectorXd& position) const {
   Graph graph;
   const ExprVector at = graph.variables("x", base_->ambient_dimension());
   const ExprMatrix turning =
-      jacobian(fibre_projector(at).reshaped(), at).dense() * base_->frame(at);
+      jacobian(fibre_projector(at).matrix().reshaped(), at).dense() * base_->frame(at);
   const MatrixXd rate = values(substitute(turning.reshaped(), at, constants(position)))
                             .reshaped(turning.rows(), turning.cols()) *
                         base_->tangent_basis(position);

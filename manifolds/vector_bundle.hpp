@@ -53,8 +53,9 @@ class VectorBundle : public Manifold {
 
  private:
   // To subclass, override:
-  virtual ExprMatrix fibre_projector(const ExprVector& x) const = 0;  // F, Ñ × Ñ, at x ∈ M
+  virtual LinearMap<Expr> fibre_projector(const ExprVector& x) const = 0;  // F, Ñ × Ñ, at x ∈ M
 
+  bool do_has_identity_frame() const override { return base_->has_identity_frame(); }
   bool do_equals(const Manifold& other) const override {
     return *base_ == *static_cast<const VectorBundle&>(other).base_;
   }

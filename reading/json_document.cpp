@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <stdexcept>
 #include <string>
 #include <unordered_set>
 #include <utility>
@@ -38,7 +39,9 @@ std::string reason(std::string_view what, bool at_end) {
 // Builds the document and refuses keys that repeat, which the library would pass over.
 class Builder final : public nlohmann::json_sax<Json> {
  public:
-  explicit Builder(std::string_view text) : text_(text) {}
+  // What is no JSON: told among the problems, or thrown as the JSON library has it.
+  enum class Errors { told, thrown };
+  Builder(std::string_view text, Errors errors) : text_(text), errors_(errors) {}
 
   Json document;
   std::vector<Problem> problems;
@@ -57,7 +60,7 @@ class Builder final : public nlohmann::json_sax<Json> {
 
   bool key(string_t& name) override {
     Level& level = levels_.back();
-    if (!level.keys.insert(name).second)
+    if (errors_ == Errors::told && !level.keys.insert(name).second)
       problems.push_back({level.pointer + "/" + pointer_token(name), "is there twice"});
     key_ = std::move(name);
     return true;
@@ -65,6 +68,8 @@ class Builder final : public nlohmann::json_sax<Json> {
 
   bool parse_error(std::size_t position, const std::string&,
                    const nlohmann::detail::exception& error) override {
+    if (errors_ == Errors::thrown)
+      throw static_cast<const nlohmann::detail::parse_error&>(error);  // as all are that come here
     // The position counts from 1 and is that of the last byte read, one past the end if there was
     // none.
     const std::size_t byte = position == 0 ? 0 : position - 1;
@@ -114,16 +119,11 @@ class Builder final : public nlohmann::json_sax<Json> {
     else if (Json& parent = levels_.back().value; parent.is_array())
       parent.push_back(std::move(value));
     else
-      append(parent, key, std::move(value));
-  }
-
-  // A key that is new: the object need not look for it.
-  static void append(Json& object, const std::string& key, Json value) {
-    auto& entries = object.get_ref<Json::object_t&>();
-    static_cast<Json::object_t::Container&>(entries).emplace_back(key, std::move(value));
+      append_member(parent, key, std::move(value));
   }
 
   std::string_view text_;
+  Errors errors_;
   std::vector<Level> levels_;
   std::string key_;
 };
@@ -131,10 +131,25 @@ class Builder final : public nlohmann::json_sax<Json> {
 }  // namespace
 
 Json parse_json(std::string_view text) {
-  Builder builder(text);
+  Builder builder(text, Builder::Errors::told);
   Json::sax_parse(text, &builder);
   if (!builder.problems.empty()) throw ExperimentError(std::move(builder.problems));
   return std::move(builder.document);
+}
+
+Json parse_written_json(std::string_view text) {
+  Builder builder(text, Builder::Errors::thrown);
+  Json::sax_parse(text, &builder);
+  if (!builder.problems.empty()) {
+    const Problem& problem = builder.problems.front();
+    throw std::invalid_argument(problem.where + " " + problem.what + ".");
+  }
+  return std::move(builder.document);
+}
+
+void append_member(Json& object, std::string name, Json value) {
+  auto& members = object.get_ref<Json::object_t&>();
+  static_cast<Json::object_t::Container&>(members).emplace_back(std::move(name), std::move(value));
 }
 
 }  // namespace courant

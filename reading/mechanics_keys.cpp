@@ -24,9 +24,10 @@ std::optional<Mechanics::Constraints> read_holonomic(const JsonReader& value,
   if (!formulas || !check(*formulas, words.at_rest(at.x, at.t), value.findings()))
     return std::nullopt;
   const ExprVector values = evaluate(*formulas, words.at_rest(at.x, at.t));
+  const std::vector<bool> contains_coordinate = each_depends(values, at.x);
   bool right = true;
   for (Index i = 0; i < values.size(); ++i) {
-    if (depends(values.segment(i, 1), at.x)) continue;
+    if (contains_coordinate[static_cast<std::size_t>(i)]) continue;
     value.findings().problem(formulas->formulas[static_cast<std::size_t>(i)].pointer,
                              "contains no coordinate; expected a function of the coordinates, "
                              "which is zero along the motion");
@@ -268,7 +269,7 @@ std::optional<Mechanics> read_mechanics(ObjectReader& system, const PhaseWords& 
       if (written) force += evaluate(*written, words.at(x, w, t));
       if (damped) force += (*damped)(x, w, t);
       const ExprVector q = words.bundle()->position(x);
-      return ExprVector(projected->tangent_projector(q).transpose().eval() * force);
+      return ExprVector(projected->tangent_projector(q).transpose() * force);
     };
   return mechanics;
 }

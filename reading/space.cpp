@@ -158,7 +158,7 @@ std::optional<ManifoldPointer> implicit_submanifold(ObjectReader& object,
   try {
     std::mt19937 generator(1);
     const VectorXd x = submanifold->random_point(generator);
-    if (submanifold->tangent_basis(x).allFinite()) return submanifold;
+    if (submanifold->tangent_basis(x).entries().allFinite()) return submanifold;
     key->problem(
         "are not independent where they are zero; expected equations with independent "
         "gradients");

@@ -117,6 +117,8 @@ std::vector<Definition> read_definitions(ObjectReader& system) {
 }  // namespace
 
 void NameList::append(Declaration declaration) {
+  if (!declaration.name.empty())
+    places_.try_emplace(declaration.name, Place{declarations_.size(), size_});
   size_ += declaration.size();
   declarations_.push_back(std::move(declaration));
 }
@@ -125,10 +127,7 @@ void NameList::append_unnamed(Index count) {
   if (count > 0) append({"", {count}});
 }
 
-bool NameList::contains(const std::string& name) const {
-  return std::any_of(declarations_.begin(), declarations_.end(),
-                     [&](const Declaration& declaration) { return declaration.name == name; });
-}
+bool NameList::contains(const std::string& name) const { return places_.contains(name); }
 
 std::vector<std::string> NameList::element_names() const {
   std::vector<std::string> names;
@@ -138,30 +137,29 @@ std::vector<std::string> NameList::element_names() const {
 }
 
 std::pair<Index, Index> NameList::find(const Reference& reference) const {
-  Index first = 0;
-  std::vector<std::string> known;
-  for (const Declaration& declaration : declarations_) {
-    if (declaration.name == reference.name) {
-      const Shape& shape = declaration.shape;
-      if (reference.indices.size() > shape.size())
-        throw FormulaError(1, in_quotes(reference.name) + " takes " + std::to_string(shape.size()) +
-                                  " indices, found " + std::to_string(reference.indices.size()));
-      Index count = declaration.size();
-      for (std::size_t axis = 0; axis < reference.indices.size(); ++axis) {
-        const Index index = reference.indices[axis];
-        if (index >= shape[axis])
-          throw FormulaError(1, "index of " + reference.name + " is " + std::to_string(index) +
-                                    "; expected at most " + std::to_string(shape[axis] - 1));
-        count /= shape[axis];
-        first += index * count;
-      }
-      return {first, count};
-    }
-    first += declaration.size();
-    if (!declaration.name.empty()) known.push_back(declaration.name);
+  const auto place = places_.find(reference.name);
+  if (place == places_.end()) {
+    std::vector<std::string> known;
+    for (const Declaration& declaration : declarations_)
+      if (!declaration.name.empty()) known.push_back(declaration.name);
+    throw FormulaError(
+        1, "unknown name " + in_quotes(reference.name) + did_you_mean(reference.name, known));
   }
-  throw FormulaError(
-      1, "unknown name " + in_quotes(reference.name) + did_you_mean(reference.name, known));
+  const Declaration& declaration = declarations_[place->second.declaration];
+  const Shape& shape = declaration.shape;
+  if (reference.indices.size() > shape.size())
+    throw FormulaError(1, in_quotes(reference.name) + " takes " + std::to_string(shape.size()) +
+                              " indices, found " + std::to_string(reference.indices.size()));
+  Index first = place->second.first, count = declaration.size();
+  for (std::size_t axis = 0; axis < reference.indices.size(); ++axis) {
+    const Index index = reference.indices[axis];
+    if (index >= shape[axis])
+      throw FormulaError(1, "index of " + reference.name + " is " + std::to_string(index) +
+                                "; expected at most " + std::to_string(shape[axis] - 1));
+    count /= shape[axis];
+    first += index * count;
+  }
+  return {first, count};
 }
 
 void NameList::add_to(SymbolTable& symbols, const ExprVector& values) const {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -33,7 +34,13 @@ class NameList {
   void add_velocities_to(SymbolTable& symbols, const ExprVector& values) const;
 
  private:
+  struct Place {
+    std::size_t declaration;
+    Index first;  // entry
+  };
+
   std::vector<Declaration> declarations_;
+  std::unordered_map<std::string, Place> places_;  // of the first declaration of each name
   Index size_ = 0;
 };
 

@@ -61,7 +61,7 @@ std::vector<std::string> undetermined(const Experiment& experiment,
   const InitialValues& initial = experiment.initial;
   if (initial.x.given.all()) return {};
   const Manifold& M = *experiment.model.system->manifold();
-  const MatrixXd basis = M.tangent_basis(ladder.point.x);
+  const LinearMap<double> basis = M.tangent_basis(ladder.point.x);
   const MatrixXd conormals = ladder.conormals() * basis;
   const MatrixXd motion = M.frame(ladder.point.x) * basis;
   const std::vector<Index> given = indices(initial.x.given);
@@ -81,9 +81,9 @@ std::vector<std::string> undetermined(const Experiment& experiment,
 }
 
 // The components of v = C ẋ that a part of the velocities ẋ determines.
-Flags components_of(const Flags& velocities, const Manifold& M, const MatrixXd& coframe) {
+Flags components_of(const Flags& velocities, const Manifold& M, const LinearMap<double>& coframe) {
   if (M.tangent_dimension() == M.ambient_dimension()) return velocities;  // v = ẋ
-  const double negligible = 1e-9 * coframe.cwiseAbs().maxCoeff();
+  const double negligible = 1e-9 * coframe.entries().cwiseAbs().maxCoeff();
   return Flags::NullaryExpr(coframe.rows(), [&](Index i) {
     bool any = false;
     for (Index j = 0; j < coframe.cols(); ++j) {
@@ -122,14 +122,14 @@ ConstraintLadder found_start(const Experiment& experiment) {
   const InitialValues& initial = experiment.initial;
   InitialGuess guess{.t = experiment.start(), .x = initial.x.values};
   check_near_manifold(experiment, guess);
-  const MatrixXd coframe = M.coframe(guess.x);
+  const LinearMap<double> coframe = M.coframe(guess.x);
   if (initial.velocity.given.any()) guess.v = coframe * initial.velocity.values;
   if (initial.z.given.any()) guess.z = initial.z.values;
   check_finite(experiment, guess);
 
   ConstraintAlgorithm::Options options;
-  options.metric =
-      initial.x.given.cast<double>().matrix().cwiseProduct(initial.weight).asDiagonal();
+  const VectorXd weight = initial.x.given.cast<double>().matrix().cwiseProduct(initial.weight);
+  options.metric = SparseMatrixXd(weight.asDiagonal());
   const ConstraintAlgorithm algorithm(options);
   const auto run = [&](const Flags& x, const Flags& velocities, const Flags& unknowns) {
     guess.hold_x = indices(x);

@@ -2,6 +2,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "courant/reading/json_document.hpp"
 #include "courant/running/ladder_report.hpp"
 
 namespace courant {
@@ -15,7 +16,7 @@ Json written(const std::optional<Value>& value) {
 template <class Value>
 Json written(const std::vector<std::pair<std::string, Value>>& values) {
   Json json = Json::object();
-  for (const auto& [name, value] : values) json[name] = value;
+  for (const auto& [name, value] : values) append_member(json, name, value);
   return json;
 }
 

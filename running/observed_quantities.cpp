@@ -56,12 +56,13 @@ Constraints constraints(const ImplicitSystem& system, const std::vector<int>& di
   rate << system.manifold()->frame(at.x) * at.v, Expr(1.0);
   Constraints found;
   const ExprVector equations = system.residual(at.x, at.v, at.z, at.t);
+  const std::vector<bool> contains_vz = each_depends(equations, vz);
   for (Index i = 0; i < equations.size(); ++i) {
     const ExprVector equation = equations.segment(i, 1);
-    if (equation[0].is_constant() || depends(equation, vz)) continue;
+    const auto index = static_cast<std::size_t>(i);
+    if (equation[0].is_constant() || contains_vz[index]) continue;
     found.zeros.push_back(equation[0]);
     found.equations.push_back(equation[0]);
-    const auto index = static_cast<std::size_t>(i);
     if (index < differentiations.size() && differentiations[index] > 1)
       found.zeros.push_back(tangent(equation, xt, rate)[0]);
   }

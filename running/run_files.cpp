@@ -8,11 +8,10 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
-#include <map>
 #include <optional>
-#include <set>
 #include <utility>
 
+#include "courant/reading/json_document.hpp"
 #include "courant/reading/output.hpp"
 #include "courant/running/run_folder.hpp"
 
@@ -117,9 +116,8 @@ TrajectoryTable::TrajectoryTable(std::vector<std::string> names,
     reject("there are " + std::to_string(columns_.size()) + " columns, expected " +
            std::to_string(names_.size()) + " as there are names.");
   }
-  std::set<std::string_view> seen;
   for (std::size_t i = 0; i < names_.size(); ++i) {
-    if (!seen.insert(names_[i]).second)
+    if (!places_.try_emplace(names_[i], i).second)
       reject("two columns have the name " + excerpt(names_[i]) + ".");
     if (columns_[i].size() != rows()) {
       reject("column " + excerpt(names_[i]) + " has " + std::to_string(columns_[i].size()) +
@@ -128,17 +126,15 @@ TrajectoryTable::TrajectoryTable(std::vector<std::string> names,
   }
 }
 
-bool TrajectoryTable::contains(std::string_view name) const {
-  return std::find(names_.begin(), names_.end(), name) != names_.end();
-}
+bool TrajectoryTable::contains(std::string_view name) const { return places_.contains(name); }
 
 std::span<const double> TrajectoryTable::column(std::string_view name) const {
-  const auto found = std::find(names_.begin(), names_.end(), name);
-  if (found == names_.end()) {
+  const auto found = places_.find(name);
+  if (found == places_.end()) {
     throw std::invalid_argument("TrajectoryTable::column: there is no column " + excerpt(name) +
                                 ".");
   }
-  return columns_[static_cast<std::size_t>(found - names_.begin())];
+  return columns_[found->second];
 }
 
 std::vector<std::string> Run::constraints() const {
@@ -315,7 +311,9 @@ TrajectoryTable read_trajectory_npy(const std::filesystem::path& file,
 Json read_json(const std::filesystem::path& file) {
   const std::string text = read_text(file);
   try {
-    return Json::parse(text);
+    return parse_written_json(text);
+  } catch (const std::invalid_argument& error) {
+    fail(file, error.what());
   } catch (const Json::parse_error& error) {
     // byte counts from 1, and is one past the end when the file ends too early.
     const auto before = static_cast<std::ptrdiff_t>(std::min(error.byte, text.size() + 1)) - 1;

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <stdexcept>
@@ -37,6 +39,7 @@ class TrajectoryTable {
 
  private:
   std::vector<std::string> names_;
+  std::map<std::string, std::size_t, std::less<>> places_;  // of the names among them
   std::vector<std::vector<double>> columns_;
 };
 

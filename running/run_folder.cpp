@@ -7,10 +7,13 @@
 #include <array>
 #include <cerrno>
 #include <fstream>
+#include <iterator>
 #include <random>
 #include <system_error>
 #include <utility>
 #include <vector>
+
+#include "courant/reading/json_document.hpp"
 
 namespace courant {
 namespace {
@@ -32,7 +35,13 @@ void write_json(const fs::path& file, const Json& json) {
 
 Json json_in(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  return Json::parse(stream, nullptr, false);
+  const std::string text((std::istreambuf_iterator<char>(stream)),
+                         std::istreambuf_iterator<char>());
+  try {
+    return parse_written_json(text);
+  } catch (const std::exception&) {
+    return {};
+  }
 }
 
 // Whether the files are those of a run: its summary says so, or its experiment where it was killed

@@ -4,6 +4,7 @@
 #include <array>
 #include <stdexcept>
 
+#include "courant/reading/json_document.hpp"
 #include "courant/running/run_summary_check.hpp"
 
 namespace courant {
@@ -40,7 +41,7 @@ using Named = std::vector<std::pair<std::string, double>>;
 
 Json named(const Named& values) {
   Json json = Json::object();
-  for (const auto& [name, value] : values) json[name] = value;
+  for (const auto& [name, value] : values) append_member(json, name, value);
   return json;
 }
 Named read_named(const Json& json) {
@@ -100,7 +101,7 @@ Json to_json(const RunSummary& summary) {
   json["expectations"] = Json::array();
   if (const auto& time = summary.time)
     json["time"] = {{"start", time->start}, {"end", time->end}, {"step", time->step}};
-  for (const auto& [name, value] : summary.final) json["final"][name] = value;
+  for (const auto& [name, value] : summary.final) append_member(json["final"], name, value);
   for (const auto& [name, record] : summary.observables)
     json["observables"][name] = {
         {"initial", record.initial}, {"final", record.final},         {"min", record.min},

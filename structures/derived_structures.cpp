@@ -181,7 +181,7 @@ ExprVector Pullback::do_membership(const ExprVector& y, const ExprVector& v,
                                    const ExprVector& alpha, const ExprVector& u) const {
   const ExprMatrix tangent = phi_.tangent(y);
   const ExprVector image = phi_(y);
-  const ExprVector beta = phi_.target()->tangent_projector(image).transpose().eval() *
+  const ExprVector beta = phi_.target()->tangent_projector(image).transpose() *
                           ExprVector(u.tail(phi_.target()->tangent_dimension()));
   return joined(structure_->membership(image, tangent * v, beta, u.head(structure_->port_size())),
                 alpha - tangent.transpose().eval() * beta);

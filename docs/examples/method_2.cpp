@@ -21,7 +21,7 @@ class WeightedProjector final : public Projector {
 
  private:
   // `basis` is that of the tangent space; on T*Rⁿ it is the unit matrix.
-  MatrixXd do_directions(const VectorXd&, const MatrixXd& basis,
+  MatrixXd do_directions(const VectorXd&, const LinearMap<double>& basis,
                          const MatrixXd& conormals) const override {
     MatrixXd directions = basis * conormals;
     directions.bottomRows(directions.rows() / 2) /= weight_;

@@ -45,7 +45,7 @@ ChainArray::ChainArray(std::shared_ptr<const ImplicitSystem> system,
   const ExprVector xi1 = graph.variables("xi1", M.dimension());
   const ExprVector z = graph.variables("z", auxiliary_size());
   const ExprVector origin = graph.variables("x0", M.ambient_dimension());
-  const ExprMatrix basis = basis_variables(graph, M);
+  const LinearMap<Expr> basis = basis_variables(graph, M);
   const Expr time = graph.variable("t");
   const auto between = map_->inverse(M.chart(origin, basis, xi0), M.chart(origin, basis, xi1));
   const ExprVector v = Expr(1.0 / h) * between.v;
@@ -55,7 +55,7 @@ ChainArray::ChainArray(std::shared_ptr<const ImplicitSystem> system,
                 {"xi1", xi1},
                 {"z", z},
                 {"x0", origin},
-                {"basis", basis_parameters(M, basis)},
+                {"basis", basis_parameters(basis)},
                 {"t", ExprVector::Constant(1, time)}},
                system_->residual(between.x, v, z, time), {.differentiate = {"xi0", "xi1", "z"}});
 }
@@ -71,8 +71,7 @@ std::vector<VectorXd> ChainArray::arguments(const VectorXd& y, Index i) const {
           y.segment(x_offset(i + 1), n),
           y.segment(z_offset(i), auxiliary_size()),
           origin_,
-          n == basis_.rows() ? VectorXd(0)
-                             : VectorXd(Eigen::Map<const VectorXd>(basis_.data(), basis_.size())),
+          basis_.entries().reshaped(),
           VectorXd::Constant(1, t_ + (static_cast<double>(i) + map_->stage_time()) * h_)};
 }
 

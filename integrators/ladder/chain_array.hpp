@@ -27,7 +27,7 @@ class ChainArray final : public Prolongation {
 
   // x_i of the chain y.
   VectorXd point(const VectorXd& y, Index i) const;
-  const MatrixXd& basis() const { return basis_; }  // B, Ñ × n
+  const LinearMap<double>& basis() const { return basis_; }  // B, Ñ × n
 
   bool has_constant_jacobian() const override { return false; }
 
@@ -43,7 +43,7 @@ class ChainArray final : public Prolongation {
   Function link_;  // (ξ_i, ξ_{i+1}, z_i; x0, basis, t_i) ↦ F, with Jacobian by the first three
   double h_, t_;
   VectorXd origin_;
-  MatrixXd basis_;
+  LinearMap<double> basis_;
 };
 
 }  // namespace courant

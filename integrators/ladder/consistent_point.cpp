@@ -43,7 +43,7 @@ Zero find_confirmed(const LinearizableMap& map, const VectorXd& start, const Mob
 }  // namespace
 
 ConsistentPoint::ConsistentPoint(std::shared_ptr<const ImplicitSystem> system, InitialGuess guess,
-                                 MatrixXd metric)
+                                 SparseMatrixXd metric)
     : system_(std::move(system)), guess_(std::move(guess)), metric_(std::move(metric)) {
   if (!system_) throw std::invalid_argument("ConstraintAlgorithm::run: system is null.");
   const Index N = system_->manifold()->ambient_dimension();
@@ -171,16 +171,15 @@ Quadratic ConsistentPoint::displacement(const DerivativeArray& array, const Vect
   if (metric_.size() == 0)
     return {0.5 * moved.squaredNorm(), d_x.transpose() * moved,
             SparseMatrixXd(d_x.transpose() * d_x)};
-  const SparseMatrixXd W = metric_.sparseView();
-  const VectorXd force = W * moved;
+  const VectorXd force = metric_ * moved;
   return {0.5 * moved.dot(force), d_x.transpose() * force,
-          SparseMatrixXd(d_x.transpose() * W * d_x)};
+          SparseMatrixXd(d_x.transpose() * metric_ * d_x)};
 }
 
 double ConsistentPoint::distance(const VectorXd& x) const {
   const VectorXd moved = x - guess_.x;
-  return std::sqrt(
-      std::max(0.0, metric_.size() == 0 ? moved.squaredNorm() : moved.dot(metric_ * moved)));
+  if (metric_.size() == 0) return moved.norm();
+  return std::sqrt(std::max(0.0, moved.dot(VectorXd(metric_ * moved))));
 }
 
 ConsistentJet ConsistentPoint::recentred(const DerivativeArray& array, const Zero& zero) const {

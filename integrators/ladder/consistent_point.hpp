@@ -25,7 +25,7 @@ class ConsistentPoint {
   // Throws std::invalid_argument if sizes do not fit the system. `metric`: W, N × N, or empty
   // for 1.
   ConsistentPoint(std::shared_ptr<const ImplicitSystem> system, InitialGuess guess,
-                  MatrixXd metric);
+                  SparseMatrixXd metric);
 
   // The given values as a jet of level 0; x is brought to the manifold. On Rⁿ given numbers that are
   // round-off next to the units of the problem, as the cosine of a right angle, are 0.
@@ -69,7 +69,7 @@ class ConsistentPoint {
 
   std::shared_ptr<const ImplicitSystem> system_;
   InitialGuess guess_;
-  MatrixXd metric_;
+  SparseMatrixXd metric_;
   std::optional<DerivativeArray> array_;        // at the given point
   std::vector<std::pair<Index, double>> held_;  // row of (x, v, z), value
 };

@@ -37,7 +37,7 @@ class ConstraintAlgorithm {
     Index max_level = 12;
     // The metric in which x moves least: N × N, positive semidefinite; empty for the Euclidean one.
     // A zero diagonal entry means that the value was not given.
-    MatrixXd metric = MatrixXd();
+    SparseMatrixXd metric = SparseMatrixXd();
   };
 
   ConstraintAlgorithm() = default;

@@ -78,7 +78,7 @@ DerivativeArray::DerivativeArray(std::shared_ptr<const ImplicitSystem> system, d
   const Manifold& M = *system_->manifold();
   Graph graph;
   const ExprVector origin = graph.variables("x0", M.ambient_dimension());
-  const ExprMatrix basis = basis_variables(graph, M);
+  const LinearMap<Expr> basis = basis_variables(graph, M);
   const Expr time = graph.variable("t");
   const LocalFormulation local(graph, *system_, origin, basis, time,
                                std::vector<int>(static_cast<std::size_t>(equation_count()), 0));
@@ -86,7 +86,7 @@ DerivativeArray::DerivativeArray(std::shared_ptr<const ImplicitSystem> system, d
                                                {"xi'", local.xi[1]},
                                                {"z", local.z[0]},
                                                {"x0", origin},
-                                               {"basis", basis_parameters(M, basis)},
+                                               {"basis", basis_parameters(basis)},
                                                {"t", ExprVector::Constant(1, time)}};
   equations_ = Function("F", inputs, local.equations, {.differentiate = {"xi", "xi'", "z"}});
   ExprVector state(local.x.size() + local.v.size());
@@ -147,15 +147,13 @@ VectorXd DerivativeArray::carried(const VectorXd& y, double later) const {
   return result;
 }
 
-VectorXd DerivativeArray::basis_entries() const {
-  if (base_size() == basis_.rows()) return VectorXd(0);
-  return Eigen::Map<const VectorXd>(basis_.data(), basis_.size());
-}
+VectorXd DerivativeArray::basis_entries() const { return basis_.entries().reshaped(); }
 
 VectorXd DerivativeArray::origin_size() const {
-  const MatrixXd coframe = system_->manifold()->coframe(origin_);
+  const LinearMap<double> coframe = system_->manifold()->coframe(origin_);
   const VectorXd size = (basis_.transpose() * (coframe * origin_)).cwiseAbs();
-  const VectorXd terms = basis_.cwiseAbs().transpose() * (coframe.cwiseAbs() * origin_.cwiseAbs());
+  const VectorXd terms =
+      absolute(basis_).transpose() * (absolute(coframe) * origin_.cwiseAbs().eval());
   constexpr double round_off = 16.0 * Uncertain::unit;
   return (size.array() > round_off * terms.array()).select(size, 0.0);
 }

@@ -33,8 +33,8 @@ class DerivativeArray final : public Prolongation {
 
   const std::shared_ptr<const ImplicitSystem>& system() const { return system_; }
   double t() const { return t_; }
-  const VectorXd& origin() const { return origin_; }  // x₀
-  const MatrixXd& basis() const { return basis_; }    // B, Ñ × n
+  const VectorXd& origin() const { return origin_; }         // x₀
+  const LinearMap<double>& basis() const { return basis_; }  // B, Ñ × n
   // |Bᵀ C(x₀) x₀|: what the chart coordinates, which are 0 at x₀, are small next to; 0 where only
   // round-off is left, as of a point of a sphere, which is normal to it.
   VectorXd origin_size() const;
@@ -71,7 +71,7 @@ class DerivativeArray final : public Prolongation {
   bool constant_jacobian_ = false, depends_on_time_ = false;
   double t_ = 0.0;
   VectorXd origin_;
-  MatrixXd basis_;
+  LinearMap<double> basis_;
 };
 
 }  // namespace courant

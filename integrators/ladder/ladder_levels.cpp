@@ -137,9 +137,8 @@ void describe(ConstraintLadder& ladder, const DerivativeArray& array, const Vect
   const Index n = array.base_size(), m = array.auxiliary_size(), r = array.equation_count();
   const ComparableJacobian units(array, y, uncertainty);
   const RowReduction reduction = reduced(array, y, units);
-  const MatrixXd& basis = array.basis();
-  // On Rⁿ it is the identity: a dense product would cost n² for each constraint.
-  const SparseMatrixXd to_ambient = basis.sparseView(), bound_to_ambient = to_ambient.cwiseAbs();
+  const LinearMap<double>& basis = array.basis();
+  const LinearMap<double> absolute_basis = absolute(basis);
 
   ladder.differentiations = needed_differentiations(reduction, r, ladder.index);
 
@@ -150,8 +149,7 @@ void describe(ConstraintLadder& ladder, const DerivativeArray& array, const Vect
     for (const auto& [j, value] : row.entries) gradient[j] = factor * value / units.column_scale[j];
     for (const auto& [j, bound] : row.errors)
       if (j < n) error[j] = std::fabs(factor) * bound / units.column_scale[j];
-    ladder.constraints.push_back(
-        {row.level, to_ambient * gradient, origin, bound_to_ambient * error});
+    ladder.constraints.push_back({row.level, basis * gradient, origin, absolute_basis * error});
   }
   for (const RowReduction::Row& row : reduction.zero_rows()) {
     double factor = 1.0;
@@ -179,10 +177,11 @@ void describe(ConstraintLadder& ladder, const DerivativeArray& array, const Vect
     gauge.rightCols(1) = direction;
   }
   ladder.gauge_directions = basis * gauge;
+  const MatrixXd terms = absolute_basis * gauge.cwiseAbs();
   ladder.determined_velocities.resize(static_cast<std::size_t>(basis.rows()));
   for (Index i = 0; i < basis.rows(); ++i)
     ladder.determined_velocities[static_cast<std::size_t>(i)] =
-        is_negligible(basis.row(i).cwiseAbs() * gauge.cwiseAbs(), ladder.gauge_directions.row(i));
+        is_negligible(terms.row(i), ladder.gauge_directions.row(i));
 
   // An auxiliary unknown is determined if its reduced row contains no other one that is free and
   // does not change along the free velocities.

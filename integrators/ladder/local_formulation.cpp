@@ -10,16 +10,16 @@ namespace courant {
 namespace {
 
 // F with each tangent block r replaced by Bᵀr and then `zeros` (per equation that is lost).
-ExprVector with_reduced_blocks(const ImplicitSystem& system, const ExprMatrix& basis,
+ExprVector with_reduced_blocks(const ImplicitSystem& system, const LinearMap<Expr>& basis,
                                const ExprVector& F, bool zeros) {
   if (basis.rows() == basis.cols()) return F;
-  return with_blocks_in_basis(F, basis, system.tangent_blocks(),
+  return with_blocks_in_basis(F, basis.entries(), system.tangent_blocks(),
                               zeros ? basis.rows() : basis.cols());
 }
 
 // Which combination of a tangent block stands in which of its equations is up to the basis, and
 // bases turn on the way: each is differentiated as often as any of the block.
-std::vector<int> without_basis(const ImplicitSystem& system, const ExprMatrix& basis,
+std::vector<int> without_basis(const ImplicitSystem& system, const LinearMap<Expr>& basis,
                                std::vector<int> differentiations) {
   if (basis.rows() == basis.cols() || differentiations.empty()) return differentiations;
   for (Index b = 0; b < system.tangent_blocks(); ++b) {
@@ -32,14 +32,14 @@ std::vector<int> without_basis(const ImplicitSystem& system, const ExprMatrix& b
 
 }  // namespace
 
-ExprVector reduced_equations(const ImplicitSystem& system, const ExprMatrix& basis,
+ExprVector reduced_equations(const ImplicitSystem& system, const LinearMap<Expr>& basis,
                              const ExprVector& F) {
   return with_reduced_blocks(system, basis, F, false);
 }
 
 LocalFormulation::LocalFormulation(const Graph& graph, const ImplicitSystem& system,
-                                   const ExprVector& x0, const ExprMatrix& basis, const Expr& t,
-                                   const std::vector<int>& differentiations) {
+                                   const ExprVector& x0, const LinearMap<Expr>& basis,
+                                   const Expr& t, const std::vector<int>& differentiations) {
   const Manifold& M = *system.manifold();
   const std::vector<int> counts = without_basis(system, basis, differentiations);
   const int order = counts.empty() ? 0 : *std::max_element(counts.begin(), counts.end());
@@ -90,17 +90,14 @@ ExprVector LocalFormulation::nonzero_equations() const {
   return Eigen::Map<ExprVector>(kept.data(), static_cast<Index>(kept.size()));
 }
 
-ExprMatrix basis_variables(const Graph& graph, const Manifold& manifold) {
+LinearMap<Expr> basis_variables(const Graph& graph, const Manifold& manifold) {
   const Index rows = manifold.tangent_dimension();
   const Index cols = manifold.dimension();
-  if (rows == cols) return ExprMatrix::Identity(rows, cols);
+  if (rows == cols) return LinearMap<Expr>::identity(rows);
   const ExprVector entries = graph.variables("basis", rows * cols);
-  return Eigen::Map<const ExprMatrix>(entries.data(), rows, cols);
+  return ExprMatrix(Eigen::Map<const ExprMatrix>(entries.data(), rows, cols));
 }
 
-ExprVector basis_parameters(const Manifold& manifold, const ExprMatrix& basis) {
-  if (manifold.dimension() == manifold.tangent_dimension()) return ExprVector(0);
-  return Eigen::Map<const ExprVector>(basis.data(), basis.size());
-}
+ExprVector basis_parameters(const LinearMap<Expr>& basis) { return basis.entries().reshaped(); }
 
 }  // namespace courant

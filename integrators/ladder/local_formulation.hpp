@@ -21,7 +21,7 @@ struct LocalFormulation {
   // Traces in `graph` with chart origin `x0` (N) and basis `basis` (Ñ × n). Equation i is
   // differentiated differentiations[i] times; jets up to the order that they contain are made.
   LocalFormulation(const Graph& graph, const ImplicitSystem& system, const ExprVector& x0,
-                   const ExprMatrix& basis, const Expr& t,
+                   const LinearMap<Expr>& basis, const Expr& t,
                    const std::vector<int>& differentiations);
 
   std::vector<ExprVector> xi;  // ξ, ξ', ξ'', …
@@ -35,13 +35,13 @@ struct LocalFormulation {
 
 // The equations F of the system near the chart origin of `basis`, each tangent block r as Bᵀr (n
 // equations), which near there says the same: as many equations as are independent.
-ExprVector reduced_equations(const ImplicitSystem& system, const ExprMatrix& basis,
+ExprVector reduced_equations(const ImplicitSystem& system, const LinearMap<Expr>& basis,
                              const ExprVector& F);
 
 // The basis of a chart as an argument of a traced function: the identity where that holds for every
 // point, else fresh variables.
-ExprMatrix basis_variables(const Graph& graph, const Manifold& manifold);
+LinearMap<Expr> basis_variables(const Graph& graph, const Manifold& manifold);
 // The variables of the above (none if it is the identity), column by column.
-ExprVector basis_parameters(const Manifold& manifold, const ExprMatrix& basis);
+ExprVector basis_parameters(const LinearMap<Expr>& basis);
 
 }  // namespace courant

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
+#include <set>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
 
 namespace courant {
 namespace {
@@ -119,13 +123,31 @@ class RowElimination {
   // Finds pivots in the columns of group g among the given rows while there are any.
   void eliminate(Index g, const std::vector<Index>& candidates,
                  std::vector<const Working*>& found) {
-    while (true) {
-      const auto [pivot_row, column] = cheapest_pivot(g, candidates);
-      if (pivot_row < 0) return;
-      Working& pivot = rows_[static_cast<std::size_t>(pivot_row)];
+    // The best pivot of each row that has one.
+    std::set<Pivot> waiting;
+    std::vector<std::optional<Pivot>> of_row(rows_.size());
+    const auto look_at = [&](Index i) {
+      std::optional<Pivot>& known = of_row[static_cast<std::size_t>(i)];
+      if (known) waiting.erase(*known);
+      known = best_pivot(g, i);
+      if (known) waiting.insert(*known);
+    };
+    std::vector<bool> is_candidate(rows_.size(), false);
+    for (const Index i : candidates) {
+      is_candidate[static_cast<std::size_t>(i)] = true;
+      look_at(i);
+    }
+    while (!waiting.empty()) {
+      const Pivot best = *waiting.begin();
+      Working& pivot = rows_[static_cast<std::size_t>(best.row)];
       pivot.done = true;
-      pivot.row.pivot = column;
-      clear_column(pivot, column);
+      pivot.row.pivot = best.column;
+      std::vector<Index> changed = clear_column(pivot, best.column);
+      changed.push_back(best.row);
+      std::sort(changed.begin(), changed.end());
+      changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+      for (const Index i : changed)
+        if (is_candidate[static_cast<std::size_t>(i)]) look_at(i);
       found.push_back(&pivot);
     }
   }
@@ -133,40 +155,45 @@ class RowElimination {
   const std::vector<Working>& rows() const { return rows_; }
 
  private:
-  // The pivot that fills in least, by the count of Markowitz; among equals the largest.
-  std::pair<Index, Index> cheapest_pivot(Index g, const std::vector<Index>& candidates) const {
-    std::pair<Index, Index> best = {-1, -1};
-    double least_cost = std::numeric_limits<double>::infinity(), best_size = 0.0;
-    for (const Index i : candidates) {
-      const Working& working = rows_[static_cast<std::size_t>(i)];
-      if (working.done) continue;
-      double row_max = 0.0;
-      for (const auto& [column, number] : working.entries)
-        if (column_group_[static_cast<std::size_t>(column)] == g)
-          row_max = std::max(row_max, std::fabs(number.value));
-      if (row_max == 0.0) continue;
-      const auto row_count = static_cast<double>(working.entries.size());
-      for (const auto& [column, number] : working.entries) {
-        const double size = std::fabs(number.value);
-        if (column_group_[static_cast<std::size_t>(column)] != g || size < 0.1 * row_max) continue;
-        const auto column_count =
-            static_cast<double>(rows_of_column_[static_cast<std::size_t>(column)].size());
-        const double cost = (row_count - 1.0) * (column_count - 1.0);
-        if (cost < least_cost || (cost == least_cost && size > best_size)) {
-          best = {i, column};
-          least_cost = cost;
-          best_size = size;
-        }
-      }
+  // Better ones first: what fills in least, by the count of Markowitz; among equals the largest.
+  struct Pivot {
+    double cost, size;
+    Index row, column;
+    bool operator<(const Pivot& other) const {
+      return std::tie(cost, other.size, row, column) <
+             std::tie(other.cost, size, other.row, other.column);
+    }
+  };
+
+  // That of a row in the columns of group g; none if the row is done or has nothing there.
+  std::optional<Pivot> best_pivot(Index g, Index i) const {
+    const Working& working = rows_[static_cast<std::size_t>(i)];
+    if (working.done) return std::nullopt;
+    double row_max = 0.0;
+    for (const auto& [column, number] : working.entries)
+      if (column_group_[static_cast<std::size_t>(column)] == g)
+        row_max = std::max(row_max, std::fabs(number.value));
+    if (row_max == 0.0) return std::nullopt;
+    std::optional<Pivot> best;
+    const auto row_count = static_cast<double>(working.entries.size());
+    for (const auto& [column, number] : working.entries) {
+      const double size = std::fabs(number.value);
+      if (column_group_[static_cast<std::size_t>(column)] != g || size < 0.1 * row_max) continue;
+      const auto column_count =
+          static_cast<double>(rows_of_column_[static_cast<std::size_t>(column)].size());
+      const Pivot pivot = {(row_count - 1.0) * (column_count - 1.0), size, i, column};
+      if (!best || pivot < *best) best = pivot;
     }
     return best;
   }
 
-  // Eliminates `column` from all rows that come later: of the level of the pivot or above.
-  void clear_column(const Working& pivot, Index column) {
+  // Eliminates `column` from all rows that come later: of the level of the pivot or above. Returns
+  // the rows whose best pivot may have changed.
+  std::vector<Index> clear_column(const Working& pivot, Index column) {
     const Uncertain pivot_value = entry(pivot.entries, column);
     const std::vector<Index> targets = std::move(rows_of_column_[static_cast<std::size_t>(column)]);
     rows_of_column_[static_cast<std::size_t>(column)].clear();
+    std::vector<Index> changed = targets, filled;
     for (const Index i : targets) {
       Working& target = rows_[static_cast<std::size_t>(i)];
       if (target.done || target.row.level < pivot.row.level) continue;
@@ -178,8 +205,10 @@ class RowElimination {
       std::erase_if(sum, [&](const auto& e) { return e.first == column; });
       clean(sum, target.scale);
       for (const auto& e : sum)
-        if (entry(target.entries, e.first).is_exactly(0.0))
+        if (entry(target.entries, e.first).is_exactly(0.0)) {
           rows_of_column_[static_cast<std::size_t>(e.first)].push_back(i);
+          filled.push_back(e.first);
+        }
       target.entries = std::move(sum);
       if (factor.value == 0.0) continue;
       target.row.multipliers =
@@ -190,6 +219,14 @@ class RowElimination {
       std::erase_if(target.row.multipliers,
                     [&](const auto& e) { return std::fabs(e.second) <= 1e-12 * size; });
     }
+    // The count of a column matters to all rows that have an entry in it.
+    std::sort(filled.begin(), filled.end());
+    filled.erase(std::unique(filled.begin(), filled.end()), filled.end());
+    for (const Index j : filled) {
+      const std::vector<Index>& rows = rows_of_column_[static_cast<std::size_t>(j)];
+      changed.insert(changed.end(), rows.begin(), rows.end());
+    }
+    return changed;
   }
 
   const std::vector<Index>& column_group_;
@@ -200,16 +237,29 @@ class RowElimination {
 // The same rows with the pivot columns of the other rows eliminated too, each with 1 in its pivot.
 std::vector<RowReduction::Row> reduced(std::vector<RowReduction::Row> rows,
                                        std::vector<UncertainRow> entries) {
+  // The rows that have, or had, an entry in the pivot column of a row.
+  std::unordered_map<Index, std::vector<std::size_t>> rows_of_pivot;
+  for (const RowReduction::Row& row : rows) rows_of_pivot[row.pivot];
+  const auto note = [&](Index column, std::size_t i) {
+    if (const auto found = rows_of_pivot.find(column); found != rows_of_pivot.end())
+      found->second.push_back(i);
+  };
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Uncertain lead = entry(entries[i], rows[i].pivot);
-    for (auto& [column, number] : entries[i]) number = number / lead;
+    for (auto& [column, number] : entries[i]) {
+      number = number / lead;
+      note(column, i);
+    }
   }
   for (std::size_t p = rows.size(); p-- > 0;) {
-    for (std::size_t i = 0; i < p; ++i) {
+    for (const std::size_t i : std::exchange(rows_of_pivot[rows[p].pivot], {})) {
+      if (i >= p) continue;
       const Uncertain value = entry(entries[i], rows[p].pivot);
       if (value.is_exactly(0.0)) continue;
       const double scale =
           std::max(largest(entries[i]), std::fabs(value.value) * largest(entries[p]));
+      for (const auto& [column, number] : entries[p])
+        if (entry(entries[i], column).is_exactly(0.0)) note(column, i);
       entries[i] = combined(entries[i], -value, entries[p]);
       std::erase_if(entries[i], [&](const auto& e) { return e.first == rows[p].pivot; });
       clean(entries[i], scale);

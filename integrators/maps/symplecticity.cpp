@@ -109,7 +109,8 @@ double Symplecticity::measure(const Function& forms, const VectorXd& first, cons
                               const VectorXd& second_base, std::mt19937& generator) const {
   const Index d = phase_space_->dimension();
   MatrixXd bases(phase_space_->tangent_dimension(), 2 * d);
-  bases << phase_space_->tangent_basis(first), phase_space_->tangent_basis(second_base);
+  bases << phase_space_->tangent_basis(first).matrix(),
+      phase_space_->tangent_basis(second_base).matrix();
   std::normal_distribution<double> normal;
   double worst = 0.0;
   for (Index pair = 0; pair < 2 * d; ++pair) {

@@ -112,7 +112,7 @@ BOOST_AUTO_TEST_CASE(c1_the_difference_is_exact) {
       const Manifold& M = *place.map->manifold();
       const VectorXd x = M.random_point(generator);
       std::vector<VectorXd> directions = {M.random_tangent(x, 0.6, generator),
-                                          M.tangent_basis(x).col(0) * 0.6,
+                                          M.tangent_basis(x).matrix().col(0) * 0.6,
                                           VectorXd::Zero(M.tangent_dimension())};
       for (const VectorXd& direction : directions)
         for (const double s : {1.0, -1.0, 1e-2, 1e-5}) {

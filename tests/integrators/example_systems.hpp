@@ -39,7 +39,7 @@ struct Problem {
   MatrixXd metric = MatrixXd();
 
   ConstraintLadder ladder() const {
-    return ConstraintAlgorithm({.metric = metric}).run(system, guess);
+    return ConstraintAlgorithm({.metric = metric.sparseView()}).run(system, guess);
   }
 };
 

@@ -53,7 +53,7 @@ class Planted final : public Projector {
   bool has_constant_directions(Index) const override { return constant_; }
 
  private:
-  MatrixXd do_directions(const VectorXd& x, const MatrixXd& basis,
+  MatrixXd do_directions(const VectorXd& x, const LinearMap<double>& basis,
                          const MatrixXd& conormals) const override {
     return directions_(x, basis, conormals);
   }

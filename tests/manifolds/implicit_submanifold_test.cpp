@@ -29,8 +29,8 @@ BOOST_AUTO_TEST_CASE(the_sphere_by_its_equation) {
   const ImplicitSubmanifold S = unit_sphere();
   const Sphere sphere(2);
   const Vector3d x = Vector3d(1.0, 2.0, -2.0) / 3.0;
-  BOOST_TEST((S.frame(x) - sphere.frame(x)).norm() < 1e-15);
-  BOOST_TEST((S.coframe(x) - sphere.coframe(x)).norm() < 1e-15);
+  BOOST_TEST((S.frame(x).matrix() - sphere.frame(x).matrix()).norm() < 1e-15);
+  BOOST_TEST((S.coframe(x).matrix() - sphere.coframe(x).matrix()).norm() < 1e-15);
   BOOST_TEST(S.injectivity_radius(x) == 0.5, boost::test_tools::tolerance(1e-13));
   const Vector3d unit = Vector3d(2.0, -1.0, 0.0).normalized();
   for (const double length : {0.0, 1e-8, 1e-4, 0.2, 0.4999}) {
