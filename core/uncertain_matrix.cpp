@@ -54,7 +54,8 @@ class Peeling {
 
   bool is_finite() const { return is_finite_; }
 
-  // Takes pivots away while there are any. Returns how many times its error each one is.
+  // Takes pivots away while there are any that hide no number; others are left to the blocks. Returns
+  // how many times its error each one is.
   std::vector<double> pivots() {
     for (auto* lines : {&rows_, &columns_})
       for (Line& line : *lines)
@@ -67,6 +68,7 @@ class Peeling {
       const auto at = std::find_if(line.values.begin(), line.values.end(),
                                    [&](std::size_t v) { return is_there(values_[v]); });
       const Entry pivot = values_[*at];
+      if (hides_numbers(pivot)) continue;
       const double margin = std::fabs(pivot.value) / pivot.error;
       margins.push_back(std::min(margin, kExact));
       carry_errors(pivot);
@@ -198,16 +200,16 @@ class Peeling {
   }
 
   // The pivot a_ij is eliminated from the rest, a_kl - a_kj a_il / a_ij, where one of the factors
-  // is a zero that is not exact.
-  void carry_errors(const Entry& pivot) {
+  // is a zero that is not exact: visits each (k, l) with the error that this brings.
+  template <class Visit>
+  void each_carried_error(const Entry& pivot, const Visit& visit) const {
     const auto carry = [&](const Entry& in_column, const Entry& in_row) {
       if (in_column.row == pivot.row || in_row.column == pivot.column) return;
       if (!is_there(in_column) || !is_there(in_row)) return;
       const auto size = [](const Entry& entry) {
         return entry.value == 0.0 ? entry.error : std::fabs(entry.value);
       };
-      add_error(in_column.row, in_row.column,
-                size(in_column) * size(in_row) / std::fabs(pivot.value));
+      visit(in_column.row, in_row.column, size(in_column) * size(in_row) / std::fabs(pivot.value));
     };
     // Copies: the lists grow meanwhile, by entries of other lines.
     const std::vector<std::size_t> row_zeros = rows_[pivot.row].zeros;
@@ -220,6 +222,27 @@ class Peeling {
     for (const std::size_t z : column_zeros)
       for (const std::size_t v : rows_[pivot.row].values)
         carry(Entry(zeros_[z]), Entry(values_[v]));
+  }
+
+  void carry_errors(const Entry& pivot) {
+    each_carried_error(pivot, [&](std::size_t row, std::size_t column, double error) {
+      add_error(row, column, error);
+    });
+  }
+
+  // Whether an entry that is clearly a number would no longer be one beside the errors that the pivot
+  // brings, as those of a pivot of 10⁻⁵ in a row whose other entry is 0 ± 10⁻³ next to 10¹².
+  bool hides_numbers(const Entry& pivot) const {
+    bool hides = false;
+    each_carried_error(pivot, [&](std::size_t row, std::size_t column, double error) {
+      for (const std::size_t v : rows_[row].values) {
+        const Entry& entry = values_[v];
+        if (hides || entry.column != column || entry.is_gone) continue;
+        const double least = std::fabs(entry.value) / clearly_above;
+        hides = entry.error <= least && entry.error + error > least;
+      }
+    });
+    return hides;
   }
 
   std::vector<Entry> values_, zeros_;
@@ -260,24 +283,43 @@ bool is_doubtful(const RankDecision& decision) {
   return decision.above < clearly_above || decision.below > clearly_below;
 }
 
+// The larger of the entries and 10⁸ times their errors: scales that level it leave errors at 10⁻⁸, also
+// those of entries that are 0. Scales that see the entries alone make a row that has one small entry
+// large, with the error beside it.
+SparseMatrixXd heeding_errors(const UncertainMatrix& A) {
+  constexpr double heeded = 1e8, largest = 1e300;
+  const SparseMatrixXd error =
+      A.error.unaryExpr([](double size) { return std::min(size, largest / heeded) * heeded; });
+  return SparseMatrixXd(A.value.cwiseAbs()).cwiseMax(error);
+}
+
 // Every scaling proves a rank, and none proves too much. Where the first does not prove all that there
-// could be, the second may: it does not see small entries, the first does not see which are large.
+// could be, the others may: the second does not see small entries, the first does not see which are
+// large, and the third sees errors.
 RankDecision decide_block(const UncertainMatrix& A) {
   const Equilibration<SparseMatrixXd> units = equilibrate(A.value, 0.0);
+  const auto decided = [](const UncertainMatrix& of, const auto& scales) {
+    const auto scaled = [&](const SparseMatrixXd& M) {
+      return SparseMatrixXd(scales.row_scale.asDiagonal() * M * scales.column_scale.asDiagonal());
+    };
+    return decide_scaled({scaled(of.value), scaled(of.error)});
+  };
+  RankDecision decision = decided(A, units);
+  const Index full = std::min(A.rows(), A.cols());
+  const auto is_settled = [&] { return decision.rank == full && !is_doubtful(decision); };
+  const auto consider = [&](const RankDecision& other) {
+    const bool proves_more = other.rank > decision.rank;
+    const bool is_clearer =
+        other.rank == decision.rank && is_doubtful(decision) && !is_doubtful(other);
+    if (proves_more || is_clearer) decision = other;
+  };
+  if (is_settled()) return decision;
   const UncertainMatrix level{
       units.scaled, units.row_scale.asDiagonal() * A.error * units.column_scale.asDiagonal()};
-  RankDecision decision = decide_scaled(level);
-  const bool is_full = decision.rank == std::min(A.rows(), A.cols());
-  if (is_full && !is_doubtful(decision)) return decision;
-  const ProductScaling products(level.value);
-  const auto scaled = [&](const SparseMatrixXd& M) {
-    return SparseMatrixXd(products.row_scale.asDiagonal() * M * products.column_scale.asDiagonal());
-  };
-  RankDecision other = decide_scaled({scaled(level.value), scaled(level.error)});
-  const bool proves_more = other.rank > decision.rank;
-  const bool is_clearer =
-      other.rank == decision.rank && is_doubtful(decision) && !is_doubtful(other);
-  return proves_more || is_clearer ? other : decision;
+  consider(decided(level, ProductScaling(level.value)));
+  if (is_settled()) return decision;
+  consider(decided(A, equilibrate(heeding_errors(A), 0.0)));
+  return decision;
 }
 
 }  // namespace

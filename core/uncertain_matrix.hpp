@@ -22,15 +22,17 @@ struct UncertainMatrix {
 // The least rank that all matrices in the set have, as far as these bounds prove it.
 //
 //   1. An entry that is alone in its row or column is a pivot: the rank is one more than that of the
-//      rest without this row and column. Nothing is computed, so that units do not matter.
+//      rest without this row and column. Nothing is computed, so that units do not matter. One
+//      whose elimination would hide numbers in errors is left to the blocks.
 //   2. What is left falls into blocks that share no row and no column. Each is scaled with diag(r),
 //      diag(c); its rank is the number of singular values
 //
 //        σ > ε = ‖diag(r) error diag(c)‖ + rounding of the decomposition,    ‖E‖² ≤ ‖E‖₁ ‖E‖_∞
 //
 //      For every matrix of the set has a singular value within ‖E‖ of each σ (Weyl). That is a proof
-//      in any scales, so the higher rank of two counts: Equilibration makes all entries as equal as
-//      can be, ProductScaling heeds the large ones alone.
+//      in any scales, so the highest rank of three counts: Equilibration makes all entries as equal as
+//      can be, ProductScaling heeds the large ones alone, and the equilibration of the larger of
+//      entries and 10⁸ times their errors heeds errors.
 //
 // Singular values, `above`, `below` and `threshold` of the result are in units of ε of their block,
 // so that the threshold is 1; gap = σ_r / max(σ_{r+1}, 1), with pivots among the σ by how many times

@@ -25,7 +25,8 @@ struct Comparison {
   enum class Outcome {
     alike,      // the same ranks
     different,  // ranks that are higher nearby: those of the point are not constant around it
-    unknown,    // ranks that are lower nearby, where a number was taken for noise, or no point
+    lower,      // ranks that are lower nearby, where a number was taken for noise
+    unknown,    // no point
   };
   Outcome outcome = Outcome::unknown;
   bool is_certain = true;
@@ -41,7 +42,7 @@ Comparison compare(const std::vector<LadderLevel>& here, const std::vector<Ladde
     if (a.is_empty || (a.dim_S == b.dim_S && a.dim_M == b.dim_M)) continue;
     if (b.all.rank < a.all.rank || b.without_tangent.rank < a.without_tangent.rank ||
         b.without_point.rank < a.without_point.rank) {
-      result.outcome = Outcome::unknown;
+      result.outcome = Outcome::lower;
       continue;
     }
     const std::string level = std::to_string(k);
@@ -207,12 +208,13 @@ Singularity singularity(const ConsistentPoint& consistent, const ConsistentJet& 
   using Units = TangentDisplacement::Units;
   constexpr std::array units = {Units::own_sizes, Units::large_where_zero, Units::natural,
                                 Units::own_sizes, Units::large_where_zero};
-  int alike = 0, different = 0;
+  int alike = 0, different = 0, compared = 0;
   std::string certain, uncertain;
   for (const Units unit : units) {
     const Comparison comparison = look_along(
         tangents.next(is_small || unit != Units::large_where_zero ? unit : Units::natural));
     if (comparison.outcome == Outcome::alike && comparison.is_certain) ++alike;
+    if (comparison.outcome == Outcome::alike || comparison.outcome == Outcome::lower) ++compared;
     if (comparison.outcome == Outcome::different && !comparison.is_certain)
       uncertain = comparison.difference;
     if (comparison.outcome == Outcome::different && comparison.is_certain) {
@@ -236,7 +238,29 @@ Singularity singularity(const ConsistentPoint& consistent, const ConsistentJet& 
   }
   const std::string& seen = certain.empty() ? uncertain : certain;
   if (different >= 2 && different > alike) return {.reason = certain, .is_unanimous = alike == 0};
-  return {.seen_once = seen, .is_compared = alike >= 2};
+  return {.seen_once = seen, .is_compared = compared >= 2};
+}
+
+// What is not as it should be one level above the last, in words; empty if nothing. Equations that follow
+// from others do so with their derivatives. One without a linear part at the point, as z² = 0 at 0,
+// looks as if it did; its derivatives 2 z z' and 2 z z'' + 2 z'² then ask for more.
+std::string asked_above(const ConsistentPoint& consistent, const ConsistentJet& at,
+                        const std::vector<LadderLevel>& levels) {
+  const LadderLevel& last = levels.back();
+  if (at.array.has_constant_jacobian() || last.all.rank == last.all.rows) return "";
+  ConsistentJet start = at;
+  start.zero.y = at.array.resized(at.zero.y, last.k + 1);
+  const ConsistentJet above = consistent.find(start);
+  const std::string place = level_name("S", last.k + 1);
+  if (!above.zero.found)
+    return "No point of " + place +
+           " was found, though equations follow from others up to the level before.";
+  const std::vector<LadderLevel> there = levels_at(above);
+  if (!there.back().is_solved || !are_certain(there))
+    return "What is known at " + place +
+           " leaves open whether equations that follow from others do so there.";
+  if (const std::string changed = change(levels, there); !changed.empty()) return changed;
+  return repeats(there) ? "" : "The dimensions fall again at " + place + ".";
 }
 
 // Whether the errors of the derivatives at the jet are small next to what the equations are made of
@@ -244,7 +268,7 @@ Singularity singularity(const ConsistentPoint& consistent, const ConsistentJet& 
 // in their errors, and ranks with them: where numbers of 10¹⁰ cancel, for example, that a search came
 // by.
 bool is_known_well(const ConsistentJet& at) {
-  constexpr double certain = 0.1;
+  constexpr double certain = 1.0;
   const VectorXd& y = at.zero.y;
   const Linearization here =
       at.array.linearize(y, at.zero.uncertainty.cwiseMax(Prolongation::rounding(y)));
@@ -266,11 +290,22 @@ bool is_known_well(const ConsistentJet& at) {
   return (is_small(units.column_scale) || is_small(at.zero.reach)).all();
 }
 
-// Whether the ranks stay those of the levels if the point is taken for exact.
-bool is_same_rank_at(const ConsistentJet& at, const std::vector<LadderLevel>& levels) {
+// Whether the ranks stay those of the levels if the point is taken for exact. Zeros are exact only at
+// exact points, so that for levels that are not said to be `lowered` only those count that are not far
+// below their bounds, and clearly numbers at the point.
+bool is_same_rank_at(const ConsistentJet& at, const std::vector<LadderLevel>& levels,
+                     bool lowered) {
+  constexpr double far_below = 1e-3;
+  const auto is_hidden = [](const RankDecision& rank) { return rank.below > far_below; };
+  if (!lowered && std::none_of(levels.begin(), levels.end(), [&](const LadderLevel& level) {
+        return is_hidden(level.all) || is_hidden(level.without_tangent) ||
+               is_hidden(level.without_point);
+      }))
+    return true;
   const std::vector<LadderLevel> exact =
       ladder_levels(at.array, at.zero.y, VectorXd::Zero(at.zero.y.size()));
-  return compare(levels, exact).outcome != Comparison::Outcome::different;
+  return compare(levels, exact).outcome != Comparison::Outcome::different ||
+         (!lowered && !are_certain(exact));
 }
 
 // Counts what other points of the final constraint set need as well, now and a moment later: a
@@ -369,6 +404,9 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
   if (!changed.empty()) ladder.doubts.push_back(changed);
   if (singular.reason.empty() && !singular.seen_once.empty())
     ladder.doubts.push_back("In one direction the point looks singular: " + singular.seen_once);
+  if (stopped && singular.reason.empty())
+    if (std::string doubt = asked_above(consistent, jet, ladder.levels); !doubt.empty())
+      ladder.doubts.push_back(std::move(doubt));
   if (!singular.is_compared)
     ladder.doubts.push_back("Too few points nearby could be compared with this one.");
   if (!singular.is_unanimous)
@@ -379,7 +417,7 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
         "The equations do not vanish at the point to round-off: their solutions may be singular "
         "there.");
   if (ladder.levels.empty() || ladder.levels.back().is_empty) return ladder;
-  if (ladder.verdict == Verdict::rank_change && !is_same_rank_at(jet, ladder.levels))
+  if (!is_same_rank_at(jet, ladder.levels, ladder.verdict == Verdict::rank_change))
     ladder.doubts.push_back(
         "The ranks are higher at the point as it was found: they are lower only if it is "
         "elsewhere, "

@@ -146,6 +146,38 @@ BOOST_AUTO_TEST_CASE(errors_beside_a_pivot_are_carried_along) {
   BOOST_TEST(!certain.ambiguous());
 }
 
+// A pivot of 6·10⁻⁵ whose row has 0 ± 10⁻³ would bring errors of 10¹³ to a number of 10¹²: another is
+// taken first, in any order.
+BOOST_AUTO_TEST_CASE(no_pivot_hides_a_number) {
+  MatrixXd A(3, 2), E(3, 2);
+  A << 1e12, 1e12, 0, -1e12, 0, -6.1e-5;
+  E << 4.4e-4, 4.4e-4, 0, 4.4e-4, 1.1e-3, 2.7e-20;
+  Random random;
+  for (int trial = 0; trial < 20; ++trial) {
+    const auto P = random.permutation(3);
+    const auto Q = random.permutation(2);
+    const RankDecision decision = decide_rank(within(P * A * Q, P * E * Q));
+    BOOST_TEST(decision.rank == 2);
+    BOOST_TEST(!decision.ambiguous());
+    BOOST_TEST(decide_rank(within((P * A * Q).transpose(), (P * E * Q).transpose())).rank == 2);
+  }
+}
+
+// The second derivatives of √(w₀² - w₁² - w₂²) where w₂ is large: the last row has small entries and an
+// error that is large beside them in scales that make them 1.
+BOOST_AUTO_TEST_CASE(scales_heed_errors) {
+  MatrixXd A(3, 3), E = MatrixXd::Zero(3, 3);
+  A << 1.7e-8, 0, 5.8e-18, 0, 1.7e-8, -1.9e-17, 5.8e-18, -1.9e-17, 0;
+  E = 1e-15 * A.cwiseAbs();
+  E(2, 2) = 5.8e-23;
+  const RankDecision decision = decide_rank(within(A, E));
+  BOOST_TEST(decision.rank == 2);
+  BOOST_TEST(!decision.ambiguous());
+  // Bounds near the largest number there is are looked at.
+  E(2, 2) = 1e305;
+  BOOST_TEST(decide_rank(within(A, E)).rank <= 2);
+}
+
 // "At least r" is proven: no matrix within the errors has a lower rank.
 BOOST_AUTO_TEST_CASE(every_matrix_of_the_set_has_the_rank) {
   Random random;
