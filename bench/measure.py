@@ -1,6 +1,6 @@
 """Measures what bench/README.md holds, and writes its tables. Called by scripts/bench.
 
-measure.py BIN ROOT [instructions|check]
+measure.py BIN ROOT [instructions|check|work]
 
 Times are medians of several repetitions in one process, and only their ratios are written. Instructions a step are the
 difference of two runs of the command, of which one makes twice as many steps, counted by callgrind; they are the same
@@ -8,6 +8,7 @@ on each machine with the same compiler and libraries.
 """
 import datetime
 import json
+import math
 import os
 import pathlib
 import platform
@@ -50,6 +51,10 @@ STEPS = {
     "network_rlc": 500,
 }
 
+# Errors at which times are compared, and what a run may take, in seconds (over the longest horizons six times as long).
+LEVELS = [1e-2, 1e-4, 1e-5, 1e-6, 1e-8]
+LONGEST = 25
+
 
 def medians(executable, names):
     """The median time of each benchmark, in one process."""
@@ -91,6 +96,66 @@ def instructions():
             yield experiment, round((many - few) / steps)
 
 
+def time_at(level, runs):
+    """The seconds at which a solver reaches an error, interpolated, or None. `runs` from coarse to fine; an error counts as
+    reached where all finer runs keep below it, so that a lucky one does not count."""
+    before = None
+    for i, run in enumerate(runs):
+        error = max(finer["error"] for finer in runs[i:])
+        if error <= level:
+            if before is None:
+                return run["seconds"]
+            last, seconds = before
+            part = math.log(last / level) / math.log(last / error)
+            return seconds * (run["seconds"] / seconds) ** part
+        before = error, run["seconds"]
+    return None
+
+
+def work():
+    """The runs of bench_work_precision, as they are made."""
+    command = [BIN / "bench_work_precision", ROOT / "experiments", str(LONGEST)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as process:
+        for line in process.stdout:
+            run = json.loads(line)
+            print(f"{run['problem']}, {run['periods']:g}, {run['solver']}: {run['seconds']:.3g} s, "
+                  f"error {run['error']:.2g}", file=sys.stderr)
+            yield run
+    if process.returncode:
+        sys.exit(f"{command[0]} failed")
+
+
+def work_tables(runs):
+    """Times at equal errors, one table a problem and horizon."""
+    measured = {}
+    for run in runs:
+        measured.setdefault((run["problem"], run["periods"]), {}).setdefault(run["solver"], []).append(run)
+    for (problem, periods), solvers in measured.items():
+        yield from work_table(f"{problem}, {periods:,.0f} {'s' if problem == 'double pendulum' else 'periods'}", solvers)
+
+
+def work_table(title, solvers):
+    yield ""
+    yield f"| {title} | " + " | ".join(f"{level:.0e}" for level in LEVELS) + \
+        " | smallest error | drift of H, first tenth | whole run | constraints |"
+    yield "|---|" + "---|" * (len(LEVELS) + 4)
+    times = {solver: [time_at(level, runs) for level in LEVELS] for solver, runs in solvers.items()}
+    for solver, runs in solvers.items():
+        best = min(runs, key=lambda run: run["error"])
+        cells = ["–" if time is None else f"{time:.2g}" for time in times[solver]]
+        cells += [f"{best[key]:.0e}" for key in ("error", "early_drift", "drift", "violation")]
+        yield f"| {solver} | " + " | ".join(cells) + " |"
+    for other in ("IDA", "CVODE", "ARKODE", "Odeint"):
+        if not any(solver.startswith(other) for solver in solvers):
+            continue
+        cells = []
+        for i in range(len(LEVELS)):
+            ours, theirs = (min((time[i] for solver, time in times.items() if solver.startswith(name) and time[i]),
+                                default=None) for name in ("Courant", other))
+            cells.append("–" if ours is None or theirs is None else f"{ours / theirs:.2g}")
+        yield f"| *Courant's best : {other}'s best* | " + " | ".join(cells) + " | | | | |"
+
+
 def recorded():
     return {name: int(count.replace(",", ""))
             for name, count in re.findall(r"^\| `(\w+)` \| ([\d,]+) \|$", README.read_text(), re.M)}
@@ -120,6 +185,10 @@ def main():
             print(f"{name}: {count:,} instructions a step, {verdict}")
             worse += before is None or count > ALLOWED * before
         sys.exit(worse > 0)
+    if WHAT in ("all", "work") and (BIN / "bench_work_precision").exists():
+        written("work", [f"{machine()}; seconds of processor time:", *work_tables(work())])
+    if WHAT == "work":
+        return
     if WHAT == "all":
         written("ratios", [f"{machine()}:", "", "| bench | what | time, by hand = 1 |", "|---|---|---|",
                            *ratio_rows()])
@@ -127,4 +196,5 @@ def main():
                              *(f"| `{name}` | {count:,} |" for name, count in instructions())])
 
 
-main()
+if __name__ == "__main__":
+    main()
