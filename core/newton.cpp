@@ -24,8 +24,8 @@ constexpr double kRoundOff = 1e-9;
 constexpr double kShort = 1e-4;
 constexpr double kStagnant = 0.9;
 
-// The contraction says what error is left where steps are short. The way back from far away contracts by
-// as much as one went astray.
+// The contraction from one step to the next says what error is left where both are short. The first step
+// on the way back from far away is shorter by as much as one went astray.
 constexpr double kLongStep = 1e-2;
 
 // Round-off is measured with a new factorisation, and again when this has made it too small.
@@ -242,7 +242,7 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
     }
     if (compared > 0) {
       contraction = moved / previous;
-      if (contraction < 0.5 && moved <= kLongStep &&
+      if (contraction < 0.5 && previous <= kLongStep &&
           contraction * moved <= (1.0 - contraction) * options_.tolerance && accepted()) {
         result.status = Status::converged;
         return result;
