@@ -5,8 +5,11 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "courant/manifolds/euclidean.hpp"
+#include "courant/reading/experiment.hpp"
+#include "courant/running/consistent_start.hpp"
 
 namespace {
 
@@ -98,6 +101,27 @@ Truss circuit(Index cells) {
   return {system, {.x = VectorXd::Constant(n, 0.1)}};
 }
 
+// The same without cut-sets as an experiment with a network, from its text to its consistent start.
+std::string line(Index cells) {
+  std::string nodes = "\"0\", \"n0\"", elements, initial = "\"q_C0\": 1";
+  const auto element = [&](const char* type, const std::string& name, Index from,
+                           const std::string& to) {
+    elements += std::string(elements.empty() ? "" : ", ") + "{\"type\": \"" + type +
+                "\", \"name\": \"" + name + "\", \"from\": \"n" + std::to_string(from) +
+                "\", \"to\": \"" + to + "\", \"value\": 1}";
+  };
+  element("capacitor", "C0", 0, "0");
+  for (Index c = 1; c <= cells; ++c) {
+    const std::string number = std::to_string(c);
+    nodes += ", \"n" + number + "\"";
+    element("inductor", "L" + number, c - 1, "n" + number);
+    element("capacitor", "C" + number, c, "0");
+    initial += ", \"q_C" + number + "\": 0, \"phi_L" + number + "\": 0";
+  }
+  return "{\"system\": {\"type\": \"network\", \"nodes\": [" + nodes + "], \"elements\": [" +
+         elements + "]}, \"initial\": {" + initial + "}}";
+}
+
 void report(benchmark::State& state, const ConstraintLadder& ladder) {
   state.counters["n"] = static_cast<double>(ladder.point.x.size());
   state.counters["index"] = static_cast<double>(ladder.index);
@@ -120,8 +144,16 @@ void network(benchmark::State& state) {
   report(state, ladder);
 }
 
+void experiment(benchmark::State& state) {
+  const std::string text = line(state.range(0));
+  ConstraintLadder ladder;
+  for (auto _ : state) ladder = consistent_start(read_experiment(text));
+  report(state, ladder);
+}
+
 BENCHMARK(holonomic)->Arg(10)->Arg(25)->Unit(benchmark::kMillisecond);
 BENCHMARK(network)->Arg(10)->Arg(100)->Arg(400)->Unit(benchmark::kMillisecond);
+BENCHMARK(experiment)->Arg(500)->Arg(5000)->Arg(50000)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

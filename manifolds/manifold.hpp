@@ -87,7 +87,7 @@ class Manifold {
   }
 
   // Whether E(x) and C(x) are the identity at every x, as on Rⁿ: frame and coframe then return it as
-  // such (LinearMap), which takes no memory.
+  // such (LinearMap), which takes no memory. A claim that check_manifold measures (M2).
   bool has_identity_frame() const { return do_has_identity_frame(); }
 
   // Π(x) = C(x) E(x), Ñ × Ñ: the identity where n = Ñ, since no vector needs projecting there.

@@ -21,13 +21,13 @@ BOOST_AUTO_TEST_CASE(products_are_those_of_the_matrices) {
   const MatrixXd full = random_matrix(4, 4, generator), tall = random_matrix(4, 3, generator);
   const VectorXd x = random_matrix(4, 1, generator);
   const LinearMap<double> A = full, B = tall, one = LinearMap<double>::identity(4);
-  BOOST_TEST((A * x == full * x));
-  BOOST_TEST((B.transpose() * x == tall.transpose() * x));
+  BOOST_TEST((A * x).isApprox(full * x, 1e-15));
+  BOOST_TEST((B.transpose() * x).isApprox(tall.transpose() * x, 1e-15));
   BOOST_TEST((one * x == x));
   BOOST_TEST((one.transpose() * tall == tall));
-  BOOST_TEST((x.transpose() * A == x.transpose() * full));
+  BOOST_TEST((x.transpose() * A).isApprox(x.transpose() * full, 1e-15));
   BOOST_TEST((x.transpose() * one == x.transpose()));
-  BOOST_TEST(((A * B).matrix() == full * tall));
+  BOOST_TEST((A * B).matrix().isApprox(full * tall, 1e-15));
   BOOST_TEST(((A * one).matrix() == full));
   BOOST_TEST(((one * B).matrix() == tall));
 }
