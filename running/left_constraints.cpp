@@ -11,8 +11,10 @@ namespace {
 
 constexpr Index kMostCoordinates = 500;
 
-// A constraint that is this part of its terms is not met: a product of d coordinates counts d times.
-constexpr double kPartOfTerms = 0.1;
+// A constraint that is this part of its terms is not met. A product of d coordinates counts d times, so
+// that for d = 6 this is a fifth of it. Constraints that a method meets up to its order are left 10⁻⁴ of
+// their terms in the steps that people take.
+constexpr double kPartOfTerms = 0.03;
 // Below this part of the terms of another one it may be round-off; a coordinate below this part of the
 // largest one is measured by that part.
 constexpr double kSmallPart = 1e-6;
@@ -49,8 +51,8 @@ std::string left_constraints(Observer& observer, const QuantityStatistics& stati
     const double least = std::max(kPartOfTerms * terms[i], kSmallPart * terms.maxCoeff());
     if (std::fabs(at[i]) > least)
       return "constraint[" + std::to_string(i) + "] is " + number_text(at[i]) +
-             " at the end, of the size of its terms: the run has left the constraints, and the "
-             "trajectory may be wrong.";
+             " at the end, its terms " + number_text(terms[i], 3) +
+             ": the run has left the constraints, and the trajectory may be wrong.";
   }
   return "";
 }
