@@ -74,7 +74,8 @@ ConsistentPoint::ConsistentPoint(std::shared_ptr<const ImplicitSystem> system, I
   hold(guess_.hold_x, guess_.x, 0, "x");
   hold(guess_.hold_v, guess_.v, N, "v");
   hold(guess_.hold_z, guess_.z, N + tangent, "z");
-  if (guess_.z.size() == 0) guess_.z = system_->auxiliary_guess(guess_.x, guess_.v);
+  z_is_given_ = guess_.z.size() > 0;
+  if (!z_is_given_) guess_.z = system_->auxiliary_guess(guess_.x, guess_.v);
 }
 
 // A user who computes cos(π/2) means 0; equations that hold at a point with zeros would hold nowhere
@@ -149,6 +150,10 @@ Mobility ConsistentPoint::mobility(const ConsistentJet& from, bool x_is_free) co
   // Where x or a velocity can give way, the velocity does: by a factor of 1000 in the squares.
   result.cost = VectorXd::Constant(size, 0.03);
   result.cost.head(n).setOnes();
+  // Where an unknown that is given and a velocity that is not can give way, the velocity does: z of
+  // the guess chooses between branches.
+  if (z_is_given_ && guess_.v.size() == 0)
+    result.cost.segment(2 * n, guess_.z.size()).setConstant(0.3);
   result.typical = from.array.resized(from.zero.reach, from.array.level_of(from.zero.y));
   result.offset = from.array.origin_size();
   result.typical.head(n) = result.typical.head(n).cwiseMax(result.offset);

@@ -69,6 +69,7 @@ class ConsistentPoint {
 
   std::shared_ptr<const ImplicitSystem> system_;
   InitialGuess guess_;
+  bool z_is_given_ = false;
   SparseMatrixXd metric_;
   std::optional<DerivativeArray> array_;        // at the given point
   std::vector<std::pair<Index, double>> held_;  // row of (x, v, z), value

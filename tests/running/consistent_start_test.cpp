@@ -217,6 +217,21 @@ BOOST_AUTO_TEST_CASE(equations_that_are_not_finite_are_an_error) {
              "/initial: 1/q in equation 2 has no value at the initial values: the divisor is 0");
 }
 
+// 2z² - 3z + 1 = 0 at (1, 1), with zeros 1 and 1/2: the velocity, which is not given, does not draw z away.
+BOOST_AUTO_TEST_CASE(an_unknown_that_is_given_chooses_the_branch) {
+  Json experiment = {
+      {"system",
+       {{"type", "implicit"},
+        {"coordinates", {"y1", "y2"}},
+        {"unknowns", {"z"}},
+        {"equations", {"y1' - y1*y2^2*z^2", "y2' - y1^2*y2^2 + 3*y2^2*z", "y1^2*y2 - 1"}}}}};
+  for (const double z : {0.6, 0.8, 0.9, 1.2}) {
+    experiment["initial"] = {{"y1", 1}, {"y2", 1}, {"z", z}};
+    BOOST_TEST(start(experiment).point.z[0] == (z > 0.75 ? 1.0 : 0.5),
+               boost::test_tools::tolerance(1e-9));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(an_inconsistent_system_is_a_finding) {
   const Json experiment = {
       {"system", {{"type", "lagrangian"}, {"coordinates", {"q"}}, {"lagrangian", "q' + q"}}},
