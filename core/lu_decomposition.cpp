@@ -83,6 +83,7 @@ MatrixXd LuDecomposition::solve(const Eigen::Ref<const MatrixXd>& B) const {
 // by blocks.
 MatrixXd LuDecomposition::inverse() const {
   const Index n = size();
+  if (n > kPlain) return solve(MatrixXd::Identity(n, n));
   MatrixXd result = rows_ * MatrixXd::Identity(n, n);
   for (Index j = 0; j < n; ++j) {
     double* const x = result.col(j).data();

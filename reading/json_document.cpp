@@ -69,7 +69,8 @@ class Builder final : public nlohmann::json_sax<Json> {
   bool parse_error(std::size_t position, const std::string&,
                    const nlohmann::detail::exception& error) override {
     if (errors_ == Errors::thrown)
-      throw static_cast<const nlohmann::detail::parse_error&>(error);  // as all are that come here
+      if (const auto* malformed = dynamic_cast<const nlohmann::detail::parse_error*>(&error))
+        throw *malformed;
     // The position counts from 1 and is that of the last byte read, one past the end if there was
     // none.
     const std::size_t byte = position == 0 ? 0 : position - 1;

@@ -14,7 +14,8 @@ Json parse_json(std::string_view text);
 
 // The document of a file that the program has written; of keys that an object has twice the first
 // counts. As Json::parse, but in linear time: that looks through an object for each of its keys.
-// Throws Json::parse_error, and std::invalid_argument for what is nested too deeply.
+// Throws Json::parse_error, and std::invalid_argument for what is nested too deeply and for
+// numbers beyond those of double.
 Json parse_written_json(std::string_view text);
 
 // Adds a member to an object that has none of this name, without looking through it.

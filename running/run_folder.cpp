@@ -6,14 +6,12 @@
 
 #include <array>
 #include <cerrno>
-#include <fstream>
-#include <iterator>
 #include <random>
 #include <system_error>
 #include <utility>
 #include <vector>
 
-#include "courant/reading/json_document.hpp"
+#include "courant/running/run_files.hpp"
 
 namespace courant {
 namespace {
@@ -34,12 +32,9 @@ void write_json(const fs::path& file, const Json& json) {
 }
 
 Json json_in(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(stream)),
-                         std::istreambuf_iterator<char>());
   try {
-    return parse_written_json(text);
-  } catch (const std::exception&) {
+    return read_json(file);
+  } catch (const RunFileError&) {
     return {};
   }
 }

@@ -193,6 +193,11 @@ BOOST_AUTO_TEST_CASE(malformed_json_is_refused_with_its_line) {
   BOOST_TEST(line("{\n\"a\": \"two\nlines\"}") == 2);
   BOOST_TEST(line("{\"a\": [1,\n2\n") == 3);
   BOOST_TEST(line("{\"a\": \"\xff\"}") == 1);
+
+  write_text(file, "{\"a\":\n1e999}");
+  const std::string message = refusal([&] { read_json(file); });
+  BOOST_TEST(message.starts_with(file.string()));
+  BOOST_TEST(message.find("1e999") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(incomplete_folders_are_refused) {
