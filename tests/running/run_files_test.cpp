@@ -197,6 +197,7 @@ BOOST_AUTO_TEST_CASE(malformed_json_is_refused_with_its_line) {
   write_text(file, "{\"a\":\n1e999}");
   const std::string message = refusal([&] { read_json(file); });
   BOOST_TEST(message.starts_with(file.string()));
+  BOOST_TEST(message.find("line 2, column") != std::string::npos, message);
   BOOST_TEST(message.find("1e999") != std::string::npos);
 }
 
