@@ -17,9 +17,12 @@ bool is_group_of(const std::shared_ptr<const Manifold>& G, const LieAlgebra& g);
 // SO(3) or SE(3) with the exponential as retraction, Rⁿ or SO(n); null if g is the algebra of none of them.
 std::shared_ptr<const Manifold> group_of(const LieAlgebra& g);
 
-// The matrices A(x) (d × d) with A(x y) = A(x) A(y) whose differential at the unit is ρ: rotations on
-// copies of Rⁿ for SO(n), of R³ for SO(3) and SE(3), the identity for ρ = 0. `rho` has a matrix for each component of
-// a tangent vector of G, or none: d = 0. Empty where no A is known.
+// The matrices A(x) (d × d) with A(x y) = A(x) A(y) whose differential at the unit is ρ, as polynomials
+// of degree 3 at most in the coordinates of x: on SO(n) vectors, tensors of two and three indices and their
+// parts (symmetric matrices, two-forms, the algebra itself), on SE(3) also motions of points and forces;
+// the identity for ρ = 0. The coefficients are found by least squares from X_a A = A ρ_a for left-invariant
+// fields X_a and A(e) = 1, and are exact where they are multiples of 1/24. `rho` has a matrix for each
+// component of a tangent vector of G, or none: d = 0. Empty where no such A is found.
 using GroupAction = std::function<ExprMatrix(const ExprVector& x)>;
 GroupAction group_action(const Manifold& G, const std::vector<MatrixXd>& rho);
 

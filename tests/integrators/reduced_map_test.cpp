@@ -12,6 +12,7 @@
 #include "courant/manifolds/sphere.hpp"
 #include "courant/structures/canonical_symplectic.hpp"
 #include "courant/structures/euler_poincare.hpp"
+#include "courant/structures/representation.hpp"
 
 BOOST_AUTO_TEST_SUITE(reduced_map)
 
@@ -248,6 +249,56 @@ BOOST_AUTO_TEST_CASE(is_the_reduction_of_method_1) {
   }
 }
 
+// A body with an ellipsoid: S ∈ (so(3) ⋉ Sym)*, by its entries S_ij, i ≤ j, that are carried along.
+Expr ellipsoid_energy(V mu, V S) {
+  return 0.5 * (square(mu[0]) + square(mu[1]) / 1.2 + square(mu[2]) / 0.6) + 0.7 * S[0] -
+         0.4 * S[3] + 0.3 * S[1] + 0.2 * S[4] * S[5];
+}
+EulerPoincare body_with_ellipsoid() {
+  return {.algebra = LieAlgebra::so3(),
+          .representation = dual(symmetric_square(dual(turns()))),
+          .hamiltonian = [](V mu, V S, T) { return ellipsoid_energy(mu, S); }};
+}
+const VectorXd kEllipsoid{{0.3, -0.2, 1.1, 1.0, 0.2, -0.5, 2.0, 0.8, 0.6}};
+
+// Coadjoint orbits of so(3) ⋉ Sym have codimension 3: the eigenvalues of S, by traces of its powers.
+BOOST_AUTO_TEST_CASE(carries_symmetric_matrices_along) {
+  const auto traces = [](const VectorXd& x) {
+    Matrix3d S;
+    S << x[3], x[4], x[5], x[4], x[6], x[7], x[5], x[7], x[8];
+    return VectorXd{{S.trace(), (S * S).trace(), (S * S * S).trace()}};
+  };
+  for (const MapPointer& map : {cayley, exponential}) {
+    const ReducedMap method = reduced(body_with_ellipsoid(), map);
+    BOOST_TEST((traces(step(method, kEllipsoid, 0.05, 2000)) - traces(kEllipsoid)).norm() < 1e-12);
+    const EulerPoincare problem = body_with_ellipsoid();
+    BOOST_TEST(bracket_defect(method, LiePoisson(problem.algebra, problem.representation),
+                              kEllipsoid, 0.1) < 1e-11);
+  }
+  // As S = Rᵀ S₀ R, by Method 1 on T*SO(3).
+  const auto bundle = std::make_shared<CotangentBundle>(rotations);
+  const auto whole = std::make_shared<DiracSystem>(
+      std::make_shared<CanonicalSymplectic>(bundle),
+      std::make_shared<Hamiltonian>(bundle, [](V x, T) {
+        ExprMatrix S(3, 3), R(3, 3);
+        for (Index i = 0; i < 3; ++i)
+          for (Index j = 0; j < 3; ++j) {
+            R(i, j) = x[3 * i + j];
+            S(i, j) = kEllipsoid[3 + (i <= j ? i * (5 - i) / 2 + j : j * (5 - j) / 2 + i)];
+          }
+        const ExprMatrix turned = R.transpose() * S * R;
+        ExprVector entries(6);
+        entries << turned(0, 0), turned(0, 1), turned(0, 2), turned(1, 1), turned(1, 2),
+            turned(2, 2);
+        return ellipsoid_energy(x.tail(3), entries);
+      }));
+  const DiscretizeFirst full(whole, std::make_shared<CotangentLift>(bundle, cayley));
+  VectorXd x(12);
+  x << *rotations->unit(), kEllipsoid.head(3);
+  const VectorXd end = step(reduced(body_with_ellipsoid()), kEllipsoid, 0.05, 100);
+  BOOST_TEST((end.head(3) - step(full, x, 0.05, 100).tail(3)).norm() < 1e-11);
+}
+
 // The same on SO(4), where the map has no closed inverse; stages included.
 BOOST_AUTO_TEST_CASE(is_the_reduction_of_method_1_on_so4) {
   const auto group = std::make_shared<SpecialOrthogonal>(4);
@@ -377,14 +428,14 @@ BOOST_AUTO_TEST_CASE(what_is_refused) {
                     std::invalid_argument);
   BOOST_CHECK_THROW(ReducedMap(system, std::make_shared<CayleyMidpoint>(motions)),
                     std::invalid_argument);
-  // -ρᵀ is a representation too, and R that of its group; half of a copy is none that is known.
-  EulerPoincare other = heavy_top();
-  for (MatrixXd& rho : other.representation) {
-    MatrixXd more = MatrixXd::Zero(4, 4);
-    more.bottomRightCorner(3, 3) = rho;
-    rho = more;
-  }
-  BOOST_CHECK_THROW(ReducedMap(euler_poincare_system(other), cayley), std::invalid_argument);
+  // x acts as eˣ, which is no polynomial.
+  const EulerPoincare scaled{
+      .algebra = LieAlgebra::abelian(1),
+      .representation = {MatrixXd::Ones(1, 1)},
+      .hamiltonian = [](V mu, V a, T) -> Expr { return 0.5 * square(mu[0]) + square(a[0]); }};
+  BOOST_CHECK_THROW(ReducedMap(euler_poincare_system(scaled),
+                               std::make_shared<Theta>(std::make_shared<Euclidean>(1))),
+                    std::invalid_argument);
   BOOST_CHECK_THROW(ReducedMap(euler_poincare_system(rigid_body(true)),
                                std::make_shared<Theta>(std::make_shared<SpecialOrthogonal3>(
                                    SpecialOrthogonal3::cayley()))),
