@@ -105,6 +105,31 @@ class Composition::Trajectory final : public Stepper {
   std::vector<Step> parts_;
 };
 
+namespace {
+
+class ComposedDifferential final : public StepDifferential {
+ public:
+  ComposedDifferential(std::string method, std::shared_ptr<const StepDifferential> of_stages)
+      : method_(std::move(method)), of_stages_(std::move(of_stages)) {}
+
+ private:
+  MatrixXd do_images(const Step& step, const MatrixXd& V) const override {
+    // Parts that are not told have h = 0.
+    if (step.parts.empty() || step.parts.front().h == 0.0)
+      throw std::invalid_argument(method_ +
+                                  ": the step does not know its parts; expected one that was made "
+                                  "after Stepper::tell_parts().");
+    MatrixXd images = V;
+    for (const Step& part : step.parts) images = (*of_stages_)(part, images);
+    return images;
+  }
+
+  std::string method_;
+  std::shared_ptr<const StepDifferential> of_stages_;
+};
+
+}  // namespace
+
 Composition::Composition(std::shared_ptr<const Integrator> method, int order)
     : Integrator(method ? method->system() : nullptr), method_(std::move(method)), order_(order) {
   coefficients(order);
@@ -143,6 +168,11 @@ StepProgram Composition::program() const {
 }
 
 std::vector<StepFormulas> Composition::do_formulas() const { return method_->formulas(); }
+
+std::shared_ptr<const StepDifferential> Composition::do_differential() const {
+  auto of_stages = method_->differential();
+  return of_stages ? std::make_shared<ComposedDifferential>(name(), std::move(of_stages)) : nullptr;
+}
 
 std::unique_ptr<Stepper> Composition::do_stepper() const {
   return std::make_unique<Trajectory>(method_, order_, name());

@@ -52,6 +52,8 @@ class Composition final : public Integrator, public Programmed {
   std::unique_ptr<Stepper> do_stepper() const override;
   // Those of a stage: h is the size of a substep.
   std::vector<StepFormulas> do_formulas() const override;
+  // The product of those of the stages.
+  std::shared_ptr<const StepDifferential> do_differential() const override;
 
   std::shared_ptr<const Integrator> method_;
   int order_;

@@ -387,6 +387,7 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
                                 to_string(ladder.verdict) + "; expected regular or gauge. " +
                                 ladder.reason);
   check_ladder("ConstrainFirst::ConstrainFirst", *this->system(), ladder);
+  ladder_ = std::make_shared<const ConstraintLadder>(ladder);
   const Manifold& M = *this->system()->manifold();
   codimension_ = M.dimension() - ladder.degrees_of_freedom;
   gauge_dimension_ = ladder.gauge_dimension;

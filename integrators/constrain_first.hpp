@@ -54,14 +54,18 @@ class ConstrainFirst final : public Integrator, public Programmed {
   StepProgram program() const override;
 
  private:
+  class Differential;
   class Trajectory;
   struct Trace;
 
   std::unique_ptr<Stepper> do_stepper() const override;
+  // Exact but for the turning of W, by differences of order 8 to 1e-12 of ‖μ‖.
+  std::shared_ptr<const StepDifferential> do_differential() const override;
   std::vector<StepFormulas> do_formulas() const override;
 
   std::shared_ptr<const DiscretizationMap> map_;
   std::shared_ptr<const Projector> projector_;
+  std::shared_ptr<const ConstraintLadder> ladder_;
   std::vector<int> differentiations_;  // of each equation of the system
   Index codimension_;                  // d = dim M - dim M_f
   Index gauge_dimension_;

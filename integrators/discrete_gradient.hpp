@@ -56,6 +56,9 @@ class DiscreteGradient final : public Integrator, public Programmed {
  private:
   std::unique_ptr<Stepper> do_stepper() const override { return step_.stepper(); }
   std::vector<StepFormulas> do_formulas() const override { return {step_.formulas()}; }
+  std::shared_ptr<const StepDifferential> do_differential() const override {
+    return step_.differential();
+  }
 
   std::shared_ptr<const DiscreteDifferential> differential_;
   StageStep step_;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "courant/core/message.hpp"
+#include "courant/integrators/vector_field_differential.hpp"
 
 namespace courant {
 namespace {
@@ -110,35 +111,81 @@ int ExplicitRungeKutta::order() const {
 }
 
 // What odeint's classes have in them.
-StepProgram ExplicitRungeKutta::program() const {
-  check_program_space(name(), *system()->manifold());
-  StepProgram program{.method = name()};
+StepProgram::Explicit ExplicitRungeKutta::tableau() const {
+  StepProgram::Explicit tableau;
   switch (kind_) {
     case Kind::midpoint:
-      program.explicit_steps = {.times = {0.0, 0.5}, .rows = {{0.5}, {0.0, 1.0}}};
+      tableau = {.times = {0.0, 0.5}, .rows = {{0.5}, {0.0, 1.0}}};
       break;
     case Kind::classical:
-      program.explicit_steps = {
+      tableau = {
           .times = {0.0, 0.5, 0.5, 1.0},
           .rows = {
               {0.5}, {0.0, 0.5}, {0.0, 0.0, 1.0}, {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0}}};
       break;
     case Kind::dormand_prince:
-      program.explicit_steps = {
-          .times = {0.0, 1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0},
-          .rows = {{1.0 / 5.0},
-                   {3.0 / 40.0, 9.0 / 40.0},
-                   {44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0},
-                   {19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0},
-                   {9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0,
-                    -5103.0 / 18656.0},
-                   {35.0 / 384.0, std::nullopt, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0,
-                    11.0 / 84.0}},
-          .keeps_rate = true};
+      tableau = {.times = {0.0, 1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0},
+                 .rows = {{1.0 / 5.0},
+                          {3.0 / 40.0, 9.0 / 40.0},
+                          {44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0},
+                          {19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0},
+                          {9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0,
+                           -5103.0 / 18656.0},
+                          {35.0 / 384.0, std::nullopt, 500.0 / 1113.0, 125.0 / 192.0,
+                           -2187.0 / 6784.0, 11.0 / 84.0}},
+                 .keeps_rate = true};
       break;
   }
-  program.explicit_steps->field = &field_->formulas();
+  tableau.field = &field_->formulas();
+  return tableau;
+}
+
+StepProgram ExplicitRungeKutta::program() const {
+  check_program_space(name(), *system()->manifold());
+  StepProgram program{.method = name()};
+  program.explicit_steps = tableau();
   return program;
+}
+
+// The stages are evaluated again, with their differentials:
+//   K_i = DX(x_i) (V + h Σ_{j<i} a_ij K_j),   TΦ_h V = V + h Σ b_j K_j
+class ExplicitRungeKutta::Differential final : public StepDifferential {
+ public:
+  explicit Differential(const ExplicitRungeKutta& method)
+      : method_(method), differential_(method.field_->formulas()) {}
+
+ private:
+  MatrixXd do_images(const Step& step, const MatrixXd& V) const override {
+    const StepProgram::Explicit tableau = method_.tableau();
+    VectorField::Evaluation evaluate(*method_.field_);
+    evaluate.start(step.before);
+    std::vector<VectorXd> rates;
+    std::vector<MatrixXd> images;
+    const auto combined = [&](const auto& start, const auto& terms, std::size_t row) {
+      auto sum = start;
+      for (std::size_t j = 0; j < tableau.rows[row].size(); ++j)
+        if (tableau.rows[row][j]) sum += step.h * *tableau.rows[row][j] * terms[j];
+      return sum;
+    };
+    for (std::size_t i = 0; i < tableau.times.size(); ++i) {
+      const VectorXd x = i == 0 ? step.before.x : combined(step.before.x, rates, i - 1);
+      const double t = step.before.t + tableau.times[i] * step.h;
+      VectorXd rate(x.size());
+      evaluate(x, rate, t);
+      rates.push_back(rate);
+      images.push_back(differential_({x, t, evaluate.unknowns(), evaluate.basis()},
+                                     i == 0 ? V : combined(V, images, i - 1))
+                           .rate);
+    }
+    return combined(V, images, tableau.times.size() - 1);
+  }
+
+  const ExplicitRungeKutta method_;  // its functions are shared, not copied
+  VectorFieldDifferential differential_;
+};
+
+std::shared_ptr<const StepDifferential> ExplicitRungeKutta::do_differential() const {
+  return std::make_shared<Differential>(*this);
 }
 
 std::unique_ptr<Stepper> ExplicitRungeKutta::do_stepper() const {

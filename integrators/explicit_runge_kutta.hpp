@@ -27,7 +27,11 @@ class ExplicitRungeKutta final : public Integrator, public Programmed {
   StepProgram program() const override;
 
  private:
+  class Differential;
+
   std::unique_ptr<Stepper> do_stepper() const override;
+  std::shared_ptr<const StepDifferential> do_differential() const override;
+  StepProgram::Explicit tableau() const;
 
   std::shared_ptr<const VectorField> field_;
   Kind kind_;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "courant/integrators/step_differential.hpp"
 #include "courant/integrators/step_formulas.hpp"
 #include "courant/integrators/stepper.hpp"
 
@@ -37,6 +38,10 @@ class Integrator {
 
   std::unique_ptr<Stepper> stepper() const { return do_stepper(); }
 
+  // T_xΦ_h of the steps that a stepper of this method makes, exactly; traced when this is called. Null for
+  // a method that does not know it. Throws std::domain_error where its steps are no function of the state, as with gauge freedom.
+  std::shared_ptr<const StepDifferential> differential() const { return do_differential(); }
+
   // Φ_h applied `count` times, by a stepper of its own. Throws as Stepper::step does.
   State advance(State state, double h, long count = 1) const {
     const auto workspace = stepper();
@@ -55,6 +60,7 @@ class Integrator {
   virtual std::unique_ptr<Stepper> do_stepper() const = 0;
   // May override:
   virtual std::vector<StepFormulas> do_formulas() const { return {}; }
+  virtual std::shared_ptr<const StepDifferential> do_differential() const { return nullptr; }
 
   std::shared_ptr<const ImplicitSystem> system_;
 };

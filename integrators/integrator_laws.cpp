@@ -20,6 +20,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // A symplectic form is preserved to about ten digits where it is preserved: differences of order 4
 // know differentials no better.
 constexpr double kSymplectic = 1e-8;
+constexpr double kSameDifferential = 1e-7;
 // Two ways to the same state: they differ by what Newton's method leaves and by round-off.
 constexpr double kSame = 1e-9;
 // What round-off leaves of a balance of energies.
@@ -54,6 +55,7 @@ class IntegratorLaws {
     empty_law();
     time_law();
     energy_law();
+    differential_law();
     return std::move(report_);
   }
 
@@ -224,6 +226,33 @@ class IntegratorLaws {
       result.image.col(k) = back * velocity;
     }
     return result;
+  }
+
+  // The same by the method's own StepDifferential.
+  MatrixXd exact_image(const StepDifferential& differential, const MatrixXd& tangent) const {
+    const auto stepper = integrator_.stepper();
+    stepper->tell_parts();
+    State state = setting_.initial;
+    stepper->step(state, setting_.step);
+    const VectorXd& x = setting_.initial.x;
+    const MatrixXd directions = M_.frame(x) * (M_.tangent_basis(x) * tangent);
+    return M_.tangent_basis(state.x).matrix().transpose() *
+           (M_.coframe(state.x) * differential(stepper->last(), directions));
+  }
+
+  void differential_law() {
+    if (setting_.is_gauge || M_.dimension() == 0 || !options_.both_ways) return;
+    auto measured = law("P11 the differential is that of the steps", kSameDifferential);
+    measured.add(
+        [&] {
+          const auto exact = integrator_.differential();
+          if (!exact) return 0.0;
+          const Differential step = differential(setting_.step);
+          const MatrixXd image = exact_image(*exact, step.tangent);
+          return (image - step.image).norm() / std::max(image.norm(), 1e-300);
+        },
+        where());
+    add(measured);
   }
 
   // ω_D at x as a matrix in the basis of T_xM.

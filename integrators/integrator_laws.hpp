@@ -51,6 +51,8 @@ struct IntegratorLawOptions {
 //   P9   the time after k steps is t₀ + k h, and k are counted
 //   P10  H changes in each step by what is supplied less what is dissipated, to 1e-12 of the energies that
 //        take part, if has_exact_energy()
+//   P11  differential(), where there is one, is TΦ_h on T M_f as differences of steps show it (if both_ways:
+//        differences need coordinates of comparable sizes)
 struct IntegratorReport {
   std::vector<LawResult> laws;
   // No value where there is nothing to measure: the steps fail, or they are exact.

@@ -129,6 +129,47 @@ struct ReducedMap::Trace {
   ExprVector start;  // v/h and dμ/dt at x₀
 };
 
+// At the y of the step, which is found again from what the step knows: Δμ and z are those of its ends.
+class ReducedMap::Differential final : public StepDifferential {
+ public:
+  explicit Differential(const ReducedMap& method)
+      : method_(method), n_(method.structure_->acting().dimension()) {
+    const Trace trace(method);
+    const auto& inputs = trace.formulas.inputs;
+    equations_ =
+        Function("differential", inputs, trace.formulas.equations, {.differentiate = {"y", "x0"}});
+    advance_ = Function("advance", inputs,
+                        trace.advanced.head(method.reduced_->manifold()->ambient_dimension()),
+                        {.differentiate = {"y", "x0"}});
+  }
+
+ private:
+  MatrixXd do_images(const Step& step, const MatrixXd& V) const override {
+    const VectorXd h = VectorXd::Constant(1, step.h), t = VectorXd::Constant(1, step.before.t);
+    VectorXd y(equations_.input_size(0));
+    y << step.h * method_.rate_({step.before.x, step.after.z, t}).head(n_),
+        step.after.x.head(n_) - step.before.x.head(n_), step.after.z;
+    constexpr int kIterations = 20;
+    for (int i = 0; i < kIterations; ++i) {
+      const VectorXd change = implicit_derivative(
+          "ReducedMap", equations_.jacobian({y, step.before.x, h, t}).leftCols(y.size()),
+          equations_({y, step.before.x, h, t}), 2 * n_);
+      y += change;
+      if (change.norm() <= 1e-15 * y.norm()) break;
+    }
+    const MatrixXd F = equations_.jacobian({y, step.before.x, h, t});
+    const MatrixXd G = advance_.jacobian({y, step.before.x, h, t});
+    const Index N = step.before.x.size();
+    return G.rightCols(N) * V +
+           G.leftCols(y.size()) *
+               implicit_derivative("ReducedMap", F.leftCols(y.size()), F.rightCols(N) * V, 2 * n_);
+  }
+
+  const ReducedMap method_;  // its functions are shared, not copied
+  Index n_;
+  Function equations_, advance_;  // y; x₀, h, t ↦ each, with Jacobian by y and x₀
+};
+
 namespace {
 
 // What throws is found before anything is traced.
@@ -169,7 +210,8 @@ ReducedMap::ReducedMap(std::shared_ptr<const DiracSystem> system,
   if (!action_)
     throw std::invalid_argument("ReducedMap::ReducedMap: no action of " + map_->manifold()->name() +
                                 " is known for the representation on the advected parameters; "
-                                "expected rotations of copies of R^3.");
+                                "expected one by polynomials, of degree 3 at most, in the points "
+                                "of the group, as on vectors and on tensors.");
   const Trace trace(*this);
   const Backend backend = options.backend.together();
   equations_ = trace.formulas.compile(backend);
@@ -183,6 +225,10 @@ ReducedMap::ReducedMap(std::shared_ptr<const DiracSystem> system,
 
 std::unique_ptr<Stepper> ReducedMap::do_stepper() const {
   return std::make_unique<Trajectory>(*this);
+}
+
+std::shared_ptr<const StepDifferential> ReducedMap::do_differential() const {
+  return std::make_shared<Differential>(*this);
 }
 
 std::vector<StepFormulas> ReducedMap::do_formulas() const { return {Trace(*this).formulas}; }

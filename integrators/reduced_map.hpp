@@ -60,11 +60,13 @@ class ReducedMap final : public Integrator {
   bool is_native() const override { return equations_.is_native(); }
 
  private:
+  class Differential;
   class Trajectory;
   struct Trace;
 
   std::unique_ptr<Stepper> do_stepper() const override;
   std::vector<StepFormulas> do_formulas() const override;
+  std::shared_ptr<const StepDifferential> do_differential() const override;
 
   std::shared_ptr<const DiracSystem> reduced_;  // the system
   std::shared_ptr<const LiePoisson> structure_;

@@ -7,6 +7,7 @@
 
 #include "courant/core/equation_system.hpp"
 #include "courant/integrators/maps/discretization_map.hpp"
+#include "courant/integrators/step_differential.hpp"
 #include "courant/integrators/step_formulas.hpp"
 #include "courant/integrators/step_program.hpp"
 #include "courant/integrators/stepper.hpp"
@@ -48,8 +49,11 @@ class StageStep {
   // As of Programmed.
   StepProgram program() const;
   std::unique_ptr<Stepper> stepper() const;
+  // As of Integrator: of the equations at (x₀, x₁) where the map has an inverse, else at (x̄, v).
+  std::shared_ptr<const StepDifferential> differential() const;
 
  private:
+  class Differential;
   class Trajectory;
   struct Trace;
 

@@ -65,7 +65,7 @@ VectorFieldFormulas::VectorFieldFormulas(std::shared_ptr<const ImplicitSystem> o
   z_offset = static_cast<Index>(local.xi.size() - 1) * n;
   start.segment(z_offset, system->auxiliary_size()) = ladder.point.z;
 
-  const ExprVector all = at_origin(local.equations);
+  all = at_origin(local.equations);
   const Function full("vector field", inputs, all, {.differentiate = {"y"}});
   const VectorXd entries = B.entries().reshaped();
   // Without units: the entries of a force of 10⁻⁸ N are no round-off next to those of 10⁹ s⁻³.

@@ -22,6 +22,7 @@ struct VectorFieldFormulas {
   std::vector<Function::Input> inputs;  // y = (ξ', …, z, …), x, basis, t
   ExprVector equations, rate,
       left_out;        // the equations kept; ẋ, v, z; those of y that are not kept
+  ExprVector all;      // the equations of S_f and of M_f, of which they are some
   VectorXd start;      // y at the ladder's point
   Index z_offset = 0;  // of z in it
 };
@@ -66,6 +67,9 @@ class VectorField {
     // The same at a state, starting from its v and z: with gauge freedom, or where there are
     // several branches, the velocity near those.
     void operator()(const State& state, VectorXd& rate);
+    // y there, and the basis of its ξ', ….
+    const VectorXd& unknowns() const { return y_; }
+    const LinearMap<double>& basis() const { return basis_.map(); }
     const VectorXd& v() const { return v_; }
     const VectorXd& z() const { return z_; }
     // What the equations that are left out are at the x of the last evaluation: with constraints

@@ -38,6 +38,8 @@ class Liar final : public Integrator {
     // What is made of the initial state.
     std::function<State(State)> started = [](State state) { return state; };
     bool exact = false;
+    // Instead of that of the steps.
+    std::shared_ptr<const StepDifferential> differential = nullptr;
   };
   Liar(std::shared_ptr<const Integrator> truth, Parts parts)
       : Integrator(truth->system()), truth_(std::move(truth)), parts_(std::move(parts)) {}
@@ -92,8 +94,26 @@ class Liar final : public Integrator {
     return std::make_unique<Trajectory>(parts_, truth_);
   }
 
+  std::shared_ptr<const StepDifferential> do_differential() const override {
+    return parts_.differential;
+  }
+
   std::shared_ptr<const Integrator> truth_;
   Parts parts_;
+};
+
+// As if the step were a little longer or shorter than it is.
+class StretchedDifferential final : public StepDifferential {
+ public:
+  StretchedDifferential(std::shared_ptr<const StepDifferential> truth, double factor)
+      : truth_(std::move(truth)), factor_(factor) {}
+
+ private:
+  MatrixXd do_images(const Step& step, const MatrixXd& V) const override {
+    return factor_ * (*truth_)(step, V);
+  }
+  std::shared_ptr<const StepDifferential> truth_;
+  double factor_;
 };
 
 const std::vector<test::IntegratorEntry>& catalogue() {
@@ -261,6 +281,15 @@ BOOST_AUTO_TEST_CASE(p9_a_clock_that_is_wrong) {
   auto parts = truth_of(midpoint());
   parts.spoil = [](const State&, State& after, double h, long) { after.t += 1e-9 * h; };
   BOOST_TEST(fails(midpoint(), parts, "P9"));
+}
+
+BOOST_AUTO_TEST_CASE(p11_a_differential_that_is_not_that_of_the_steps) {
+  const auto truth = midpoint().integrator->differential();
+  auto parts = truth_of(midpoint());
+  parts.differential = truth;
+  BOOST_TEST(!fails(midpoint(), parts, "P11"));
+  parts.differential = std::make_shared<StretchedDifferential>(truth, 1.0 + 1e-5);
+  BOOST_TEST(fails(midpoint(), parts, "P11"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()
