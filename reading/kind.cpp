@@ -72,6 +72,11 @@ Takes weights() {
 }
 Takes field_rows() { return {"rows of formulas", reference("fieldRows")}; }
 Takes number_matrices() { return {"an array of matrices of numbers", reference("numberMatrices")}; }
+Takes representation(std::vector<std::string> words) {
+  const Takes one = word(std::move(words)), matrices = number_matrices();
+  return {one.text + " or " + matrices.text,
+          {{"oneOf", Json::array({one.schema, matrices.schema})}}};
+}
 Takes coordinates() { return {"names", reference("coordinates")}; }
 Takes names() { return {"names", reference("names")}; }
 Takes parameters() { return {"an object of constants", reference("parameters")}; }

@@ -35,7 +35,8 @@ Takes metric(std::vector<std::string> words);  // one of the words, or a matrix 
 Takes weights();                               // an object of names and positive numbers
 Takes field_rows();                            // vector fields or one-forms, one a row
 Takes number_matrices();
-Takes coordinates();  // names and arrays of names, at least one
+Takes representation(std::vector<std::string> words);  // one of the words, or number_matrices
+Takes coordinates();                                   // names and arrays of names, at least one
 Takes names();
 Takes parameters();
 Takes tables();

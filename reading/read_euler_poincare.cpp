@@ -5,6 +5,7 @@
 #include "courant/reading/system_kinds.hpp"
 #include "courant/structures/euler_poincare.hpp"
 #include "courant/structures/lie_group.hpp"
+#include "courant/structures/representation.hpp"
 
 namespace courant {
 namespace {
@@ -74,6 +75,25 @@ std::vector<MatrixXd> defining_representation(const LieAlgebra& g) {
   return rho;
 }
 
+// That of a word, on V for parameters a ∈ V*: vectors and tensors as they are seen from the body, and
+// momenta; nothing where the word says nothing of this algebra.
+std::vector<MatrixXd> named_representation(const std::string& word, const LieAlgebra& g) {
+  if (word == "adjoint") return adjoint_representation(g);
+  const Representation vectors = defining_representation(g);
+  if (word == "symmetric-matrices") return dual(symmetric_square(dual(vectors)));
+  if (word == "two-forms") return dual(exterior_square(dual(vectors)));
+  return vectors;
+}
+
+std::optional<std::vector<MatrixXd>> given_representation(const std::optional<JsonReader>& key,
+                                                          const LieAlgebra& g) {
+  if (!key) return defining_representation(g);
+  if (!key->value().is_string()) return read_matrices(*key);
+  const auto word = key->word({"vectors", "symmetric-matrices", "two-forms", "adjoint"});
+  if (!word) return std::nullopt;
+  return named_representation(*word, g);
+}
+
 // ρ on all advected parameters: as given, the same on each of several arrays.
 std::optional<std::vector<MatrixXd>> read_representation(ObjectReader& system, const LieAlgebra& g,
                                                          const NameList& advected,
@@ -83,7 +103,7 @@ std::optional<std::vector<MatrixXd>> read_representation(ObjectReader& system, c
     if (key) key->problem("acts on nothing; expected \"advected\", the names of what it acts on");
     return key ? std::nullopt : std::optional(std::vector<MatrixXd>());
   }
-  const auto given = key ? read_matrices(*key) : std::optional(defining_representation(g));
+  const auto given = given_representation(key, g);
   if (!given) return std::nullopt;
   const JsonReader& place = key ? *key : *names;
   if (given->empty()) {

@@ -116,8 +116,11 @@ Registry<Model>& system_kinds() {
              default_key("velocity", takes::text(), "xi", "the name of the velocities"),
              optional_key("advected", takes::names(),
                           "parameters that the group acts on: \"Gamma[3]\""),
-             optional_key("representation", takes::number_matrices(),
-                          "how: a matrix for each e_i; so3 and so(n) know theirs"),
+             optional_key(
+                 "representation",
+                 takes::representation({"vectors", "symmetric-matrices", "two-forms", "adjoint"}),
+                 "how: by a word, or a matrix for each e_i; so3 and so(n) know that of "
+                 "vectors"),
              optional_key("attitude", takes::names(),
                           "points of the group as part of the state: \"R[3][3]\" for so3"),
              inputs,

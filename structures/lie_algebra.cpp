@@ -115,6 +115,21 @@ LieAlgebra LieAlgebra::semidirect(const LieAlgebra& g, const std::vector<MatrixX
     throw std::invalid_argument("LieAlgebra::semidirect: rho has " + std::to_string(rho.size()) +
                                 " matrices; expected " + std::to_string(n) +
                                 " square ones of one size, one for each e_i.");
+  const double size = std::max(largest(rho), largest(g.constants()));
+  for (Index i = 0; i < n; ++i)
+    for (Index j = 0; j < i; ++j) {
+      const MatrixXd &a = rho[static_cast<std::size_t>(j)], &b = rho[static_cast<std::size_t>(i)];
+      MatrixXd defect = a * b - b * a;
+      for (Index k = 0; k < n; ++k)
+        defect -=
+            g.constants()[static_cast<std::size_t>(k)](j, i) * rho[static_cast<std::size_t>(k)];
+      if (largest({defect}) > 1e-12 * size * size)
+        throw std::domain_error(
+            "LieAlgebra::semidirect: rho(e_" + std::to_string(j) + ") and rho(e_" +
+            std::to_string(i) + ") have a commutator that differs by " +
+            number_text(largest({defect})) + " from rho of [e_" + std::to_string(j) + ", e_" +
+            std::to_string(i) + "]; expected a representation of " + g.name() + ".");
+    }
   auto c = zeros(n + d);
   for (Index k = 0; k < n; ++k)
     c[static_cast<std::size_t>(k)].topLeftCorner(n, n) = g.constants()[static_cast<std::size_t>(k)];

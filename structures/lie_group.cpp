@@ -120,8 +120,8 @@ FunctionsOnGroup functions_on(const Manifold& G, const std::vector<Monomial>& al
 // The coefficients C_k (d × d) of A(x) = Σ_k C_k m_k(x) with X_a A = A ρ_a and A(e) = 1, which determine
 // A; none if they are not the functions of a representation. Row i of all C_k, as a matrix c (k, j), is
 // the solution of L_a c = c ρ_a, m(e)ᵀ c = e_iᵀ.
-std::vector<MatrixXd> coefficients(const FunctionsOnGroup& functions, const VectorXd& unit,
-                                   const std::vector<MatrixXd>& rho) {
+std::vector<MatrixXd> action_coefficients(const FunctionsOnGroup& functions, const VectorXd& unit,
+                                          const std::vector<MatrixXd>& rho) {
   const auto r = static_cast<Index>(functions.basis.size());
   const Index d = rho.front().rows(), n = std::ssize(rho);
   MatrixXd A = MatrixXd::Zero(n * r * d + d, r * d), B = MatrixXd::Zero(A.rows(), d);
@@ -163,7 +163,7 @@ GroupAction group_action(const Manifold& G, const std::vector<MatrixXd>& rho) {
     if (std::ssize(all) > kMonomials) break;
     const FunctionsOnGroup functions = functions_on(G, all);
     if (std::ssize(functions.basis) * d > kRowUnknowns) break;
-    const auto C = coefficients(functions, *unit, rho);
+    const auto C = action_coefficients(functions, *unit, rho);
     if (C.empty()) continue;
     return [d, C, basis = functions.basis](const ExprVector& x) {
       ExprMatrix A = ExprMatrix::Zero(d, d);

@@ -211,6 +211,49 @@ BOOST_AUTO_TEST_CASE(canonical_matrices) {
   BOOST_TEST(residual(top, at, rate, VectorXd(0)).norm() < 1e-14);
 }
 
+// S' = S ξ̂ - ξ̂ S for symmetric matrices and two-forms as the body sees them, π' = π × ξ for momenta.
+BOOST_AUTO_TEST_CASE(tensors_that_are_carried_along) {
+  const Eigen::Vector3d xi(0.3, -0.8, 0.2), mu(0.3, -1.6, 0.6), momentum(0.7, 0.1, -0.4);
+  Eigen::Matrix3d hat, S, W;
+  hat << 0.0, -0.2, -0.8, 0.2, 0.0, -0.3, 0.8, 0.3, 0.0;
+  S << 1.0, 0.2, -0.5, 0.2, 2.0, 0.8, -0.5, 0.8, -0.6;
+  W << 0.0, 0.4, 0.9, -0.4, 0.0, -0.3, -0.9, 0.3, 0.0;
+  const auto entries = [](const Eigen::Matrix3d& A) {
+    return VectorXd{{A(0, 0), A(0, 1), A(0, 2), A(1, 1), A(1, 2), A(2, 2)}};
+  };
+  const auto above = [](const Eigen::Matrix3d& A) { return VectorXd{{A(0, 1), A(0, 2), A(1, 2)}}; };
+  const auto defect = [&](const char* word, const VectorXd& a, const VectorXd& rate) {
+    const Json body{{"type", "euler-poincare"},
+                    {"algebra", "so3"},
+                    {"advected", {"a[" + std::to_string(a.size()) + "]"}},
+                    {"representation", word},
+                    {"lagrangian", "(xi[0]^2 + 2*xi[1]^2 + 3*xi[2]^2)/2"}};
+    const Experiment experiment = read_experiment(with({}, body).dump());
+    VectorXd x(3 + a.size()), v(3 + a.size());
+    x << mu, a;
+    v << mu.cross(xi), rate;
+    return experiment.model.system->residual(x, v, xi, 0.0).norm();
+  };
+  BOOST_TEST(defect("symmetric-matrices", entries(S), entries(S * hat - hat * S)) < 1e-14);
+  BOOST_TEST(defect("two-forms", above(W), above(W * hat - hat * W)) < 1e-14);
+  BOOST_TEST(defect("adjoint", momentum, momentum.cross(xi)) < 1e-14);
+  BOOST_TEST(defect("vectors", momentum, momentum.cross(xi)) < 1e-14);
+  const auto problem = [](const Json& representation, const char* algebra) {
+    return problems(with({}, {{"type", "euler-poincare"},
+                              {"algebra", algebra},
+                              {"advected", {"a[6]"}},
+                              {"representation", representation},
+                              {"hamiltonian", "mu[0]^2"}}));
+  };
+  BOOST_TEST(problem("adjoint", "se3") == "");
+  BOOST_TEST(problem("tensors", "so3").starts_with("/system/representation: is \"tensors\""));
+  BOOST_TEST(problem("two-forms", "se3").starts_with("/system/representation: need to know how"));
+  BOOST_TEST(problem("two-forms", "so3").starts_with("/system/representation: acts on 3 numbers"));
+  const Json wrong = {{{0, 1}, {0, 0}}, {{0, 0}, {1, 0}}, {{1, 0}, {0, 2}}};
+  BOOST_TEST(problem(wrong, "so3").find("expected a representation of so(3)") != std::string::npos,
+             problem(wrong, "so3"));
+}
+
 BOOST_AUTO_TEST_CASE(euler_poincare_keys) {
   const Json top{{"type", "euler-poincare"},
                  {"algebra", "so3"},
