@@ -8,6 +8,7 @@
 #include "courant/core/message.hpp"
 #include "courant/reading/energy_words.hpp"
 #include "courant/reading/json_document.hpp"
+#include "courant/reading/repetition.hpp"
 #include "courant/reading/system_kinds.hpp"
 #include "courant/structures/energy_system.hpp"
 
@@ -65,14 +66,24 @@ bool observable(const std::string& name, const ImplicitSystem& system, const Sym
 }
 
 // The formula of an observable, or {"formula": …, "at": "node" or "stage"}.
-std::optional<Observable> read_observable(const std::string& name, const JsonReader& entry) {
+std::optional<Observable> read_observable(const std::string& name, const JsonReader& entry,
+                                          const SymbolTable& constants) {
+  const auto read = [&](const JsonReader& value) {
+    auto formula = read_formula(value);
+    const auto text = formula ? Repetition::Turn(constants, "")
+                                    .filled(formula->text, formula->pointer, value.findings())
+                              : std::nullopt;
+    if (!text) return std::optional<WrittenFormula>();
+    formula->text = *text;
+    return formula;
+  };
   if (!entry.value().is_object()) {
-    const auto formula = read_formula(entry);
+    const auto formula = read(entry);
     return formula ? std::optional(Observable{name, *formula}) : std::nullopt;
   }
   ObjectReader object(entry);
   const auto key = object.required("formula");
-  const auto formula = key ? read_formula(*key) : std::nullopt;
+  const auto formula = key ? read(*key) : std::nullopt;
   const bool at_stage = object.word("at", "node", {"node", "stage"}) == "stage";
   return formula ? std::optional(Observable{name, *formula, at_stage}) : std::nullopt;
 }
@@ -116,8 +127,9 @@ std::vector<Observable> read_observables(const JsonReader& value, const Model& m
   if (!entries) return observables;
   std::vector<Observable> written;
   std::vector<JsonReader> places;
+  const SymbolTable constants = model.vocabulary.symbols({});
   for (const auto& [name, entry] : *entries)
-    if (auto observable = read_observable(name, entry)) {
+    if (auto observable = read_observable(name, entry, constants)) {
       written.push_back(std::move(*observable));
       places.push_back(entry);
     }
@@ -253,7 +265,8 @@ Experiment read_experiment_document(const Json& written) {
     experiment.output =
         read_output(output.value_or(JsonReader(no_output, "/output", findings)),
                     model ? model->vocabulary.symbols({}) : SymbolTable(),
-                    model ? std::optional(quantities(experiment)) : std::nullopt, experiment.time);
+                    model ? std::optional(quantities(experiment)) : std::nullopt,
+                    model ? model->system->names().coordinates.size() : 0, experiment.time);
   }
   findings.require_clean();
   experiment.document = findings.completed(document);

@@ -35,10 +35,14 @@ class Findings {
  public:
   void problem(std::string where, std::string what);
   void default_value(std::string pointer, Json value);
+  // Those of others, with an addition at the end of each problem.
+  void take_problems(const Findings& others, const std::string& addition);
+  void take_defaults(const Findings& others);
 
   bool clean() const { return problems_.empty(); }
   const std::vector<Problem>& problems() const { return problems_; }
-  // Throws ExperimentError unless clean().
+  // Throws ExperimentError unless clean(). Of the problems at one place it has three, and how many
+  // more there are.
   void require_clean() const;
 
   // The document with the defaults filled in.

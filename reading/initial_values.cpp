@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "courant/reading/repetition.hpp"
+
 namespace courant {
 namespace {
 
@@ -13,12 +15,7 @@ struct Target {
 
 // Throws FormulaError where the reference leads nowhere.
 Target find(const Reference& reference, const Vocabulary& vocabulary, InitialValues& values) {
-  const auto is_unknown = [&] {
-    for (const Declaration& declaration : vocabulary.unknowns.declarations())
-      if (declaration.name == reference.name) return true;
-    return false;
-  };
-  if (!reference.is_velocity && is_unknown()) {
+  if (!reference.is_velocity && vocabulary.unknowns.contains(reference.name)) {
     const auto [first, count] = vocabulary.unknowns.find(reference);
     return {&values.z, first, count};
   }
@@ -26,8 +23,8 @@ Target find(const Reference& reference, const Vocabulary& vocabulary, InitialVal
   return {reference.is_velocity ? &values.velocity : &values.x, first, count};
 }
 
-void read_entry(const std::string& key, const JsonReader& value, const Model& model,
-                InitialValues& values) {
+void read_entry(const std::string& key, const JsonReader& value, const SymbolTable& constants,
+                const Model& model, InitialValues& values) {
   Target target{};
   try {
     target = find(parse_reference(key), model.vocabulary, values);
@@ -42,8 +39,7 @@ void read_entry(const std::string& key, const JsonReader& value, const Model& mo
                   std::to_string(target.count) + ", for " + key);
     return;
   }
-  const auto numbers =
-      evaluate_constants(*formulas, model.vocabulary.symbols({}), value.findings());
+  const auto numbers = evaluate_constants(*formulas, constants, value.findings());
   if (!numbers) return;
   auto given = target.vector->given.segment(target.first, target.count);
   if (given.any()) {
@@ -52,6 +48,28 @@ void read_entry(const std::string& key, const JsonReader& value, const Model& mo
   }
   given = true;
   target.vector->values.segment(target.first, target.count) = *numbers;
+}
+
+// The entry `"q_C{i}": {"repeat": {"i": [1, "n"]}, "value": "C*{i}"}` for each i.
+void read_entries(const std::string& key, const JsonReader& entry, const SymbolTable& constants,
+                  const Model& model, InitialValues& values) {
+  if (!entry.value().is_object()) {
+    const Repetition::Turn once(constants, "");
+    if (const auto name = once.filled(key, entry.pointer(), entry.findings()))
+      read_entry(*name, entry, constants, model, values);
+    return;
+  }
+  ObjectReader object(entry);
+  const auto repeat = object.required("repeat"), value = object.required("value");
+  const auto repetition =
+      repeat && value ? Repetition::read(*repeat, constants) : std::nullopt;
+  if (!repetition) return;
+  repetition->for_each(entry.findings(), [&](const Repetition::Turn& turn, Findings& findings) {
+    const auto name = turn.filled(key, entry.pointer(), findings);
+    const Json filled = turn.filled(JsonReader(value->value(), value->pointer(), findings));
+    if (findings.clean())
+      read_entry(*name, JsonReader(filled, value->pointer(), findings), constants, model, values);
+  });
 }
 
 void read_hold(const JsonReader& name, const Model& model, InitialValues& values) {
@@ -99,7 +117,8 @@ std::optional<InitialValues> read_initial_values(const JsonReader& initial,
                        PartialVector(model.vocabulary.unknowns.size()), VectorXd::Ones(N)};
   const auto entries = initial.entries();
   if (!entries) return std::nullopt;
-  for (const auto& [key, value] : *entries) read_entry(key, value, model, values);
+  const SymbolTable constants = model.vocabulary.symbols({});
+  for (const auto& [key, value] : *entries) read_entries(key, value, constants, model, values);
   if (const auto names = hold ? hold->elements() : std::nullopt)
     for (const JsonReader& name : *names) read_hold(name, model, values);
   if (const auto entries_of_weights = weights ? weights->entries() : std::nullopt)

@@ -102,6 +102,21 @@ Takes joint() {
            {"required", {"ports"}},
            {"additionalProperties", false}}};
 }
+Takes repetition() { return {"an object of [first, last]", reference("repetition")}; }
+Takes nodes() {
+  return {"names, and {\"repeat\": …, \"name\": \"n{i}\"}",
+          {{"type", "array"},
+           {"minItems", 1},
+           {"items",
+            {{"anyOf",
+              Json::array({{{"type", "string"}},
+                           {{"type", "object"},
+                            {"patternProperties", {{"^//", true}}},
+                            {"properties",
+                             {{"repeat", reference("repetition")}, {"name", {{"type", "string"}}}}},
+                            {"required", {"repeat", "name"}},
+                            {"additionalProperties", false}}})}}}}};
+}
 Takes kind(const std::string& noun) { return {"a " + noun, reference(noun)}; }
 
 Takes array_of(const Takes& entry, std::size_t least, std::optional<std::size_t> most) {

@@ -43,6 +43,8 @@ Takes tables();
 Takes definitions();
 Takes systems();  // an object of systems
 Takes joint();
+Takes repetition();  // indices with their first and last values
+Takes nodes();       // names, and patterns of names that are repeated
 // One of the kinds of a noun: "manifold", "structure", "discretization", "projector", "method",
 // "system".
 Takes kind(const std::string& noun);

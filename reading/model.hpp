@@ -26,6 +26,10 @@ struct Model {
   // the formulas (two vortices at one place); entries that are not known are NaN. May be empty.
   std::function<std::optional<std::string>(const VectorXd& x)> point_problem;
 
+  // Whether coordinates that neither initial values nor constraints determine are 0 at the start. Of other
+  // systems they have to be given.
+  bool starts_at_zero = false;
+
   // The table for formulas at (x, v, z, t): the velocity of x is dx/dt = E(x) v.
   SymbolTable symbols(const ExprVector& x, const ExprVector& v, const ExprVector& z,
                       const Expr& t) const {

@@ -35,8 +35,6 @@ struct GaussRule {
   }
 };
 
-bool is_number(const WrittenFormula& formula) { return names_used(formula.text).empty(); }
-
 }  // namespace
 
 namespace domains {
@@ -50,9 +48,9 @@ const NetworkDomain thermal{"thermal", "s_", "T_", "temperature_"};
 // With what the formula names alone: a table of everything for every element of a large network
 // would take long.
 Expr NetworkWords::value(const WrittenFormula& formula, const NetworkVariables& variables) const {
-  if (is_number(formula)) return evaluate(formula, SymbolTable());
-  SymbolTable symbols = vocabulary.symbols({.x = variables.x(), .t = variables.t()});
-  for (const std::string& name : names_used(formula.text)) {
+  const auto names = names_used(formula.text);
+  SymbolTable symbols = vocabulary.symbols_of(names, {.x = variables.x(), .t = variables.t()});
+  for (const std::string& name : names) {
     if (symbols.find(name)) continue;
     if (const auto current = currents.find(name); current != currents.end())
       symbols.add(name, variables.current(current->second));
@@ -63,13 +61,13 @@ Expr NetworkWords::value(const WrittenFormula& formula, const NetworkVariables& 
 }
 
 Expr NetworkWords::value(const WrittenFormula& formula, const ExprVector& x, const Expr& t) const {
-  if (is_number(formula)) return evaluate(formula, SymbolTable());
-  return evaluate(formula, vocabulary.symbols({.x = x, .t = t}));
+  return evaluate(formula, vocabulary.symbols_of(names_used(formula.text), {.x = x, .t = t}));
 }
 
 ElementReader::ElementReader(ObjectReader& object, const NetworkSite& site)
     : object_(object), site_(site) {
   element_.pointer = object.place().pointer();
+  object.optional("repeat");  // whose turns are read one by one
   const auto name = object.required("name");
   const auto text = name ? name->text() : std::nullopt;
   right_ = text.has_value();
@@ -234,11 +232,10 @@ void ElementReader::law_of_state(const WrittenFormula& formula) {
   element_.energy = [formula, words, state](const ExprVector& own, const ExprVector& x,
                                             const Expr& t) {
     static const GaussRule rule;
-    const auto names = words->vocabulary.coordinates.element_names();
-    const auto place = std::find(names.begin(), names.end(), state) - names.begin();
+    const Index place = words->vocabulary.coordinates.find({.name = state, .indices = {}}).first;
     Expr sum = 0.0;
+    ExprVector at = x;
     for (std::size_t k = 0; k < rule.node.size(); ++k) {
-      ExprVector at = x;
       at[place] = rule.node[k] * own[0];
       sum += rule.weight[k] * words->value(formula, at, t);
     }

@@ -61,6 +61,7 @@ struct NetworkElement {
   using Energy = std::function<Expr(const ExprVector& own, const ExprVector& x, const Expr& t)>;
 
   std::string type, name, pointer;
+  std::string turn = {};  // " (i = 3)" where it is one of those that a repetition stands for
   std::vector<Port> ports = {};
   Energy energy = {};
   std::vector<WrittenFormula> formulas = {}, energy_formulas = {};  // of laws; of x and t alone

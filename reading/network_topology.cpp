@@ -16,9 +16,14 @@ using Kind = NetworkBranch::Kind;
 using Role = NetworkBranch::Role;
 using Port = NetworkElement::Port;
 
-// `a`, `a and b`, `a, b and c`
+// `a`, `a and b`, `a, b and c`, and only the first of many.
 std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 20;
   std::string list;
+  if (names.size() > most) {
+    for (std::size_t i = 0; i < most; ++i) list += (i == 0 ? "" : ", ") + names[i];
+    return list + " and " + std::to_string(names.size() - most) + " more";
+  }
   for (std::size_t i = 0; i < names.size(); ++i)
     list += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
   return list;
@@ -61,7 +66,8 @@ bool check_terminals(const NetworkNodes& nodes, const std::vector<NetworkElement
       for (const NetworkTerminal* terminal : {&port.from, &port.to}) {
         if (terminal->node.empty() || nodes.index.count(terminal->node)) continue;
         findings.problem(terminal->pointer, "unknown node " + in_quotes(terminal->node) +
-                                                did_you_mean(terminal->node, nodes.names));
+                                                did_you_mean(terminal->node, nodes.names) +
+                                                element.turn);
         right = false;
       }
   return right;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 
 #include "courant/core/message.hpp"
 #include "courant/core/spelling.hpp"
@@ -17,14 +18,39 @@ constexpr double kSame = 1e-9;
 // Quantities and the arrays that they are elements of.
 std::vector<std::string> names_of(const std::vector<std::string>& quantities) {
   std::vector<std::string> names = {"t"};
+  std::unordered_set<std::string> known = {"t"};
   for (std::string name : quantities)
     for (;;) {
-      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+      if (known.insert(name).second) names.push_back(name);
       const std::size_t bracket = name.rfind('[');
       if (bracket == std::string::npos) break;
       name.erase(bracket);
     }
   return names;
+}
+
+std::optional<std::vector<std::string>> first(std::optional<std::vector<std::string>> quantities,
+                                              std::size_t count) {
+  if (quantities) quantities->resize(count);
+  return quantities;
+}
+
+std::set<std::string, std::less<>> read_coordinates(
+    const JsonReader& value, const std::optional<std::vector<std::string>>& coordinates) {
+  std::set<std::string, std::less<>> found;
+  const auto entries = value.elements();
+  if (!entries) return found;
+  const std::vector<std::string> names =
+      coordinates ? names_of(*coordinates) : std::vector<std::string>();
+  for (const JsonReader& entry : *entries) {
+    const auto name = entry.text();
+    if (!name) continue;
+    if (coordinates && (*name == "t" || std::ranges::find(names, *name) == names.end()))
+      entry.problem("there is no such coordinate" + did_you_mean(*name, names));
+    else
+      found.insert(*name);
+  }
+  return found;
 }
 
 Entries read_texts(const std::optional<JsonReader>& value,
@@ -99,6 +125,16 @@ std::string Output::heading(const std::string& quantity) const {
   return unit ? quantity + " [" + *unit + "]" : quantity;
 }
 
+bool Output::has_column(const std::string& coordinate) const {
+  if (!coordinates) return true;
+  for (std::string name = coordinate;;) {
+    if (coordinates->contains(name)) return true;
+    const std::size_t bracket = name.rfind('[');
+    if (bracket == std::string::npos) return false;
+    name.erase(bracket);
+  }
+}
+
 bool Output::is_written(long k, const TimeSpan& time) const {
   if (k == 0 || k == time.steps) return true;
   if (at.empty()) return k % every == 0;
@@ -121,7 +157,7 @@ std::string without_unit(const std::string& heading) {
 
 Output read_output(const JsonReader& value, const SymbolTable& constants,
                    const std::optional<std::vector<std::string>>& quantities,
-                   const std::optional<TimeSpan>& time) {
+                   std::size_t coordinates, const std::optional<TimeSpan>& time) {
   ObjectReader object(value);
   Output output;
   const auto every = object.optional("every"), at = object.optional("at");
@@ -135,6 +171,8 @@ Output read_output(const JsonReader& value, const SymbolTable& constants,
   }
   output.epoch = object.integer("epoch", output.epoch, 1);
   if (object.word("format", "csv", {"csv", "npy"}) == "npy") output.format = Output::Format::npy;
+  if (const auto written = object.optional("coordinates"))
+    output.coordinates = read_coordinates(*written, first(quantities, coordinates));
   output.units = read_texts(object.optional("units"), quantities, ",\"[]",
                             "a unit without comma, quotes and brackets, such as \"kg m/s\"");
   output.labels = read_texts(object.optional("labels"), quantities, "", "a text in one line");

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,12 +21,16 @@ struct Output {
   long epoch = 4096;  // steps after which the workspace of the method is forgotten
   // Where not empty, in place of that: times of rows, rising, which need not be those of steps.
   std::vector<double> at;
+  // The coordinates, or arrays for all of their elements, that have columns in the trajectory; all where
+  // nothing is said. Everything else that is written has its column in any case.
+  std::optional<std::set<std::string, std::less<>>> coordinates;
   // Of quantities, or of arrays for all of their elements.
   std::map<std::string, std::string, std::less<>> units, labels;
 
   // "q [m]" with a unit, "q" without: what stands at the head of a column.
   std::string heading(const std::string& quantity) const;
 
+  bool has_column(const std::string& coordinate) const;
   // Whether a run writes the row of step k, and the times of rows between step k - 1 and step k.
   bool is_written(long k, const TimeSpan& time) const;
   std::vector<double> between(long k, const TimeSpan& time) const;
@@ -38,10 +43,10 @@ std::string without_unit(const std::string& heading);
 const std::string* entry_of(const std::map<std::string, std::string, std::less<>>& entries,
                             const std::string& quantity);
 
-// Reads the object `output`. `quantities`, of coordinates and observables, and `time` are nothing
+// Reads the object `output`. `quantities`, of which `coordinates` are the first, and `time` are nothing
 // where they cannot be read; formulas of times may have `constants`.
 Output read_output(const JsonReader& value, const SymbolTable& constants,
                    const std::optional<std::vector<std::string>>& quantities,
-                   const std::optional<TimeSpan>& time);
+                   std::size_t coordinates, const std::optional<TimeSpan>& time);
 
 }  // namespace courant

@@ -1,10 +1,13 @@
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <set>
+#include <unordered_set>
 
 #include "courant/core/as_size.hpp"
 #include "courant/core/declaration.hpp"
 #include "courant/core/formula.hpp"
 #include "courant/reading/network_topology.hpp"
+#include "courant/reading/repetition.hpp"
 #include "courant/reading/system_kinds.hpp"
 
 namespace courant {
@@ -16,31 +19,60 @@ using Role = NetworkBranch::Role;
 // Where the temperatures of branches are looked for: at 0 K the laws have no value.
 constexpr double kRoomTemperature = 300.0;
 
-std::optional<NetworkNodes> read_nodes(ObjectReader& system) {
+// Reads what a value stands for: once, or in the turns of its key `repeat`. Whether that was right.
+bool read_turns(const JsonReader& value, const SymbolTable& constants,
+                const std::function<bool(const JsonReader&, const std::string& turn)>& read) {
+  if (!value.value().is_object() || !value.value().contains("repeat")) {
+    const Json filled = Repetition::Turn(constants, "").filled(value);
+    return read(JsonReader(filled, value.pointer(), value.findings()), "");
+  }
+  const JsonReader repeat(value.value().at("repeat"), value.pointer() + "/repeat",
+                          value.findings());
+  const auto repetition = Repetition::read(repeat, constants);
+  return repetition &&
+         repetition->for_each(
+             value.findings(), [&](const Repetition::Turn& turn, Findings& findings) {
+               const Json filled =
+                   turn.filled(JsonReader(value.value(), value.pointer(), findings));
+               if (findings.clean())
+                 read(JsonReader(filled, value.pointer(), findings), " (" + turn.words() + ")");
+             });
+}
+
+// Nothing, and a problem, where the value is neither a name nor an object with one.
+std::optional<std::string> read_node_name(const JsonReader& value) {
+  if (!value.value().is_object()) return value.text();
+  ObjectReader object(value);
+  object.optional("repeat");
+  const auto name = object.required("name");
+  return name ? name->text() : std::nullopt;
+}
+
+std::optional<NetworkNodes> read_nodes(ObjectReader& system, const SymbolTable& constants) {
   const auto key = system.required("nodes");
   const auto elements = key ? key->elements() : std::nullopt;
   if (!elements) return std::nullopt;
   NetworkNodes nodes;
   bool right = true;
-  for (const JsonReader& element : *elements) {
-    const auto name = element.text();
-    right = right && name.has_value();
-    if (!name) continue;
+  const auto read_node = [&](const JsonReader& node, const std::string&) {
+    const auto name = read_node_name(node);
+    if (!name) return false;
     try {
       if (!parse_declaration("v_" + *name).shape.empty()) throw FormulaError(1, "");
     } catch (const FormulaError&) {
-      element.problem("is \"" + *name + "\"; expected letters, digits and _");
-      right = false;
-      continue;
+      node.problem("is \"" + *name + "\"; expected letters, digits and _");
+      return false;
     }
     if (!nodes.index.emplace(*name, static_cast<Index>(nodes.names.size())).second) {
-      element.problem("is \"" + *name + "\" again; expected each node once");
-      right = false;
-      continue;
+      node.problem("is \"" + *name + "\" again; expected each node once");
+      return false;
     }
     nodes.names.push_back(*name);
-    nodes.pointers.push_back(element.pointer());
-  }
+    nodes.pointers.push_back(node.pointer());
+    return true;
+  };
+  for (const JsonReader& element : *elements)
+    right = read_turns(element, constants, read_node) && right;
   if (right && nodes.names.empty()) {
     key->expected("nodes, the ground first");
     right = false;
@@ -55,13 +87,16 @@ std::optional<std::vector<NetworkElement>> read_elements(ObjectReader& system,
   if (!list) return std::nullopt;
   std::vector<NetworkElement> elements;
   bool right = true;
-  for (const JsonReader& value : *list) {
+  const SymbolTable constants = site.vocabulary.symbols({});
+  const auto read_element = [&](const JsonReader& value, const std::string& turn) {
     auto element = element_kinds().read(value, site);
-    right = right && element.has_value();
-    if (!element) continue;
+    if (!element) return false;
     element->type = value.value().at("type").get<std::string>();
+    element->turn = turn;
     elements.push_back(std::move(*element));
-  }
+    return true;
+  };
+  for (const JsonReader& value : *list) right = read_turns(value, constants, read_element) && right;
   if (right && elements.empty()) {
     key->expected("at least one element");
     right = false;
@@ -291,14 +326,21 @@ bool check_formulas(const std::vector<NetworkElement>& elements, const NetworkWo
   for (const auto& [name, branch] : words.currents) add(name);
   for (const auto& [name, branch] : words.voltages) add(name);
   for (const std::string& name : known) add(name);
-  bool right = true;
+  std::set<std::string> wrong;  // places: a formula that is repeated is wrong once
   for (const NetworkElement& element : elements) {
-    for (const WrittenFormula& formula : element.formulas)
-      right = check(formula, of_laws, findings) && right;
-    for (const WrittenFormula& formula : element.energy_formulas)
-      right = check(formula, of_energies, findings) && right;
+    const auto check_all = [&](const std::vector<WrittenFormula>& formulas,
+                               const SymbolTable& symbols) {
+      for (const WrittenFormula& formula : formulas) {
+        if (wrong.count(formula.pointer)) continue;
+        Findings own;
+        if (!check(formula, symbols, own)) wrong.insert(formula.pointer);
+        findings.take_problems(own, element.turn);
+      }
+    };
+    check_all(element.formulas, of_laws);
+    check_all(element.energy_formulas, of_energies);
   }
-  return right;
+  return wrong.empty();
 }
 
 // Currents, voltages and potentials as words of all other formulas.
@@ -307,9 +349,8 @@ Vocabulary::Derived quantities(const std::shared_ptr<const Network>& network,
                                const NetworkNodes& nodes,
                                const std::vector<const NetworkDomain*>& kinds) {
   const auto unknowns = vocabulary.unknowns.element_names();
-  const auto is_new = [&](const std::string& name) {
-    return std::find(unknowns.begin(), unknowns.end(), name) == unknowns.end();
-  };
+  const std::unordered_set<std::string> known(unknowns.begin(), unknowns.end());
+  const auto is_new = [&](const std::string& name) { return !known.contains(name); };
   NameList names;
   std::vector<std::pair<Index, int>> source;  // 0: current, 1: voltage of a branch; 2: of a node
   for (std::size_t k = 0; k < of_elements; ++k) {
@@ -354,6 +395,9 @@ Registry<NetworkElement, NetworkSite>& element_kinds() {
     for (const ElementKinds& more :
          {mechanical_elements(), transducer_elements(), thermofluid_elements(), port_elements()})
       all.insert(all.end(), more.begin(), more.end());
+    for (auto& kind : all)
+      kind.description.keys.push_back(optional_key(
+          "repeat", takes::repetition(), "the element once for each value of some indices"));
     return all;
   }());
   return kinds;
@@ -364,7 +408,7 @@ std::optional<Model> read_network(ObjectReader& system) {
   Model model;
   model.vocabulary = read_vocabulary(system);
   const auto words = std::make_shared<NetworkWords>();
-  const auto nodes = read_nodes(system);
+  const auto nodes = read_nodes(system, model.vocabulary.symbols({}));
   const auto elements = read_elements(system, {model.vocabulary, words});
   if (!nodes || !elements || !check_topology(*nodes, *elements, findings)) return std::nullopt;
 
@@ -417,6 +461,7 @@ std::optional<Model> read_network(ObjectReader& system) {
   model.description = "network of " + std::to_string(elements->size()) + " elements between " +
                       std::to_string(nodes->names.size()) + " nodes";
   model.system = network;
+  model.starts_at_zero = true;
   return model;
 }
 

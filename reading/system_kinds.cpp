@@ -166,7 +166,7 @@ Registry<Model>& system_kinds() {
                                   "in coordinates, unknowns and t; becomes H")})},
        read_implicit},
       {{"network", "elements between nodes: circuits, mechanisms, hydraulic and thermal networks",
-        system_keys({required_key("nodes", takes::names(), "their names, the ground first"),
+        system_keys({required_key("nodes", takes::nodes(), "their names, the ground first"),
                      required_key("elements", takes::array_of(takes::kind("element"), 1),
                                   "what connects them")})},
        read_network},

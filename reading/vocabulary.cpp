@@ -171,6 +171,16 @@ void NameList::add_to(SymbolTable& symbols, const ExprVector& values) const {
   }
 }
 
+void NameList::add_to(SymbolTable& symbols, const ExprVector& values,
+                      const std::vector<std::string>& names) const {
+  for (const std::string& name : names) {
+    const auto place = places_.find(name);
+    if (place == places_.end() || symbols.find(name)) continue;
+    const Declaration& declaration = declarations_[place->second.declaration];
+    symbols.add(name, declaration.shape, values.segment(place->second.first, declaration.size()));
+  }
+}
+
 void NameList::add_velocities_to(SymbolTable& symbols, const ExprVector& values) const {
   Index first = 0;
   for (const Declaration& declaration : declarations_) {
@@ -194,6 +204,25 @@ SymbolTable Vocabulary::symbols(const Arguments& arguments) const {
   for (const Definition& definition : definitions)
     if (is_available(definition, symbols))
       symbols.add(definition.name, definition.formulas.shape, value_of(definition, symbols));
+  return symbols;
+}
+
+SymbolTable Vocabulary::symbols_of(const std::vector<std::string>& names,
+                                   const Arguments& arguments) const {
+  const auto is_one_of = [&](const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  for (const Definition& definition : definitions)
+    if (is_one_of(definition.name)) return symbols(arguments);
+  SymbolTable symbols;
+  for (const auto& [name, symbol] : parameters)
+    if (is_one_of(name)) symbols.add(name, symbol.shape, symbol.values);
+  if (arguments.t) {
+    symbols.add("t", *arguments.t);
+    for (const auto& [name, table] : tables)
+      if (is_one_of(name)) symbols.add(name, table.at(*arguments.t));
+  }
+  if (arguments.x) coordinates.add_to(symbols, *arguments.x, names);
   return symbols;
 }
 

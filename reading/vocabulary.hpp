@@ -31,6 +31,9 @@ class NameList {
 
   // Adds the names with these values to a table, as velocities or as themselves.
   void add_to(SymbolTable& symbols, const ExprVector& values) const;
+  // Those of these names only.
+  void add_to(SymbolTable& symbols, const ExprVector& values,
+              const std::vector<std::string>& names) const;
   void add_velocities_to(SymbolTable& symbols, const ExprVector& values) const;
 
  private:
@@ -81,6 +84,9 @@ struct Vocabulary {
   // Throws FormulaError if a definition is wrong, std::invalid_argument if a name repeats or a size
   // is wrong.
   SymbolTable symbols(const Arguments& arguments) const;
+  // The part of it that formulas of these names need, and maybe more: quick where there are many
+  // coordinates and the names are few. Without velocities and unknowns.
+  SymbolTable symbols_of(const std::vector<std::string>& names, const Arguments& arguments) const;
 };
 
 // The declarations of an array such as ["x", "r[n][3]"] are appended to `names`; `taken` has the

@@ -79,6 +79,9 @@ class CProgram {
   static ConstraintLadder start(const Experiment& experiment) {
     if (!experiment.method)
       throw ExperimentError(kMethod, "is missing; expected the method whose steps are exported");
+    if (experiment.output.coordinates)
+      throw ExperimentError("/output/coordinates",
+                            "cannot be exported: the program writes all coordinates");
     if (!experiment.output.at.empty())
       throw ExperimentError("/output/at",
                             "asks for rows between steps, which a program in C does not write; "

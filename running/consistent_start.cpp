@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <unordered_set>
 
 #include "courant/core/message.hpp"
 #include "courant/core/rank_decision.hpp"
@@ -59,7 +60,7 @@ std::vector<std::string> undetermined(const Experiment& experiment,
                                       const ConstraintLadder& ladder) {
   if (ladder.verdict != Verdict::regular && ladder.verdict != Verdict::gauge) return {};
   const InitialValues& initial = experiment.initial;
-  if (initial.x.given.all()) return {};
+  if (initial.x.given.all() || experiment.model.starts_at_zero) return {};
   const Manifold& M = *experiment.model.system->manifold();
   const LinearMap<double> basis = M.tangent_basis(ladder.point.x);
   const MatrixXd conormals = ladder.conormals() * basis;
@@ -98,17 +99,16 @@ Flags components_of(const Flags& velocities, const Manifold& M, const LinearMap<
 void forget_moves_of_what_was_not_given(ConstraintLadder& ladder, const Experiment& experiment) {
   const InitialValues& initial = experiment.initial;
   const ImplicitSystem::Names& names = experiment.model.system->names();
-  std::vector<std::string> given;
+  std::unordered_set<std::string> given;
   for (Index i = 0; i < initial.x.given.size(); ++i) {
     const std::string& name = names.coordinates[static_cast<std::size_t>(i)];
-    if (initial.x.given[i]) given.push_back(name);
-    if (initial.velocity.given[i]) given.push_back(name + "'");
+    if (initial.x.given[i]) given.insert(name);
+    if (initial.velocity.given[i]) given.insert(name + "'");
   }
   for (Index i = 0; i < initial.z.given.size(); ++i)
-    if (initial.z.given[i]) given.push_back(names.auxiliary[static_cast<std::size_t>(i)]);
-  std::erase_if(ladder.moves, [&](const Movement& move) {
-    return std::find(given.begin(), given.end(), move.name) == given.end();
-  });
+    if (initial.z.given[i]) given.insert(names.auxiliary[static_cast<std::size_t>(i)]);
+  std::erase_if(ladder.moves,
+                [&](const Movement& move) { return !given.contains(move.name); });
 }
 
 // Whether the search found no point of the last level: what it was to keep may be why.

@@ -21,17 +21,17 @@ class Statistics final : public RunWatcher {
 
 class Rows final : public RunWatcher {
  public:
-  Rows(TrajectoryWriter& writer, std::function<bool(long)> is_written, Index count)
-      : writer_(writer), is_written_(std::move(is_written)), count_(count) {}
+  Rows(TrajectoryWriter& writer, std::function<bool(long)> is_written, std::vector<Index> columns)
+      : writer_(writer), is_written_(std::move(is_written)), columns_(std::move(columns)) {}
   std::optional<RunEnd> watch(const RunMoment& moment) override {
-    if (is_written_(moment.k)) writer_.append(moment.t, moment.row.head(count_));
+    if (is_written_(moment.k)) writer_.append(moment.t, moment.row(columns_));
     return std::nullopt;
   }
 
  private:
   TrajectoryWriter& writer_;
   std::function<bool(long)> is_written_;
-  Index count_;
+  std::vector<Index> columns_;
 };
 
 class Finiteness final : public RunWatcher {
@@ -128,8 +128,9 @@ std::unique_ptr<RunWatcher> keep_statistics(QuantityStatistics& statistics) {
 }
 
 std::unique_ptr<RunWatcher> write_rows(TrajectoryWriter& writer,
-                                       std::function<bool(long k)> is_written, Index count) {
-  return std::make_unique<Rows>(writer, std::move(is_written), count);
+                                       std::function<bool(long k)> is_written,
+                                       std::vector<Index> columns) {
+  return std::make_unique<Rows>(writer, std::move(is_written), std::move(columns));
 }
 
 std::unique_ptr<RunWatcher> find_not_finite(std::optional<NotFinite>& found, Index count) {

@@ -26,9 +26,10 @@ struct Progress {
 
 std::unique_ptr<RunWatcher> keep_statistics(QuantityStatistics& statistics);
 
-// The rows of the steps k for which `is_written`; the first `count` numbers.
+// The rows of the steps k for which `is_written`, of their numbers those in `columns`.
 std::unique_ptr<RunWatcher> write_rows(TrajectoryWriter& writer,
-                                       std::function<bool(long k)> is_written, Index count);
+                                       std::function<bool(long k)> is_written,
+                                       std::vector<Index> columns);
 
 // The first value that is not finite among the first `count` of a row goes into `found`.
 struct NotFinite {

@@ -154,10 +154,19 @@ class RunUnderway {
     return names;
   }
 
+  // The numbers of a row that the trajectory has.
+  std::vector<Index> written_columns() const {
+    std::vector<Index> columns;
+    for (std::size_t i = 0; i < observer_.written_count(); ++i)
+      if (i >= observer_.coordinate_count() || experiment_.output.has_column(observer_.names()[i]))
+        columns.push_back(static_cast<Index>(i));
+    return columns;
+  }
+
   std::unique_ptr<TrajectoryWriter> make_writer(const RunFolder& folder) const {
-    std::vector<std::string> columns = written_names();
-    columns.insert(columns.begin(), "t");
-    for (std::string& column : columns) column = experiment_.output.heading(column);
+    std::vector<std::string> columns = {experiment_.output.heading("t")};
+    for (const Index i : columns_)
+      columns.push_back(experiment_.output.heading(observer_.names()[static_cast<std::size_t>(i)]));
     std::optional<std::uintmax_t> keep;
     if (folder.checkpoint()) keep = folder.checkpoint()->trajectory_size;
     return make_trajectory_writer(experiment_.output.format, folder.path(), columns, keep);
@@ -171,7 +180,7 @@ class RunUnderway {
         [this](long k) {
           return !experiment_.time || experiment_.output.is_written(k, *experiment_.time);
         },
-        static_cast<Index>(observer_.written_count())));
+        columns_));
     watchers_.push_back(
         find_not_finite(not_finite_, static_cast<Index>(observer_.written_count())));
     if (experiment_.time && !experiment_.expect.times.empty()) {
@@ -240,7 +249,7 @@ class RunUnderway {
     const TimeSpan& time = *experiment_.time;
     for (const double t : experiment_.output.between(k, time)) {
       const VectorXd& row = row_within(stepper.part((t - time.time(k - 1)) / time.step));
-      writer_->append(t, row.head(static_cast<Index>(observer_.written_count())));
+      writer_->append(t, row(columns_));
     }
   }
 
@@ -394,6 +403,7 @@ class RunUnderway {
   const LadderReport ladder_report_;
   const std::vector<SymmetryFinding> symmetries_;
   Observer observer_;
+  const std::vector<Index> columns_ = written_columns();
 
   RunResults results_{.experiment = experiment_,
                       .ladder = ladder_,

@@ -51,6 +51,23 @@ BOOST_AUTO_TEST_CASE(heads_of_columns_have_units) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(coordinates_have_columns_as_they_are_asked_for) {
+  const Output all = read(Json::object());
+  const Output some = read({{"coordinates", {"r", "p_r[1]"}}});
+  const Output none = read({{"coordinates", Json::array()}});
+  for (const char* name : {"q", "r[0]", "r[1]", "p_q", "p_r[0]", "p_r[1]"}) {
+    const std::string coordinate = name;
+    BOOST_TEST(all.has_column(coordinate));
+    BOOST_TEST(some.has_column(coordinate) == (coordinate[0] == 'r' || coordinate == "p_r[1]"));
+    BOOST_TEST(!none.has_column(coordinate));
+  }
+  BOOST_TEST(problem({{"coordinates", {"twice"}}})
+                 .find("/output/coordinates/0: there is no such coordinate") == 0u);
+  BOOST_TEST(problem({{"coordinates", {"s"}}})
+                 .find("/output/coordinates/0: there is no such coordinate") == 0u);
+  BOOST_TEST(problem({{"coordinates", "q"}}).find("/output/coordinates: is \"q\"; expected") == 0u);
+}
+
 BOOST_AUTO_TEST_CASE(rows_at_steps_and_between) {
   const Output output = read({{"at", {"T", 1.75, 1, 3.0000000000001, 3.25, 1.75, "T*sqrt(2)"}}});
   BOOST_CHECK(output.at.size() == 6u);

@@ -82,6 +82,22 @@ BOOST_AUTO_TEST_CASE(rows_are_written_at_given_times) {
   BOOST_TEST(whole.trajectory.column("q")[100] == q[5]);
 }
 
+BOOST_AUTO_TEST_CASE(coordinates_without_a_column_are_left_out_of_the_trajectory_alone) {
+  const TemporaryFolder folder;
+  Json experiment = oscillator;
+  run_in(folder, experiment);
+  const TrajectoryTable all = read_trajectory_csv(folder / "run/trajectory.csv");
+  RunOptions again{.existing = ExistingRun::replace};
+  experiment["output"]["coordinates"] = {"p_q"};
+  const RunOutcome outcome = run_in(folder, experiment, again);
+  const TrajectoryTable some = read_trajectory_csv(folder / "run/trajectory.csv");
+  BOOST_TEST(all.contains("q"));
+  BOOST_TEST(!some.contains("q"));
+  BOOST_TEST(std::ranges::equal(some.column("p_q"), all.column("p_q")));
+  BOOST_TEST(std::ranges::equal(some.column("H"), all.column("H")));
+  BOOST_TEST(final_value(outcome, "q") == all.column("q").back());
+}
+
 BOOST_AUTO_TEST_CASE(rows_are_written_every_so_many_steps_and_at_the_end) {
   const TemporaryFolder folder;
   Json experiment = oscillator;
