@@ -66,16 +66,8 @@ VectorFieldFormulas::VectorFieldFormulas(std::shared_ptr<const ImplicitSystem> o
   start.segment(z_offset, system->auxiliary_size()) = ladder.point.z;
 
   all = at_origin(local.equations);
-  const Function full("vector field", inputs, all, {.differentiate = {"y"}});
   const VectorXd entries = B.entries().reshaped();
-  // Without units: the entries of a force of 10⁻⁸ N are no round-off next to those of 10⁹ s⁻³.
-  const MatrixXd J =
-      equilibrate(
-          full.jacobian({start, ladder.point.x, entries, VectorXd::Constant(1, ladder.point.t)}),
-          kNoise)
-          .scaled;
-  VectorXd scale = J.rowwise().norm();
-  scale = scale.unaryExpr([](double s) { return s > 0 ? 1.0 / s : 0.0; });
+  VectorXd preference = VectorXd::Ones(all.size());
   // Equations before their derivatives: with the velocity from the derivative of a constraint
   // instead of the equation for it, momenta would be free to leave M_f. And those that give an unknown
   // explicitly before the others: their pivots cannot vanish, as those of two rolling constraints do
@@ -84,21 +76,46 @@ VectorFieldFormulas::VectorFieldFormulas(std::shared_ptr<const ImplicitSystem> o
   std::vector<Index> given;
   for (Index i = 0; i < all.size(); ++i) {
     int& derivatives = order[static_cast<std::size_t>(local.source[static_cast<std::size_t>(i)])];
-    scale[i] *= std::pow(1e-2, derivatives);
+    preference[i] *= std::pow(1e-2, derivatives);
     if (derivatives++ == 0) given.push_back(i);
   }
   std::vector<bool> is_explicit(static_cast<std::size_t>(all.size()), false);
-  for (const Elimination::Pivot& pivot : Elimination(all(given), y, {}).pivots)
+  const Elimination elimination(all(given), y, {});
+  for (const Elimination::Pivot& pivot : elimination.pivots)
     is_explicit[static_cast<std::size_t>(given[static_cast<std::size_t>(pivot.equation)])] = true;
   for (Index i = 0; i < all.size(); ++i)
-    if (!is_explicit[static_cast<std::size_t>(i)]) scale[i] *= 0.1;
+    if (!is_explicit[static_cast<std::size_t>(i)]) preference[i] *= 0.1;
+  // Of many equations those that give unknowns explicitly are kept, and independent ones are looked
+  // for among what is left of the others: the decomposition is dense.
+  constexpr Index many = 500;
+  std::vector<Index> kept, candidates;
+  for (Index i = 0; i < all.size(); ++i)
+    (y.size() > many && is_explicit[static_cast<std::size_t>(i)] ? kept : candidates).push_back(i);
+  std::vector<Function::Input> of_left = inputs;
+  VectorXd left_start = start;
+  ExprVector left = all;
+  if (!kept.empty()) {
+    of_left[0].variables = y(elimination.kept);
+    left_start = start(elimination.kept);
+    left = substitute(all(candidates), y, elimination.unknowns);
+  }
+  const Function full("vector field", of_left, left, {.differentiate = {"y"}});
+  // Without units: the entries of a force of 10⁻⁸ N are no round-off next to those of 10⁹ s⁻³.
+  const MatrixXd J = equilibrate(full.jacobian({left_start, ladder.point.x, entries,
+                                                VectorXd::Constant(1, ladder.point.t)}),
+                                 kNoise)
+                         .scaled;
+  VectorXd scale = J.rowwise().norm();
+  scale = scale.unaryExpr([](double size) { return size > 0 ? 1.0 / size : 0.0; })
+              .cwiseProduct(preference(candidates));
   // The ladder decided this rank with a gap; here it only has to be found again.
   constexpr double data_error = 2e-14;
   const CompleteOrthogonalDecomposition rows((scale.asDiagonal() * J).transpose(), data_error);
-  equations.resize(rows.rank());
-  for (Index i = 0; i < equations.size(); ++i)
-    equations[i] = all[rows.order()[static_cast<std::size_t>(i)]];
-  std::vector<Index> others(rows.order().begin() + rows.rank(), rows.order().end());
+  std::vector<Index> others;
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    (static_cast<Index>(i) < rows.rank() ? kept : others)
+        .push_back(candidates[static_cast<std::size_t>(rows.order()[i])]);
+  equations = all(kept);
   std::sort(others.begin(), others.end());
   const std::vector<bool> contains_unknowns = each_depends(all, y);
   std::vector<Expr> not_kept;

@@ -123,13 +123,14 @@ BOOST_AUTO_TEST_CASE(problems_of_repeated_elements_say_which) {
   };
   BOOST_TEST(problems(Json::parse(line)) == "");
   one("\"name\": \"L{i}\"", "\"name\": \"L\"",
+      "/system/elements/1/name: two elements have the name \"L\", the other is /system/elements/1\n"
       "/system/elements/1/name: two elements have the name \"L\", the other is /system/elements/1");
   one("\"to\": \"n{i}\", \"value\"", "\"to\": \"m{i}\", \"value\"",
       "/system/elements/1/to: unknown node \"m1\" (did you mean \"n1\"?) (i = 1)\n"
       "/system/elements/1/to: unknown node \"m2\" (did you mean \"n2\"?) (i = 2)\n"
       "/system/elements/1/to: unknown node \"m3\" (did you mean \"n3\"?) (i = 3)");
   one("w[{i}]", "w[{i+1}]",
-      "/system/elements/1/value: column 3: index of w is 4; expected at most 3 (i = 3)");
+      "/system/elements/1/value: column 3: index 4 is out of range for w[4] (0 … 3) (i = 3)");
   one("\"value\": \"w[{i}]\"", "\"current\": \"phi_L{i}*phi_L{i+1}\"",
       "/system/elements/1/current: column 8: unknown name \"phi_L4\" (did you mean \"phi_L1\"?) "
       "(i = 3)");
@@ -142,7 +143,8 @@ BOOST_AUTO_TEST_CASE(problems_of_repeated_elements_say_which) {
       "/initial/q_K{i}/value: key, column 1: unknown name \"q_K1\" (did you mean \"q_C1\"?) "
       "(i = 1)");
   one("\"phi_L{N}\"", "\"phi_L{i}\"",
-      "/initial/phi_L{i}: \"phi_L{i}\": in {i}, column 1: unknown name \"i\"");
+      "/initial/phi_L{i}: \"phi_L{i}\": in {i}, column 1: unknown name \"i\" "
+      "(did you mean \"pi\"?)");
 }
 
 BOOST_AUTO_TEST_CASE(many_problems_at_one_place_are_three) {

@@ -87,7 +87,8 @@ BOOST_AUTO_TEST_CASE(coordinates_without_a_column_are_left_out_of_the_trajectory
   Json experiment = oscillator;
   run_in(folder, experiment);
   const TrajectoryTable all = read_trajectory_csv(folder / "run/trajectory.csv");
-  RunOptions again{.existing = ExistingRun::replace};
+  RunOptions again;
+  again.existing = ExistingRun::replace;
   experiment["output"]["coordinates"] = {"p_q"};
   const RunOutcome outcome = run_in(folder, experiment, again);
   const TrajectoryTable some = read_trajectory_csv(folder / "run/trajectory.csv");
