@@ -46,8 +46,7 @@ void Findings::require_clean() const {
   for (const Problem& problem : problems_)
     if (++count[problem.where] <= most) told.push_back(problem);
   for (const auto& [where, all] : count)
-    if (all > most)
-      told.push_back({where, "has " + std::to_string(all - most) + " more problems"});
+    if (all > most) told.push_back({where, "has " + std::to_string(all - most) + " more problems"});
   throw ExperimentError(told);
 }
 

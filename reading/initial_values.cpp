@@ -61,8 +61,7 @@ void read_entries(const std::string& key, const JsonReader& entry, const SymbolT
   }
   ObjectReader object(entry);
   const auto repeat = object.required("repeat"), value = object.required("value");
-  const auto repetition =
-      repeat && value ? Repetition::read(*repeat, constants) : std::nullopt;
+  const auto repetition = repeat && value ? Repetition::read(*repeat, constants) : std::nullopt;
   if (!repetition) return;
   repetition->for_each(entry.findings(), [&](const Repetition::Turn& turn, Findings& findings) {
     const auto name = turn.filled(key, entry.pointer(), findings);

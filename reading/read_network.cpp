@@ -29,14 +29,12 @@ bool read_turns(const JsonReader& value, const SymbolTable& constants,
   const JsonReader repeat(value.value().at("repeat"), value.pointer() + "/repeat",
                           value.findings());
   const auto repetition = Repetition::read(repeat, constants);
-  return repetition &&
-         repetition->for_each(
-             value.findings(), [&](const Repetition::Turn& turn, Findings& findings) {
-               const Json filled =
-                   turn.filled(JsonReader(value.value(), value.pointer(), findings));
-               if (findings.clean())
-                 read(JsonReader(filled, value.pointer(), findings), " (" + turn.words() + ")");
-             });
+  return repetition && repetition->for_each(value.findings(), [&](const Repetition::Turn& turn,
+                                                                  Findings& findings) {
+    const Json filled = turn.filled(JsonReader(value.value(), value.pointer(), findings));
+    if (findings.clean())
+      read(JsonReader(filled, value.pointer(), findings), " (" + turn.words() + ")");
+  });
 }
 
 // Nothing, and a problem, where the value is neither a name nor an object with one.

@@ -81,8 +81,7 @@ Json Repetition::Turn::filled(const JsonReader& pattern) const {
   return result;
 }
 
-std::optional<Repetition> Repetition::read(const JsonReader& repeat,
-                                           const SymbolTable& constants) {
+std::optional<Repetition> Repetition::read(const JsonReader& repeat, const SymbolTable& constants) {
   const auto entries = repeat.entries();
   if (!entries) return std::nullopt;
   if (entries->empty()) {

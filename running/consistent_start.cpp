@@ -107,8 +107,7 @@ void forget_moves_of_what_was_not_given(ConstraintLadder& ladder, const Experime
   }
   for (Index i = 0; i < initial.z.given.size(); ++i)
     if (initial.z.given[i]) given.insert(names.auxiliary[static_cast<std::size_t>(i)]);
-  std::erase_if(ladder.moves,
-                [&](const Movement& move) { return !given.contains(move.name); });
+  std::erase_if(ladder.moves, [&](const Movement& move) { return !given.contains(move.name); });
 }
 
 // Whether the search found no point of the last level: what it was to keep may be why.
