@@ -73,6 +73,12 @@ void print_expectations(const Console& console, const RunOutcome& outcome) {
   table.print(console.out);
 }
 
+std::string steps_in_words(const TimeSpan& time) {
+  return time.is_transformed()
+             ? "steps of " + shown(time.step) + " in tau until t = " + shown(time.until)
+             : std::to_string(time.steps) + " steps of " + shown(time.step);
+}
+
 }  // namespace
 
 void print_opening(const Console& console, const Experiment& experiment,
@@ -81,8 +87,8 @@ void print_opening(const Console& console, const Experiment& experiment,
   if (!experiment.title.empty()) out << printable(experiment.title) << '\n';
   out << "  " << experiment.model.description << '\n';
   if (experiment.method)
-    out << "  " << experiment.method->description << ", " << experiment.time->steps << " steps of "
-        << shown(experiment.time->step) << '\n';
+    out << "  " << experiment.method->description << ", " << steps_in_words(*experiment.time)
+        << '\n';
   out << "\n  (dim S, dim M): " << ladder_line(ladder) << "\n  " << verdict_in_words(ladder)
       << '\n';
   for (const Movement& move : ladder.moves)

@@ -19,6 +19,10 @@ struct Step {
   // Those that it was made of, one after the other, if there are several, as of a Composition: empty
   // ones unless Stepper::tell_parts() was called before the step.
   std::vector<Step> parts = {};
+  // By how much h of a TransformedIntegrator advances the time, next to h.
+  double rate = 1.0;
+
+  double duration() const { return rate * h; }
 };
 
 // What the steps of a motion were like. A step that begins without those before it takes its solution

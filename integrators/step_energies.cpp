@@ -104,9 +104,9 @@ void StepEnergies::add(const Step& step, Energies& energies, VectorXd& powers) c
   }
   const Index losses = energies.dissipated.size();
   const Index ports = powers.size() - losses - 1;
-  energies.supplied.head(ports) += step.h * powers.head(ports);
-  energies.dissipated += step.h * powers.segment(ports, losses);
-  energies.moved += std::fabs(step.h) * powers[powers.size() - 1];
+  energies.supplied.head(ports) += step.duration() * powers.head(ports);
+  energies.dissipated += step.duration() * powers.segment(ports, losses);
+  energies.moved += std::fabs(step.duration()) * powers[powers.size() - 1];
   if (!has_time_) return;
   const auto E = [&](const State& state, double t) {
     double value = 0.0;

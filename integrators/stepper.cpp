@@ -1,6 +1,8 @@
 #include "courant/integrators/stepper.hpp"
 
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <cstdint>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -12,6 +14,10 @@ namespace {
 // ended: the coefficients of compositions lie between 0.1 and 2. A state farther off belongs to
 // another curve.
 constexpr double kNearSteps = 16.0;
+
+// The share of a step that goes with a time is found to this length of its bracket, which is round-off.
+constexpr double kShortestBracket = 4e-16;
+constexpr std::uintmax_t kMostEvaluations = 100;
 
 void check_size(const std::string& method, const char* part, Index size, Index expected,
                 bool may_be_empty) {
@@ -63,7 +69,7 @@ bool Stepper::is_near_last(const State& state) const {
   const auto largest = [](const VectorXd& x) {
     return x.size() == 0 ? 0.0 : x.lpNorm<Eigen::Infinity>();
   };
-  return std::fabs(state.t - last_->after.t) <= kNearSteps * std::fabs(last_->h) &&
+  return std::fabs(state.t - last_->after.t) <= kNearSteps * std::fabs(last_->after.t - last_->before.t) &&
          largest(state.x - last_->after.x) <=
              kNearSteps * largest(last_->after.x - last_->before.x);
 }
@@ -139,6 +145,24 @@ Step Stepper::part(double s) {
   State state = last_->before;
   between_->step(state, s * last_->h);
   return between_->last();
+}
+
+double Stepper::share_at(double t) {
+  const Step& step = last();
+  const double before = step.before.t, after = step.after.t;
+  if (!has_stepped_ || !((t - before) * (after - t) >= 0.0)) {
+    std::ostringstream message;
+    message << method_ << ": share_at: t is " << t << "; expected a time of the last step, from "
+            << before << " to " << after << '.';
+    throw std::invalid_argument(message.str());
+  }
+  const double linear = (t - before) / (after - before);
+  if (step.rate == 1.0 || t == before || t == after) return linear;
+  std::uintmax_t evaluations = kMostEvaluations;
+  const auto [low, high] = boost::math::tools::toms748_solve(
+      [&](double s) { return between(s).t - t; }, 0.0, 1.0, before - t, after - t,
+      [](double a, double b) { return b - a <= kShortestBracket; }, evaluations);
+  return std::fabs(between(low).t - t) <= std::fabs(between(high).t - t) ? low : high;
 }
 
 void Stepper::forget() {

@@ -45,7 +45,8 @@ class Stepper {
   void prepare(State& state, double h);
 
   // (t, x) ↦ (t + h, Φ_h(x)). `end`: t + h as the caller's clock has it, so that time does not
-  // collect round-off. Throws std::invalid_argument unless the state fits the system and h is
+  // collect round-off. (Where h is a step in another time, see TransformedIntegrator, the time is
+  // the method's.) Throws std::invalid_argument unless the state fits the system and h is
   // finite and not zero, std::domain_error unless x is on the manifold up to 1e-6 (explicit methods,
   // which leave it, do not ask) and has directions to project in, SolveError if the step cannot be
   // made.
@@ -62,6 +63,10 @@ class Stepper {
   State between(double s);
   // The step from the state before to between(s).
   Step part(double s);
+  // The s in [0, 1] at which the curve of the last step has the time t, to round-off; for a t between
+  // the times of its ends, else std::invalid_argument. Where steps are of one size in t nothing is
+  // evaluated.
+  double share_at(double t);
 
   // From the next step on last() and part() tell the parts of steps that are made of several, which
   // costs a copy of each.

@@ -156,9 +156,12 @@ void read_state(ObjectReader& entry, const JsonReader& state_key, const Reading&
   const auto tolerance_key = entry.required("tolerance");
   const double tolerance =
       tolerance_key ? tolerance_key->positive_number().value_or(kUnknown) : kUnknown;
-  if (!std::isnan(at) && reading.time && !reading.time->step_at(at)) {
-    at_key->expected("the time of a step, from " + exact_text(reading.time->start) + " to " +
-                     exact_text(reading.time->end()) + " by " + exact_text(reading.time->step));
+  if (!std::isnan(at) && reading.time && !reading.time->is_known_at(at)) {
+    const std::string span = "from " + exact_text(reading.time->start) + " to " +
+                             exact_text(reading.time->end());
+    at_key->expected(reading.time->is_transformed()
+                         ? "a time " + span
+                         : "the time of a step, " + span + " by " + exact_text(reading.time->step));
   }
   if (at_key && !reading.is_run)
     at_key->problem("there is no trajectory; expected \"method\" and \"time\", or no \"at\"");
@@ -397,11 +400,16 @@ void read_entry(const JsonReader& value, const Reading& reading) {
 }  // namespace
 
 std::optional<long> TimeSpan::step_at(double t) const {
+  if (rate) return std::nullopt;
   const double k = std::round((t - start) / step);
   if (!(k >= 0.0 && k <= static_cast<double>(steps))) return std::nullopt;
   const long whole = static_cast<long>(k);
   if (std::abs(time(whole) - t) > 1e-9 * step + 1e-15 * std::abs(t)) return std::nullopt;
   return whole;
+}
+
+bool TimeSpan::is_known_at(double t) const {
+  return rate ? t >= start && t <= until : step_at(t).has_value();
 }
 
 Expectations read_expectations(const JsonReader& expect, const Vocabulary& vocabulary,

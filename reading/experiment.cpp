@@ -10,6 +10,7 @@
 #include "courant/reading/json_document.hpp"
 #include "courant/reading/repetition.hpp"
 #include "courant/reading/system_kinds.hpp"
+#include "courant/reading/transformed_time.hpp"
 #include "courant/structures/energy_system.hpp"
 
 namespace courant {
@@ -25,7 +26,8 @@ double read_constant(const JsonReader& value, const SymbolTable& constants) {
   return number ? (*number)[0] : kUnread;
 }
 
-// The number of steps must be whole: a last step of another size would be another method.
+// The number of steps must be whole: a last step of another size would be another method. In transformed
+// time steps are of all sizes.
 std::optional<TimeSpan> read_time(const JsonReader& value, const SymbolTable& constants) {
   ObjectReader object(value);
   TimeSpan time;
@@ -39,9 +41,19 @@ std::optional<TimeSpan> read_time(const JsonReader& value, const SymbolTable& co
     step_key->expected("a number greater than 0");
     time.step = kUnread;
   }
+  const auto rate_key = object.optional("transformation");
+  if (rate_key) time.rate = read_formula(*rate_key);
+  if (rate_key && !time.rate) return std::nullopt;
   const auto end_key = object.required("end");
   const double end = end_key ? read_constant(*end_key, constants) : kUnread;
   if (std::isnan(time.start) || std::isnan(time.step) || std::isnan(end)) return std::nullopt;
+  if (time.rate) {
+    time.until = end;
+    time.steps = end > time.start ? std::numeric_limits<long>::max() : 0;
+    if (end >= time.start && std::isfinite(end)) return time;
+    end_key->expected("a time after the start");
+    return std::nullopt;
+  }
   const double steps = (end - time.start) / time.step;
   if (!(steps >= 0.0 && steps <= 1e15)) {
     end_key->expected("a time after the start, at most 1e15 steps later");
@@ -54,6 +66,17 @@ std::optional<TimeSpan> read_time(const JsonReader& value, const SymbolTable& co
     return std::nullopt;
   }
   return time;
+}
+
+// The method in the time of a formula of coordinates and t.
+void transform_time(const WrittenFormula& rate, const Model& model, Findings& findings,
+                    Experiment& experiment) {
+  Graph graph;
+  const ExprVector x = graph.variables("x", model.system->manifold()->ambient_dimension());
+  const SymbolTable symbols =
+      model.vocabulary.symbols({.x = x, .t = graph.variable("t")});
+  if (check(rate, symbols, findings) && experiment.method)
+    experiment.method = in_transformed_time(std::move(*experiment.method), rate);
 }
 
 // Whether a name stands for a number that has no column of its own.
@@ -242,6 +265,8 @@ Experiment read_experiment_document(const Json& written) {
     const auto output = object.optional("output");
     if (!output) object.default_value("output", no_output);
 
+    if (model && experiment.time && experiment.time->rate)
+      transform_time(*experiment.time->rate, *model, findings, experiment);
     if (model) {
       experiment.model = *model;
       if (initial)

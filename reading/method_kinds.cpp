@@ -14,10 +14,10 @@
 #include "courant/integrators/maps/spherical_midpoint.hpp"
 #include "courant/integrators/maps/theta.hpp"
 #include "courant/integrators/matched_start.hpp"
-#include "courant/integrators/natural_units.hpp"
 #include "courant/integrators/reduced_map.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/torus.hpp"
+#include "courant/reading/transformed_time.hpp"
 
 namespace courant {
 namespace {
@@ -112,11 +112,15 @@ std::optional<DiscretizationChoice> cayley(ObjectReader&) {
 std::optional<DiscretizationChoice> projected(ObjectReader& object) {
   const auto map = discretization_kinds().read_key(object, "map");
   if (!map) return std::nullopt;
+  const auto on_submanifold = [make = map->make](const ManifoldPointer& M) -> MapPointer {
+    const auto submanifold = std::dynamic_pointer_cast<const ImplicitSubmanifold>(M);
+    if (!submanifold) refuse("projected", "implicit submanifolds", *M);
+    return std::make_shared<Projected>(submanifold, make(submanifold->surrounding()));
+  };
   return lifted("projected " + map->description,
-                [make = map->make](const ManifoldPointer& M) -> MapPointer {
-                  const auto submanifold = std::dynamic_pointer_cast<const ImplicitSubmanifold>(M);
-                  if (!submanifold) refuse("projected", "implicit submanifolds", *M);
-                  return std::make_shared<Projected>(submanifold, make(submanifold->surrounding()));
+                [on_submanifold](const ManifoldPointer& M) -> MapPointer {
+                  return dynamic_cast<const Product*>(M.get()) ? on_factors(M, on_submanifold)
+                                                               : on_submanifold(M);
                 });
 }
 
@@ -188,13 +192,18 @@ std::optional<MethodChoice> discretize_first(ObjectReader& object) {
                                     ", but on a system with constraints steps of discretize-first "
                                     "are not near the identity, and compositions of them stay at "
                                     "order 2; expected \"constrain-first\"");
-        const auto on_manifold = map.make(at.system->manifold());
+        if (rk2 && at.own)
+          throw std::invalid_argument(
+              "the start \"rk2\" is about one step of a given length of time; expected "
+              "\"on-manifold\" with a transformation of time");
+        const auto on_manifold = map_at(map, at);
         return PreparedMethod{
             composed(std::make_shared<DiscretizeFirst>(
                          at.system, on_manifold, DiscretizeFirst::Options{.backend = at.backend}),
                      order),
             start_of_method_1(at, *on_manifold, rk2), on_manifold};
-      }};
+      },
+      [](const MethodSetting&) { return true; }};
 }
 
 std::optional<MethodChoice> constrain_first(ObjectReader& object) {
@@ -205,13 +214,16 @@ std::optional<MethodChoice> constrain_first(ObjectReader& object) {
   return MethodChoice{
       "constrain-first, " + map->description + ", " + projector->description + order_text(*order),
       [map = *map, projector = *projector, order = *order](const MethodSetting& at) {
-        const auto& manifold = at.system->manifold();
-        const auto on_manifold = map.make(manifold);
-        return PreparedMethod{composed(std::make_shared<ConstrainFirst>(
-                                           at.system, at.ladder, on_manifold, projector.make(at),
-                                           ConstrainFirst::Options{.backend = at.backend}),
-                                       order),
-                              at.initial, on_manifold};
+        const auto on_manifold = map_at(map, at);
+        return PreparedMethod{
+            composed(std::make_shared<ConstrainFirst>(
+                         at.system, at.ladder, on_manifold, projector_at(projector, at),
+                         ConstrainFirst::Options{.backend = at.backend}),
+                     order),
+            at.initial, on_manifold};
+      },
+      [](const MethodSetting& at) {
+        return at.ladder.degrees_of_freedom == at.system->manifold()->dimension();
       }};
 }
 
@@ -222,6 +234,10 @@ std::optional<MethodChoice> reduced(ObjectReader& object) {
   return MethodChoice{
       "reduced, " + map->description + order_text(*order),
       [map = *map, order = *order](const MethodSetting& at) {
+        if (at.own)
+          throw std::invalid_argument(
+              "\"reduced\" takes no transformation of time; expected another method, such as "
+              "\"discretize-first\"");
         const auto system = std::dynamic_pointer_cast<const DiracSystem>(at.system);
         const auto structure =
             system ? std::dynamic_pointer_cast<const LiePoisson>(system->structure()) : nullptr;
@@ -256,12 +272,12 @@ std::optional<MethodChoice> discrete_gradient(ObjectReader& object) {
   return MethodChoice{
       "discrete-gradient, " + gradient + ", " + map->description,
       [map = *map, gradient](const MethodSetting& at) {
-        const auto on_manifold = map.make(at.system->manifold());
+        const auto on_manifold = map_at(map, at);
         return PreparedMethod{
             std::make_shared<DiscreteGradient>(
                 at.system, on_manifold, differential(gradient),
                 DiscreteGradient::Options{.backend = at.backend,
-                                          .units = natural_units(at.system, at.ladder)}),
+                                          .units = units_at(at)}),
             at.initial, on_manifold};
       }};
 }

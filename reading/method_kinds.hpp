@@ -13,6 +13,7 @@
 #include "courant/reading/registry.hpp"
 #include "courant/reading/vocabulary.hpp"
 #include "courant/structures/implicit_system.hpp"
+#include "courant/structures/time_transformation.hpp"
 
 namespace courant {
 
@@ -24,6 +25,9 @@ struct MethodSetting {
   double step = 0.0;
   Backend backend = Backend::automatic;
   const Vocabulary* vocabulary = nullptr;  // the names for formulas of the method, if it has any
+  // Of a system in transformed time: the setting in its own, and what leads from one to the other.
+  const MethodSetting* own = nullptr;
+  std::shared_ptr<const TimeTransformation> transformation = nullptr;
 };
 
 // The method, the initial state moved to where it wants to start, and the discretization map, of
@@ -39,6 +43,8 @@ struct MethodChoice {
   std::string description;  // "constrain-first, midpoint, momentum projector"
   // Throws std::invalid_argument where the method does not fit the system.
   std::function<PreparedMethod(const MethodSetting&)> prepare;
+  // Whether steps on a Lagrangian system of this setting are symplectic; empty: they are not.
+  std::function<bool(const MethodSetting&)> keeps_form = {};
 };
 
 // The choice of a discretization map. `make` gives it on any manifold; on a cotangent bundle it is

@@ -137,6 +137,7 @@ bool Output::has_column(const std::string& coordinate) const {
 
 bool Output::is_written(long k, const TimeSpan& time) const {
   if (k == 0 || k == time.steps) return true;
+  if (time.is_transformed() && !at.empty()) return false;
   if (at.empty()) return k % every == 0;
   return std::ranges::any_of(
       at, [&](double t) { return is_at_step(t, time) && std::lround(steps_before(t, time)) == k; });
@@ -144,6 +145,7 @@ bool Output::is_written(long k, const TimeSpan& time) const {
 
 std::vector<double> Output::between(long k, const TimeSpan& time) const {
   std::vector<double> found;
+  if (time.is_transformed()) return found;
   for (const double t : at)
     if (!is_at_step(t, time) && std::ceil(steps_before(t, time)) == static_cast<double>(k))
       found.push_back(t);

@@ -31,7 +31,8 @@ struct Output {
   std::string heading(const std::string& quantity) const;
 
   bool has_column(const std::string& coordinate) const;
-  // Whether a run writes the row of step k, and the times of rows between step k - 1 and step k.
+  // Whether a run writes the row of step k, and the times of rows between step k - 1 and step k. In
+  // transformed time only the run knows which step is the last, and between which `at` falls.
   bool is_written(long k, const TimeSpan& time) const;
   std::vector<double> between(long k, const TimeSpan& time) const;
 };

@@ -82,6 +82,9 @@ class CProgram {
     if (experiment.output.coordinates)
       throw ExperimentError("/output/coordinates",
                             "cannot be exported: the program writes all coordinates");
+    if (experiment.time->is_transformed())
+      throw ExperimentError("/time/transformation",
+                            "is not written in C; expected steps of one size in t");
     if (!experiment.output.at.empty())
       throw ExperimentError("/output/at",
                             "asks for rows between steps, which a program in C does not write; "

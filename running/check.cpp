@@ -9,8 +9,10 @@
 #include "courant/core/derivative.hpp"
 #include "courant/core/message.hpp"
 #include "courant/integrators/integrator_laws.hpp"
+#include "courant/integrators/ladder/constraint_algorithm.hpp"
 #include "courant/integrators/ladder/ladder_laws.hpp"
 #include "courant/integrators/maps/laws.hpp"
+#include "courant/integrators/transformed_integrator.hpp"
 #include "courant/integrators/vector_field.hpp"
 #include "courant/manifolds/measurement.hpp"
 #include "courant/running/consistent_start.hpp"
@@ -228,18 +230,25 @@ class Check {
       add_laws(checks, "discretization map",
                lift ? check_cotangent_lift(*lift) : check_discretization_map(*method->map));
     }
-    const Integrator& integrator = *method->integrator;
+    const auto* transformed = dynamic_cast<const TransformedIntegrator*>(method->integrator.get());
+    const Integrator& integrator = transformed ? *transformed->extended() : *method->integrator;
     const auto all = structures();
-    const IntegratorSetting setting{
-        .system = experiment_.model.system,
-        .initial = method->initial,
-        .step = experiment_.time->step,
-        .conormals = ladder_.conormals(),
-        .is_gauge = ladder_.gauge_dimension > 0,
-        .structure = !all.empty() && all.front().second->is_dirac() ? all.front().second : nullptr};
+    const IntegratorSetting setting =
+        transformed
+            ? extended_setting(*transformed->transformation(), method->initial)
+            : IntegratorSetting{.system = experiment_.model.system,
+                                .initial = method->initial,
+                                .step = experiment_.time->step,
+                                .conormals = ladder_.conormals(),
+                                .is_gauge = ladder_.gauge_dimension > 0,
+                                .structure = !all.empty() && all.front().second->is_dirac()
+                                                 ? all.front().second
+                                                 : nullptr};
     const IntegratorReport report = check_integrator(integrator, setting);
     states_ = report.states;
-    measure_momenta(integrator, method->initial);
+    if (transformed)
+      for (VectorXd& x : states_) x = VectorXd(x(transformed->transformation()->places().point));
+    measure_momenta(*method->integrator, method->initial);
     add_laws(checks, "method", report.laws);
     const auto json_of = [](const std::optional<double>& value) {
       return value ? number(*value) : Json();
@@ -254,6 +263,19 @@ class Check {
             {"symplectic", is_symplectic(integrator, setting, report)},
             {"symplecticity_defect", json_of(report.symplecticity)},
             {"structure_defect", json_of(report.preservation)}};
+  }
+
+  // In transformed time steps keep the laws of methods on the extended manifold.
+  IntegratorSetting extended_setting(const TimeTransformation& time, const State& initial) const {
+    const State start = time.to_extended(initial);
+    const ConstraintLadder ladder = ConstraintAlgorithm().run(
+        time.extended(), {.t = start.t, .x = start.x, .v = start.v, .z = start.z});
+    return {.system = time.extended(),
+            .initial = start,
+            .step = experiment_.time->step,
+            .conormals = ladder.conormals(),
+            .is_gauge = ladder.gauge_dimension > 0,
+            .structure = time.extended()->structure()};
   }
 
   // How far the method takes each momentum from its first value in some steps, next to the terms it

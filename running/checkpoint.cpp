@@ -83,6 +83,7 @@ void each_member(Is<State> auto& state, const auto& visit) {
   visit("x", state.x);
   visit("v", state.v);
   visit("z", state.z);
+  visit("carried", state.carried);
 }
 
 void each_member(Is<Motion> auto& motion, const auto& visit) {

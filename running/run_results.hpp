@@ -33,6 +33,7 @@ struct RunResults {
   std::map<double, VectorXd> rows_at_times = {};
   const EventWatch* event_watch = nullptr;  // null where there are no events
   long steps = 0;
+  double t = 0.0;  // after the last of them
   SolverStatistics solver = {};
   std::string backend = "interpreter";
   double wall_seconds = 0.0;

@@ -17,12 +17,14 @@ struct RunEnd {
   std::string message = {};
 };
 
-// A state of a run, k = 0, 1, …, steps.
+// A state of a run, k = 0, 1, …, steps. In transformed time `steps` is what it looks like, more than k
+// but at the last state.
 struct RunMoment {
   long k = 0, steps = 0;
   double t = 0.0;
   const VectorXd& row;  // what is measured there, in the order of Observer::names()
   const Step& step;     // ends at the state, which is step.after; of no meaning otherwise at k = 0
+  std::optional<double> tau = {};  // transformed time, if there is one
 };
 
 // The writer of the trajectory, statistics, the watch over the ladder, progress: all that a run

@@ -24,7 +24,8 @@ class Rows final : public RunWatcher {
   Rows(TrajectoryWriter& writer, std::function<bool(long)> is_written, std::vector<Index> columns)
       : writer_(writer), is_written_(std::move(is_written)), columns_(std::move(columns)) {}
   std::optional<RunEnd> watch(const RunMoment& moment) override {
-    if (is_written_(moment.k)) writer_.append(moment.t, moment.row(columns_));
+    if (is_written_(moment.k))
+      append_row(writer_, moment.t, moment.tau, moment.row(columns_));
     return std::nullopt;
   }
 
@@ -125,6 +126,14 @@ class Stop final : public RunWatcher {
 
 std::unique_ptr<RunWatcher> keep_statistics(QuantityStatistics& statistics) {
   return std::make_unique<Statistics>(statistics);
+}
+
+void append_row(TrajectoryWriter& writer, double t, const std::optional<double>& tau,
+                const Eigen::Ref<const VectorXd>& values) {
+  if (!tau) return writer.append(t, values);
+  VectorXd all(values.size() + 1);
+  all << *tau, values;
+  writer.append(t, all);
 }
 
 std::unique_ptr<RunWatcher> write_rows(TrajectoryWriter& writer,

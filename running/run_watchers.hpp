@@ -26,6 +26,10 @@ struct Progress {
 
 std::unique_ptr<RunWatcher> keep_statistics(QuantityStatistics& statistics);
 
+// A row with the transformed time, if there is one, behind t.
+void append_row(TrajectoryWriter& writer, double t, const std::optional<double>& tau,
+                const Eigen::Ref<const VectorXd>& values);
+
 // The rows of the steps k for which `is_written`, of their numbers those in `columns`.
 std::unique_ptr<RunWatcher> write_rows(TrajectoryWriter& writer,
                                        std::function<bool(long k)> is_written,

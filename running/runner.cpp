@@ -14,6 +14,7 @@
 #include "courant/running/energy_watch.hpp"
 #include "courant/running/ladder_report.hpp"
 #include "courant/running/left_constraints.hpp"
+#include "courant/running/run_clock.hpp"
 #include "courant/running/run_folder.hpp"
 #include "courant/running/run_results.hpp"
 #include "courant/running/run_watchers.hpp"
@@ -73,7 +74,9 @@ class RunUnderway {
     watch_ladder();
     if (checkpoint) recall(*checkpoint, folder);
     if (options_.on_resume && options_.existing == ExistingRun::resume)
-      options_.on_resume(first, experiment_.time ? experiment_.time->time(first) : 0.0);
+      options_.on_resume(first, checkpoint && clock_.is_transformed() ? checkpoint->state.t
+                                : experiment_.time             ? experiment_.time->time(first)
+                                                               : 0.0);
     folder.write_summary(results_.summary(RunStatus::running, {}));
     writer_ = make_writer(folder);
     if (method && !experiment_.events.empty()) watch_events(folder);
@@ -82,7 +85,7 @@ class RunUnderway {
     if (method)
       integrate(*method, checkpoint, keeper);
     else if (consistent && first == 0)
-      goes_on({.after = ladder_.point}, 0, 0);
+      goes_on({.after = ladder_.point}, 0);
     writer_->flush();
     keeper.flush();
 
@@ -93,6 +96,13 @@ class RunUnderway {
   }
 
  private:
+  // The column of the transformed time, unless the experiment has another use for the name.
+  bool writes_tau() const {
+    const auto& names = observer_.names();
+    const auto end = names.begin() + static_cast<std::ptrdiff_t>(observer_.written_count());
+    return clock_.is_transformed() && std::find(names.begin(), end, "tau") == end;
+  }
+
   void fail(std::string message) {
     results_.status = RunStatus::failed;
     results_.message = std::move(message);
@@ -164,9 +174,11 @@ class RunUnderway {
   }
 
   std::unique_ptr<TrajectoryWriter> make_writer(const RunFolder& folder) const {
-    std::vector<std::string> columns = {experiment_.output.heading("t")};
+    std::vector<std::string> columns = {"t"};
+    if (writes_tau()) columns.push_back("tau");
     for (const Index i : columns_)
-      columns.push_back(experiment_.output.heading(observer_.names()[static_cast<std::size_t>(i)]));
+      columns.push_back(observer_.names()[static_cast<std::size_t>(i)]);
+    for (std::string& column : columns) column = experiment_.output.heading(column);
     std::optional<std::uintmax_t> keep;
     if (folder.checkpoint()) keep = folder.checkpoint()->trajectory_size;
     return make_trajectory_writer(experiment_.output.format, folder.path(), columns, keep);
@@ -178,12 +190,13 @@ class RunUnderway {
     watchers_.push_back(write_rows(
         *writer_,
         [this](long k) {
-          return !experiment_.time || experiment_.output.is_written(k, *experiment_.time);
+          return !experiment_.time || clock_.is_last() ||
+                 experiment_.output.is_written(k, *experiment_.time);
         },
         columns_));
     watchers_.push_back(
         find_not_finite(not_finite_, static_cast<Index>(observer_.written_count())));
-    if (experiment_.time && !experiment_.expect.times.empty()) {
+    if (experiment_.time && !clock_.is_transformed() && !experiment_.expect.times.empty()) {
       std::multimap<long, double> due;
       for (const double moment : experiment_.expect.times)
         due.emplace(*experiment_.time->step_at(moment), moment);
@@ -197,15 +210,20 @@ class RunUnderway {
   }
 
   // Whether the run goes on from this state, which is that after step k.
-  bool goes_on(const Step& step, long k, long steps) {
+  bool goes_on(const Step& step, long k) {
     const State& state = step.after;
-    const double t = experiment_.time ? experiment_.time->time(k) : state.t;
-    const RunMoment moment{.k = k,
-                           .steps = steps,
-                           .t = t,
-                           .row = k == 0 ? observer_.begin(state) : observer_.advance(step),
-                           .step = step};
+    const double t = clock_.t(state, k);
+    RunMoment moment{.k = k,
+                     .steps = clock_.steps(k, t),
+                     .t = t,
+                     .row = k == 0 ? observer_.begin(state) : observer_.advance(step),
+                     .step = step};
+    if (clock_.is_transformed()) {
+      if (writes_tau()) moment.tau = clock_.tau();
+      keep_expected(t, moment.row);
+    }
     results_.steps = k;
+    results_.t = t;
     std::optional<RunEnd> end;
     const auto tell = [&](RunWatcher& watcher) {
       if (auto its_end = watcher.watch(moment); its_end && !end) end = std::move(its_end);
@@ -218,7 +236,13 @@ class RunUnderway {
       results_.status = end->status;
       results_.message = end->message;
     }
-    return !end;
+    return !end && !clock_.is_last();
+  }
+
+  // A row that expectations ask for by its time.
+  void keep_expected(double t, const VectorXd& row) {
+    for (const double moment : experiment_.expect.times)
+      if (moment == t) results_.rows_at_times[moment] = row;
   }
 
   // What is measured at states that other steps lead to has an observer of its own, made when it is
@@ -229,7 +253,7 @@ class RunUnderway {
   }
   // The account before the step that was made, where something is measured within steps.
   void keep_account() {
-    if (!event_watch_ && experiment_.output.at.empty()) return;
+    if (!event_watch_ && experiment_.output.at.empty() && !clock_.is_transformed()) return;
     if (const PowerAccount* account = observer_.account()) account_before_ = account->memory();
   }
   // At the end of a part of that step, with the energies up to there.
@@ -243,8 +267,30 @@ class RunUnderway {
     elsewhere_->restart(state);
   }
 
+  // In transformed time, what is asked for by its time in the step that was made, step k: rows of the
+  // trajectory, and those that expectations ask for. Those at its end are told by goes_on.
+  void visit_times(Stepper& stepper, long k) {
+    const TimeSpan& time = *experiment_.time;
+    const double before = stepper.last().before.t;
+    const double after = clock_.is_last() ? time.until : stepper.last().after.t;
+    std::map<double, bool> moments;  // whether they are written
+    for (const double t : experiment_.expect.times) moments[t] = false;
+    for (const double t : experiment_.output.at) moments[t] = true;
+    for (const auto& [t, is_written] : moments) {
+      if (!(t > before && (t < after || (t == after && is_written && !clock_.is_last())))) continue;
+      const double share = stepper.share_at(std::min(t, stepper.last().after.t));
+      const VectorXd& row = row_within(stepper.part(share));
+      keep_expected(t, row);
+      if (!is_written) continue;
+      const double tau = time.time(k - 1) + share * stepper.last().h;
+      append_row(*writer_, t, writes_tau() ? std::optional(tau) : std::nullopt,
+                 row(columns_));
+    }
+  }
+
   // The rows that are asked for between step k - 1 and the one that was made, step k.
   void write_between(Stepper& stepper, long k) {
+    if (clock_.is_transformed()) return visit_times(stepper, k);
     if (experiment_.output.at.empty()) return;
     const TimeSpan& time = *experiment_.time;
     for (const double t : experiment_.output.between(k, time)) {
@@ -319,6 +365,7 @@ class RunUnderway {
     results_.statistics.recall(checkpoint.statistics);
     results_.rows_at_times = checkpoint.rows_at_times;
     not_finite_ = checkpoint.not_finite;
+    results_.t = checkpoint.state.t;
     if (energy_watch_ && checkpoint.energy_watch) energy_watch_->recall(*checkpoint.energy_watch);
     if (ladder_watch_ && checkpoint.ladder_watch) ladder_watch_->recall(*checkpoint.ladder_watch);
   }
@@ -350,15 +397,16 @@ class RunUnderway {
         begin_epoch(*stepper, state, from->motion);
       } else {
         stepper->prepare(state, time.step);
-        going = goes_on(stepper->last(), 0, time.steps);
+        going = goes_on(stepper->last(), 0);
       }
       while (going && k < time.steps) {
-        const long end = std::min(time.steps, k + epoch);
+        const long end = time.steps - k > epoch ? k + epoch : time.steps;
         for (; going && k < end; ++k) {
           stepper->step(state, time.step, time.time(k + 1));
+          if (clock_.is_transformed()) clock_.end_step(*stepper, state, k + 1);
           keep_account();
           write_between(*stepper, k + 1);
-          going = goes_on(stepper->last(), k + 1, time.steps);
+          going = goes_on(stepper->last(), k + 1);
         }
         if (!going || k == time.steps) break;
         const Motion motion = stepper->motion();
@@ -411,6 +459,7 @@ class RunUnderway {
                       .symmetries = symmetries_,
                       .observer = observer_};
   std::optional<NotFinite> not_finite_;
+  RunClock clock_{experiment_.time};
   std::optional<LadderWatch> ladder_watch_;
   std::optional<EnergyWatch> energy_watch_;
   std::unique_ptr<TrajectoryWriter> writer_;

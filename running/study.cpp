@@ -11,6 +11,7 @@
 
 #include "courant/core/message.hpp"
 #include "courant/core/spelling.hpp"
+#include "courant/reading/transformed_time.hpp"
 #include "courant/running/comma_separated.hpp"
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/observer.hpp"
@@ -26,9 +27,10 @@ constexpr long kMostMoments = 1000;
 // The study is interrupted.
 struct Stopped {};
 
-// A run: the states at some moments, and what it cost.
+// A run: the states at some moments, how many steps it made, and what it cost.
 struct Flight {
   std::vector<State> states;
+  long steps = 0;
   SolverStatistics work;
   double seconds = 0.0;
 };
@@ -45,7 +47,7 @@ class StudiedProblem {
       throw ExperimentError("/method", "is missing; a study is one of a method and its steps");
     const TimeSpan& time = *experiment().time;
     if (time.steps == 0) throw ExperimentError("/time/end", "is the start; expected a later time");
-    stride_ = (time.steps + kMostMoments - 1) / kMostMoments;
+    stride_ = time.is_transformed() ? 1 : (time.steps + kMostMoments - 1) / kMostMoments;
     choose_quantities();
   }
 
@@ -72,6 +74,14 @@ class StudiedProblem {
     Flight flight;
     const auto begin = Clock::now();
     stepper->prepare(state, h);
+    if (time.is_transformed()) {
+      flight.states.push_back(end_in_time(*stepper, state, h));
+      flight.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+      flight.work = stepper->statistics();
+      flight.steps = flight.work.steps;
+      return flight;
+    }
+    flight.steps = time.steps * parts;
     for (long k = 0; k < time.steps; ++k) {
       for (long part = 1; part <= parts; ++part) {
         const double end =
@@ -92,6 +102,16 @@ class StudiedProblem {
   MatrixXd deviations(const Flight& flight) { return rows(flight, deviations_); }
 
  private:
+  // In transformed time the one moment is the end of the run.
+  State end_in_time(Stepper& stepper, State& state, double h) const {
+    const double end = experiment().time->until;
+    while (state.t < end) {
+      stepper.step(state, h);
+      if (options_.stop && *options_.stop) throw Stopped();
+    }
+    return stepper.between(stepper.share_at(end));
+  }
+
   void choose_quantities() {
     const auto& names = observer_.names();
     const auto& forms = experiment().expect.deviations;
@@ -162,12 +182,12 @@ struct Truth {
   MatrixXd values;  // none: closed form
 };
 
-MethodChoice dormand_prince() {
+MethodChoice dormand_prince(const TimeSpan& time) {
   const Json word = "dopri5";
   Findings findings;
   auto choice = method_kinds().read(JsonReader(word, "/method", findings));
   findings.require_clean();
-  return *choice;
+  return time.rate ? in_transformed_time(std::move(*choice), *time.rate) : *choice;
 }
 
 // Runs at ever shorter steps, until that changes the values no more than round-off does: of all,
@@ -176,19 +196,20 @@ Truth by_run(StudiedProblem& problem, const StudyOptions& options) {
   constexpr double enough = 1e-14, small = 1e-10;  // of the size of the values
   constexpr long most_steps = 2'000'000;           // of the last run
   const Experiment& experiment = problem.experiment();
-  MethodChoice method = dormand_prince();
+  MethodChoice method = dormand_prince(*experiment.time);
   try {
     problem.prepare(method, experiment.time->step);
   } catch (const std::invalid_argument&) {  // no vector field
     method = *experiment.method;
   }
-  const long steps = experiment.time->steps;
+  long steps = experiment.time->is_transformed() ? 0 : experiment.time->steps;
   const auto run = [&](long parts) {
     const std::string step = number_text(experiment.time->step / static_cast<double>(parts));
     if (options.on_progress)
       options.on_progress("reference by " + method.description + ", step " + step);
-    return Truth{method.description + " at the step " + step, 0.0,
-                 problem.values(problem.fly(method, parts))};
+    const Flight flight = problem.fly(method, parts);
+    steps = flight.steps / parts;
+    return Truth{method.description + " at the step " + step, 0.0, problem.values(flight)};
   };
   long parts = 2;
   // Long steps may not be possible where shorter ones are.
@@ -316,7 +337,8 @@ Json study_of(const StudySubject& subject, const StudyOptions& options,
     const long parts = 1L << i;
     Row row;
     row.step = subject.experiment.time->step / static_cast<double>(parts);
-    row.steps = subject.experiment.time->steps * parts;
+    if (!subject.experiment.time->is_transformed())
+      row.steps = subject.experiment.time->steps * parts;
     if (options.on_progress)
       options.on_progress(subject.experiment.method->description + ", step " +
                           number_text(row.step));
@@ -325,6 +347,7 @@ Json study_of(const StudySubject& subject, const StudyOptions& options,
       const MatrixXd values = problem.values(flight);
       row.error = greatest_norm(problem.has_closed_form() ? problem.deviations(flight)
                                                           : (values - reference.values).eval());
+      row.steps = flight.steps;
       row.iterations = flight.work.iterations;
       row.factorizations = flight.work.factorizations;
       row.seconds = flight.seconds;

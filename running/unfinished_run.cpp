@@ -12,6 +12,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Whether a run ends after so many steps, at a time that is asked in transformed time alone.
+bool is_over(const TimeSpan& time, long steps, double t) {
+  return time.is_transformed() ? t >= time.until : steps >= time.steps;
+}
+
 void check_unfinished(const fs::path& folder, const std::string& id, const Experiment& experiment) {
   const fs::path file = folder / "summary.json";
   if (!file_exists(file)) return;  // killed before there was one
@@ -20,9 +25,11 @@ void check_unfinished(const fs::path& folder, const std::string& id, const Exper
     refuse_folder(file, "is of another run than experiment.json");
   if (summary.status != RunStatus::completed && summary.status != RunStatus::not_finite) return;
   if (!experiment.time) refuse_folder(folder, "the run is complete");
-  if (experiment.time->steps <= summary.steps)
-    refuse_folder(folder, "the run is complete up to t = " +
-                              exact_text(experiment.time->time(summary.steps)) +
+  const TimeSpan& time = *experiment.time;
+  const double reached =
+      time.is_transformed() && summary.time ? summary.time->end : time.time(summary.steps);
+  if (is_over(time, summary.steps, reached))
+    refuse_folder(folder, "the run is complete up to t = " + exact_text(reached) +
                               "; expected a later /time/end to go on to");
 }
 
@@ -40,10 +47,11 @@ void check_checkpoint(const fs::path& folder, const std::string& id, const Exper
   if (checkpoint.run != id)
     refuse_folder(folder / "checkpoint.json", "is of another run than experiment.json");
   const TimeSpan& time = *experiment.time;
-  if (checkpoint.k >= time.steps)
+  const double reached = time.is_transformed() ? checkpoint.state.t : time.time(checkpoint.k);
+  if (is_over(time, checkpoint.k, reached))
     throw ExperimentError("/time/end",
                           "is " + exact_text(time.end()) + "; the run would go on from t = " +
-                              exact_text(time.time(checkpoint.k)) + ", expected a later one");
+                              exact_text(reached) + ", expected a later one");
   check_size(folder / trajectory_name(experiment.output.format), checkpoint.trajectory_size);
   if (checkpoint.event_watch) check_size(folder / "events.csv", checkpoint.event_watch->file_size);
 }

@@ -24,16 +24,18 @@ void State::swap(State& other) {
   x.swap(other.x);
   v.swap(other.v);
   z.swap(other.z);
+  carried.swap(other.carried);
 }
 
 bool operator==(const State& a, const State& b) {
-  return a.t == b.t && same(a.x, b.x) && same(a.v, b.v) && same(a.z, b.z);
+  return a.t == b.t && same(a.x, b.x) && same(a.v, b.v) && same(a.z, b.z) &&
+         same(a.carried, b.carried);
 }
 
 bool is_finite(const State& state) {
   // 0 · ±∞ and 0 · NaN are NaN. By numbers as above.
   double sum = 0.0;
-  for (const VectorXd* part : {&state.x, &state.v, &state.z})
+  for (const VectorXd* part : {&state.x, &state.v, &state.z, &state.carried})
     for (Index i = 0; i < part->size(); ++i) sum += 0.0 * (*part)[i];
   return sum == 0.0;
 }

@@ -13,6 +13,9 @@ struct State {
   VectorXd x = {};
   VectorXd v = {};
   VectorXd z = {};
+  // What a method carries from step to step besides: the momentum of time, see TimeTransformation.
+  // Mostly empty.
+  VectorXd carried = {};
 
   void swap(State& other);
 };
@@ -20,7 +23,7 @@ struct State {
 // Whether all numbers are the same, bit by bit.
 bool operator==(const State& a, const State& b);
 
-// Whether all of x, v and z are finite.
+// Whether all of x, v, z and what is carried are finite.
 bool is_finite(const State& state);
 
 }  // namespace courant

@@ -15,6 +15,7 @@
 #include "courant/integrators/maps/theta.hpp"
 #include "courant/integrators/projector.hpp"
 #include "courant/integrators/reduced_map.hpp"
+#include "courant/integrators/transformed_integrator.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/special_euclidean3.hpp"
 #include "courant/manifolds/special_orthogonal3.hpp"
@@ -338,6 +339,40 @@ void on_a_point(std::vector<IntegratorEntry>& table) {
   site.explicit_methods();
 }
 
+// Methods of extended systems are methods as any other; back in the time of the system they are so
+// where the rate is 1, and the time after k steps is k h.
+void in_transformed_time(std::vector<IntegratorEntry>& table) {
+  const auto line = std::make_shared<Euclidean>(1);
+  const auto M = cotangent(line);
+  const auto system = hamiltonian(M, [](V x, T t) {
+    return 0.5 * square(x[1]) - cos(x[0]) + x[0] * square(x[0]) / 6.0 - x[0] * cos(3.0 * t);
+  });
+  const TimeRate rate = [](V x, T t) {
+    return 1.0 + 0.3 * square(x[0]) + 0.2 * x[0] * x[1] + 0.1 * sin(t);
+  };
+  const State start{.t = 0.3, .x = Eigen::Vector2d(0.7, -0.4)};
+  const auto symplectic = TimeTransformation::symplectic(system, rate);
+  const auto plain = TimeTransformation::plain(system, rate);
+  for (const auto* time : {&symplectic, &plain}) {
+    const State extended = time->to_extended(start);
+    const Site site(time->is_symplectic() ? "pendulum in transformed time, symplectic"
+                                          : "pendulum in transformed time",
+                    time->extended(), {.x = extended.x}, 0.05, table);
+    const auto bundle = std::dynamic_pointer_cast<const CotangentBundle>(time->places().manifold);
+    site.method_1("midpoint", bundle ? lift(bundle, std::make_shared<Theta>(bundle->base()))
+                                     : std::make_shared<Theta>(time->places().manifold));
+  }
+  const auto one = std::make_shared<TimeTransformation>(
+      TimeTransformation::symplectic(system, [](V, T) { return Expr(1.0); }));
+  const auto T_Q = std::dynamic_pointer_cast<const CotangentBundle>(one->places().manifold);
+  table.push_back({"discretize-first, midpoint, at a rate of one: driven pendulum",
+                   std::make_shared<TransformedIntegrator>(
+                       one, std::make_shared<DiscretizeFirst>(
+                                one->extended(), lift(T_Q, std::make_shared<Theta>(T_Q->base())))),
+                   {.system = system, .initial = start, .step = 0.05,
+                    .structure = system->structure()}});
+}
+
 }  // namespace
 
 std::vector<IntegratorEntry> integrator_catalogue() {
@@ -348,6 +383,7 @@ std::vector<IntegratorEntry> integrator_catalogue() {
   on_manifolds(table);
   on_duals_of_algebras(table);
   on_a_point(table);
+  in_transformed_time(table);
   return table;
 }
 

@@ -1,0 +1,130 @@
+#include "courant/integrators/transformed_integrator.hpp"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace courant {
+
+namespace {
+
+// What a SolveError says behind the time.
+std::string what_happened(const SolveError& error) {
+  const std::string text = error.what(), before = "from t = ";
+  const std::size_t time = text.find(before);
+  const std::size_t end = time == std::string::npos ? time : text.find(' ', time + before.size());
+  return end == std::string::npos ? text : text.substr(end + 1);
+}
+
+}  // namespace
+
+// The stepper of the method goes along the extended states, which are kept from step to step.
+class TransformedIntegrator::Trajectory final : public Stepper {
+ public:
+  Trajectory(std::shared_ptr<const TimeTransformation> transformation,
+             std::shared_ptr<const Integrator> method, const std::string& name)
+      : Stepper(name, transformation->system()),
+        transformation_(std::move(transformation)),
+        integrator_(std::move(method)),
+        inner_(integrator_->stepper()) {}
+
+ private:
+  void do_prepare(State& state, double h) override {
+    at_ = transformation_->to_extended(state);
+    const double t = state.t;
+    inner_->prepare(at_, h);
+    state = transformation_->from_extended(at_);
+    state.t = t;
+  }
+
+  void do_step(const State& before, double h, State& after) override {
+    if (tells_parts()) inner_->tell_parts();
+    next_ = at_;
+    next_.t = 0.0;
+    const SolverStatistics counted = inner_->statistics();
+    try {
+      inner_->step(next_, h, 0.0);
+    } catch (const SolveError& error) {
+      count(counted);
+      throw SolveError(error.reason(), method(), before.t, h, what_happened(error),
+                       error.residuals());
+    }
+    count(counted);
+    // No step depends on τ: that of an extended state is 0.
+    next_.t = 0.0;
+    after = transformation_->from_extended(next_);
+    check_time(before.t, after.t, h);
+  }
+
+  void check_time(double before, double after, double h) const {
+    const double rate = (after - before) / h;
+    if (rate > 0.0) return;
+    std::ostringstream message;
+    message << "advances the time by " << rate
+            << " h: dt/dtau has to be positive along the step, and large enough for time to go on.";
+    throw SolveError(SolveError::Reason::left_domain, method(), before, h, message.str());
+  }
+
+  void count(const SolverStatistics& before) {
+    const SolverStatistics& now = inner_->statistics();
+    statistics_.iterations += now.iterations - before.iterations;
+    statistics_.factorizations += now.factorizations - before.factorizations;
+    statistics_.failures += now.failures - before.failures;
+    statistics_.confirmations += now.confirmations - before.confirmations;
+  }
+
+  void do_keep(const State&, const State&) override {
+    at_.swap(next_);
+    last_ = in_own_time(inner_->last());
+  }
+  void do_stage(Step& step) const override {
+    step.rate = (step.after.t - step.before.t) / step.h;
+    step.stage = last_.stage;
+    step.effort = last_.effort;
+    step.parts = last_.parts;
+  }
+
+  Step in_own_time(const Step& extended) const {
+    Step own{.h = extended.h,
+             .before = transformation_->from_extended(extended.before),
+             .after = transformation_->from_extended(extended.after),
+             .stage = transformation_->from_extended(extended.stage),
+             .effort = transformation_->covector(extended.effort)};
+    own.rate = (own.after.t - own.before.t) / own.h;
+    for (const Step& part : extended.parts) own.parts.push_back(in_own_time(part));
+    return own;
+  }
+
+  void do_discard() override { inner_->forget(); }
+  void do_forget() override { inner_->forget(); }
+  Motion do_motion() const override { return inner_->motion(); }
+  void do_expect(const Motion& motion) override { inner_->expect(motion); }
+  bool do_keeps_to_manifold() const override { return false; }
+  std::unique_ptr<Stepper> do_fresh() const override {
+    return std::make_unique<Trajectory>(transformation_, integrator_, method());
+  }
+
+  std::shared_ptr<const TimeTransformation> transformation_;
+  std::shared_ptr<const Integrator> integrator_;
+  std::unique_ptr<Stepper> inner_;
+  State at_, next_;  // extended: where the last step that stands ended, and the one that is made
+  Step last_;        // the last that stands
+};
+
+TransformedIntegrator::TransformedIntegrator(
+    std::shared_ptr<const TimeTransformation> transformation,
+    std::shared_ptr<const Integrator> method)
+    : Integrator(transformation ? transformation->system() : nullptr),
+      transformation_(std::move(transformation)),
+      method_(std::move(method)) {
+  if (!method_ || method_->system() != transformation_->extended())
+    throw std::invalid_argument(
+        "TransformedIntegrator::TransformedIntegrator: the method is missing, or it is not one of "
+        "the extended system of the transformation.");
+}
+
+std::unique_ptr<Stepper> TransformedIntegrator::do_stepper() const {
+  return std::make_unique<Trajectory>(transformation_, method_, name());
+}
+
+}  // namespace courant

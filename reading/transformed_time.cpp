@@ -1,0 +1,97 @@
+#include "courant/reading/transformed_time.hpp"
+
+#include <cmath>
+
+#include "courant/core/message.hpp"
+#include "courant/integrators/fixed_time_projector.hpp"
+#include "courant/integrators/ladder/constraint_algorithm.hpp"
+#include "courant/integrators/maps/product_map.hpp"
+#include "courant/integrators/maps/theta.hpp"
+#include "courant/integrators/natural_units.hpp"
+#include "courant/integrators/transformed_integrator.hpp"
+
+namespace courant {
+namespace {
+
+// So large a size that a correction of a discrete gradient leaves time as it is.
+constexpr double kNoSize = 1e150;
+
+std::shared_ptr<const TimeTransformation> transformation(const MethodChoice& choice,
+                                                         const WrittenFormula& formula,
+                                                         const MethodSetting& at) {
+  const TimeRate rate = [formula, vocabulary = *at.vocabulary](const ExprVector& x,
+                                                               const Expr& t) {
+    return evaluate(formula, vocabulary.symbols({.x = x, .t = t}));
+  };
+  const bool is_symplectic = choice.keeps_form && choice.keeps_form(at) &&
+                             TimeTransformation::is_possible(*at.system);
+  return std::make_shared<TimeTransformation>(
+      is_symplectic ? TimeTransformation::symplectic(at.system, rate)
+                    : TimeTransformation::plain(at.system, rate));
+}
+
+PreparedMethod prepare(const MethodChoice& choice, const WrittenFormula& formula,
+                       const MethodSetting& own) {
+  const auto time = transformation(choice, formula, own);
+  const double rate = time->rate(own.initial);
+  if (!(rate > 0.0 && std::isfinite(rate)))
+    throw ExperimentError(formula.pointer, "is " + number_text(rate) +
+                                               " at the initial point; expected a positive number");
+  const State start = time->to_extended(own.initial);
+  const ConstraintLadder ladder = ConstraintAlgorithm().run(
+      time->extended(), {.t = start.t, .x = start.x, .v = start.v, .z = start.z});
+  if (ladder.verdict != own.ladder.verdict)
+    throw std::runtime_error("In transformed time the constraint algorithm finds the system " +
+                             to_string(ladder.verdict) + ", in its own time " +
+                             to_string(own.ladder.verdict) + ".");
+  PreparedMethod method = choice.prepare({.system = time->extended(),
+                                          .ladder = ladder,
+                                          .initial = start,
+                                          .step = own.step,
+                                          .backend = own.backend,
+                                          .vocabulary = own.vocabulary,
+                                          .own = &own,
+                                          .transformation = time});
+  method.integrator = std::make_shared<TransformedIntegrator>(time, method.integrator);
+  method.initial = time->from_extended(method.initial);
+  return method;
+}
+
+}  // namespace
+
+MethodChoice in_transformed_time(MethodChoice choice, WrittenFormula rate) {
+  const std::string description = choice.description + ", dt/dtau = " + rate.text;
+  return {.description = description,
+          .prepare = [choice = std::move(choice), rate = std::move(rate)](
+                         const MethodSetting& at) { return prepare(choice, rate, at); }};
+}
+
+std::shared_ptr<const DiscretizationMap> map_at(const DiscretizationChoice& choice,
+                                                const MethodSetting& at) {
+  const auto& manifold = at.system->manifold();
+  if (!at.transformation || at.transformation->is_symplectic()) return choice.make(manifold);
+  const auto product = std::dynamic_pointer_cast<const Product>(manifold);
+  auto map = choice.make(product->factors().front());
+  const double theta = map->stage_time();
+  return std::make_shared<ProductMap>(
+      product, std::vector<std::shared_ptr<const DiscretizationMap>>{
+                   std::move(map), std::make_shared<Theta>(product->factors().back(), theta)});
+}
+
+std::shared_ptr<const Projector> projector_at(const ProjectorChoice& choice,
+                                              const MethodSetting& at) {
+  if (!at.own) return choice.make(at);
+  // There is nothing to project where the transformation is symplectic.
+  if (at.transformation->is_symplectic()) return std::make_shared<OrthogonalProjector>();
+  return std::make_shared<FixedTimeProjector>(choice.make(*at.own), at.own->system->manifold());
+}
+
+VectorXd units_at(const MethodSetting& at) {
+  if (!at.own) return natural_units(at.system, at.ladder);
+  const VectorXd own = natural_units(at.own->system, at.own->ladder);
+  VectorXd units(own.size() + 1);
+  units << own, kNoSize;
+  return units;
+}
+
+}  // namespace courant

@@ -1,0 +1,24 @@
+// Methods in a time of their own: the key `transformation` of `time`.
+#pragma once
+
+#include "courant/reading/method_kinds.hpp"
+#include "courant/reading/written_formula.hpp"
+
+namespace courant {
+
+// The same choice with steps in τ, dt/dτ = `rate`, a formula of coordinates and t: a
+// TransformedIntegrator. The transformation is the symplectic one where the method keeps a symplectic
+// form and the system has one, else the plain one. Preparing it throws ExperimentError unless the rate is
+// positive at the initial point, std::invalid_argument where the method cannot be had so.
+MethodChoice in_transformed_time(MethodChoice choice, WrittenFormula rate);
+
+// What a method is made of, for a setting in its own time or in another one: the discretization map on
+// the manifold of its system, which may have time as a coordinate; a projector that leaves time as it
+// is; and typical sizes of the Ñ coordinates, where time has none.
+std::shared_ptr<const DiscretizationMap> map_at(const DiscretizationChoice& choice,
+                                                const MethodSetting& at);
+std::shared_ptr<const Projector> projector_at(const ProjectorChoice& choice,
+                                              const MethodSetting& at);
+VectorXd units_at(const MethodSetting& at);
+
+}  // namespace courant
