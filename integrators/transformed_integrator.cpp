@@ -33,6 +33,8 @@ class TransformedIntegrator::Trajectory final : public Stepper {
     at_ = transformation_->to_extended(state);
     const double t = state.t;
     inner_->prepare(at_, h);
+    if (expected_) inner_->expect(*expected_);
+    expected_.reset();
     state = transformation_->from_extended(at_);
     state.t = t;
   }
@@ -75,13 +77,13 @@ class TransformedIntegrator::Trajectory final : public Stepper {
 
   void do_keep(const State&, const State&) override {
     at_.swap(next_);
-    last_ = in_own_time(inner_->last());
+    step_ = in_own_time(inner_->last());
   }
   void do_stage(Step& step) const override {
     step.rate = (step.after.t - step.before.t) / step.h;
-    step.stage = last_.stage;
-    step.effort = last_.effort;
-    step.parts = last_.parts;
+    step.stage = step_.stage;
+    step.effort = step_.effort;
+    step.parts = step_.parts;
   }
 
   Step in_own_time(const Step& extended) const {
@@ -96,9 +98,12 @@ class TransformedIntegrator::Trajectory final : public Stepper {
   }
 
   void do_discard() override { inner_->forget(); }
-  void do_forget() override { inner_->forget(); }
+  void do_forget() override {
+    inner_->forget();
+    expected_.reset();
+  }
   Motion do_motion() const override { return inner_->motion(); }
-  void do_expect(const Motion& motion) override { inner_->expect(motion); }
+  void do_expect(const Motion& motion) override { expected_ = motion; }
   bool do_keeps_to_manifold() const override { return false; }
   std::unique_ptr<Stepper> do_fresh() const override {
     return std::make_unique<Trajectory>(transformation_, integrator_, method());
@@ -108,7 +113,8 @@ class TransformedIntegrator::Trajectory final : public Stepper {
   std::shared_ptr<const Integrator> integrator_;
   std::unique_ptr<Stepper> inner_;
   State at_, next_;  // extended: where the last step that stands ended, and the one that is made
-  Step last_;        // the last that stands
+  Step step_;        // the last that stands
+  std::optional<Motion> expected_;  // for the step after the next preparation
 };
 
 TransformedIntegrator::TransformedIntegrator(

@@ -25,6 +25,8 @@
 using namespace courant;
 using examples::Kepler;
 
+BOOST_AUTO_TEST_SUITE(transformed_integrator)
+
 namespace {
 
 using Pointer = std::shared_ptr<const Integrator>;
@@ -62,7 +64,7 @@ std::pair<State, long> state_at(const Integrator& method, State state, double h,
   return {stepper->between(stepper->share_at(end)), stepper->statistics().steps};
 }
 
-Expr distance(const ExprVector& x, const Expr&) { return Kepler::radius(x); }
+Expr to_sun(const ExprVector& x, const Expr&) { return Kepler::radius(x); }
 
 double error_of(const Kepler& kepler, const Integrator& method, double h, double end) {
   const State found =
@@ -73,13 +75,11 @@ double error_of(const Kepler& kepler, const Integrator& method, double h, double
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(transformed_integrator)
-
 // In t, against Kepler's equation.
 BOOST_AUTO_TEST_CASE(orders_in_physical_time) {
   const Kepler kepler;
   for (const int order : {2, 4}) {
-    const Pointer method = method_1(symplectic(kepler.system, distance), order);
+    const Pointer method = method_1(symplectic(kepler.system, to_sun), order);
     BOOST_TEST(method->order() == order);
     std::vector<double> steps, errors;
     for (const double count : {200.0, 300.0, 400.0, 600.0}) {
@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(orders_in_physical_time) {
 BOOST_AUTO_TEST_CASE(fewer_steps_for_the_same_error) {
   const Kepler kepler;
   const double end = 2.0 * M_PI;
-  const Pointer varying = method_1(symplectic(kepler.system, distance));
+  const Pointer varying = method_1(symplectic(kepler.system, to_sun));
   const auto [found, steps] = state_at(*varying, {.x = kepler.at(0.0)}, end / 400.0, end);
   const double error = (found.x - kepler.at(end)).norm();
   const DiscretizeFirst constant(kepler.system,
@@ -126,7 +126,7 @@ BOOST_AUTO_TEST_CASE(energy_stays_where_the_form_is_kept) {
     }
     return greatest;
   };
-  const auto kept = drifts(symplectic(kepler.system, distance));
+  const auto kept = drifts(symplectic(kepler.system, to_sun));
   for (const double here : kept) BOOST_TEST(std::abs(here / kept.front() - 1.0) < 0.02);
   BOOST_TEST(kept.front() < 0.05);
 }
@@ -284,7 +284,7 @@ BOOST_AUTO_TEST_CASE(constraints_of_method_2) {
 // Discrete gradients keep the energy in steps of any size.
 BOOST_AUTO_TEST_CASE(exact_energy_with_varying_steps) {
   const Kepler kepler{.eccentricity = 0.7};
-  const TimePointer time = plain(kepler.system, distance);
+  const TimePointer time = plain(kepler.system, to_sun);
   const auto map = std::make_shared<Theta>(time->places().manifold);
   VectorXd units = VectorXd::Ones(5);
   units[4] = 1e150;
@@ -363,7 +363,7 @@ BOOST_AUTO_TEST_CASE(a_rate_that_vanishes) {
 // W1 and W2: a state is all there is to know of a run, what it carries included.
 BOOST_AUTO_TEST_CASE(a_state_says_all) {
   const Kepler kepler;
-  const Pointer method = method_1(symplectic(kepler.system, distance), 4);
+  const Pointer method = method_1(symplectic(kepler.system, to_sun), 4);
   const auto stepper = method->stepper();
   State state{.x = kepler.at(0.0)};
   for (int k = 0; k < 20; ++k) stepper->step(state, 0.2);
@@ -419,7 +419,7 @@ BOOST_AUTO_TEST_CASE(projections_at_one_time) {
 
 BOOST_AUTO_TEST_CASE(what_is_no_method_of_the_extended_system) {
   const Kepler kepler;
-  const TimePointer time = symplectic(kepler.system, distance);
+  const TimePointer time = symplectic(kepler.system, to_sun);
   const auto own = std::make_shared<DiscretizeFirst>(
       kepler.system,
       std::make_shared<CotangentLift>(kepler.M, std::make_shared<Theta>(kepler.space)));

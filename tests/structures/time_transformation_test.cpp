@@ -11,6 +11,8 @@
 
 using namespace courant;
 
+BOOST_AUTO_TEST_SUITE(time_transformation)
+
 namespace {
 
 using BundlePointer = std::shared_ptr<const CotangentBundle>;
@@ -45,8 +47,6 @@ double residual(const ImplicitSystem& system, const VectorXd& x, const VectorXd&
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(time_transformation)
 
 // By hand: (q, t, p, p_t)' = g (H_p, 1, -H_q, -H_t) where p_t = -H.
 BOOST_AUTO_TEST_CASE(hamiltons_equations_in_another_time) {
