@@ -93,7 +93,9 @@ class TransformedIntegrator::Trajectory final : public Stepper {
              .stage = transformation_->from_extended(extended.stage),
              .effort = transformation_->covector(extended.effort)};
     own.rate = (own.after.t - own.before.t) / own.h;
-    for (const Step& part : extended.parts) own.parts.push_back(in_own_time(part));
+    // Parts that nobody asked for are empty.
+    for (const Step& part : extended.parts)
+      own.parts.push_back(part.stage.x.size() > 0 ? in_own_time(part) : Step{});
     return own;
   }
 

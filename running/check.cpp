@@ -222,6 +222,8 @@ class Check {
                                             .step = experiment_.time->step,
                                             .backend = Backend::interpreter,
                                             .vocabulary = &experiment_.model.vocabulary});
+    } catch (const ExperimentError&) {  // has its own place
+      throw;
     } catch (const std::invalid_argument& error) {
       throw ExperimentError("/method", without_place(error.what()));
     }

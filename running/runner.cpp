@@ -147,6 +147,8 @@ class RunUnderway {
       results_.backend = method.integrator->is_native() ? "native" : "interpreter";
       if (options_.on_method) options_.on_method(*method.integrator);
       return method;
+    } catch (const ExperimentError&) {  // has its own place
+      throw;
     } catch (const std::invalid_argument& error) {
       throw ExperimentError("/method", without_place(error.what()));
     } catch (const std::runtime_error& error) {

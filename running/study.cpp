@@ -352,6 +352,8 @@ Json study_of(const StudySubject& subject, const StudyOptions& options,
       row.factorizations = flight.work.factorizations;
       row.seconds = flight.seconds;
       size = std::max(size, greatest_norm(values));
+    } catch (const ExperimentError&) {  // has its own place
+      throw;
     } catch (const std::invalid_argument& error) {
       throw ExperimentError("/method", without_place(error.what()));
     } catch (const std::bad_alloc&) {

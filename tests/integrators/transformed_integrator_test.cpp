@@ -310,8 +310,7 @@ BOOST_AUTO_TEST_CASE(fast_phases_of_an_implicit_system) {
   const auto system = std::make_shared<examples::FormulaSystem>(
       space, 0, 2,
       [](const ExprVector& x, const ExprVector& v, const ExprVector&, const Expr&) {
-        return examples::equations(
-            {v[0] - x[1], v[1] - 30.0 * (1.0 - square(x[0])) * x[1] + x[0]});
+        return ExprVector{{v[0] - x[1], v[1] - 30.0 * (1.0 - square(x[0])) * x[1] + x[0]}};
       });
   const auto rate = [](const ExprVector& x, const Expr&) {
     return 1.0 / (30.0 * abs(1.0 - square(x[0])) + 3.0 + abs(x[1]));

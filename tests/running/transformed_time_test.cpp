@@ -188,8 +188,8 @@ BOOST_AUTO_TEST_CASE(what_is_said_of_wrong_rates) {
   BOOST_TEST(says(problem_of(with(kepler, "/time/transformation", "rr")),
                   "/time/transformation: column 1: unknown name \"rr\""));
   BOOST_TEST(says(problem_of(with(kepler, "/time/transformation", "x'")), "/time/transformation"));
-  BOOST_TEST(says(problem_of(with(kepler, "/time/transformation", "y")),
-                  "/time/transformation: is 0 at the initial point; expected a positive number"));
+  BOOST_TEST(problem_of(with(kepler, "/time/transformation", "y")) ==
+             "/time/transformation: is 0 at the initial point; expected a positive number");
   BOOST_TEST(says(problem_of(with(kepler, "/time/transformation", "-r")), "is -0.1 at the initial"));
   BOOST_TEST(says(problem_of(with(kepler, "/time/end", -1)), "/time/end"));
   Json start = with(kepler, "/method", {{"type", "discretize-first"}, {"start", "rk2"}});
@@ -207,12 +207,15 @@ BOOST_AUTO_TEST_CASE(what_is_said_of_wrong_rates) {
 }
 
 BOOST_AUTO_TEST_CASE(laws_in_the_extended_phase_space) {
-  const Json report = check_experiment(read_experiment(with(kepler, "/method/order", 2).dump()));
+  // Where differences near the sun are no measure.
+  Json farther = with(kepler, "/system/parameters/ecc", 0.3);
+  farther["method"]["order"] = 2;
+  const Json report = check_experiment(read_experiment(farther.dump()));
   for (const Json& law : report["checks"]) BOOST_TEST(law["passed"].get<bool>(), law.dump());
   BOOST_TEST(report["method"]["symplectic"] == true);
   BOOST_TEST(report["method"]["symplecticity_defect"].get<double>() < 1e-8);
   const Json explicit_report =
-      check_experiment(read_experiment(with(kepler, "/method", "rk4").dump()));
+      check_experiment(read_experiment(with(farther, "/method", "rk4").dump()));
   BOOST_TEST(explicit_report["passed"] == true);
   BOOST_TEST(explicit_report["method"]["symplectic"] != true);
 }
