@@ -153,9 +153,10 @@ BOOST_AUTO_TEST_CASE(runs_that_were_stopped) {
   experiment["expect"] = {{{"at", 17}, {"state", {{"x", -1}}}, {"tolerance", 3}}};
   const TemporaryFolder folder;
   Killer killer(folder / "run", folder / "killed", 170);
-  const RunOutcome whole = run_in(folder, experiment,
-                                  {.watchers = {&killer},
-                                   .checkpoint_interval = std::chrono::milliseconds(0)});
+  RunOptions options;
+  options.watchers = {&killer};
+  options.checkpoint_interval = std::chrono::milliseconds(0);
+  const RunOutcome whole = run_in(folder, experiment, options);
   BOOST_TEST(whole.summary.steps > 300);
   const RunOutcome resumed = resume_in(folder / "killed", experiment);
   BOOST_TEST(resumed.message == "");
@@ -230,8 +231,9 @@ BOOST_AUTO_TEST_CASE(studies) {
         study(std::span(&subject, 1), {.steps = 4, .backend = Backend::interpreter});
     const Json& method = result["methods"][0];
     BOOST_TEST(std::abs(method["order"].get<double>() - order) < 0.15, method["order"].dump());
-    BOOST_TEST(method["rows"][1]["steps"].get<long>() > 1.9 * method["rows"][0]["steps"].get<long>());
-    BOOST_TEST(method["rows"][1]["steps"].get<long>() <= 2 * method["rows"][0]["steps"].get<long>());
+    const long steps = method["rows"][0]["steps"].get<long>();
+    const long more = method["rows"][1]["steps"].get<long>();
+    BOOST_TEST(std::abs(more - 2 * steps) <= 4 + steps / 20, more << " and " << steps);
   }
 }
 
