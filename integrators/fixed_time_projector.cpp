@@ -34,7 +34,8 @@ MatrixXd FixedTimeProjector::do_directions(const VectorXd& x, const LinearMap<do
   const VectorXd pivots = qr.diagonal().cwiseAbs();
   if (pivots.size() < d || (d > 0 && !(pivots[d - 1] > kLeastPart)))
     throw std::domain_error(
-        "FixedTimeProjector::directions: a constraint holds time alone; expected constraints of the "
+        "FixedTimeProjector::directions: a constraint holds time alone; expected constraints of "
+        "the "
         "point at each time.");
   MatrixXd moves = MatrixXd::Zero(basis.rows(), d);
   moves.topRows(size) = own * projector_->directions(point, own, qr.Q(d));

@@ -69,7 +69,8 @@ bool Stepper::is_near_last(const State& state) const {
   const auto largest = [](const VectorXd& x) {
     return x.size() == 0 ? 0.0 : x.lpNorm<Eigen::Infinity>();
   };
-  return std::fabs(state.t - last_->after.t) <= kNearSteps * std::fabs(last_->after.t - last_->before.t) &&
+  return std::fabs(state.t - last_->after.t) <=
+             kNearSteps * std::fabs(last_->after.t - last_->before.t) &&
          largest(state.x - last_->after.x) <=
              kNearSteps * largest(last_->after.x - last_->before.x);
 }

@@ -157,8 +157,8 @@ void read_state(ObjectReader& entry, const JsonReader& state_key, const Reading&
   const double tolerance =
       tolerance_key ? tolerance_key->positive_number().value_or(kUnknown) : kUnknown;
   if (!std::isnan(at) && reading.time && !reading.time->is_known_at(at)) {
-    const std::string span = "from " + exact_text(reading.time->start) + " to " +
-                             exact_text(reading.time->end());
+    const std::string span =
+        "from " + exact_text(reading.time->start) + " to " + exact_text(reading.time->end());
     at_key->expected(reading.time->is_transformed()
                          ? "a time " + span
                          : "the time of a step, " + span + " by " + exact_text(reading.time->step));

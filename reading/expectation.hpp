@@ -84,9 +84,7 @@ struct TimeSpan {
 
   bool is_transformed() const { return rate.has_value(); }
   // Of t, or of τ.
-  double time(long k) const {
-    return (rate ? 0.0 : start) + static_cast<double>(k) * step;
-  }
+  double time(long k) const { return (rate ? 0.0 : start) + static_cast<double>(k) * step; }
   double end() const { return rate ? until : time(steps); }
   // The k with time(k) = t up to round-off; nothing in transformed time.
   std::optional<long> step_at(double t) const;

@@ -73,8 +73,7 @@ void transform_time(const WrittenFormula& rate, const Model& model, Findings& fi
                     Experiment& experiment) {
   Graph graph;
   const ExprVector x = graph.variables("x", model.system->manifold()->ambient_dimension());
-  const SymbolTable symbols =
-      model.vocabulary.symbols({.x = x, .t = graph.variable("t")});
+  const SymbolTable symbols = model.vocabulary.symbols({.x = x, .t = graph.variable("t")});
   if (check(rate, symbols, findings) && experiment.method)
     experiment.method = in_transformed_time(std::move(*experiment.method), rate);
 }

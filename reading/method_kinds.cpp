@@ -269,17 +269,15 @@ std::optional<MethodChoice> discrete_gradient(ObjectReader& object) {
   const auto map = discretization_kinds().read_key(object, "discretization");
   const std::string gradient = object.word("gradient");
   if (!map) return std::nullopt;
-  return MethodChoice{
-      "discrete-gradient, " + gradient + ", " + map->description,
-      [map = *map, gradient](const MethodSetting& at) {
-        const auto on_manifold = map_at(map, at);
-        return PreparedMethod{
-            std::make_shared<DiscreteGradient>(
-                at.system, on_manifold, differential(gradient),
-                DiscreteGradient::Options{.backend = at.backend,
-                                          .units = units_at(at)}),
-            at.initial, on_manifold};
-      }};
+  return MethodChoice{"discrete-gradient, " + gradient + ", " + map->description,
+                      [map = *map, gradient](const MethodSetting& at) {
+                        const auto on_manifold = map_at(map, at);
+                        return PreparedMethod{std::make_shared<DiscreteGradient>(
+                                                  at.system, on_manifold, differential(gradient),
+                                                  DiscreteGradient::Options{.backend = at.backend,
+                                                                            .units = units_at(at)}),
+                                              at.initial, on_manifold};
+                      }};
 }
 
 template <ExplicitRungeKutta::Kind kind>

@@ -19,15 +19,14 @@ constexpr double kNoSize = 1e150;
 std::shared_ptr<const TimeTransformation> transformation(const MethodChoice& choice,
                                                          const WrittenFormula& formula,
                                                          const MethodSetting& at) {
-  const TimeRate rate = [formula, vocabulary = *at.vocabulary](const ExprVector& x,
-                                                               const Expr& t) {
+  const TimeRate rate = [formula, vocabulary = *at.vocabulary](const ExprVector& x, const Expr& t) {
     return evaluate(formula, vocabulary.symbols({.x = x, .t = t}));
   };
-  const bool is_symplectic = choice.keeps_form && choice.keeps_form(at) &&
-                             TimeTransformation::is_possible(*at.system);
-  return std::make_shared<TimeTransformation>(
-      is_symplectic ? TimeTransformation::symplectic(at.system, rate)
-                    : TimeTransformation::plain(at.system, rate));
+  const bool is_symplectic =
+      choice.keeps_form && choice.keeps_form(at) && TimeTransformation::is_possible(*at.system);
+  return std::make_shared<TimeTransformation>(is_symplectic
+                                                  ? TimeTransformation::symplectic(at.system, rate)
+                                                  : TimeTransformation::plain(at.system, rate));
 }
 
 PreparedMethod prepare(const MethodChoice& choice, const WrittenFormula& formula,
@@ -62,8 +61,9 @@ PreparedMethod prepare(const MethodChoice& choice, const WrittenFormula& formula
 MethodChoice in_transformed_time(MethodChoice choice, WrittenFormula rate) {
   const std::string description = choice.description + ", dt/dtau = " + rate.text;
   return {.description = description,
-          .prepare = [choice = std::move(choice), rate = std::move(rate)](
-                         const MethodSetting& at) { return prepare(choice, rate, at); }};
+          .prepare = [choice = std::move(choice), rate = std::move(rate)](const MethodSetting& at) {
+            return prepare(choice, rate, at);
+          }};
 }
 
 std::shared_ptr<const DiscretizationMap> map_at(const DiscretizationChoice& choice,

@@ -236,16 +236,15 @@ class Check {
     const Integrator& integrator = transformed ? *transformed->extended() : *method->integrator;
     const auto all = structures();
     const IntegratorSetting setting =
-        transformed
-            ? extended_setting(*transformed->transformation(), method->initial)
-            : IntegratorSetting{.system = experiment_.model.system,
-                                .initial = method->initial,
-                                .step = experiment_.time->step,
-                                .conormals = ladder_.conormals(),
-                                .is_gauge = ladder_.gauge_dimension > 0,
-                                .structure = !all.empty() && all.front().second->is_dirac()
-                                                 ? all.front().second
-                                                 : nullptr};
+        transformed ? extended_setting(*transformed->transformation(), method->initial)
+                    : IntegratorSetting{.system = experiment_.model.system,
+                                        .initial = method->initial,
+                                        .step = experiment_.time->step,
+                                        .conormals = ladder_.conormals(),
+                                        .is_gauge = ladder_.gauge_dimension > 0,
+                                        .structure = !all.empty() && all.front().second->is_dirac()
+                                                         ? all.front().second
+                                                         : nullptr};
     const IntegratorReport report = check_integrator(integrator, setting);
     states_ = report.states;
     if (transformed)

@@ -55,7 +55,9 @@ RunSummary RunResults::summary(RunStatus told_status,
       .ladder = ladder_report,
       .expectations = results};
   if (const auto& time = experiment.time)
-    told.time = {.start = time->start, .end = time->is_transformed() ? t : time->time(steps), .step = time->step};
+    told.time = {.start = time->start,
+                 .end = time->is_transformed() ? t : time->time(steps),
+                 .step = time->step};
   if (!statistics.empty()) {
     for (std::size_t i = 0; i < observer.first_constraint(); ++i) {
       const std::string& name = observer.names()[i];

@@ -75,8 +75,8 @@ class RunUnderway {
     if (checkpoint) recall(*checkpoint, folder);
     if (options_.on_resume && options_.existing == ExistingRun::resume)
       options_.on_resume(first, checkpoint && clock_.is_transformed() ? checkpoint->state.t
-                                : experiment_.time             ? experiment_.time->time(first)
-                                                               : 0.0);
+                                : experiment_.time ? experiment_.time->time(first)
+                                                   : 0.0);
     folder.write_summary(results_.summary(RunStatus::running, {}));
     writer_ = make_writer(folder);
     if (method && !experiment_.events.empty()) watch_events(folder);

@@ -49,9 +49,9 @@ void check_checkpoint(const fs::path& folder, const std::string& id, const Exper
   const TimeSpan& time = *experiment.time;
   const double reached = time.is_transformed() ? checkpoint.state.t : time.time(checkpoint.k);
   if (is_over(time, checkpoint.k, reached))
-    throw ExperimentError("/time/end",
-                          "is " + exact_text(time.end()) + "; the run would go on from t = " +
-                              exact_text(reached) + ", expected a later one");
+    throw ExperimentError("/time/end", "is " + exact_text(time.end()) +
+                                           "; the run would go on from t = " + exact_text(reached) +
+                                           ", expected a later one");
   check_size(folder / trajectory_name(experiment.output.format), checkpoint.trajectory_size);
   if (checkpoint.event_watch) check_size(folder / "events.csv", checkpoint.event_watch->file_size);
 }

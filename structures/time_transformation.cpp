@@ -95,8 +95,8 @@ struct TimeEquation {
 class PlainSystem final : public ImplicitSystem {
  public:
   PlainSystem(std::shared_ptr<const ImplicitSystem> system, TimeEquation time)
-      : ImplicitSystem(time.places.manifold, system->auxiliary_size(),
-                       system->equation_count() + 1, time.names(*system)),
+      : ImplicitSystem(time.places.manifold, system->auxiliary_size(), system->equation_count() + 1,
+                       time.names(*system)),
         system_(std::move(system)),
         time_(std::move(time)) {}
   Index tangent_blocks() const override { return system_->tangent_blocks() > 0 ? 1 : 0; }
@@ -192,8 +192,8 @@ class PlainEnergySystem final : public EnergySystem {
     from << graph.variables("x", x.size()), graph.variables("z", z.size());
     const ExprVector at = from.head(x.size());
     const ExprVector t = ExprVector::Constant(1, time_.time(at));
-    const ExprVector slope = gradient(
-        system_->generator(time_.point(at), from.tail(z.size()), time_.time(at)), t);
+    const ExprVector slope =
+        gradient(system_->generator(time_.point(at), from.tail(z.size()), time_.time(at)), t);
     ExprVector to(from.size());
     to << x, z;
     return substitute(slope, from, to)[0];
@@ -253,8 +253,7 @@ TransformedFamily::TransformedFamily(std::shared_ptr<const GeneratingFamily> fam
       rate_(std::move(rate)),
       places_(TimePlaces::on_cotangent_bundle(phase_space_of(family_, rate_))) {}
 
-Expr TransformedFamily::do_value(const ExprVector& x, const ExprVector& lambda,
-                                 const Expr&) const {
+Expr TransformedFamily::do_value(const ExprVector& x, const ExprVector& lambda, const Expr&) const {
   const ExprVector point = x(places_.point);
   const Expr& t = x[places_.time_of_point];
   return rate_(point, t) * (family_->value(point, lambda, t) + x[x.size() - 1]);
@@ -288,8 +287,7 @@ TimeTransformation TimeTransformation::symplectic(
         "given by a Morse family on a cotangent bundle with its canonical structure.");
   const auto& dirac = static_cast<const DiracSystem&>(*system);
   return {system, std::move(rate),
-          TimePlaces::on_cotangent_bundle(
-              static_cast<const CotangentBundle&>(*system->manifold())),
+          TimePlaces::on_cotangent_bundle(static_cast<const CotangentBundle&>(*system->manifold())),
           dirac.family()};
 }
 

@@ -89,16 +89,16 @@ class TimeTransformation {
   VectorXd covector(const VectorXd& extended) const;
 
  private:
-  TimeTransformation(std::shared_ptr<const ImplicitSystem> system, TimeRate rate,
-                     TimePlaces places, std::shared_ptr<const GeneratingFamily> family);
+  TimeTransformation(std::shared_ptr<const ImplicitSystem> system, TimeRate rate, TimePlaces places,
+                     std::shared_ptr<const GeneratingFamily> family);
   VectorXd stationary(const State& state, const VectorXd& near) const;
 
   std::shared_ptr<const ImplicitSystem> system_, extended_;
   TimePlaces places_;
   std::shared_ptr<const GeneratingFamily> family_;  // of the second kind
-  Function rate_;    // x, t ↦ g
-  Function energy_;  // x, λ, t ↦ E
-  Function stationarity_;  // x, λ, t ↦ ∂_λE
+  Function rate_;                                   // x, t ↦ g
+  Function energy_;                                 // x, λ, t ↦ E
+  Function stationarity_;                           // x, λ, t ↦ ∂_λE
   bool has_time_in_energy_ = false;
 };
 

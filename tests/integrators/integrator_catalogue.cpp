@@ -365,12 +365,12 @@ void in_transformed_time(std::vector<IntegratorEntry>& table) {
   const auto one = std::make_shared<TimeTransformation>(
       TimeTransformation::symplectic(system, [](V, T) { return Expr(1.0); }));
   const auto T_Q = std::dynamic_pointer_cast<const CotangentBundle>(one->places().manifold);
-  table.push_back({"discretize-first, midpoint, at a rate of one: driven pendulum",
-                   std::make_shared<TransformedIntegrator>(
-                       one, std::make_shared<DiscretizeFirst>(
-                                one->extended(), lift(T_Q, std::make_shared<Theta>(T_Q->base())))),
-                   {.system = system, .initial = start, .step = 0.05,
-                    .structure = system->structure()}});
+  table.push_back(
+      {"discretize-first, midpoint, at a rate of one: driven pendulum",
+       std::make_shared<TransformedIntegrator>(
+           one, std::make_shared<DiscretizeFirst>(one->extended(),
+                                                  lift(T_Q, std::make_shared<Theta>(T_Q->base())))),
+       {.system = system, .initial = start, .step = 0.05, .structure = system->structure()}});
 }
 
 }  // namespace

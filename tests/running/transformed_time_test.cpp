@@ -100,8 +100,8 @@ BOOST_AUTO_TEST_CASE(steps_that_follow_the_motion) {
   const RunOutcome equal = run_in(other, constant);
   const VectorXd exact = solution.at(20.0);
   BOOST_TEST(std::abs(final_value(varying, "x") - exact[0]) < 1e-3);
-  BOOST_TEST((equal.status != RunStatus::completed ||
-              std::abs(final_value(equal, "x") - exact[0]) > 0.1));
+  BOOST_TEST(
+      (equal.status != RunStatus::completed || std::abs(final_value(equal, "x") - exact[0]) > 0.1));
 }
 
 BOOST_AUTO_TEST_CASE(rows_and_expectations_at_times) {
@@ -127,14 +127,14 @@ BOOST_AUTO_TEST_CASE(rows_and_expectations_at_times) {
   experiment["expect"][0]["state"]["x"] = at[0] + 0.01;
   const TemporaryFolder other;
   BOOST_TEST(!run_in(other, experiment).as_expected());
-  BOOST_TEST(says(problem_of(with(experiment, "/expect/0/at", 21)), "expected a time from 0 to 20"));
+  BOOST_TEST(
+      says(problem_of(with(experiment, "/expect/0/at", 21)), "expected a time from 0 to 20"));
 }
 
 // The perihelion is passed at multiples of 2π, at times between those of steps.
 BOOST_AUTO_TEST_CASE(events_in_physical_time) {
   Json experiment = kepler;
-  experiment["events"] = {
-      {"perihelion", {{"zero", "x*p_x + y*p_y"}, {"direction", "rising"}}}};
+  experiment["events"] = {{"perihelion", {{"zero", "x*p_x + y*p_y"}, {"direction", "rising"}}}};
   experiment["expect"] = {{{"event", "perihelion"}, {"count", 3}},
                           {{"event", "perihelion"},
                            {"number", 3},
@@ -167,7 +167,8 @@ BOOST_AUTO_TEST_CASE(runs_that_were_stopped) {
   resume_in(folder / "killed", longer);
   const TemporaryFolder other;
   run_in(other, longer);
-  BOOST_TEST(read_text(folder / "killed/trajectory.csv") == read_text(other / "run/trajectory.csv"));
+  BOOST_TEST(read_text(folder / "killed/trajectory.csv") ==
+             read_text(other / "run/trajectory.csv"));
 }
 
 BOOST_AUTO_TEST_CASE(a_rate_of_one) {
@@ -191,7 +192,8 @@ BOOST_AUTO_TEST_CASE(what_is_said_of_wrong_rates) {
   BOOST_TEST(says(problem_of(with(kepler, "/time/transformation", "x'")), "/time/transformation"));
   BOOST_TEST(problem_of(with(kepler, "/time/transformation", "y")) ==
              "/time/transformation: is 0 at the initial point; expected a positive number");
-  BOOST_TEST(says(problem_of(with(kepler, "/time/transformation", "-r")), "is -0.1 at the initial"));
+  BOOST_TEST(
+      says(problem_of(with(kepler, "/time/transformation", "-r")), "is -0.1 at the initial"));
   BOOST_TEST(says(problem_of(with(kepler, "/time/end", -1)), "/time/end"));
   Json start = with(kepler, "/method", {{"type", "discretize-first"}, {"start", "rk2"}});
   BOOST_TEST(says(problem_of(start), "expected \"on-manifold\" with a transformation of time"));

@@ -87,8 +87,8 @@ BOOST_AUTO_TEST_CASE(lagrangians_in_another_time) {
   const auto time = TimeTransformation::symplectic(system, rate);
   const double w = p / (1.0 + q * q), E = 0.5 * p * w + q, force = w * w * q - 1.0;
   for (const double known : {w, 0.0}) {
-    const State extended = time.to_extended(
-        {.t = t, .x = Eigen::Vector2d(q, p), .z = VectorXd::Constant(1, known)});
+    const State extended =
+        time.to_extended({.t = t, .x = Eigen::Vector2d(q, p), .z = VectorXd::Constant(1, known)});
     BOOST_TEST(std::abs(extended.x[3] + E) < 1e-14);
   }
   const State extended = time.to_extended({.t = t, .x = Eigen::Vector2d(q, p)});
@@ -171,17 +171,17 @@ BOOST_AUTO_TEST_CASE(what_has_no_symplectic_transformation) {
   const auto damped = std::make_shared<DiracSystem>(
       std::make_shared<CanonicalSymplectic>(plane),
       std::make_shared<Hamiltonian>(plane, hamiltonian),
-      DiracSystem::Exterior{.source = [](const ExprVector&, const ExprVector& v, const ExprVector&,
-                                         const Expr&) {
-        return ExprVector((ExprVector(4) << 0.0, 0.0, 0.0, -0.1 * v[0]).finished());
-      }});
+      DiracSystem::Exterior{
+          .source = [](const ExprVector&, const ExprVector& v, const ExprVector&, const Expr&) {
+            return ExprVector((ExprVector(4) << 0.0, 0.0, 0.0, -0.1 * v[0]).finished());
+          }});
   BOOST_TEST(!TimeTransformation::is_possible(*damped));
   BOOST_CHECK_THROW(TimeTransformation::symplectic(damped, rate), std::invalid_argument);
   BOOST_CHECK_THROW(TimeTransformation::plain(damped, nullptr), std::invalid_argument);
-  BOOST_CHECK_THROW(TransformedFamily(std::make_shared<Hamiltonian>(std::make_shared<Euclidean>(2),
-                                                                    hamiltonian),
-                                      rate),
-                    std::invalid_argument);
+  BOOST_CHECK_THROW(
+      TransformedFamily(std::make_shared<Hamiltonian>(std::make_shared<Euclidean>(2), hamiltonian),
+                        rate),
+      std::invalid_argument);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
