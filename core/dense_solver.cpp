@@ -1,8 +1,10 @@
 #include "courant/core/dense_solver.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "courant/core/complete_orthogonal_decomposition.hpp"
 #include "courant/core/equilibration.hpp"
-#include "courant/core/lu_decomposition.hpp"
 #include "courant/core/regular_matrix.hpp"
 #include "courant/core/static_size.hpp"
 
@@ -34,15 +36,14 @@ void multiply(const MatrixXd& A, const double* b, double* x) {
   }
 }
 
-// For each size.
-void scale_to_one(const VectorXd& size, VectorXd& scale) {
-  for (Index i = 0; i < size.size(); ++i) regular_matrix::scale_to_one(size[i], scale[i]);
-}
-
 }  // namespace
 
 DenseSolver::DenseSolver(const MatrixPattern& pattern)
     : pattern_(pattern),
+      A_(pattern.rows, pattern.columns),
+      scaled_(pattern.rows, pattern.columns),
+      row_(pattern.rows),
+      column_(pattern.columns),
       inverse_(pattern.columns, pattern.rows),
       multiply_(with_static_size(pattern.rows == pattern.columns ? pattern.rows : 0,
                                  [](auto n) { return &multiply<decltype(n)::value>; })) {}
@@ -50,17 +51,17 @@ DenseSolver::DenseSolver(const MatrixPattern& pattern)
 // The rank is that of the equilibrated matrix S = diag(r) A diag(c): a small column is that of an
 // unknown with a unit of its own, and no dependent one. Where it leaves unknowns open, those of least
 // change are found in the units that they have.
-void DenseSolver::pseudo_invert(const MatrixXd& A, const Equilibration<MatrixXd>& S) {
+void DenseSolver::pseudo_invert(const Equilibration<MatrixXd>& S) {
   const CompleteOrthogonalDecomposition decomposition(S.scaled, kDataError);
-  determined_ = decomposition.rank() == A.cols();
+  determined_ = decomposition.rank() == A_.cols();
   inverse_ = S.column_scale.asDiagonal() * decomposition.pseudo_inverse();
   if (!determined_) {
-    const CompleteOrthogonalDecomposition as_it_is(S.row_scale.asDiagonal() * A, kDataError);
+    const CompleteOrthogonalDecomposition as_it_is(S.row_scale.asDiagonal() * A_, kDataError);
     if (as_it_is.rank() == decomposition.rank()) inverse_ = as_it_is.pseudo_inverse();
   }
   inverse_ = inverse_ * S.row_scale.asDiagonal();
   if (determined_) return;
-  open_ = MatrixXd::Identity(A.cols(), A.cols()) - inverse_ * A;
+  open_ = MatrixXd::Identity(A_.cols(), A_.cols()) - inverse_ * A_;
   column_scale_ = S.column_scale;
 }
 
@@ -77,42 +78,57 @@ void DenseSolver::do_settle(double* x, Index first) {
 }
 
 bool DenseSolver::do_factorize(const double* entries) {
-  MatrixXd A = MatrixXd::Zero(pattern_.rows, pattern_.columns);
+  A_.setZero();
   for (std::size_t k = 0; k < pattern_.row.size(); ++k)
-    A(pattern_.row[k], pattern_.column[k]) = entries[k];
+    A_(pattern_.row[k], pattern_.column[k]) = entries[k];
   determined_ = false;
   orientation_ = 0;
-  if (!A.allFinite()) return false;
-  if (A.size() == 0) return determined_ = true;
+  if (!A_.allFinite()) return false;
+  if (A_.size() == 0) return determined_ = true;
 
-  if (A.rows() == A.cols()) {
-    // Both kinds of units, twice: rows by columns in units of their own, and columns by such rows.
-    MatrixXd S = A;
-    VectorXd row = VectorXd::Ones(A.rows()), column = VectorXd::Ones(A.cols());
-    for (int sweep = 0; sweep < 2; ++sweep) {
-      scale_to_one(S.colwise().lpNorm<Eigen::Infinity>(), column);
-      S = A * column.asDiagonal();
-      S = row.asDiagonal() * S;
-      scale_to_one(S.rowwise().lpNorm<Eigen::Infinity>(), row);
-      S = row.asDiagonal() * A * column.asDiagonal();
-    }
-    determined_ = invert(S, row, column, kRegular);
+  if (A_.rows() == A_.cols()) {
+    equilibrate_by_powers();
+    determined_ = invert(scaled_, row_, column_, kRegular);
   }
   if (!determined_) {
-    const Equilibration<MatrixXd> S = equilibrate(A, kNoise);
-    determined_ = A.rows() == A.cols() && invert(S.scaled, S.row_scale, S.column_scale, kSingular);
-    if (!determined_) pseudo_invert(A, S);
+    const Equilibration<MatrixXd> S = equilibrate(A_, kNoise);
+    determined_ =
+        A_.rows() == A_.cols() && invert(S.scaled, S.row_scale, S.column_scale, kSingular);
+    if (!determined_) pseudo_invert(S);
   }
   return inverse_.allFinite();
+}
+
+// Both kinds of units, twice: rows by columns in units of their own, and columns by such rows.
+void DenseSolver::equilibrate_by_powers() {
+  const Index n = A_.rows();
+  const auto scaled = [&](Index i, Index j) { return row_[i] * (A_(i, j) * column_[j]); };
+  row_.setOnes();
+  column_.setOnes();
+  scaled_ = A_;
+  for (int sweep = 0; sweep < 2; ++sweep) {
+    for (Index j = 0; j < n; ++j)
+      regular_matrix::scale_to_one(scaled_.col(j).lpNorm<Eigen::Infinity>(), column_[j]);
+    for (Index i = 0; i < n; ++i) {
+      double largest = 0.0;
+      for (Index j = 0; j < n; ++j) largest = std::max(largest, std::fabs(scaled(i, j)));
+      regular_matrix::scale_to_one(largest, row_[i]);
+    }
+    for (Index j = 0; j < n; ++j)
+      for (Index i = 0; i < n; ++i) scaled_(i, j) = scaled(i, j);
+  }
 }
 
 // The inverse of A, where S = diag(row) A diag(column), unless its pivots are too small.
 bool DenseSolver::invert(const MatrixXd& S, const VectorXd& row, const VectorXd& column,
                          double least_ratio) {
-  const LuDecomposition lu(S);
-  if (!(lu.pivot_ratio() > least_ratio)) return false;
-  inverse_ = column.asDiagonal() * lu.inverse() * row.asDiagonal();
-  orientation_ = lu.orientation();
+  lu_.compute(S);
+  if (!(lu_.pivot_ratio() > least_ratio)) return false;
+  lu_.inverse(inverse_);
+  for (Index j = 0; j < inverse_.cols(); ++j)
+    for (Index i = 0; i < inverse_.rows(); ++i)
+      inverse_(i, j) = column[i] * inverse_(i, j) * row[j];
+  orientation_ = lu_.orientation();
   return true;
 }
 

@@ -3,12 +3,14 @@
 
 #include "courant/core/equilibration.hpp"
 #include "courant/core/linear_solver.hpp"
+#include "courant/core/lu_decomposition.hpp"
 
 namespace courant {
 
 // For small systems that are solved many times with one matrix: the inverse is kept (of a matrix
 // that is singular or not square the pseudo-inverse), and multiplied with in a loop whose length
-// the compiler knows, for up to 8 unknowns. Whether a matrix is singular does not depend on the units
+// the compiler knows, for up to 8 unknowns. Regular matrices of up to 63 rows are inverted without
+// allocation. Whether a matrix is singular does not depend on the units
 // of its rows and columns.
 class DenseSolver final : public LinearSolver {
  public:
@@ -20,10 +22,15 @@ class DenseSolver final : public LinearSolver {
   bool do_is_determined() const override { return determined_; }
   void do_settle(double* x, Index first) override;
   int do_orientation() const override { return orientation_; }
+  void equilibrate_by_powers();
   bool invert(const MatrixXd& S, const VectorXd& row, const VectorXd& column, double least_ratio);
-  void pseudo_invert(const MatrixXd& A, const Equilibration<MatrixXd>& S);
+  void pseudo_invert(const Equilibration<MatrixXd>& S);
 
   MatrixPattern pattern_;
+  MatrixXd A_;
+  MatrixXd scaled_;        // diag(row) A diag(column)
+  VectorXd row_, column_;  // powers of two
+  LuDecomposition lu_;
   MatrixXd inverse_;
   MatrixXd open_;          // I - A⁺ A where A leaves unknowns open
   VectorXd column_scale_;  // units in which its entries are comparable

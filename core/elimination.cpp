@@ -285,6 +285,34 @@ class Tableau {
   std::set<Index> columns_left_;
 };
 
+// How many of the unknowns expressions contain.
+Index contained(const ExprVector& expressions, const ExprVector& unknowns) {
+  std::set<std::uint32_t> nodes;
+  for (const Expr& variable : variables_of(expressions)) nodes.insert(variable.node());
+  return std::count_if(unknowns.begin(), unknowns.end(),
+                       [&](const Expr& y) { return nodes.contains(y.node()); });
+}
+
+// Which expressions are zero for all values of their variables, as cos² a + sin² a - 1: no more than
+// round-off at any of some generic points.
+std::vector<bool> are_identities(const ExprVector& expressions) {
+  constexpr int points = 3;
+  const ExprVector variables = variables_of(expressions);
+  const Function function("identities", {{"p", variables}}, expressions);
+  std::vector<bool> result(static_cast<std::size_t>(expressions.size()), true);
+  std::vector<Uncertain> at(static_cast<std::size_t>(variables.size())), values(result.size());
+  std::mt19937 generator(11);
+  std::uniform_real_distribution<double> uniform(0.3, 0.9);
+  for (int point = 0; point < points; ++point) {
+    for (Uncertain& number : at) number = uniform(generator);
+    const Uncertain* in[] = {at.data()};
+    function.taylor_with_jacobian(in, 0, values.data());
+    for (std::size_t i = 0; i < values.size(); ++i)
+      result[i] = result[i] && std::fabs(values[i].value) <= values[i].error;
+  }
+  return result;
+}
+
 }  // namespace
 
 Elimination::Elimination(const ExprVector& F, const ExprVector& y, const Options& options)
@@ -320,13 +348,22 @@ Elimination::Elimination(const ExprVector& F, const ExprVector& y, const Options
     equations = all.head(F.size());
     unknowns = all.tail(y.size());
   }
-  ExprVector left(F.size());
   for (Index i = 0; i < F.size(); ++i)
-    if (!is_done[static_cast<std::size_t>(i)] && !equations[i].is_constant(0.0)) {
-      left[std::ssize(remaining)] = equations[i];
+    if (!is_done[static_cast<std::size_t>(i)] && !equations[i].is_constant(0.0))
       remaining.push_back(i);
+  equations = equations(remaining).eval();
+  // Equations that repeat others are round-off once those have been put into them.
+  if (equations.size() > contained(equations, y)) {
+    const std::vector<bool> is_identity = are_identities(equations);
+    std::vector<Index> others, places;
+    for (std::size_t i = 0; i < remaining.size(); ++i) {
+      if (is_identity[i]) continue;
+      others.push_back(remaining[i]);
+      places.push_back(static_cast<Index>(i));
     }
-  equations = left.head(std::ssize(remaining)).eval();
+    remaining = others;
+    equations = equations(places).eval();
+  }
   for (Index j = 0; j < y.size(); ++j)
     if (!is_given[static_cast<std::size_t>(j)]) kept.push_back(j);
 }

@@ -40,11 +40,13 @@ struct Elimination {
   // Throws std::invalid_argument if an unknown is no variable, or the coarseness does not fit.
   Elimination(const ExprVector& equations, const ExprVector& unknowns, const Options& options);
 
-  std::vector<Pivot> pivots;     // in the order of their elimination
-  std::vector<Index> remaining;  // equations that are left, ascending; none that reads 0 = 0
-  std::vector<Index> kept;       // unknowns that are left, ascending
-  ExprVector equations;          // G, one for each of `remaining`
-  ExprVector unknowns;           // Y, one for each unknown, in those of `kept` and the parameters
+  std::vector<Pivot> pivots;  // in the order of their elimination
+  // Equations that are left, ascending; none that reads 0 = 0, nor one that says so for all values of its
+  // variables, as an equation does that repeats those that were put into it.
+  std::vector<Index> remaining;
+  std::vector<Index> kept;  // unknowns that are left, ascending
+  ExprVector equations;     // G, one for each of `remaining`
+  ExprVector unknowns;      // Y, one for each unknown, in those of `kept` and the parameters
 };
 
 }  // namespace courant

@@ -1,9 +1,13 @@
 #include "courant/core/lu_decomposition.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
+
+#include "courant/core/static_size.hpp"
 
 namespace courant {
 namespace {
@@ -12,59 +16,88 @@ namespace {
 // about as much as blocks do. Beyond it by blocks.
 constexpr Index kPlain = 63;
 
-// P A = L U in place.
-Eigen::PermutationMatrix<Eigen::Dynamic> factorize(MatrixXd& A) {
-  const Index n = A.rows();
-  Eigen::Transpositions<Eigen::Dynamic> exchanges(n);
-  for (Index k = 0; k < n; ++k) {
-    double* const factor = A.col(k).data();
+// P A = L U in place, for n rows or (Eigen::Dynamic) `size`: row i of P A is row rows[i] of A. The sign of P.
+template <int n>
+int factorize(double* A, Index size, Index* rows) {
+  if constexpr (n != Eigen::Dynamic) size = n;
+  int sign = 1;
+  for (Index i = 0; i < size; ++i) rows[i] = i;
+  for (Index k = 0; k < size; ++k) {
+    double* const factor = A + k * size;
     Index pivot = k;
-    for (Index i = k + 1; i < n; ++i)
+    for (Index i = k + 1; i < size; ++i)
       if (std::fabs(factor[i]) > std::fabs(factor[pivot])) pivot = i;
-    exchanges.coeffRef(k) = static_cast<int>(pivot);
-    if (factor[pivot] != 0.0) {
-      if (pivot != k) A.row(k).swap(A.row(pivot));
-      for (Index i = k + 1; i < n; ++i) factor[i] /= factor[k];
+    if (pivot != k) {
+      for (Index j = 0; j < size; ++j) std::swap(A[k + j * size], A[pivot + j * size]);
+      std::swap(rows[k], rows[pivot]);
+      sign = -sign;
     }
-    for (Index j = k + 1; j < n; ++j) {
-      double* const column = A.col(j).data();
-      for (Index i = k + 1; i < n; ++i) column[i] -= factor[i] * column[k];
+    if (factor[k] != 0.0)
+      for (Index i = k + 1; i < size; ++i) factor[i] /= factor[k];
+    for (Index j = k + 1; j < size; ++j) {
+      double* const column = A + j * size;
+      for (Index i = k + 1; i < size; ++i) column[i] -= factor[i] * column[k];
     }
   }
-  return Eigen::PermutationMatrix<Eigen::Dynamic>(exchanges);
+  return sign;
+}
+
+// X = U⁻¹ L⁻¹ P, column by column, each by axpys in the order of the factors: little matrices are done in
+// less time than by blocks.
+template <int n>
+void invert(const double* factors, Index size, const Index* rows, double* X) {
+  if constexpr (n != Eigen::Dynamic) size = n;
+  std::fill_n(X, size * size, 0.0);
+  for (Index i = 0; i < size; ++i) X[i + rows[i] * size] = 1.0;
+  for (Index j = 0; j < size; ++j) {
+    double* const x = X + j * size;
+    for (Index k = 0; k < size; ++k) {
+      const double* const factor = factors + k * size;
+      for (Index i = k + 1; i < size; ++i) x[i] -= factor[i] * x[k];
+    }
+    for (Index k = size; k-- > 0;) {
+      const double* const factor = factors + k * size;
+      x[k] /= factor[k];
+      for (Index i = 0; i < k; ++i) x[i] -= factor[i] * x[k];
+    }
+  }
 }
 
 }  // namespace
 
-LuDecomposition::LuDecomposition(const Eigen::Ref<const MatrixXd>& A) : factors_(A), rows_(0) {
+void LuDecomposition::compute(const Eigen::Ref<const MatrixXd>& A) {
   if (A.rows() != A.cols())
-    throw std::invalid_argument("LuDecomposition::LuDecomposition: A is " +
-                                std::to_string(A.rows()) + " × " + std::to_string(A.cols()) +
-                                "; expected a square matrix.");
-  if (size() == 0) return;
+    throw std::invalid_argument("LuDecomposition::compute: A is " + std::to_string(A.rows()) +
+                                " × " + std::to_string(A.cols()) + "; expected a square matrix.");
+  const bool is_of_same_size = A.rows() == size();
+  factors_ = A;
+  sign_ = 1;
+  if (!is_of_same_size) rows_.resize(static_cast<std::size_t>(size()));
   if (size() <= kPlain) {
-    rows_ = factorize(factors_);
+    sign_ = with_static_size(size(), [](auto n) { return &factorize<decltype(n)::value>; })(
+        factors_.data(), size(), rows_.data());
     return;
   }
   const Eigen::PartialPivLU<Eigen::Ref<MatrixXd>> in_place(factors_);
-  rows_ = in_place.permutationP();
+  sign_ = static_cast<int>(in_place.permutationP().determinant());
+  for (Index i = 0; i < size(); ++i)
+    rows_[static_cast<std::size_t>(in_place.permutationP().indices()[i])] = i;
 }
 
 double LuDecomposition::pivot_ratio() const {
   if (size() == 0) return 1.0;
-  const VectorXd pivots = factors_.diagonal().cwiseAbs();
-  const double largest = pivots.maxCoeff();
-  return largest > 0.0 ? pivots.minCoeff() / largest : 0.0;
+  const double largest = factors_.diagonal().cwiseAbs().maxCoeff();
+  return largest > 0.0 ? factors_.diagonal().cwiseAbs().minCoeff() / largest : 0.0;
 }
 
 double LuDecomposition::determinant() const {
-  double result = static_cast<double>(rows_.determinant());
+  double result = sign_;
   for (const double pivot : factors_.diagonal()) result *= pivot;
   return result;
 }
 
 int LuDecomposition::orientation() const {
-  int result = size() == 0 ? 1 : static_cast<int>(rows_.determinant());
+  int result = sign_;
   for (const double pivot : factors_.diagonal()) result *= pivot > 0.0 ? 1 : pivot < 0.0 ? -1 : 0;
   return result;
 }
@@ -73,30 +106,24 @@ MatrixXd LuDecomposition::solve(const Eigen::Ref<const MatrixXd>& B) const {
   if (B.rows() != size())
     throw std::invalid_argument("LuDecomposition::solve: B has " + std::to_string(B.rows()) +
                                 " rows, expected " + std::to_string(size()) + ".");
-  MatrixXd result = rows_ * B;
+  MatrixXd result = B(rows_, Eigen::all);
   factors_.triangularView<Eigen::UnitLower>().solveInPlace(result);
   factors_.triangularView<Eigen::Upper>().solveInPlace(result);
   return result;
 }
 
-// Column by column, each by axpys in the order of the factors: little matrices are done in less time than
-// by blocks.
+void LuDecomposition::inverse(MatrixXd& result) const {
+  result.resize(size(), size());
+  if (size() <= kPlain)
+    with_static_size(size(), [](auto n) { return &invert<decltype(n)::value>; })(
+        factors_.data(), size(), rows_.data(), result.data());
+  else
+    result = solve(MatrixXd::Identity(size(), size()));
+}
+
 MatrixXd LuDecomposition::inverse() const {
-  const Index n = size();
-  if (n > kPlain) return solve(MatrixXd::Identity(n, n));
-  MatrixXd result = rows_ * MatrixXd::Identity(n, n);
-  for (Index j = 0; j < n; ++j) {
-    double* const x = result.col(j).data();
-    for (Index k = 0; k < n; ++k) {
-      const double* const factor = factors_.col(k).data();
-      for (Index i = k + 1; i < n; ++i) x[i] -= factor[i] * x[k];
-    }
-    for (Index k = n; k-- > 0;) {
-      const double* const factor = factors_.col(k).data();
-      x[k] /= factor[k];
-      for (Index i = 0; i < k; ++i) x[i] -= factor[i] * x[k];
-    }
-  }
+  MatrixXd result;
+  inverse(result);
   return result;
 }
 

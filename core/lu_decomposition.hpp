@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 namespace courant {
 
@@ -17,8 +18,11 @@ using Eigen::VectorXd;
 // comparable size.
 class LuDecomposition {
  public:
+  LuDecomposition() = default;  // of the 0 × 0 matrix
   // Throws std::invalid_argument if A is not square.
-  explicit LuDecomposition(const Eigen::Ref<const MatrixXd>& A);
+  explicit LuDecomposition(const Eigen::Ref<const MatrixXd>& A) { compute(A); }
+  // Another matrix in place of this one. Allocates nothing up to 63 rows, if there were as many before.
+  void compute(const Eigen::Ref<const MatrixXd>& A);
 
   Index size() const { return factors_.rows(); }
 
@@ -30,10 +34,12 @@ class LuDecomposition {
   // A⁻¹ B, B of size n × k.
   MatrixXd solve(const Eigen::Ref<const MatrixXd>& B) const;
   MatrixXd inverse() const;
+  void inverse(MatrixXd& result) const;  // allocates nothing up to 63 rows, if it has the size
 
  private:
-  MatrixXd factors_;  // L below the diagonal, U above
-  Eigen::PermutationMatrix<Eigen::Dynamic> rows_;
+  MatrixXd factors_;         // L below the diagonal, U above
+  std::vector<Index> rows_;  // row i of P A is row rows_[i] of A
+  int sign_ = 1;             // of P
 };
 
 }  // namespace courant

@@ -10,7 +10,7 @@
 #include "courant/integrators/constrain_first_trace.hpp"
 #include "courant/integrators/moving_basis.hpp"
 #include "courant/integrators/moving_conormals.hpp"
-#include "courant/integrators/nearest_orthonormal.hpp"
+#include "courant/integrators/moving_directions.hpp"
 #include "courant/integrators/predictor.hpp"
 #include "courant/integrators/round_off_projection.hpp"
 #include "courant/integrators/step_solver.hpp"
@@ -73,8 +73,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
         shift_({manifold().tangent_dimension()}),
         basis_(manifold(), method.basis_),
         conormals_(method.conormals_, n_, d_),
-        directions_(n_, d_),
-        make_orthonormal_(d_),
+        directions_(*method_.projector_, n_, d_),
         jets_(VectorXd::Zero(solver_.unknown().size())),
         start_(jets_),
         near_(manifold().ambient_dimension()),
@@ -109,7 +108,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
     else
       predictor_.predict(y);
     solver_.settle(2 * n_);
-    const double* in[] = {y.data(), before.x.data(), basis_.data(), directions_.data(),
+    const double* in[] = {y.data(), before.x.data(), basis_.data(), directions_.matrix().data(),
                           &h,       &before.t};
     const StepSolver::Attempt attempt{before.t, h};
     solver_.solve_connected(in, scales(before, h).data(), begin, attempt, statistics_);
@@ -153,7 +152,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
   void do_discard() override {
     basis_.discard();
     conormals_.discard();
-    if (last_directions_.size() > 0) directions_ = last_directions_;
+    directions_.discard();
     is_turned_ = false;
   }
 
@@ -165,8 +164,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
     forget_motion();
     basis_.forget();
     conormals_.forget();
-    directions_.setZero();
-    last_directions_.resize(0, 0);
+    directions_.forget();
     is_turned_ = false;
     turning_ = std::numeric_limits<double>::infinity();
     jets_.setZero();
@@ -226,7 +224,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
       aim(guess_, y, t);
       aimed_ = y;
       const double* in[] = {y.data(),           guess_.data(), basis_.data(),
-                            directions_.data(), near_.data(),  &t};
+                            directions_.matrix().data(), near_.data(),  &t};
       const auto sizes = scales(before, attempt.h, largest(near_));
       const auto begin = [&] { y = start_; };
       const auto lands_nearby = [&] {
@@ -301,15 +299,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
     if (d_ == 0 || constant_directions_) return;
     const double* in[] = {y.data(), x.data(), basis_.data(), &t};
     conormals_.move_to(in);
-    if (method_.projector_->is_orthogonal()) {
-      directions_ = conormals_.matrix();
-    } else {
-      directions_ = method_.projector_->directions(x, basis_.map(), conormals_.matrix());
-      if (last_directions_.size() > 0) {
-        turned_ = directions_ * (directions_.transpose() * last_directions_);
-        make_orthonormal_(turned_, directions_);
-      }
-    }
+    directions_.move_to(x, basis_.map(), conormals_.matrix());
   }
 
   // What the next projection starts from.
@@ -336,11 +326,11 @@ class ConstrainFirst::Trajectory final : public Stepper {
   void accept(const VectorXd& x) {
     if (d_ > 0 && !constant_directions_) {
       const double moved = (found_.head(x.size()) - x).norm();
-      if (last_directions_.size() > 0 && moved > 1e-7 * largest(x)) {
-        const double turning = (directions_ - last_directions_).norm() / moved;
+      if (directions_.is_kept() && moved > 1e-7 * largest(x)) {
+        const double turning = (directions_.matrix() - directions_.kept()).norm() / moved;
         turning_ = std::isfinite(turning_) ? std::max(turning, 0.9 * turning_) : turning;
       }
-      last_directions_ = directions_;
+      directions_.keep();
       conormals_.keep();
     }
     if (!basis_.move_to(found_.head(x.size()))) is_turned_ = true;
@@ -363,8 +353,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
   Predictor shift_;      // of the vector at near_ that leads to x
   MovingBasis basis_;    // B at x_k
   MovingConormals conormals_;
-  MatrixXd directions_, last_directions_, turned_;  // W, and that at x_k
-  NearestOrthonormal make_orthonormal_;
+  MovingDirections directions_;  // W
   // ‖ΔW‖ / ‖Δx‖ of the last steps; unknown before the first
   double turning_ = std::numeric_limits<double>::infinity();
   MatrixXd vectors_;

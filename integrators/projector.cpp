@@ -175,15 +175,22 @@ Projector::Projector(std::string name, VectorXd units)
     }
 }
 
+MatrixXd Projector::span(const VectorXd& x, const LinearMap<double>& basis,
+                         const MatrixXd& conormals) const {
+  MatrixXd W = do_directions(x, basis, conormals);
+  if (W.rows() != conormals.rows() || W.cols() != conormals.cols())
+    throw std::invalid_argument("Projector(" + name_ + ")::do_directions: the result is " +
+                                size_text(W.rows(), W.cols()) + "; expected " +
+                                size_text(conormals.rows(), conormals.cols()) +
+                                ", dim M × (dim M - dim M_f).");
+  return W;
+}
+
 MatrixXd Projector::directions(const VectorXd& x, const LinearMap<double>& basis,
                                const MatrixXd& conormals) const {
   const Index d = conormals.cols();
   if (d == 0) return conormals;
-  const MatrixXd W = do_directions(x, basis, conormals);
-  if (W.rows() != conormals.rows())
-    throw std::invalid_argument(
-        "Projector(" + name_ + ")::do_directions: the result has " + std::to_string(W.rows()) +
-        " rows, expected dim M = " + std::to_string(conormals.rows()) + ".");
+  const MatrixXd W = span(x, basis, conormals);
   // Pairings of vectors with covectors do not depend on units, but lengths do: both are looked at
   // as numbers of the order of 1. Of B with n < Ñ the coordinates have the units of its entries.
   double sine;

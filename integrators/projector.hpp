@@ -40,12 +40,17 @@ class Projector {
   virtual bool has_constant_directions(Index) const { return false; }
   // Whether W(x) spans the conormals themselves.
   virtual bool is_orthogonal() const { return false; }
+  // Whether W(x) is a complement of T_xM_f for any M_f, as seen in the units.
+  virtual bool is_always_complement() const { return is_orthogonal(); }
 
   // An orthonormal W(x). x: N; basis: Ñ × n, orthonormal; conormals: n × d, an orthonormal basis of
   // the annihilator of T_xM_f in the coordinates of that basis. Throws std::domain_error if the
   // directions are no complement of T_xM_f, as seen in the units.
   MatrixXd directions(const VectorXd& x, const LinearMap<double>& basis,
                       const MatrixXd& conormals) const;
+  // The same directions as they come, n × d, neither orthonormal nor asked whether they are a complement:
+  // for those who carry W along.
+  MatrixXd span(const VectorXd& x, const LinearMap<double>& basis, const MatrixXd& conormals) const;
 
  protected:
   // `units`: typical sizes of the Ñ numbers of a tangent vector, all positive, or empty for 1.
@@ -73,6 +78,7 @@ class OrthogonalProjector final : public Projector {
   // G by formulas; symmetric and positive definite on T_xM.
   OrthogonalProjector(const Manifold& manifold, const MatrixFormula& metric);
   bool is_orthogonal() const override { return metric_.output_size() == 0 && units().size() == 0; }
+  bool is_always_complement() const override { return metric_.output_size() == 0; }
 
  private:
   MatrixXd do_directions(const VectorXd& x, const LinearMap<double>& basis,

@@ -134,6 +134,24 @@ BOOST_AUTO_TEST_CASE(redundant_equations_go_and_contradictions_stay) {
   BOOST_TEST(eliminated(contradiction, y).remaining.size() == 2);
 }
 
+// A circle in two ways: what one says, put into the other, is zero but for round-off, which is no
+// equation. With another radius it is a contradiction.
+BOOST_AUTO_TEST_CASE(equations_that_repeat_others_by_an_identity_go) {
+  Graph graph;
+  const ExprVector y = graph.variables("y", 3), p = graph.variables("p", 1);
+  for (const double square : {1.0, 2.0}) {
+    const ExprVector F = equations({y[0] - p[0] * cos(y[2]), y[1] - p[0] * sin(y[2]),
+                                    (y[0] * y[0] + y[1] * y[1]) / (p[0] * p[0]) - square,
+                                    y[2] * exp(y[2]) - p[0]});
+    const Elimination e = eliminated(F, y);
+    BOOST_TEST(e.kept == std::vector<Index>{2}, boost::test_tools::per_element());
+    const std::vector<Index> expected =
+        square == 1.0 ? std::vector<Index>{3} : std::vector<Index>{2, 3};
+    BOOST_TEST(e.remaining == expected, boost::test_tools::per_element());
+    BOOST_TEST(e.equations.size() == std::ssize(expected));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(random_systems_have_the_same_solutions) {
   std::mt19937 generator(11);
   std::uniform_int_distribution<int> pick(0, 11);

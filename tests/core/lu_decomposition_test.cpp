@@ -1,5 +1,6 @@
 #include "courant/core/lu_decomposition.hpp"
 
+#include <Eigen/LU>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
@@ -35,6 +36,23 @@ BOOST_AUTO_TEST_CASE(pivots_tell_singular_matrices) {
   BOOST_TEST(LuDecomposition(A).pivot_ratio() < 1e-14);
   BOOST_TEST(LuDecomposition(MatrixXd::Zero(3, 3)).pivot_ratio() == 0.0);
   BOOST_TEST(LuDecomposition(MatrixXd(0, 0)).pivot_ratio() == 1.0);
+}
+
+// Loops of known length, plain loops and blocks, one matrix after the other in the same object.
+BOOST_AUTO_TEST_CASE(takes_another_matrix) {
+  LuDecomposition lu;
+  BOOST_TEST(lu.size() == 0);
+  MatrixXd inverse;
+  for (const Index n : {3, 8, 9, 70, 63, 4, 4, 1, 0}) {
+    const MatrixXd A = random_matrix(n, n, static_cast<unsigned>(n) + 7);
+    lu.compute(A);
+    BOOST_TEST(lu.size() == n);
+    lu.inverse(inverse);
+    BOOST_TEST((inverse * A - MatrixXd::Identity(n, n)).norm() < 1e-10 * (1.0 + A.norm()));
+    const double exact = A.determinant();
+    BOOST_TEST(std::fabs(lu.determinant() - exact) < 1e-9 * std::fabs(exact));
+    BOOST_TEST(lu.orientation() == (exact > 0.0 ? 1 : -1));
+  }
 }
 
 BOOST_AUTO_TEST_CASE(sizes_are_checked) {
