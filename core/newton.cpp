@@ -36,20 +36,8 @@ constexpr double kRounded = 16.0 * std::numeric_limits<double>::epsilon();
 // Above these, after iterations that do not move any more, something is not solved.
 constexpr double kSolved = 1e-9;
 
-// What a factorisation with its Jacobian costs, in iterations: so many, and one more for so many unknowns;
-// later steps have a part in it, which bounds it.
-constexpr int kLeastPrice = 4;
-constexpr int kUnknownsAnIteration = 4;
-constexpr int kHighestPrice = 16;
-
 // Relative changes that are round-off everywhere.
 constexpr double kLeast = 2.0 * std::numeric_limits<double>::epsilon();
-
-// Whether changes that contract like that are above the tolerance after so many more.
-bool takes_more(int iterations, double moved, double contraction, double tolerance) {
-  for (int i = 0; i < iterations; ++i) moved *= contraction;
-  return moved > tolerance;
-}
 
 }  // namespace
 
@@ -68,8 +56,6 @@ Newton::Newton(EquationSystem system, std::vector<Index> groups, const Options& 
   ContainedUnknowns contained(function_);
   contained_ = std::move(contained.places);
   ends_ = group_ends(groups_, contained_);
-  price_ = std::min(kLeastPrice + static_cast<int>(contained_.size()) / kUnknownsAnIteration,
-                    kHighestPrice);
   solver_ = options_.solver ? options_.solver(contained.pattern) : linear_solver(contained.pattern);
   all_.resize(function_.output_size() + function_.nonzeros());
   step_.resize(static_cast<Index>(contained_.size()));
@@ -267,8 +253,8 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
       const bool rounded =
           stalled && (moved > kRoundOff ? stagnant || is_rounded(y, scales, kRounded, false)
                                         : close || moved <= std::max(kLeast, 2 * round_off_));
-      const bool slow = !fresh && takes_more(price_, moved, contraction, 1e3 * options_.tolerance);
-      if (slow || (stalled && !rounded) || (rounded && !accepted())) {
+      const bool slow = contraction > options_.slow && moved > 1e3 * options_.tolerance;
+      if ((slow && !fresh) || (stalled && !rounded) || (rounded && !accepted())) {
         if (!refactorize()) {
           result.status = Status::singular;
           return result;

@@ -29,6 +29,9 @@ class Newton {
     // measurable.
     double tolerance = 1e-17;
     int max_iterations = 60;
+    // Contraction above which a new factorisation is worth its price (about ten evaluations for n =
+    // 8).
+    double slow = 0.2;
     // What solves the linear systems; empty: linear_solver().
     LinearSolver::Maker solver = {};
   };
@@ -83,7 +86,6 @@ class Newton {
   std::vector<Index> groups_;     // their sizes among those
   std::vector<Index> contained_;  // kept unknowns that F contains, ascending
   std::vector<Index> ends_;       // of the groups, in contained_
-  int price_;                     // of a factorisation, in iterations
   Options options_;
   std::unique_ptr<LinearSolver>
       solver_;  // for a row an equation, a column an unknown of contained_

@@ -1,38 +1,16 @@
 #include "courant/integrators/constrain_first.hpp"
 
-#include <array>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "courant/core/message.hpp"
 #include "courant/core/qr_decomposition.hpp"
+#include "courant/integrators/constrain_first_projection.hpp"
 #include "courant/integrators/constrain_first_trace.hpp"
-#include "courant/integrators/moving_basis.hpp"
-#include "courant/integrators/moving_conormals.hpp"
-#include "courant/integrators/moving_directions.hpp"
-#include "courant/integrators/predictor.hpp"
 #include "courant/integrators/round_off_projection.hpp"
-#include "courant/integrators/step_solver.hpp"
 
 namespace courant {
 namespace {
-
-// P is found by solving with W of the last iterate until W no longer changes: contraction is about
-// curvature × ‖μ‖ = O(h²).
-constexpr int kMaxProjections = 30;
-
-// What is left of x, relative to its size, when W is taken to change no more: less than round-off.
-// The contraction that it is computed with is that of the last step, at most so many times too
-// small.
-constexpr double kTolerance = 1e-16;
-constexpr double kSafety = 10.0;
-
-// P takes the end of a step to the point of M_f nearby: to a distance below that part of the step.
-// Solutions farther away are other ones, which an old factorisation can lead to.
-constexpr double kNearby = 0.5;
-// Of the coordinates, a part that is no distance.
-constexpr double kNoDistance = 1e-10;
 
 // W if it is the same at every x, as for momenta that positions determine; empty otherwise.
 MatrixXd fixed_directions(const Manifold& M, const Projector& projector,
@@ -61,57 +39,45 @@ class ConstrainFirst::Trajectory final : public Stepper {
         method_(method),
         n_(manifold().dimension()),
         d_(method.codimension_),
-        rest_((method.blocks_ - 2) * n_ + method.auxiliaries_),
-        constant_directions_(method.fixed_directions_.size() > 0),
-        solver_(method.equations_, {n_, n_, rest_, d_}, method.name(), method.whole_,
-                {.displacements = n_, .shifts = d_, .h = 4}),
-        projector_(method.projection_, {n_, n_, rest_, d_}, method.name() + " (projection)"),
+        solver_(method.equations_, {n_, n_, (method.blocks_ - 2) * n_ + method.auxiliaries_, d_},
+                method.name(), method.whole_, {.displacements = n_, .shifts = d_, .h = 4}),
+        predictor_(Projection::predicted_groups(method, solver_.unknown().size()),
+                   solver_.predicted()),
         round_off_projection_(method.constraint_),
-        predictor_(predicted_groups(), solver_.predicted()),
-        end_(constant_directions_ ? Predictor(predicted_groups(), projector_.predicted())
-                                  : Predictor(predicted_groups())),
-        shift_({manifold().tangent_dimension()}),
         basis_(manifold(), method.basis_),
-        conormals_(method.conormals_, n_, d_),
-        directions_(*method_.projector_, n_, d_),
-        jets_(VectorXd::Zero(solver_.unknown().size())),
-        start_(jets_),
+        projection_(method_, basis_),
         near_(manifold().ambient_dimension()),
-        guess_(near_.size()),
-        shifted_(VectorXd::Zero(manifold().tangent_dimension())),
-        corrected_(shifted_),
-        advanced_(method.advance_.output_size()),
-        found_(method.projected_.output_size()) {}
+        advanced_(method.advance_.output_size()) {}
 
  private:
   // Onto M_f, where (v, z) and the jets are found.
   void do_prepare(State& state, double h) override {
     if (!basis_.move_to(state.x)) forget_motion();
-    VectorXd& y = projector_.unknown();
-    y = jets_;
+    VectorXd& y = projection_.unknown();
+    y = projection_.jets();
     basis_.coordinates_of(state.v, y.segment(n_, n_));
     y.segment(method_.blocks_ * n_, state.z.size()) = state.z;
-    near_ = state.x;
-    project(state, {state.t, h}, state.t, 0.0, false);
-    accept(near_);
-    take(state);
+    const VectorXd x = state.x;
+    projection_.project(x, {state, {state.t, h}, state.t, 0.0, false}, statistics_);
+    accept(x);
+    projection_.take(state);
   }
 
   void do_step(const State& before, double h, State& after) override {
     VectorXd& y = solver_.unknown();
     const auto begin = [&] {
-      y = jets_;
-      y.head(n_) = 0.5 * h * jets_.segment(n_, n_);
+      y = projection_.jets();
+      y.head(n_) = 0.5 * h * y.segment(n_, n_);
     };
     if (predictor_.is_empty())
       begin();
     else
       predictor_.predict(y);
     solver_.settle(2 * n_);
-    const double* in[] = {y.data(), before.x.data(), basis_.data(), directions_.matrix().data(),
+    const double* in[] = {y.data(), before.x.data(), basis_.data(), projection_.directions().data(),
                           &h,       &before.t};
     const StepSolver::Attempt attempt{before.t, h};
-    solver_.solve_connected(in, scales(before, h).data(), begin, attempt, statistics_);
+    solver_.solve_connected(in, Projection::scales(before, h).data(), begin, attempt, statistics_);
     method_.advance_.value(in, advanced_.data());
     const Index N = before.x.size();
     near_ = advanced_.head(N);
@@ -120,23 +86,23 @@ class ConstrainFirst::Trajectory final : public Stepper {
                        "leads to a state that is not finite.");
     round_off_projection_.apply(near_);
 
-    projector_.unknown() = y;
+    projection_.unknown() = y;
     try {
-      project(before, attempt, after.t, y.tail(d_).norm(), true);
+      projection_.project(near_, {before, attempt, after.t, y.tail(d_).norm(), true}, statistics_);
     } catch (const std::domain_error& error) {
       throw SolveError(SolveError::Reason::singular, method(), before.t, h,
                        "cannot be projected: " + without_place(error.what()));
     }
     after.v.resize(before.v.size());
     after.z.resize(before.z.size());
-    take(after);
+    projection_.take(after);
   }
 
   void do_keep(const State& before, const State&) override {
     if (!solver_.is_determined()) predictor_.limit_degree(Predictor::kUndetermined);
     predictor_.record(solver_.unknown());
     solver_.keep();
-    record();
+    projection_.record();
     accept(before.x);
     stage_ = advanced_.tail(before.x.size() + before.v.size());
     stage_z_ = solver_.unknown().segment(method_.blocks_ * n_, before.z.size());
@@ -151,24 +117,16 @@ class ConstrainFirst::Trajectory final : public Stepper {
 
   void do_discard() override {
     basis_.discard();
-    conormals_.discard();
-    directions_.discard();
-    is_turned_ = false;
+    projection_.discard();
   }
 
   void do_change_step() override { forget_motion(); }
 
   void do_forget() override {
     solver_.forget();
-    projector_.forget();
-    forget_motion();
+    predictor_.forget();
     basis_.forget();
-    conormals_.forget();
-    directions_.forget();
-    is_turned_ = false;
-    turning_ = std::numeric_limits<double>::infinity();
-    jets_.setZero();
-    shifted_.setZero();
+    projection_.forget();
   }
 
   Motion do_motion() const override { return solver_.motion(manifold()); }
@@ -177,188 +135,24 @@ class ConstrainFirst::Trajectory final : public Stepper {
     return std::make_unique<Trajectory>(method_);
   }
 
-  std::vector<Index> predicted_groups() const {
-    const Index tangent = method_.blocks_ * n_;
-    return {tangent, solver_.unknown().size() - tangent};
-  }
-
   void forget_motion() {
     predictor_.forget();
-    end_.forget();
-    shift_.forget();
-  }
-
-  // Of the groups of unknowns.
-  // `besides`: a size of coordinates other than those of `before`.
-  static std::array<double, 4> scales(const State& before, double h, double besides = 0.0) {
-    // A start at zero, as of a circuit at rest, has the size of its first step.
-    const double given = std::max(largest(before.x), besides);
-    const double size = given > 0.0 ? given : std::fabs(h) * largest(before.v);
-    return {size, size / std::fabs(h), auxiliary_scale(largest(before.z), size), size};
-  }
-
-  // The point of M_f that P takes near_ to; leaves its unknowns in projector_, its basis and W
-  // behind. Before, projector_ has those of the step.
-  // `far`: how far the step was from M_f; `goes_on`: whether this is a step like the last ones.
-  void project(const State& before, const StepSolver::Attempt& attempt, double t, double far,
-               bool goes_on) {
-    VectorXd& y = projector_.unknown();
-    y.head(n_).setZero();
-    y.tail(d_).setZero();
-    guess_ = near_;
-    if (goes_on && !shift_.is_empty()) {
-      shift_.predict(shifted_);
-      const double* in[] = {near_.data(), shifted_.data()};
-      method_.shift_.value(in, guess_.data());
-    }
-    foreseen_ = guess_;
-    double previous = std::numeric_limits<double>::infinity();
-    for (int iteration = 0; iteration < kMaxProjections; ++iteration) {
-      move_basis(guess_, y);
-      start_ = y;
-      if (iteration == 0 && goes_on && !end_.is_empty()) {
-        end_.predict(y);
-        y.head(n_).setZero();
-        projector_.settle(2 * n_);
-      }
-      aim(guess_, y, t);
-      aimed_ = y;
-      const double* in[] = {y.data(),           guess_.data(), basis_.data(),
-                            directions_.matrix().data(), near_.data(),  &t};
-      const auto sizes = scales(before, attempt.h, largest(near_));
-      const auto begin = [&] { y = start_; };
-      const auto lands_nearby = [&] {
-        projector_.solve(in, sizes.data(), begin, attempt, statistics_);
-        method_.projected_.value(in, found_.data());
-        return !goes_on || is_nearby(before, sizes[0]);
-      };
-      if (!lands_nearby()) {
-        ++statistics_.failures;
-        projector_.forget();
-        begin();
-        if (!lands_nearby())
-          throw SolveError(SolveError::Reason::disconnected, method(), attempt.time, attempt.h,
-                           "is too large: the projection onto M_f leads farther than half the "
-                           "step.");
-      }
-      const double moved = largest(y.head(n_));
-      const double size = largest(found_.head(guess_.size()));
-      if (d_ == 0 || constant_directions_) return;
-      // P does not depend on W once x no longer moves with it. Where steps begin, x moves with W not
-      // at all; but the next one begins along W.
-      if (iteration == 0) {
-        const double distance = std::max(y.tail(d_).norm(), far);
-        const double change = std::max(moved, size * jet_change(aimed_, y));
-        if (goes_on && kSafety * turning_ * distance * change <= kTolerance * size) return;
-      } else {
-        const double contraction = moved / previous;
-        if (moved <= 1e-15 * size || contraction * moved <= kTolerance * size ||
-            (contraction >= 0.5 && moved < 1e-12 * (1.0 + size)))
-          return;
-      }
-      guess_ = found_.head(guess_.size());
-      y.head(n_).setZero();
-      previous = moved;
-    }
-    throw SolveError(SolveError::Reason::diverged, method(), attempt.time, attempt.h,
-                     "is too large: the projection onto M_f does not converge.");
-  }
-
-  // Whether what was found is not far from near_, next to the step from `before` and to coordinates of
-  // that size; nor ξ from guess_, which may have gone around a compact space.
-  bool is_nearby(const State& before, double size) const {
-    const auto found = found_.head(near_.size());
-    const double step = (near_ - before.x).lpNorm<Eigen::Infinity>();
-    const double nearby = std::max(kNearby * step, kNoDistance * size);
-    const double foreseen = (guess_ - near_).lpNorm<Eigen::Infinity>();
-    return (found - near_).lpNorm<Eigen::Infinity>() <= nearby &&
-           largest(projector_.unknown().head(n_)) <= nearby + 2.0 * foreseen;
-  }
-
-  // By how much ξ', … and z, … differ, relative to their size: W is computed with them.
-  double jet_change(const VectorXd& from, const VectorXd& to) const {
-    const auto change = [&](Index first, Index size) {
-      const double moved = (to - from).segment(first, size).lpNorm<Eigen::Infinity>();
-      return moved == 0.0 ? 0.0 : moved / to.segment(first, size).lpNorm<Eigen::Infinity>();
-    };
-    return std::max(change(n_, n_), rest_ == 0 ? 0.0 : change(2 * n_, rest_));
-  }
-
-  // The same vectors in the basis at x.
-  void move_basis(const VectorXd& x, VectorXd& y) {
-    if (n_ == manifold().tangent_dimension()) return;
-    vectors_.noalias() =
-        basis_.map().entries() * y.head(method_.blocks_ * n_).reshaped(n_, method_.blocks_);
-    if (!basis_.move_to(x)) is_turned_ = true;
-    y.head(method_.blocks_ * n_).reshaped(n_, method_.blocks_).noalias() =
-        basis_.map().entries().transpose() * vectors_;
-  }
-
-  // W at x, with columns near those of the last step, so that μ and the kept factorisations go on.
-  void aim(const VectorXd& x, const VectorXd& y, double t) {
-    if (d_ == 0 || constant_directions_) return;
-    const double* in[] = {y.data(), x.data(), basis_.data(), &t};
-    conormals_.move_to(in);
-    directions_.move_to(x, basis_.map(), conormals_.matrix());
-  }
-
-  // What the next projection starts from.
-  void record() {
-    VectorXd& y = projector_.unknown();
-    if (!projector_.is_determined()) end_.limit_degree(Predictor::kUndetermined);
-    y.head(n_).setZero();
-    end_.record(y);
-    // shifted_ led to foreseen_: to first order in what is left, this one leads to x.
-    const double* in[] = {near_.data(), shifted_.data(), foreseen_.data(), found_.data()};
-    method_.corrected_shift_.value(in, corrected_.data());
-    shift_.record(corrected_);
-  }
-
-  // What the projection found, as a state.
-  void take(State& state) const {
-    const Index N = near_.size();
-    state.x = found_.head(N);
-    state.v = found_.segment(N, state.v.size());
-    state.z = found_.tail(state.z.size());
+    projection_.forget_motion();
   }
 
   // The next step begins where the projection ended; the last one began at x.
   void accept(const VectorXd& x) {
-    if (d_ > 0 && !constant_directions_) {
-      const double moved = (found_.head(x.size()) - x).norm();
-      if (directions_.is_kept() && moved > 1e-7 * largest(x)) {
-        const double turning = (directions_.matrix() - directions_.kept()).norm() / moved;
-        turning_ = std::isfinite(turning_) ? std::max(turning, 0.9 * turning_) : turning;
-      }
-      directions_.keep();
-      conormals_.keep();
-    }
-    if (!basis_.move_to(found_.head(x.size()))) is_turned_ = true;
-    basis_.keep();
-    if (is_turned_) forget_motion();
-    is_turned_ = false;
-    jets_ = projector_.unknown();
-    jets_.head(n_).setZero();
-    jets_.tail(d_).setZero();
+    if (!projection_.accept(x)) predictor_.forget();
   }
 
   const ConstrainFirst method_;  // its functions are shared, not copied
-  Index n_, d_, rest_;
-  bool constant_directions_;
-  bool is_turned_ = false;  // the basis was made afresh
-  StepSolver solver_, projector_;
-  RoundOffProjection round_off_projection_;
+  Index n_, d_;
+  StepSolver solver_;
   Predictor predictor_;  // of the unknowns of the step
-  Predictor end_;        // of those of the projection; of all of them where W depends on them
-  Predictor shift_;      // of the vector at near_ that leads to x
-  MovingBasis basis_;    // B at x_k
-  MovingConormals conormals_;
-  MovingDirections directions_;  // W
-  // ‖ΔW‖ / ‖Δx‖ of the last steps; unknown before the first
-  double turning_ = std::numeric_limits<double>::infinity();
-  MatrixXd vectors_;
-  VectorXd jets_;  // ξ', … and z, … at x_k; ξ and μ are zero
-  VectorXd start_, aimed_, near_, guess_, foreseen_, shifted_, corrected_, advanced_, found_;
+  RoundOffProjection round_off_projection_;
+  MovingBasis basis_;  // B at x_k
+  Projection projection_;
+  VectorXd near_, advanced_;
   VectorXd stage_, stage_z_;  // (x̄, v) and z of the last step that stands
 };
 

@@ -56,6 +56,7 @@ class ConstrainFirst final : public Integrator, public Programmed {
  private:
   class Differential;
   class Trajectory;
+  class Projection;
   struct Trace;
 
   std::unique_ptr<Stepper> do_stepper() const override;

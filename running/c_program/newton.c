@@ -163,20 +163,11 @@ static int is_rounded(const struct newton *N, const double *scales) {
   return 1;
 }
 
-/* Whether changes that contract like that are above the tolerance after so many more. */
-static int takes_more(int iterations, double moved, double contraction, double tolerance) {
-  int i;
-  for (i = 0; i < iterations; ++i) moved *= contraction;
-  return moved > tolerance;
-}
-
 /* Iterates to round-off: until changes are so small, or contract so well, that nothing is left, or until they
    only move by round-off. Zero if that fails. */
 static int iterate(struct newton *N, const double *const *in, const double *scales) {
   const double tolerance = 1e-17, round_off = 1e-9, brief = 1e-4;
   double previous = INFINITY, contraction, moved = INFINITY;
-  /* of a factorisation, in iterations */
-  const int price = 4 + N->of->size / 4 < 16 ? 4 + N->of->size / 4 : 16;
   int iteration, compared = 0;
   int fresh = 0; /* A belongs to a point of this solve */
   int close = 0; /* which a short change led to */
@@ -199,8 +190,8 @@ static int iterate(struct newton *N, const double *const *in, const double *scal
       rounded = stalled && (moved > round_off
                                 ? stagnant || is_rounded(N, scales)
                                 : close || moved <= largest_of(2.0 * DBL_EPSILON, 2 * N->round_off));
-      slow = !fresh && takes_more(price, moved, contraction, 1e3 * tolerance);
-      if (slow || (stalled && !rounded)) {
+      slow = contraction > 0.2 && moved > 1e3 * tolerance;
+      if ((slow && !fresh) || (stalled && !rounded)) {
         fresh = 1;
         close = moved <= brief;
         compared = 0;

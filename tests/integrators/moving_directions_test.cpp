@@ -113,15 +113,15 @@ BOOST_AUTO_TEST_CASE(go_back_and_forget) {
   directions.keep();
   const MatrixXd kept = directions.matrix();
   directions.move_to(second.x, kIdentity, second.conormals);
-  BOOST_TEST(directions.matrix() != kept);
+  BOOST_TEST((directions.matrix() != kept));
   directions.discard();
-  BOOST_TEST(directions.matrix() == kept);
+  BOOST_TEST((directions.matrix() == kept));
   directions.forget();
   BOOST_TEST(!directions.is_kept());
   MovingDirections fresh(stretched, 4, 2);
   directions.move_to(second.x, kIdentity, second.conormals);
   fresh.move_to(second.x, kIdentity, second.conormals);
-  BOOST_TEST(directions.matrix() == fresh.matrix());
+  BOOST_TEST((directions.matrix() == fresh.matrix()));
 }
 
 // Directions that were a complement and are none any more are refused on the way too.

@@ -1,0 +1,227 @@
+#include "courant/integrators/constrain_first_projection.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace courant {
+namespace {
+
+// P is found by solving with W of the last iterate until W no longer changes: contraction is about
+// curvature × ‖μ‖ = O(h²).
+constexpr int kMaxProjections = 30;
+
+// What is left of x, relative to its size, when W is taken to change no more: less than round-off.
+// The contraction that it is computed with is that of the last step, at most so many times too
+// small.
+constexpr double kTolerance = 1e-16;
+constexpr double kSafety = 10.0;
+
+// P takes the end of a step to the point of M_f nearby: to a distance below that part of the step.
+// Solutions farther away are other ones, which an old factorisation can lead to.
+constexpr double kNearby = 0.5;
+// Of the coordinates, a part that is no distance.
+constexpr double kNoDistance = 1e-10;
+
+}  // namespace
+
+ConstrainFirst::Projection::Projection(const ConstrainFirst& method, MovingBasis& basis)
+    : method_(method),
+      n_(method.system()->manifold()->dimension()),
+      d_(method.codimension_),
+      rest_((method.blocks_ - 2) * n_ + method.auxiliaries_),
+      solver_(method.projection_, {n_, n_, rest_, d_}, method.name() + " (projection)"),
+      end_(method.fixed_directions_.size() > 0
+               ? Predictor(predicted_groups(method, solver_.unknown().size()), solver_.predicted())
+               : Predictor(predicted_groups(method, solver_.unknown().size()))),
+      shift_({method.system()->manifold()->tangent_dimension()}),
+      basis_(basis),
+      conormals_(method.conormals_, n_, d_),
+      directions_(*method.projector_, n_, d_),
+      jets_(VectorXd::Zero(solver_.unknown().size())),
+      start_(jets_),
+      near_(method.system()->manifold()->ambient_dimension()),
+      guess_(near_.size()),
+      shifted_(VectorXd::Zero(method.system()->manifold()->tangent_dimension())),
+      corrected_(shifted_),
+      found_(method.projected_.output_size()) {}
+
+std::vector<Index> ConstrainFirst::Projection::predicted_groups(const ConstrainFirst& method,
+                                                                Index unknowns) {
+  const Index tangent = method.blocks_ * method.system()->manifold()->dimension();
+  return {tangent, unknowns - tangent};
+}
+
+std::array<double, 4> ConstrainFirst::Projection::scales(const State& before, double h,
+                                                         double besides) {
+  // A start at zero, as of a circuit at rest, has the size of its first step.
+  const double given = std::max(largest(before.x), besides);
+  const double size = given > 0.0 ? given : std::fabs(h) * largest(before.v);
+  return {size, size / std::fabs(h), auxiliary_scale(largest(before.z), size), size};
+}
+
+void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& approach,
+                                         SolverStatistics& statistics) {
+  const auto& [before, attempt, t, far, goes_on] = approach;
+  near_ = near;
+  VectorXd& y = solver_.unknown();
+  y.head(n_).setZero();
+  y.tail(d_).setZero();
+  guess_ = near_;
+  if (goes_on && !shift_.is_empty()) {
+    shift_.predict(shifted_);
+    const double* in[] = {near_.data(), shifted_.data()};
+    method_.shift_.value(in, guess_.data());
+  }
+  foreseen_ = guess_;
+  double previous = std::numeric_limits<double>::infinity();
+  for (int iteration = 0; iteration < kMaxProjections; ++iteration) {
+    move_basis(guess_, y);
+    start_ = y;
+    if (iteration == 0 && goes_on && !end_.is_empty()) {
+      end_.predict(y);
+      y.head(n_).setZero();
+      solver_.settle(2 * n_);
+    }
+    aim(guess_, y, t);
+    aimed_ = y;
+    const double* in[] = {
+        y.data(), guess_.data(), basis_.data(), directions_.matrix().data(), near_.data(), &t};
+    const auto sizes = scales(before, attempt.h, largest(near_));
+    const auto begin = [&] { y = start_; };
+    const auto lands_nearby = [&] {
+      solver_.solve(in, sizes.data(), begin, attempt, statistics);
+      method_.projected_.value(in, found_.data());
+      return !goes_on || is_nearby(before, sizes[0]);
+    };
+    if (!lands_nearby()) {
+      ++statistics.failures;
+      solver_.forget();
+      begin();
+      if (!lands_nearby())
+        throw SolveError(SolveError::Reason::disconnected, method_.name(), attempt.time, attempt.h,
+                         "is too large: the projection onto M_f leads farther than half the "
+                         "step.");
+    }
+    const double moved = largest(y.head(n_));
+    const double size = largest(found_.head(guess_.size()));
+    if (has_fixed_directions()) return;
+    // P does not depend on W once x no longer moves with it. Where steps begin, x moves with W not
+    // at all; but the next one begins along W.
+    if (iteration == 0) {
+      const double distance = std::max(y.tail(d_).norm(), far);
+      const double change = std::max(moved, size * jet_change(aimed_, y));
+      if (goes_on && kSafety * turning_ * distance * change <= kTolerance * size) return;
+    } else {
+      const double contraction = moved / previous;
+      if (moved <= 1e-15 * size || contraction * moved <= kTolerance * size ||
+          (contraction >= 0.5 && moved < 1e-12 * (1.0 + size)))
+        return;
+    }
+    guess_ = found_.head(guess_.size());
+    y.head(n_).setZero();
+    previous = moved;
+  }
+  throw SolveError(SolveError::Reason::diverged, method_.name(), attempt.time, attempt.h,
+                   "is too large: the projection onto M_f does not converge.");
+}
+
+// Whether what was found is not far from near_, next to the step from `before` and to coordinates of
+// that size; nor ξ from guess_, which may have gone around a compact space.
+bool ConstrainFirst::Projection::is_nearby(const State& before, double size) const {
+  const auto found = found_.head(near_.size());
+  const double step = (near_ - before.x).lpNorm<Eigen::Infinity>();
+  const double nearby = std::max(kNearby * step, kNoDistance * size);
+  const double foreseen = (guess_ - near_).lpNorm<Eigen::Infinity>();
+  return (found - near_).lpNorm<Eigen::Infinity>() <= nearby &&
+         largest(solver_.unknown().head(n_)) <= nearby + 2.0 * foreseen;
+}
+
+// By how much ξ', … and z, … differ, relative to their size: W is computed with them.
+double ConstrainFirst::Projection::jet_change(const VectorXd& from, const VectorXd& to) const {
+  const auto change = [&](Index first, Index size) {
+    const double moved = (to - from).segment(first, size).lpNorm<Eigen::Infinity>();
+    return moved == 0.0 ? 0.0 : moved / to.segment(first, size).lpNorm<Eigen::Infinity>();
+  };
+  return std::max(change(n_, n_), rest_ == 0 ? 0.0 : change(2 * n_, rest_));
+}
+
+// The same vectors in the basis at x.
+void ConstrainFirst::Projection::move_basis(const VectorXd& x, VectorXd& y) {
+  if (n_ == method_.system()->manifold()->tangent_dimension()) return;
+  vectors_.noalias() =
+      basis_.map().entries() * y.head(method_.blocks_ * n_).reshaped(n_, method_.blocks_);
+  if (!basis_.move_to(x)) is_turned_ = true;
+  y.head(method_.blocks_ * n_).reshaped(n_, method_.blocks_).noalias() =
+      basis_.map().entries().transpose() * vectors_;
+}
+
+// W at x, with columns near those of the last step, so that μ and the kept factorisations go on.
+void ConstrainFirst::Projection::aim(const VectorXd& x, const VectorXd& y, double t) {
+  if (has_fixed_directions()) return;
+  const double* in[] = {y.data(), x.data(), basis_.data(), &t};
+  conormals_.move_to(in);
+  directions_.move_to(x, basis_.map(), conormals_.matrix());
+}
+
+void ConstrainFirst::Projection::record() {
+  VectorXd& y = solver_.unknown();
+  if (!solver_.is_determined()) end_.limit_degree(Predictor::kUndetermined);
+  y.head(n_).setZero();
+  end_.record(y);
+  // shifted_ led to foreseen_: to first order in what is left, this one leads to x.
+  const double* in[] = {near_.data(), shifted_.data(), foreseen_.data(), found_.data()};
+  method_.corrected_shift_.value(in, corrected_.data());
+  shift_.record(corrected_);
+}
+
+void ConstrainFirst::Projection::take(State& state) const {
+  const Index N = near_.size();
+  state.x = found_.head(N);
+  state.v = found_.segment(N, state.v.size());
+  state.z = found_.tail(state.z.size());
+}
+
+bool ConstrainFirst::Projection::accept(const VectorXd& x) {
+  if (!has_fixed_directions()) {
+    const double moved = (found_.head(x.size()) - x).norm();
+    if (directions_.is_kept() && moved > 1e-7 * largest(x)) {
+      const double turning = (directions_.matrix() - directions_.kept()).norm() / moved;
+      turning_ = std::isfinite(turning_) ? std::max(turning, 0.9 * turning_) : turning;
+    }
+    directions_.keep();
+    conormals_.keep();
+  }
+  if (!basis_.move_to(found_.head(x.size()))) is_turned_ = true;
+  basis_.keep();
+  const bool goes_on = !is_turned_;
+  if (is_turned_) forget_motion();
+  is_turned_ = false;
+  jets_ = solver_.unknown();
+  jets_.head(n_).setZero();
+  jets_.tail(d_).setZero();
+  return goes_on;
+}
+
+void ConstrainFirst::Projection::discard() {
+  conormals_.discard();
+  directions_.discard();
+  is_turned_ = false;
+}
+
+void ConstrainFirst::Projection::forget_motion() {
+  end_.forget();
+  shift_.forget();
+}
+
+void ConstrainFirst::Projection::forget() {
+  solver_.forget();
+  forget_motion();
+  conormals_.forget();
+  directions_.forget();
+  is_turned_ = false;
+  turning_ = std::numeric_limits<double>::infinity();
+  jets_.setZero();
+  shifted_.setZero();
+}
+
+}  // namespace courant
