@@ -82,9 +82,11 @@ std::vector<std::size_t> evenly_spaced_rows(std::size_t rows, std::size_t most) 
   return kept;
 }
 
+std::size_t stretches_of_extrema(std::size_t most) { return (most - 2) / 2; }
+
 std::vector<std::size_t> rows_of_extrema(std::span<const double> y, std::size_t most) {
   if (y.size() <= most || most < 4) return evenly_spaced_rows(y.size(), most);
-  const std::size_t stretches = (most - 2) / 2;
+  const std::size_t stretches = stretches_of_extrema(most);
   std::vector<std::size_t> kept = {0};
   for (std::size_t i = 0; i < stretches; ++i) {
     const std::size_t begin = 1 + i * (y.size() - 2) / stretches;

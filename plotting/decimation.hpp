@@ -33,11 +33,15 @@ struct Envelope {
 Envelope envelope(std::span<const double> x, std::span<const double> y, Interval interval,
                   int columns);
 
-// At most `most` ≥ 2 rows that stand for all, in order, with the first and the last: as many of
-// them as fit at equal distances, or, with the extrema, the rows of the least and of the greatest
-// value in equal stretches, so that a spike stays. All rows where they are few enough.
+// At most `most` ≥ 2 rows that stand for all, in order, with the first and the last. All rows where
+// they are few enough.
+//
+// As many as fit at equal distances: row ⌊i (rows - 1) / (count - 1)⌋ for i < count.
 std::vector<std::size_t> evenly_spaced_rows(std::size_t rows, std::size_t most);
+// With the extrema: the rows of the least and of the greatest value in s = stretches_of_extrema()
+// equal stretches, so that a spike stays; stretch i begins at row 1 + ⌊i (rows - 2) / s⌋.
 std::vector<std::size_t> rows_of_extrema(std::span<const double> y, std::size_t most);
+std::size_t stretches_of_extrema(std::size_t most);
 
 // A polyline through some of the vertices of `path`, the first and the last among them, from which
 // none of the others is farther than `tolerance`. Linear time: one vertex after the other is left

@@ -29,6 +29,9 @@ Markup dot(std::string_view style, double x, double y, double radius, std::size_
 // Numbers with all their digits and a space between, for an attribute.
 std::string number_list(std::initializer_list<double> numbers);
 
+// Bytes as letters: 4 for 3 of them.
+std::string base64(std::string_view bytes);
+
 // values[row] - origin of some rows, as float32, little-endian, in base64: 16 letters for three.
 // What is beyond the range of a float32 becomes infinite.
 std::string float_text(std::span<const double> values, std::span<const std::size_t> rows,

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "courant/plotting/curve_data.hpp"
 #include "courant/plotting/decimation.hpp"
 #include "courant/plotting/drawing.hpp"
 #include "courant/plotting/space.hpp"
@@ -188,7 +189,7 @@ class Curve {
   }
 
   Markup markup() const {
-    const std::string style = colour_class(series_.colour);
+    const std::string style = "series " + colour_class(series_.colour);
     Markup curve = element("title", {}, series_.label);
     if (!band_.empty()) {
       curve += element("path", {{"class", "band"},
@@ -205,22 +206,10 @@ class Curve {
                                 {"stroke", ink(series_.colour)},
                                 {"stroke-width", 1.4}});
     }
-    if (rows_ == 0)
-      return element("g", {{"class", "series " + style}, {"stroke-linejoin", "round"}}, curve);
+    if (rows_ == 0) return element("g", {{"class", style}, {"stroke-linejoin", "round"}}, curve);
     const double x_origin = data_origin(*panel_.x.scale, layout_.x_interval());
     const double y_origin = data_origin(*panel_.y.scale, layout_.y_interval());
-    const std::vector<std::size_t> kept = series_.t.empty()
-                                              ? rows_of_extrema(series_.y, rows_)
-                                              : evenly_spaced_rows(series_.y.size(), rows_);
-    const std::string t = series_.t.empty() ? "" : float_text(series_.t, kept);
-    return element("g",
-                   {{"class", "series " + style},
-                    {"stroke-linejoin", "round"},
-                    {"data-rows", static_cast<double>(series_.y.size())},
-                    {"data-x", float_text(series_.x, kept, x_origin)},
-                    {"data-y", float_text(series_.y, kept, y_origin)},
-                    {"data-t", t}},
-                   curve);
+    return with_data(style, curve_data(series_, rows_, {x_origin, y_origin}), curve);
   }
 
  private:
@@ -234,7 +223,10 @@ class Curve {
     }
     const std::vector<Vertex> kept = simplified(path, 0.1);
     line_.move_to(kept.front().x, kept.front().y);
-    for (std::size_t i = 1; i < kept.size(); ++i) line_.line_to(kept[i].x, kept[i].y);
+    // A rough path has a vertex at every row: then some stand for all, and it stays as rough.
+    constexpr std::size_t most_vertices = 4000;
+    for (const std::size_t i : evenly_spaced_rows(kept.size(), most_vertices))
+      if (i > 0) line_.line_to(kept[i].x, kept[i].y);
   }
 
   void band(Stretch stretch, int columns) {

@@ -63,9 +63,8 @@ struct Panel {
 //   data-zone                 the greatest value within which each axis is linear; 0 on a logarithmic one
 //   data-exponent             the power of ten that the labels at each axis leave out
 //   data-equal                "equal" where a circle is a circle
-// and each <g class="series"> has data-rows, the number of all its rows, and data-x, data-y and, of
-// curves with a time, data-t, as float_text() writes them. draw_in_space() says what panels in space
-// have.
+// and each <g class="series"> has its CurveData (curve_data.hpp). draw_in_space() says what panels in
+// space have.
 Markup draw(const Panel& panel, std::size_t rows = 0);
 // The height of what is drawn, in pixels.
 double drawn_height(const Panel& panel);

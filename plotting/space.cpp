@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "courant/plotting/curve_data.hpp"
 #include "courant/plotting/decimation.hpp"
 #include "courant/plotting/drawing.hpp"
 
@@ -234,16 +235,7 @@ Markup curve(const Series& series, const Camera& camera, bool as_points, std::si
       element("title", {}, series.label) + part(sides.back(), 0.4) + part(sides.front(), 1);
   const std::string style = "series " + colour_class(series.colour);
   if (rows == 0) return element("g", {{"class", style}, {"stroke-linejoin", "round"}}, content);
-  const std::vector<std::size_t> kept = evenly_spaced_rows(series.x.size(), rows);
-  return element("g",
-                 {{"class", style},
-                  {"stroke-linejoin", "round"},
-                  {"data-rows", static_cast<double>(series.x.size())},
-                  {"data-x", float_text(series.x, kept)},
-                  {"data-y", float_text(series.y, kept)},
-                  {"data-z", float_text(series.z, kept)},
-                  {"data-t", float_text(series.t, kept)}},
-                 content);
+  return with_data(style, curve_data(series, rows), content);
 }
 
 Markup endpoints(const Series& series, const Camera& camera) {

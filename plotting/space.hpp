@@ -18,7 +18,7 @@ namespace courant::plot {
 //   data-camera  azimuth and elevation in radians
 //   data-points  "points" where there is a point at each row and no line
 //   data-x-name, data-y-name, data-z-name
-// and each <g class="series"> has data-rows, data-x, data-y, data-z and data-t.
+// and each <g class="series"> has its CurveData.
 Markup draw_in_space(const Panel& panel, std::size_t rows);
 
 }  // namespace courant::plot

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "courant/plotting/curve_data.hpp"
 #include "courant/reporting/energy_figures.hpp"
 #include "courant/reporting/ladder_diagram.hpp"
 #include "courant/reporting/report_figures.hpp"
@@ -86,13 +87,15 @@ box-shadow:0 1px 5px rgb(0 0 0/.18);font-size:.82rem;max-width:100%}
 .swatch{display:inline-block;width:.9em;height:3px;background:var(--ink);vertical-align:middle;margin-right:.45em}
 .swatch.none{display:none}
 button{font:inherit;font-size:.82rem;color:var(--text);background:var(--page);border:1px solid var(--rule);border-radius:3px;padding:.1rem .5rem;cursor:pointer}
+.rest{fill:var(--ink);stroke:none}
+.note{margin:.1rem 4.2rem .3rem 0;min-height:1.7rem;color:var(--soft);font-size:.82rem;line-height:1.3}
 .whole{position:absolute;z-index:1;right:0;bottom:.3rem}
 .moment{position:sticky;top:0;z-index:3;display:flex;align-items:center;gap:.8rem;margin:0 -1.2rem;padding:.5rem 1.2rem;background:var(--page);
 border-bottom:1px solid var(--faint)}
 .moment input{flex:1;min-width:0;height:1.8rem;accent-color:var(--c0)}
 .moment .time{min-width:7.5rem;font-variant-numeric:tabular-nums lining-nums;white-space:nowrap}
 .moment .play{min-width:2.4rem;min-height:2rem}
-@media print{.moment,.readout,.whole,.now,.cross{display:none}:root{--page:#fff}body{font-size:10.5pt}main{max-width:none;padding:0}figure,table{break-inside:avoid}h2{break-after:avoid}
+@media print{.moment,.readout,.whole,.note,.now,.cross{display:none}:root{--page:#fff}body{font-size:10.5pt}main{max-width:none;padding:0}figure,table{break-inside:avoid}h2{break-after:avoid}
 .panels.abreast{grid-template-columns:1fr 1fr}.scroll,.panels{overflow:visible}table{font-size:7.5pt}}
 )css";
 
@@ -101,19 +104,8 @@ Markup section(std::string_view title, const Markup& content) {
   return element("section", {}, element("h2", {}, title) + content);
 }
 
-// How many rows of each curve go along for the script, so that all of them stay below 320 KB: two to
-// four numbers a row, 16/3 letters a number. No curve needs more than 4000, six for a pixel.
-std::size_t rows_for_script(const std::vector<Figure>& figures) {
-  constexpr std::size_t numbers = 60'000, most = 4000, fewest = 16;
-  std::size_t columns = 0;
-  for (const Figure& figure : figures) {
-    for (const plot::Panel& panel : figure.panels) {
-      for (const plot::Series& series : panel.series)
-        columns += 2 + (series.t.empty() ? 0 : 1) + (series.z.empty() ? 0 : 1);
-    }
-  }
-  return std::clamp(numbers / std::max<std::size_t>(columns, 1), fewest, most);
-}
+// At least this many rows of each curve go along for the script.
+constexpr std::size_t fewest_rows = 16;
 
 // Numbers the figures as they come.
 class Figures {
@@ -232,14 +224,11 @@ Markup experiments(std::span<const Run> runs, std::span<const std::string> label
   return all;
 }
 
-}  // namespace
-
-std::string report_html(std::span<const Run> runs) {
-  if (runs.empty())
-    throw std::invalid_argument("report_html: there are no runs, expected at least one.");
+// The page with at most `rows` rows of each curve for the script.
+std::string page_with_rows(std::span<const Run> runs, std::size_t rows) {
   const std::vector<std::string> labels = run_labels(runs);
   const std::string title = page_title(runs);
-  Figures figures(rows_for_script(all_figures(runs)));
+  Figures figures(rows);
   Markup body = element("h1", {}, title) + lead(runs) + messages(runs, labels);
   body += section("Motion", figures.add(motion_figures(runs)));
   body += section("Energy", figures.add(energy_figures(runs)));
@@ -261,6 +250,26 @@ std::string report_html(std::span<const Run> runs) {
               element("head", {}, head) +
                   element("body", {}, element("main", {}, body) + plot::script(report_script())));
   return "<!DOCTYPE html>\n" + page.str() + "\n";
+}
+
+// The greatest number of rows with which the page stays below a megabyte.
+std::size_t rows_for_script(std::span<const Run> runs) {
+  constexpr std::size_t most_bytes = 950'000;
+  const std::size_t size = page_with_rows(runs, fewest_rows).size();
+  const std::vector<Figure> figures = all_figures(runs);
+  std::vector<const plot::Series*> all;
+  for (const Figure& figure : figures)
+    for (const plot::Panel& panel : figure.panels)
+      for (const plot::Series& series : panel.series) all.push_back(&series);
+  return std::max(fewest_rows, plot::rows_that_fit(all, most_bytes - std::min(most_bytes, size)));
+}
+
+}  // namespace
+
+std::string report_html(std::span<const Run> runs) {
+  if (runs.empty())
+    throw std::invalid_argument("report_html: there are no runs, expected at least one.");
+  return page_with_rows(runs, rows_for_script(runs));
 }
 
 void write_report(std::span<const Run> runs, const std::filesystem::path& output) {

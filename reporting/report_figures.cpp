@@ -190,6 +190,7 @@ std::size_t legible_rows(const TrajectoryTable& trajectory, std::span<const Plan
     std::span<const double> x, y;
     double length = 0;
   };
+  std::vector<double> lengths;  // of the longest path up to each row
   std::vector<Path> paths;
   for (const auto& [x, y] : bodies) paths.push_back({trajectory.column(x), trajectory.column(y)});
   Interval width, height;
@@ -206,11 +207,16 @@ std::size_t legible_rows(const TrajectoryTable& trajectory, std::span<const Plan
       }
       longest = std::max(longest, path.length);
     }
+    lengths.push_back(longest);
     const auto [shorter, longer] = std::minmax({width.length(), height.length()});
     const double diagonal = std::hypot(shorter, longer);
     if (longer <= longest_box * shorter && longest <= longest_path * diagonal) legible = row + 1;
   }
-  return legible < fewest ? trajectory.rows() : legible;
+  if (legible >= fewest) return legible;
+  const double diagonal = std::hypot(width.length(), height.length());
+  const auto end = std::ranges::upper_bound(lengths, longest_path * diagonal);
+  return std::min(trajectory.rows(),
+                  std::max(fewest, static_cast<std::size_t>(end - lengths.begin())));
 }
 
 std::vector<Figure> motion_figures(std::span<const Run> runs) {

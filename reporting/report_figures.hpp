@@ -31,8 +31,9 @@ using PlanarBody = std::pair<std::string, std::string>;
 std::vector<PlanarBody> planar_bodies(std::span<const std::string> coordinates);
 
 // The first rows of planar curves that can be told apart in one picture: all of them, or as many as
-// stay in a box eight times as long as wide and make no path longer than forty of its diagonals. At
-// least 50.
+// stay in a box eight times as long as wide and make no path longer than forty of its diagonals.
+// Where these are less than 50, as many as make no path longer than forty diagonals of the box of
+// all rows, and at least 50.
 std::size_t legible_rows(const TrajectoryTable& trajectory, std::span<const PlanarBody> bodies);
 
 // The motion. A system with two coordinates: its phase portrait and both over time. With rotations,

@@ -41,6 +41,12 @@ class Axis {
     return length >= this.window[0] - slack && length <= this.window[1] + slack;
   }
 
+  // Where a value is in the page's own drawing.
+  drawnPixel(value) {
+    return this.drawn[0] + (this.length(value) - this.full[0]) / (this.full[1] - this.full[0]) * (this.drawn[1] - this.drawn[0]);
+  }
+  // How many times larger than the whole.
+  get magnification() { return (this.full[1] - this.full[0]) / (this.window[1] - this.window[0]); }
   get zoomed() { return this.window[0] !== this.full[0] || this.window[1] !== this.full[1]; }
 
   // Where a pixel of the page's own drawing is now: factor · pixel + shift.

@@ -26,22 +26,8 @@ class Chart {
     this.pointers = new Map();
     this.drag = null;
     const origin = (data.origin || '0 0').split(' ').map(Number);
-    this.curves = Array.from(this.panel.querySelectorAll('.series'), (element) => ({
-      element,
-      label: element.querySelector('title').textContent,
-      colour: element.classList[1],
-      x: numbers(element.dataset.x, origin[0]),
-      y: numbers(element.dataset.y, origin[1]),
-      z: element.dataset.z ? numbers(element.dataset.z, 0) : null,
-      t: element.dataset.t ? numbers(element.dataset.t, 0) : null,
-      whole: false,
-    })).filter((curve) => curve.x.length > 0);
-    for (const curve of this.curves) {
-      curve.time = curve.t || curve.x;
-      curve.whole = Number(curve.element.dataset.rows) === curve.x.length;
-      // A <title> would cover the read-out.
-      curve.element.querySelector('title').remove();
-    }
+    this.curves = Array.from(this.panel.querySelectorAll('.series'), (element) => new Curve(element, origin))
+      .filter((curve) => curve.size > 0);
     const title = picture.querySelector('title');
     this.name = title.textContent;
     title.remove();
@@ -52,12 +38,20 @@ class Chart {
     picture.replaceWith(this.frame);
     this.readout = html('div', {class: 'readout', role: 'status', hidden: ''});
     this.back = html('button', {class: 'whole', type: 'button', hidden: '', title: 'Show all again (double click)'}, '⤢ all');
-    this.frame.append(picture, this.readout, this.back);
+    this.note = html('p', {class: 'note', hidden: ''});
+    this.frame.append(picture, this.readout, this.back, this.note);
     this.cross = svg('g', {class: 'cross'});
     this.now = svg('g', {class: 'now'});
     this.selection = svg('rect', {class: 'selection', display: 'none'});
     this.panel.append(this.now, this.cross, this.selection);
     this.listen();
+  }
+
+  // Says once what the page does not have of its curves.
+  remark(remarks) {
+    const said = Array.from(new Set(remarks.filter((remark) => remark)));
+    this.note.hidden = said.length === 0;
+    this.note.textContent = said.length === 0 ? '' : 'Here the page has ' + said.join('; ') + '. All rows are in the files of the run.';
   }
 
   // The pixels of the picture under an event.

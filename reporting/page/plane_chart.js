@@ -25,11 +25,8 @@ class PlaneChart extends Chart {
     this.clip = svg('rect', {});
     const id = 'area-' + PlaneChart.count++;
     this.panel.prepend(svg('clipPath', {id}, this.clip));
-    for (const curve of this.curves) {
-      curve.element.setAttribute('clip-path', 'url' + '(#' + id + ')');
-      curve.paths = Array.from(curve.element.querySelectorAll('path'),
-        (element) => ({element, d: element.getAttribute('d'), line: element.classList.contains('line')}));
-    }
+    for (const curve of this.curves) curve.element.setAttribute('clip-path', 'url' + '(#' + id + ')');
+    this.drawings = this.curves.map((curve) => new PlaneCurve(this, curve));
   }
 
   get help() { return 'Arrow keys show values; plus, minus and 0 zoom.'; }
@@ -59,17 +56,7 @@ class PlaneChart extends Chart {
     const x = this.x.affine, y = this.y.affine;
     const zoomed = this.x.zoomed || this.y.zoomed;
     this.back.hidden = !zoomed;
-    for (const curve of this.curves) {
-      for (const {element, d, line} of curve.paths) {
-        if (line && zoomed && curve.whole) {
-          element.setAttribute('d', this.path(curve));
-          element.removeAttribute('transform');
-        } else {
-          element.setAttribute('d', d);
-          element.setAttribute('transform', 'matrix(' + [x.factor, 0, 0, y.factor, x.shift, y.shift].join(' ') + ')');
-        }
-      }
-    }
+    this.remark(this.drawings.map((drawing) => drawing.draw(zoomed)));
     for (const dot of this.dots) {
       const place = {x: x.factor * dot.x + x.shift, y: y.factor * dot.y + y.shift};
       set(dot.circle, {cx: place.x, cy: place.y, display: this.inside(place, 2) ? 'inline' : 'none'});
@@ -78,31 +65,6 @@ class PlaneChart extends Chart {
     this.drawNow();
     this.drawCross();
     if (this.at) this.tell(this.at);
-  }
-
-  path(curve) {
-    const [left, , right] = this.area;
-    let d = '', pen = false, before = null;
-    for (let i = 0; i < curve.x.length; ++i) {
-      const place = this.place(curve, i);
-      if (!Number.isFinite(place.x) || !Number.isFinite(place.y)) {
-        pen = false;
-        before = null;
-        continue;
-      }
-      // Of a function of x only what is near the area.
-      if (this.overTime && (place.x < left - 1 || place.x > right + 1)) {
-        if (pen && place.x > right) d += 'L' + point(place);
-        pen = false;
-        before = place;
-        continue;
-      }
-      if (!pen) d += 'M' + point(before || place);
-      d += 'L' + point(place);
-      pen = true;
-      before = place;
-    }
-    return d;
   }
 
   drawAxes() {
@@ -297,8 +259,6 @@ class PlaneChart extends Chart {
   }
 }
 PlaneChart.count = 0;
-
-function point(place) { return Math.round(place.x * 100) / 100 + ' ' + Math.round(place.y * 100) / 100; }
 
 function sameRange(a, b) {
   const slack = 1e-6 * (a[1] - a[0]);

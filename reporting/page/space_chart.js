@@ -41,6 +41,7 @@ class SpaceChart extends Chart {
 
   draw() {
     if (this.turned) this.turn();
+    this.remark(this.curves.map((curve) => curve.whole || this.nearness === 1 ? '' : 'one of ' + readable(curve.thinning, 2) + ' rows'));
     this.back.hidden = !this.turned;
     this.drawNow();
     this.drawCross();

@@ -2,11 +2,21 @@
 
 const minus = '\u2212';
 
+function fromBase64(text) { return Uint8Array.from(atob(text || ''), (letter) => letter.charCodeAt(0)); }
+
 // float32, little-endian, in base64.
 function numbers(text, origin) {
-  const bytes = Uint8Array.from(atob(text || ''), (letter) => letter.charCodeAt(0));
+  const bytes = fromBase64(text);
   const view = new DataView(bytes.buffer);
   return Float64Array.from({length: bytes.length / 4}, (_, i) => view.getFloat32(4 * i, true) + origin);
+}
+
+// `count` whole numbers of one, two or four bytes, little-endian, in base64.
+function unsigned(text, count) {
+  const bytes = fromBase64(text), width = count > 0 ? bytes.length / count : 1;
+  const all = new Array(count).fill(0);
+  for (let k = 0; k < bytes.length; ++k) all[Math.floor(k / width)] += bytes[k] * 256 ** (k % width);
+  return all;
 }
 
 function powerOfTen(exponent) {

@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "courant/plotting/drawing.hpp"
 #include "parsed_markup.hpp"
@@ -206,6 +207,21 @@ BOOST_AUTO_TEST_CASE(small_differences_of_large_numbers_survive) {
   panel.y.scale = std::make_shared<LogScale>();
   BOOST_TEST(attribute(find(parsed(draw(panel, 10).str()), "g", "panel").at(0), "data-origin") ==
              "0 0");
+}
+
+BOOST_AUTO_TEST_CASE(a_rough_path_has_some_thousand_vertices) {
+  Panel panel;
+  panel.series = {{"a", {}, {}, 0}};
+  std::mt19937 generator(1);
+  std::uniform_real_distribution<double> anywhere(0, 1);
+  for (int i = 0; i < 50'000; ++i) {
+    panel.series[0].x.push_back(anywhere(generator));
+    panel.series[0].y.push_back(anywhere(generator));
+  }
+  const auto path = find(find(parsed(draw(panel).str()), "g", "series").at(0), "path").at(0);
+  const auto vertices = std::ranges::count(attribute(path, "d"), 'L');
+  BOOST_TEST(vertices > 3900);
+  BOOST_TEST(vertices < 4000);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -140,7 +140,7 @@ BOOST_AUTO_TEST_CASE(numbers_go_along_where_they_are_asked_for) {
   BOOST_TEST(find(alone, "g", "panel").empty());
   const Tree series = find(parsed(draw(great_circle(100), 3).str()), "g", "series").at(0);
   BOOST_TEST(attribute(series, "data-rows") == "100");
-  for (const std::string name : {"data-x", "data-y", "data-z", "data-t"})
+  for (const std::string name : {"data-x", "data-y", "data-z"})
     BOOST_TEST(attribute(series, name).size() == 16);
 }
 

@@ -76,6 +76,12 @@ BOOST_AUTO_TEST_CASE(only_the_legible_beginning_of_a_long_path_is_drawn) {
   const Run straight =
       table({"t", "x", "y"}, 10'000, [](std::size_t c, double t) { return c == 1 ? t : 0; });
   BOOST_TEST(legible_rows(straight.trajectory, body) == 10'000);
+  // A fast motion across a slow one fills its narrow box before that is wide: the whole box counts.
+  const Run rough = table({"t", "x", "y"}, 10'000, [](std::size_t c, double t) {
+    return c == 1 ? (std::lround(20 * t) % 2 == 0 ? 0.1 : 0.0) : 1e-3 * t;
+  });
+  BOOST_TEST(std::abs(0.1 * static_cast<double>(legible_rows(rough.trajectory, body)) -
+                      40 * std::hypot(0.1, 0.5)) < 0.3);
 }
 
 BOOST_AUTO_TEST_CASE(one_degree_of_freedom_has_a_phase_portrait) {

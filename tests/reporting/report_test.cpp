@@ -76,7 +76,7 @@ BOOST_AUTO_TEST_CASE(page_of_the_three_methods_has_its_figures_and_tables) {
 BOOST_AUTO_TEST_CASE(page_of_long_runs_is_small) {
   const TemporaryFolder folder;
   const std::string page = report_html(read(write_methods(folder, 30'000)));
-  BOOST_TEST(page.size() < 600'000);
+  BOOST_TEST(page.size() < 1'000'000);
   // The energy again without RK2: its beginning, and the whole.
   BOOST_TEST(find(parsed_page(page), "g", "series").size() == 12 + 3 + 2 + 2 + 3);
 }
@@ -90,6 +90,31 @@ BOOST_AUTO_TEST_CASE(pages_of_many_curves_stay_below_a_megabyte) {
   const std::string page = report_html(std::vector<Run>{run, run, run, run, run, run, run, run});
   BOOST_TEST(page.size() < 1'000'000);
   BOOST_TEST(find(parsed_page(page), "g", "series").size() == 12 * 8);
+}
+
+BOOST_AUTO_TEST_CASE(pages_of_long_runs_are_full_of_rows) {
+  const Run run = table({"t", "q", "p", "H"}, 200'000, [](std::size_t c, double t) {
+    return c == 1 ? std::sin(t) : c == 2 ? std::cos(t) : 1 + 1e-3 * std::sin(3 * t);
+  });
+  const std::string page = report_html(std::vector<Run>{run});
+  BOOST_TEST(page.size() < 1'000'000);
+  BOOST_TEST(page.size() > 900'000);
+  std::size_t thinned = 0;
+  for (const Tree& series : find(parsed_page(page), "g", "series")) {
+    if (attribute(series, "data-stretches") == "0") continue;
+    ++thinned;
+    // 640 pixels have twenty pieces each, at least.
+    BOOST_TEST(std::stoi(attribute(series, "data-stretches")) > 20 * 640);
+    BOOST_TEST(attribute(series, "data-rows") == "200000");
+  }
+  BOOST_TEST(thinned == 4);
+}
+
+BOOST_AUTO_TEST_CASE(pages_of_rough_paths_stay_below_a_megabyte) {
+  const Run run = table({"t", "q", "p", "H"}, 100'000, [](std::size_t c, double t) {
+    return c == 1 ? std::sin(1e-3 * t) + 0.1 * std::sin(50 * t) : std::cos(2e-3 * t);
+  });
+  BOOST_TEST(report_html(std::vector<Run>{run}).size() < 1'000'000);
 }
 
 BOOST_AUTO_TEST_CASE(numbers_of_all_rows_go_along_where_they_are_few) {
