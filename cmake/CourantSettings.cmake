@@ -28,6 +28,9 @@ if(COURANT_SANITIZE)
   set(sanitizers -fsanitize=address,undefined -fno-sanitize=null,alignment,object-size,vptr)
   add_compile_options(${sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer -O1 -g1)
   add_compile_definitions(_GLIBCXX_ASSERTIONS)
+  if(COURANT_FUZZ AND CMAKE_CXX_COMPILER_ID MATCHES Clang)
+    add_compile_options(-fsanitize=fuzzer-no-link) # libFuzzer sees which branches an execution takes
+  endif()
   # Instrumented code hides from GCC that an empty optional is never read: its manual warns of such warnings.
   add_compile_options($<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   add_link_options(${sanitizers})

@@ -1,0 +1,17 @@
+// The command as it is fuzzed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace courant::fuzz {
+
+// The command answers these arguments and this standard input as the documentation promises: with
+// one of its exit statuses, with a message where the status is 2, in words for users. What can be
+// stopped is, after a fifth of a second.
+void require_answer(const std::vector<std::string>& arguments, const std::string& input);
+
+// A folder for the files of this process, empty whenever it is asked for.
+std::string empty_folder();
+
+}  // namespace courant::fuzz

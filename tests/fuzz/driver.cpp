@@ -1,0 +1,150 @@
+// The entry points of libFuzzer without it: every file of the corpus as it is, then mutations of them.
+//
+//   fuzz_… [-runs=N] [-max_total_time=SECONDS] [-seed=N] [-max_len=N] FOLDER…
+//
+// What ends the program is left in crash-input.
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <random>
+#include <string>
+#include <vector>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+extern "C" __attribute__((weak)) std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data,
+                                                                     std::size_t size,
+                                                                     std::size_t most,
+                                                                     unsigned seed);
+
+namespace {
+
+constexpr unsigned seconds = 20;  // of one execution
+
+std::mt19937& generator() {
+  static std::mt19937 only;
+  return only;
+}
+
+std::size_t below(std::size_t bound) {
+  return std::uniform_int_distribution<std::size_t>(0, bound - 1)(generator());
+}
+
+std::string input;  // of the execution that goes on
+
+void leave_input(int signal) {
+  std::ofstream("crash-input", std::ios::binary) << input;
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+void execute() {
+  alarm(seconds);
+  LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
+  alarm(0);
+}
+
+}  // namespace
+
+// One letter, or some of them that stand elsewhere, in the place of others.
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most) {
+  std::vector<std::uint8_t> bytes(data, data + size);
+  const auto at = static_cast<std::ptrdiff_t>(below(size + 1));
+  const std::size_t length =
+      std::min<std::size_t>(below(8) + 1, size - static_cast<std::size_t>(at));
+  switch (below(4)) {
+    case 0:
+      bytes.erase(bytes.begin() + at, bytes.begin() + at + static_cast<std::ptrdiff_t>(length));
+      break;
+    case 1:
+      bytes.insert(bytes.begin() + at,
+                   static_cast<std::uint8_t>(below(4) > 0 ? 32 + below(95) : below(256)));
+      break;
+    case 2:
+      if (at < static_cast<std::ptrdiff_t>(size))
+        bytes[static_cast<std::size_t>(at)] = static_cast<std::uint8_t>(32 + below(95));
+      break;
+    default: {
+      const std::vector<std::uint8_t> piece(
+          bytes.begin() + at, bytes.begin() + at + static_cast<std::ptrdiff_t>(length));
+      bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(below(size + 1)), piece.begin(),
+                   piece.end());
+    }
+  }
+  bytes.resize(std::min(bytes.size(), most));
+  std::copy(bytes.begin(), bytes.end(), data);
+  return bytes.size();
+}
+
+namespace {
+
+struct Arguments {
+  std::size_t executions = 10'000, most_bytes = 4096, seconds = 1'000'000;
+  std::vector<std::string> corpus;
+};
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+// Options that only libFuzzer has are passed over.
+Arguments read_arguments(const std::vector<std::string>& words) {
+  Arguments arguments;
+  for (const std::string& word : words) {
+    const auto value = [&] { return std::stoul(word.substr(word.find('=') + 1)); };
+    if (word.starts_with("-runs="))
+      arguments.executions = value();
+    else if (word.starts_with("-max_total_time="))
+      arguments.seconds = value();
+    else if (word.starts_with("-max_len="))
+      arguments.most_bytes = value();
+    else if (word.starts_with("-seed="))
+      generator().seed(static_cast<unsigned>(value()));
+    else if (!word.starts_with("-"))
+      for (const auto& entry : std::filesystem::directory_iterator(word))
+        if (entry.is_regular_file() && entry.file_size() <= arguments.most_bytes)
+          arguments.corpus.push_back(text_of(entry.path()));
+  }
+  if (arguments.corpus.empty()) arguments.corpus.emplace_back();
+  std::sort(arguments.corpus.begin(), arguments.corpus.end());
+  return arguments;
+}
+
+// One to five mutations.
+std::string mutated(const std::string& start, std::size_t most) {
+  std::string text = start;
+  std::size_t size = text.size();
+  text.resize(most);
+  auto* data = reinterpret_cast<std::uint8_t*>(text.data());
+  for (std::size_t times = below(5) + 1; times > 0; --times)
+    size = LLVMFuzzerCustomMutator != nullptr
+               ? LLVMFuzzerCustomMutator(data, size, most, static_cast<unsigned>(generator()()))
+               : LLVMFuzzerMutate(data, size, most);
+  text.resize(size);
+  return text;
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  const Arguments arguments = read_arguments({words + 1, words + count});
+  for (const int signal : {SIGABRT, SIGSEGV, SIGALRM, SIGFPE, SIGILL})
+    std::signal(signal, leave_input);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(arguments.seconds);
+  std::size_t execution = 0;
+  for (; execution < arguments.executions && std::chrono::steady_clock::now() < end; ++execution) {
+    const std::vector<std::string>& corpus = arguments.corpus;
+    input = execution < corpus.size() ? corpus[execution]
+                                      : mutated(corpus[below(corpus.size())], arguments.most_bytes);
+    execute();
+  }
+  std::cout << execution << " executions\n";
+}
