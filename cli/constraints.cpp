@@ -22,7 +22,8 @@ void print_levels(const Console& console, const Experiment& experiment,
                   const LadderReport& ladder) {
   std::ostream& out = console.out;
   if (!experiment.title.empty()) out << printable(experiment.title) << '\n';
-  out << "  " << experiment.model.description << "\n\n";
+  print_wrapped(out, experiment.model.description, "  ");
+  out << '\n';
   for (const std::string& line : ladder_text_diagram(ladder)) out << "  " << line << '\n';
   out << "\n  (dim S, dim M): " << ladder_line(ladder) << "\n\n";
   TextTable table({"k", "dim S", "dim M", "fibre", "gap", "residual"});
@@ -88,6 +89,12 @@ void print_discrete(const Console& console, const Experiment& experiment,
                     experiment.method->description + ", with the step " +
                     shown(experiment.time->step) + ".",
                 "  ");
+  if (experiment.method->description.starts_with("constrain-first"))
+    print_wrapped(out,
+                  "S\u2080 are the pairs that satisfy the equations of the system, as those of "
+                  "discretize-first do; the steps of constrain-first satisfy those of S_f, and end "
+                  "on M_f.",
+                  "  ");
   print_wrapped(out, discrete_verdict_in_words(ladder), "  ");
   out << "\n  without discretization: " << ladder_line(continuous) << '\n';
 }

@@ -21,22 +21,12 @@ namespace {
 constexpr std::size_t kLargest = std::size_t{16} << 20;  // bytes; a device may have no end
 
 std::optional<std::string> read_text(const Console& console, const std::string& file,
-                                     std::istream& stream) {
+                                     const std::string& expected, std::istream& stream) {
   std::string text(kLargest + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(stream.gcount()));
   if (text.size() <= kLargest) return text;
-  print_error(console, file + ": is larger than 16 MB; expected an experiment");
-  return std::nullopt;
-}
-
-std::optional<std::string> read_text(const Console& console, const std::string& file) {
-  if (file == "-") return read_text(console, file, console.in);
-  std::ifstream stream(file, std::ios::binary);
-  const int error = errno;
-  if (stream && !std::filesystem::is_directory(file)) return read_text(console, file, stream);
-  print_error(console, file + ": cannot be read: " +
-                           (stream ? "is a folder" : std::generic_category().message(error)));
+  print_error(console, file + ": is larger than 16 MB; expected " + expected);
   return std::nullopt;
 }
 
@@ -56,6 +46,18 @@ void add_settings(CLI::App& command, std::vector<std::string>& settings) {
       ->type_name("/POINTER=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+std::optional<std::string> read_input(const Console& console, const std::string& file,
+                                      const std::string& expected) {
+  if (file == "-") return read_text(console, file, expected, console.in);
+  std::ifstream stream(file, std::ios::binary);
+  const int error = errno;
+  if (stream && !std::filesystem::is_directory(file))
+    return read_text(console, file, expected, stream);
+  print_error(console, file + ": cannot be read: " +
+                           (stream ? "is a folder" : std::generic_category().message(error)));
+  return std::nullopt;
 }
 
 int reporting_errors(const Console& console, const std::string& file,
@@ -78,7 +80,7 @@ int reporting_errors(const Console& console, const std::string& file,
 int with_document(const Console& console, const std::string& file,
                   const std::function<int(const Json&)>& action,
                   const std::vector<std::string>& settings) {
-  const auto text = read_text(console, file);
+  const auto text = read_input(console, file, "an experiment");
   if (!text) return wrong;
   return reporting_errors(console, file, [&] {
     Json document = parse_json(*text);

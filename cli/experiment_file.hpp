@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,11 @@ void add_settings(CLI::App& command, std::vector<std::string>& settings);
 int with_experiment(const Console& console, const std::string& file,
                     const std::function<int(const Experiment&)>& action,
                     const std::vector<std::string>& settings = {});
+
+// What the file says, or standard input if that is "-"; nothing, after a line of what is wrong, if it
+// cannot be read or is larger than 16 MB. `expected` is what it should be, "an experiment".
+std::optional<std::string> read_input(const Console& console, const std::string& file,
+                                      const std::string& expected);
 
 // Does it; what it throws is said in lines that begin with `file`, and gives the exit status.
 int reporting_errors(const Console& console, const std::string& file,

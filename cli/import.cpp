@@ -1,47 +1,28 @@
 #include <CLI/CLI.hpp>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <ostream>
 
 #include "courant/cli/command.hpp"
+#include "courant/cli/experiment_file.hpp"
 #include "courant/reading/experiment.hpp"
 #include "courant/reading/netlist.hpp"
+#include "courant/running/output_file.hpp"
 
 namespace courant::cli {
 namespace {
 
-int refuse(const Console& console, const std::string& file, const std::string& what) {
-  console.err << "courant: " << file << ": " << what << '\n';
-  return wrong;
-}
-
 int import(const Console& console, const std::string& file, const std::string& output) {
-  std::string text;
-  if (file == "-") {
-    text.assign(std::istreambuf_iterator<char>(console.in), {});
-  } else {
-    std::ifstream in(file, std::ios::binary);
-    if (!in) return refuse(console, file, "cannot be read");
-    text.assign(std::istreambuf_iterator<char>(in), {});
-  }
-  Json experiment;
-  try {
-    experiment = import_netlist(text);
-    read_experiment(experiment.dump());  // what is wrong with the network itself
-  } catch (const ExperimentError& error) {
-    for (const Problem& problem : error.problems())
-      refuse(console, file, (problem.where.empty() ? "" : problem.where + ": ") + problem.what);
-    return wrong;
-  }
-  if (output.empty()) {
-    console.out << experiment.dump(2) << '\n';
+  const auto text = read_input(console, file, "a netlist");
+  if (!text) return wrong;
+  return reporting_errors(console, file, [&]() -> int {
+    const Json experiment = import_netlist(*text);
+    read_experiment_document(experiment);  // what is wrong with the network itself
+    if (output.empty())
+      console.out << experiment.dump(2) << '\n';
+    else
+      write_file(output, experiment.dump(2) + "\n");
     return done;
-  }
-  std::ofstream out(output, std::ios::binary);
-  out << experiment.dump(2) << '\n';
-  out.close();
-  return out ? static_cast<int>(done) : refuse(console, output, "cannot be written");
+  });
 }
 
 }  // namespace

@@ -26,10 +26,12 @@ std::vector<std::string> pieces(const std::string& text, std::size_t longest) {
   std::vector<std::string> words;
   const auto finish = [&] {
     if (piece.empty()) return;
-    if (piece.starts_with("= ") && !result.empty() && longest > 0)
-      result.back() += " " + piece;
-    else if (width(piece) > longest)
+    const bool is_side = piece.starts_with("= ") && !result.empty();
+    const std::size_t needed = width(piece) + (is_side ? width(result.back()) + 1 : 0);
+    if (needed > longest)
       result.insert(result.end(), words.begin() + static_cast<std::ptrdiff_t>(begin), words.end());
+    else if (is_side)
+      result.back() += " " + piece;
     else
       result.push_back(piece);
     piece.clear();

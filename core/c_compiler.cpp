@@ -98,9 +98,11 @@ void run_compiler(const fs::path& compiler, const std::vector<std::string>& opti
   // Where the host program ignores SIGCHLD there is no status; the object tells then.
   const bool failed =
       waited == child ? !(WIFEXITED(status) && WEXITSTATUS(status) == 0) : !fs::exists(object);
-  if (failed)
-    throw std::runtime_error("CCompiler::compile: " + compiler.string() + " failed:\n" +
-                             content_of(log).substr(0, 2000));
+  if (failed) {
+    const std::string said = content_of(log).substr(0, 2000);
+    throw std::runtime_error("CCompiler::compile: " + compiler.string() +
+                             (said.empty() ? " failed." : " failed:\n" + said));
+  }
 }
 
 // A shared object, unloaded with the last owner.

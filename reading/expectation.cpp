@@ -167,7 +167,7 @@ void read_state(ObjectReader& entry, const JsonReader& state_key, const Reading&
     at_key->problem("there is no trajectory; expected \"method\" and \"time\", or no \"at\"");
   const auto entries = state_key.entries();
   if (!entries) return;
-  if (entries->empty()) state_key.expected("an object of values by name");
+  if (entries->empty()) state_key.problem("is empty; expected values by name");
   Graph graph;
   const Expr t = graph.variable("t");
   const SymbolTable symbols = reading.vocabulary.symbols({.t = t});
@@ -230,7 +230,7 @@ void read_occurrence(ObjectReader& entry, const std::string& name, const Reading
   if (!state_key) return;
   const auto entries = state_key->entries();
   if (!entries) return;
-  if (entries->empty()) state_key->expected("an object of values by name");
+  if (entries->empty()) state_key->problem("is empty; expected values by name");
   for (const auto& [quantity, value] : *entries)
     if (reading.is_quantity(quantity, value)) compare(quantity, value);
 }

@@ -88,7 +88,8 @@ class File {
 
   Json load(const Json& table) {
     std::ifstream stream(path_);
-    if (!stream || std::filesystem::is_directory(path_))
+    if (!stream || std::filesystem::is_directory(path_) ||
+        std::filesystem::is_character_file(path_))  // which may have no end
       refuse("cannot be read; expected a file of comma-separated values");
     std::string line;
     if (!std::getline(stream, line)) refuse("is empty; expected names in its first line");

@@ -88,17 +88,24 @@ constexpr const char* kRunIsWritten =
 }  // namespace
 
 void RunFolder::check_place(const fs::path& path) {
+  // Only the attempt tells of names that are too long, and of file systems without folders.
   std::error_code error;
+  std::vector<fs::path> missing;
   fs::path nearest = fs::absolute(path, error).lexically_normal();
-  while (!file_exists(nearest) && nearest.has_relative_path()) nearest = nearest.parent_path();
-  const bool is_there = nearest == fs::absolute(path, error).lexically_normal();
-  if (!fs::is_directory(nearest, error))
-    refuse_folder(
-        path, "the folder cannot be made: " +
-                  std::generic_category().message(static_cast<int>(std::errc::not_a_directory)));
-  if (access(nearest.c_str(), W_OK | X_OK) != 0)
-    refuse_folder(path, (is_there ? "cannot be written: " : "the folder cannot be made: ") +
-                            std::generic_category().message(errno));
+  for (; !file_exists(nearest) && nearest.has_relative_path(); nearest = nearest.parent_path())
+    missing.push_back(nearest);
+  error =
+      fs::is_directory(nearest) ? std::error_code() : make_error_code(std::errc::not_a_directory);
+  std::vector<fs::path> made;
+  while (!error && !missing.empty()) {
+    if (fs::create_directory(missing.back(), error)) made.push_back(missing.back());
+    missing.pop_back();
+  }
+  for (std::error_code ignored; !made.empty(); made.pop_back()) fs::remove(made.back(), ignored);
+  if (error) refuse_folder(path, "the folder cannot be made: " + error.message());
+  if (nearest == fs::absolute(path, error).lexically_normal() &&
+      access(nearest.c_str(), W_OK | X_OK) != 0)
+    refuse_folder(path, "cannot be written: " + std::generic_category().message(errno));
 }
 
 void RunFolder::check(const fs::path& path, ExistingRun existing, const Experiment& experiment) {

@@ -112,7 +112,12 @@ class RunUnderway {
   std::string words_of(const SolveError& error, const State& state) const {
     const std::string what = error.what();
     const std::string why = undefined_ahead(experiment_, ladder_, state, experiment_.time->step);
-    return why.empty() ? what : what.substr(0, what.rfind("; ")) + ": " + why + ".";
+    if (why.empty()) return what;
+    // What it expected is not to be had; what it advises is.
+    const std::size_t expected = what.rfind("; ");
+    return (expected == std::string::npos ? what + " The cause: "
+                                          : what.substr(0, expected) + ": ") +
+           why + ".";
   }
 
   void check_finite(const State& state) {

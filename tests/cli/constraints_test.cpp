@@ -54,15 +54,24 @@ BOOST_AUTO_TEST_CASE(the_discrete_ladder) {
   const Json json = Json::parse(constraints({"-", "--discrete", "--json"}, experiment).out);
   BOOST_TEST(json.at("degrees_of_freedom") == 4);
 
+  // The pairs are those of the system, not the steps of Method 2, which keep the constraints.
+  BOOST_TEST(!contains(answer.out, "constrain-first"));
+  const Answer second = constraints({"experiments/point_vortices.json", "--discrete"});
+  BOOST_TEST(contains(second.out, "(dim S, dim M): (16, 16)"), second.out);
+  BOOST_TEST(contains(second.out, "as those of discretize-first do"), second.out);
+
   const Answer without = constraints({"experiments/inconsistent_lagrangian.json", "--discrete"});
   BOOST_TEST(without.status == 2);
   BOOST_TEST(contains(without.err, "/method: is missing"), without.err);
 }
 
 BOOST_AUTO_TEST_CASE(lines_fit_a_hundred_columns) {
-  for (const char* name : {"point_vortices", "heavy_top_constrained", "heavy_top_so3",
-                           "inconsistent_lagrangian", "christ_lee", "spherical_vortices",
-                           "structure_pushforward", "structure_restricted_two_form"}) {
+  for (const char* name :
+       {"point_vortices", "heavy_top_constrained", "heavy_top_so3", "inconsistent_lagrangian",
+        "christ_lee", "spherical_vortices", "structure_pushforward",
+        "structure_restricted_two_form",
+        // Formulas whose factors are longer than a line, and a long manifold.
+        "double_pendulum", "furuta_pendulum", "vertical_rolling_disk", "rolling_ball_turntable"}) {
     const Answer answer = constraints({std::string("experiments/") + name + ".json"});
     BOOST_TEST(answer.status == 0, answer.err);
     std::istringstream lines(answer.out);

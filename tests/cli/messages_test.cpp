@@ -104,6 +104,9 @@ BOOST_AUTO_TEST_CASE(the_place_is_that_of_the_wrong_value) {
            std::pair("max_violation_nan", "/expect/0/max_violation: tests nothing"),
            std::pair("expectation_that_fails",
                      "/expect/0: q = 2 at t = 1: is 0.541002, off by 1.46; allowed 1e-07"),
+           std::pair("expectation_of_no_values", "/expect/0/state: is empty; expected values"),
+           std::pair("step_too_long_into_a_root",
+                     " would do. The cause: sqrt(q) in equation 2 has no value ahead of the state"),
            std::pair("number_too_large", "line 1, column 99: is not JSON: number overflow"),
        }) {
     const TemporaryFolder folder;

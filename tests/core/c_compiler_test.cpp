@@ -282,7 +282,7 @@ BOOST_FIXTURE_TEST_CASE(what_a_killed_compilation_left_is_removed, Cache) {
 BOOST_FIXTURE_TEST_CASE(a_compiler_that_does_not_work_is_a_defect, Cache) {
   BOOST_TEST(machine_compiler()->defect() == "");
   setenv("COURANT_CC", "/bin/false", 1);
-  BOOST_TEST(machine_compiler()->defect() == "/bin/false failed:");
+  BOOST_TEST(machine_compiler()->defect() == "/bin/false failed.");
   setenv("COURANT_CC", "no-such-compiler", 1);
   BOOST_TEST(
       machine_compiler()->defect().starts_with("no C compiler: no-such-compiler is not found."));

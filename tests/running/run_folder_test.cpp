@@ -87,6 +87,16 @@ BOOST_AUTO_TEST_CASE(a_folder_that_cannot_be_made_is_refused) {
   write_text(folder / "file", "");
   BOOST_TEST(refusal(folder / "file" / "run", ExistingRun::refuse)
                  .ends_with("the folder cannot be made: Not a directory"));
+  // Only the attempt tells of this one; what it made is gone again.
+  const auto check = [&](const std::string& name) {
+    RunFolder::check(folder / "runs" / name, ExistingRun::refuse, experiment);
+  };
+  BOOST_CHECK_EXCEPTION(check(std::string(300, 'x')), UnusableFolder, [](const auto& error) {
+    return std::string(error.what()).ends_with("the folder cannot be made: File name too long");
+  });
+  BOOST_TEST(!std::filesystem::exists(folder / "runs"));
+  check("one");
+  BOOST_TEST(!std::filesystem::exists(folder / "runs"));
 }
 
 // The run that goes on is the same run; killed before it reached an epoch, it has no checkpoint.
