@@ -105,8 +105,11 @@ BOOST_AUTO_TEST_CASE(the_place_is_that_of_the_wrong_value) {
            std::pair("expectation_that_fails",
                      "/expect/0: q = 2 at t = 1: is 0.541002, off by 1.46; allowed 1e-07"),
            std::pair("expectation_of_no_values", "/expect/0/state: is empty; expected values"),
-           std::pair("step_too_long_into_a_root",
-                     " would do. The cause: sqrt(q) in equation 2 has no value ahead of the state"),
+           std::pair(
+               "step_too_long_into_a_root",
+               "discretize-first: the step of 0.1 from t = 0 has no solution that is connected "
+               "to the state: the one that is ends at a step of 0.030854. A step of 0.027 "
+               "would do. The cause: sqrt(q) in equation 2 has no value"),
            std::pair("number_too_large", "line 1, column 99: is not JSON: number overflow"),
        }) {
     const TemporaryFolder folder;
