@@ -106,7 +106,7 @@ void StepSolver::connect(bool converged, const double* const* in, const double* 
     std::ostringstream message;
     message << "has no solution that is connected to the state: the one that is ends at a step of "
             << reached * attempt.h << ". A step of " << rounded_down(0.9 * reached * attempt.h)
-            << " would do." << open_unknowns();
+            << " would do.";
     throw SolveError(SolveError::Reason::disconnected, method_, attempt.time, attempt.h,
                      message.str());
   }
@@ -120,14 +120,6 @@ void StepSolver::connect(bool converged, const double* const* in, const double* 
   fail(attempt);
 }
 
-// What a message about a step adds where that is why it cannot be made.
-std::string StepSolver::open_unknowns() const {
-  return newton_.is_determined()
-             ? ""
-             : " Its equations leave unknowns open, as multipliers of constraints "
-               "that repeat each other.";
-}
-
 void StepSolver::fail(const Attempt& attempt) const {
   if (result_.status == Newton::Status::singular)
     throw SolveError(SolveError::Reason::singular, method_, attempt.time, attempt.h,
@@ -137,12 +129,10 @@ void StepSolver::fail(const Attempt& attempt) const {
   if (result_.status == Newton::Status::converged)
     throw SolveError(SolveError::Reason::disconnected, method_, attempt.time, attempt.h,
                      "has a solution that cannot be followed from the state, and may be a wrong "
-                     "one; the step is too large, or the state is at or near a singular point." +
-                         open_unknowns());
+                     "one; the step is too large, or the state is at or near a singular point.");
   message << "did not converge in " << result_.iterations << " iterations, residual "
           << (result_.residuals.empty() ? 0.0 : result_.residuals.back())
-          << "; the step is too large, or the state comes near a singular point."
-          << open_unknowns();
+          << "; the step is too large, or the state comes near a singular point.";
   throw SolveError(SolveError::Reason::diverged, method_, attempt.time, attempt.h, message.str(),
                    result_.residuals);
 }

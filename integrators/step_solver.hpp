@@ -100,7 +100,6 @@ class StepSolver {
   void connect(bool converged, const double* const* in, const double* scales,
                const Attempt& attempt, SolverStatistics& statistics);
   [[noreturn]] void fail(const Attempt& attempt) const;
-  std::string open_unknowns() const;
 
   // A displacement that is predicted up to this part of its size, or up to such a part of the
   // coordinates, needs no confirmation. Its size is the largest of the last steps, of which each
