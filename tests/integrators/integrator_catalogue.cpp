@@ -348,7 +348,7 @@ void in_transformed_time(std::vector<IntegratorEntry>& table) {
     return 0.5 * square(x[1]) - cos(x[0]) + x[0] * square(x[0]) / 6.0 - x[0] * cos(3.0 * t);
   });
   const TimeRate rate = [](V x, T t) {
-    return 1.0 + 0.3 * square(x[0]) + 0.2 * x[0] * x[1] + 0.1 * sin(t);
+    return 0.5 + 0.15 * square(x[0]) + 0.1 * x[0] * x[1] + 0.05 * sin(t);
   };
   const State start{.t = 0.3, .x = Eigen::Vector2d(0.7, -0.4)};
   const auto symplectic = TimeTransformation::symplectic(system, rate);

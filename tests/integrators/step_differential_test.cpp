@@ -58,11 +58,12 @@ MatrixXd by_differences(const test::IntegratorEntry& entry) {
 
 }  // namespace
 
-// Every method of the catalogue: both of them, discrete gradients, explicit ones, compositions, on
+// Every method of the catalogue that has one: both of them, discrete gradients, explicit ones, compositions, on
 // vector spaces, T*S², T*SO(3), with constraints on T*S³, on duals of Lie algebras.
 BOOST_AUTO_TEST_CASE(agrees_with_differences_for_every_method) {
   for (const auto& entry : test::integrator_catalogue()) {
-    if (entry.setting.system->manifold()->dimension() == 0) continue;
+    if (entry.setting.system->manifold()->dimension() == 0 || !entry.integrator->differential())
+      continue;
     const MatrixXd measured = by_differences(entry), image = exact(entry);
     BOOST_TEST((image - measured).norm() < 1e-9 * measured.norm(),
                entry.name << ": " << (image - measured).norm() / measured.norm());
