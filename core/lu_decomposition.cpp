@@ -71,7 +71,6 @@ void LuDecomposition::compute(const Eigen::Ref<const MatrixXd>& A) {
                                 " × " + std::to_string(A.cols()) + "; expected a square matrix.");
   const bool is_of_same_size = A.rows() == size();
   factors_ = A;
-  sign_ = 1;
   if (!is_of_same_size) rows_.resize(static_cast<std::size_t>(size()));
   if (size() <= kPlain) {
     sign_ = with_static_size(size(), [](auto n) { return &factorize<decltype(n)::value>; })(

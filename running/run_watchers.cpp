@@ -24,8 +24,7 @@ class Rows final : public RunWatcher {
   Rows(TrajectoryWriter& writer, std::function<bool(long)> is_written, std::vector<Index> columns)
       : writer_(writer), is_written_(std::move(is_written)), columns_(std::move(columns)) {}
   std::optional<RunEnd> watch(const RunMoment& moment) override {
-    if (is_written_(moment.k))
-      append_row(writer_, moment.t, moment.tau, moment.row(columns_));
+    if (is_written_(moment.k)) append_row(writer_, moment.t, moment.tau, moment.row(columns_));
     return std::nullopt;
   }
 

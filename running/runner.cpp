@@ -290,8 +290,7 @@ class RunUnderway {
       keep_expected(t, row);
       if (!is_written) continue;
       const double tau = time.time(k - 1) + share * stepper.last().h;
-      append_row(*writer_, t, writes_tau() ? std::optional(tau) : std::nullopt,
-                 row(columns_));
+      append_row(*writer_, t, writes_tau() ? std::optional(tau) : std::nullopt, row(columns_));
     }
   }
 

@@ -345,7 +345,7 @@ void in_transformed_time(std::vector<IntegratorEntry>& table) {
   const auto line = std::make_shared<Euclidean>(1);
   const auto M = cotangent(line);
   const auto system = hamiltonian(M, [](V x, T t) {
-    return 0.5 * square(x[1]) - cos(x[0]) + x[0] * square(x[0]) / 6.0 - x[0] * cos(3.0 * t);
+    return 0.5 * square(x[1]) - cos(x[0]) + sin(2.0 * x[0]) / 6.0 - x[0] * cos(3.0 * t);
   });
   const TimeRate rate = [](V x, T t) {
     return 0.5 + 0.15 * square(x[0]) + 0.1 * x[0] * x[1] + 0.05 * sin(t);
