@@ -47,9 +47,11 @@ class StageStep::Trajectory final : public DisplacementStepper {
   }
 
   void do_stage(Step& step) const override {
-    step.stage = step.after;
     step.stage.t = step.before.t + method_.map_->stage_time() * step.h;
+    step.stage.v = step.after.v;
+    step.stage.z = step.after.z;
     if (method_.map_->has_inverse()) {
+      step.stage.x.resize(step.after.x.size());
       const double* in[] = {step.before.x.data(), step.after.x.data()};
       method_.stage_.value(in, step.stage.x.data());
     } else {
