@@ -14,6 +14,8 @@ constexpr double kDifferenceOfW = 1e-2;
 constexpr std::array kWeightsOfOrder8 = {4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0};
 // Next to the point, a distance from M_f that is round-off: W does not matter there.
 constexpr double kOnConstraints = 1e-15;
+// Directions along the constraints are so up to this part of their size.
+constexpr double kAlongConstraints = 1e-6;
 
 }  // namespace
 
@@ -57,7 +59,20 @@ class ConstrainFirst::Differential final : public StepDifferential {
     const VectorXd w = step.h * stage.v;
     const MatrixXd to_start = projected(step.before, first_({stage.x, w}), moved(first_));
     const MatrixXd to_end = projected(step.after, second_({stage.x, w}), moved(second_));
-    return to_end * implicit_derivative("ConstrainFirst", to_start, -V, to_start.cols());
+    // In a basis of T_{x₀}M_f: coordinates that are constant there, as at rest or on an axis, are no equations.
+    const Site start = site(step.before);
+    const auto coordinates = [&](const MatrixXd& velocities) -> MatrixXd {
+      const MatrixXd components = M_.coframe(step.before.x).matrix() * velocities;
+      return start.directions.transpose() *
+             (start.evaluation.basis().matrix().transpose() * components);
+    };
+    const MatrixXd along = coordinates(V);
+    if ((start.velocities * along - V).norm() > kAlongConstraints * V.norm())
+      throw std::domain_error(
+          "ConstrainFirst: no step begins in a given direction; expected directions along the "
+          "constraints.");
+    return to_end *
+           implicit_derivative("ConstrainFirst", coordinates(to_start), -along, to_start.cols());
   }
 
   // A point of M_f with its tangent and conormal directions.
