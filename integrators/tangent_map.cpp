@@ -12,22 +12,6 @@ namespace {
 // A form is regular where its least pivot is more than this part of the largest.
 constexpr double kRegularForm = 1e-10;
 
-// ω_D at x in the orthonormal basis of T_xM, if D_x is the graph of a two-form.
-std::optional<MatrixXd> form_at(const DiracStructure& D, const VectorXd& x) {
-  const LinearDirac linear = D.linear(x);
-  if (linear.vector_range().cols() != D.manifold()->dimension()) return std::nullopt;
-  const auto [F, omega] = linear.form();
-  return F * omega * F.transpose();
-}
-
-// Λ_D likewise, if D_x is the graph of a bivector.
-std::optional<MatrixXd> bivector_at(const DiracStructure& D, const VectorXd& x) {
-  const LinearDirac linear = D.linear(x);
-  if (linear.covector_range().cols() != D.manifold()->dimension()) return std::nullopt;
-  const auto [F, lambda] = linear.bivector();
-  return F * lambda * F.transpose();
-}
-
 }  // namespace
 
 TangentMap::TangentMap(const Integrator& method, const MatrixXd& conormals,
@@ -50,12 +34,26 @@ MatrixXd TangentMap::start(const VectorXd& x) const {
   return frame * basis * kernel(conormals_ * basis, {.data_error = 1e-9});
 }
 
-MatrixXd TangentMap::coordinates(const VectorXd& x, const MatrixXd& velocities) const {
-  return manifold_->tangent_basis(x).matrix().transpose() *
-         (manifold_->coframe(x).matrix() * velocities);
+TangentMap::Site TangentMap::site(const VectorXd& x, const MatrixXd& velocities) const {
+  Site at{.velocities = manifold_->tangent_basis(x).matrix().transpose() *
+                        (manifold_->coframe(x).matrix() * velocities)};
+  if (!structure_) return at;
+  const LinearDirac linear = structure_->linear(x);
+  const Index n = manifold_->dimension();
+  if (linear.vector_range().cols() == n) {
+    const auto [F, omega] = linear.form();
+    at.form = F * omega * F.transpose();
+  } else if (linear.covector_range().cols() == n) {
+    const auto [F, lambda] = linear.bivector();
+    at.bivector = F * lambda * F.transpose();
+  }
+  return at;
 }
 
-void TangentMap::begin(const VectorXd& x) { memory_ = {x, x, start(x)}; }
+void TangentMap::begin(const VectorXd& x) {
+  memory_ = {x, x, start(x)};
+  first_ = site(x, memory_.images);
+}
 
 void TangentMap::advance(const Step& step) {
   memory_.images = (*differential_)(step, memory_.images);
@@ -68,37 +66,36 @@ void TangentMap::recall(const Memory& memory) {
     throw std::invalid_argument("TangentMap::recall: the memory is of points of " +
                                 std::to_string(memory.first.size()) + " numbers; expected " +
                                 std::to_string(N) + ".");
+  if (first_.velocities.size() == 0 || memory.first != memory_.first)
+    first_ = site(memory.first, start(memory.first));
   memory_ = memory;
 }
 
-std::optional<double> TangentMap::symplecticity_defect() const {
-  if (!structure_) return std::nullopt;
-  const auto& [first, present, images] = memory_;
-  const MatrixXd from = coordinates(first, start(first)), to = coordinates(present, images);
-  const auto omega = form_at(*structure_, first);
-  if (omega) {
-    const auto omega_here = form_at(*structure_, present);
-    const MatrixXd before = from.transpose() * *omega * from;
-    if (!omega_here || before.size() == 0 || before.norm() == 0.0) return std::nullopt;
-    return (to.transpose() * *omega_here * to - before).norm() / before.norm();
-  }
-  const auto lambda = bivector_at(*structure_, first), there = bivector_at(*structure_, present);
-  if (!is_whole() || !lambda || !there || there->norm() == 0.0) return std::nullopt;
-  const MatrixXd map = to * from.transpose();
-  return (map * *lambda * map.transpose() - *there).norm() / there->norm();
+TangentMap::Defects TangentMap::defects() const {
+  const Site here = site(memory_.present, memory_.images);
+  return {symplecticity(here), volume(here)};
 }
 
-std::optional<double> TangentMap::volume_defect() const {
-  const auto& [first, present, images] = memory_;
-  const MatrixXd from = coordinates(first, start(first)), to = coordinates(present, images);
-  if (structure_) {
-    const auto omega = form_at(*structure_, first), there = form_at(*structure_, present);
-    if (omega && there) {
-      const LuDecomposition before(from.transpose() * *omega * from);
-      if (before.size() > 0 && before.pivot_ratio() > kRegularForm) {
-        const LuDecomposition after(to.transpose() * *there * to);
-        return std::sqrt(std::fabs(after.determinant() / before.determinant())) - 1.0;
-      }
+std::optional<double> TangentMap::symplecticity(const Site& here) const {
+  const MatrixXd &from = first_.velocities, &to = here.velocities;
+  if (first_.form) {
+    const MatrixXd before = from.transpose() * *first_.form * from;
+    if (!here.form || before.size() == 0 || before.norm() == 0.0) return std::nullopt;
+    return (to.transpose() * *here.form * to - before).norm() / before.norm();
+  }
+  if (!is_whole() || !first_.bivector || !here.bivector || here.bivector->norm() == 0.0)
+    return std::nullopt;
+  const MatrixXd map = to * from.transpose();
+  return (map * *first_.bivector * map.transpose() - *here.bivector).norm() / here.bivector->norm();
+}
+
+std::optional<double> TangentMap::volume(const Site& here) const {
+  const MatrixXd &from = first_.velocities, &to = here.velocities;
+  if (first_.form && here.form) {
+    const LuDecomposition before(from.transpose() * *first_.form * from);
+    if (before.size() > 0 && before.pivot_ratio() > kRegularForm) {
+      const LuDecomposition after(to.transpose() * *here.form * to);
+      return std::sqrt(std::fabs(after.determinant() / before.determinant())) - 1.0;
     }
   }
   if (!is_whole() || to.cols() == 0) return std::nullopt;

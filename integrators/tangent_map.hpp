@@ -37,9 +37,13 @@ class TangentMap {
 
   // V as ambient velocities (N × k) at the present point.
   const MatrixXd& images() const { return memory_.images; }
-  // No value where it is not defined.
-  std::optional<double> symplecticity_defect() const;
-  std::optional<double> volume_defect() const;
+  // No value where it is not defined. Both together cost what one of them costs.
+  struct Defects {
+    std::optional<double> symplecticity, volume;
+  };
+  Defects defects() const;
+  std::optional<double> symplecticity_defect() const { return defects().symplecticity; }
+  std::optional<double> volume_defect() const { return defects().volume; }
 
   // All that is kept of the steps so far.
   struct Memory {
@@ -51,8 +55,15 @@ class TangentMap {
   void recall(const Memory& memory);
 
  private:
-  // In the orthonormal basis of T_xM.
-  MatrixXd coordinates(const VectorXd& x, const MatrixXd& velocities) const;
+  // Velocities at x and the structure there, as a form or a bivector if it is the graph of one: all in
+  // the orthonormal basis of T_xM.
+  struct Site {
+    MatrixXd velocities;
+    std::optional<MatrixXd> form = {}, bivector = {};
+  };
+  Site site(const VectorXd& x, const MatrixXd& velocities) const;
+  std::optional<double> symplecticity(const Site& here) const;
+  std::optional<double> volume(const Site& here) const;
   MatrixXd start(const VectorXd& x) const;  // V₀
   bool is_whole() const { return conormals_.rows() == 0; }
 
@@ -61,6 +72,7 @@ class TangentMap {
   MatrixXd conormals_;
   std::shared_ptr<const DiracStructure> structure_;
   Memory memory_;
+  Site first_;  // of V₀
 };
 
 }  // namespace courant

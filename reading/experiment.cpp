@@ -167,6 +167,7 @@ std::vector<Observable> read_observables(const JsonReader& value, const Model& m
   SymbolTable symbols = at_stage;
   energies.add_to(symbols, graph.variables("energies", energies.size()));
   SymbolTable taken = symbols;
+  for (const Defect defect : experiment.defects) taken.add(column_of(defect), 0.0);
   if (taken.find("H") == nullptr && system.energy(x, z, t)) taken.add("H", 0.0);
   taken.add("constraint", 0.0);
   for (const DeclaredSymmetry& symmetry : experiment.symmetries) taken.add(symmetry.name, 0.0);
@@ -195,7 +196,37 @@ std::vector<Observable> read_observables(const JsonReader& value, const Model& m
   return observables;
 }
 
-// Coordinates, H where there is an energy, energies of steps, momenta of symmetries, observables:
+// The defects that have columns, by their words.
+std::vector<Defect> read_defects(const JsonReader& value, const Model& model,
+                                 const std::vector<DeclaredSymmetry>& symmetries) {
+  std::vector<Defect> defects;
+  const auto entries = value.elements();
+  if (!entries) return defects;
+  if (entries->empty()) value.expected("\"symplecticity\", \"volume\" or both");
+  const ImplicitSystem& system = *model.system;
+  Graph graph;
+  const SymbolTable symbols =
+      model.symbols(graph.variables("x", system.manifold()->ambient_dimension()),
+                    graph.variables("v", system.manifold()->tangent_dimension()),
+                    graph.variables("z", system.auxiliary_size()), graph.variable("t"));
+  for (const JsonReader& entry : *entries) {
+    const auto word = entry.word({"symplecticity", "volume"});
+    if (!word) continue;
+    const Defect defect = *word == "volume" ? Defect::volume : Defect::symplecticity;
+    const std::string column = column_of(defect);
+    if (std::ranges::find(defects, defect) != defects.end())
+      entry.problem("is there twice; expected each defect once");
+    else if (symbols.find(column) != nullptr ||
+             std::ranges::find(symmetries, column, &DeclaredSymmetry::name) != symmetries.end())
+      entry.problem("has the column " + column +
+                    ", but the experiment has this name already; expected another name there");
+    else
+      defects.push_back(defect);
+  }
+  return defects;
+}
+
+// Coordinates, H where there is an energy, energies of steps, defects, momenta of symmetries, observables:
 // what expectations can be about.
 std::vector<std::string> quantities(const Experiment& experiment) {
   const ImplicitSystem& system = *experiment.model.system;
@@ -207,12 +238,17 @@ std::vector<std::string> quantities(const Experiment& experiment) {
   for (const char* name : {"supplied", "dissipated"})
     if (experiment.writes_energies && experiment.energies.contains(name)) names.push_back(name);
   if (experiment.writes_balance) names.push_back("balance");
+  for (const Defect defect : experiment.defects) names.push_back(column_of(defect));
   for (const DeclaredSymmetry& symmetry : experiment.symmetries) names.push_back(symmetry.name);
   for (const Observable& observable : experiment.observe) names.push_back(observable.name);
   return names;
 }
 
 }  // namespace
+
+std::string column_of(Defect defect) {
+  return defect == Defect::volume ? "volume_defect" : "symplecticity_defect";
+}
 
 Experiment read_experiment(std::string_view text) {
   return read_experiment_document(parse_json(text));
@@ -256,6 +292,9 @@ Experiment read_experiment_document(const Json& written) {
     experiment.examine = static_cast<long>(object.integer("examine", 0, 0));
     const auto weights = object.optional("weights");
     const auto symmetries = object.optional("symmetries");
+    const auto defects = object.optional("defects");
+    if (defects && !method && !time)
+      defects->problem("need a trajectory; expected \"method\" and \"time\"");
     const auto observe = object.optional("observe");
     const auto events = object.optional("events");
     if (events && !time) events->problem("need a trajectory; expected \"method\" and \"time\"");
@@ -276,6 +315,7 @@ Experiment read_experiment_document(const Json& written) {
       experiment.writes_balance =
           experiment.writes_energies && model->vocabulary.symbols({}).find("balance") == nullptr;
       if (symmetries) experiment.symmetries = read_symmetries(*symmetries, *model);
+      if (defects) experiment.defects = read_defects(*defects, *model, experiment.symmetries);
       if (observe) experiment.observe = read_observables(*observe, *model, experiment);
       if (events) experiment.events = read_events(*events, *model);
       std::vector<std::string> event_names;

@@ -24,6 +24,10 @@ struct Observable {
   bool uses_energies = false;  // of the run
 };
 
+// What a run measures of its tangent map, as TangentMap defines it.
+enum class Defect { symplecticity, volume };
+std::string column_of(Defect defect);  // "symplecticity_defect", "volume_defect"
+
 // A system, where it starts, how it is integrated, what is observed and expected. Without a method
 // it asks for the constraint algorithm alone. docs/experiment-format.md has the whole of it.
 struct Experiment {
@@ -39,6 +43,7 @@ struct Experiment {
       {};  // energy_words(model) of a run; those that `observe` has for others unnamed
   // Whether there are columns `supplied` and `dissipated`, where these are words, and `balance`.
   bool writes_energies = false, writes_balance = false;
+  std::vector<Defect> defects;  // that have columns
   std::vector<Event> events;
   Expectations expect;
   Output output;

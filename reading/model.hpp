@@ -22,6 +22,10 @@ struct Model {
   // Structures that belong to the system, with a word for each; the one that it uses comes first.
   // Empty: that of a DiracSystem, or none is known.
   std::vector<std::pair<std::string, std::shared_ptr<const DiracStructure>>> structures;
+  // The structure that the system uses; null where none is known.
+  std::shared_ptr<const DiracStructure> structure() const {
+    return structures.empty() ? system->structure() : structures.front().second;
+  }
   // What is wrong with a point of M as an initial one, where the kind of system knows better than
   // the formulas (two vortices at one place); entries that are not known are NaN. May be empty.
   std::function<std::optional<std::string>(const VectorXd& x)> point_problem;

@@ -82,6 +82,9 @@ class CProgram {
     if (experiment.output.coordinates)
       throw ExperimentError("/output/coordinates",
                             "cannot be exported: the program writes all coordinates");
+    if (!experiment.defects.empty())
+      throw ExperimentError("/defects",
+                            "are not measured by a program in C; expected an experiment without");
     if (experiment.time->is_transformed())
       throw ExperimentError("/time/transformation",
                             "is not written in C; expected steps of one size in t");

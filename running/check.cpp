@@ -234,17 +234,16 @@ class Check {
     }
     const auto* transformed = dynamic_cast<const TransformedIntegrator*>(method->integrator.get());
     const Integrator& integrator = transformed ? *transformed->extended() : *method->integrator;
-    const auto all = structures();
+    const auto structure = experiment_.model.structure();
     const IntegratorSetting setting =
         transformed ? extended_setting(*transformed->transformation(), method->initial)
-                    : IntegratorSetting{.system = experiment_.model.system,
-                                        .initial = method->initial,
-                                        .step = experiment_.time->step,
-                                        .conormals = ladder_.conormals(),
-                                        .is_gauge = ladder_.gauge_dimension > 0,
-                                        .structure = !all.empty() && all.front().second->is_dirac()
-                                                         ? all.front().second
-                                                         : nullptr};
+                    : IntegratorSetting{
+                          .system = experiment_.model.system,
+                          .initial = method->initial,
+                          .step = experiment_.time->step,
+                          .conormals = ladder_.conormals(),
+                          .is_gauge = ladder_.gauge_dimension > 0,
+                          .structure = structure && structure->is_dirac() ? structure : nullptr};
     const IntegratorReport report = check_integrator(integrator, setting);
     states_ = report.states;
     if (transformed)

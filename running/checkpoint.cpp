@@ -25,6 +25,12 @@ Json written(const VectorXd& values) {
   return json;
 }
 
+Json written(const MatrixXd& rows) {
+  Json json = Json::array();
+  for (Index i = 0; i < rows.rows(); ++i) json.push_back(written(VectorXd(rows.row(i))));
+  return json;
+}
+
 void read(const Json& json, double& value) {
   if (json.is_number()) {
     value = json.get<double>();
@@ -44,6 +50,16 @@ void read(const Json& json, VectorXd& values) {
   values.resize(static_cast<Index>(json.size()));
   Index i = 0;
   for (const Json& entry : json) read(entry, values[i++]);
+}
+
+void read(const Json& json, MatrixXd& rows) {
+  VectorXd row;
+  for (Index i = 0; i < static_cast<Index>(json.size()); ++i) {
+    read(json[static_cast<std::size_t>(i)], row);
+    if (i == 0) rows.resize(static_cast<Index>(json.size()), row.size());
+    if (row.size() != rows.cols()) throw RunFileError("a matrix has rows of different lengths");
+    rows.row(i) = row;
+  }
 }
 
 using NamedNumbers = std::map<std::string, double, std::less<>>;
@@ -146,6 +162,12 @@ void each_member(Is<EventWatch::Memory> auto& event_watch, const auto& visit) {
   visit("file_size", event_watch.file_size);
 }
 
+void each_member(Is<TangentMap::Memory> auto& tangent_map, const auto& visit) {
+  visit("first", tangent_map.first);
+  visit("present", tangent_map.present);
+  visit("images", tangent_map.images);
+}
+
 void each_member(Is<PowerAccount::Memory> auto& power_account, const auto& visit) {
   visit("first", power_account.first);
   visit("last", power_account.last);
@@ -210,7 +232,8 @@ Checkpoint from_json(const Json& json) {
   read_record(json.at("energy_watch"), checkpoint.energy_watch);
   read_record(json.at("ladder_watch"), checkpoint.ladder_watch);
   read_record(json.at("event_watch"), checkpoint.event_watch);
-  read_record(json.at("power_account"), checkpoint.power_account);
+  read_record(json.at("power_account"), checkpoint.observed.power_account);
+  read_record(json.at("tangent_map"), checkpoint.observed.tangent_map);
   return checkpoint;
 }
 
@@ -231,7 +254,8 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
             {"energy_watch", record(checkpoint.energy_watch)},
             {"ladder_watch", record(checkpoint.ladder_watch)},
             {"event_watch", record(checkpoint.event_watch)},
-            {"power_account", record(checkpoint.power_account)}};
+            {"power_account", record(checkpoint.observed.power_account)},
+            {"tangent_map", record(checkpoint.observed.tangent_map)}};
   for (const auto& [time, row] : checkpoint.rows_at_times)
     json["rows_at_times"].push_back({{"t", written(time)}, {"row", written(row)}});
   write_file(file, json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");

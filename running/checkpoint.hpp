@@ -11,7 +11,7 @@
 #include "courant/integrators/stepper.hpp"
 #include "courant/running/energy_watch.hpp"
 #include "courant/running/event_watch.hpp"
-#include "courant/running/power_account.hpp"
+#include "courant/running/observer.hpp"
 #include "courant/running/quantity_statistics.hpp"
 #include "courant/running/run_watchers.hpp"
 
@@ -36,7 +36,7 @@ struct Checkpoint {
   std::optional<EnergyWatch::Memory> energy_watch = {};
   std::optional<LadderWatch::Memory> ladder_watch = {};
   std::optional<EventWatch::Memory> event_watch = {};
-  std::optional<PowerAccount::Memory> power_account = {};
+  Observer::Memory observed = {};
 };
 
 // The file of a checkpoint: JSON, numbers by the fewest digits that read back to the same double.

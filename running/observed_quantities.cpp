@@ -92,7 +92,9 @@ bool are_some_missing(const Constraints& found, const ConstraintLadder& ladder,
 }  // namespace
 
 ObservedQuantities::ObservedQuantities(const Experiment& experiment, const ConstraintLadder& ladder)
-    : names(experiment.model.system->names().coordinates), coordinate_count(names.size()) {
+    : names(experiment.model.system->names().coordinates),
+      coordinate_count(names.size()),
+      defects(experiment.defects) {
   const ImplicitSystem& system = *experiment.model.system;
   const Manifold& M = *system.manifold();
   Graph graph;
@@ -117,6 +119,10 @@ ObservedQuantities::ObservedQuantities(const Experiment& experiment, const Const
   if (experiment.writes_balance) {
     balance = static_cast<Index>(names.size());
     add("balance", 0.0);
+  }
+  for (const Defect defect : defects) {
+    defect_places.push_back(static_cast<Index>(names.size()));
+    add(column_of(defect), 0.0);
   }
   for (const DeclaredSymmetry& declared : experiment.symmetries)
     add(declared.name, declared.symmetry.momentum(at.x));

@@ -19,6 +19,8 @@ struct ObservedQuantities {
   std::vector<std::string> names;
   std::size_t coordinate_count = 0, first_constraint = 0, written_count = 0, first_event = 0;
   std::optional<Index> H, balance;  // places in a row
+  std::vector<Defect> defects;
+  std::vector<Index> defect_places;
   std::vector<Index> stage_places;  // of the observables at the stage
   std::vector<Index> deviating;     // of what deviates
 

@@ -1,6 +1,9 @@
 #include "courant/running/observer.hpp"
 
 #include <cmath>
+#include <limits>
+
+#include "courant/core/message.hpp"
 
 namespace courant {
 
@@ -15,6 +18,9 @@ Observer::Observer(const ObservedQuantities& of, Backend backend)
       first_event_(of.first_event),
       stage_places_(of.stage_places),
       deviating_(of.deviating),
+      asked_defects_(of.defects),
+      defect_places_(of.defect_places),
+      defects_(VectorXd::Zero(std::ssize(of.defects))),
       H_(of.H),
       balance_(of.balance),
       is_field_(of.is_field) {
@@ -56,6 +62,8 @@ const VectorXd& Observer::row(const State& state) {
   const double* in[] = {state.x.data(), v, z, &state.t, left_out, energies_.data()};
   quantities_.value(in, row_.data() + N);
   if (balance_) row_[*balance_] = account_->balance();
+  for (Index i = 0; i < defects_.size(); ++i)
+    row_[defect_places_[static_cast<std::size_t>(i)]] = defects_[i];
   for (Index i = 0; i < stage_.size(); ++i)
     row_[stage_places_[static_cast<std::size_t>(i)]] = stage_[i];
   const double* time[] = {&state.t};
@@ -77,6 +85,10 @@ const VectorXd& Observer::begin(const State& state) {
     observe_stage(state, account_ ? account_->energies().effort(none) : VectorXd());
   }
   energies_.setZero();
+  if (map_) {
+    map_->begin(state.x);
+    take_defects();
+  }
   const VectorXd& first = row(state);
   if (account_) account_->open(first[*H_]);
   return first;
@@ -86,6 +98,16 @@ const VectorXd& Observer::advance(const Step& step) {
   if (account_) {
     account_->enter(step);
     take_energies();
+  }
+  if (map_) {
+    try {
+      map_->advance(step);
+      take_defects();
+    } catch (const std::domain_error& error) {
+      throw std::domain_error(
+          "The step to t = " + number_text(step.after.t) +
+          " has no tangent map, which the defects are of: " + without_place(error.what()));
+    }
   }
   if (stage_.size() > 0)
     observe_stage(step.stage, account_ ? account_->energies().effort(step) : VectorXd());
@@ -103,10 +125,28 @@ void Observer::take_energies() {
     energies_ << account_->supplied(), account_->dissipated(), memory.supplied, memory.dissipated;
 }
 
-void Observer::recall(const PowerAccount::Memory& memory) {
-  if (!account_) return;
-  account_->recall(memory);
-  take_energies();
+void Observer::take_defects() {
+  constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+  const auto [symplecticity, volume] = map_->defects();
+  for (Index i = 0; i < defects_.size(); ++i) {
+    const bool is_volume = asked_defects_[static_cast<std::size_t>(i)] == Defect::volume;
+    defects_[i] = (is_volume ? volume : symplecticity).value_or(undefined);
+  }
+}
+
+Observer::Memory Observer::memory() const {
+  Memory memory;
+  if (account_) memory.power_account = account_->memory();
+  if (map_) memory.tangent_map = map_->memory();
+  return memory;
+}
+
+void Observer::recall(const Memory& memory) {
+  if (account_ && memory.power_account) {
+    account_->recall(*memory.power_account);
+    take_energies();
+  }
+  if (map_ && memory.tangent_map) map_->recall(*memory.tangent_map);
 }
 
 void Observer::restart(const State& state) {

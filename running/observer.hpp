@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "courant/core/function.hpp"
+#include "courant/integrators/tangent_map.hpp"
 #include "courant/integrators/vector_field.hpp"
 #include "courant/reading/experiment.hpp"
 #include "courant/running/observed_quantities.hpp"
@@ -15,13 +16,14 @@
 namespace courant {
 
 // What a run measures at each state: the coordinates, H where the system has an energy, the energies
-// of its steps where it has ports, the momenta of its symmetries, the experiment's observables, the
-// constraints, and (not written to files) the quantities of its events and the deviations that its
-// expectations need.
+// of its steps where it has ports, the defects of its tangent map, the momenta of its symmetries, the
+// experiment's observables, the constraints, and (not written to files) the quantities of its events
+// and the deviations that its expectations need.
 //
 // `supplied` and `dissipated` are since the beginning, `balance` that of the step which ended at the
 // state, as of PowerAccount. Observables at the stage of that step are evaluated with its effort; at
-// the first state, before any step, they are those of the state.
+// the first state, before any step, they are those of the state. Defects are those of the map from the
+// first state to the one that the last step led to; before follow() there is none, and they are 0.
 //
 // constraint[i] are the equations of the system that contain nothing but x and t, and the total
 // time derivatives of those which the constraint algorithm differentiated more than once: zero on
@@ -48,22 +50,35 @@ class Observer {
   const VectorXd& row(const State& state);
   // The same for the first state of a run, and for the next one with the step that ended there.
   const VectorXd& begin(const State& state);
+  // Throws std::domain_error where something that is measured is not defined.
   const VectorXd& advance(const Step& step);
 
   // Of the steps so far; null where nothing asks for it: the system has no ports, no observable is at
   // a stage, and no bound of the imbalance is expected.
   const PowerAccount* account() const { return account_ ? &*account_ : nullptr; }
 
-  // Goes on with the account of a run of the same system; nothing where there is no account.
-  void recall(const PowerAccount::Memory& memory);
+  // From begin() or recall() on measures the defects of this map; the steps have to know their parts.
+  void follow(TangentMap map) { map_ = std::move(map); }
+  // Null where no defect is asked for.
+  const TangentMap* tangent_map() const { return map_ ? &*map_ : nullptr; }
 
-  // The account aside, the rows after this depend on the state alone, which is near that of the next one; not on the
-  // rows before, from which the velocity and the unknowns are looked for otherwise.
+  // All that is kept of the steps so far, where there is such a thing.
+  struct Memory {
+    std::optional<PowerAccount::Memory> power_account = {};
+    std::optional<TangentMap::Memory> tangent_map = {};
+  };
+  Memory memory() const;
+  // Goes on from there; throws std::invalid_argument if it is of another system.
+  void recall(const Memory& memory);
+
+  // What is in the memory aside, the rows after this depend on the state alone, which is near that of the next one;
+  // not on the rows before, from which the velocity and the unknowns are looked for otherwise.
   void restart(const State& state);
 
  private:
   void observe_stage(const State& at, const VectorXd& effort);
   void take_energies();
+  void take_defects();
 
   std::vector<std::string> names_;
   std::size_t coordinate_count_, first_constraint_, written_count_, first_event_;
@@ -77,6 +92,10 @@ class Observer {
   VectorXd form_;
   std::optional<PowerAccount> account_;
   VectorXd energies_;
+  std::optional<TangentMap> map_;
+  std::vector<Defect> asked_defects_;
+  std::vector<Index> defect_places_;  // of those in a row
+  VectorXd defects_;
   std::optional<Index> H_, balance_;
   std::unique_ptr<const VectorField> field_;
   bool is_field_ = false;  // whether v and z are those of the field, not those of the state

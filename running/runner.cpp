@@ -19,6 +19,7 @@
 #include "courant/running/run_results.hpp"
 #include "courant/running/run_watchers.hpp"
 #include "courant/running/symmetry_check.hpp"
+#include "courant/running/tangent_of_run.hpp"
 #include "courant/running/trajectory_writer.hpp"
 #include "courant/running/undefined_formula.hpp"
 
@@ -150,6 +151,8 @@ class RunUnderway {
                                        .backend = options_.backend,
                                        .vocabulary = &experiment_.model.vocabulary});
       results_.backend = method.integrator->is_native() ? "native" : "interpreter";
+      if (auto map = tangent_of_run(experiment_, ladder_, method))
+        observer_.follow(*std::move(map));
       if (options_.on_method) options_.on_method(*method.integrator);
       return method;
     } catch (const ExperimentError&) {  // has its own place
@@ -258,19 +261,22 @@ class RunUnderway {
     elsewhere(state);
     return elsewhere_->row(state);
   }
-  // The account before the step that was made, where something is measured within steps.
-  void keep_account() {
+  // What was observed before the step that was made, where something is measured within steps.
+  void keep_observed() {
     if (!event_watch_ && experiment_.output.at.empty() && !clock_.is_transformed()) return;
-    if (const PowerAccount* account = observer_.account()) account_before_ = account->memory();
+    observed_before_ = observer_.memory();
   }
-  // At the end of a part of that step, with the energies up to there.
+  // At the end of a part of that step, with the energies and the tangent map up to there.
   const VectorXd& row_within(const Step& part) {
     elsewhere(part.after);
-    if (account_before_) elsewhere_->recall(*account_before_);
+    elsewhere_->recall(observed_before_);
     return elsewhere_->advance(part);
   }
   void elsewhere(const State& state) {
-    if (!elsewhere_) elsewhere_.emplace(experiment_, ladder_, Backend::interpreter);
+    if (!elsewhere_) {
+      elsewhere_.emplace(experiment_, ladder_, Backend::interpreter);
+      if (const TangentMap* map = observer_.tangent_map()) elsewhere_->follow(*map);
+    }
     elsewhere_->restart(state);
   }
 
@@ -339,11 +345,11 @@ class RunUnderway {
                    .solver = results_.solver + solver,
                    .statistics = results_.statistics.memory(),
                    .rows_at_times = results_.rows_at_times,
-                   .not_finite = not_finite_};
+                   .not_finite = not_finite_,
+                   .observed = observer_.memory()};
     if (energy_watch_) now.energy_watch = energy_watch_->memory();
     if (ladder_watch_) now.ladder_watch = ladder_watch_->memory();
     if (event_watch_) now.event_watch = event_watch_->memory();
-    if (const PowerAccount* account = observer_.account()) now.power_account = account->memory();
     return now;
   }
 
@@ -357,13 +363,10 @@ class RunUnderway {
         throw UnusableFolder(folder.checkpoint_file().string() + ": has " +
                              std::to_string(row->size()) + " quantities, expected " +
                              std::to_string(observer_.names().size()) + " as the experiment has");
-    if (checkpoint.power_account) {
-      try {
-        observer_.recall(*checkpoint.power_account);
-      } catch (const std::invalid_argument& error) {
-        throw UnusableFolder(folder.checkpoint_file().string() + ": " +
-                             without_place(error.what()));
-      }
+    try {
+      observer_.recall(checkpoint.observed);
+    } catch (const std::invalid_argument& error) {
+      throw UnusableFolder(folder.checkpoint_file().string() + ": " + without_place(error.what()));
     }
     results_.steps = checkpoint.k;
     results_.wall_seconds = checkpoint.wall_seconds;
@@ -390,7 +393,7 @@ class RunUnderway {
     const TimeSpan& time = *experiment_.time;
     const long epoch = experiment_.output.epoch;
     const auto stepper = method.integrator->stepper();
-    if (observer_.account()) stepper->tell_parts();
+    if (observer_.account() || observer_.tangent_map()) stepper->tell_parts();
     State state = from ? from->state : method.initial;
     long k = from ? from->k : 0;
     if (event_watch_)
@@ -410,7 +413,7 @@ class RunUnderway {
         for (; going && k < end; ++k) {
           stepper->step(state, time.step, time.time(k + 1));
           if (clock_.is_transformed()) clock_.end_step(*stepper, state, k + 1);
-          keep_account();
+          keep_observed();
           write_between(*stepper, k + 1);
           going = goes_on(stepper->last(), k + 1);
         }
@@ -470,7 +473,7 @@ class RunUnderway {
   std::optional<EnergyWatch> energy_watch_;
   std::unique_ptr<TrajectoryWriter> writer_;
   std::optional<Observer> elsewhere_;
-  std::optional<PowerAccount::Memory> account_before_;  // the step that was made
+  Observer::Memory observed_before_;  // the step that was made
   std::optional<EventWatch> event_watch_;
   std::vector<std::unique_ptr<RunWatcher>> watchers_;
 };
