@@ -66,10 +66,22 @@ void add_laws(Json& checks, const char* subject, const std::vector<LawResult>& r
   }
 }
 
+// Laws are measured with dense matrices.
+constexpr Index kMostMeasured = 500;
+
+const Experiment& of_moderate_size(const Experiment& experiment) {
+  const Index size = experiment.model.system->manifold()->dimension();
+  if (size > kMostMeasured)
+    throw ExperimentError("/system",
+                          "has " + std::to_string(size) + " coordinates; expected at most " +
+                              std::to_string(kMostMeasured) + " where laws are measured");
+  return experiment;
+}
+
 class Check {
  public:
   explicit Check(const Experiment& experiment)
-      : experiment_(experiment),
+      : experiment_(of_moderate_size(experiment)),
         system_(*experiment.model.system),
         manifold_(*system_.manifold()),
         ladder_(consistent_start(experiment)),
