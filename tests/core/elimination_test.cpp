@@ -140,9 +140,9 @@ BOOST_AUTO_TEST_CASE(equations_that_repeat_others_by_an_identity_go) {
   Graph graph;
   const ExprVector y = graph.variables("y", 3), p = graph.variables("p", 1);
   for (const double square : {1.0, 2.0}) {
-    const ExprVector F = equations({y[0] - p[0] * cos(y[2]), y[1] - p[0] * sin(y[2]),
-                                    (y[0] * y[0] + y[1] * y[1]) / (p[0] * p[0]) - square,
-                                    y[2] * exp(y[2]) - p[0]});
+    const ExprVector F =
+        equations({y[0] - p[0] * cos(y[2]), y[1] - p[0] * sin(y[2]),
+                   (y[0] * y[0] + y[1] * y[1]) / (p[0] * p[0]) - square, y[2] * exp(y[2]) - p[0]});
     const Elimination e = eliminated(F, y);
     BOOST_TEST(e.kept == std::vector<Index>{2}, boost::test_tools::per_element());
     const std::vector<Index> expected =
