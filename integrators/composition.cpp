@@ -58,20 +58,13 @@ class Composition::Trajectory final : public Stepper {
   // The work of a stage counts, whether it can be made or not.
   void advance(Stepper& stage, State& state, double h, double end) {
     const SolverStatistics before = stage.statistics();
-    const auto count = [&] {
-      const SolverStatistics& now = stage.statistics();
-      statistics_.iterations += now.iterations - before.iterations;
-      statistics_.factorizations += now.factorizations - before.factorizations;
-      statistics_.failures += now.failures - before.failures;
-      statistics_.confirmations += now.confirmations - before.confirmations;
-    };
     try {
       stage.step(state, h, end);
     } catch (...) {
-      count();
+      statistics_.add_work(before, stage.statistics());
       throw;
     }
-    count();
+    statistics_.add_work(before, stage.statistics());
   }
 
   void do_keep(const State&, const State&) override {

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "courant/core/expr_vectors.hpp"
+#include "courant/core/gauss_newton.hpp"
 #include "courant/integrators/displacement_stepper.hpp"
 #include "courant/integrators/step_names.hpp"
 
@@ -149,14 +150,15 @@ class ReducedMap::Differential final : public StepDifferential {
     VectorXd y(equations_.input_size(0));
     y << step.h * method_.rate_({step.before.x, step.after.z, t}).head(n_),
         step.after.x.head(n_) - step.before.x.head(n_), step.after.z;
-    constexpr int kIterations = 20;
-    for (int i = 0; i < kIterations; ++i) {
-      const VectorXd change = implicit_derivative(
-          "ReducedMap", equations_.jacobian({y, step.before.x, h, t}).leftCols(y.size()),
-          equations_({y, step.before.x, h, t}), 2 * n_);
-      y += change;
-      if (change.norm() <= 1e-15 * y.norm()) break;
-    }
+    y = gauss_newton(
+            [&](const VectorXd& at) {
+              return equations_({at, step.before.x, h, t});
+            },
+            [&](const VectorXd& at) -> MatrixXd {
+              return equations_.jacobian({at, step.before.x, h, t}).leftCols(at.size());
+            },
+            y)
+            .y;
     const MatrixXd F = equations_.jacobian({y, step.before.x, h, t});
     const MatrixXd G = advance_.jacobian({y, step.before.x, h, t});
     const Index N = step.before.x.size();

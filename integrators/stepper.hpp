@@ -17,6 +17,15 @@ struct SolverStatistics {
   long failures = 0;         // iterations that failed and were begun again
   long second_attempts = 0;  // steps that were made in more than one attempt
   long confirmations = 0;    // solutions that were looked at by continuation in h
+
+  // Takes over what the solver of another stepper did from `before` to `now`. Steps are counted by each
+  // stepper itself.
+  void add_work(const SolverStatistics& before, const SolverStatistics& now) {
+    iterations += now.iterations - before.iterations;
+    factorizations += now.factorizations - before.factorizations;
+    failures += now.failures - before.failures;
+    confirmations += now.confirmations - before.confirmations;
+  }
 };
 
 // What a one-step method keeps from step to step in order to be quick: extrapolations,

@@ -4,6 +4,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "courant/integrators/ladder/constraint_algorithm.hpp"
+
 namespace courant {
 
 namespace {
@@ -47,11 +49,11 @@ class TransformedIntegrator::Trajectory final : public Stepper {
     try {
       inner_->step(next_, h, 0.0);
     } catch (const SolveError& error) {
-      count(counted);
+      statistics_.add_work(counted, inner_->statistics());
       throw SolveError(error.reason(), method(), before.t, h, what_happened(error),
                        error.residuals());
     }
-    count(counted);
+    statistics_.add_work(counted, inner_->statistics());
     // No step depends on τ: that of an extended state is 0.
     next_.t = 0.0;
     after = transformation_->from_extended(next_);
@@ -65,14 +67,6 @@ class TransformedIntegrator::Trajectory final : public Stepper {
     message << "advances the time by " << rate
             << " h: dt/dtau has to be positive along the step, and large enough for time to go on.";
     throw SolveError(SolveError::Reason::left_domain, method(), before, h, message.str());
-  }
-
-  void count(const SolverStatistics& before) {
-    const SolverStatistics& now = inner_->statistics();
-    statistics_.iterations += now.iterations - before.iterations;
-    statistics_.factorizations += now.factorizations - before.factorizations;
-    statistics_.failures += now.failures - before.failures;
-    statistics_.confirmations += now.confirmations - before.confirmations;
   }
 
   void do_keep(const State&, const State&) override {
@@ -129,6 +123,12 @@ TransformedIntegrator::TransformedIntegrator(
     throw std::invalid_argument(
         "TransformedIntegrator::TransformedIntegrator: the method is missing, or it is not one of "
         "the extended system of the transformation.");
+}
+
+ConstraintLadder extended_ladder(const TimeTransformation& transformation, const State& initial) {
+  const State start = transformation.to_extended(initial);
+  return ConstraintAlgorithm().run(transformation.extended(),
+                                   {.t = start.t, .x = start.x, .v = start.v, .z = start.z});
 }
 
 std::unique_ptr<Stepper> TransformedIntegrator::do_stepper() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "courant/integrators/integrator.hpp"
+#include "courant/integrators/ladder/constraint_ladder.hpp"
 #include "courant/structures/time_transformation.hpp"
 
 namespace courant {
@@ -50,5 +51,8 @@ class TransformedIntegrator final : public Integrator {
   std::shared_ptr<const TimeTransformation> transformation_;
   std::shared_ptr<const Integrator> method_;
 };
+
+// The ladder of the extended system where a state of the system itself is.
+ConstraintLadder extended_ladder(const TimeTransformation& transformation, const State& initial);
 
 }  // namespace courant

@@ -4,7 +4,6 @@
 
 #include "courant/core/message.hpp"
 #include "courant/integrators/fixed_time_projector.hpp"
-#include "courant/integrators/ladder/constraint_algorithm.hpp"
 #include "courant/integrators/maps/product_map.hpp"
 #include "courant/integrators/maps/theta.hpp"
 #include "courant/integrators/natural_units.hpp"
@@ -36,16 +35,14 @@ PreparedMethod prepare(const MethodChoice& choice, const WrittenFormula& formula
   if (!(rate > 0.0 && std::isfinite(rate)))
     throw ExperimentError(formula.pointer, "is " + number_text(rate) +
                                                " at the initial point; expected a positive number");
-  const State start = time->to_extended(own.initial);
-  const ConstraintLadder ladder = ConstraintAlgorithm().run(
-      time->extended(), {.t = start.t, .x = start.x, .v = start.v, .z = start.z});
+  const ConstraintLadder ladder = extended_ladder(*time, own.initial);
   if (ladder.verdict != own.ladder.verdict)
     throw std::runtime_error("In transformed time the constraint algorithm finds the system " +
                              to_string(ladder.verdict) + ", in its own time " +
                              to_string(own.ladder.verdict) + ".");
   PreparedMethod method = choice.prepare({.system = time->extended(),
                                           .ladder = ladder,
-                                          .initial = start,
+                                          .initial = time->to_extended(own.initial),
                                           .step = own.step,
                                           .backend = own.backend,
                                           .vocabulary = own.vocabulary,

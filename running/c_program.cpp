@@ -7,6 +7,7 @@
 #include "courant/integrators/step_energies.hpp"
 #include "courant/integrators/step_program.hpp"
 #include "courant/running/c_functions.hpp"
+#include "courant/running/c_program_limits.hpp"
 #include "courant/running/c_program_text.hpp"
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/observed_quantities.hpp"
@@ -77,21 +78,7 @@ class CProgram {
 
  private:
   static ConstraintLadder start(const Experiment& experiment) {
-    if (!experiment.method)
-      throw ExperimentError(kMethod, "is missing; expected the method whose steps are exported");
-    if (experiment.output.coordinates)
-      throw ExperimentError("/output/coordinates",
-                            "cannot be exported: the program writes all coordinates");
-    if (!experiment.defects.empty())
-      throw ExperimentError("/defects",
-                            "are not measured by a program in C; expected an experiment without");
-    if (experiment.time->is_transformed())
-      throw ExperimentError("/time/transformation",
-                            "is not written in C; expected steps of one size in t");
-    if (!experiment.output.at.empty())
-      throw ExperimentError("/output/at",
-                            "asks for rows between steps, which a program in C does not write; "
-                            "expected \"every\"");
+    check_exportable(experiment);
     ConstraintLadder ladder = consistent_start(experiment);
     if (ladder.verdict == Verdict::inconsistent)
       throw ExperimentError("/initial",

@@ -9,7 +9,6 @@
 #include "courant/core/derivative.hpp"
 #include "courant/core/message.hpp"
 #include "courant/integrators/integrator_laws.hpp"
-#include "courant/integrators/ladder/constraint_algorithm.hpp"
 #include "courant/integrators/ladder/ladder_laws.hpp"
 #include "courant/integrators/maps/laws.hpp"
 #include "courant/integrators/transformed_integrator.hpp"
@@ -279,11 +278,9 @@ class Check {
 
   // In transformed time steps keep the laws of methods on the extended manifold.
   IntegratorSetting extended_setting(const TimeTransformation& time, const State& initial) const {
-    const State start = time.to_extended(initial);
-    const ConstraintLadder ladder = ConstraintAlgorithm().run(
-        time.extended(), {.t = start.t, .x = start.x, .v = start.v, .z = start.z});
+    const ConstraintLadder ladder = extended_ladder(time, initial);
     return {.system = time.extended(),
-            .initial = start,
+            .initial = time.to_extended(initial),
             .step = experiment_.time->step,
             .conormals = ladder.conormals(),
             .is_gauge = ladder.gauge_dimension > 0,

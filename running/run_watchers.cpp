@@ -24,7 +24,10 @@ class Rows final : public RunWatcher {
   Rows(TrajectoryWriter& writer, std::function<bool(long)> is_written, std::vector<Index> columns)
       : writer_(writer), is_written_(std::move(is_written)), columns_(std::move(columns)) {}
   std::optional<RunEnd> watch(const RunMoment& moment) override {
-    if (is_written_(moment.k)) append_row(writer_, moment.t, moment.tau, moment.row(columns_));
+    if (is_written_(moment.k)) {
+      values_ = moment.row(columns_);
+      append_row(writer_, moment.t, moment.tau, values_);
+    }
     return std::nullopt;
   }
 
@@ -32,6 +35,7 @@ class Rows final : public RunWatcher {
   TrajectoryWriter& writer_;
   std::function<bool(long)> is_written_;
   std::vector<Index> columns_;
+  VectorXd values_;  // in these
 };
 
 class Finiteness final : public RunWatcher {

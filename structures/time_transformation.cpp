@@ -113,9 +113,7 @@ class PlainSystem final : public ImplicitSystem {
     return system_->energy(time_.point(x), z, time_.time(x));
   }
   VectorXd do_auxiliary_guess(const VectorXd& x, const VectorXd& v) const override {
-    const double g = v.size() > 0 ? v[time_.places.time_of_tangent] : 0.0;
-    const VectorXd velocity = g > 0.0 ? VectorXd(v(time_.places.tangent) / g) : VectorXd();
-    return system_->auxiliary_guess(x(time_.places.point), velocity);
+    return system_->auxiliary_guess(x(time_.places.point), time_.places.velocity(v));
   }
 
   std::shared_ptr<const ImplicitSystem> system_;
@@ -180,9 +178,7 @@ class PlainEnergySystem final : public EnergySystem {
     return system_->energy(time_.point(x), z, time_.time(x));
   }
   VectorXd do_auxiliary_guess(const VectorXd& x, const VectorXd& v) const override {
-    const double g = v.size() > 0 ? v[time_.places.time_of_tangent] : 0.0;
-    const VectorXd velocity = g > 0.0 ? VectorXd(v(time_.places.tangent) / g) : VectorXd();
-    return system_->auxiliary_guess(x(time_.places.point), velocity);
+    return system_->auxiliary_guess(x(time_.places.point), time_.places.velocity(v));
   }
 
   // ∂E/∂t, at fresh variables: x may be constants.
@@ -246,6 +242,11 @@ TimePlaces TimePlaces::on_cotangent_bundle(const CotangentBundle& phase_space) {
   return places;
 }
 
+VectorXd TimePlaces::velocity(const VectorXd& extended) const {
+  const double g = extended.size() > 0 ? extended[time_of_tangent] : 0.0;
+  return g > 0.0 ? VectorXd(extended(tangent) / g) : VectorXd();
+}
+
 TransformedFamily::TransformedFamily(std::shared_ptr<const GeneratingFamily> family, TimeRate rate)
     : GeneratingFamily(TimePlaces::on_cotangent_bundle(phase_space_of(family, rate)).manifold,
                        family->parameter_size()),
@@ -260,9 +261,7 @@ Expr TransformedFamily::do_value(const ExprVector& x, const ExprVector& lambda, 
 }
 
 VectorXd TransformedFamily::do_parameter_guess(const VectorXd& x, const VectorXd& v) const {
-  const double g = v.size() > 0 ? v[places_.time_of_tangent] : 0.0;
-  const VectorXd velocity = g > 0.0 ? VectorXd(v(places_.tangent) / g) : VectorXd();
-  return family_->parameter_guess(x(places_.point), velocity);
+  return family_->parameter_guess(x(places_.point), places_.velocity(v));
 }
 
 bool TimeTransformation::is_possible(const ImplicitSystem& system) {

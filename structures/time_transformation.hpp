@@ -24,6 +24,9 @@ struct TimePlaces {
 
   // M × R: (x, t).
   static TimePlaces on_product(std::shared_ptr<const Manifold> manifold);
+  // dx/dt by an extended velocity; empty if that is, or where it does not go forward in time.
+  VectorXd velocity(const VectorXd& extended) const;
+
   // T*(Q × R): (q, t, p, p_t). The momentum p_t of time is the last number of a point and of a tangent
   // vector.
   static TimePlaces on_cotangent_bundle(const CotangentBundle& phase_space);

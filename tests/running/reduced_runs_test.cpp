@@ -22,15 +22,6 @@ Json with(Json experiment, const std::string& pointer, const Json& value) {
   experiment[Json::json_pointer(pointer)] = value;
   return experiment;
 }
-std::string problem_of(const Json& experiment) {
-  try {
-    const TemporaryFolder folder;
-    run_in(folder, experiment);
-  } catch (const ExperimentError& error) {
-    return error.what();
-  }
-  return "";
-}
 bool says(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
@@ -82,29 +73,29 @@ BOOST_AUTO_TEST_CASE(structures_by_name) {
 }
 
 BOOST_AUTO_TEST_CASE(what_does_not_fit_is_said) {
-  const std::string other = problem_of(Json::parse(R"json({
+  const std::string other = problem_of_run(Json::parse(R"json({
     "system": { "type": "hamiltonian", "coordinates": ["q"], "hamiltonian": "p_q^2/2" },
     "initial": { "q": 0, "p_q": 1 }, "method": "reduced", "time": { "step": 0.1, "end": 1 } })json"));
   BOOST_TEST(says(other, "/method: \"reduced\" is for Lie-Poisson structures"), other);
   const auto system = [](const char* key, const Json& value) {
-    return problem_of(with(rigid_body, std::string("/system/") + key, value));
+    return problem_of_run(with(rigid_body, std::string("/system/") + key, value));
   };
   BOOST_TEST(says(system("attitude", {"R[3]"}),
                   "/system/attitude: names 3 numbers; expected 9, those of a point of "));
   BOOST_TEST(says(system("attitude", {"mu[3][3]"}), "/system/attitude"));
   Json plus = with(rigid_body, "/system/attitude", {"R[3][3]"});
   plus["system"]["sign"] = "plus";
-  BOOST_TEST(says(problem_of(plus), "/system/attitude: is for left-invariant systems"));
+  BOOST_TEST(says(problem_of_run(plus), "/system/attitude: is for left-invariant systems"));
   // so(3) in a basis of another length.
   Json basis = rigid_body;
   basis["system"].erase("algebra");
   basis["system"]["constants"] = {{{0, 0, 0}, {0, 0, 2}, {0, -2, 0}},
                                   {{0, 0, -2}, {0, 0, 0}, {2, 0, 0}},
                                   {{0, 2, 0}, {-2, 0, 0}, {0, 0, 0}}};
-  BOOST_TEST(says(problem_of(basis),
+  BOOST_TEST(says(problem_of_run(basis),
                   "/method: no group is known for the Lie algebra g in its basis; expected so3, "
                   "se3, so or abelian"));
-  const std::string map = problem_of(with(rigid_body, "/method/discretization", "chordal"));
+  const std::string map = problem_of_run(with(rigid_body, "/method/discretization", "chordal"));
   BOOST_TEST(says(map, "/method: the discretization \"chordal\" is for spheres"), map);
 }
 

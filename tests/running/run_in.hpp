@@ -14,6 +14,17 @@ inline RunOutcome run_in(const TemporaryFolder& folder, const Json& experiment,
   return run(read_experiment(experiment.dump()), options);
 }
 
+// What is wrong with the experiment, as its run tells; empty if nothing is.
+inline std::string problem_of_run(const Json& experiment) {
+  try {
+    const TemporaryFolder folder;
+    run_in(folder, experiment);
+  } catch (const ExperimentError& error) {
+    return error.what();
+  }
+  return "";
+}
+
 // The last value of a coordinate.
 inline double final_value(const RunOutcome& outcome, std::string_view name) {
   for (const auto& [coordinate, value] : outcome.summary.final)

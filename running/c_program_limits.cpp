@@ -1,0 +1,23 @@
+#include "courant/running/c_program_limits.hpp"
+
+namespace courant {
+
+void check_exportable(const Experiment& experiment) {
+  if (!experiment.method)
+    throw ExperimentError("/method", "is missing; expected the method whose steps are exported");
+  if (experiment.output.coordinates)
+    throw ExperimentError("/output/coordinates",
+                          "cannot be exported: the program writes all coordinates");
+  if (!experiment.defects.empty())
+    throw ExperimentError("/defects",
+                          "are not measured by a program in C; expected an experiment without");
+  if (experiment.time->is_transformed())
+    throw ExperimentError("/time/transformation",
+                          "is not written in C; expected steps of one size in t");
+  if (!experiment.output.at.empty())
+    throw ExperimentError("/output/at",
+                          "asks for rows between steps, which a program in C does not write; "
+                          "expected \"every\"");
+}
+
+}  // namespace courant
