@@ -66,7 +66,7 @@ void add_laws(Json& checks, const char* subject, const std::vector<LawResult>& r
 }
 
 // Laws are measured with dense matrices.
-constexpr Index kMostMeasured = 500;
+constexpr Index kMostMeasured = 2000;
 
 const Experiment& of_moderate_size(const Experiment& experiment) {
   const Index size = experiment.model.system->manifold()->dimension();
