@@ -1,6 +1,7 @@
 #include "courant/cli/experiment_file.hpp"
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
@@ -22,9 +23,12 @@ constexpr std::size_t kLargest = std::size_t{16} << 20;  // bytes; a device may 
 
 std::optional<std::string> read_text(const Console& console, const std::string& file,
                                      const std::string& expected, std::istream& stream) {
-  std::string text(kLargest + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
+  std::string text;
+  std::array<char, 1 << 16> part;
+  while (text.size() <= kLargest && stream) {
+    stream.read(part.data(), part.size());
+    text.append(part.data(), static_cast<std::size_t>(stream.gcount()));
+  }
   if (text.size() <= kLargest) return text;
   print_error(console, file + ": is larger than 16 MB; expected " + expected);
   return std::nullopt;
