@@ -43,6 +43,11 @@ Observer::Observer(const ObservedQuantities& of, Backend backend)
 }
 
 const VectorXd& Observer::row(const State& state) {
+  measure(state);
+  return compare(state.t);
+}
+
+void Observer::measure(const State& state) {
   const Index N = state.x.size();
   row_.head(N) = state.x;
   const double* v = state.v.data();
@@ -61,12 +66,15 @@ const VectorXd& Observer::row(const State& state) {
   }
   const double* in[] = {state.x.data(), v, z, &state.t, left_out, energies_.data()};
   quantities_.value(in, row_.data() + N);
-  if (balance_) row_[*balance_] = account_->balance();
   for (Index i = 0; i < defects_.size(); ++i)
     row_[defect_places_[static_cast<std::size_t>(i)]] = defects_[i];
   for (Index i = 0; i < stage_.size(); ++i)
     row_[stage_places_[static_cast<std::size_t>(i)]] = stage_[i];
-  const double* time[] = {&state.t};
+}
+
+const VectorXd& Observer::compare(double t) {
+  if (balance_) row_[*balance_] = account_->balance();
+  const double* time[] = {&t};
   forms_.value(time, form_.data());
   const Index first = row_.size() - form_.size();
   for (Index i = 0; i < form_.size(); ++i)
@@ -89,9 +97,9 @@ const VectorXd& Observer::begin(const State& state) {
     map_->begin(state.x);
     take_defects();
   }
-  const VectorXd& first = row(state);
-  if (account_) account_->open(first[*H_]);
-  return first;
+  measure(state);
+  if (account_) account_->open(row_[*H_]);
+  return compare(state.t);
 }
 
 const VectorXd& Observer::advance(const Step& step) {
@@ -111,12 +119,9 @@ const VectorXd& Observer::advance(const Step& step) {
   }
   if (stage_.size() > 0)
     observe_stage(step.stage, account_ ? account_->energies().effort(step) : VectorXd());
-  row(step.after);
-  if (account_) {
-    account_->settle(row_[*H_]);
-    if (balance_) row_[*balance_] = account_->balance();
-  }
-  return row_;
+  measure(step.after);
+  if (account_) account_->settle(row_[*H_]);
+  return compare(step.after.t);
 }
 
 void Observer::take_energies() {

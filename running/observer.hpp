@@ -76,6 +76,10 @@ class Observer {
   void restart(const State& state);
 
  private:
+  // All of a row but the balance, which is settled with its H, and the deviations.
+  void measure(const State& state);
+  // These two, which complete it.
+  const VectorXd& compare(double t);
   void observe_stage(const State& at, const VectorXd& effort);
   void take_energies();
   void take_defects();

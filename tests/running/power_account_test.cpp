@@ -207,6 +207,29 @@ BOOST_AUTO_TEST_CASE(closed_systems) {
   BOOST_TEST(run.outcome.summary.power_balance.has_value());
 }
 
+// A unit current into H = q⁴/4: the midpoint rule has q = t, and H grows by h³(t - h/2)/4 more than it is
+// supplied with in the step that ends at t. What is compared with that is the balance of this step.
+BOOST_AUTO_TEST_CASE(a_closed_form_of_the_balance) {
+  Json source = {
+      {"system",
+       {{"type", "port-hamiltonian"},
+        {"coordinates", {"q"}},
+        {"J", {{0}}},
+        {"B", {1}},
+        {"hamiltonian", "q^4/4"},
+        {"ports", "open"},
+        {"inputs", {"1"}}}},
+      {"initial", {{"q", 0}}},
+      {"method", "discretize-first"},
+      {"time", {{"step", 0.1}, {"end", 2}}},
+      {"expect", {{{"state", {{"balance", "0.00025*max(0, t - 0.05)"}}}, {"tolerance", 1e-14}}}}};
+  const RunIn run(source);
+  BOOST_TEST(run.column("balance").back() == 0.00025 * 1.95, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(run.outcome.as_expected());
+  source["expect"][0]["state"]["balance"] = "0.00025*max(0, t - 0.15)";  // that of the step before
+  BOOST_TEST(!RunIn(source).outcome.as_expected());
+}
+
 // Reactions of constraints alone are accounted for where something asks for them.
 BOOST_AUTO_TEST_CASE(reactions) {
   Json particle = Json::parse(read_text("experiments/nonholonomic_particle.json"));
