@@ -128,7 +128,7 @@ void add_constraints(CLI::App& app, Session& session) {
   constraints->add_flag("--json", arguments->json, "print JSON");
   CLI::Option* level =
       constraints->add_option("--level", arguments->level, "stop at this level of the ladder")
-          ->check(CLI::NonNegativeNumber.description(""))
+          ->check(CLI::Range(0, 1000).description(""))
           ->type_name("K")
           ->excludes("--sweep");
   constraints

@@ -128,7 +128,7 @@ void add_sweep(CLI::App& command, SweepArguments& arguments) {
   command
       .add_option("--jobs", arguments.jobs,
                   "how many at once in a sweep (default: as many as there are cores)")
-      ->check(CLI::PositiveNumber.description(""))
+      ->check(CLI::Range(1, 1000).description(""))
       ->type_name("N")
       ->needs(sweep);
 }

@@ -44,6 +44,21 @@ void check_errors(const Answer& answer, const std::string& file, const std::stri
 
 }  // namespace
 
+BOOST_AUTO_TEST_CASE(numbers_beyond_the_range_of_an_option_are_refused_in_words) {
+  const std::string file = "experiments/pendulum.json";
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"constraints", file, "--level", "-1"},
+        {"constraints", file, "--level", "99999999999999999999"},
+        {"run", file, "--sweep", "/initial/q=1,2", "--jobs", "0"},
+        {"study", file, "--steps", "1"},
+        {"tour", "11"}}) {
+    const Answer answer = courant_command(arguments);
+    BOOST_TEST(answer.status == 2, arguments[2]);
+    check_words(answer.err, arguments[0]);
+    BOOST_TEST(answer.err.size() < 120u, answer.err);
+  }
+}
+
 // Nothing is written where the experiment is wrong, and a summary where the numerics failed.
 BOOST_AUTO_TEST_CASE(a_bad_experiment_is_refused_with_its_place_or_fails_with_a_summary) {
   const auto files = bad_experiments();
