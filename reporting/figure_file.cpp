@@ -22,10 +22,12 @@ namespace {
 
 constexpr const char* converter = "rsvg-convert";
 
-// Runs rsvg-convert, no shell between. Throws OutputError.
-void convert(const std::filesystem::path& svg, const std::string& format,
-             const std::filesystem::path& file) {
-  std::vector<std::string> words = {converter, "--format", format, "--output", file.string()};
+// Runs rsvg-convert, no shell between, to write a picture of the kind of `file`. Throws OutputError with the name of
+// this one.
+void convert(const std::filesystem::path& svg, const std::filesystem::path& file,
+             const std::filesystem::path& picture) {
+  const std::string format = file.extension().string().substr(1);
+  std::vector<std::string> words = {converter, "--format", format, "--output", picture.string()};
   if (format == "png") words.insert(words.end(), {"--zoom", "3.125"});  // 300 dpi / 96
   words.push_back(svg.string());
   std::vector<char*> arguments;
@@ -49,6 +51,25 @@ void convert(const std::filesystem::path& svg, const std::string& format,
   }
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
     throw OutputError(file.string() + ": rsvg-convert failed");
+}
+
+// The picture by rsvg-convert, written whole. Throws OutputError with the name of the file.
+void write_converted(const std::string& drawing, const std::filesystem::path& file) {
+  std::filesystem::path svg = file, picture = file;
+  svg += ".svg.new";
+  picture += ".new";
+  write_file(svg, drawing, file);
+  std::error_code error;
+  try {
+    convert(svg, file, picture);
+    std::filesystem::rename(picture, file, error);
+  } catch (const OutputError&) {
+    std::filesystem::remove(svg, error);
+    std::filesystem::remove(picture, error);
+    throw;
+  }
+  std::filesystem::remove(svg);
+  if (error) throw OutputError(file.string() + ": cannot be written: " + error.message());
 }
 
 struct Column {
@@ -113,24 +134,12 @@ void write_figure(const Figure& figure, const std::filesystem::path& file) {
     throw std::invalid_argument(file.string() +
                                 ": is no kind of picture; expected a name that ends in .svg, .pdf "
                                 "or .png");
+  if (extension == ".svg")
+    write_file(file, figure_svg(figure));
+  else
+    write_converted(figure_svg(figure), file);
   std::filesystem::path numbers = file;
   write_file(numbers.replace_extension(".csv"), figure_csv(figure));
-  if (extension == ".svg") return write_file(file, figure_svg(figure));
-  std::filesystem::path svg = file, picture = file;
-  svg += ".svg.new";
-  picture += ".new";
-  write_file(svg, figure_svg(figure));
-  std::error_code error;
-  try {
-    convert(svg, extension.substr(1), picture);
-    std::filesystem::rename(picture, file, error);
-  } catch (const OutputError&) {
-    std::filesystem::remove(svg, error);
-    std::filesystem::remove(picture, error);
-    throw;
-  }
-  std::filesystem::remove(svg);
-  if (error) throw OutputError(file.string() + ": cannot be written: " + error.message());
 }
 
 }  // namespace courant

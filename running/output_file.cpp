@@ -19,20 +19,24 @@ std::string last_error() { return std::generic_category().message(errno); }
 
 }  // namespace
 
-OutputFile::OutputFile(const std::filesystem::path& path, int flags)
-    : path_(path), descriptor_(::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666)) {
+OutputFile::OutputFile(const std::filesystem::path& path, const std::filesystem::path& asked,
+                       int flags)
+    : asked_(asked), descriptor_(::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666)) {
   if (descriptor_ < 0) fail();
 }
 
-OutputFile::OutputFile(const std::filesystem::path& path) : OutputFile(path, O_CREAT | O_TRUNC) {}
+OutputFile::OutputFile(const std::filesystem::path& path) : OutputFile(path, path) {}
 
-OutputFile::OutputFile(const std::filesystem::path& path, Existing) : OutputFile(path, 0) {}
+OutputFile::OutputFile(const std::filesystem::path& path, const std::filesystem::path& asked)
+    : OutputFile(path, asked, O_CREAT | O_TRUNC) {}
+
+OutputFile::OutputFile(const std::filesystem::path& path, Existing) : OutputFile(path, path, 0) {}
 
 OutputFile::~OutputFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-void OutputFile::fail() const { refuse_file(path_, last_error()); }
+void OutputFile::fail() const { refuse_file(asked_, last_error()); }
 
 void OutputFile::write(std::string_view bytes) {
   while (!bytes.empty()) {
@@ -53,8 +57,8 @@ void OutputFile::cut(std::uintmax_t size) {
   const auto there = ::lseek(descriptor_, 0, SEEK_END);
   if (there < 0) fail();
   if (static_cast<std::uintmax_t>(there) < size)
-    refuse_file(path_, "it has " + std::to_string(there) + " bytes, expected at least " +
-                           std::to_string(size));
+    refuse_file(asked_, "it has " + std::to_string(there) + " bytes, expected at least " +
+                            std::to_string(size));
   const auto end = static_cast<off_t>(size);
   if (::ftruncate(descriptor_, end) != 0 || ::lseek(descriptor_, end, SEEK_SET) != end) fail();
 }
@@ -66,15 +70,20 @@ void OutputFile::close() {
 }
 
 void write_file(const std::filesystem::path& path, std::string_view content) {
+  write_file(path, content, path);
+}
+
+void write_file(const std::filesystem::path& path, std::string_view content,
+                const std::filesystem::path& asked) {
   std::filesystem::path temporary = path;
   temporary += ".new";
   std::error_code error;
   try {
-    OutputFile file(temporary);
+    OutputFile file(temporary, asked);
     file.write(content);
     file.close();
     std::filesystem::rename(temporary, path, error);
-    if (error) refuse_file(path, error.message());
+    if (error) refuse_file(asked, error.message());
   } catch (const OutputError&) {
     std::filesystem::remove(temporary, error);
     throw;

@@ -19,8 +19,9 @@ class OutputError : public std::runtime_error {
 // A file, written as its owner says. Throws OutputError.
 class OutputFile {
  public:
-  // A new file; an existing one is replaced at once.
+  // A new file; an existing one is replaced at once. Errors have the name `asked`, where it is another.
   explicit OutputFile(const std::filesystem::path& path);
+  OutputFile(const std::filesystem::path& path, const std::filesystem::path& asked);
   // A file that is there, to be written on.
   struct Existing {};
   OutputFile(const std::filesystem::path& path, Existing);
@@ -39,14 +40,17 @@ class OutputFile {
   void close();
 
  private:
-  OutputFile(const std::filesystem::path& path, int flags);
+  OutputFile(const std::filesystem::path& path, const std::filesystem::path& asked, int flags);
   [[noreturn]] void fail() const;
-  std::filesystem::path path_;
+  std::filesystem::path asked_;
   int descriptor_;
 };
 
-// Writes a file whole: under another name in its folder first, then moved. Throws OutputError.
+// Writes a file whole: under another name in its folder first, then moved. Throws OutputError with
+// the name of the file, or with `asked` if this file is made on the way to that one.
 void write_file(const std::filesystem::path& path, std::string_view content);
+void write_file(const std::filesystem::path& path, std::string_view content,
+                const std::filesystem::path& asked);
 
 // The folder, and those above it. Throws OutputError.
 void make_folder(const std::filesystem::path& path);

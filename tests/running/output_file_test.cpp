@@ -33,6 +33,21 @@ BOOST_AUTO_TEST_CASE(a_file_is_written_whole_or_not_at_all) {
   BOOST_TEST(entries == 2u);
 }
 
+// Not that of the file on the way to it.
+BOOST_AUTO_TEST_CASE(errors_have_the_name_that_was_asked_for) {
+  const TemporaryFolder folder;
+  const std::string in_none = (folder / "none" / "a").string();
+  const auto names = [](const std::string& name) {
+    return [name](const OutputError& error) {
+      return std::string(error.what()).starts_with(name + ": cannot be written: ");
+    };
+  };
+  BOOST_CHECK_EXCEPTION(write_file(in_none, "x"), OutputError, names(in_none));
+  BOOST_CHECK_EXCEPTION(write_file(in_none, "x", "b.pdf"), OutputError, names("b.pdf"));
+  std::filesystem::create_directories(folder / "b" / "c");
+  BOOST_CHECK_EXCEPTION(write_file(folder / "b", "x", "c.pdf"), OutputError, names("c.pdf"));
+}
+
 BOOST_AUTO_TEST_CASE(a_file_that_is_there_is_written_on) {
   const TemporaryFolder folder;
   write_text(folder / "a", "0123456789");
