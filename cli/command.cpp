@@ -20,6 +20,12 @@ int refuse(const Console& console, const std::string& what, Status status) {
   return status;
 }
 
+// The status, if what was printed has reached standard output.
+int unless_lost(const Console& console, int status) {
+  if (console.out.flush()) return status;
+  return refuse(console, "what was printed is lost: standard output cannot be written", failed);
+}
+
 // What is wrong with a first argument that is neither an option nor a command; nothing if it is
 // one.
 std::string unknown_command(const std::string& word, const CLI::App& app) {
@@ -76,14 +82,10 @@ int command(const std::vector<std::string>& arguments, const Console& console) {
       if (const std::string what = unknown_command(arguments[0], app); !what.empty())
         return refuse(console, what, wrong);
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
-    const int status = session.action(console);
-    console.out.flush();
-    if (!console.out)
-      return refuse(console, "what was printed is lost: standard output cannot be written", failed);
-    return status;
+    return unless_lost(console, session.action(console));
   } catch (const CLI::Success& help) {
     app.exit(help, console.out, console.err);
-    return console.out.flush() ? done : failed;
+    return unless_lost(console, done);
   } catch (const CLI::ParseError& error) {
     return refuse(console, std::string(error.what()) + "; see `courant --help`", wrong);
   } catch (const UnusableFolder& error) {
