@@ -1,17 +1,12 @@
 #include "courant/cli/completion_script.hpp"
+#include "courant/core/word_list.hpp"
 
 namespace courant::cli {
 namespace {
 
-std::string joined(const std::vector<std::string>& words, const std::string& between) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
-  return text;
-}
-
 // The shell command that offers what the argument may be; ":" where there is nothing to offer.
 std::string offer(const ArgumentSynopsis& argument) {
-  if (!argument.words.empty()) return "_courant_offer -W '" + joined(argument.words, " ") + "'";
+  if (!argument.words.empty()) return "_courant_offer -W '" + word_list(argument.words, " ") + "'";
   if (argument.takes_file()) return "_courant_offer -f";
   if (argument.takes_folder()) return "_courant_offer -d";
   return ":";
@@ -21,14 +16,14 @@ std::string names_of(const std::vector<ArgumentSynopsis>& options) {
   std::vector<std::string> names;
   for (const ArgumentSynopsis& option : options)
     names.insert(names.end(), option.names.begin(), option.names.end());
-  return joined(names, " ");
+  return word_list(names, " ");
 }
 
 std::string case_of(const CommandSynopsis& command) {
   std::string text = "    " + command.name + ")\n      case $before in\n";
   for (const ArgumentSynopsis& option : command.options)
     if (!option.value.empty())
-      text += "        " + joined(option.names, " | ") + ") " + offer(option) + "; return ;;\n";
+      text += "        " + word_list(option.names, " | ") + ") " + offer(option) + "; return ;;\n";
   text += "      esac\n      case $word in\n        -*) _courant_offer -W '" +
           names_of(command.options) + "' ;;\n";
   if (!command.positionals.empty())
@@ -62,7 +57,7 @@ _courant() {
     case $word in
       -*) _courant_offer -W ')" +
                      names_of(synopsis.main.options) + "' ;;\n      *) _courant_offer -W '" +
-                     joined(commands, " ") + "' ;;\n    esac\n    return\n  fi\n" +
+                     word_list(commands, " ") + "' ;;\n    esac\n    return\n  fi\n" +
                      "  case ${COMP_WORDS[1]} in\n";
   for (const CommandSynopsis& command : synopsis.commands) text += case_of(command);
   return text + "  esac\n}\n\ncomplete -F _courant courant\n";

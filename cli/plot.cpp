@@ -7,6 +7,7 @@
 
 #include "courant/cli/command.hpp"
 #include "courant/core/spelling.hpp"
+#include "courant/core/word_list.hpp"
 #include "courant/reporting/figure_file.hpp"
 #include "courant/reporting/study_figure.hpp"
 #include "courant/reporting/sweep_figure.hpp"
@@ -50,12 +51,11 @@ int plot_figure(const Console& console, const PlotArguments& arguments) {
   for (const Figure& figure : figures) names.push_back(figure.name);
   const auto found = std::ranges::find(names, arguments.figure);
   if (found == names.end()) {
-    std::string list;
-    for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
     print_error(console, "--figure " + arguments.figure + ": there is no such figure of " +
                              arguments.folders.front().string() +
                              (arguments.folders.size() > 1 ? ", …" : "") +
-                             did_you_mean(arguments.figure, names) + "; expected one of: " + list);
+                             did_you_mean(arguments.figure, names) +
+                             "; expected one of: " + word_list(names));
     return wrong;
   }
   const Figure& figure = figures[static_cast<std::size_t>(found - names.begin())];

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <fstream>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
 
+#include "courant/core/word_list.hpp"
 #include "courant/plotting/curve_data.hpp"
 #include "courant/reporting/energy_figures.hpp"
 #include "courant/reporting/ladder_diagram.hpp"
@@ -151,9 +153,7 @@ std::string page_title(std::span<const Run> runs) {
         title != nullptr && title->is_string() ? title->get<std::string>() : run.name;
     if (std::find(titles.begin(), titles.end(), text) == titles.end()) titles.push_back(text);
   }
-  std::string joined = titles.front();
-  for (std::size_t i = 1; i < titles.size(); ++i) joined += " · " + titles[i];
-  return joined;
+  return word_list(titles, " · ");
 }
 
 Markup lead(std::span<const Run> runs) {
@@ -163,8 +163,7 @@ Markup lead(std::span<const Run> runs) {
     if (std::find(systems.begin(), systems.end(), system) == systems.end())
       systems.push_back(system);
   }
-  std::string text;
-  for (const std::string& system : systems) text += (text.empty() ? "" : ", ") + system;
+  std::string text = word_list(systems);
   text += runs.size() == 1 ? " — one run" : " — " + std::to_string(runs.size()) + " runs";
   return element("p", {{"class", "lead"}}, typeset_manifolds(text));
 }
@@ -224,19 +223,43 @@ Markup experiments(std::span<const Run> runs, std::span<const std::string> label
   return all;
 }
 
+// The figures of a page, which have copies of all rows: made once.
+struct PageFigures {
+  explicit PageFigures(std::span<const Run> runs)
+      : motion(motion_figures(runs)),
+        energy(energy_figures(runs)),
+        constraints(constraint_figure(runs)),
+        observables(observable_figure(runs)) {}
+
+  std::vector<const plot::Series*> all_series() const {
+    std::vector<const plot::Series*> all;
+    const auto add = [&](const Figure& figure) {
+      for (const plot::Panel& panel : figure.panels)
+        for (const plot::Series& series : panel.series) all.push_back(&series);
+    };
+    for (const Figure& figure : motion) add(figure);
+    for (const Figure& figure : energy) add(figure);
+    if (constraints) add(*constraints);
+    if (observables) add(*observables);
+    return all;
+  }
+
+  std::vector<Figure> motion, energy;
+  std::optional<Figure> constraints, observables;
+};
+
 // The page with at most `rows` rows of each curve for the script.
-std::string page_with_rows(std::span<const Run> runs, std::size_t rows) {
+std::string page_with_rows(std::span<const Run> runs, const PageFigures& made, std::size_t rows) {
   const std::vector<std::string> labels = run_labels(runs);
   const std::string title = page_title(runs);
   Figures figures(rows);
   Markup body = element("h1", {}, title) + lead(runs) + messages(runs, labels);
-  body += section("Motion", figures.add(motion_figures(runs)));
-  body += section("Energy", figures.add(energy_figures(runs)));
+  body += section("Motion", figures.add(made.motion));
+  body += section("Energy", figures.add(made.energy));
   body += section("Constraint algorithm", ladders(runs, labels));
-  body += section("Constraints", figures.add(constraint_figure(runs)));
+  body += section("Constraints", figures.add(made.constraints));
   body += section("Expectations", expectations_table(runs, labels));
-  body += section("Observables",
-                  figures.add(observable_figure(runs)) + observables_table(runs, labels));
+  body += section("Observables", figures.add(made.observables) + observables_table(runs, labels));
   body += section("Runs and solver", runs_table(runs, labels));
   body += section("Experiments", experiments(runs, labels));
   body += element("footer", {}, "Made by courant report.");
@@ -253,15 +276,11 @@ std::string page_with_rows(std::span<const Run> runs, std::size_t rows) {
 }
 
 // The greatest number of rows with which the page stays below a megabyte.
-std::size_t rows_for_script(std::span<const Run> runs) {
+std::size_t rows_for_script(std::span<const Run> runs, const PageFigures& figures) {
   constexpr std::size_t most_bytes = 950'000;
-  const std::size_t size = page_with_rows(runs, fewest_rows).size();
-  const std::vector<Figure> figures = all_figures(runs);
-  std::vector<const plot::Series*> all;
-  for (const Figure& figure : figures)
-    for (const plot::Panel& panel : figure.panels)
-      for (const plot::Series& series : panel.series) all.push_back(&series);
-  return std::max(fewest_rows, plot::rows_that_fit(all, most_bytes - std::min(most_bytes, size)));
+  const std::size_t size = page_with_rows(runs, figures, fewest_rows).size();
+  const std::size_t rest = most_bytes - std::min(most_bytes, size);
+  return std::max(fewest_rows, plot::rows_that_fit(figures.all_series(), rest));
 }
 
 }  // namespace
@@ -269,7 +288,8 @@ std::size_t rows_for_script(std::span<const Run> runs) {
 std::string report_html(std::span<const Run> runs) {
   if (runs.empty())
     throw std::invalid_argument("report_html: there are no runs, expected at least one.");
-  return page_with_rows(runs, rows_for_script(runs));
+  const PageFigures figures(runs);
+  return page_with_rows(runs, figures, rows_for_script(runs, figures));
 }
 
 void write_report(std::span<const Run> runs, const std::filesystem::path& output) {

@@ -4,6 +4,7 @@
 
 #include "courant/core/message.hpp"
 #include "courant/core/version.hpp"
+#include "courant/core/word_list.hpp"
 #include "courant/integrators/step_energies.hpp"
 #include "courant/integrators/step_program.hpp"
 #include "courant/running/c_functions.hpp"
@@ -18,12 +19,6 @@ namespace {
 namespace text = c_program_text;
 
 constexpr const char* kMethod = "/method";
-
-std::string join(const std::vector<std::string>& words, const std::string& between) {
-  std::string result;
-  for (const std::string& word : words) result += (result.empty() ? "" : between) + word;
-  return result;
-}
 
 // The lines of a comment, each indented.
 std::string comment_lines(const std::string& lines) {
@@ -197,9 +192,9 @@ class CProgram {
     if (step_.solve)
       out << "\n   The equations of a step, with its unknowns those of the arrays y:\n\n"
           << comment_lines(explanation(step_.solve->formulas));
-    out << "\n   x = (" << c_comment(join(system_.names().coordinates, ", ")) << ")\n";
+    out << "\n   x = (" << c_comment(word_list(system_.names().coordinates)) << ")\n";
     if (system_.auxiliary_size() > 0)
-      out << "   z = (" << c_comment(join(system_.names().auxiliary, ", ")) << ")\n";
+      out << "   z = (" << c_comment(word_list(system_.names().auxiliary)) << ")\n";
     out << "*/\n\n#include <float.h>\n"
         << functions_.prelude().substr(0, functions_.prelude().find('\n') + 1)
         << "#include <stdio.h>\n#include <stdlib.h>\n#include <string.h>\n"
@@ -240,7 +235,7 @@ class CProgram {
     all += "static const struct state first = " + state_text(first) + ";\n";
     if (const auto* field = this->field())
       all += "static const double field_start[] = " + c_array(field->start) + ";\n";
-    all += "static const char heading[] = " + c_string(join(names, ",")) + ";\n\n";
+    all += "static const char heading[] = " + c_string(word_list(names, ",")) + ";\n\n";
     return all + "static long step_number = 0;\n\n";
   }
 

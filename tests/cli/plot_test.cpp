@@ -3,6 +3,7 @@
 #include "../running/temporary_folder.hpp"
 #include "answer.hpp"
 #include "courant/cli/command.hpp"
+#include "courant/tests/core/says.hpp"
 
 namespace courant {
 BOOST_AUTO_TEST_SUITE(plot)
@@ -11,10 +12,6 @@ namespace {
 
 using test::Answer;
 using test::courant_command;
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 }  // namespace
 
@@ -28,8 +25,8 @@ BOOST_AUTO_TEST_CASE(one_figure_of_a_run_with_its_numbers) {
   courant_command({"run", "-", "-o", run, "--quiet", "--backend", "interpreter"}, oscillator);
   const Answer answer = courant_command({"plot", run, "--figure", "energy", "-o", file});
   BOOST_TEST(answer.status == 0, answer.err);
-  BOOST_TEST(contains(answer.out, "energy.svg, its numbers in"), answer.out);
-  BOOST_TEST(contains(answer.out, "growing"), answer.out);
+  BOOST_TEST(says(answer.out, "energy.svg, its numbers in"), answer.out);
+  BOOST_TEST(says(answer.out, "growing"), answer.out);
   BOOST_TEST(read_text(file).find("<svg") == 0u);
   const std::string numbers = read_text(folder / "energy.csv");
   BOOST_TEST(numbers.find("t [s],H \xE2\x88\x92 H(0) [J]\n0,0\n0.1,") == 0u, numbers.substr(0, 60));
@@ -37,13 +34,21 @@ BOOST_AUTO_TEST_CASE(one_figure_of_a_run_with_its_numbers) {
 
   const Answer unknown = courant_command({"plot", run, "--figure", "enrgy", "-o", file});
   BOOST_TEST(unknown.status == 2);
-  BOOST_TEST(contains(unknown.err,
-                      "(did you mean \"energy\"?); expected one of: phase, coordinates, "
-                      "energy"),
+  BOOST_TEST(says(unknown.err,
+                  "(did you mean \"energy\"?); expected one of: phase, coordinates, "
+                  "energy"),
              unknown.err);
   BOOST_TEST(courant_command({"plot", run, "--figure", "energy", "-o", "a.jpg"}).status == 2);
   BOOST_TEST(courant_command({"plot", (folder / "none").string(), "--figure", "energy", "-o", file})
                  .status == 2);
+
+  // What cannot be written has the name that was asked for.
+  for (const char* name : {"/none/f.svg", "/none/f.pdf"}) {
+    const Answer refused = courant_command({"plot", run, "--figure", "energy", "-o", name});
+    BOOST_TEST(refused.status == 3);
+    BOOST_TEST(refused.err.starts_with(std::string("courant: ") + name + ": cannot be written"),
+               refused.err);
+  }
 
   // The figures of sweeps and studies too.
   const std::string sweep = (folder / "sweep").string(), study = (folder / "study").string();
