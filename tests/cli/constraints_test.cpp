@@ -5,6 +5,7 @@
 #include "answer.hpp"
 #include "courant/cli/command.hpp"
 #include "courant/reading/findings.hpp"
+#include "courant/tests/core/says.hpp"
 
 namespace courant {
 BOOST_AUTO_TEST_SUITE(constraints_test)
@@ -21,18 +22,14 @@ Answer constraints(std::vector<std::string> arguments, const std::string& input 
 
 const std::string pendulum = "experiments/pendulum_cartesian.json";
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(stops_at_a_level) {
   const Answer answer = constraints({pendulum, "--level", "1"});
   BOOST_TEST(answer.status == 0, answer.err);
-  BOOST_TEST(contains(answer.out, "Stopped at level 1, as asked."), answer.out);
-  BOOST_TEST(contains(answer.out, "x*v + y*w = 0"));
-  BOOST_TEST(!contains(answer.out, "tension = "));
+  BOOST_TEST(says(answer.out, "Stopped at level 1, as asked."), answer.out);
+  BOOST_TEST(says(answer.out, "x*v + y*w = 0"));
+  BOOST_TEST(!says(answer.out, "tension = "));
   const Json json = Json::parse(constraints({pendulum, "--level", "0", "--json"}).out);
   BOOST_TEST(json.at("levels").size() == 1u);
   BOOST_TEST(constraints({pendulum, "--level", "-1"}).status == 2);
@@ -49,20 +46,20 @@ BOOST_AUTO_TEST_CASE(the_discrete_ladder) {
 })json";
   const Answer answer = constraints({"-", "--discrete"}, experiment);
   BOOST_TEST(answer.status == 0, answer.err);
-  BOOST_TEST(contains(answer.out, "(dim S, dim M): (4, 4)"), answer.out);
-  BOOST_TEST(contains(answer.out, "without discretization: (4, 3) ⊇ (3, 2) ⊇ (2, 2)"));
+  BOOST_TEST(says(answer.out, "(dim S, dim M): (4, 4)"), answer.out);
+  BOOST_TEST(says(answer.out, "without discretization: (4, 3) ⊇ (3, 2) ⊇ (2, 2)"));
   const Json json = Json::parse(constraints({"-", "--discrete", "--json"}, experiment).out);
   BOOST_TEST(json.at("degrees_of_freedom") == 4);
 
   // The pairs are those of the system, not the steps of Method 2, which keep the constraints.
-  BOOST_TEST(!contains(answer.out, "constrain-first"));
+  BOOST_TEST(!says(answer.out, "constrain-first"));
   const Answer second = constraints({"experiments/point_vortices.json", "--discrete"});
-  BOOST_TEST(contains(second.out, "(dim S, dim M): (16, 16)"), second.out);
-  BOOST_TEST(contains(second.out, "as those of discretize-first do"), second.out);
+  BOOST_TEST(says(second.out, "(dim S, dim M): (16, 16)"), second.out);
+  BOOST_TEST(says(second.out, "as those of discretize-first do"), second.out);
 
   const Answer without = constraints({"experiments/inconsistent_lagrangian.json", "--discrete"});
   BOOST_TEST(without.status == 2);
-  BOOST_TEST(contains(without.err, "/method: is missing"), without.err);
+  BOOST_TEST(says(without.err, "/method: is missing"), without.err);
 }
 
 BOOST_AUTO_TEST_CASE(lines_fit_a_hundred_columns) {
@@ -79,8 +76,8 @@ BOOST_AUTO_TEST_CASE(lines_fit_a_hundred_columns) {
       const auto width =
           std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; });
       BOOST_TEST(width <= 100, name << ": " << line);
-      BOOST_TEST(!contains(line, "equation["), name << ": " << line);
-      BOOST_TEST(!contains(line, "z[0]"), name << ": " << line);
+      BOOST_TEST(!says(line, "equation["), name << ": " << line);
+      BOOST_TEST(!says(line, "z[0]"), name << ": " << line);
     }
   }
 }

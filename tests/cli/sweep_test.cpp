@@ -5,6 +5,7 @@
 #include "../running/temporary_folder.hpp"
 #include "answer.hpp"
 #include "courant/running/run_files.hpp"
+#include "courant/tests/core/says.hpp"
 
 namespace courant {
 BOOST_AUTO_TEST_SUITE(sweep_command)
@@ -25,10 +26,6 @@ const std::string oscillator = R"json({
 
 const std::string theta = "/method/discretization/theta";
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(a_sweep_is_a_folder_of_runs_with_a_table_and_a_figure) {
@@ -40,8 +37,8 @@ BOOST_AUTO_TEST_CASE(a_sweep_is_a_folder_of_runs_with_a_table_and_a_figure) {
                       oscillator);
   BOOST_TEST(answer.status == 0, answer.err);
   BOOST_TEST(answer.err == "");
-  BOOST_TEST(contains(answer.out, "theta  step     status"), answer.out);
-  BOOST_TEST(contains(answer.out, "6 cases"), answer.out);
+  BOOST_TEST(says(answer.out, "theta  step     status"), answer.out);
+  BOOST_TEST(says(answer.out, "6 cases"), answer.out);
   BOOST_TEST(read_run(folder / "sweep" / "6-theta=1,step=0.05").trajectory.rows() == 21u);
   for (const char* file : {"sweep.csv", "sweep.json", "sweep.svg"})
     BOOST_TEST(std::filesystem::exists(folder / "sweep" / file), file);
@@ -49,7 +46,7 @@ BOOST_AUTO_TEST_CASE(a_sweep_is_a_folder_of_runs_with_a_table_and_a_figure) {
   const Answer again =
       courant_command({"run", "-", "-o", runs, "--sweep", theta + "=0,1"}, oscillator);
   BOOST_TEST(again.status == 2);
-  BOOST_TEST(contains(again.err, "there is a sweep in this folder"), again.err);
+  BOOST_TEST(says(again.err, "there is a sweep in this folder"), again.err);
   const Answer forced = courant_command({"run", "-", "-o", runs, "--force", "--backend",
                                          "interpreter", "--quiet", "--sweep", theta + "=0.5"},
                                         oscillator);
@@ -65,9 +62,9 @@ BOOST_AUTO_TEST_CASE(runs_that_fail_are_said_and_the_others_are_made) {
                                          "interpreter", "--sweep", theta + "=0.5,1,7"},
                                         oscillator);
   BOOST_TEST(answer.status == 3);
-  BOOST_TEST(contains(answer.out, "not as expected"), answer.out);
-  BOOST_TEST(contains(answer.err, "courant: -: " + theta + "=1: /expect/0: "), answer.err);
-  BOOST_TEST(contains(answer.err, "courant: -: " + theta + "=7: " + theta + ": is 7; expected"),
+  BOOST_TEST(says(answer.out, "not as expected"), answer.out);
+  BOOST_TEST(says(answer.err, "courant: -: " + theta + "=1: /expect/0: "), answer.err);
+  BOOST_TEST(says(answer.err, "courant: -: " + theta + "=7: " + theta + ": is 7; expected"),
              answer.err);
   BOOST_CHECK(read_run(folder / "sweep" / "1-theta=0.5").summary.status == RunStatus::completed);
 }
@@ -102,7 +99,7 @@ BOOST_AUTO_TEST_CASE(constraints_are_swept) {
   const Answer answer =
       courant_command({"constraints", "-", "--sweep", "/initial/q=0:2:3", "-o", file}, oscillator);
   BOOST_TEST(answer.status == 0, answer.err);
-  BOOST_TEST(contains(answer.out, "(2 2)"), answer.out);
+  BOOST_TEST(says(answer.out, "(2 2)"), answer.out);
   BOOST_TEST(std::filesystem::exists(folder / "sweep" / "sweep.csv"));
   const Answer json =
       courant_command({"constraints", "-", "--sweep", "/initial/q=0:2:3", "--json"}, oscillator);
@@ -121,7 +118,7 @@ BOOST_AUTO_TEST_CASE(a_study_shows_errors_and_orders) {
   BOOST_TEST(text.status == 0, text.err);
   for (const char* part : {"stdin: rk2", "stdin: rk4", "order ", "reference: closed form",
                            "The error is the greatest distance of (q, p_q) from the reference."})
-    BOOST_TEST(contains(text.out, part), part << " is not in\n" << text.out);
+    BOOST_TEST(says(text.out, part), part << " is not in\n" << text.out);
   for (const char* file : {"study.csv", "study.json", "study.svg"})
     BOOST_TEST(std::filesystem::exists(folder / "study" / file), file);
   BOOST_TEST(with({"-o", (folder / "study").string()}).status == 2);
@@ -136,7 +133,7 @@ BOOST_AUTO_TEST_CASE(a_study_shows_errors_and_orders) {
 
   const Answer unknown = with({"--of", "qq"});
   BOOST_TEST(unknown.status == 2);
-  BOOST_TEST(contains(unknown.err, "--of qq: there is no such quantity (did you mean \"q\"?)"),
+  BOOST_TEST(says(unknown.err, "--of qq: there is no such quantity (did you mean \"q\"?)"),
              unknown.err);
   BOOST_TEST(with({"--method", "rk5"}).status == 2);
 }

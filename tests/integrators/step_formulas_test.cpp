@@ -4,6 +4,7 @@
 #include <boost/test/unit_test.hpp>
 #include <sstream>
 
+#include "courant/tests/core/says.hpp"
 #include "courant/tests/integrators/ladder/ladder_catalogue.hpp"
 #include "courant/tests/integrators/vortices.hpp"
 
@@ -19,10 +20,6 @@ std::vector<std::string> lines(const std::string& text) {
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);) result.push_back(line);
   return result;
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 std::unique_ptr<Integrator> method_2(const Degenerate& vortices) {
@@ -77,8 +74,8 @@ BOOST_AUTO_TEST_CASE(an_explanation_names_what_goes_and_what_stays) {
   const Degenerate vortices = vortices::lagrangian_form();
   const auto formulas = method_2(vortices)->formulas();
   const std::string text = explanation(formulas[0]);
-  BOOST_TEST(contains(text, "constrain-first: 48 equations for 48 unknowns"));
-  BOOST_TEST(contains(text, "8 equations are left, for "));
+  BOOST_TEST(says(text, "constrain-first: 48 equations for 48 unknowns"));
+  BOOST_TEST(says(text, "8 equations are left, for "));
   const auto all = lines(text);
   BOOST_TEST(all.size() == 1 + 40 + 1);
   for (const std::string& line : all) {
@@ -86,10 +83,10 @@ BOOST_AUTO_TEST_CASE(an_explanation_names_what_goes_and_what_stays) {
     BOOST_TEST(std::count_if(line.begin(), line.end(), is_start) <= 100, line);
   }
   const auto& names = vortices.system->names().coordinates;
-  BOOST_TEST(contains(text, "  " + names[7] + "' = "), text);
-  BOOST_TEST(contains(text, "  mu[7] = "), text);
-  BOOST_TEST(contains(text, "from: start of " + names[15] + "\n"), text);
-  BOOST_TEST(contains(text, "left, for Δ" + names[0] + ", "), text);
+  BOOST_TEST(says(text, "  " + names[7] + "' = "), text);
+  BOOST_TEST(says(text, "  mu[7] = "), text);
+  BOOST_TEST(says(text, "from: start of " + names[15] + "\n"), text);
+  BOOST_TEST(says(text, "left, for Δ" + names[0] + ", "), text);
 }
 
 }  // namespace

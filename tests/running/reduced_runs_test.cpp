@@ -1,6 +1,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "courant/running/check.hpp"
+#include "courant/tests/core/says.hpp"
 #include "problems.hpp"
 #include "run_in.hpp"
 
@@ -22,10 +23,6 @@ Json with(Json experiment, const std::string& pointer, const Json& value) {
   experiment[Json::json_pointer(pointer)] = value;
   return experiment;
 }
-bool says(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 }  // namespace
 
 // The same top on T*SO(3) and on the dual of so(3) ⋉ R³, with the same steps.

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "courant/running/check.hpp"
+#include "courant/tests/core/says.hpp"
 #include "problems.hpp"
 #include "run_in.hpp"
 
@@ -57,10 +58,6 @@ Json with(Json experiment, const std::string& pointer, const Json& value) {
   experiment[Json::json_pointer(pointer)] = value;
   return experiment;
 }
-bool says(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(momenta_are_observed) {

@@ -7,6 +7,7 @@
 #include "courant/running/check.hpp"
 #include "courant/running/run_files.hpp"
 #include "courant/running/study.hpp"
+#include "courant/tests/core/says.hpp"
 #include "courant/tests/integrators/kepler.hpp"
 #include "problems.hpp"
 #include "resumed_run.hpp"
@@ -52,10 +53,6 @@ Rows rows_of(const TemporaryFolder& folder) {
 // Of a row t, tau, x, y, p_x, p_y, …
 double error(const std::vector<double>& row) {
   return (Eigen::Map<const Eigen::Vector4d>(row.data() + 2) - solution.at(row[0])).norm();
-}
-
-bool says(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 }  // namespace
