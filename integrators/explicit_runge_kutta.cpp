@@ -5,6 +5,7 @@
 #include <boost/numeric/odeint/stepper/explicit_generic_rk.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <stdexcept>
 
 #include "courant/core/message.hpp"
@@ -18,6 +19,28 @@ using Algebra = odeint::vector_space_algebra;
 template <int stages, int order>
 using Generic =
     odeint::explicit_generic_rk<stages, order, VectorXd, double, VectorXd, double, Algebra>;
+
+// The 13 stages of the method of order 8, as odeint has them.
+StepProgram::Explicit fehlberg_tableau() {
+  StepProgram::Explicit tableau;
+  const odeint::rk78_coefficients_c<double> times;
+  tableau.times.assign(times.begin(), times.end());
+  const auto add_row = [&](const auto& row) { tableau.rows.emplace_back(row.begin(), row.end()); };
+  add_row(odeint::rk78_coefficients_a1<double>());
+  add_row(odeint::rk78_coefficients_a2<double>());
+  add_row(odeint::rk78_coefficients_a3<double>());
+  add_row(odeint::rk78_coefficients_a4<double>());
+  add_row(odeint::rk78_coefficients_a5<double>());
+  add_row(odeint::rk78_coefficients_a6<double>());
+  add_row(odeint::rk78_coefficients_a7<double>());
+  add_row(odeint::rk78_coefficients_a8<double>());
+  add_row(odeint::rk78_coefficients_a9<double>());
+  add_row(odeint::rk78_coefficients_a10<double>());
+  add_row(odeint::rk78_coefficients_a11<double>());
+  add_row(odeint::rk78_coefficients_a12<double>());
+  add_row(odeint::rk78_coefficients_b<double>());
+  return tableau;
+}
 
 // The explicit midpoint rule by its tableau: c = (0, ½), a₂₁ = ½, b = (0, 1).
 class Midpoint : public Generic<2, 2> {
@@ -93,9 +116,11 @@ std::string ExplicitRungeKutta::name() const {
     case Kind::classical:
       return "rk4";
     case Kind::dormand_prince:
+      return "dopri5";
+    case Kind::fehlberg:
       break;
   }
-  return "dopri5";
+  return "rkf78";
 }
 
 int ExplicitRungeKutta::order() const {
@@ -105,9 +130,11 @@ int ExplicitRungeKutta::order() const {
     case Kind::classical:
       return 4;
     case Kind::dormand_prince:
+      return 5;
+    case Kind::fehlberg:
       break;
   }
-  return 5;
+  return 8;
 }
 
 // What odeint's classes have in them.
@@ -134,6 +161,9 @@ StepProgram::Explicit ExplicitRungeKutta::tableau() const {
                           {35.0 / 384.0, std::nullopt, 500.0 / 1113.0, 125.0 / 192.0,
                            -2187.0 / 6784.0, 11.0 / 84.0}},
                  .keeps_rate = true};
+      break;
+    case Kind::fehlberg:
+      tableau = fehlberg_tableau();
       break;
   }
   tableau.field = &field_->formulas();
@@ -197,11 +227,15 @@ std::unique_ptr<Stepper> ExplicitRungeKutta::do_stepper() const {
           Trajectory<odeint::runge_kutta4<VectorXd, double, VectorXd, double, Algebra>>>(field_,
                                                                                          name());
     case Kind::dormand_prince:
+      return std::make_unique<
+          Trajectory<odeint::runge_kutta_dopri5<VectorXd, double, VectorXd, double, Algebra>>>(
+          field_, name());
+    case Kind::fehlberg:
       break;
   }
   return std::make_unique<
-      Trajectory<odeint::runge_kutta_dopri5<VectorXd, double, VectorXd, double, Algebra>>>(field_,
-                                                                                           name());
+      Trajectory<odeint::runge_kutta_fehlberg78<VectorXd, double, VectorXd, double, Algebra>>>(
+      field_, name());
 }
 
 }  // namespace courant

@@ -16,6 +16,7 @@ class ExplicitRungeKutta final : public Integrator, public Programmed {
     midpoint,        // "rk2", order 2: the explicit midpoint rule
     classical,       // "rk4", order 4
     dormand_prince,  // "dopri5", order 5, at constant steps
+    fehlberg,        // "rkf78", order 8, at constant steps: NASA TR R-287 (1968), table X
   };
   ExplicitRungeKutta(std::shared_ptr<const VectorField> field, Kind kind);
 

@@ -11,7 +11,7 @@ StepProgram step_program(const Integrator& method) {
     return programmed->program();
   throw std::invalid_argument("the steps of " + method.name() +
                               " are not known as formulas alone; expected discretize-first, "
-                              "discrete-gradient, rk2, rk4 or dopri5");
+                              "constrain-first, discrete-gradient, rk2, rk4, dopri5 or rkf78");
 }
 
 void check_program_space(const std::string& method, const Manifold& M) {

@@ -348,6 +348,8 @@ Registry<MethodChoice>& method_kinds() {
        explicit_runge_kutta<ExplicitRungeKutta::Kind::classical>},
       {{"dopri5", "Dormand–Prince method on S_f at constant steps, order 5"},
        explicit_runge_kutta<ExplicitRungeKutta::Kind::dormand_prince>},
+      {{"rkf78", "method of Fehlberg on S_f at constant steps, order 8"},
+       explicit_runge_kutta<ExplicitRungeKutta::Kind::fehlberg>},
   });
   return kinds;
 }

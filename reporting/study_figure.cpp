@@ -61,6 +61,11 @@ std::optional<Figure> study_figure(const Json& study) {
   figure.caption = "Greatest error over the step size, and over the time that the steps took.";
   if (study.at("reference").is_string())
     figure.caption += " Reference: " + study.at("reference").get<std::string>() + ".";
+  else
+    for (const Json& method : study.at("methods"))
+      figure.caption += " Reference of " + method.at("experiment").get<std::string>() + ", " +
+                        method.at("method").get<std::string>() + ": " +
+                        method.at("reference").get<std::string>() + ".";
   return figure;
 }
 

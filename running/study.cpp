@@ -188,15 +188,37 @@ double greatest_norm(const MatrixXd& columns) {
 struct Truth {
   std::string words;
   double error = 0.0;
-  MatrixXd values;  // none: closed form
+  MatrixXd values;           // none: closed form
+  std::optional<int> order;  // of the method; none: closed form
 };
 
-MethodChoice dormand_prince(const TimeSpan& time) {
-  const Json word = "dopri5";
+// A method that references are made by, and its order.
+struct ReferenceMethod {
+  MethodChoice choice;
+  int order;
+
+  std::string words(const std::string& step) const {
+    return choice.description + ", order " + std::to_string(order) + ", at the step " + step;
+  }
+};
+
+// The explicit method of order 8, or, where there is no vector field, the one that is studied.
+ReferenceMethod reference_method(const StudiedProblem& problem) {
+  const TimeSpan& time = *problem.experiment().time;
+  const auto with_order = [&](MethodChoice choice) {
+    const int order = problem.prepare(choice, time.step).integrator->order();
+    return ReferenceMethod{std::move(choice), order};
+  };
+  const Json word = "rkf78";
   Findings findings;
   auto choice = method_kinds().read(JsonReader(word, "/method", findings));
   findings.require_clean();
-  return time.rate ? in_transformed_time(std::move(*choice), *time.rate) : *choice;
+  if (time.rate) choice = in_transformed_time(std::move(*choice), *time.rate);
+  try {
+    return with_order(std::move(*choice));
+  } catch (const std::invalid_argument&) {  // no vector field
+    return with_order(*problem.experiment().method);
+  }
 }
 
 // Runs at ever shorter steps, until that changes the values no more than round-off does: of all,
@@ -205,20 +227,15 @@ Truth by_run(StudiedProblem& problem, const StudyOptions& options) {
   constexpr double enough = 1e-14, small = 1e-10;  // of the size of the values
   constexpr long most_steps = 2'000'000;           // of the last run
   const Experiment& experiment = problem.experiment();
-  MethodChoice method = dormand_prince(*experiment.time);
-  try {
-    problem.prepare(method, experiment.time->step);
-  } catch (const std::invalid_argument&) {  // no vector field
-    method = *experiment.method;
-  }
+  const ReferenceMethod method = reference_method(problem);
   long steps = experiment.time->is_transformed() ? 0 : experiment.time->steps;
   const auto run = [&](long parts) {
     const std::string step = number_text(experiment.time->step / static_cast<double>(parts));
     if (options.on_progress)
-      options.on_progress("reference by " + method.description + ", step " + step);
-    const Flight flight = problem.fly(method, parts);
+      options.on_progress("reference by " + method.choice.description + ", step " + step);
+    const Flight flight = problem.fly(method.choice, parts);
     steps = flight.steps / parts;
-    return Truth{method.description + " at the step " + step, 0.0, problem.values(flight)};
+    return Truth{method.words(step), 0.0, problem.values(flight), method.order};
   };
   long parts = 2;
   // Long steps may not be possible where shorter ones are.
@@ -244,7 +261,7 @@ Truth by_run(StudiedProblem& problem, const StudyOptions& options) {
 }
 
 Truth reference_for(StudiedProblem& problem, const StudyOptions& options) {
-  if (problem.has_closed_form()) return {"closed form", 0.0, {}};
+  if (problem.has_closed_form()) return {"closed form", 0.0, {}, {}};
   return by_run(problem, options);
 }
 
@@ -305,6 +322,7 @@ Json method_json(const StudySubject& subject, const StudiedProblem& problem, con
             {"method", problem.experiment().method->description},
             {"quantities", problem.quantities()},
             {"reference", reference.words},
+            {"reference_order", reference.order ? Json(*reference.order) : Json()},
             {"reference_error", reference.error},
             {"order", order ? Json(*order) : Json()},
             {"remark", remark_on(rows, order, floor)},
@@ -405,12 +423,12 @@ std::string study_csv(const Json& study) {
                                  "iterations", "factorizations", "seconds", "message"};
   std::string csv = "experiment,method";
   for (const char* column : columns) csv += std::string(",") + column;
-  csv += '\n';
+  csv += ",reference\n";
   for (const Json& method : study.at("methods"))
     for (const Json& row : method.at("rows")) {
       csv += csv_cell(method.at("experiment")) + "," + csv_cell(method.at("method"));
       for (const char* column : columns) csv += "," + csv_cell(row.at(column));
-      csv += '\n';
+      csv += "," + csv_cell(method.at("reference")) + '\n';
     }
   return csv;
 }

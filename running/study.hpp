@@ -31,27 +31,27 @@ struct StudyOptions {
 // The error of a run is the greatest Euclidean norm of (quantities - reference) at the times of the
 // longest step, at most 1000 of them. The reference is the closed form in t that the experiment
 // expects at every step, `{"state": {"q": "cos(t)"}, "tolerance": …}`, where there is one for each
-// quantity; otherwise a run from the same consistent point by dopri5, or by the method itself where
-// there is no vector field, at steps that are halved until only round-off changes; the last change
-// is what the reference may be off by. The order is the slope of log(error) over log(step) at
+// quantity; otherwise a run from the same consistent point by rkf78, which is of order 8, or by the
+// method itself where there is no vector field, at steps that are halved until only round-off
+// changes; the last change is what the reference may be off by. The order is the slope of log(error) over log(step) at
 // the four smallest steps whose errors are above ten times that of the reference and above round-off.
 // The time is that of the steps alone, the least of several runs where they are short.
 //
 //   {"status": "completed", "reference": "closed form", "quantities": ["q"],
 //    "methods": [{"experiment": "…", "method": "…", "reference": "closed form",
-//                 "reference_error": 0, "order": 2.0, "remark": "",
+//                 "reference_order": null, "reference_error": 0, "order": 2.0, "remark": "",
 //                 "rows": [{"step": 0.1, "steps": 10, "error": 1e-3, "order": null,
 //                           "iterations": 30, "factorizations": 10, "seconds": 1e-5,
 //                           "message": ""}, …]}, …]}
 //
 // "order" of a row is that between it and the row before. Steps that cannot be made have the
 // message why, and no error. "quantities" and "reference" are those of all methods, or null where
-// these differ. Throws ExperimentError for an experiment without a method, or without one of the
-// quantities.
+// these differ. "reference_order" is the order of the method of the reference. Throws
+// ExperimentError for an experiment without a method, or without one of the quantities.
 Json study(std::span<const StudySubject> subjects, const StudyOptions& options);
 
 // A row a step: experiment, method, step, steps, error, order, iterations, factorizations, seconds,
-// message.
+// message, reference.
 std::string study_csv(const Json& study);
 
 }  // namespace courant

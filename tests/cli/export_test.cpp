@@ -9,6 +9,16 @@ BOOST_AUTO_TEST_SUITE(export_command)
 using test::Answer;
 using test::courant_command;
 
+BOOST_AUTO_TEST_CASE(a_method_that_has_no_program_is_told_which_have) {
+  const Answer refused =
+      courant_command({"export", "experiments/heavy_top_reduced.json", "--language", "c"});
+  BOOST_TEST(refused.status == 2);
+  BOOST_TEST(refused.err.find("the steps of reduced are not known as formulas alone; expected "
+                              "discretize-first, constrain-first, discrete-gradient, rk2, rk4, "
+                              "dopri5 or rkf78") != std::string::npos,
+             refused.err);
+}
+
 BOOST_AUTO_TEST_CASE(a_program_is_written_to_a_file_or_to_standard_output) {
   const TemporaryFolder folder;
   const std::string file = (folder / "pendulum.c").string();

@@ -118,6 +118,8 @@ BOOST_AUTO_TEST_CASE(explicit_methods_evaluate_at_their_nodes) {
              boost::test_tools::tolerance(1e-14));
   BOOST_TEST(end(Kind::dormand_prince) == 0.4 + std::sin(kStart + 2.0 * kStep) - std::sin(kStart),
              boost::test_tools::tolerance(1e-6));
+  BOOST_TEST(end(Kind::fehlberg) == 0.4 + std::sin(kStart + 2.0 * kStep) - std::sin(kStart),
+             boost::test_tools::tolerance(1e-10));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -99,11 +99,12 @@ class Site {
   // High orders may want longer steps, whose errors are far from round-off.
   void explicit_methods(double longer = 1.0) const {
     const auto field = std::make_shared<VectorField>(system_, ladder_, Backend::interpreter);
-    for (const auto kind : {ExplicitRungeKutta::Kind::midpoint, ExplicitRungeKutta::Kind::classical,
-                            ExplicitRungeKutta::Kind::dormand_prince}) {
+    for (const auto kind :
+         {ExplicitRungeKutta::Kind::midpoint, ExplicitRungeKutta::Kind::classical,
+          ExplicitRungeKutta::Kind::dormand_prince, ExplicitRungeKutta::Kind::fehlberg}) {
       const auto method = std::make_shared<ExplicitRungeKutta>(field, kind);
       add(method->name(), method, method->order() > 4 ? longer * step_ : step_);
-      table_.back().both_ways = kind != ExplicitRungeKutta::Kind::dormand_prince;
+      table_.back().both_ways = method->order() <= 4;
     }
   }
 

@@ -81,8 +81,9 @@ std::vector<Case> cases() {
                       ladder.point, h, 5e-14});
     if (!explicit_too) return;
     const auto field = std::make_shared<VectorField>(system, ladder, Backend::interpreter);
-    for (const auto kind : {ExplicitRungeKutta::Kind::midpoint, ExplicitRungeKutta::Kind::classical,
-                            ExplicitRungeKutta::Kind::dormand_prince})
+    for (const auto kind :
+         {ExplicitRungeKutta::Kind::midpoint, ExplicitRungeKutta::Kind::classical,
+          ExplicitRungeKutta::Kind::dormand_prince, ExplicitRungeKutta::Kind::fehlberg})
       result.push_back({name + ", explicit", std::make_shared<ExplicitRungeKutta>(field, kind),
                         ladder.point, h});
   };

@@ -93,6 +93,18 @@ BOOST_AUTO_TEST_CASE(a_study_is_drawn_over_step_and_time) {
   BOOST_TEST(std::isnan(figure->panels[0].series[0].y[1]));
   BOOST_TEST(figure->panels[1].series[0].x[0] == 1e-3);
   BOOST_TEST(figure->legend[0].label == "rk2, order 2");
+  BOOST_TEST(figure->caption.ends_with(" Reference: closed form."), figure->caption);
+  // Which one is said of each where they are not the same.
+  Json other = study["methods"][0];
+  other.update({{"experiment", "b"}, {"reference", "rkf78, order 8, at the step 0.025"}});
+  Json both = study;
+  both["reference"] = nullptr;
+  both["methods"][0].update({{"experiment", "a"}, {"reference", "closed form"}});
+  both["methods"].push_back(other);
+  BOOST_TEST(study_figure(both)->caption.ends_with(
+                 " Reference of a, rk2: closed form. Reference of b, rk2: rkf78, order 8, at the "
+                 "step 0.025."),
+             study_figure(both)->caption);
   study["methods"][0]["rows"] = Json::array({row(0.1, nullptr, 1e-3)});
   BOOST_TEST(!study_figure(study).has_value());
 }

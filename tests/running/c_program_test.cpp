@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE(programs_forget_where_runs_do) {
   vortices["time"] = {{"step", 0.1}, {"end", 450}};  // an epoch is 4096 steps
   vortices["output"] = {{"every", 50}};
   check_same_bytes("vortices", vortices);
-  for (const char* type : {"rk2", "rk4", "dopri5", "discretize-first"}) {
+  for (const char* type : {"rk2", "rk4", "dopri5", "rkf78", "discretize-first"}) {
     Json experiment = oscillator;
     experiment["method"] = {{"type", type}};
     experiment["output"]["epoch"] = 37;

@@ -2,6 +2,8 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include "courant/tests/core/says.hpp"
+
 namespace courant {
 BOOST_AUTO_TEST_SUITE(study_test)
 
@@ -47,6 +49,7 @@ BOOST_AUTO_TEST_CASE(measures_the_order_against_a_closed_form) {
   for (const auto& [method, order] : orders) {
     const Json found = study_of(experiment(riccati, method));
     BOOST_TEST(found["reference"] == "closed form");
+    BOOST_TEST(found["reference_order"].is_null());
     BOOST_TEST(found["reference_error"] == 0.0);
     BOOST_TEST(found["quantities"] == Json::array({"q"}));
     BOOST_TEST(std::abs(found["order"].get<double>() - order) < 0.15, method);
@@ -72,11 +75,30 @@ BOOST_AUTO_TEST_CASE(an_error_is_the_greatest_along_the_run) {
 BOOST_AUTO_TEST_CASE(without_a_closed_form_the_reference_is_a_fine_run) {
   for (const auto& [method, order] : {std::pair("discretize-first", 2.0), std::pair("rk4", 4.0)}) {
     const Json found = study_of(experiment(pendulum, method));
-    BOOST_TEST(found["reference"].get<std::string>().find("dopri5 at the step 0.00") == 0u);
-    BOOST_TEST(found["reference_error"].get<double>() < 1e-11);
+    BOOST_TEST(says(found["reference"].get<std::string>(), "rkf78, order 8, at the step 0.0"),
+               found["reference"]);
+    BOOST_TEST(found["reference_order"] == 8);
+    BOOST_TEST(found["reference_error"].get<double>() < 1e-12);
     BOOST_TEST(found["quantities"] == Json::array({"q", "p_q"}));
     BOOST_TEST(std::abs(found["order"].get<double>() - order) < 0.15, method);
   }
+}
+
+// The slope over steps whose errors are above round-off.
+BOOST_AUTO_TEST_CASE(the_method_of_references_is_of_order_8) {
+  Json document = experiment(riccati, "rkf78").document;
+  StudyOptions how = options();
+  how.steps = 2;
+  double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, n = 0.0;
+  for (const double count : {28.0, 36.0, 46.0, 60.0}) {
+    document["time"] = {{"step", 0.9 / count}, {"end", 0.9}};
+    const Json found = study_of(read_experiment_document(document), how);
+    const double log_step = std::log(0.9 / count),
+                 log_error = std::log(found["rows"][0]["error"].get<double>());
+    x += log_step, y += log_error, xx += log_step * log_step, xy += log_step * log_error, n += 1.0;
+  }
+  const double order = (n * xy - x * y) / (n * xx - x * x);
+  BOOST_TEST(std::abs(order - 8.0) < 0.15, "shows " << order);
 }
 
 BOOST_AUTO_TEST_CASE(quantities_can_be_chosen) {
@@ -121,7 +143,8 @@ BOOST_AUTO_TEST_CASE(methods_share_what_is_the_same) {
   const std::string csv = study_csv(both);
   BOOST_TEST(std::count(csv.begin(), csv.end(), '\n') == 11);
   BOOST_TEST(csv.find("experiment,method,step,steps,error,order,iterations,factorizations,seconds,"
-                      "message\na,rk2,0.1,20,") == 0u);
+                      "message,reference\na,rk2,0.1,20,") == 0u);
+  BOOST_TEST(says(csv, ",,\"rkf78, order 8, at the step"), csv);
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_studied_is_refused) {
