@@ -10,7 +10,9 @@ namespace courant::formula {
 namespace {
 
 constexpr int kDeepest = 200;  // a nesting no person writes, far from the end of the stack
-constexpr Index kMostTerms = 10'000'000;  // of all sums together: a gigabyte of expression
+constexpr Index kMostTerms = 1'000'000;  // of all sums together: a second
+// Of these that are no numbers: the ladder of a system with so many takes some ten seconds.
+constexpr Index kMostOpenTerms = 100'000;
 
 constexpr int kUnary = 6;
 
@@ -298,6 +300,9 @@ Value Parser::loop(const Token& name) {
     token_ = term;
     loops_.back().value = i;
     const Expr next_term = as_number(expression(0));
+    if (!next_term.is_constant() && ++open_terms_ > kMostOpenTerms)
+      fail(name, quoted(name.text) + " is too long; expected at most " +
+                     std::to_string(kMostOpenTerms) + " terms with unknowns in a formula");
     is_sum ? total += next_term : total *= next_term;
   }
   loops_.pop_back();

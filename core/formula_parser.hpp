@@ -83,6 +83,7 @@ class Parser {
   const Token* token_;
   std::vector<Loop> loops_;
   Index terms_ = 0;
+  Index open_terms_ = 0;  // of these, that are no numbers
   int depth_ = 0;
   int idle_ = 0;  // enclosing parts that don't count
 };

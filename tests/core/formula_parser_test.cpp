@@ -169,9 +169,11 @@ BOOST_AUTO_TEST_CASE(loops) {
   check_refused("sum(i, 0, q, 1)", 11, "bound of sum is q; expected a constant integer");
   check_refused("sum(i, 0, x, 1)", 11, "x is an array of 4; expected an element such as x[0]");
   check_refused("q + sum(i, 1, 10^7 + 1, i)", 5,
-                "\"sum\" is too long; expected at most 10000000 terms in a formula");
+                "\"sum\" is too long; expected at most 1000000 terms in a formula");
   check_refused("sum(i, 1, 10^4, prod(j, 0, 10^15, i))", 17,
-                "\"prod\" is too long; expected at most 10000000 terms in a formula");
+                "\"prod\" is too long; expected at most 1000000 terms in a formula");
+  check_refused("q + sum(i, 0, 10^5, i*q)", 5,
+                "\"sum\" is too long; expected at most 100000 terms with unknowns in a formula");
   check_refused("sum(i, 0, 3, i", 15,
                 "expected \")\", found end of formula in sum(index, first, last, term)");
 }

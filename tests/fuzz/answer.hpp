@@ -8,7 +8,7 @@ namespace courant::fuzz {
 
 // The command answers these arguments and this standard input as the documentation promises: with
 // one of its exit statuses, with a message where the status is 2, in words for users. What can be
-// stopped is, after a fifth of a second.
+// stopped is, after a twentieth of a second of the processor.
 void require_answer(const std::vector<std::string>& arguments, const std::string& input);
 
 // A folder for the files of this process, empty whenever it is asked for.
