@@ -25,7 +25,9 @@ void write_files(std::string_view text, const std::filesystem::path& folder) {
     const std::size_t at = text.find(head);
     if (at == std::string_view::npos) continue;
     const std::string_view rest = text.substr(at + head.size());
-    std::ofstream(folder / name, std::ios::binary) << rest.substr(0, rest.find("\n=== ")) << '\n';
+    const std::size_t next = rest.find("\n=== ");
+    std::ofstream(folder / name, std::ios::binary)
+        << (next == std::string_view::npos ? rest : rest.substr(0, next + 1));
   }
 }
 
