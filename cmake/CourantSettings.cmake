@@ -22,11 +22,22 @@ endif()
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/include)
 file(CREATE_LINK ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/include/courant SYMBOLIC)
 
+# GCC collects its garbage when it holds some 100 MB. Where there is memory it need not: an eighth of the time.
+cmake_host_system_information(RESULT memory QUERY TOTAL_PHYSICAL_MEMORY)
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND memory GREATER_EQUAL 8000)
+  add_compile_options("SHELL:--param ggc-min-expand=200" "SHELL:--param ggc-min-heapsize=1000000")
+endif()
+
 if(COURANT_SANITIZE)
   # Left out of the undefined behaviour: what the address sanitizer sees as well. Eigen, inlined, compiles
   # twice as long with it, and as long again with full debug information.
   set(sanitizers -fsanitize=address,undefined -fno-sanitize=null,alignment,object-size,vptr)
   add_compile_options(${sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer -O1 -g1)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    # Undefined behaviour traps, and AddressSanitizer prints where (handle_sigill=1); accesses are checked by calls. Both
+    # keep the instrumented code small: it compiles in three quarters of the time.
+    add_compile_options(-fsanitize-undefined-trap-on-error "SHELL:--param asan-instrumentation-with-call-threshold=0")
+  endif()
   add_compile_definitions(_GLIBCXX_ASSERTIONS)
   if(COURANT_FUZZ AND CMAKE_CXX_COMPILER_ID MATCHES Clang)
     add_compile_options(-fsanitize=fuzzer-no-link) # libFuzzer sees which branches an execution takes

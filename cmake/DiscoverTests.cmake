@@ -13,12 +13,14 @@ set(script "")
 foreach(suite IN LISTS suites)
   string(STRIP "${suite}" suite)
   set(label quick)
+  set(cost 0)
   if(suite MATCHES "_long(_test)?$")
     set(label long)
+    set(cost 1000) # ctest starts with these, so that none of them runs alone at the end
   endif()
   string(APPEND script
     "add_test([[${FOLDER}.${suite}]] [[${EXECUTABLE}]] [[--run_test=${suite}]] --color_output=no)\n"
-    "set_tests_properties([[${FOLDER}.${suite}]] PROPERTIES LABELS ${label}"
+    "set_tests_properties([[${FOLDER}.${suite}]] PROPERTIES LABELS ${label} COST ${cost}"
     " WORKING_DIRECTORY [[${WORKING_DIRECTORY}]])\n")
 endforeach()
 file(WRITE ${OUTPUT} "${script}")
