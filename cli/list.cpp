@@ -23,7 +23,10 @@ void print_json(const Console& console) {
         if (!key.otherwise.is_null()) entry["default"] = key.otherwise;
         keys.push_back(std::move(entry));
       }
-      list.push_back({{"type", kind.type}, {"summary", kind.summary}, {"keys", keys}});
+      Json entry = {{"type", kind.type}, {"summary", kind.summary}, {"keys", keys}};
+      if (!kind.reference.empty()) entry["reference"] = kind.reference;
+      if (!kind.formulas.is_null()) entry["formulas"] = kind.formulas;
+      list.push_back(std::move(entry));
     }
   }
   console.out << json.dump(2) << '\n';
@@ -38,7 +41,7 @@ void print_text(const Console& console) {
     console.out << shelf.name << '\n';
     for (const KindDescription& kind : shelf.kinds) {
       console.out << "  " << kind.type << std::string(width + 2 - kind.type.size(), ' ')
-                  << kind.summary << '\n';
+                  << kind.sentence() << '\n';
       for (const Key& key : kind.keys) {
         console.out << std::string(width + 6, ' ') << '"' << key.name << "\": " << key.summary;
         if (key.required) console.out << " (required)";

@@ -23,6 +23,7 @@ std::string kinds_with_an_example() {
 void add_new(CLI::App& app, Session& session) {
   struct Arguments {
     std::string kind, file;
+    bool in_formulas = false;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("new", "Print a commented experiment to start from");
@@ -33,10 +34,12 @@ void add_new(CLI::App& app, Session& session) {
       ->add_option("-o", arguments->file,
                    "write it to a file that is not there yet (default: standard output)")
       ->type_name("FILE");
+  command->add_flag("--formulas", arguments->in_formulas,
+                    "write a system of the catalogue as the formulas that it stands for");
   command->callback([&session, arguments] {
     session.action = [arguments](const Console& console) -> int {
       try {
-        const std::string text = new_experiment(arguments->kind);
+        const std::string text = new_experiment(arguments->kind, arguments->in_formulas);
         if (arguments->file.empty()) {
           console.out << text;
         } else if (std::filesystem::exists(arguments->file)) {

@@ -151,6 +151,10 @@ const Key* KindDescription::find(const std::string& key) const {
   return found == keys.end() ? nullptr : &*found;
 }
 
+std::string KindDescription::sentence() const {
+  return reference.empty() ? summary : summary + " (" + reference + ")";
+}
+
 Json KindDescription::schema() const {
   Json required = {"type"};
   Json properties = {{"type", {{"const", type}}}};
@@ -159,7 +163,7 @@ Json KindDescription::schema() const {
     Json& property = properties[key.name] = described(key.takes.schema, key.summary);
     if (!key.otherwise.is_null()) property["default"] = key.otherwise;
   }
-  Json result = {{"description", summary},
+  Json result = {{"description", sentence()},
                  {"type", "object"},
                  {"required", required},
                  {"additionalProperties", false},
@@ -195,7 +199,7 @@ std::string markdown_table(const std::vector<KindDescription>& kinds) {
   };
   std::string table = "| `type` | key: what it takes | |\n|---|---|---|\n";
   for (const KindDescription& kind : kinds) {
-    table += "| `" + kind.type + "` | | " + escaped(kind.summary) + " |\n";
+    table += "| `" + kind.type + "` | | " + escaped(kind.sentence()) + " |\n";
     for (const Key& key : kind.keys) {
       std::string takes = key.takes.text;
       if (key.required) takes += "; required";

@@ -82,8 +82,12 @@ struct KindDescription {
   std::vector<std::vector<std::string>> one_of = {};
   // Of systems: an experiment to start from, which `courant new` comments; null if there is none.
   Json example = nullptr;
+  // Of systems of the catalogue that are data: the same as a description by formulas, and where it is from.
+  Json formulas = nullptr;
+  std::string reference = {};
 
   const Key* find(const std::string& key) const;  // null if there is none
+  std::string sentence() const;                   // the summary, and the reference in brackets
   // Of the objects of this kind.
   Json schema() const;
 };

@@ -41,7 +41,7 @@ std::string comment_on(const Key& key, const std::vector<Shelf>& catalogue) {
 Json commented(const Json& object, const std::string& noun, const std::vector<Shelf>& catalogue) {
   const KindDescription* kind = kind_of(shelf_of(catalogue, noun), object.value("type", ""));
   if (kind == nullptr) return object;
-  Json result{{"type", kind->type}, {"// type", kind->summary}};
+  Json result{{"type", kind->type}, {"// type", kind->sentence()}};
   for (const bool used : {true, false})
     for (const Key& key : kind->keys) {
       if (object.contains(key.name) != used) continue;
@@ -58,6 +58,7 @@ constexpr std::pair<const char*, const char*> kFrame[] = {
      "is the velocity of x, an array takes an array"},
     {"hold", "names of initial values that must not be moved to be consistent: [\"x\"]"},
     {"time", "step and end, numbers or formulas of the parameters: a whole number of steps"},
+    {"events", "named formulas of the state whose zeros are found: passages, turning points"},
     {"observe", "named formulas of coordinates, momenta, velocities, unknowns and t: columns"},
     {"expect", "what must come out, or the run fails; every experiment should have some"},
     {"output",
@@ -111,7 +112,7 @@ std::string readable_json(const Json& value) {
   return text + "\n";
 }
 
-std::string new_experiment(const std::string& type) {
+std::string new_experiment(const std::string& type, bool in_formulas) {
   const std::vector<Shelf> shelves = catalogue();
   const Shelf* systems = shelf_of(shelves, "system");
   const KindDescription* kind = kind_of(systems, type);
@@ -128,11 +129,15 @@ std::string new_experiment(const std::string& type) {
   const Json& example = kind->example;
   if (example.is_null())
     throw ExperimentError(type, "has no example; `courant list` says what its keys take");
+  if (in_formulas && kind->formulas.is_null())
+    throw ExperimentError(
+        type, "is no system of formulas alone; expected one of the catalogue, such as pendulum");
   Json result{{"//",
                "Keys that begin with // are comments. What a key takes stands before it; keys that "
                "are not used here are there as comments. courant check FILE, courant run FILE."}};
   result["title"] = example.at("title");
-  result["system"] = commented(example.at("system"), "system", shelves);
+  result["system"] =
+      commented(in_formulas ? kind->formulas : example.at("system"), "system", shelves);
   for (const auto& [key, comment] : kFrame) {
     if (std::string(key) == "time")
       result["method"] = commented(example.at("method"), "method", shelves);

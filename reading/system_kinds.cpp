@@ -1,5 +1,6 @@
 #include "courant/reading/system_kinds.hpp"
 
+#include "courant/reading/catalogue_system.hpp"
 #include "courant/reading/lie_algebra_keys.hpp"
 #include "courant/reading/mechanics_keys.hpp"
 #include "courant/reading/system_examples.hpp"
@@ -12,8 +13,12 @@ std::vector<Key> together(std::vector<Key> keys, const std::vector<Key>& more) {
   return keys;
 }
 
-std::vector<Registry<Model>::Kind> with_examples(std::vector<Registry<Model>::Kind> kinds) {
+// With an example each, and the systems of the catalogue that are data.
+std::vector<Registry<Model>::Kind> completed(std::vector<Registry<Model>::Kind> kinds) {
   for (auto& kind : kinds) kind.description.example = system_example(kind.description.type);
+  for (const CatalogueSystem& entry : catalogue_systems())
+    kinds.push_back(
+        {entry.description(), [&entry](ObjectReader& system) { return entry.read(system); }});
   return kinds;
 }
 
@@ -46,7 +51,7 @@ Registry<Model>& system_kinds() {
   const Key inputs = optional_key("inputs", takes::formulas(),
                                   "added to the rates of the momenta: n formulas in momenta, "
                                   "velocities, advected parameters and t");
-  static Registry<Model> kinds(with_examples({
+  static Registry<Model> kinds(completed({
       {{"hamiltonian", "(v, dH) ∈ D: a Dirac structure and a Hamiltonian in formulas",
         system_keys(together(
             {coordinates("of the manifold; on a cotangent bundle of its base, the momentum "

@@ -29,9 +29,22 @@ BOOST_AUTO_TEST_CASE(every_kind_of_system_has_a_commented_example) {
     BOOST_TEST(experiment.method.has_value());
     BOOST_TEST(!experiment.expect.checks.empty());
     BOOST_TEST(!experiment.observe.empty());
-    BOOST_TEST(document["system"].contains("parameters") ==
-               (kind.type.find("vortices") == std::string::npos));
+    // Constants have names: as parameters, or as keys.
+    BOOST_TEST((document["system"].contains("parameters") || !kind.formulas.is_null() ||
+                document["system"].contains("strengths")));
   }
+}
+
+// A system of the catalogue can be written as what it stands for, with the same values.
+BOOST_AUTO_TEST_CASE(a_system_of_the_catalogue_in_formulas) {
+  const Json document = parse_json(new_experiment("duffing", true));
+  BOOST_TEST(document["system"]["type"] == "hamiltonian");
+  BOOST_TEST(document["system"]["parameters"]["a"] == -1);
+  BOOST_TEST(document["system"]["parameters"]["b"] == 1);
+  BOOST_CHECK_EXCEPTION(
+      new_experiment("lagrangian", true), ExperimentError, [](const ExperimentError& error) {
+        return std::string(error.what()).find("no system of formulas alone") != std::string::npos;
+      });
 }
 
 BOOST_AUTO_TEST_CASE(other_kinds_are_refused) {
