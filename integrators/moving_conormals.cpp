@@ -1,6 +1,8 @@
 #include "courant/integrators/moving_conormals.hpp"
 
+#include <algorithm>
 #include <limits>
+#include <vector>
 
 #include "courant/core/complete_orthogonal_decomposition.hpp"
 #include "courant/core/derivative.hpp"
@@ -110,28 +112,82 @@ bool MovingConormals::continue_to(const double* const* in) {
   return make_orthonormal_(covectors_, conormals_);  // of C + N with CᵀN = 0
 }
 
+// Where an unknown besides ξ is in one equation alone, no combination that is free of it contains this
+// equation. Without the two the others may have such an unknown in turn. Of the derivative array of a
+// network with a loop of capacitors this leaves the equation of the loop alone, whose decomposition is
+// small, where that of all equations takes minutes for thousands of them.
+MovingConormals::Core MovingConormals::core(const VectorXd& all) const {
+  const Function& f = functions_.constraints;
+  const Index rows = f.output_size();
+  std::vector<std::vector<Index>> of_row(static_cast<std::size_t>(rows));
+  std::vector<std::vector<Index>> of_column(static_cast<std::size_t>(f.input_size(0)));
+  for (std::size_t k = 0; k < f.pattern_row().size(); ++k) {
+    const Index i = f.pattern_row()[k], j = f.pattern_col()[k];
+    if (j < n_ || all[rows + static_cast<Index>(k)] == 0.0) continue;
+    of_row[static_cast<std::size_t>(i)].push_back(j);
+    of_column[static_cast<std::size_t>(j)].push_back(i);
+  }
+  std::vector<bool> is_left(static_cast<std::size_t>(rows), true);
+  std::vector<Index> in_rows, alone;
+  for (std::size_t j = 0; j < of_column.size(); ++j) {
+    in_rows.push_back(std::ssize(of_column[j]));
+    if (in_rows.back() == 1) alone.push_back(static_cast<Index>(j));
+  }
+  while (!alone.empty()) {
+    const auto j = static_cast<std::size_t>(alone.back());
+    alone.pop_back();
+    const auto row = std::ranges::find_if(
+        of_column[j], [&](Index i) { return is_left[static_cast<std::size_t>(i)]; });
+    if (row == of_column[j].end()) continue;
+    is_left[static_cast<std::size_t>(*row)] = false;
+    for (const Index other : of_row[static_cast<std::size_t>(*row)])
+      if (--in_rows[static_cast<std::size_t>(other)] == 1) alone.push_back(other);
+  }
+  Core result;
+  for (Index i = 0; i < rows; ++i)
+    if (is_left[static_cast<std::size_t>(i)]) result.rows.push_back(i);
+  for (std::size_t j = 0; j < in_rows.size(); ++j)
+    if (in_rows[j] > 0) result.columns.push_back(static_cast<Index>(j));
+  return result;
+}
+
 void MovingConormals::find(const double* const* in) {
   const Function& f = functions_.constraints;
   VectorXd all(f.output_size() + f.nonzeros());
   f.value_and_jacobian(in, all.data());
-  const MatrixXd J = f.dense_jacobian(all);
-  if (!J.allFinite()) {  // the solver that asked for this point will find it no better
+  if (!all.tail(f.nonzeros()).allFinite()) {
+    // The solver that asked for this point will find it no better.
     conormals_.setConstant(std::numeric_limits<double>::quiet_NaN());
     return;
   }
+  const auto [rows, columns] = core(all);
+  std::vector<Index> row_place(static_cast<std::size_t>(f.output_size()), -1);
+  std::vector<Index> column_place(static_cast<std::size_t>(f.input_size(0)), -1);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    row_place[static_cast<std::size_t>(rows[i])] = static_cast<Index>(i);
+  for (std::size_t j = 0; j < columns.size(); ++j)
+    column_place[static_cast<std::size_t>(columns[j])] = static_cast<Index>(j);
+  MatrixXd by_xi = MatrixXd::Zero(std::ssize(rows), n_);
+  MatrixXd by_others = MatrixXd::Zero(std::ssize(rows), std::ssize(columns));
+  for (std::size_t k = 0; k < f.pattern_row().size(); ++k) {
+    const Index i = row_place[static_cast<std::size_t>(f.pattern_row()[k])];
+    const Index column = f.pattern_col()[k];
+    const Index j = column < n_ ? column : column_place[static_cast<std::size_t>(column)];
+    if (i < 0 || j < 0) continue;
+    (column < n_ ? by_xi : by_others)(i, j) += all[f.output_size() + static_cast<Index>(k)];
+  }
   // Combinations of equations that contain dξ alone do not depend on the units of the other unknowns;
   // equations without those are measured by what they say of ξ.
-  const MatrixXd by_others = J.rightCols(J.cols() - n_);
   const Equilibration<MatrixXd> S = equilibrate(by_others, kNoise);
   VectorXd row = S.row_scale;
-  for (Index i = 0; i < J.rows(); ++i) {
-    const double size = J.row(i).head(n_).lpNorm<Eigen::Infinity>();
+  for (Index i = 0; i < by_xi.rows(); ++i) {
+    const double size = by_xi.row(i).lpNorm<Eigen::Infinity>();
     if (by_others.row(i).isZero(0.0) && size > 0.0) row[i] = 1.0 / size;
   }
   const CompleteOrthogonalDecomposition others(S.scaled, kDataError);
   const MatrixXd Q = others.Q();
   const MatrixXd gradients =
-      (Q.rightCols(J.rows() - others.rank()).transpose() * row.asDiagonal() * J.leftCols(n_))
+      (Q.rightCols(by_xi.rows() - others.rank()).transpose() * row.asDiagonal() * by_xi)
           .transpose();
   conormals_ = QrDecomposition::pivoted(gradients).Q(d_);
 }

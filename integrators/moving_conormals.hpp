@@ -1,6 +1,8 @@
 // The conormals of M_f along a trajectory.
 #pragma once
 
+#include <vector>
+
 #include "courant/core/newton.hpp"
 #include "courant/integrators/nearest_orthonormal.hpp"
 #include "courant/integrators/predictor.hpp"
@@ -42,6 +44,12 @@ class MovingConormals {
   const MatrixXd& matrix() const { return conormals_; }
 
  private:
+  // The equations, and of the unknowns besides ξ those, that decide which combinations contain dξ
+  // alone, where F and its Jacobian's entries are `all`.
+  struct Core {
+    std::vector<Index> rows, columns;
+  };
+  Core core(const VectorXd& all) const;
   bool continue_to(const double* const* in);
   void find(const double* const* in);
 

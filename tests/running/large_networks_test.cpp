@@ -63,6 +63,48 @@ BOOST_AUTO_TEST_CASE(the_current_of_a_source_across_a_capacitor) {
   }
 }
 
+// Sources hold the voltages of capacitors at both ends: the conormals of M_f are those of two charges, which
+// the equations and their derivatives, 4,800 in all, have to be asked for. The line carries a wave
+//
+//   u_i = sin(ω t - φ i),   2 sin(φ/2) = ω,   current into the line at 0: C/2 u_0' + i_1
+//
+// with L = C = 1.
+BOOST_AUTO_TEST_CASE(method_2_between_two_sources) {
+  const int cells = 600;
+  const double phi = 0.1, omega = 2.0 * std::sin(phi / 2.0);
+  Json experiment = Json::parse(R"json({"system": {"type": "network",
+      "parameters": {"N": 0, "phi": 0.1, "omega": "2*sin(phi/2)"},
+      "nodes": ["0", {"repeat": {"i": [0, "N"]}, "name": "n{i}"}],
+      "elements": [
+        {"type": "voltage-source", "name": "A", "from": "n0", "to": "0", "value": "sin(omega*t)"},
+        {"type": "voltage-source", "name": "B", "from": "n{N}", "to": "0",
+         "value": "sin(omega*t - N*phi)"},
+        {"repeat": {"i": [0, "N"]}, "type": "capacitor", "name": "C{i}", "from": "n{i}",
+         "to": "0", "value": 1},
+        {"repeat": {"i": [1, "N"]}, "type": "inductor", "name": "L{i}", "from": "n{i-1}",
+         "to": "n{i}", "value": 1}]},
+      "initial": {
+        "q_C{i}": {"repeat": {"i": [0, "N"]}, "value": "sin(-phi*{i})"},
+        "phi_L{i}": {"repeat": {"i": [1, "N"]}, "value": "sin(-phi*({i} - 1/2))"}}})json");
+  experiment["system"]["parameters"]["N"] = cells;
+  const test::Problem line = test::problem(experiment);
+  BOOST_TEST(line.ladder.degrees_of_freedom == 2 * cells - 1);
+  const double end = 8.0;
+  std::vector<double> errors;
+  for (const long steps : {20L, 40L}) {
+    const VectorXd x = line.end(Json::parse(R"({"type": "constrain-first"})"), end, steps);
+    double worst = 0.0;
+    for (int i = 0; i <= cells; ++i)
+      worst = std::max(worst, std::fabs(x[i] - std::sin(omega * end - phi * i)));
+    // The sources are where M_f is, whatever the step.
+    BOOST_TEST(std::fabs(x[0] - std::sin(omega * end)) < 1e-13);
+    BOOST_TEST(std::fabs(x[cells] - std::sin(omega * end - phi * cells)) < 1e-13);
+    errors.push_back(worst);
+  }
+  BOOST_TEST(errors[0] < 1e-3);
+  BOOST_TEST(std::fabs(std::log2(errors[0] / errors[1]) - 2.0) < 0.15);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
 
 }  // namespace
