@@ -20,17 +20,18 @@ constexpr double kFurther = 4.0;
 constexpr double kRoundings = 4.0 * std::numeric_limits<double>::epsilon();
 constexpr double kFirstSteps = 10.0;
 
-// Slopes of H are differences over this part of a coordinate.
-constexpr double kDifference = 1e-6;
-
 // A method of order 1 has a third; errors that do not fall at all, one or more.
 constexpr double kConvergent = 0.6;
 
 }  // namespace
 
 EnergyWatch::EnergyWatch(std::shared_ptr<const Integrator> integrator,
-                         std::function<double(const State&)> energy, Index column)
-    : integrator_(std::move(integrator)), energy_(std::move(energy)), column_(column) {}
+                         std::function<double(const State&)> energy,
+                         std::function<std::vector<EnergyTerms>(const State&)> terms, Index column)
+    : integrator_(std::move(integrator)),
+      energy_(std::move(energy)),
+      terms_(std::move(terms)),
+      column_(column) {}
 
 std::optional<RunEnd> EnergyWatch::watch(const RunMoment& moment) {
   const double H = moment.row[column_];
@@ -42,7 +43,7 @@ std::optional<RunEnd> EnergyWatch::watch(const RunMoment& moment) {
     return std::nullopt;
   memory_.looked_at = change;
   // Where H is a sum of terms that cancel, |H| is no measure of them, nor of its round-off.
-  const auto [terms, round_off] = sizes(moment.step);
+  const auto [terms, round_off] = sizes(moment.step.after);
   const double noise = (kFirstSteps + static_cast<double>(moment.k)) * round_off;
   if (!(change > std::max(noise, kLeast * terms))) return std::nullopt;
   if (!is_explained(moment.step)) {
@@ -60,26 +61,20 @@ std::string EnergyWatch::finding() const {
   return memory_.found_at > kLeast * memory_.largest ? memory_.finding : "";
 }
 
-EnergyWatch::Sizes EnergyWatch::sizes(const Step& step) const {
-  const VectorXd& x = step.after.x;
-  if (x.size() == 0) return {};
-  State moved = step.after;
-  const VectorXd change = (x - step.before.x).cwiseAbs().cwiseMax(x.cwiseAbs());
-  const double rounding = kRoundings * x.lpNorm<Eigen::Infinity>();
+EnergyWatch::Sizes EnergyWatch::sizes(const State& state) const {
   Sizes result;
   try {
-    const double H = energy_(step.after);
-    for (Index i = 0; i < x.size(); ++i) {
-      const double difference = kDifference * change[i];
-      if (difference == 0.0) continue;
-      moved.x[i] = x[i] + difference;
-      const double slope = std::fabs(energy_(moved) - H) / difference;
-      moved.x[i] = x[i];
-      if (!std::isfinite(slope)) continue;
-      result.terms += slope * std::fabs(x[i]);
-      result.round_off += slope * rounding;
+    for (const auto& [numbers, slopes] : terms_(state)) {
+      if (numbers.size() == 0) continue;
+      const double rounding = kRoundings * numbers.lpNorm<Eigen::Infinity>();
+      for (Index i = 0; i < numbers.size(); ++i) {
+        const double slope = std::fabs(slopes[i]);
+        if (!std::isfinite(slope)) continue;
+        result.terms += slope * std::fabs(numbers[i]);
+        result.round_off += slope * rounding;
+      }
     }
-  } catch (const std::domain_error&) {  // then what was found so far will do
+  } catch (const std::domain_error&) {  // then nothing is known of the terms
   }
   return result;
 }

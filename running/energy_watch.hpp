@@ -5,8 +5,10 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "courant/integrators/integrator.hpp"
+#include "courant/running/observer.hpp"
 #include "courant/running/run_watcher.hpp"
 
 namespace courant {
@@ -19,9 +21,11 @@ namespace courant {
 // a few dozen steps a run. Looks no further after a finding.
 class EnergyWatch final : public RunWatcher {
  public:
-  // `energy`: H of a state that a step ended at; `column`: of H in the rows.
+  // `energy`: H of a state that a step ended at, `terms`: what it consists of there; `column`: of H in
+  // the rows.
   EnergyWatch(std::shared_ptr<const Integrator> integrator,
-              std::function<double(const State&)> energy, Index column);
+              std::function<double(const State&)> energy,
+              std::function<std::vector<EnergyTerms>(const State&)> terms, Index column);
 
   std::optional<RunEnd> watch(const RunMoment& moment) override;
   // Empty, or a sentence about the first such step. One at which H changed by nothing next to what came
@@ -42,15 +46,16 @@ class EnergyWatch final : public RunWatcher {
 
  private:
   bool is_explained(const Step& step) const;
-  // Of what H consists of at the end of a step, by its slopes: the sum of |∂H/∂x_i x_i|, and by how
-  // much rounding of the coordinates changes H.
+  // Of what H consists of at a state, by its slopes: the sum of |∂H/∂x_i x_i|, and by how much rounding
+  // of the coordinates, and of v and z where H contains them, changes H.
   struct Sizes {
     double terms = 0.0, round_off = 0.0;
   };
-  Sizes sizes(const Step& step) const;
+  Sizes sizes(const State& state) const;
 
   std::shared_ptr<const Integrator> integrator_;
   std::function<double(const State&)> energy_;
+  std::function<std::vector<EnergyTerms>(const State&)> terms_;
   Index column_;
   Memory memory_;
 };

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "courant/core/derivative.hpp"
+#include "courant/core/expr_vectors.hpp"
 #include "courant/core/message.hpp"
 
 namespace courant {
@@ -30,6 +32,17 @@ Observer::Observer(const ObservedQuantities& of, Backend backend)
   form_.resize(of.forms.size());
   quantities_ = Function("observe", of.inputs, of.quantities, compiled);
   together.compile();
+  if (H_) {
+    const ExprVector H = of.quantities.segment(*H_ - static_cast<Index>(coordinate_count_), 1);
+    std::vector<ExprVector> slopes;
+    for (std::size_t group = 0; group < 3; ++group) {
+      const ExprVector& numbers = of.inputs[group].variables;
+      if (!depends(H, numbers)) continue;
+      slope_groups_.push_back(static_cast<Index>(group));
+      slopes.push_back(gradient(H[0], numbers));
+    }
+    slopes_ = Function("slopes of H", of.inputs, joined(slopes));
+  }
   // Evaluated once a step; to compile it, and the account, takes seconds where ports are many.
   at_stage_ = Function("observe stages", of.stage_inputs, of.staged);
   stage_.resize(of.staged.size());
@@ -42,6 +55,38 @@ Observer::Observer(const ObservedQuantities& of, Backend backend)
   row_ = VectorXd::Zero(static_cast<Index>(names_.size()));
 }
 
+const double* const* Observer::arguments(const State& state) {
+  arguments_ = {state.x.data(), state.v.data(), state.z.data(),
+                &state.t,       nullptr,        energies_.data()};
+  if (evaluate_field_) {
+    if (is_field_)
+      (*evaluate_field_)(state.x, rate_, state.t);
+    else
+      (*evaluate_field_)(state, rate_);
+    arguments_[4] = evaluate_field_->left_out().data();
+  }
+  if (is_field_) {
+    arguments_[1] = evaluate_field_->v().data();
+    arguments_[2] = evaluate_field_->z().data();
+  }
+  return arguments_.data();
+}
+
+std::vector<EnergyTerms> Observer::energy_terms(const State& state) {
+  if (slope_groups_.empty()) return {};
+  const double* const* in = arguments(state);
+  VectorXd slopes(slopes_.output_size());
+  slopes_.value(in, slopes.data());
+  std::vector<EnergyTerms> result;
+  Index begin = 0;
+  for (const Index group : slope_groups_) {
+    const Index size = slopes_.input_size(group);
+    result.push_back({Eigen::Map<const VectorXd>(in[group], size), slopes.segment(begin, size)});
+    begin += size;
+  }
+  return result;
+}
+
 const VectorXd& Observer::row(const State& state) {
   measure(state);
   return compare(state.t);
@@ -50,21 +95,7 @@ const VectorXd& Observer::row(const State& state) {
 void Observer::measure(const State& state) {
   const Index N = state.x.size();
   row_.head(N) = state.x;
-  const double* v = state.v.data();
-  const double* z = state.z.data();
-  const double* left_out = nullptr;
-  if (evaluate_field_) {
-    if (is_field_)
-      (*evaluate_field_)(state.x, rate_, state.t);
-    else
-      (*evaluate_field_)(state, rate_);
-    left_out = evaluate_field_->left_out().data();
-  }
-  if (is_field_) {
-    v = evaluate_field_->v().data();
-    z = evaluate_field_->z().data();
-  }
-  const double* in[] = {state.x.data(), v, z, &state.t, left_out, energies_.data()};
+  const double* const* in = arguments(state);
   quantities_.value(in, row_.data() + N);
   for (Index i = 0; i < defects_.size(); ++i)
     row_[defect_places_[static_cast<std::size_t>(i)]] = defects_[i];

@@ -1,6 +1,7 @@
 // Observer: the numbers of a row of a trajectory.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +15,12 @@
 #include "courant/running/power_account.hpp"
 
 namespace courant {
+
+// Of one group of the numbers that an energy is a function of, as the coordinates: them, and the slopes of H
+// by them.
+struct EnergyTerms {
+  VectorXd numbers, slopes;
+};
 
 // What a run measures at each state: the coordinates, H where the system has an energy, the energies
 // of its steps where it has ports, the defects of its tangent map, the momenta of its symmetries, the
@@ -57,6 +64,9 @@ class Observer {
   // a stage, and no bound of the imbalance is expected.
   const PowerAccount* account() const { return account_ ? &*account_ : nullptr; }
 
+  // H at a state by what it is a function of. Nothing without an energy.
+  std::vector<EnergyTerms> energy_terms(const State& state);
+
   // From begin() or recall() on measures the defects of this map; the steps have to know their parts.
   void follow(TangentMap map) { map_ = std::move(map); }
   // Null where no defect is asked for.
@@ -76,6 +86,8 @@ class Observer {
   void restart(const State& state);
 
  private:
+  // What quantities_ takes at a state by itself.
+  const double* const* arguments(const State& state);
   // All of a row but the balance, which is settled with its H, and the deviations.
   void measure(const State& state);
   // These two, which complete it.
@@ -88,6 +100,8 @@ class Observer {
   std::size_t coordinate_count_, first_constraint_, written_count_, first_event_;
   // x, v, z, t, what the field leaves out, energies ↦ all between the coordinates and the deviations
   Function quantities_;
+  Function slopes_;  // the same ↦ slopes of H by those of x, v, z that it contains
+  std::vector<Index> slope_groups_;  // which these are
   Function at_stage_;                // x, v, z, t, effort ↦ observables at the stage
   std::vector<Index> stage_places_;  // of those in a row
   VectorXd stage_;
@@ -105,6 +119,7 @@ class Observer {
   bool is_field_ = false;  // whether v and z are those of the field, not those of the state
   std::optional<VectorField::Evaluation> evaluate_field_;
   VectorXd rate_, row_;
+  std::array<const double*, 6> arguments_{};
 };
 
 }  // namespace courant

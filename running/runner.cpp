@@ -14,6 +14,7 @@
 #include "courant/running/energy_watch.hpp"
 #include "courant/running/ladder_report.hpp"
 #include "courant/running/left_constraints.hpp"
+#include "courant/running/run_backend.hpp"
 #include "courant/running/run_clock.hpp"
 #include "courant/running/run_folder.hpp"
 #include "courant/running/run_results.hpp"
@@ -46,10 +47,11 @@ class RunUnderway {
   RunUnderway(const Experiment& experiment, const RunOptions& options)
       : experiment_(experiment),
         options_(options),
+        backend_(worthwhile(options.backend, experiment)),
         ladder_(consistent_start(experiment)),
         ladder_report_(ladder_report(ladder_, *experiment.model.system)),
         symmetries_(check_symmetries(experiment, ladder_)),
-        observer_(experiment, ladder_, options.backend) {
+        observer_(experiment, ladder_, backend_) {
     if (observer_.constraint_count() == 0 && ladder_.verdict != Verdict::inconsistent)
       for (const std::string& pointer : experiment.expect.violations)
         throw ExperimentError(pointer,
@@ -113,7 +115,7 @@ class RunUnderway {
   std::string words_of(const SolveError& error, const State& state) const {
     const std::string what = error.what();
     const std::string why = undefined_ahead(experiment_, ladder_, state, experiment_.time->step);
-    if (why.empty()) return what;
+    if (why.empty()) return what + corner_in_words(what, *experiment_.model.system, ladder_);
     // What it expected is not to be had; what it advises is.
     const std::size_t expected = what.rfind("; ");
     return (expected == std::string::npos ? what + " The cause: "
@@ -148,7 +150,7 @@ class RunUnderway {
                                        .ladder = ladder_,
                                        .initial = ladder_.point,
                                        .step = experiment_.time->step,
-                                       .backend = options_.backend,
+                                       .backend = backend_,
                                        .vocabulary = &experiment_.model.vocabulary});
       results_.backend = method.integrator->is_native() ? "native" : "interpreter";
       if (auto map = tangent_of_run(experiment_, ladder_, method))
@@ -315,6 +317,10 @@ class RunUnderway {
     if (const auto H = energy())
       energy_watch_.emplace(
           method.integrator, [this, H = *H](const State& state) { return row_elsewhere(state)[H]; },
+          [this](const State& state) {
+            elsewhere(state);
+            return elsewhere_->energy_terms(state);
+          },
           *H);
   }
 
@@ -456,6 +462,7 @@ class RunUnderway {
 
   const Experiment& experiment_;
   const RunOptions& options_;
+  const Backend backend_;  // for the steps of the run
   const ConstraintLadder ladder_;
   const LadderReport ladder_report_;
   const std::vector<SymmetryFinding> symmetries_;

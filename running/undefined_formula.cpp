@@ -1,10 +1,12 @@
 #include "courant/running/undefined_formula.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <vector>
 
+#include "courant/core/subgraph.hpp"
 #include "courant/core/undefined.hpp"
 #include "courant/integrators/vector_field.hpp"
 
@@ -89,6 +91,30 @@ std::string equation_in_words(const ImplicitSystem& system, Index equation) {
   if (name == "equation[" + std::to_string(equation) + "]")
     return "equation " + std::to_string(equation + 1);
   return "the equation \"" + name + '"';
+}
+
+std::string corner_in_words(const std::string& message, const ImplicitSystem& system,
+                            const ConstraintLadder& ladder) {
+  const Manifold& M = *system.manifold();
+  if (!message.starts_with("constrain-first") || ladder.degrees_of_freedom == M.dimension())
+    return "";
+  Graph graph;
+  const ExprVector equations = system.residual(
+      graph.variables("x", M.ambient_dimension()), graph.variables("v", M.tangent_dimension()),
+      graph.variables("z", system.auxiliary_size()), graph.variable("t"));
+  for (Index i = 0; i < equations.size(); ++i) {
+    const Subgraph part(equations.segment(i, 1));
+    const bool has_corner = std::ranges::any_of(part.nodes(), [&](std::uint32_t node) {
+      const Op op = part.graph().node(node).op;
+      return op == Op::select || op == Op::min || op == Op::max || op == Op::abs;
+    });
+    if (has_corner)
+      return " This method solves derivatives of the constraints, which jump where " +
+             equation_in_words(system, i) +
+             " has a corner (if, min, max, abs); expected discretize-first, or steps that end "
+             "there.";
+  }
+  return "";
 }
 
 std::string undefined_ahead(const Experiment& experiment, const ConstraintLadder& ladder,

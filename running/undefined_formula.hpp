@@ -26,4 +26,10 @@ std::string equation_in_words(const ImplicitSystem& system, Index equation);
 std::string undefined_ahead(const Experiment& experiment, const ConstraintLadder& ladder,
                             const State& state, double h);
 
+// Why a step of Method 2 may have failed that `message` tells of, as words to go on with: the first
+// equation with a corner, where the derivatives of constraints that the method solves jump. Empty for other
+// methods, without constraints, and where no equation has one.
+std::string corner_in_words(const std::string& message, const ImplicitSystem& system,
+                            const ConstraintLadder& ladder);
+
 }  // namespace courant

@@ -184,6 +184,22 @@ BOOST_AUTO_TEST_CASE(a_capacitor_is_discharged_through_a_diode_from_rest) {
   BOOST_TEST(one[0] < -7e-6);
 }
 
+// A step over the corner of a held charge: its stage, before the corner, knows nothing of what comes.
+BOOST_AUTO_TEST_CASE(corners_are_named_where_method_2_ends) {
+  Json circuit = Json::parse(R"json({"system": {"type": "implicit", "coordinates": ["q", "p"],
+      "unknowns": ["i"],
+      "equations": ["q' - i", "p' + p - i", "q - if(t < 0.96, 0, 1000*(t - 0.96))"]},
+    "initial": {"q": 0, "p": 0}, "method": "constrain-first", "time": {"step": 0.1, "end": 2}})json");
+  const TemporaryFolder folder;
+  const RunOutcome outcome = run_in(folder, circuit);
+  BOOST_TEST((outcome.status == RunStatus::failed));
+  BOOST_TEST(outcome.message.find("has a corner (if, min, max, abs)") != std::string::npos,
+             outcome.message);
+  circuit["method"] = "discretize-first";
+  const TemporaryFolder other;
+  BOOST_TEST((run_in(other, circuit).status == RunStatus::completed));
+}
+
 BOOST_AUTO_TEST_SUITE_END()
 
 }  // namespace courant::test

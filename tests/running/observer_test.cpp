@@ -42,6 +42,23 @@ BOOST_AUTO_TEST_CASE(constraints_seen_through_velocities_where_axles_are_paralle
   }
 }
 
+// H contains the unknown z, whose slope counts too; v it does not contain, and the field it is not asked for.
+BOOST_AUTO_TEST_CASE(what_an_energy_consists_of) {
+  const Problem given = problem(Json::parse(R"json({
+    "system": { "type": "implicit", "coordinates": ["x", "y"], "unknowns": ["z"],
+      "equations": ["x' - y", "y' + z", "z - 3*x"], "energy": "x^3 + x*y + 2*y*z" },
+    "initial": { "x": 0.5, "y": -2 }
+  })json"));
+  Observer observer(given.experiment, given.ladder, Backend::interpreter);
+  const std::vector<EnergyTerms> terms = observer.energy_terms(given.ladder.point);
+  BOOST_TEST_REQUIRE(terms.size() == 2u);
+  BOOST_TEST((terms[0].numbers == Eigen::Vector2d(0.5, -2.0)));
+  BOOST_TEST((terms[0].slopes - Eigen::Vector2d(0.75 - 2.0, 0.5 + 3.0)).norm() < 1e-14);
+  BOOST_TEST_REQUIRE(terms[1].numbers.size() == 1);
+  BOOST_TEST(std::fabs(terms[1].numbers[0] - 1.5) < 1e-14);
+  BOOST_TEST(std::fabs(terms[1].slopes[0] + 4.0) < 1e-14);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
 
 }  // namespace courant::test

@@ -1,0 +1,14 @@
+// Which back end the functions of a run are worth.
+#pragma once
+
+#include "courant/core/backend.hpp"
+#include "courant/reading/experiment.hpp"
+
+namespace courant {
+
+// The back end asked for, but in place of the automatic one the interpreter where a system is large and
+// its run short: the compiler takes many seconds for formulas of thousands of instructions, and saves
+// some nanoseconds an instruction in each step.
+Backend worthwhile(const Backend& asked, const Experiment& experiment);
+
+}  // namespace courant
