@@ -23,15 +23,22 @@ constexpr double kFirstSteps = 10.0;
 // A method of order 1 has a third; errors that do not fall at all, one or more.
 constexpr double kConvergent = 0.6;
 
+// Steps times coordinates of what is made again from the start: a tenth of a second, about.
+constexpr double kMostWork = 1e5;
+// An error of H that is more than this part of its terms is said, whether it converges or not.
+constexpr double kMostOfTerms = 1e-2;
+
 }  // namespace
 
 EnergyWatch::EnergyWatch(std::shared_ptr<const Integrator> integrator,
                          std::function<double(const State&)> energy,
-                         std::function<std::vector<EnergyTerms>(const State&)> terms, Index column)
+                         std::function<std::vector<EnergyTerms>(const State&)> terms, Index column,
+                         State start)
     : integrator_(std::move(integrator)),
       energy_(std::move(energy)),
       terms_(std::move(terms)),
-      column_(column) {}
+      column_(column),
+      start_(std::move(start)) {}
 
 std::optional<RunEnd> EnergyWatch::watch(const RunMoment& moment) {
   const double H = moment.row[column_];
@@ -46,7 +53,7 @@ std::optional<RunEnd> EnergyWatch::watch(const RunMoment& moment) {
   const auto [terms, round_off] = sizes(moment.step.after);
   const double noise = (kFirstSteps + static_cast<double>(moment.k)) * round_off;
   if (!(change > std::max(noise, kLeast * terms))) return std::nullopt;
-  if (!is_explained(moment.step)) {
+  if (!is_explained(moment, terms)) {
     memory_.found_at = change;
     memory_.finding =
         "H has changed by " + number_text(H - memory_.initial) +
@@ -79,12 +86,12 @@ EnergyWatch::Sizes EnergyWatch::sizes(const State& state) const {
   return result;
 }
 
-bool EnergyWatch::is_explained(const Step& step) const {
+bool EnergyWatch::converges(const State& from, double h, long count, double most) const {
   double end[3];
   try {
     int parts = 1;
     for (double& H : end) {
-      H = energy_(integrator_->advance(step.before, step.h / parts, parts));
+      H = energy_(integrator_->advance(from, h / parts, parts * count));
       parts *= 3;
     }
   } catch (const std::runtime_error&) {  // a shorter step that cannot be made says nothing
@@ -93,7 +100,17 @@ bool EnergyWatch::is_explained(const Step& step) const {
     return true;
   }
   const double first = std::fabs(end[0] - end[1]), second = std::fabs(end[1] - end[2]);
-  return !(second > kConvergent * first && second > kLeast * memory_.largest);
+  return !(second > kConvergent * first && second > kLeast * memory_.largest) &&
+         !(first + second > most);
+}
+
+bool EnergyWatch::is_explained(const RunMoment& moment, double terms) const {
+  const Step& step = moment.step;
+  if (converges(step.before, step.h, 1, std::numeric_limits<double>::infinity())) return true;
+  constexpr double all_parts = 1 + 3 + 9;
+  const double work =
+      all_parts * static_cast<double>(moment.k * std::max<Index>(1, start_.x.size()));
+  return work <= kMostWork && converges(start_, step.h, moment.k, kMostOfTerms * terms);
 }
 
 }  // namespace courant

@@ -22,37 +22,105 @@ constexpr double kSmallPart = 1e-6;
 // Of a coordinate, for slopes.
 constexpr double kPartForSlopes = 1e-6;
 
+// An error a (-1)^k has second differences of 4 a; a = 1/20 of the way of a coordinate is seen.
+constexpr double kPartOfWay = 0.2;
+// A way below this part of the largest coordinate may be round-off.
+constexpr double kLeastWay = 1e-8;
+
+// c at a state and Σ_j |∂c_i/∂x_j| s_j there; empty where they are not defined.
+struct MeasuredConstraints {
+  VectorXd value = {}, terms = {};
+};
+
+MeasuredConstraints constraints_at(Observer& observer, const State& state, const VectorXd& size) {
+  const auto count = static_cast<Index>(observer.constraint_count());
+  const auto value = [&](const State& at) -> VectorXd {
+    return observer.row(at).segment(static_cast<Index>(observer.first_constraint()), count);
+  };
+  try {
+    MeasuredConstraints result{value(state), VectorXd::Zero(count)};
+    State moved = state;
+    for (Index j = 0; j < size.size(); ++j) {
+      moved.x[j] += kPartForSlopes * size[j];
+      result.terms += (value(moved) - result.value).cwiseAbs() / kPartForSlopes;
+      moved.x[j] = state.x[j];
+    }
+    if (result.terms.allFinite()) return result;
+  } catch (const std::domain_error&) {  // of what is not defined there nothing is said
+  }
+  return {};
+}
+
+// The first that is not met, or -1.
+Index not_met(const VectorXd& value, const VectorXd& terms) {
+  for (Index i = 0; i < value.size(); ++i)
+    if (std::fabs(value[i]) > std::max(kPartOfTerms * terms[i], kSmallPart * terms.maxCoeff()))
+      return i;
+  return -1;
+}
+
+std::string left_sentence(Index i, const std::string& words, double terms) {
+  return "constraint[" + std::to_string(i) + "] " + words + ", its terms " + number_text(terms, 3) +
+         ": the run has left the constraints, and the trajectory may be wrong.";
+}
+
 }  // namespace
 
 std::string left_constraints(Observer& observer, const QuantityStatistics& statistics,
-                             const State& end) {
+                             const State& start, const State& end) {
   const Index n = end.x.size(), count = static_cast<Index>(observer.constraint_count());
   if (n == 0 || n > kMostCoordinates || count == 0 || statistics.empty()) return "";
   const QuantityStatistics::Memory& all = statistics.memory();
   VectorXd size = all.min.head(n).cwiseAbs().cwiseMax(all.max.head(n).cwiseAbs());
   size = size.cwiseMax(kSmallPart * size.maxCoeff());
-  const auto constraints = [&](const State& state) -> VectorXd {
-    return observer.row(state).segment(static_cast<Index>(observer.first_constraint()), count);
-  };
-  VectorXd at, terms = VectorXd::Zero(count);
+  const MeasuredConstraints last = constraints_at(observer, end, size);
+  if (last.value.size() == 0) return "";
+  if (const Index i = not_met(last.value, last.terms); i >= 0)
+    return left_sentence(i, "is " + number_text(last.value[i]) + " at the end", last.terms[i]);
+
+  const MeasuredConstraints first = constraints_at(observer, start, size);
+  if (first.value.size() == 0) return "";
+  const auto column = static_cast<Index>(observer.first_constraint());
+  const VectorXd greatest =
+      all.min.segment(column, count).cwiseAbs().cwiseMax(all.max.segment(column, count).cwiseAbs());
+  const VectorXd terms = first.terms.cwiseMax(last.terms);
+  const Index i = not_met(greatest, terms);
+  return i < 0
+             ? ""
+             : left_sentence(i, "was up to " + number_text(greatest[i]) + " on the way", terms[i]);
+}
+
+std::string alternation(const Integrator& integrator, const Observer& observer,
+                        const QuantityStatistics& statistics, State end, double h) {
+  const Index n = end.x.size();
+  if (n == 0 || n > kMostCoordinates || statistics.empty()) return "";
+  const QuantityStatistics::Memory& all = statistics.memory();
+  const VectorXd way = all.max.head(n) - all.min.head(n);
+  constexpr int steps = 4;
+  MatrixXd x(n, steps + 1);
+  x.col(0) = end.x;
   try {
-    at = constraints(end);
-    State moved = end;
-    for (Index j = 0; j < n; ++j) {
-      moved.x[j] += kPartForSlopes * size[j];
-      terms += (constraints(moved) - at).cwiseAbs() / kPartForSlopes;
-      moved.x[j] = end.x[j];
+    const auto stepper = integrator.stepper();
+    const double t = end.t;
+    for (int k = 1; k <= steps; ++k) {
+      stepper->step(end, h, t + k * h);
+      x.col(k) = end.x;
     }
-  } catch (const std::domain_error&) {  // of what is not defined there nothing is said
+  } catch (const std::runtime_error&) {  // the run ends here
+    return "";
+  } catch (const std::domain_error&) {
     return "";
   }
-  if (!terms.allFinite()) return "";
-  for (Index i = 0; i < count; ++i) {
-    const double least = std::max(kPartOfTerms * terms[i], kSmallPart * terms.maxCoeff());
-    if (std::fabs(at[i]) > least)
-      return "constraint[" + std::to_string(i) + "] is " + number_text(at[i]) +
-             " at the end, its terms " + number_text(terms[i], 3) +
-             ": the run has left the constraints, and the trajectory may be wrong.";
+  const MatrixXd second =
+      x.rightCols(steps - 1) - 2 * x.middleCols(1, steps - 1) + x.leftCols(steps - 1);
+  for (Index j = 0; j < n; ++j) {
+    if (!(way[j] > kLeastWay * x.lpNorm<Eigen::Infinity>())) continue;
+    const auto d = second.row(j);
+    if (d[0] * d[1] < 0 && d[1] * d[2] < 0 && d.cwiseAbs().minCoeff() > kPartOfWay * way[j])
+      return observer.names()[static_cast<std::size_t>(j)] +
+             " goes to and fro with each step, by " + number_text(d.cwiseAbs().minCoeff() / 2, 3) +
+             " at the end: the steps do not resolve it, and the trajectory may be wrong. "
+             "Constrain-first has no such errors of algebraic equations.";
   }
   return "";
 }

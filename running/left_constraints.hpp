@@ -1,22 +1,34 @@
-// Whether a run has left the constraints of its system.
+// Whether a run has left the constraints of its system, or alternates from step to step.
 #pragma once
 
 #include <string>
 
+#include "courant/integrators/integrator.hpp"
 #include "courant/running/observer.hpp"
 #include "courant/running/quantity_statistics.hpp"
 
 namespace courant {
 
 // Empty, or a sentence about the constraint[i] that is not small next to its terms where the run
-// ended:
+// ended, or was not on the way:
 //
 //   |c_i| > 3/100 Σ_j |∂c_i/∂x_j| s_j,   s_j the greatest |x_j| of the run,
 //
 // so that the state is not near M_f. What a method of order p leaves of a constraint is a small part
 // of its terms, unless the method is unstable for the index of the system: then H need not tell. Slopes
-// are differences; for up to 500 coordinates. `statistics`: of the observer's rows.
+// are differences; on the way, the greater ones of the start and the end are taken. For up to 500
+// coordinates. `statistics`: of the observer's rows.
 std::string left_constraints(Observer& observer, const QuantityStatistics& statistics,
-                             const State& end);
+                             const State& start, const State& end);
+
+// Empty, or a sentence about the coordinate x_j that goes to and fro with each step: the second
+// differences of four steps of h after the end have alternating signs, and are more than a fifth of
+// the distance from the least to the greatest x_j of the run. Nothing that the steps resolve does so. A
+// method does it whose factor is near -1 for what decays fast or is algebraic, as Method 1 by
+// midpoints; where |factor| > 1 for what the system leaves open beside the constraints, the motion is
+// lost in it, though each constraint may be a small part of its terms, which have grown as well.
+// For up to 500 coordinates.
+std::string alternation(const Integrator& integrator, const Observer& observer,
+                        const QuantityStatistics& statistics, State end, double h);
 
 }  // namespace courant

@@ -321,7 +321,7 @@ class RunUnderway {
             elsewhere(state);
             return elsewhere_->energy_terms(state);
           },
-          *H);
+          *H, method.initial);
   }
 
   void watch_events(const RunFolder& folder) {
@@ -444,8 +444,15 @@ class RunUnderway {
     if (energy_watch_ && !energy_watch_->finding().empty())
       results_.warnings.push_back(energy_watch_->finding());
     else if (results_.status == RunStatus::completed)
-      if (std::string left = left_constraints(observer_, results_.statistics, state); !left.empty())
-        results_.warnings.push_back(std::move(left));
+      warn_of_end(method, state);
+  }
+
+  void warn_of_end(const PreparedMethod& method, const State& end) {
+    const QuantityStatistics& all = results_.statistics;
+    std::string warning = left_constraints(observer_, all, method.initial, end);
+    if (warning.empty())
+      warning = alternation(*method.integrator, observer_, all, end, experiment_.time->step);
+    if (!warning.empty()) results_.warnings.push_back(std::move(warning));
   }
 
   std::optional<Index> energy() const {

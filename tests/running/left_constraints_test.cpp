@@ -1,6 +1,7 @@
 #include "courant/running/left_constraints.hpp"
 
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 
 #include "run_in.hpp"
 
@@ -77,6 +78,55 @@ BOOST_AUTO_TEST_CASE(a_constraint_of_many_factors_is_left_too) {
       BOOST_TEST(found.at(0).find("has left the constraints") != std::string::npos);
     }
   BOOST_TEST(warnings(kMethod2, 0.01, 0.5).empty());
+}
+
+// x = f(t) by midpoints: x_k + x_{k+1} = 2 f, and f is 1 at two of the midpoints and 0 at the others. The
+// first sends x to 2, -2, 2, the second back to 0 for the rest of the run.
+BOOST_AUTO_TEST_CASE(constraints_that_were_left_on_the_way_are_said) {
+  Json bumps = {{"system",
+                 {{"type", "implicit"},
+                  {"coordinates", {"x"}},
+                  {"equations", {"x - exp(-((t-1.05)/0.01)^2) - exp(-((t-1.35)/0.01)^2)"}}}},
+                {"initial", {{"x", 0}}},
+                {"method", kMethod1},
+                {"time", {{"step", 0.1}, {"end", 2}}}};
+  const TemporaryFolder folder;
+  const RunOutcome outcome = run_in(folder, bumps);
+  BOOST_TEST(std::abs(final_value(outcome, "x")) < 1e-12);
+  BOOST_TEST_REQUIRE(outcome.summary.warnings.size() == 1u);
+  BOOST_TEST(outcome.summary.warnings.at(0).find("constraint[0] was up to 2 on the way") == 0u);
+  // What is resolved is met on the way as well.
+  bumps["system"]["equations"] = {"x - exp(-((t-1)/0.4)^2)"};
+  const TemporaryFolder other;
+  BOOST_TEST(run_in(other, bumps).summary.warnings.empty());
+}
+
+// Ascher and Petzold (1991): x = y = e^t, a linear problem of index 2 for which midpoints multiply
+// what is beside the constraint by -(1 + 24 h) in each step. The constraint is half a percent of its
+// terms all the way, since these grow as well.
+BOOST_AUTO_TEST_CASE(a_motion_lost_in_alternating_errors_is_said) {
+  Json problem = {{"system",
+                   {{"type", "implicit"},
+                    {"parameters", {{"a", 50}}},
+                    {"coordinates", {"x", "y"}},
+                    {"unknowns", {"z"}},
+                    {"equations",
+                     {"x' - (a - 1/(2-t))*x - (2-t)*a*z - (3-t)/(2-t)*exp(t)",
+                      "y' - (1-a)/(t-2)*x + y - (a-1)*z - 2*exp(t)",
+                      "(t+2)*x + (t^2-4)*y - (t^2+t-2)*exp(t)"}}}},
+                  {"initial", {{"x", 1}, {"y", 1}}}};
+  for (const Json& method : {kMethod1, kMethod2})
+    for (const double step : {0.01, 0.005}) {
+      problem["method"] = method;
+      problem["time"] = {{"step", step}, {"end", 1}};
+      const TemporaryFolder folder;
+      const RunOutcome outcome = run_in(folder, problem);
+      const bool is_right = std::abs(final_value(outcome, "x") - std::exp(1.0)) < 1e-2;
+      BOOST_TEST(is_right == (method == kMethod2));
+      BOOST_TEST_REQUIRE(outcome.summary.warnings.size() == (is_right ? 0u : 1u));
+      if (!is_right)
+        BOOST_TEST(outcome.summary.warnings.at(0).find("goes to and fro") != std::string::npos);
+    }
 }
 
 BOOST_AUTO_TEST_SUITE_END()
