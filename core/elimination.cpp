@@ -285,14 +285,6 @@ class Tableau {
   std::set<Index> columns_left_;
 };
 
-// How many of the unknowns expressions contain.
-Index contained(const ExprVector& expressions, const ExprVector& unknowns) {
-  std::set<std::uint32_t> nodes;
-  for (const Expr& variable : variables_of(expressions)) nodes.insert(variable.node());
-  return std::count_if(unknowns.begin(), unknowns.end(),
-                       [&](const Expr& y) { return nodes.contains(y.node()); });
-}
-
 // Which expressions are zero for all values of their variables, as cos² a + sin² a - 1: no more than
 // round-off at any of some generic points.
 std::vector<bool> are_identities(const ExprVector& expressions) {
@@ -311,6 +303,22 @@ std::vector<bool> are_identities(const ExprVector& expressions) {
       result[i] = result[i] && std::fabs(values[i].value) <= values[i].error;
   }
   return result;
+}
+
+// The unknowns that expressions contain, but by which all their derivatives are zero.
+ExprVector without_influence(const ExprVector& expressions, const ExprVector& unknowns) {
+  const SparseExprMatrix J = jacobian(expressions, unknowns);
+  const std::vector<bool> is_zero = are_identities(J.values);
+  std::vector<int> entries(static_cast<std::size_t>(unknowns.size())), zeros = entries;
+  for (std::size_t k = 0; k < is_zero.size(); ++k) {
+    const auto j = static_cast<std::size_t>(J.col[k]);
+    ++entries[j];
+    if (is_zero[k]) ++zeros[j];
+  }
+  std::vector<Index> found;
+  for (std::size_t j = 0; j < entries.size(); ++j)
+    if (entries[j] > 0 && zeros[j] == entries[j]) found.push_back(static_cast<Index>(j));
+  return unknowns(found);
 }
 
 }  // namespace
@@ -352,17 +360,20 @@ Elimination::Elimination(const ExprVector& F, const ExprVector& y, const Options
     if (!is_done[static_cast<std::size_t>(i)] && !equations[i].is_constant(0.0))
       remaining.push_back(i);
   equations = equations(remaining).eval();
-  // Equations that repeat others are round-off once those have been put into them.
-  if (equations.size() > contained(equations, y)) {
-    const std::vector<bool> is_identity = are_identities(equations);
-    std::vector<Index> others, places;
-    for (std::size_t i = 0; i < remaining.size(); ++i) {
-      if (is_identity[i]) continue;
-      others.push_back(remaining[i]);
-      places.push_back(static_cast<Index>(i));
-    }
+  // Equations that repeat others are round-off once those have been put into them, and so are the
+  // coefficients of unknowns that then only the others tell apart, as two multipliers of one force.
+  const std::vector<bool> is_identity = are_identities(equations);
+  std::vector<Index> others, places;
+  for (std::size_t i = 0; i < remaining.size(); ++i) {
+    if (is_identity[i]) continue;
+    others.push_back(remaining[i]);
+    places.push_back(static_cast<Index>(i));
+  }
+  if (places.size() < remaining.size()) {
     remaining = others;
     equations = equations(places).eval();
+    const ExprVector open = without_influence(equations, y);
+    equations = substitute(equations, open, ExprVector::Constant(open.size(), Expr(0.0)));
   }
   for (Index j = 0; j < y.size(); ++j)
     if (!is_given[static_cast<std::size_t>(j)]) kept.push_back(j);

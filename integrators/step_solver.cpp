@@ -4,6 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "courant/core/unknown_selection.hpp"
+
 namespace courant {
 namespace {
 
@@ -35,6 +37,8 @@ StepSolver::StepSolver(const EquationSystem& equations, std::vector<Index> group
     : StepSolver(equations, std::move(groups), std::move(method)) {
   if (whole.input_count() == 0) return;
   continuation_.emplace(whole, layout);
+  equations_ = whole.output_size();
+  unknowns_ = std::ssize(ContainedUnknowns(whole).places);
   usual_ = VectorXd::Zero(layout.displacements);
 }
 
@@ -105,8 +109,11 @@ void StepSolver::connect(bool converged, const double* const* in, const double* 
     if (reached == 0.0) fail(attempt);
     std::ostringstream message;
     message << "has no solution that is connected to the state: the one that is ends at a step of "
-            << reached * attempt.h << ". A step of " << rounded_down(0.9 * reached * attempt.h)
-            << " would do.";
+            << reached * attempt.h << ". ";
+    if (const std::string why = surplus(); !why.empty())
+      message << why;
+    else
+      message << "A step of " << rounded_down(0.9 * reached * attempt.h) << " would do.";
     throw SolveError(SolveError::Reason::disconnected, method_, attempt.time, attempt.h,
                      message.str());
   }
@@ -131,10 +138,24 @@ void StepSolver::fail(const Attempt& attempt) const {
                      "has a solution that cannot be followed from the state, and may be a wrong "
                      "one; the step is too large, or the state is at or near a singular point.");
   message << "did not converge in " << result_.iterations << " iterations, residual "
-          << (result_.residuals.empty() ? 0.0 : result_.residuals.back())
-          << "; the step is too large, or the state comes near a singular point.";
+          << (result_.residuals.empty() ? 0.0 : result_.residuals.back());
+  if (const std::string why = surplus(); !why.empty())
+    message << ". " << why;
+  else
+    message << "; the step is too large, or the state comes near a singular point.";
   throw SolveError(SolveError::Reason::diverged, method_, attempt.time, attempt.h, message.str(),
                    result_.residuals);
+}
+
+std::string StepSolver::surplus() const {
+  if (equations_ <= unknowns_ || method_.starts_with("constrain-first")) return "";
+  return "A step has " + std::to_string(equations_) + " equations for " +
+         std::to_string(unknowns_) +
+         " unknowns: equations of the system that follow from others may contradict them in a step "
+         "of "
+         "this method, whatever its size. Leave out what follows, or take a method that keeps to "
+         "all "
+         "of them (constrain-first).";
 }
 
 double auxiliary_scale(double auxiliary, double state) { return 1e7 * auxiliary + 1e-3 * state; }

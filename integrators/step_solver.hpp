@@ -100,6 +100,8 @@ class StepSolver {
   void connect(bool converged, const double* const* in, const double* scales,
                const Attempt& attempt, SolverStatistics& statistics);
   [[noreturn]] void fail(const Attempt& attempt) const;
+  // Where there are more equations than unknowns: why they need not have a solution, and what to do.
+  std::string surplus() const;
 
   // A displacement that is predicted up to this part of its size, or up to such a part of the
   // coordinates, needs no confirmation. Its size is the largest of the last steps, of which each
@@ -114,9 +116,10 @@ class StepSolver {
   VectorXd y_;
   VectorXd other_;  // the prediction, or another solution
   std::optional<StepContinuation> continuation_;
-  VectorXd usual_;            // sizes of displacements
-  bool is_good_ = false;      // the prediction of this step
-  bool is_trusted_ = true;    // that of the last one was good
+  Index equations_ = 0, unknowns_ = 0;  // of a step, where it is followed
+  VectorXd usual_;                      // sizes of displacements
+  bool is_good_ = false;                // the prediction of this step
+  bool is_trusted_ = true;              // that of the last one was good
   bool is_mild_ = false;      // the last curve that was followed led to the solution at once
   bool is_expected_ = false;  // the next step goes on with a motion that is known
   std::string method_;

@@ -161,4 +161,46 @@ BOOST_AUTO_TEST_CASE(a_singular_step_is_refused) {
   BOOST_TEST(std::abs(outcome.summary.final[1].second - exact) < 1e-12);
 }
 
+// An oscillator with its energy as a third equation: no step of Method 1 obeys all three, however short it
+// is, and the message does not advise one. Method 2 keeps to it.
+BOOST_AUTO_TEST_CASE(an_oscillator_with_its_energy_as_an_equation) {
+  Json oscillator = {{"system",
+                      {{"type", "implicit"},
+                       {"coordinates", {"q", "p"}},
+                       {"equations", {"q' - p", "p' + q", "q^2 + p^2 - 1"}}}},
+                     {"initial", {{"q", 1}, {"p", 0}}},
+                     {"time", {{"step", 0.01}, {"end", 1}}}};
+  oscillator["method"] = kMethod1;
+  const TemporaryFolder first;
+  const RunOutcome refused = run_in(first, oscillator);
+  BOOST_TEST((refused.status == RunStatus::failed));
+  BOOST_TEST(refused.message.find("3 equations for 2 unknowns") != std::string::npos);
+  BOOST_TEST(refused.message.find("would do") == std::string::npos);
+  oscillator["method"] = kMethod2;
+  const TemporaryFolder second;
+  const RunOutcome right = run_in(second, oscillator);
+  BOOST_TEST(std::abs(final_value(right, "q") - std::cos(1.0)) < 1e-4);
+}
+
+// z' = y x' given twice, from the origin: x = asinh t, y = t, z = √(1 + t²) - 1. One multiplier is as good
+// as two, and what is left of the second is no unknown of a step.
+BOOST_AUTO_TEST_CASE(a_nonholonomic_constraint_given_twice) {
+  Json particle = {{"system",
+                    {{"type", "mechanical"},
+                     {"coordinates", {"x", "y", "z"}},
+                     {"nonholonomic", {"z' - y*x'", "2*z' - 2*y*x'"}}}},
+                   {"initial", {{"x", 0}, {"y", 0}, {"z", 0}, {"x'", 1}, {"y'", 1}}},
+                   {"time", {{"step", 0.01}, {"end", 1}}}};
+  for (const Json& method : {kMethod1, kMethod2}) {
+    particle["method"] = method;
+    const TemporaryFolder folder;
+    const RunOutcome outcome = run_in(folder, particle);
+    BOOST_TEST_CONTEXT(method << outcome.message) {
+      BOOST_TEST((outcome.status == RunStatus::completed));
+      BOOST_TEST(std::abs(final_value(outcome, "x") - std::asinh(1.0)) < 1e-4);
+      BOOST_TEST(std::abs(final_value(outcome, "z") - std::sqrt(2.0) + 1.0) < 1e-4);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
