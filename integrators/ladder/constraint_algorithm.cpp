@@ -199,11 +199,18 @@ Singularity singularity(const ConsistentPoint& consistent, const ConsistentJet& 
       result.is_certain = are_certain(there);
       if (result.outcome == Outcome::different) return result;
     }
-    if (!obstruction || !obstruction->is_seen_along(tangent)) return result;
+    const auto seen = obstruction ? obstruction->is_seen_along(tangent) : Obstruction::Answer::no;
+    if (seen == Obstruction::Answer::no) return result;
+    const bool is_certain = seen == Obstruction::Answer::yes;
     return {.outcome = Outcome::different,
-            .difference =
-                "The equations have solutions in fewer directions than their linear parts: one of "
-                "the constraints has a vanishing gradient here."};
+            .is_certain = is_certain,
+            .difference = is_certain
+                              ? "The equations have solutions in fewer directions than their "
+                                "linear parts: one of the constraints has a vanishing gradient "
+                                "here."
+                              : "Round-off hides whether the equations have solutions in all "
+                                "directions that their linear parts have, or a constraint has a "
+                                "vanishing gradient here."};
   };
   using Units = TangentDisplacement::Units;
   constexpr std::array units = {Units::own_sizes, Units::large_where_zero, Units::natural,
@@ -308,6 +315,34 @@ bool is_same_rank_at(const ConsistentJet& at, const std::vector<LadderLevel>& le
          (!lowered && !are_certain(exact));
 }
 
+// Whether the ranks are lower at the given values than at the point next to them that was found. So they
+// are at the fold of x = y³/3 - y with x' = y, where no solution is: the search ends at 10⁻⁶ of it,
+// where there is one with a velocity of 10⁵.
+bool is_lower_where_given(const ConsistentPoint& consistent, const ConsistentJet& at,
+                          const std::vector<LadderLevel>& levels) {
+  constexpr double next_to = 1e-3;
+  const DerivativeArray given = consistent.start().array;
+  const VectorXd moved = at.array.origin() - given.origin();
+  if (moved.isZero(0.0) || at.array.has_constant_jacobian() || given.base_size() != moved.size() ||
+      moved.lpNorm<Eigen::Infinity>() > next_to * given.origin().lpNorm<Eigen::Infinity>())
+    return false;
+  return compare(ladder_levels(given, at.zero.y, at.zero.uncertainty), levels).outcome ==
+         Comparison::Outcome::different;
+}
+
+// Whether each rank of the levels has a cut with nothing near it. Of a point that is said to be singular the
+// ranks are lower than nearby by what was neglected: numbers near the bound of their error say that only if
+// those that count are far from it.
+bool has_clear_cuts(const std::vector<LadderLevel>& levels) {
+  constexpr double far = 1e5;
+  const auto is_clear = [](const RankDecision& rank) {
+    return rank.below <= 0.0 || rank.rank == 0 || rank.above >= far * rank.below;
+  };
+  return std::all_of(levels.begin(), levels.end(), [&](const LadderLevel& level) {
+    return is_clear(level.all) && is_clear(level.without_tangent) && is_clear(level.without_point);
+  });
+}
+
 // Counts what other points of the final constraint set need as well, now and a moment later: a
 // multiplier that is zero at this point, as x₁ of a rod in the plane x₁ = 0, is not along a motion
 // that leaves it, nor that of a rope that hangs straight until its crane begins to move.
@@ -403,7 +438,7 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
   ladder.doubts = contradictions(ladder.levels);
   if (!changed.empty()) ladder.doubts.push_back(changed);
   if (singular.reason.empty() && !singular.seen_once.empty())
-    ladder.doubts.push_back("In one direction the point looks singular: " + singular.seen_once);
+    ladder.doubts.push_back("In one direction the point may be singular: " + singular.seen_once);
   if (stopped && singular.reason.empty())
     if (std::string doubt = asked_above(consistent, jet, ladder.levels); !doubt.empty())
       ladder.doubts.push_back(std::move(doubt));
@@ -422,6 +457,16 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
         "The ranks are higher at the point as it was found: they are lower only if it is "
         "elsewhere, "
         "within its error.");
+  if (ladder.verdict != Verdict::rank_change &&
+      is_lower_where_given(consistent, jet, ladder.levels))
+    ladder.doubts.push_back(
+        "The ranks are lower at the given values, which had to move a little: these look singular, "
+        "and "
+        "the point that was found next to them does not.");
+  if (ladder.verdict == Verdict::rank_change && !has_clear_cuts(ladder.levels))
+    ladder.doubts.push_back(
+        "The ranks at the point are lower than nearby by numbers that are hardly below their "
+        "errors.");
   if (!is_known_well(jet))
     ladder.doubts.push_back(
         "The derivatives of the equations are not known well enough at the point to say which of "

@@ -20,13 +20,16 @@ class Obstruction {
   Obstruction(const Prolongation& array, const VectorXd& y, const VectorXd& uncertainty,
               Index rank);
 
-  // Whether g falls like a power below 2.5 at the smallest three ε at which it is measurable.
-  bool is_seen_along(const VectorXd& direction) const;
+  // yes: g falls like a power below 2.5 at the smallest three ε at which it is measurable, and all of F
+  // grows as along a tangent there. unknown: round-off hides either, or W is not known.
+  enum class Answer { no, yes, unknown };
+  Answer is_seen_along(const VectorXd& direction) const;
 
  private:
   const Prolongation& array_;
   VectorXd y_, uncertainty_, row_scale_;
-  MatrixXd unseen_;  // Wᵀ diag(r), with the row scales r of the Jacobian
+  MatrixXd unseen_;       // Wᵀ diag(r), with the row scales r of the Jacobian
+  bool is_known_ = true;  // W
 };
 
 }  // namespace courant

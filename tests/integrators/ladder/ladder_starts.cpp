@@ -131,9 +131,9 @@ Problem with_cancelled_products(const Problem& problem, std::mt19937& generator)
   });
 }
 
-std::vector<KnownStart> ten_starts(const KnownLadder& known) {
+std::vector<KnownStart> ten_starts(const KnownLadder& known, unsigned seed) {
   std::vector<KnownStart> starts;
-  std::mt19937 generator(3);
+  std::mt19937 generator(seed);
   const Manifold& M = *known.problem.system->manifold();
   const bool is_flat = M.dimension() == M.ambient_dimension();
   for (const std::string kind : kinds) {

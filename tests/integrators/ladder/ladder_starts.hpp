@@ -16,7 +16,8 @@ struct KnownStart {
 // That of the catalogue, a generic point, all zeros, the first and the second axis, the first half
 // alone (at rest), the zeros of a computed right angle, small numbers, sizes of SI units, and all
 // numbers equal. On manifolds other than Rⁿ the same displacements from a point with zeros in it.
-std::vector<KnownStart> ten_starts(const KnownLadder& known);
+// The seed is that of the generic point.
+std::vector<KnownStart> ten_starts(const KnownLadder& known, unsigned seed = 3);
 
 // The same equations with something added to each that is zero but for rounding: (sin² a + cos² a - 1) w
 // and products that cancel.

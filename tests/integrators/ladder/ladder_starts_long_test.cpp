@@ -1,8 +1,11 @@
 // Every system of the catalogue from ten starts, in other orders, units and coordinates, with terms
 // added that are zero but for rounding. The aim is that no verdict is wrong without saying that it is
-// ambiguous; the bounds hold what is measured.
+// ambiguous; the bounds hold what is measured. Other seeds and counts, one line a ladder that is wrong or
+// doubted:
+//   courant_integrators_tests -t ladder_starts_long_test -l message -- seed=5000 variants=40 system=Cawley
 #include <boost/test/unit_test.hpp>
 #include <iostream>
+#include <string>
 
 #include "ladder_starts.hpp"
 
@@ -27,40 +30,78 @@ Problem variant_of(const Problem& problem, int variant, std::mt19937& generator)
                             : transformed(other, generator);
 }
 
-void count(const KnownLadder& known, const KnownStart& start, std::mt19937& generator,
+// What is doubtful of a ladder, in words.
+std::string doubts(const ConstraintLadder& ladder) {
+  std::string text;
+  for (const LadderLevel& level : ladder.levels)
+    if (level.is_ambiguous())
+      text +=
+          " [level " + std::to_string(level.k) + ": below " +
+          std::to_string(
+              std::max({level.all.below, level.without_tangent.below, level.without_point.below})) +
+          ", above " +
+          std::to_string(
+              std::min({level.all.above, level.without_tangent.above, level.without_point.above})) +
+          "]";
+  for (const std::string& doubt : ladder.doubts) text += " [" + doubt + "]";
+  return text;
+}
+
+void count(const KnownLadder& known, const KnownStart& start, std::mt19937& generator, int variants,
            Count& counted) {
-  constexpr int variants = 8;
   for (int variant = 0; variant < variants; ++variant) {
     const ConstraintLadder ladder = variant_of(start.problem, variant, generator).ladder();
     const bool right = ladder.verdict == start.verdict &&
                        (start.dimensions.empty() || dimensions(ladder) == start.dimensions);
     ++counted.ladders;
-    if (right && ladder.is_ambiguous()) ++counted.ambiguous;
-    if (right) continue;
-    ++counted.wrong;
+    if (right && !ladder.is_ambiguous()) continue;
+    ++(right ? counted.ambiguous : counted.wrong);
     if (!ladder.is_ambiguous()) ++counted.wrong_in_silence;
     BOOST_TEST_MESSAGE(known.name << ", " << start.kind << ", variant " << variant << ": "
-                                  << to_string(ladder.verdict)
-                                  << (ladder.is_ambiguous() ? " (ambiguous), " : ", ")
-                                  << ladder.reason);
+                                  << (right                   ? "right but doubted, "
+                                      : ladder.is_ambiguous() ? "wrong and doubted, "
+                                                              : "wrong in silence, ")
+                                  << to_string(ladder.verdict) << ", " << ladder.reason
+                                  << doubts(ladder));
   }
+}
+
+// What is given as "name=value" after "--" on the command line.
+std::string argument(const std::string& name, const std::string& default_value) {
+  const auto& suite = boost::unit_test::framework::master_test_suite();
+  for (int i = 1; i < suite.argc; ++i)
+    if (const std::string text = suite.argv[i]; text.starts_with(name + "="))
+      return text.substr(name.size() + 1);
+  return default_value;
+}
+
+unsigned number(const std::string& name, unsigned default_value) {
+  return static_cast<unsigned>(std::stoul(argument(name, std::to_string(default_value))));
 }
 
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(ten_starts_of_every_system_in_eight_variants) {
+  constexpr unsigned usual_seed = 11, usual_variants = 8;
   Count counted;
-  unsigned seed = 11;
+  const unsigned first_seed = number("seed", usual_seed);
+  unsigned seed = first_seed;
+  const unsigned variants = number("variants", usual_variants);
+  const std::string system = argument("system", "");
   for (const KnownLadder& known : catalogue()) {
     std::mt19937 generator(++seed);
-    for (const KnownStart& start : ten_starts(known)) count(known, start, generator, counted);
+    if (!system.empty() && known.name != system) continue;
+    for (const KnownStart& start :
+         first_seed == usual_seed ? ten_starts(known) : ten_starts(known, seed))
+      count(known, start, generator, static_cast<int>(variants), counted);
   }
   std::cout << counted.ladders << " ladders, " << counted.wrong << " wrong, of these "
             << counted.wrong_in_silence << " in silence; " << counted.ambiguous
             << " right ones ambiguous\n";
+  BOOST_TEST(counted.wrong_in_silence == 0);
+  if (variants != usual_variants || !system.empty()) return;
   BOOST_TEST(counted.ladders == 4320);
   BOOST_TEST(counted.wrong <= 117);
-  BOOST_TEST(counted.wrong_in_silence == 0);
   BOOST_TEST(counted.ambiguous <= 84);
 }
 

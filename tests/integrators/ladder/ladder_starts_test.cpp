@@ -50,7 +50,7 @@ BOOST_AUTO_TEST_CASE(planted_round_off_hides_no_singular_point) {
 
 // Starts that were wrong in silence: pivots that hid numbers in errors, scales that made errors large,
 // z² = 0 that round-off hides until its second derivative is asked, a rank of points that are hardly
-// known.
+// known, directions that are tangents but for errors.
 BOOST_AUTO_TEST_CASE(hard_starts_are_right_or_doubted) {
   struct Hard {
     std::string system, kind;
@@ -70,6 +70,8 @@ BOOST_AUTO_TEST_CASE(hard_starts_are_right_or_doubted) {
       {"double pendulum", "right angle", scaled_round_off, 1},
       {"Cawley", "SI units", permuted_products, 1},
       {"singular arc of order two", "all equal", transformed, 1},
+      {"pendulum with its rod twice", "right angle", scaled, 1},
+      {"Lagrangian of a square", "small", transformed, 1},
   };
   const std::vector<KnownLadder> all = catalogue();
   for (const Hard& hard : table) {

@@ -117,6 +117,43 @@ BOOST_AUTO_TEST_CASE(constraints_that_are_powers) {
         at({0.3, 0.2, 0, 0.4, 0, 0.5}), Verdict::rank_change, {});
 }
 
+// x' = y with x = y³/3 - y: at the fold y = 1 the motion ends (Rabier, Rheinboldt 2002), since (y² - 1) y' = y. Beside
+// it is a point with a velocity of 10⁵, of which nothing is wrong but that it was not meant.
+BOOST_AUTO_TEST_CASE(an_impasse_is_not_called_regular) {
+  const auto fold = flat(2, 0, 2, [](V x, V v, V, T) {
+    return equations({v[0] - x[1], x[0] - square(x[1]) * x[1] / 3 + x[1]});
+  });
+  const ConstraintLadder at_fold = ConstraintAlgorithm().run(fold, at({-2.0 / 3, 1}));
+  BOOST_TEST((at_fold.verdict != Verdict::regular || at_fold.is_ambiguous()));
+  check("before it", fold, at({0, 0.5}), Verdict::regular, {{2, 1}, {1, 1}, {1, 1}});
+}
+
+// Linear in x with coefficients of t: the pencil of the matrices at an instant is regular for the first,
+// of which every x = c(t) (t, 1) is a solution, and singular for the second, which has one
+// (Campbell 1980; Kunkel, Mehrmann 2006, examples 3.1 and 3.2). The third is of index 2
+// though its pencil has index 1 (Gear, Petzold 1984).
+BOOST_AUTO_TEST_CASE(pencils_that_mislead) {
+  check("no solution is the only one",
+        flat(2, 0, 2,
+             [](V x, V v, V, T t) {
+               return equations({t * t * v[1] - t * v[0] + x[0], t * v[1] - v[0] + x[1]});
+             }),
+        {.t = 1.0, .x = VectorXd::Constant(2, 0.3)}, Verdict::gauge, {{2, 1}, {2, 1}});
+  check("one solution",
+        flat(2, 0, 2,
+             [](V x, V v, V, T t) {
+               return equations({t * x[1] - x[0] + sin(t), v[0] - t * v[1] - cos(2 * t)});
+             }),
+        at({0, 0}), Verdict::regular, {{2, 1}, {1, 0}, {0, 0}, {0, 0}});
+  check(
+      "index 2",
+      flat(2, 0, 2,
+           [](V x, V v, V, T t) {
+             return equations({x[0] - 0.5 * t * x[1] - sin(t), v[0] - 0.5 * t * v[1] + 0.5 * x[1]});
+           }),
+      at({0, 0}), Verdict::regular, {{2, 1}, {1, 0}, {0, 0}, {0, 0}});
+}
+
 // x² + y² = 1 and its double, from 10⁻⁸: the second has no linear part in any unit that these numbers
 // tell, and the zeros are 10⁸ of them away.
 BOOST_AUTO_TEST_CASE(a_rod_held_twice_from_small_numbers) {

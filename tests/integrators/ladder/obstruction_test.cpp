@@ -15,15 +15,22 @@ namespace {
 using V = const ExprVector&;
 using T = const Expr&;
 
-// Whether something is seen of F = 0 at x along d, where J(x) has this rank.
-bool is_seen(const std::function<ExprVector(V x)>& F, Index n, const VectorXd& x, Index rank,
-             const VectorXd& d) {
+// What is seen of F = 0 along d at x, known to this error, where J(x) has this rank.
+Obstruction::Answer answer(const std::function<ExprVector(V x)>& F, Index n, const VectorXd& x,
+                           Index rank, const VectorXd& d, double error = 0.0) {
   const Index m = F(ExprVector::Constant(n, Expr(0.0))).size();
   const auto system = flat(n, 0, m, [&](V q, V, V, T) { return F(q); });
   const DerivativeArray array(system, 0.0, x);
   VectorXd y = VectorXd::Zero(2 * n), direction = y;
   direction.head(n) = d;
-  return Obstruction(array, y, VectorXd::Zero(2 * n), rank).is_seen_along(direction);
+  return Obstruction(array, y, VectorXd::Constant(2 * n, error), rank).is_seen_along(direction);
+}
+
+bool is_seen(const std::function<ExprVector(V x)>& F, Index n, const VectorXd& x, Index rank,
+             const VectorXd& d) {
+  const Obstruction::Answer seen = answer(F, n, x, rank, d);
+  BOOST_TEST((seen != Obstruction::Answer::unknown));
+  return seen == Obstruction::Answer::yes;
 }
 
 VectorXd vector(std::initializer_list<double> values) { return at(values).x; }
@@ -62,6 +69,16 @@ BOOST_AUTO_TEST_CASE(a_direction_that_is_no_tangent_says_nothing) {
     return equations({circle, 2 * circle + square(circle)});
   };
   BOOST_TEST(!is_seen(twice, 2, vector({1, 0}), 1, vector({0.4, 0.5})));
+}
+
+// z² beside a sum of 10⁹ that cancels; z² next to an equation whose linear part is known to a hundredth.
+BOOST_AUTO_TEST_CASE(what_errors_hide_is_left_open) {
+  using Answer = Obstruction::Answer;
+  const auto hidden = [](V x) { return equations({square(x[0]) + ((x[1] + 1e9) - x[1] - 1e9)}); };
+  BOOST_TEST((answer(hidden, 2, vector({0, 0.2}), 0, vector({0.7, 0.3})) == Answer::unknown));
+  const auto beside = [](V x) { return equations({square(x[0]), x[1] + square(x[0])}); };
+  BOOST_TEST((answer(beside, 2, vector({0, 0}), 1, vector({0.7, 0})) == Answer::yes));
+  BOOST_TEST((answer(beside, 2, vector({0, 0}), 1, vector({0.7, 0}), 0.01) == Answer::unknown));
 }
 
 // As many equations as their rank: nothing is left unseen.
