@@ -1,5 +1,6 @@
 #include "courant/running/observer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -33,13 +34,14 @@ Observer::Observer(const ObservedQuantities& of, Backend backend)
   quantities_ = Function("observe", of.inputs, of.quantities, compiled);
   together.compile();
   if (H_) {
-    const ExprVector H = of.quantities.segment(*H_ - static_cast<Index>(coordinate_count_), 1);
+    const Expr& H = of.quantities[*H_ - static_cast<Index>(coordinate_count_)];
     std::vector<ExprVector> slopes;
     for (std::size_t group = 0; group < 3; ++group) {
-      const ExprVector& numbers = of.inputs[group].variables;
-      if (!depends(H, numbers)) continue;
+      const ExprVector slope = gradient(H, of.inputs[group].variables);
+      if (std::ranges::all_of(slope, [](const Expr& entry) { return entry.is_constant(0.0); }))
+        continue;
       slope_groups_.push_back(static_cast<Index>(group));
-      slopes.push_back(gradient(H[0], numbers));
+      slopes.push_back(slope);
     }
     slopes_ = Function("slopes of H", of.inputs, joined(slopes));
   }

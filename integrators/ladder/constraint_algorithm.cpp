@@ -30,6 +30,7 @@ struct Comparison {
   };
   Outcome outcome = Outcome::unknown;
   bool is_certain = true;
+  bool is_hidden = false;       // whether round-off hides if equations follow
   std::string difference = "";  // in words
 };
 
@@ -201,26 +202,27 @@ Singularity singularity(const ConsistentPoint& consistent, const ConsistentJet& 
     }
     const auto seen = obstruction ? obstruction->is_seen_along(tangent) : Obstruction::Answer::no;
     if (seen == Obstruction::Answer::no) return result;
-    const bool is_certain = seen == Obstruction::Answer::yes;
+    if (seen == Obstruction::Answer::unknown) {
+      result.is_hidden = true;
+      return result;
+    }
     return {.outcome = Outcome::different,
-            .is_certain = is_certain,
-            .difference = is_certain
-                              ? "The equations have solutions in fewer directions than their "
-                                "linear parts: one of the constraints has a vanishing gradient "
-                                "here."
-                              : "Round-off hides whether the equations have solutions in all "
-                                "directions that their linear parts have, or a constraint has a "
-                                "vanishing gradient here."};
+            .difference =
+                "The equations have solutions in fewer directions than their linear parts: one of "
+                "the constraints has a vanishing gradient here."};
   };
   using Units = TangentDisplacement::Units;
   constexpr std::array units = {Units::own_sizes, Units::large_where_zero, Units::natural,
                                 Units::own_sizes, Units::large_where_zero};
   int alike = 0, different = 0, compared = 0;
+  bool is_hidden = false;
   std::string certain, uncertain;
   for (const Units unit : units) {
     const Comparison comparison = look_along(
         tangents.next(is_small || unit != Units::large_where_zero ? unit : Units::natural));
-    if (comparison.outcome == Outcome::alike && comparison.is_certain) ++alike;
+    is_hidden = is_hidden || comparison.is_hidden;
+    if (comparison.outcome == Outcome::alike && comparison.is_certain && !comparison.is_hidden)
+      ++alike;
     if (comparison.outcome == Outcome::alike || comparison.outcome == Outcome::lower) ++compared;
     if (comparison.outcome == Outcome::different && !comparison.is_certain)
       uncertain = comparison.difference;
@@ -243,6 +245,11 @@ Singularity singularity(const ConsistentPoint& consistent, const ConsistentJet& 
     }
     if (different == 2) return {.reason = certain};
   }
+  // A singular point looks singular from everywhere: two directions in which nothing is hidden are enough.
+  if (is_hidden && alike < 2 && uncertain.empty())
+    uncertain =
+        "Round-off hides whether the equations have solutions in all directions that their linear "
+        "parts have, or a constraint has a vanishing gradient here.";
   const std::string& seen = certain.empty() ? uncertain : certain;
   if (different >= 2 && different > alike) return {.reason = certain, .is_unanimous = alike == 0};
   return {.seen_once = seen, .is_compared = compared >= 2};

@@ -102,6 +102,13 @@ BOOST_AUTO_TEST_CASE(small_pivots_are_avoided) {
   BOOST_TEST(e.kept.size() == 0);
   BOOST_TEST(std::fabs(solved[0] - 1.0 / (1.0 - 1e-12)) < 1e-15);
   BOOST_TEST(std::fabs(solved[1] - (1.0 - 1e-12 / (1.0 - 1e-12))) < 1e-15);
+
+  // The small one is that of the unknown that would be taken first.
+  const ExprVector swapped = equations({y[0] + 1e-12 * y[1] - 1.0, y[0] + y[1] - 2.0});
+  const VectorXd others =
+      Function("Y", {{"y", y}}, eliminated(swapped, y).unknowns)({VectorXd::Zero(2)});
+  BOOST_TEST(std::fabs(others[0] - (1.0 - 1e-12 / (1.0 - 1e-12))) < 1e-15);
+  BOOST_TEST(std::fabs(others[1] - 1.0 / (1.0 - 1e-12)) < 1e-15);
 }
 
 // Units do not matter: charges of 1e-12 and voltages.

@@ -87,6 +87,9 @@ BOOST_AUTO_TEST_CASE(relations_are_used) {
   BOOST_TEST(simplified(2 * square(x) + 2 * square(y) + 2 * square(z) - x, on_sphere).value() ==
              "2 - x");
   BOOST_TEST(simplified(square(x) + square(y), on_sphere).value() == "x^2 + y^2");
+  // All terms of the relation, but no multiple of it.
+  BOOST_TEST(simplified(square(x) + 2 * square(y) + square(z), on_sphere).value() ==
+             "x^2 + 2*y^2 + z^2");
 }
 
 // Sums that nobody would write are not written.

@@ -262,4 +262,22 @@ BOOST_AUTO_TEST_CASE(differential_is_in_the_frame_of_the_manifold) {
   }
 }
 
+// On a sphere in R³ velocities have a normal part, which the Lagrangian does not know: it is zero where
+// the family is stationary.
+BOOST_AUTO_TEST_CASE(normal_parts_of_velocities_vanish) {
+  const auto M = std::make_shared<CotangentBundle>(std::make_shared<Sphere>(2));
+  const Lagrangian family(M, [](const ExprVector& q, const ExprVector& w, const Expr&) {
+    return 0.5 * w.squaredNorm() - q[2];
+  });
+  const VectorXd q = VectorXd{{0.6, 0.0, 0.8}}, p = VectorXd{{0.0, 1.3, 0.0}};
+  for (const double normal : {0.0, 0.7, -2.0}) {
+    const VectorXd w = p + normal * q;
+    ExprVector x(6);
+    x << constants(q), constants(p);
+    const VectorXd stationarity = values(family.stationarity(x, constants(w), 0.0));
+    BOOST_TEST(std::fabs(q.dot(stationarity) - normal) < 1e-14);
+    BOOST_TEST((stationarity - normal * q).norm() < 1e-14);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
