@@ -26,7 +26,7 @@ Obstruction::Answer Obstruction::is_seen_along(const VectorXd& direction) const 
   constexpr double measurable = 1e3;    // times the bound of rounding errors
   constexpr double negligible = 1e-13;  // next to all of F, in comparable units
   constexpr double least_growth = 8.0;  // of all of F, which is quadratic along a tangent
-  constexpr double small = 1e-3;        // of ε², in comparable units: less need not be seen
+  constexpr double small = 1e-1;        // of ε², in comparable units: less need not be seen
   double before = 0.0, all_before = 0.0, weak_before = 0.0;
   int slow = 0, weak = 0;
   bool is_tangent = true, is_visible = false;
