@@ -26,7 +26,7 @@ namespace courant {
 // factors and are what dot, cross and norm work on: `norm(r[i] - r[j])`, `cross(q, p)[2]`.
 // Indices and bounds must be constant integers. What a known condition rules out may have indices
 // out of range: `if(i < n-1, q[i+1], q[0])`. Refused: nesting beyond 200 levels, more than 10⁶
-// terms in all sums together (nested ones counted as rectangles), or 10⁵ that are no numbers.
+// terms in all sums together (nested ones counted as rectangles), or 5·10⁵ that are no numbers.
 // Throws FormulaError.
 Expr parse_formula(std::string_view text, const SymbolTable& symbols);
 

@@ -11,8 +11,9 @@ namespace {
 
 constexpr int kDeepest = 200;  // a nesting no person writes, far from the end of the stack
 constexpr Index kMostTerms = 1'000'000;  // of all sums together: a second
-// Of these that are no numbers: the ladder of a system with so many takes some ten seconds.
-constexpr Index kMostOpenTerms = 100'000;
+// Of these that are no numbers: enough for an energy of 10⁵ coordinates with five terms of each. The ladder of
+// a system with so many takes a minute.
+constexpr Index kMostOpenTerms = 500'000;
 
 constexpr int kUnary = 6;
 
