@@ -30,7 +30,7 @@ Observer::Observer(const ObservedQuantities& of, Backend backend)
   const Backend together = backend.together();
   const Function::Options compiled = {.differentiate = {}, .backend = together};
   forms_ = Function("closed forms", {of.time}, of.forms, compiled);
-  form_.resize(of.forms.size());
+  form_ = VectorXd::Zero(of.forms.size());
   quantities_ = Function("observe", of.inputs, of.quantities, compiled);
   together.compile();
   if (H_) {
@@ -47,7 +47,7 @@ Observer::Observer(const ObservedQuantities& of, Backend backend)
   }
   // Evaluated once a step; to compile it, and the account, takes seconds where ports are many.
   at_stage_ = Function("observe stages", of.stage_inputs, of.staged);
-  stage_.resize(of.staged.size());
+  stage_ = VectorXd::Zero(of.staged.size());  // of a state by itself there is no stage
   if (of.account) account_.emplace(StepEnergies(of.account));
   energies_ = VectorXd::Zero(of.inputs.back().variables.size());
   if (of.field) {
