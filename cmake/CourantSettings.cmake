@@ -24,7 +24,7 @@ file(CREATE_LINK ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/include/courant SYM
 
 # GCC collects its garbage when it holds some 100 MB. Where there is memory it need not: an eighth of the time.
 cmake_host_system_information(RESULT memory QUERY TOTAL_PHYSICAL_MEMORY)
-if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND memory GREATER_EQUAL 8000)
+if(COURANT_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL GNU AND memory GREATER_EQUAL 8000)
   add_compile_options("SHELL:--param ggc-min-expand=200" "SHELL:--param ggc-min-heapsize=1000000")
 endif()
 
