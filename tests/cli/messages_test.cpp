@@ -53,8 +53,8 @@ BOOST_AUTO_TEST_CASE(numbers_beyond_the_range_of_an_option_are_refused_in_words)
         {"study", file, "--steps", "1"},
         {"tour", "11"}}) {
     const Answer answer = courant_command(arguments);
-    BOOST_TEST(answer.status == 2, arguments[2]);
-    check_words(answer.err, arguments[0]);
+    BOOST_TEST(answer.status == 2, arguments.back());
+    check_words(answer.err, arguments.front());
     BOOST_TEST(answer.err.size() < 120u, answer.err);
   }
 }
