@@ -36,6 +36,9 @@ constexpr double kRounded = 16.0 * std::numeric_limits<double>::epsilon();
 // Above these, after iterations that do not move any more, something is not solved.
 constexpr double kSolved = 1e-9;
 
+// The same where changes have stalled: constants that cancel are none of the terms that are seen.
+constexpr double kStalled = 1e-6;
+
 // Relative changes that are round-off everywhere.
 constexpr double kLeast = 2.0 * std::numeric_limits<double>::epsilon();
 
@@ -120,8 +123,13 @@ bool Newton::is_rounded(const double* y, const double* scales, double few, bool 
 // directions only; one that is old may have lost others. With a matrix of this solve least squares are at
 // their least; what is left of equations that repeat others where their own terms vanish is round-off
 // of theirs.
-bool Newton::is_solved(const double* y, const double* scales, bool fresh) {
-  if (solver_->is_determined() && function_.output_size() == step_.size()) return true;
+//
+// `stalled`: changes that do not become smaller. Where a scale is far above what an exponential is steep
+// over, as for voltages of diodes, Newton's steps down its flank are as small as round-off and as
+// equal.
+bool Newton::is_solved(const double* y, const double* scales, bool fresh, bool stalled) {
+  const bool sees_all = solver_->is_determined() && function_.output_size() == step_.size();
+  if (sees_all) return !stalled || is_rounded(y, scales, kStalled, false);
   return is_rounded(y, scales, kSolved, fresh);
 }
 
@@ -229,9 +237,9 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
       return result;
     }
     // Least squares of a matrix of this solve are at their least, but that may be no solution.
-    const auto accepted = [&] { return is_solved(y, scales, fresh); };
+    const auto accepted = [&](bool stalled) { return is_solved(y, scales, fresh, stalled); };
     if (moved <= options_.tolerance) {
-      if (!accepted()) {
+      if (!accepted(false)) {
         if (fresh) break;
         if (refactorize()) continue;
         result.status = Status::singular;
@@ -243,7 +251,7 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
     if (compared > 0) {
       contraction = moved / previous;
       if (contraction < 0.5 && previous <= kLongStep &&
-          contraction * moved <= (1.0 - contraction) * options_.tolerance && accepted()) {
+          contraction * moved <= (1.0 - contraction) * options_.tolerance && accepted(false)) {
         result.status = Status::converged;
         return result;
       }
@@ -254,7 +262,7 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
           stalled && (moved > kRoundOff ? stagnant || is_rounded(y, scales, kRounded, false)
                                         : close || moved <= std::max(kLeast, 2 * round_off_));
       const bool slow = contraction > options_.slow && moved > 1e3 * options_.tolerance;
-      if ((slow && !fresh) || (stalled && !rounded) || (rounded && !accepted())) {
+      if ((slow && !fresh) || (stalled && !rounded) || (rounded && !accepted(true))) {
         if (!refactorize()) {
           result.status = Status::singular;
           return result;

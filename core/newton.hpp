@@ -79,7 +79,7 @@ class Newton {
   bool factorize(const double* const* in);
   double improve(double* y, const double* scales);
   bool is_rounded(const double* y, const double* scales, double few, bool any);
-  bool is_solved(const double* y, const double* scales, bool fresh);
+  bool is_solved(const double* y, const double* scales, bool fresh, bool stalled);
 
   EquationSystem system_;
   const Function function_;       // of the unknowns that are kept

@@ -147,8 +147,8 @@ static double improve(struct newton *N, const double *scales) {
   return isfinite(total) ? result : INFINITY;
 }
 
-/* Whether every residual is round-off of the terms J_ij u_j. */
-static int is_rounded(const struct newton *N, const double *scales) {
+/* Whether every residual is at most so many parts of the terms J_ij u_j. */
+static int is_rounded(const struct newton *N, const double *scales, double few) {
   const struct equations *const of = N->of;
   double magnitude[MOST_SIZE];
   int i, k;
@@ -159,7 +159,7 @@ static int is_rounded(const struct newton *N, const double *scales) {
     magnitude[of->row[k]] += fabs(N->all[of->size + k]) * size;
   }
   for (i = 0; i < of->size; ++i)
-    if (!(fabs(N->all[i]) <= 16.0 * DBL_EPSILON * magnitude[i])) return 0;
+    if (!(fabs(N->all[i]) <= few * magnitude[i])) return 0;
   return 1;
 }
 
@@ -188,10 +188,10 @@ static int iterate(struct newton *N, const double *const *in, const double *scal
       stalled = contraction > 0.5;
       stagnant = fresh && compared == 1 && contraction > 0.9 && moved <= brief;
       rounded = stalled && (moved > round_off
-                                ? stagnant || is_rounded(N, scales)
+                                ? stagnant || is_rounded(N, scales, 16.0 * DBL_EPSILON)
                                 : close || moved <= largest_of(2.0 * DBL_EPSILON, 2 * N->round_off));
       slow = contraction > 0.2 && moved > 1e3 * tolerance;
-      if ((slow && !fresh) || (stalled && !rounded)) {
+      if ((slow && !fresh) || (stalled && !rounded) || (rounded && !is_rounded(N, scales, 1e-6))) {
         fresh = 1;
         close = moved <= brief;
         compared = 0;
