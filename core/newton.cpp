@@ -98,10 +98,9 @@ double Newton::improve(double* y, const double* scales) {
   return std::isfinite(total) ? result : std::numeric_limits<double>::infinity();
 }
 
-// Whether every residual is at most so many parts: of the terms J_ij y_j, where an unknown that is an increment
-// belongs to a sum of the size of its block's scale.
-// `any`: to those of any equation.
-bool Newton::is_rounded(const double* y, const double* scales, double few, bool any) {
+// The largest part that a residual is of the terms J_ij y_j of its equation, or with `any` of the terms of any
+// equation. An unknown that is an increment belongs to a sum of the size of its block's scale.
+double Newton::unsolved_part(const double* y, const double* scales, bool any) {
   magnitude_.setZero();
   const Index rows = magnitude_.size();
   const auto& row = function_.pattern_row();
@@ -114,23 +113,37 @@ bool Newton::is_rounded(const double* y, const double* scales, double few, bool 
     magnitude_[row[k]] += std::fabs(all_[rows + static_cast<Index>(k)]) * size;
   }
   if (any && rows > 0) magnitude_.setConstant(magnitude_.maxCoeff());
-  for (Index i = 0; i < rows; ++i)
-    if (!(std::fabs(all_[i]) <= few * magnitude_[i])) return false;
-  return true;
+  double result = 0.0;
+  for (Index i = 0; i < rows; ++i) {
+    const double left = std::fabs(all_[i]);
+    if (!(left <= result * magnitude_[i])) result = left / magnitude_[i];  // or not a number
+    if (std::isnan(result)) break;
+  }
+  return result;
+}
+
+bool Newton::sees_all() const {
+  return solver_->is_determined() && function_.output_size() == step_.size();
 }
 
 // Whether small changes mean small residuals. A matrix that is not square, or singular, sees some
 // directions only; one that is old may have lost others. With a matrix of this solve least squares are at
 // their least; what is left of equations that repeat others where their own terms vanish is round-off
 // of theirs.
-//
-// `stalled`: changes that do not become smaller. Where a scale is far above what an exponential is steep
-// over, as for voltages of diodes, Newton's steps down its flank are as small as round-off and as
-// equal.
-bool Newton::is_solved(const double* y, const double* scales, bool fresh, bool stalled) {
-  const bool sees_all = solver_->is_determined() && function_.output_size() == step_.size();
-  if (sees_all) return !stalled || is_rounded(y, scales, kStalled, false);
-  return is_rounded(y, scales, kSolved, fresh);
+bool Newton::is_solved(const double* y, const double* scales, bool fresh) {
+  return sees_all() || unsolved_part(y, scales, fresh) <= kSolved;
+}
+
+// Whether changes that do not become smaller, though they are small, are round-off. Where a scale is far
+// above what an exponential is steep over, as for voltages of diodes, Newton's steps down its flank are as
+// small, and as equal. On the flank residuals fall from one matrix to the next. `before`: the part that was left with the
+// matrix before, and then with this one.
+bool Newton::is_still(const double* y, const double* scales, bool fresh, double& before) {
+  if (!sees_all()) return is_solved(y, scales, fresh);
+  const double part = unsolved_part(y, scales, false);
+  const bool falls = part < 0.5 * before;
+  before = part;
+  return part <= kSolved || (part <= kStalled && !falls);
 }
 
 void Newton::settle(VectorXd& y, Index first) {
@@ -213,9 +226,10 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
   const auto residual = all_.head(function_.output_size());
   double previous = std::numeric_limits<double>::infinity();
   double contraction = 0.0;
-  bool fresh = false;  // A belongs to a point of this solve
-  bool close = false;  // which a short change led to
-  int compared = 0;    // iterations with the same A before, which made `previous`
+  bool fresh = false;                                         // A belongs to a point of this solve
+  bool close = false;                                         // which a short change led to
+  double unsolved = std::numeric_limits<double>::infinity();  // where changes stalled before
+  int compared = 0;  // iterations with the same A before, which made `previous`
   double moved = std::numeric_limits<double>::infinity();
   const auto refactorize = [&] {
     ++result.factorizations;
@@ -237,9 +251,9 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
       return result;
     }
     // Least squares of a matrix of this solve are at their least, but that may be no solution.
-    const auto accepted = [&](bool stalled) { return is_solved(y, scales, fresh, stalled); };
+    const auto accepted = [&] { return is_solved(y, scales, fresh); };
     if (moved <= options_.tolerance) {
-      if (!accepted(false)) {
+      if (!accepted()) {
         if (fresh) break;
         if (refactorize()) continue;
         result.status = Status::singular;
@@ -251,7 +265,7 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
     if (compared > 0) {
       contraction = moved / previous;
       if (contraction < 0.5 && previous <= kLongStep &&
-          contraction * moved <= (1.0 - contraction) * options_.tolerance && accepted(false)) {
+          contraction * moved <= (1.0 - contraction) * options_.tolerance && accepted()) {
         result.status = Status::converged;
         return result;
       }
@@ -259,10 +273,11 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
       const bool stalled = contraction > 0.5;
       const bool stagnant = fresh && compared == 1 && contraction > kStagnant && moved <= kShort;
       const bool rounded =
-          stalled && (moved > kRoundOff ? stagnant || is_rounded(y, scales, kRounded, false)
+          stalled && (moved > kRoundOff ? stagnant || unsolved_part(y, scales, false) <= kRounded
                                         : close || moved <= std::max(kLeast, 2 * round_off_));
       const bool slow = contraction > options_.slow && moved > 1e3 * options_.tolerance;
-      if ((slow && !fresh) || (stalled && !rounded) || (rounded && !accepted(true))) {
+      if ((slow && !fresh) || (stalled && !rounded) ||
+          (rounded && !is_still(y, scales, fresh, unsolved))) {
         if (!refactorize()) {
           result.status = Status::singular;
           return result;

@@ -78,8 +78,10 @@ class Newton {
   void give(double* y);
   bool factorize(const double* const* in);
   double improve(double* y, const double* scales);
-  bool is_rounded(const double* y, const double* scales, double few, bool any);
-  bool is_solved(const double* y, const double* scales, bool fresh, bool stalled);
+  double unsolved_part(const double* y, const double* scales, bool any);
+  bool sees_all() const;
+  bool is_solved(const double* y, const double* scales, bool fresh);
+  bool is_still(const double* y, const double* scales, bool fresh, double& before);
 
   EquationSystem system_;
   const Function function_;       // of the unknowns that are kept

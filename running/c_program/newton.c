@@ -147,10 +147,10 @@ static double improve(struct newton *N, const double *scales) {
   return isfinite(total) ? result : INFINITY;
 }
 
-/* Whether every residual is at most so many parts of the terms J_ij u_j. */
-static int is_rounded(const struct newton *N, const double *scales, double few) {
+/* The largest part that a residual is of the terms J_ij u_j. */
+static double unsolved_part(const struct newton *N, const double *scales) {
   const struct equations *const of = N->of;
-  double magnitude[MOST_SIZE];
+  double magnitude[MOST_SIZE], result = 0.0;
   int i, k;
   for (i = 0; i < of->size; ++i) magnitude[i] = 0.0;
   for (k = 0; k < of->entries; ++k) {
@@ -159,8 +159,8 @@ static int is_rounded(const struct newton *N, const double *scales, double few) 
     magnitude[of->row[k]] += fabs(N->all[of->size + k]) * size;
   }
   for (i = 0; i < of->size; ++i)
-    if (!(fabs(N->all[i]) <= few * magnitude[i])) return 0;
-  return 1;
+    if (!(fabs(N->all[i]) <= result * magnitude[i])) result = fabs(N->all[i]) / magnitude[i];
+  return result;
 }
 
 /* Iterates to round-off: until changes are so small, or contract so well, that nothing is left, or until they
@@ -171,6 +171,7 @@ static int iterate(struct newton *N, const double *const *in, const double *scal
   int iteration, compared = 0;
   int fresh = 0; /* A belongs to a point of this solve */
   int close = 0; /* which a short change led to */
+  double unsolved = INFINITY; /* where changes stalled before */
   if (!N->is_factorized) {
     fresh = 1;
     if (!factorize(N, in)) return 0;
@@ -181,17 +182,24 @@ static int iterate(struct newton *N, const double *const *in, const double *scal
     if (!isfinite(moved)) return 0;
     if (moved <= tolerance) return 1;
     if (compared > 0) {
-      int stalled, stagnant, rounded, slow;
+      int stalled, stagnant, rounded, slow, still;
       contraction = moved / previous;
       if (contraction < 0.5 && previous <= 1e-2 && contraction * moved <= (1.0 - contraction) * tolerance)
         return 1;
       stalled = contraction > 0.5;
       stagnant = fresh && compared == 1 && contraction > 0.9 && moved <= brief;
       rounded = stalled && (moved > round_off
-                                ? stagnant || is_rounded(N, scales, 16.0 * DBL_EPSILON)
+                                ? stagnant || unsolved_part(N, scales) <= 16.0 * DBL_EPSILON
                                 : close || moved <= largest_of(2.0 * DBL_EPSILON, 2 * N->round_off));
       slow = contraction > 0.2 && moved > 1e3 * tolerance;
-      if ((slow && !fresh) || (stalled && !rounded) || (rounded && !is_rounded(N, scales, 1e-6))) {
+      still = 1;
+      if (rounded && !(slow && !fresh)) {
+        /* Down the flank of an exponential steps are as small and as equal, but residuals fall. */
+        const double part = unsolved_part(N, scales);
+        still = part <= 1e-9 || (part <= 1e-6 && !(part < 0.5 * unsolved));
+        unsolved = part;
+      }
+      if ((slow && !fresh) || (stalled && !rounded) || !still) {
         fresh = 1;
         close = moved <= brief;
         compared = 0;
