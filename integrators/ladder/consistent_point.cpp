@@ -234,7 +234,12 @@ std::optional<ConsistentJet> ConsistentPoint::find_beyond(const ConsistentJet& e
 ConsistentJet ConsistentPoint::find(const ConsistentJet& from) const {
   const LinearizableMap F = conditions(from.array, true);
   const Index n = from.array.base_size();
-  Zero zero = find_zero(F, from.zero.y, mobility(from, false));
+  Mobility fixed = mobility(from, false);
+  Zero zero = find_zero(F, from.zero.y, fixed);
+  if (zero.found) return {from.array, zero};
+  // Before x gives way, units that do not come from what equations are elsewhere.
+  fixed.is_matched = true;
+  zero = find_confirmed(F, from.zero.y, fixed);
   if (zero.found) return {from.array, zero};
   const Mobility free = mobility(from, true);
   zero = find_confirmed(F, from.zero.y, free);

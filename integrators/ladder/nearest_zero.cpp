@@ -162,6 +162,16 @@ VectorXd stepped(const VectorXd& y, const VectorXd& units, const VectorXd& delta
   return there;
 }
 
+// |F'| for the unknowns that move, without what is within the bound of its error.
+SparseMatrixXd moving_part(const Linearization& at, const Mobility& mobility) {
+  SparseMatrixXd part = at.jacobian.cwiseAbs();
+  const bool has_errors = at.error.rows() == part.rows() && at.error.cols() == part.cols();
+  part.prune([&](Index i, Index j, double size) {
+    return j >= mobility.frozen && size > (has_errors ? at.error.coeff(i, j) : 0.0);
+  });
+  return part;
+}
+
 // With `safeguard`, every step has to be an improvement; else full steps are made.
 Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& mobility,
             bool safeguard) {
@@ -176,9 +186,17 @@ Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& m
   zero.is_finite = is_finite(at);
   if (!zero.is_finite) return zero;
 
-  SparseMatrixXd magnitude = mobility.magnitude.size() > 0
+  SparseMatrixXd magnitude = mobility.is_matched ? SparseMatrixXd()
+                             : mobility.magnitude.size() > 0
                                  ? mobility.magnitude
                                  : generic_magnitude(map, start, zero.reach, at);
+  const auto natural_units = [&] {
+    if (mobility.is_matched)
+      return NaturalScaling::matched({at.value, moving_part(at, mobility), at.value_error},
+                                     zero.reach);
+    magnitude = SparseMatrixXd(magnitude.cwiseMax(SparseMatrixXd(at.jacobian.cwiseAbs())));
+    return NaturalScaling({at.value, magnitude, at.value_error}, zero.reach);
+  };
   double damping = 0.0;
   bool moves = true;
   // Sparse factors reach what is seen through singular values below 10⁻⁵ only little by little. Where
@@ -187,8 +205,7 @@ Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& m
   constexpr int most_slow_steps = 3;
   int slow_steps = 0;
   while (moves) {
-    magnitude = SparseMatrixXd(magnitude.cwiseMax(SparseMatrixXd(at.jacobian.cwiseAbs())));
-    const NaturalScaling units({at.value, magnitude, at.value_error}, zero.reach);
+    const NaturalScaling units = natural_units();
     const VectorXd value = significant(at);
     const VectorXd g = units.row_scale.cwiseProduct(value);
     zero.scaled_value = g;

@@ -19,6 +19,9 @@ struct Mobility {
   double noise = 1e-11;           // natural units below which what is left of an unknown is noise
   // The generic magnitude of the derivatives around the start, where it is known; may be empty.
   SparseMatrixXd magnitude = SparseMatrixXd();
+  // Units by the derivatives at each point itself, of the unknowns that move, and by their largest products
+  // (NaturalScaling::matched), instead of by what derivatives are around the start.
+  bool is_matched = false;
   // Whether y may be gone to, as the domain of a chart allows; empty: anything may.
   std::function<bool(const VectorXd& y)> admits = {};
 };
