@@ -36,9 +36,6 @@ constexpr double kRounded = 16.0 * std::numeric_limits<double>::epsilon();
 // Above these, after iterations that do not move any more, something is not solved.
 constexpr double kSolved = 1e-9;
 
-// The same where changes have stalled: constants that cancel are none of the terms that are seen.
-constexpr double kStalled = 1e-6;
-
 // Relative changes that are round-off everywhere.
 constexpr double kLeast = 2.0 * std::numeric_limits<double>::epsilon();
 
@@ -63,6 +60,7 @@ Newton::Newton(EquationSystem system, std::vector<Index> groups, const Options& 
   all_.resize(function_.output_size() + function_.nonzeros());
   step_.resize(static_cast<Index>(contained_.size()));
   magnitude_.resize(function_.output_size());
+  stalled_.resize(function_.output_size());
   if (!system_.is_reduced()) return;
   in_.resize(static_cast<std::size_t>(function_.input_count()));
   kept_.resize(std::ssize(system_.kept()));
@@ -113,10 +111,14 @@ double Newton::unsolved_part(const double* y, const double* scales, bool any) {
     magnitude_[row[k]] += std::fabs(all_[rows + static_cast<Index>(k)]) * size;
   }
   if (any && rows > 0) magnitude_.setConstant(magnitude_.maxCoeff());
+  return largest_part(magnitude_);
+}
+
+double Newton::largest_part(const VectorXd& magnitude) const {
   double result = 0.0;
-  for (Index i = 0; i < rows; ++i) {
+  for (Index i = 0; i < magnitude.size(); ++i) {
     const double left = std::fabs(all_[i]);
-    if (!(left <= result * magnitude_[i])) result = left / magnitude_[i];  // or not a number
+    if (!(left <= result * magnitude[i])) result = left / magnitude[i];  // or not a number
     if (std::isnan(result)) break;
   }
   return result;
@@ -136,14 +138,18 @@ bool Newton::is_solved(const double* y, const double* scales, bool fresh) {
 
 // Whether changes that do not become smaller, though they are small, are round-off. Where a scale is far
 // above what an exponential is steep over, as for voltages of diodes, Newton's steps down its flank are as
-// small, and as equal. On the flank residuals fall from one matrix to the next. `before`: the part that was left with the
-// matrix before, and then with this one.
+// small, and as equal; but there residuals fall from one matrix to the next. `before`: what was left with the
+// matrix before, in parts of the terms where changes stalled first, or -1; and then with this one.
 bool Newton::is_still(const double* y, const double* scales, bool fresh, double& before) {
   if (!sees_all()) return is_solved(y, scales, fresh);
   const double part = unsolved_part(y, scales, false);
-  const bool falls = part < 0.5 * before;
-  before = part;
-  return part <= kSolved || (part <= kStalled && !falls);
+  if (part <= kSolved) return true;
+  const bool is_first = before < 0.0;
+  if (is_first) stalled_ = magnitude_;
+  const double left = is_first ? part : largest_part(stalled_);
+  const bool falls = is_first || left < 0.5 * before;
+  before = left;
+  return !falls;
 }
 
 void Newton::settle(VectorXd& y, Index first) {
@@ -226,10 +232,10 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
   const auto residual = all_.head(function_.output_size());
   double previous = std::numeric_limits<double>::infinity();
   double contraction = 0.0;
-  bool fresh = false;                                         // A belongs to a point of this solve
-  bool close = false;                                         // which a short change led to
-  double unsolved = std::numeric_limits<double>::infinity();  // where changes stalled before
-  int compared = 0;  // iterations with the same A before, which made `previous`
+  bool fresh = false;      // A belongs to a point of this solve
+  bool close = false;      // which a short change led to
+  double unsolved = -1.0;  // where changes stalled before, if they did
+  int compared = 0;        // iterations with the same A before, which made `previous`
   double moved = std::numeric_limits<double>::infinity();
   const auto refactorize = [&] {
     ++result.factorizations;

@@ -79,6 +79,7 @@ class Newton {
   bool factorize(const double* const* in);
   double improve(double* y, const double* scales);
   double unsolved_part(const double* y, const double* scales, bool any);
+  double largest_part(const VectorXd& magnitude) const;
   bool sees_all() const;
   bool is_solved(const double* y, const double* scales, bool fresh);
   bool is_still(const double* y, const double* scales, bool fresh, double& before);
@@ -97,7 +98,7 @@ class Newton {
   VectorXd kept_, given_;  // unknowns
   VectorXd all_;           // F and the entries of its Jacobian
   VectorXd step_;
-  VectorXd magnitude_;  // of the terms that each equation is a sum of
+  VectorXd magnitude_, stalled_;  // of the terms that each equation is a sum of
 };
 
 }  // namespace courant

@@ -236,10 +236,13 @@ ConsistentJet ConsistentPoint::find(const ConsistentJet& from) const {
   const Index n = from.array.base_size();
   Mobility fixed = mobility(from, false);
   Zero zero = find_zero(F, from.zero.y, fixed);
-  if (zero.found) return {from.array, zero};
-  // Before x gives way, units that do not come from what equations are elsewhere.
+  // In units that come from what equations are elsewhere, as a diode that conducts is 10¹⁰ times what it is
+  // when it blocks, an equation of the others may be nothing, or no step lead on.
   fixed.is_matched = true;
-  zero = find_confirmed(F, from.zero.y, fixed);
+  if (!zero.found || !is_zero(F, zero, fixed)) {
+    Zero matched = find_confirmed(F, from.zero.y, fixed);
+    if (matched.found) zero = std::move(matched);
+  }
   if (zero.found) return {from.array, zero};
   const Mobility free = mobility(from, true);
   zero = find_confirmed(F, from.zero.y, free);

@@ -18,6 +18,9 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 // Data error of a dense Jacobian: what is next to it above about 10⁻⁹ is divided by.
 constexpr double kNegligible = 2e-12;
 
+// Defects that are taken for zero.
+constexpr double kAccepted = 1e-10;
+
 // Where dense factorisations are cheaper than sparse ones.
 bool is_small(const SparseMatrixXd& S) { return std::max(S.rows(), S.cols()) <= 200; }
 
@@ -172,10 +175,32 @@ SparseMatrixXd moving_part(const Linearization& at, const Mobility& mobility) {
   return part;
 }
 
+// The units of a search at its points, as its mobility asks for them.
+class SearchUnits {
+ public:
+  SearchUnits(const LinearizableMap& map, const Mobility& mobility, const VectorXd& y,
+              const VectorXd& reach, const Linearization& at)
+      : mobility_(mobility), magnitude_(mobility.magnitude) {
+    if (!mobility.is_matched && magnitude_.size() == 0)
+      magnitude_ = generic_magnitude(map, y, reach, at);
+  }
+
+  NaturalScaling operator()(const Linearization& at, const VectorXd& reach) {
+    if (mobility_.is_matched)
+      return NaturalScaling::matched({at.value, moving_part(at, mobility_), at.value_error}, reach);
+    magnitude_ = SparseMatrixXd(magnitude_.cwiseMax(SparseMatrixXd(at.jacobian.cwiseAbs())));
+    return NaturalScaling({at.value, magnitude_, at.value_error}, reach);
+  }
+
+ private:
+  const Mobility& mobility_;
+  SparseMatrixXd magnitude_;
+};
+
 // With `safeguard`, every step has to be an improvement; else full steps are made.
 Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& mobility,
             bool safeguard) {
-  constexpr double least_damping = 1e-12, accepted = 1e-10;
+  constexpr double least_damping = 1e-12;
   const int most_iterations = safeguard ? 100 : 25;
   Zero zero;
   zero.y = start;
@@ -186,17 +211,7 @@ Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& m
   zero.is_finite = is_finite(at);
   if (!zero.is_finite) return zero;
 
-  SparseMatrixXd magnitude = mobility.is_matched ? SparseMatrixXd()
-                             : mobility.magnitude.size() > 0
-                                 ? mobility.magnitude
-                                 : generic_magnitude(map, start, zero.reach, at);
-  const auto natural_units = [&] {
-    if (mobility.is_matched)
-      return NaturalScaling::matched({at.value, moving_part(at, mobility), at.value_error},
-                                     zero.reach);
-    magnitude = SparseMatrixXd(magnitude.cwiseMax(SparseMatrixXd(at.jacobian.cwiseAbs())));
-    return NaturalScaling({at.value, magnitude, at.value_error}, zero.reach);
-  };
+  SearchUnits units_at(map, mobility, start, zero.reach, at);
   double damping = 0.0;
   bool moves = true;
   // Sparse factors reach what is seen through singular values below 10⁻⁵ only little by little. Where
@@ -205,13 +220,13 @@ Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& m
   constexpr int most_slow_steps = 3;
   int slow_steps = 0;
   while (moves) {
-    const NaturalScaling units = natural_units();
+    const NaturalScaling units = units_at(at, zero.reach);
     const VectorXd value = significant(at);
     const VectorXd g = units.row_scale.cwiseProduct(value);
     zero.scaled_value = g;
     zero.defect = units.defect(value, zero.reach);
     const bool rounded = is_rounded(at);
-    zero.found = rounded || zero.defect <= accepted;
+    zero.found = rounded || zero.defect <= kAccepted;
     zero.history.push_back(zero.defect);
     SparseMatrixXd S = units.row_scale.asDiagonal() * at.jacobian * units.column_scale.asDiagonal();
     S.prune([&](Index, Index column, double) { return column >= mobility.frozen; });
@@ -286,6 +301,14 @@ Zero find_zero(const LinearizableMap& map, const VectorXd& start, const Mobility
   if (careful.found) return careful;
   const Zero bold = search(map, start, mobility, false);
   return bold.found ? bold : careful;
+}
+
+bool is_zero(const LinearizableMap& map, const Zero& found, const Mobility& mobility) {
+  const Linearization at = map(found.y);
+  if (is_rounded(at) || !is_small(at.jacobian)) return true;
+  const NaturalScaling units =
+      SearchUnits(map, mobility, found.y, found.reach, at)(at, found.reach);
+  return units.defect(significant(at), found.reach) <= kAccepted;
 }
 
 VectorXd kernel_part(const SparseMatrixXd& S, const VectorXd& direction) {

@@ -60,6 +60,10 @@ struct Zero {
 // falls.
 Zero find_zero(const LinearizableMap& map, const VectorXd& start, const Mobility& mobility);
 
+// Whether a zero that was found is one in the units of `mobility` too. Not asked of more than 200 unknowns,
+// whose units cost more than their search.
+bool is_zero(const LinearizableMap& map, const Zero& found, const Mobility& mobility);
+
 // A function to make least: its value, gradient and (Gauss–Newton) Hessian by the first unknowns.
 struct Quadratic {
   double value;

@@ -147,10 +147,9 @@ static double improve(struct newton *N, const double *scales) {
   return isfinite(total) ? result : INFINITY;
 }
 
-/* The largest part that a residual is of the terms J_ij u_j. */
-static double unsolved_part(const struct newton *N, const double *scales) {
+/* The terms J_ij u_j of each residual. */
+static void terms(const struct newton *N, const double *scales, double *magnitude) {
   const struct equations *const of = N->of;
-  double magnitude[MOST_SIZE], result = 0.0;
   int i, k;
   for (i = 0; i < of->size; ++i) magnitude[i] = 0.0;
   for (k = 0; k < of->entries; ++k) {
@@ -158,9 +157,21 @@ static double unsolved_part(const struct newton *N, const double *scales) {
     const double size = largest_of(fabs(N->u[of->column[k]]), scales[0] < scale ? scales[0] : scale);
     magnitude[of->row[k]] += fabs(N->all[of->size + k]) * size;
   }
-  for (i = 0; i < of->size; ++i)
+}
+
+/* The largest part that a residual is of these. */
+static double largest_part(const struct newton *N, const double *magnitude) {
+  double result = 0.0;
+  int i;
+  for (i = 0; i < N->of->size; ++i)
     if (!(fabs(N->all[i]) <= result * magnitude[i])) result = fabs(N->all[i]) / magnitude[i];
   return result;
+}
+
+static double unsolved_part(const struct newton *N, const double *scales) {
+  double magnitude[MOST_SIZE];
+  terms(N, scales, magnitude);
+  return largest_part(N, magnitude);
 }
 
 /* Iterates to round-off: until changes are so small, or contract so well, that nothing is left, or until they
@@ -171,7 +182,7 @@ static int iterate(struct newton *N, const double *const *in, const double *scal
   int iteration, compared = 0;
   int fresh = 0; /* A belongs to a point of this solve */
   int close = 0; /* which a short change led to */
-  double unsolved = INFINITY; /* where changes stalled before */
+  double unsolved = -1.0, first[MOST_SIZE]; /* where changes stalled before, and first */
   if (!N->is_factorized) {
     fresh = 1;
     if (!factorize(N, in)) return 0;
@@ -195,9 +206,16 @@ static int iterate(struct newton *N, const double *const *in, const double *scal
       still = 1;
       if (rounded && !(slow && !fresh)) {
         /* Down the flank of an exponential steps are as small and as equal, but residuals fall. */
-        const double part = unsolved_part(N, scales);
-        still = part <= 1e-9 || (part <= 1e-6 && !(part < 0.5 * unsolved));
-        unsolved = part;
+        double part = unsolved_part(N, scales);
+        still = part <= 1e-9;
+        if (!still) {
+          if (unsolved < 0.0)
+            terms(N, scales, first);
+          else
+            part = largest_part(N, first);
+          still = unsolved >= 0.0 && !(part < 0.5 * unsolved);
+          unsolved = part;
+        }
       }
       if ((slow && !fresh) || (stalled && !rounded) || !still) {
         fresh = 1;
