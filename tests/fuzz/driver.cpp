@@ -1,16 +1,18 @@
 // The entry points of libFuzzer without it: every file of the corpus as it is, then mutations of them.
 //
-//   fuzz_… [-runs=N] [-max_total_time=SECONDS] [-seed=N] [-max_len=N] FOLDER…
+//   fuzz_… [-runs=N] [-max_total_time=SECONDS] [-timeout=SECONDS] [-seed=N] [-max_len=N] FOLDER…
 //
-// What ends the program is left in crash-input.
+// A finding is an execution that crashes, or that takes more than -timeout seconds of the processor
+// (20) or four times as many of a clock. Its input is left in crash-input, and the status is 1.
 #include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdint>
-#include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -24,11 +26,9 @@ extern "C" __attribute__((weak)) std::size_t LLVMFuzzerCustomMutator(std::uint8_
                                                                      std::size_t size,
                                                                      std::size_t most,
                                                                      unsigned seed);
+extern "C" __attribute__((weak)) void __sanitizer_set_death_callback(void (*callback)());
 
 namespace {
-
-// Of one execution: of the processor, and, on a host that does other things too, of a clock.
-constexpr unsigned seconds = 20, clock_seconds = 120;
 
 std::mt19937& generator() {
   static std::mt19937 only;
@@ -41,21 +41,69 @@ std::size_t below(std::size_t bound) {
 
 std::string input;  // of the execution that goes on
 
-void leave_input(int signal) {
-  std::ofstream("crash-input", std::ios::binary) << input;
-  std::signal(signal, SIG_DFL);
-  std::raise(signal);
+void write_input() { std::ofstream("crash-input", std::ios::binary) << input; }
+
+// For handlers of signals, in which a program that ends anyway may do this much.
+[[noreturn]] void leave_input(const std::string& reason) {
+  write_input();
+  std::cerr << "Finding: " << reason << " Its input is in crash-input." << std::endl;
+  _exit(1);
 }
 
+void leave_crash(int signal) {
+  leave_input("an execution ended by signal " + std::to_string(signal) + ".");
+}
+
+// Crashes are for the sanitizer to report, where there is one; std::abort is not.
+void catch_crashes() {
+  std::signal(SIGABRT, leave_crash);
+  if (__sanitizer_set_death_callback != nullptr)
+    __sanitizer_set_death_callback(write_input);
+  else
+    for (const int signal : {SIGSEGV, SIGFPE, SIGILL}) std::signal(signal, leave_crash);
+}
+
+// Looks once a second how long the execution that goes on has taken. It is the only timer of the
+// driver, begins after its handler is there and is never set again, so that no signal of it can
+// come when none is expected. The command that is fuzzed may have other ones, but for SIGALRM.
+class Watch {
+ public:
+  static void begin(double most_seconds) {
+    most_ = most_seconds;
+    next();
+    std::signal(SIGALRM, look);
+    const itimerval timer = {.it_interval = {1, 0}, .it_value = {1, 0}};
+    setitimer(ITIMER_REAL, &timer, nullptr);
+  }
+  static void next() {
+    processor_ = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    clock_ = seconds(CLOCK_MONOTONIC);
+  }
+
+ private:
+  static double seconds(clockid_t of) {
+    timespec now = {};
+    clock_gettime(of, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+  }
+  static void look(int) {
+    if (seconds(CLOCK_PROCESS_CPUTIME_ID) - processor_ > most_)
+      leave_input("an execution took more than " + std::to_string(static_cast<int>(most_)) +
+                  " s of the processor.");
+    if (seconds(CLOCK_MONOTONIC) - clock_ > 4.0 * most_)
+      leave_input("an execution took more than " + std::to_string(static_cast<int>(4.0 * most_)) +
+                  " s.");
+  }
+
+  // When the execution that goes on began.
+  static inline std::atomic<double> processor_ = 0.0, clock_ = 0.0;
+  static inline std::atomic<double> most_ = 0.0;
+  static_assert(std::atomic<double>::is_always_lock_free, "read by the handler of a signal");
+};
+
 void execute() {
-  const auto bound = [](unsigned of_processor, unsigned of_clock) {
-    const itimerval timer = {.it_interval = {}, .it_value = {of_processor, 0}};
-    setitimer(ITIMER_PROF, &timer, nullptr);
-    alarm(of_clock);
-  };
-  bound(seconds, clock_seconds);
+  Watch::next();
   LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
-  bound(0, 0);
 }
 
 }  // namespace
@@ -93,7 +141,7 @@ extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, st
 namespace {
 
 struct Arguments {
-  std::size_t executions = 10'000, most_bytes = 4096, seconds = 1'000'000;
+  std::size_t executions = 10'000, most_bytes = 4096, seconds = 1'000'000, timeout = 20;
   std::vector<std::string> corpus;
 };
 
@@ -111,6 +159,8 @@ Arguments read_arguments(const std::vector<std::string>& words) {
       arguments.executions = value();
     else if (word.starts_with("-max_total_time="))
       arguments.seconds = value();
+    else if (word.starts_with("-timeout="))
+      arguments.timeout = value();
     else if (word.starts_with("-max_len="))
       arguments.most_bytes = value();
     else if (word.starts_with("-seed="))
@@ -143,8 +193,8 @@ std::string mutated(const std::string& start, std::size_t most) {
 
 int main(int count, char** words) {
   const Arguments arguments = read_arguments({words + 1, words + count});
-  for (const int signal : {SIGABRT, SIGSEGV, SIGALRM, SIGPROF, SIGFPE, SIGILL})
-    std::signal(signal, leave_input);
+  catch_crashes();
+  Watch::begin(static_cast<double>(arguments.timeout));
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(arguments.seconds);
   std::size_t execution = 0;
   for (; execution < arguments.executions && std::chrono::steady_clock::now() < end; ++execution) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "courant/core/expr_vectors.hpp"
+#include "long_number.hpp"
 #include "words.hpp"
 
 namespace courant::fuzz {
@@ -35,17 +36,6 @@ const SymbolTable& symbols() {
   static int age = 0;
   if (age++ % 1000 == 0) names.emplace();
   return names->symbols;
-}
-
-// A sum of millions of terms takes seconds with the sanitizers, and finds nothing that a short one does
-// not: such bounds are left to tests/core.
-bool has_long_number(const std::string& text) {
-  std::size_t digits = 0;
-  for (const char letter : text) {
-    digits = letter >= '0' && letter <= '9' ? digits + 1 : 0;
-    if (digits > 5) return true;
-  }
-  return false;
 }
 
 }  // namespace
