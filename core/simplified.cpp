@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "courant/core/polynomial_relations.hpp"
 #include "courant/core/subgraph.hpp"
 #include "courant/core/written_number.hpp"
 
@@ -18,28 +19,8 @@ struct TooLarge {};
 
 constexpr std::size_t longest = 1000;  // characters of a sum
 
-// Factors by their number in the table of a Simplifier, with their powers (not 0), by number.
-using Monomial = std::vector<std::pair<int, int>>;
-using Sum = std::map<Monomial, double>;
-
-Monomial product(const Monomial& a, const Monomial& b, int sign = 1) {
-  Monomial result;
-  auto i = a.begin();
-  auto j = b.begin();
-  while (i != a.end() || j != b.end()) {
-    if (j == b.end() || (i != a.end() && i->first < j->first)) {
-      result.push_back(*i++);
-    } else if (i == a.end() || j->first < i->first) {
-      result.emplace_back(j->first, sign * j->second);
-      ++j;
-    } else {
-      if (const int power = i->second + sign * j->second; power != 0)
-        result.emplace_back(i->first, power);
-      ++i, ++j;
-    }
-  }
-  return result;
-}
+// Factors by their number in the table of a Simplifier.
+using Sum = Polynomial;
 
 Monomial power(Monomial a, int k) {
   if (k == 0) return {};
@@ -47,15 +28,24 @@ Monomial power(Monomial a, int k) {
   return a;
 }
 
+// How a sum is brought to a form: products of sums multiplied out or not, and relations applied
+// where they make it shorter, or always, to the first or to the last of their factors.
+struct Style {
+  bool expand = true;
+  enum class Relations { where_shorter, first, last } relations = Relations::where_shorter;
+};
+
 class Simplifier {
  public:
-  Simplifier(const Simplification& given, bool expand) : expand_(expand) {
+  Simplifier(const Simplification& given, Style style) : expand_(style.expand) {
     for (const Expr& relation : given.relations) {
       const bool as_given = expand_;
       expand_ = true;
       relations_.push_back(of(relation));
       expand_ = as_given;
     }
+    if (style.relations != Style::Relations::where_shorter)
+      remainders_.emplace(relations_, style.relations == Style::Relations::last);
     known_.clear();
   }
 
@@ -86,7 +76,7 @@ class Simplifier {
       std::sort(least.begin(), least.end());
       common = least;
     }
-    const double lead = in_order(sum).front().second;
+    const double lead = content(sum);
     Sum rest;
     for (const auto& [monomial, c] : sum) rest[product(monomial, common, -1)] = c / lead;
     sum = rest;
@@ -153,6 +143,19 @@ class Simplifier {
   }
   int atom(const Sum& sum) {
     return factor({.text = "(" + text(sum) + ")", .sum = sum, .is_sum = true});
+  }
+
+  // The coefficient of the leading term; where relations have made the sum, the smallest one if all
+  // are multiples of it, with that sign.
+  double content(const Sum& sum) const {
+    const double lead = in_order(sum).front().second;
+    if (!remainders_) return lead;
+    double smallest = lead;
+    for (const auto& [monomial, c] : sum)
+      if (std::fabs(c) < std::fabs(smallest)) smallest = std::copysign(c, lead);
+    for (const auto& [monomial, c] : sum)
+      if (std::fabs(std::remainder(c, smallest)) > 1e-12 * std::fabs(c)) return lead;
+    return smallest;
   }
 
   static int degree(const Monomial& monomial) {
@@ -250,13 +253,15 @@ class Simplifier {
 
   // What relations and sin² + cos² = 1 make of it.
   Sum reduced(Sum sum) {
+    if (remainders_) sum = remainders_->remainder(std::move(sum));
     if (sum.size() > 100) throw TooLarge();
-    count(sum.size() * (1 + relations_.size() + circles_.size()));
+    const std::size_t relations = remainders_ ? 0 : relations_.size();
+    count(sum.size() * (1 + relations + circles_.size()));
     bool changed = true;
     while (changed) {
       changed = false;
-      for (const Sum& relation : relations_)
-        if (apply(relation, sum)) changed = true;
+      for (std::size_t i = 0; i < relations; ++i)
+        if (apply(relations_[i], sum)) changed = true;
       for (const auto& [sine, cosine] : circles_) {
         const Sum circle{{{{sine, 2}}, 1.0}, {{{cosine, 2}}, 1.0}, {Monomial{}, -1.0}};
         if (apply(circle, sum)) changed = true;
@@ -437,19 +442,26 @@ class Simplifier {
   std::map<std::string, int> numbers_;
   std::map<int, int> circles_;  // sin(a) and cos(a)
   std::vector<Sum> relations_;
+  std::optional<PolynomialRelations> remainders_;
   std::unordered_map<std::uint32_t, Sum> known_;
 };
 
-// Of the texts that both ways of multiplying give, the shortest.
+// Of the texts that all styles give, the shortest.
 template <class Texts>
 std::optional<std::string> shortest(const Simplification& given, const Texts& texts) {
   std::optional<std::string> best;
-  for (const bool expand : {true, false}) {
+  using enum Style::Relations;
+  std::vector<Style> styles = {{.expand = true}, {.expand = false}};
+  if (!given.relations.empty())
+    for (const Style::Relations relations : {first, last}) styles.push_back({true, relations});
+  for (const Style& style : styles) {
     try {
-      Simplifier simplifier(given, expand);
+      Simplifier simplifier(given, style);
       for (const std::string& text : texts(simplifier))
         if (!best || text.size() < best->size()) best = text;
     } catch (const TooLarge&) {
+      continue;
+    } catch (const std::length_error&) {
       continue;
     }
   }

@@ -122,9 +122,12 @@ void explain_level(const LadderReport& ladder, Index k, std::vector<std::string>
       text += "No new constraint on the coordinates, but on the velocity.";
   }
   const Index before = k == 0 ? -1 : ladder.levels[at - 1].fibre.value_or(-1);
-  if (fibre == 0)
+  if (fibre == 0) {
     text += " The velocity is determined at each of its points.";
-  else if (before != fibre || count > 0)
+    if (ladder.elimination && found.velocities.empty())
+      text += " No formula for it of up to three lines was found.";
+  }
+  if (fibre != 0 && (before != fibre || count > 0))
     text += " The velocity at a point of it is free in " + plural(fibre, "direction") + ".";
   lines.push_back(text);
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 #include <ostream>
-#include <ranges>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
@@ -94,13 +94,20 @@ PairedSubspace subspace(const ConstrainedRepresentation<MatrixXd>& representatio
                                beside(efforts, MatrixXd::Zero(G.rows(), G.cols())));
 }
 
+// 0 … n - 1. As a vector: clang 14 does not compile std::views::iota of GCC 12.
+std::vector<Index> all_indices(Index n) {
+  std::vector<Index> indices(static_cast<std::size_t>(n));
+  std::iota(indices.begin(), indices.end(), Index{0});
+  return indices;
+}
+
 PairedSubspace subspace(const HybridRepresentation<MatrixXd>& representation) {
   const auto& [effort_driven, flow_driven, M] = representation;
   std::vector<Index> order(effort_driven);
   order.insert(order.end(), flow_driven.begin(), flow_driven.end());
   const auto n = static_cast<Index>(order.size());
   require_size("M", M, n, n);
-  if (!std::ranges::is_permutation(order, std::views::iota(Index{0}, n))) {
+  if (!std::ranges::is_permutation(order, all_indices(n))) {
     throw std::invalid_argument("LinearDirac: effort_driven and flow_driven together are not 0 … " +
                                 std::to_string(n - 1) + "; expected each coordinate once.");
   }
@@ -132,7 +139,7 @@ std::vector<Index> independent_columns(const MatrixXd& matrix, Index count) {
 
 std::vector<Index> others(const std::vector<Index>& columns, Index n) {
   std::vector<Index> rest;
-  std::ranges::set_difference(std::views::iota(Index{0}, n), columns, std::back_inserter(rest));
+  std::ranges::set_difference(all_indices(n), columns, std::back_inserter(rest));
   return rest;
 }
 

@@ -38,11 +38,14 @@ class EquationReduction {
     solved_.assign(static_cast<std::size_t>(unknowns_.size()), false);
     const Manifold& M = *system.manifold();
     motion_ = M.frame(x_) * v;
-    // What holds of points and of tangent vectors.
     const ExprVector on_manifold = M.constraint(x_);
-    for (const Expr& relation : on_manifold) given_.relations.push_back(relation);
-    if (on_manifold.size() > 0 && M.tangent_dimension() == M.ambient_dimension())
-      for (const Expr& relation : tangent(on_manifold, x_, v)) given_.relations.push_back(relation);
+    for (const Expr& relation : on_manifold) on_points_.relations.push_back(relation);
+    on_vectors_ = on_points_;
+    if (on_manifold.size() > 0 && M.tangent_dimension() == M.ambient_dimension()) {
+      tangent_ = M.coframe(x_) * v;
+      for (const Expr& relation : tangent(on_manifold, x_, v))
+        on_vectors_.relations.push_back(relation);
+    }
     const ExprVector F = system.residual(x_, v, z, t_);
     for (const Expr& equation : F)
       if (!is_zero(equation)) equations_.push_back(equation);
@@ -92,18 +95,18 @@ class EquationReduction {
   }
 
   std::string written(const Expr& function) const {
-    return short_enough(simplified(function, given_));
+    return short_enough(simplified(in_names(function), given(function)));
   }
   std::string written_equation(const Expr& function) const {
-    return short_enough(simplified_equation(function, given_));
+    return short_enough(simplified_equation(in_names(function), given(function)));
   }
   // Of unknown u (velocities first) in x and t; empty if others are left in it.
   std::string solution(Index u) const {
     if (!is_function_of_the_point(u)) return "";
-    return written(solution_[u]);
+    return written(reduced(named_unknown(u)));
   }
   bool is_function_of_the_point(Index u) const {
-    return solved_[static_cast<std::size_t>(u)] && !has_unknown(solution_[u]);
+    return solved_[static_cast<std::size_t>(u)] && !has_unknown(reduced(named_unknown(u)));
   }
   Index velocity_count() const { return velocity_count_; }
 
@@ -113,7 +116,19 @@ class EquationReduction {
   }
   bool is_zero(const Expr& function) const {
     return function.is_constant(0.0) ||
-           (!has_unknown(function) && simplified(function, given_) == "0");
+           (!has_unknown(function) && simplified(function, on_points_) == "0");
+  }
+
+  // The names of velocities are those of ẋ where it has as many components: v = C ẋ, ẋ = E v.
+  Expr in_names(const Expr& function) const {
+    return tangent_.size() > 0 ? substitute(function, unknowns_.head(velocity_count_), tangent_)
+                               : function;
+  }
+  Expr named_unknown(Index u) const {
+    return tangent_.size() > 0 && u < velocity_count_ ? motion_[u] : unknowns_[u];
+  }
+  const Simplification& given(const Expr& function) const {
+    return has_unknown(function) ? on_vectors_ : on_points_;
   }
 
   ExprVector variables() const {
@@ -181,7 +196,8 @@ class EquationReduction {
   Index velocity_count_ = 0;
   ExprVector unknowns_, solution_;  // velocities, then auxiliary unknowns
   ExprVector motion_;               // ẋ = E(x) v
-  Simplification given_;
+  ExprVector tangent_;              // C(x) ẋ, on a manifold with as many ẋ as v; else empty
+  Simplification on_points_, on_vectors_;
   std::vector<bool> solved_;
   std::vector<Expr> equations_;
 };

@@ -71,6 +71,39 @@ BOOST_AUTO_TEST_CASE(has_what_was_found) {
   BOOST_TEST(empty.elimination.has_value());
 }
 
+// p' = - (∇V)ᵀP - |p|² x, with gravity 2 along z. From everywhere, axes and rest included.
+BOOST_AUTO_TEST_CASE(velocities_on_the_sphere_are_formulas) {
+  Json experiment = {{"system",
+                      {{"type", "hamiltonian"},
+                       {"manifold", {{"type", "cotangent-bundle"}, {"base", "sphere"}}},
+                       {"coordinates", {"x[3]"}},
+                       {"hamiltonian", "(p_x[0]^2 + p_x[1]^2 + p_x[2]^2)/2 + 2*x[2]"}}}};
+  const std::pair<Json, Json> starts[] = {
+      {{0.6, 0, -0.8}, {0, 0.9, 0}}, {{1, 0, 0}, {0, 0, 1}}, {{0, 0, -1}, {0, 0, 0}}};
+  for (const auto& [x, p] : starts) {
+    experiment["initial"] = {{"x", x}, {"p_x", p}};
+    const auto found = report(experiment).elimination.value();
+    BOOST_REQUIRE(found.velocity("p_x[0]'"));
+    BOOST_TEST(found.velocity("x[1]'")->formula == "p_x[1]");
+    BOOST_TEST(found.velocity("p_x[0]'")->formula ==
+               "x[0]*(2*x[2] - p_x[0]^2 - p_x[1]^2 - p_x[2]^2)");
+    BOOST_TEST(found.velocity("p_x[2]'")->formula ==
+               "2*x[2]^2 - x[2]*p_x[0]^2 - x[2]*p_x[1]^2 - x[2]*p_x[2]^2 - 2");
+  }
+}
+
+// x' = Γ y × x/(2 π |x - y|²) with |x - y|² = 2 (1 - x·y).
+BOOST_AUTO_TEST_CASE(vortices_on_the_sphere_have_formulas) {
+  const Json experiment = {{"system", {{"type", "spherical-vortices"}, {"strengths", {1, 0.5}}}},
+                           {"initial", {{"x", {{1, 0, 0}, {0, 0.6, 0.8}}}}}};
+  const auto found = report(experiment).elimination.value();
+  BOOST_REQUIRE(found.velocity("x[0][0]'"));
+  BOOST_TEST(found.velocity("x[0][0]'")->formula ==
+             "(x[0][2]*x[1][1] - x[0][1]*x[1][2])/(8*pi*(1 - x[0][0]*x[1][0] - x[0][1]*x[1][1] - "
+             "x[0][2]*x[1][2]))");
+  BOOST_TEST(found.velocities.size() == 6u);
+}
+
 BOOST_AUTO_TEST_CASE(words_that_are_not_known_are_refused) {
   BOOST_CHECK_THROW(read_ladder_report({{"verdict", "later"}}), std::invalid_argument);
   BOOST_CHECK_THROW(

@@ -1,0 +1,178 @@
+#include "courant/core/polynomial_relations.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <functional>
+#include <set>
+
+namespace courant {
+namespace {
+
+constexpr std::size_t kMostElements = 40, kMostTerms = 60, kMostPairs = 300;
+
+int total_degree(const Monomial& monomial) {
+  int sum = 0;
+  for (const auto& [factor, power] : monomial) sum += power;
+  return sum;
+}
+
+bool is_polynomial(const Polynomial& a) {
+  return std::ranges::all_of(a, [](const auto& term) {
+    return std::ranges::all_of(term.first, [](const auto& power) { return power.second > 0; });
+  });
+}
+
+bool divides(const Monomial& a, const Monomial& b) {
+  auto at = b.begin();
+  for (const auto& [factor, power] : a) {
+    while (at != b.end() && at->first < factor) ++at;
+    if (at == b.end() || at->first != factor || at->second < power) return false;
+  }
+  return true;
+}
+
+bool have_common_factors(const Monomial& a, const Monomial& b) {
+  return std::ranges::any_of(a, [&](const auto& power) {
+    return std::ranges::any_of(b, [&](const auto& q) { return q.first == power.first; });
+  });
+}
+
+Monomial least_common_multiple(const Monomial& a, const Monomial& b) {
+  std::map<int, int> powers(a.begin(), a.end());
+  for (const auto& [factor, power] : b) powers[factor] = std::max(powers[factor], power);
+  return {powers.begin(), powers.end()};
+}
+
+// Coefficients that cancel leave round-off: 1e-13 of what was added is zero.
+void add_term(Polynomial& polynomial, const Monomial& monomial, double c) {
+  const auto [at, is_new] = polynomial.emplace(monomial, c);
+  if (is_new) return;
+  const double size = std::max(std::fabs(at->second), std::fabs(c));
+  at->second += c;
+  if (std::fabs(at->second) <= 1e-13 * size) polynomial.erase(at);
+}
+
+}  // namespace
+
+Monomial product(const Monomial& a, const Monomial& b, int sign) {
+  Monomial result;
+  auto i = a.begin();
+  auto j = b.begin();
+  while (i != a.end() || j != b.end()) {
+    if (j == b.end() || (i != a.end() && i->first < j->first)) {
+      result.push_back(*i++);
+    } else if (i == a.end() || j->first < i->first) {
+      result.emplace_back(j->first, sign * j->second);
+      ++j;
+    } else {
+      if (const int power = i->second + sign * j->second; power != 0)
+        result.emplace_back(i->first, power);
+      ++i, ++j;
+    }
+  }
+  return result;
+}
+
+PolynomialRelations::PolynomialRelations(const std::vector<Polynomial>& relations, bool backwards)
+    : backwards_(backwards) {
+  for (const Polynomial& relation : relations)
+    if (is_polynomial(relation)) add(relation);
+  complete();
+}
+
+bool PolynomialRelations::comes_first(const Monomial& a, const Monomial& b) const {
+  const int of_a = total_degree(a), of_b = total_degree(b);
+  if (of_a != of_b) return of_a > of_b;
+  const auto first = [](auto i, auto end, auto j, auto j_end, auto before) {
+    for (; i != end && j != j_end; ++i, ++j) {
+      if (i->first != j->first) return before(i->first, j->first);
+      if (i->second != j->second) return i->second > j->second;
+    }
+    return i != end;
+  };
+  return backwards_ ? first(a.rbegin(), a.rend(), b.rbegin(), b.rend(), std::greater<int>())
+                    : first(a.begin(), a.end(), b.begin(), b.end(), std::less<int>());
+}
+
+// Its remainder becomes an element; what that makes reducible is added once more. False where
+// there is no remainder, or one that is too long.
+bool PolynomialRelations::add(const Polynomial& polynomial) {
+  std::deque<Polynomial> waiting = {polynomial};
+  bool is_new = false;
+  while (!waiting.empty() && basis_.size() < kMostElements) {
+    const Polynomial next = remainder(waiting.front());
+    waiting.pop_front();
+    if (next.empty() || next.size() > kMostTerms) continue;
+    Element element;
+    double leading = 0.0;
+    for (const auto& [monomial, c] : next)
+      if (leading == 0.0 || comes_first(monomial, element.lead)) {
+        element.lead = monomial;
+        leading = c;
+      }
+    if (element.lead.empty()) continue;  // 1 = 0: the relations hold nowhere
+    for (const auto& [monomial, c] : next)
+      if (monomial != element.lead) element.rest.emplace(monomial, -c / leading);
+    std::erase_if(basis_, [&](const Element& other) {
+      if (!divides(element.lead, other.lead)) return false;
+      Polynomial again = other.rest;
+      for (auto& [monomial, c] : again) c = -c;
+      again.emplace(other.lead, 1.0);
+      waiting.push_back(std::move(again));
+      return true;
+    });
+    basis_.push_back(std::move(element));
+    is_new = true;
+  }
+  return is_new;
+}
+
+// Buchberger's algorithm: every pair of elements whose leads have a factor in common.
+void PolynomialRelations::complete() {
+  std::set<std::pair<Monomial, Monomial>> seen;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t i = 1; i < basis_.size() && !changed; ++i)
+      for (std::size_t j = 0; j < i && !changed; ++j) {
+        const Element &a = basis_[i], &b = basis_[j];
+        if (!have_common_factors(a.lead, b.lead) || !seen.emplace(a.lead, b.lead).second) continue;
+        if (seen.size() > kMostPairs) return;
+        const Monomial both = least_common_multiple(a.lead, b.lead);
+        const Monomial of_a = product(both, a.lead, -1), of_b = product(both, b.lead, -1);
+        Polynomial difference;
+        for (const auto& [monomial, c] : a.rest) add_term(difference, product(of_a, monomial), c);
+        for (const auto& [monomial, c] : b.rest) add_term(difference, product(of_b, monomial), -c);
+        try {
+          changed = add(difference);
+        } catch (const std::length_error&) {
+          return;
+        }
+      }
+  }
+}
+
+Polynomial PolynomialRelations::remainder(Polynomial polynomial) const {
+  constexpr int kMostSteps = 2000;
+  Polynomial result;
+  for (int steps = 0; !polynomial.empty(); ++steps) {
+    if (steps > kMostSteps)
+      throw std::length_error(
+          "PolynomialRelations::remainder: polynomial has a remainder of too "
+          "many terms.");
+    const auto [monomial, c] = *polynomial.begin();
+    polynomial.erase(polynomial.begin());
+    const auto element = std::ranges::find_if(
+        basis_, [&m = monomial](const Element& entry) { return divides(entry.lead, m); });
+    if (element == basis_.end()) {
+      add_term(result, monomial, c);
+      continue;
+    }
+    const Monomial multiplier = product(monomial, element->lead, -1);
+    for (const auto& [term, coefficient] : element->rest)
+      add_term(polynomial, product(multiplier, term), c * coefficient);
+  }
+  return result;
+}
+
+}  // namespace courant

@@ -1,0 +1,49 @@
+// Polynomials modulo relations.
+#pragma once
+
+#include <map>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace courant {
+
+// Factors by their number, increasing, each with its power (not 0).
+using Monomial = std::vector<std::pair<int, int>>;
+using Polynomial = std::map<Monomial, double>;  // no coefficient is 0
+
+// a b, or a/b for sign = -1.
+Monomial product(const Monomial& a, const Monomial& b, int sign = 1);
+
+// The ideal of polynomials r₁ … r_k, by a Gröbner basis of it: where all of them vanish, a
+// polynomial equals its remainder, and remainders of equal polynomials are equal.
+//
+// Monomials are ordered by degree, then by the powers of the factors, those with the smallest
+// number first or, `backwards`, last; the remainder has no multiple of a leading monomial. Factors
+// with negative powers may stand in what is reduced, not in relations; relations that have some are
+// left out. A basis that grows beyond 40 polynomials or 60 terms ends as it is: remainders are
+// right then, but not the only ones.
+//
+// Reference: Cox, Little, O'Shea, Ideals, Varieties, and Algorithms, 2.7, Theorem 2 (Buchberger).
+class PolynomialRelations {
+ public:
+  explicit PolynomialRelations(const std::vector<Polynomial>& relations, bool backwards = false);
+
+  // Throws std::length_error for polynomials that grow beyond some hundred terms.
+  Polynomial remainder(Polynomial polynomial) const;
+
+ private:
+  struct Element {
+    Monomial lead;
+    Polynomial rest;  // lead = rest
+  };
+
+  bool comes_first(const Monomial& a, const Monomial& b) const;
+  bool add(const Polynomial& polynomial);
+  void complete();
+
+  bool backwards_;
+  std::vector<Element> basis_;
+};
+
+}  // namespace courant
