@@ -39,6 +39,21 @@ std::string unknown_command(const std::string& word, const CLI::App& app) {
          "; `courant --help` lists the commands";
 }
 
+// An empty word names no file, folder or kind, also where an option without it has a default: it is
+// what a shell passes for "$name" without a value. Nothing if there is none.
+std::string empty_word(const std::vector<std::string>& arguments) {
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& word = arguments[i];
+    if (word.starts_with("--") && word.find('=') == word.size() - 1)
+      return word.substr(0, word.size() - 1) + ": is empty; expected a value";
+    if (!word.empty()) continue;
+    const std::string before = i > 0 ? arguments[i - 1] : "";
+    return (before.starts_with("-") ? before : "argument " + std::to_string(i + 1)) +
+           ": is empty; expected a value";
+  }
+  return "";
+}
+
 std::string table(const std::string& title, const std::vector<Term>& terms) {
   std::size_t width = 0;
   for (const Term& term : terms) width = std::max(width, term.name.size());
@@ -81,6 +96,8 @@ int command(const std::vector<std::string>& arguments, const Console& console) {
     if (!arguments.empty())
       if (const std::string what = unknown_command(arguments[0], app); !what.empty())
         return refuse(console, what, wrong);
+    if (const std::string what = empty_word(arguments); !what.empty())
+      return refuse(console, what + "; see `courant --help`", wrong);
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
     return unless_lost(console, session.action(console));
   } catch (const CLI::Success& help) {

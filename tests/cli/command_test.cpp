@@ -325,6 +325,19 @@ BOOST_AUTO_TEST_CASE(wrong_command_lines_are_status_2) {
   }
 }
 
+// As from "$folder" in a shell where it has no value.
+BOOST_AUTO_TEST_CASE(empty_words_are_no_defaults) {
+  using Words = std::vector<std::string>;
+  for (const auto& [arguments, place] :
+       {std::pair(Words{"run", "-", "-o", ""}, "-o"), std::pair(Words{"run", ""}, "argument 2"),
+        std::pair(Words{"run", "-", "--backend="}, "--backend")}) {
+    const Answer answer = courant_command(arguments, oscillator);
+    BOOST_TEST(answer.status == 2);
+    BOOST_TEST(answer.err == "courant: " + std::string(place) +
+                                 ": is empty; expected a value; see `courant --help`\n");
+  }
+}
+
 BOOST_AUTO_TEST_CASE(help_and_version_are_status_0) {
   const Answer help = courant_command({"--help"});
   BOOST_TEST(help.status == 0);
