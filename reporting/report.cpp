@@ -11,6 +11,7 @@
 #include "courant/reporting/energy_figures.hpp"
 #include "courant/reporting/ladder_diagram.hpp"
 #include "courant/reporting/report_figures.hpp"
+#include "courant/reporting/report_head.hpp"
 #include "courant/reporting/report_script.hpp"
 #include "courant/reporting/report_tables.hpp"
 #include "courant/reporting/typesetting.hpp"
@@ -39,6 +40,10 @@ border-bottom:1px solid var(--faint)}
 h1,p,figcaption,li,summary{overflow-wrap:anywhere}
 sub,sup{font-size:.72em;line-height:0}
 .lead{color:var(--soft);margin:0 0 1rem}
+.model{display:grid;grid-template-columns:max-content minmax(0,1fr);gap:.15rem 1rem;margin:0 0 1rem;font-size:.9rem}
+.model dt{color:var(--soft)}
+.model dd{margin:0;overflow-wrap:anywhere}
+.model code{font:13px/1.5 var(--mono)}
 figure{margin:1.2rem 0 2.2rem}
 figcaption{color:var(--soft);font-size:.9rem;margin-top:.4rem;max-width:42rem}
 figcaption b{color:var(--text);font-weight:normal;font-variant:small-caps}
@@ -156,18 +161,6 @@ std::string page_title(std::span<const Run> runs) {
   return word_list(titles, " · ");
 }
 
-Markup lead(std::span<const Run> runs) {
-  std::vector<std::string> systems;
-  for (const Run& run : runs) {
-    const std::string& system = run.summary.system;
-    if (std::find(systems.begin(), systems.end(), system) == systems.end())
-      systems.push_back(system);
-  }
-  std::string text = word_list(systems);
-  text += runs.size() == 1 ? " — one run" : " — " + std::to_string(runs.size()) + " runs";
-  return element("p", {{"class", "lead"}}, typeset_manifolds(text));
-}
-
 // What went wrong, of the runs that did not complete.
 Markup messages(std::span<const Run> runs, std::span<const std::string> labels) {
   Markup all;
@@ -253,7 +246,7 @@ std::string page_with_rows(std::span<const Run> runs, const PageFigures& made, s
   const std::vector<std::string> labels = run_labels(runs);
   const std::string title = page_title(runs);
   Figures figures(rows);
-  Markup body = element("h1", {}, title) + lead(runs) + messages(runs, labels);
+  Markup body = element("h1", {}, title) + report_head(runs) + messages(runs, labels);
   body += section("Motion", figures.add(made.motion));
   body += section("Energy", figures.add(made.energy));
   body += section("Constraint algorithm", ladders(runs, labels));

@@ -1,0 +1,129 @@
+#include "courant/reporting/report_head.hpp"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "courant/core/word_list.hpp"
+#include "courant/reporting/typesetting.hpp"
+
+namespace courant {
+namespace {
+
+using plot::element;
+using plot::Markup;
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMostEntries = 12, kMostLetters = 300;
+
+struct Entry {
+  std::string name;
+  std::vector<std::string> formulas;
+};
+
+// The object with that name, or one without members.
+Json members(const Json& object, const std::string& key) {
+  const auto found = object.is_object() ? object.find(key) : object.end();
+  return found != object.end() && found->is_object() ? *found : Json::object();
+}
+
+// A formula or a number as it is written; "" for anything else and for what is too long.
+std::string written(const Json& value) {
+  if (!value.is_string() && !value.is_number()) return "";
+  const std::string text = value.is_string()
+                               ? value.get<std::string>()
+                               : value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return text.size() > kMostLetters ? "" : text;
+}
+
+std::vector<std::string> formulas(const Json& value) {
+  std::vector<std::string> result;
+  if (!value.is_array()) {
+    result.push_back(written(value));
+  } else {
+    for (const Json& entry : value) result.push_back(written(entry));
+  }
+  if (std::ranges::count(result, "") > 0 || result.size() > kMostEntries) result.clear();
+  return result;
+}
+
+// Formulas of the system, then numbers and parameters: those of ready-made systems are members of
+// it.
+std::vector<Entry> model(const Json& experiment) {
+  constexpr std::string_view no_formulas[] = {"type", "manifold", "coordinates", "unknowns"};
+  std::vector<Entry> entries;
+  Entry parameters = {"parameters", {}};
+  const auto add_parameter = [&](const std::string& name, const Json& value) {
+    const std::string text = value.is_array()
+                                 ? value.dump(-1, ' ', false, Json::error_handler_t::replace)
+                                 : written(value);
+    if (!text.empty() && text.size() <= kMostLetters)
+      parameters.formulas.push_back(name + " = " + text);
+  };
+  const Json system = members(experiment, "system");
+  for (const auto& [key, value] : system.items()) {
+    if (std::ranges::count(no_formulas, key) > 0) continue;
+    const bool is_text =
+        value.is_string() || (value.is_array() && !value.empty() && value.front().is_string());
+    if (!is_text && !value.is_object())
+      add_parameter(key, value);
+    else if (auto lines = formulas(value); !lines.empty())
+      entries.push_back({key, std::move(lines)});
+  }
+  for (const Json& given : {members(experiment, "parameters"), members(system, "parameters")})
+    for (const auto& [name, value] : given.items()) add_parameter(name, value);
+  if (entries.size() > kMostEntries) entries.resize(kMostEntries);
+  if (!parameters.formulas.empty() && parameters.formulas.size() <= kMostEntries)
+    entries.push_back(std::move(parameters));
+  return entries;
+}
+
+Markup entry(const std::string& name, const Markup& content) {
+  return element("dt", {}, name) + element("dd", {}, content);
+}
+
+// "completed, 4000 steps", or how many runs have which status.
+Markup status(std::span<const Run> runs) {
+  std::map<RunStatus, std::size_t> counts;
+  for (const Run& run : runs) ++counts[run.summary.status];
+  Markup all;
+  for (const auto& [status, count] : counts) {
+    std::string text = to_string(status);
+    if (counts.size() > 1 || count > 1) text = std::to_string(count) + " " + text;
+    if (!all.str().empty()) all += ", ";
+    all += element("span", {{"class", status == RunStatus::completed ? "good" : "bad"}}, text);
+  }
+  if (runs.size() == 1) all += ", " + std::to_string(runs[0].summary.steps) + " steps";
+  return entry("status", all);
+}
+
+}  // namespace
+
+Markup report_head(std::span<const Run> runs) {
+  std::vector<std::string> systems;
+  for (const Run& run : runs)
+    if (std::ranges::count(systems, run.summary.system) == 0) systems.push_back(run.summary.system);
+  std::string text = word_list(systems);
+  text += runs.size() == 1 ? " — one run" : " — " + std::to_string(runs.size()) + " runs";
+
+  Markup entries = status(runs);
+  const Json& first = runs.front().experiment;
+  const auto is_the_same = [&](const Run& run) {
+    for (const char* key : {"system", "parameters"})
+      if (members(run.experiment, key) != members(first, key)) return false;
+    return true;
+  };
+  if (std::ranges::all_of(runs, is_the_same))
+    for (const auto& [name, lines] : model(first)) {
+      Markup content;
+      for (const std::string& line : lines)
+        content += element("div", {}, element("code", {}, line));
+      entries += entry(name, content);
+    }
+  return element("p", {{"class", "lead"}}, typeset_manifolds(text)) +
+         element("dl", {{"class", "model"}}, entries);
+}
+
+}  // namespace courant

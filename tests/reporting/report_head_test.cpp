@@ -1,0 +1,79 @@
+#include "courant/reporting/report_head.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include "some_runs.hpp"
+
+BOOST_AUTO_TEST_SUITE(report_head_test)
+
+using namespace courant;
+using namespace courant::test;
+
+namespace {
+
+Run run_of(const Json& experiment, RunStatus status = RunStatus::completed) {
+  Run run = table({"t", "q"}, 3, [](std::size_t, double t) { return t; });
+  run.experiment = experiment;
+  run.summary.status = status;
+  return run;
+}
+
+const Json pendulum = {{"system",
+                        {{"type", "hamiltonian"},
+                         {"coordinates", {"q"}},
+                         {"hamiltonian", "p_q^2/2 - g*cos(q) & <"},
+                         {"parameters", {{"g", 9.81}, {"l", "1/2"}}}}}};
+
+std::string head(const std::vector<Run>& runs) { return report_head(runs).str(); }
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(equations_parameters_and_status_are_there) {
+  const std::string text = head({run_of(pendulum)});
+  BOOST_TEST(has(text, "p_q^2/2 - g*cos(q) &amp; &lt;"), text);
+  BOOST_TEST(has(text, "g = 9.81"));
+  BOOST_TEST(has(text, "l = 1/2"));
+  BOOST_TEST(has(text, ">completed</span>, 2 steps"));
+  BOOST_TEST(!has(text, "coordinates"));
+  BOOST_TEST(has(head({run_of(pendulum, RunStatus::failed)}), R"(class="bad">failed)"));
+}
+
+BOOST_AUTO_TEST_CASE(lists_of_equations_and_ready_made_systems) {
+  const std::string equations =
+      head({run_of({{"system", {{"type", "implicit"}, {"equations", {"x' - y", "y' + x"}}}}})});
+  BOOST_TEST(has(equations, "<code>x&#39; - y</code>"), equations);
+  BOOST_TEST(has(equations, "<code>y&#39; + x</code>"));
+  const std::string top = head({run_of(
+      {{"system", {{"type", "heavy-top"}, {"I", {1, 1, 0.4}}}}, {"parameters", {{"m", 2}}}})});
+  BOOST_TEST(has(top, "I = [1,1,0.4]"), top);
+  BOOST_TEST(has(top, "m = 2"));
+}
+
+BOOST_AUTO_TEST_CASE(of_several_runs_only_what_all_have) {
+  Json other = pendulum;
+  other["system"]["hamiltonian"] = "p_q^2";
+  BOOST_TEST(has(head({run_of(pendulum), run_of(pendulum)}), "g = 9.81"));
+  BOOST_TEST(has(head({run_of(pendulum), run_of(pendulum)}), "2 completed"));
+  const std::string both = head({run_of(pendulum), run_of(other, RunStatus::failed)});
+  BOOST_TEST(!has(both, "g = 9.81"), both);
+  BOOST_TEST(has(both, "1 completed"));
+  BOOST_TEST(has(both, "1 failed"));
+}
+
+// An experiment.json may have been written by anybody.
+BOOST_AUTO_TEST_CASE(any_experiment_has_a_head) {
+  for (const Json& experiment :
+       {Json(nullptr), Json(3), Json::array(), Json{{"system", 1}},
+        Json{{"system", {{"a", nullptr}}}}, Json{{"system", {{"equations", {"x", {{"y", 1}}}}}}},
+        Json{{"parameters", {1, 2}}}})
+    BOOST_TEST(has(head({run_of(experiment)}), "completed"), experiment.dump());
+  const std::string long_formula =
+      head({run_of({{"system", {{"hamiltonian", std::string(301, 'x')}}}})});
+  BOOST_TEST(!has(long_formula, "hamiltonian"), long_formula);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
