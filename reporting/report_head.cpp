@@ -50,17 +50,20 @@ std::vector<std::string> formulas(const Json& value) {
 }
 
 // Formulas of the system, then numbers and parameters: those of ready-made systems are members of
-// it.
+// it. An entry without formulas in the end where something was left out.
 std::vector<Entry> model(const Json& experiment) {
   constexpr std::string_view no_formulas[] = {"type", "manifold", "coordinates", "unknowns"};
   std::vector<Entry> entries;
   Entry parameters = {"parameters", {}};
+  bool is_whole = true;
   const auto add_parameter = [&](const std::string& name, const Json& value) {
     const std::string text = value.is_array()
                                  ? value.dump(-1, ' ', false, Json::error_handler_t::replace)
                                  : written(value);
     if (!text.empty() && text.size() <= kMostLetters)
       parameters.formulas.push_back(name + " = " + text);
+    else
+      is_whole = false;
   };
   const Json system = members(experiment, "system");
   for (const auto& [key, value] : system.items()) {
@@ -71,12 +74,15 @@ std::vector<Entry> model(const Json& experiment) {
       add_parameter(key, value);
     else if (auto lines = formulas(value); !lines.empty())
       entries.push_back({key, std::move(lines)});
+    else
+      is_whole = is_whole && key == "parameters";
   }
   for (const Json& given : {members(experiment, "parameters"), members(system, "parameters")})
     for (const auto& [name, value] : given.items()) add_parameter(name, value);
-  if (entries.size() > kMostEntries) entries.resize(kMostEntries);
-  if (!parameters.formulas.empty() && parameters.formulas.size() <= kMostEntries)
-    entries.push_back(std::move(parameters));
+  if (parameters.formulas.size() > kMostEntries) parameters.formulas.clear(), is_whole = false;
+  if (entries.size() > kMostEntries) entries.resize(kMostEntries), is_whole = false;
+  if (!parameters.formulas.empty()) entries.push_back(std::move(parameters));
+  if (!is_whole) entries.push_back({"and more", {}});
   return entries;
 }
 
@@ -120,6 +126,7 @@ Markup report_head(std::span<const Run> runs) {
       Markup content;
       for (const std::string& line : lines)
         content += element("div", {}, element("code", {}, line));
+      if (lines.empty()) content = "in the experiment at the end of this page";
       entries += entry(name, content);
     }
   return element("p", {{"class", "lead"}}, typeset_manifolds(text)) +

@@ -74,6 +74,8 @@ BOOST_AUTO_TEST_CASE(any_experiment_has_a_head) {
   const std::string long_formula =
       head({run_of({{"system", {{"hamiltonian", std::string(301, 'x')}}}})});
   BOOST_TEST(!has(long_formula, "hamiltonian"), long_formula);
+  BOOST_TEST(has(long_formula, "and more"));
+  BOOST_TEST(!has(head({run_of(pendulum)}), "and more"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()
