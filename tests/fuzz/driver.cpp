@@ -1,4 +1,5 @@
-// The entry points of libFuzzer without it: every file of the corpus as it is, then mutations of them.
+// The entry points of libFuzzer without it: the files of the corpus as they are, in an order by chance,
+// and after each of them a mutation of any, then mutations alone.
 //
 //   fuzz_… [-runs=N] [-max_total_time=SECONDS] [-timeout=SECONDS] [-seed=N] [-max_len=N] FOLDER…
 //
@@ -171,7 +172,8 @@ Arguments read_arguments(const std::vector<std::string>& words) {
           arguments.corpus.push_back(text_of(entry.path()));
   }
   if (arguments.corpus.empty()) arguments.corpus.emplace_back();
-  std::sort(arguments.corpus.begin(), arguments.corpus.end());
+  std::sort(arguments.corpus.begin(), arguments.corpus.end());  // not as the folder lists them
+  std::shuffle(arguments.corpus.begin(), arguments.corpus.end(), generator());
   return arguments;
 }
 
@@ -199,8 +201,9 @@ int main(int count, char** words) {
   std::size_t execution = 0;
   for (; execution < arguments.executions && std::chrono::steady_clock::now() < end; ++execution) {
     const std::vector<std::string>& corpus = arguments.corpus;
-    input = execution < corpus.size() ? corpus[execution]
-                                      : mutated(corpus[below(corpus.size())], arguments.most_bytes);
+    input = execution % 2 == 0 && execution / 2 < corpus.size()
+                ? corpus[execution / 2]
+                : mutated(corpus[below(corpus.size())], arguments.most_bytes);
     execute();
   }
   std::cout << execution << " executions\n";
