@@ -55,8 +55,8 @@ LadderReport read_ladder(const Json& json) {
     return read_ladder_report(json);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument("/ladder" + std::string(error.what()));
-  } catch (const Json::exception& error) {
-    throw std::invalid_argument("/ladder: is none that a run writes: " + std::string(error.what()));
+  } catch (const Json::exception&) {
+    throw std::invalid_argument("/ladder: is none that a run writes.");
   }
 }
 

@@ -105,6 +105,15 @@ BOOST_AUTO_TEST_CASE(a_defect_is_said_with_its_place) {
   BOOST_TEST(said("ladder", {{"verdict", "later"}, {"levels", Json::array()}}) ==
              "/ladder/verdict: is \"later\", expected one of regular, gauge, inconsistent, "
              "rank-change, not-reached.");
+  for (const char* list : {"moves", "levels", "constraints", "doubts"}) {
+    Json ladder = {{"verdict", "regular"}, {"levels", Json::array()}};
+    ladder[list] = Json::array({1.5});
+    const std::string what = said("ladder", ladder);
+    BOOST_TEST(what.find("exception") == std::string::npos, what);
+  }
+  BOOST_TEST(
+      said("ladder", {{"verdict", "regular"}, {"levels", Json::array()}, {"moves", {1.5}}}) ==
+      "/ladder: is none that a run writes.");
   BOOST_TEST(said("status", "lost") ==
              "/status: is \"lost\", expected running, completed, failed, interrupted or "
              "not-finite.");
