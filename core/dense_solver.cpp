@@ -44,6 +44,7 @@ DenseSolver::DenseSolver(const MatrixPattern& pattern)
       scaled_(pattern.rows, pattern.columns),
       row_(pattern.rows),
       column_(pattern.columns),
+      largest_(pattern.rows),
       inverse_(pattern.columns, pattern.rows),
       multiply_(with_static_size(pattern.rows == pattern.columns ? pattern.rows : 0,
                                  [](auto n) { return &multiply<decltype(n)::value>; })) {}
@@ -102,20 +103,26 @@ bool DenseSolver::do_factorize(const double* entries) {
 // Both kinds of units, twice: rows by columns in units of their own, and columns by such rows.
 void DenseSolver::equilibrate_by_powers() {
   const Index n = A_.rows();
-  const auto scaled = [&](Index i, Index j) { return row_[i] * (A_(i, j) * column_[j]); };
+  const double* const A = A_.data();
+  double* const S = scaled_.data();
+  double* const row = row_.data();
   row_.setOnes();
   column_.setOnes();
-  scaled_ = A_;
+  for (Index k = 0; k < n * n; ++k) S[k] = A[k];
   for (int sweep = 0; sweep < 2; ++sweep) {
-    for (Index j = 0; j < n; ++j)
-      regular_matrix::scale_to_one(scaled_.col(j).lpNorm<Eigen::Infinity>(), column_[j]);
-    for (Index i = 0; i < n; ++i) {
-      double largest = 0.0;
-      for (Index j = 0; j < n; ++j) largest = std::max(largest, std::fabs(scaled(i, j)));
-      regular_matrix::scale_to_one(largest, row_[i]);
+    largest_.setZero();
+    for (Index j = 0, k = 0; j < n; ++j) {
+      double size = 0.0;
+      for (Index i = 0; i < n; ++i) size = std::max(size, std::fabs(S[k + i]));
+      regular_matrix::scale_to_one(size, column_[j]);
+      for (Index i = 0; i < n; ++i, ++k) {
+        S[k] = A[k] * column_[j];
+        largest_[i] = std::max(largest_[i], std::fabs(row[i] * S[k]));
+      }
     }
-    for (Index j = 0; j < n; ++j)
-      for (Index i = 0; i < n; ++i) scaled_(i, j) = scaled(i, j);
+    for (Index i = 0; i < n; ++i) regular_matrix::scale_to_one(largest_[i], row[i]);
+    for (Index j = 0, k = 0; j < n; ++j)
+      for (Index i = 0; i < n; ++i, ++k) S[k] *= row[i];
   }
 }
 

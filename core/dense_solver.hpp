@@ -30,6 +30,7 @@ class DenseSolver final : public LinearSolver {
   MatrixXd A_;
   MatrixXd scaled_;        // diag(row) A diag(column)
   VectorXd row_, column_;  // powers of two
+  VectorXd largest_;       // of each row
   LuDecomposition lu_;
   MatrixXd inverse_;
   MatrixXd open_;          // I - A⁺ A where A leaves unknowns open

@@ -56,6 +56,10 @@ Newton::Newton(EquationSystem system, std::vector<Index> groups, const Options& 
   ContainedUnknowns contained(function_);
   contained_ = std::move(contained.places);
   ends_ = group_ends(groups_, contained_);
+  std::vector<bool> is_contained(system_.kept().size());
+  for (const Index place : contained_) is_contained[static_cast<std::size_t>(place)] = true;
+  for (std::size_t k = 0; k < is_contained.size(); ++k)
+    (is_contained[k] ? sought_ : left_).push_back(system_.kept()[k]);
   solver_ = options_.solver ? options_.solver(contained.pattern) : linear_solver(contained.pattern);
   all_.resize(function_.output_size() + function_.nonzeros());
   step_.resize(static_cast<Index>(contained_.size()));
@@ -184,10 +188,11 @@ void Newton::give(double* y) {
     y[system_.eliminated()[static_cast<std::size_t>(i)]] = given_[i];
 }
 
-Newton::Result Newton::solve(double* y, const double* const* in, const double* scales) {
-  if (!system_.is_reduced()) return solve_kept(y, in, scales);
+Newton::Result Newton::solve_roughly(double* y, const double* const* in, const double* scales,
+                                     double part) {
+  if (!system_.is_reduced()) return solve_kept(y, in, scales, part);
   const double* const* of_kept = take_kept(y, in);
-  Result result = solve_kept(kept_.data(), of_kept, scales);
+  Result result = solve_kept(kept_.data(), of_kept, scales, part);
   give(y);
   return result;
 }
@@ -227,14 +232,17 @@ bool Newton::approach(double* y, const double* const* in, const double* scales) 
   return arrived;
 }
 
-Newton::Result Newton::solve_kept(double* y, const double* const* in, const double* scales) {
+Newton::Result Newton::solve_kept(double* y, const double* const* in, const double* scales,
+                                  double part) {
   Result result;
+  double tolerance = options_.tolerance;
   const auto residual = all_.head(function_.output_size());
   double previous = std::numeric_limits<double>::infinity();
   double contraction = 0.0;
   bool fresh = false;      // A belongs to a point of this solve
   bool close = false;      // which a short change led to
   double unsolved = -1.0;  // where changes stalled before, if they did
+  bool evaluated = false;  // F is that of y
   int compared = 0;        // iterations with the same A before, which made `previous`
   double moved = std::numeric_limits<double>::infinity();
   const auto refactorize = [&] {
@@ -242,6 +250,7 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
     fresh = true;
     close = moved <= kShort;
     compared = 0;
+    evaluated = true;
     return factorize(in);
   };
   if (!factorized_ && !refactorize()) {
@@ -250,15 +259,17 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
   }
   while (result.iterations < options_.max_iterations) {
     ++result.iterations;
-    function_.value(in, all_.data());
+    if (!evaluated) function_.value(in, all_.data());
+    evaluated = false;
     moved = improve(y, scales);
+    if (result.iterations == 1) tolerance = std::max(tolerance, part * moved);
     if (!std::isfinite(moved)) {
       result.residuals.push_back(residual.size() == 0 ? 0.0 : residual.lpNorm<Eigen::Infinity>());
       return result;
     }
     // Least squares of a matrix of this solve are at their least, but that may be no solution.
     const auto accepted = [&] { return is_solved(y, scales, fresh); };
-    if (moved <= options_.tolerance) {
+    if (moved <= tolerance) {
       if (!accepted()) {
         if (fresh) break;
         if (refactorize()) continue;
@@ -271,7 +282,7 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
     if (compared > 0) {
       contraction = moved / previous;
       if (contraction < 0.5 && previous <= kLongStep &&
-          contraction * moved <= (1.0 - contraction) * options_.tolerance && accepted()) {
+          contraction * moved <= (1.0 - contraction) * tolerance && accepted()) {
         result.status = Status::converged;
         return result;
       }
@@ -281,7 +292,7 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
       const bool rounded =
           stalled && (moved > kRoundOff ? stagnant || unsolved_part(y, scales, false) <= kRounded
                                         : close || moved <= std::max(kLeast, 2 * round_off_));
-      const bool slow = contraction > options_.slow && moved > 1e3 * options_.tolerance;
+      const bool slow = contraction > options_.slow && moved > 1e3 * tolerance;
       if ((slow && !fresh) || (stalled && !rounded) ||
           (rounded && !is_still(y, scales, fresh, unsolved))) {
         if (!refactorize()) {

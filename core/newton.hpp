@@ -49,7 +49,12 @@ class Newton {
 
   // in[0] is where y is read and written; in[1] … are the parameters. scales[g]: a typical size of
   // block g (its current values count too). On failure y holds the last iterate.
-  Result solve(double* y, const double* const* in, const double* scales);
+  Result solve(double* y, const double* const* in, const double* scales) {
+    return solve_roughly(y, in, scales, 0.0);
+  }
+  // The same, where parameters will change by about `part` of what y changes by at first, and y with
+  // them: an error of that size is as good as none.
+  Result solve_roughly(double* y, const double* const* in, const double* scales, double part);
 
   // Moves y by damped steps to where solve() converges, from far away; see damped_newton(), which says what
   // is to be thought of the zero that is found. Arguments as of solve(). False, y as it was: it does not
@@ -66,14 +71,16 @@ class Newton {
     round_off_ = 0.0;
   }
 
-  // The unknowns that solve() starts from; it writes the others without reading them.
-  const std::vector<Index>& kept() const { return system_.kept(); }
+  // The unknowns that solve() starts from and moves, and those that it leaves as they are, since no
+  // equation contains them; it writes the others without reading them. Ascending.
+  const std::vector<Index>& sought() const { return sought_; }
+  const std::vector<Index>& left() const { return left_; }
 
   // Whether, by the last factorisation, F determines all the unknowns that it contains.
   bool is_determined() const { return solver_->is_determined(); }
 
  private:
-  Result solve_kept(double* u, const double* const* in, const double* scales);
+  Result solve_kept(double* u, const double* const* in, const double* scales, double part);
   const double* const* take_kept(const double* y, const double* const* in);
   void give(double* y);
   bool factorize(const double* const* in);
@@ -85,7 +92,8 @@ class Newton {
   bool is_still(const double* y, const double* scales, bool fresh, double& before);
 
   EquationSystem system_;
-  const Function function_;       // of the unknowns that are kept
+  const Function function_;  // of the unknowns that are kept
+  std::vector<Index> sought_, left_;
   std::vector<Index> groups_;     // their sizes among those
   std::vector<Index> contained_;  // kept unknowns that F contains, ascending
   std::vector<Index> ends_;       // of the groups, in contained_

@@ -1,6 +1,9 @@
 #include "courant/integrators/composition.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <vector>
 
@@ -25,10 +28,15 @@ constexpr auto kOrder8 = palindrome(std::array{
     0.15884190655515560089621075, -0.39590389413323757733623154, 0.18453964097831570709183254,
     0.25837438768632204729397911, 0.29501172360931029887096624, -0.60550853383003451169892108});
 
+// Two times that a straight line goes through are at least so many times as far apart as the nearer one
+// is away: it is not extended by more than twice the distance between them.
+constexpr double kApart = 0.5;
+
 }  // namespace
 
 // Each stage has a stepper of its own: it sees equal steps along a smooth curve, one in each step
-// of the composition, and keeps the factorisation for its size.
+// of the composition, and keeps the factorisation for its size. It goes on with the bases of the
+// stage before, and learns from the two stages that are nearest in time.
 class Composition::Trajectory final : public Stepper {
  public:
   Trajectory(std::shared_ptr<const Integrator> method, int order, const std::string& name)
@@ -37,6 +45,20 @@ class Composition::Trajectory final : public Stepper {
         order_(order),
         coefficients_(coefficients(order)) {
     for (std::size_t i = 0; i < coefficients_.size(); ++i) stages_.push_back(composed_->stepper());
+    const auto at_stage = Composition::nearby_stages(coefficients_, 0.5);
+    const auto at_end = Composition::nearby_stages(coefficients_, 1.0);
+    for (std::size_t i = 0; i < stages_.size(); ++i) {
+      std::vector<Companion> companions;
+      const auto add = [&](std::size_t stage, double at_stage, double at_end) {
+        companions.push_back({.stepper = stages_[stage].get(),
+                              .at_stage = at_stage,
+                              .at_end = at_end,
+                              .ratio = coefficients_[i] / coefficients_[stage]});
+      };
+      for (const auto& [stage, times] : at_stage[i]) add(stage, times, 0.0);
+      for (const auto& [stage, times] : at_end[i]) add(stage, 0.0, times);
+      stages_[i]->accompany(companions);
+    }
   }
 
  private:
@@ -51,15 +73,17 @@ class Composition::Trajectory final : public Stepper {
     for (std::size_t i = 0; i < stages_.size(); ++i) {
       share += coefficients_[i];
       const bool is_last = i + 1 == stages_.size();
-      advance(*stages_[i], after, coefficients_[i] * h, is_last ? end : before.t + share * h);
+      const Stepper& previous = i == 0 ? *stages_.back() : *stages_[i - 1];
+      advance(*stages_[i], previous, after, coefficients_[i] * h,
+              is_last ? end : before.t + share * h);
     }
   }
 
   // The work of a stage counts, whether it can be made or not.
-  void advance(Stepper& stage, State& state, double h, double end) {
+  void advance(Stepper& stage, const Stepper& previous, State& state, double h, double end) {
     const SolverStatistics before = stage.statistics();
     try {
-      stage.step(state, h, end);
+      stage.step_from(previous, state, h, end);
     } catch (...) {
       statistics_.add_work(before, stage.statistics());
       throw;
@@ -146,6 +170,31 @@ std::span<const double> Composition::coefficients(int order) {
       throw std::invalid_argument("Composition::coefficients: order is " + std::to_string(order) +
                                   "; expected 4, 6 or 8.");
   }
+}
+
+std::vector<std::array<Composition::NearbyStage, 2>> Composition::nearby_stages(
+    std::span<const double> steps, double part) {
+  std::vector<double> times;
+  double begin = 0.0;
+  for (const double step : steps) {
+    times.push_back(begin + part * step);
+    begin += step;
+  }
+  std::vector<std::array<NearbyStage, 2>> result;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const auto after = [&](std::size_t j) { return times[j] - times[i] - (j < i ? 0.0 : 1.0); };
+    std::vector<std::size_t> others(steps.size());
+    std::iota(others.begin(), others.end(), std::size_t{0});
+    std::ranges::stable_sort(others, {}, [&](std::size_t j) { return std::fabs(after(j)); });
+    const double first = after(others[0]);
+    const auto second = std::ranges::find_if(others, [&](std::size_t j) {
+      return std::fabs(after(j) - first) >= kApart * std::fabs(first);
+    });
+    const double other = after(*second);
+    result.push_back({NearbyStage{.stage = others[0], .times = other / (other - first)},
+                      NearbyStage{.stage = *second, .times = first / (first - other)}});
+  }
+  return result;
 }
 
 std::string Composition::name() const {

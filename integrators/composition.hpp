@@ -1,6 +1,7 @@
 // Higher order by substeps of a symmetric method.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -38,6 +39,17 @@ class Composition final : public Integrator, public Programmed {
 
   // γ_1 … γ_s of order 4, 6 or 8; throws std::invalid_argument for others.
   static std::span<const double> coefficients(int order);
+
+  // For each of some steps that make one of size 1 the two others whose last steps are nearest to its own in time, at `part` of them
+  // (1/2 in the middle, 1 at the end): those before it in this step, itself and those after it in the
+  // one before. What belongs to such times and is smooth is extrapolated by a straight line if it is
+  // taken so many times.
+  struct NearbyStage {
+    std::size_t stage;
+    double times;
+  };
+  static std::vector<std::array<NearbyStage, 2>> nearby_stages(std::span<const double> steps,
+                                                               double part);
 
   std::string name() const override;
   int order() const override { return order_; }

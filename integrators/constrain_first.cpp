@@ -63,6 +63,24 @@ class ConstrainFirst::Trajectory final : public Stepper {
     projection_.take(state);
   }
 
+  bool do_take_over(const Stepper& other) override {
+    const auto* before = dynamic_cast<const Trajectory*>(&other);
+    if (before == nullptr) return false;
+    const bool goes_on = basis_.take_over(before->basis_);
+    if (!goes_on) predictor_.forget();
+    projection_.take_over(before->projection_, goes_on);
+    return true;
+  }
+
+  void do_accompany(std::span<const Companion> companions) override {
+    for (const Companion& of : companions) {
+      const auto& other = dynamic_cast<const Trajectory&>(*of.stepper);
+      if (of.at_stage != 0.0)
+        predictor_.learn_from(other.predictor_, projection_.times_of(of.at_stage, of.ratio, n_));
+      projection_.learn_from(other.projection_, of);
+    }
+  }
+
   void do_step(const State& before, double h, State& after) override {
     VectorXd& y = solver_.unknown();
     const auto begin = [&] {

@@ -16,6 +16,12 @@ constexpr int kMaxProjections = 30;
 constexpr double kTolerance = 1e-16;
 constexpr double kSafety = 10.0;
 
+// Where x moves with W by more than this part, W is not looked at before x is found.
+constexpr double kMostTurning = 0.1;
+
+// Of what x will move by once more with the next W, a part that is no matter.
+constexpr double kRough = 0.1;
+
 // P takes the end of a step to the point of M_f nearby: to a distance below that part of the step.
 // Solutions farther away are other ones, which an old factorisation can lead to.
 constexpr double kNearby = 0.5;
@@ -30,9 +36,8 @@ ConstrainFirst::Projection::Projection(const ConstrainFirst& method, MovingBasis
       d_(method.codimension_),
       rest_((method.blocks_ - 2) * n_ + method.auxiliaries_),
       solver_(method.projection_, {n_, n_, rest_, d_}, method.name() + " (projection)"),
-      end_(method.fixed_directions_.size() > 0
-               ? Predictor(predicted_groups(method, solver_.unknown().size()), solver_.predicted())
-               : Predictor(predicted_groups(method, solver_.unknown().size()))),
+      end_(predicted_groups(method, solver_.unknown().size()),
+           method.fixed_directions_.size() > 0 ? solver_.predicted() : solver_.found()),
       shift_({method.system()->manifold()->tangent_dimension()}),
       basis_(basis),
       conormals_(method.conormals_, n_, d_),
@@ -88,8 +93,12 @@ void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& a
         y.data(), guess_.data(), basis_.data(), directions_.matrix().data(), near_.data(), &t};
     const auto sizes = scales(before, attempt.h, largest(near_));
     const auto begin = [&] { y = start_; };
+    // What x moves by, times `turning`, is about what it will move by with the next W.
+    const double turning =
+        goes_on && !has_fixed_directions() ? turning_ * std::max(y.tail(d_).norm(), far) : 0.0;
+    const double part = turning < kMostTurning ? kRough * turning : 0.0;
     const auto lands_nearby = [&] {
-      solver_.solve(in, sizes.data(), begin, attempt, statistics);
+      solver_.solve(in, sizes.data(), begin, attempt, statistics, part);
       method_.projected_.value(in, found_.data());
       return !goes_on || is_nearby(before, sizes[0]);
     };
@@ -113,7 +122,7 @@ void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& a
       if (goes_on && kSafety * turning_ * distance * change <= kTolerance * size) return;
     } else {
       const double contraction = moved / previous;
-      if (moved <= 1e-15 * size || contraction * moved <= kTolerance * size ||
+      if (moved <= 1e-15 * size || std::max(contraction, part) * moved <= kTolerance * size ||
           (contraction >= 0.5 && moved < 1e-12 * (1.0 + size)))
         return;
     }
@@ -200,6 +209,33 @@ bool ConstrainFirst::Projection::accept(const VectorXd& x) {
   jets_.head(n_).setZero();
   jets_.tail(d_).setZero();
   return goes_on;
+}
+
+void ConstrainFirst::Projection::take_over(const Projection& other, bool goes_on) {
+  if (!goes_on) forget_motion();
+  conormals_.take_over(other.conormals_);
+  directions_.take_over(other.directions_);
+  jets_ = other.jets_;
+  turning_ = other.turning_;
+  is_turned_ = false;
+}
+
+void ConstrainFirst::Projection::learn_from(const Projection& other,
+                                            const Stepper::Companion& companion) {
+  const double ratio = companion.ratio, times = companion.at_end;
+  if (times == 0.0) return;
+  end_.learn_from(other.end_, times_of(times, ratio, 0));
+  shift_.learn_from(other.shift_, VectorXd::Constant(shifted_.size(), times * (ratio * ratio)));
+  conormals_.learn_from(other.conormals_, times);
+}
+
+// Steps end off M_f by what goes like their squares.
+VectorXd ConstrainFirst::Projection::times_of(double times, double ratio,
+                                              Index displacements) const {
+  VectorXd all = VectorXd::Constant(solver_.unknown().size(), times);
+  all.head(displacements) *= ratio;
+  all.tail(d_) *= ratio * ratio;
+  return all;
 }
 
 void ConstrainFirst::Projection::discard() {

@@ -45,6 +45,14 @@ class ConstrainFirst::Projection {
   // The point found is where the next step begins; the last one began at x. False if coordinates of tangent
   // vectors have nothing to do with those before: then all that was recorded is forgotten.
   bool accept(const VectorXd& x);
+  // The next step begins where the other one's last accept() was; the basis is there already, or was
+  // made afresh on the way (`goes_on` false).
+  void take_over(const Projection& other, bool goes_on);
+  // As of Stepper, at the ends of steps.
+  void learn_from(const Projection& other, const Stepper::Companion& companion);
+  // For each unknown of a step, or of a projection, what `times` becomes for steps of this ratio; so many of the first are
+  // displacements.
+  VectorXd times_of(double times, double ratio, Index displacements) const;
   void discard();        // back to the last accept()
   void forget_motion();  // what was recorded
   void forget();
@@ -69,7 +77,7 @@ class ConstrainFirst::Projection {
   const ConstrainFirst& method_;
   Index n_, d_, rest_;
   StepSolver solver_;
-  Predictor end_;    // of its unknowns; of all of them where W depends on them
+  Predictor end_;    // of its unknowns; of all that are found where W depends on them
   Predictor shift_;  // of the vector at near_ that leads to x
   MovingBasis& basis_;
   MovingConormals conormals_;

@@ -46,6 +46,16 @@ void DisplacementStepper::do_keep(const State&, const State&) {
   kept_.swap(next_);
 }
 
+void DisplacementStepper::do_accompany(std::span<const Companion> companions) {
+  for (const Companion& of : companions) {
+    if (of.at_stage == 0.0) continue;
+    const auto& other = dynamic_cast<const DisplacementStepper&>(*of.stepper);
+    VectorXd times = VectorXd::Constant(solver_.unknown().size(), of.at_stage);
+    times.head(times.size() - m_) *= of.ratio;
+    predictor_.learn_from(other.predictor_, times);
+  }
+}
+
 void DisplacementStepper::do_forget() {
   solver_.forget();
   predictor_.forget();

@@ -45,6 +45,7 @@ class DisplacementStepper : public Stepper {
   virtual void do_begin(const State& before, double h, VectorXd& y) = 0;
 
   void do_change_step() override { predictor_.forget(); }
+  void do_accompany(std::span<const Companion> companions) override;
   Motion do_motion() const override { return solver_.motion(manifold()); }
   void do_expect(const Motion& motion) override { solver_.expect(motion); }
 

@@ -39,6 +39,7 @@ bool MovingBasis::move_to(const VectorXd& x) {
   if (!is_set_) {
     basis_ = manifold_.tangent_basis(x);
     is_set_ = true;
+    ++times_made_;
     return false;
   }
   const double* in[] = {x.data(), data()};
@@ -52,7 +53,18 @@ bool MovingBasis::move_to(const VectorXd& x) {
     }
   }
   basis_ = manifold_.tangent_basis(x);
+  ++times_made_;
   return false;
+}
+
+bool MovingBasis::take_over(const MovingBasis& other) {
+  if (projection_.output_size() == 0) return true;
+  const bool goes_on = times_made_ == other.times_made_;
+  basis_ = other.basis_;
+  kept_ = other.kept_;
+  is_set_ = other.is_set_;
+  times_made_ = other.times_made_;
+  return goes_on;
 }
 
 void MovingBasis::coordinates_of(const VectorXd& v, Eigen::Ref<VectorXd> coordinates) const {

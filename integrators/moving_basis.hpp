@@ -28,6 +28,9 @@ class MovingBasis {
   void keep() { kept_ = basis_; }
   void discard() { basis_ = kept_; }  // back to what keep() left
   void forget() { is_set_ = false; }
+  // Goes on from where the other one is, of the same manifold: whether its coordinates are those that
+  // this had, moved along without being made afresh in between.
+  bool take_over(const MovingBasis& other);
   const LinearMap<double>& map() const { return basis_; }
   // Bᵀv, the coordinates of a tangent vector: `coordinates` = n numbers, `v` = Ñ.
   void coordinates_of(const VectorXd& v, Eigen::Ref<VectorXd> coordinates) const;
@@ -40,6 +43,7 @@ class MovingBasis {
   LinearMap<double> basis_, kept_;
   MatrixXd projected_;
   bool is_set_ = false;
+  long times_made_ = 0;  // afresh, by this one or those that it took over from
   NearestOrthonormal make_orthonormal_;
 };
 

@@ -85,6 +85,13 @@ void MovingConormals::discard() {
   is_moving_ = is_continued_ = false;
 }
 
+void MovingConormals::take_over(const MovingConormals& other) {
+  kept_ = conormals_ = other.kept_;
+  is_found_ = other.is_found_;
+  is_continued_ = is_moving_ = false;
+  if (predictor_.is_empty()) weights_ = other.weights_;
+}
+
 void MovingConormals::forget() {
   is_found_ = is_continued_ = is_moving_ = false;
   newton_.reset();

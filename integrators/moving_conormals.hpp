@@ -41,6 +41,12 @@ class MovingConormals {
   void keep();
   void discard();  // back to what keep() left
   void forget();
+  // Goes on from where the other one was at its last keep().
+  void take_over(const MovingConormals& other);
+  // As of Predictor.
+  void learn_from(const MovingConormals& other, double times) {
+    predictor_.learn_from(other.predictor_, VectorXd::Constant(weights_.size(), times));
+  }
   const MatrixXd& matrix() const { return conormals_; }
 
  private:

@@ -67,6 +67,13 @@ void MovingDirections::keep() {
 
 void MovingDirections::discard() { W_ = kept_; }
 
+void MovingDirections::take_over(const MovingDirections& other) {
+  W_ = kept_ = other.kept_;
+  combination_ = other.combination_;
+  is_kept_ = other.is_kept_;
+  is_continued_ = false;
+}
+
 void MovingDirections::forget() {
   is_kept_ = is_continued_ = false;
   W_.setZero();

@@ -21,6 +21,8 @@ class MovingDirections {
   void keep();
   void discard();  // back to what keep() left
   void forget();
+  // Goes on from where the other one was at its last keep().
+  void take_over(const MovingDirections& other);
 
   const MatrixXd& matrix() const { return W_; }
   bool is_kept() const { return is_kept_; }

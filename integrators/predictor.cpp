@@ -17,12 +17,10 @@ constexpr int kStepsBetweenChoices = 32;
 template <int size>
 double sum_of_products(const double* a, const double* b) {
   static_assert(size % 2 == 0);
-  double even = 0.0, odd = 0.0;
-  for (int j = 0; j < size; j += 2) {
-    even += a[j] * b[j];
-    odd += a[j + 1] * b[j + 1];
-  }
-  return even + odd;
+  using Two = Eigen::Map<const Eigen::Array2d>;
+  Eigen::Array2d sums = Two(a) * Two(b);
+  for (int j = 2; j < size; j += 2) sums += Two(a + j) * Two(b + j);
+  return sums[0] + sums[1];
 }
 
 std::vector<Index> all_of(const std::vector<Index>& groups) {
@@ -46,16 +44,70 @@ Predictor::Predictor(const std::vector<Index>& groups, std::vector<Index> places
 
 Predictor::Predictor(const std::vector<Index>& groups) : Predictor(groups, all_of(groups)) {}
 
-void Predictor::predict(VectorXd& y) const {
+void Predictor::learn_from(const Predictor& other, const VectorXd& times) {
+  companions_.push_back({.predictor = &other, .times = times(places_)});
+  extrapolated_.setZero(std::ssize(places_));
+  corrections_ = errors_ = extrapolated_;
+}
+
+void Predictor::predict(VectorXd& y) {
   for (const Group& group : groups_) {
     const double* weights = group.weights.data() + (kKept - newest_);
     for (Index i = group.begin; i < group.end; ++i)
       y[places_[static_cast<std::size_t>(i)]] =
           sum_of_products<kKept>(history_.col(i).data(), weights);
   }
+  if (companions_.empty()) return;
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const Group& group = groups_[g];
+    correct(g);
+    for (Index i = group.begin; i < group.end; ++i) {
+      double& predicted = y[places_[static_cast<std::size_t>(i)]];
+      extrapolated_[i] = predicted;
+      if (group.is_corrected) predicted += corrections_[i];
+    }
+  }
+  has_predicted_ = true;
+}
+
+// ∇ᵈ⁺¹ of the newest unknown.
+double Predictor::newest_error(const Group& group, Index i) const {
+  const double* weights = group.weights.data() + (kKept - (newest_ + kKept - 1) % kKept);
+  return history_(newest_, i) - sum_of_products<kKept>(history_.col(i).data(), weights);
+}
+
+// Zero where a companion cannot tell yet, and where something is left open: no equation would stop
+// what corrections do there from growing.
+void Predictor::correct(std::size_t g) {
+  const Group& group = groups_[g];
+  corrections_.segment(group.begin, group.end - group.begin).setZero();
+  if (limit_ <= kUndetermined) return;
+  for (const auto& [of, times] : companions_)
+    if (of->count_ < group.degree + 2) return;
+  for (const auto& [of, times] : companions_) {
+    const bool is_known = of->groups_[g].judged_degree == group.degree;
+    for (Index i = group.begin; i < group.end; ++i)
+      corrections_[i] += times[i] * (is_known ? of->errors_[i] : of->newest_error(group, i));
+  }
+}
+
+void Predictor::judge(const VectorXd& y) {
+  for (Group& group : groups_) {
+    double plain = 0.0, corrected = 0.0;
+    for (Index i = group.begin; i < group.end; ++i) {
+      errors_[i] = y[places_[static_cast<std::size_t>(i)]] - extrapolated_[i];
+      plain = std::max(plain, std::fabs(errors_[i]));
+      corrected = std::max(corrected, std::fabs(errors_[i] - corrections_[i]));
+    }
+    group.is_corrected = corrected <= plain;
+    group.judged_degree = group.degree;
+  }
 }
 
 void Predictor::record(const VectorXd& y) {
+  for (Group& group : groups_) group.judged_degree = -1;
+  if (has_predicted_) judge(y);
+  has_predicted_ = false;
   newest_ = (newest_ + 1) % kKept;
   for (Index i = 0; i < history_.cols(); ++i)
     history_(newest_, i) = y[places_[static_cast<std::size_t>(i)]];
@@ -67,7 +119,13 @@ void Predictor::record(const VectorXd& y) {
 }
 
 void Predictor::forget() {
-  for (Group& group : groups_) group.weights.setZero();
+  for (Group& group : groups_) {
+    group.weights.setZero();
+    group.degree = 0;
+    group.is_corrected = true;
+    group.judged_degree = -1;
+  }
+  has_predicted_ = false;
   history_.setZero();
   newest_ = count_ = steps_to_choice_ = 0;
   limit_ = kMaxDegree;
@@ -108,6 +166,7 @@ int Predictor::best_degree(const Group& group) const {
 }
 
 void Predictor::set_degree(Group& group, int degree) {
+  group.degree = degree;
   group.weights.setZero();
   double binomial = 1.0;
   for (int age = 0; age <= degree; ++age) {

@@ -16,6 +16,11 @@ namespace courant {
 // left. It is chosen for each of some consecutive groups of unknowns apart, in every step at first,
 // later now and then.
 //
+// The stages of a composition are near each other in time, and each is extrapolated from as many steps
+// before: what the prediction of one was wrong by, the next one's will be wrong by too, but for the
+// time between them. Predictions are corrected by that, as long as it would have made the last one
+// better.
+//
 // Nothing is allocated after construction. Coordinates of tangent vectors are to be those in a
 // basis that moves smoothly (MovingBasis).
 class Predictor {
@@ -30,9 +35,14 @@ class Predictor {
   // All of them.
   explicit Predictor(const std::vector<Index>& groups);
 
-  void predict(VectorXd& y) const;  // needs a recorded unknown; writes those at its places
-  void record(const VectorXd& y);   // the unknown of a step that was made
-  void forget();                    // as if nothing had been recorded
+  // Predictions are corrected by so many times, for each unknown, what that of the newest unknown of
+  // `other`, by the same extrapolation, would have been wrong by. `other` looks at the same places, and
+  // lives as long.
+  void learn_from(const Predictor& other, const VectorXd& times);
+
+  void predict(VectorXd& y);       // needs a recorded unknown; writes those at its places
+  void record(const VectorXd& y);  // the unknown of a step that was made
+  void forget();                   // as if nothing had been recorded
   bool is_empty() const { return count_ == 0; }
   // From now on no degree above `degree`.
   void limit_degree(int degree);
@@ -43,11 +53,22 @@ class Predictor {
 
   struct Group {
     Index begin, end;  // in places_
+    int degree = 0;
+    bool is_corrected = true;  // the last prediction would have been better for it
+    int judged_degree = -1;    // that of errors_; -1 before there are any
     // Of the unknowns that are -m mod kKept steps old, twice over: at kKept - newest_ begin the
     // weights of the rows.
     Eigen::Matrix<double, 2 * kKept, 1> weights = Eigen::Matrix<double, 2 * kKept, 1>::Zero();
   };
 
+  struct Companion {
+    const Predictor* predictor;
+    VectorXd times;  // for each place
+  };
+
+  void correct(std::size_t group);
+  void judge(const VectorXd& y);
+  double newest_error(const Group& group, Index i) const;
   void choose_degrees();
   int best_degree(const Group& group) const;
   static void set_degree(Group& group, int degree);
@@ -56,6 +77,10 @@ class Predictor {
   std::vector<Index> places_;
   // A ring: a row an unknown, the newest in row newest_.
   Eigen::Matrix<double, kKept, Eigen::Dynamic> history_;
+  std::vector<Companion> companions_;
+  VectorXd extrapolated_, corrections_;  // of the prediction that was made last
+  VectorXd errors_;                      // of the extrapolation of the newest unknown
+  bool has_predicted_ = false;           // since the last record()
   int newest_ = 0;
   int count_ = 0;  // unknowns in the history
   int steps_to_choice_ = 0;

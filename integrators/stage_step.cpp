@@ -29,6 +29,13 @@ class StageStep::Trajectory final : public DisplacementStepper {
  private:
   void do_prepare(State& state, double) override { move_basis(state.x); }
 
+  bool do_take_over(const Stepper& other) override {
+    const auto* before = dynamic_cast<const Trajectory*>(&other);
+    if (before == nullptr) return false;
+    if (!basis_.take_over(before->basis_)) forget_steps();
+    return true;
+  }
+
   void do_step(const State& before, double h, State& after) override {
     const double* in[] = {unknown(), before.x.data(), basis_.data(), &h, &before.t};
     make_step(in, before, h, after);

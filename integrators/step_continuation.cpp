@@ -307,7 +307,7 @@ void StepContinuation::track(const double* const* in, double size, Result& resul
     }
   }
   result.arrived = point_.sigma == 1.0;
-  result.is_direct = result.arrived && arcs == 1;
+  result.arcs = arcs;
   result.reached = point_.sigma;
 }
 

@@ -38,7 +38,7 @@ class StepContinuation {
   struct Result {
     bool arrived = false;         // at σ = 1, y up to some seven digits of a displacement
     double reached = 0.0;         // the greatest σ that there is a solution for; 0: none was found
-    bool is_direct = false;       // arrived in one step from the beginning
+    int arcs = 0;                 // that lead there from the beginning
     bool begins_at_state = true;  // or at a tenth of the step, with any solution
     long iterations = 0;
   };

@@ -17,6 +17,11 @@ constexpr double kForgotten = 0.98;
 // What two ways to the same solution may differ by.
 constexpr double kSameSolution = 1e-3;
 
+// A curve of at most so many arcs, whose end is where it set out for up to this part of usual
+// displacements, hardly bends.
+constexpr int kFewArcs = 3;
+constexpr double kStraight = 0.1;
+
 // Two digits of a step, towards zero.
 double rounded_down(double h) {
   const double unit = std::pow(10.0, std::floor(std::log10(std::fabs(h))) - 1.0);
@@ -43,10 +48,17 @@ StepSolver::StepSolver(const EquationSystem& equations, std::vector<Index> group
 }
 
 std::vector<Index> StepSolver::predicted() const {
-  std::vector<Index> places = newton_.kept();
+  std::vector<Index> places = newton_.sought();
   for (Index i = 0; i < usual_.size(); ++i) places.push_back(i);
   std::sort(places.begin(), places.end());
   places.erase(std::unique(places.begin(), places.end()), places.end());
+  return places;
+}
+
+std::vector<Index> StepSolver::found() const {
+  std::vector<Index> places;
+  for (Index i = 0; i < y_.size(); ++i)
+    if (!std::ranges::binary_search(newton_.left(), i)) places.push_back(i);
   return places;
 }
 
@@ -80,6 +92,15 @@ bool StepSolver::is_as_predicted(double part, double size) const {
   return true;
 }
 
+// Whether displacements are those that the velocity of the state predicted, up to a part of their usual
+// size: a coordinate may turn, which takes more arcs than one.
+bool StepSolver::is_straight(const VectorXd& start) const {
+  for (Index i = 0; i < usual_.size(); ++i)
+    if (!(std::fabs(y_[i] - start[i]) <= kStraight * std::max(std::fabs(y_[i]), usual_[i])))
+      return false;
+  return true;
+}
+
 bool StepSolver::is_same(double size) const {
   const Index count = usual_.size();
   const double least = count == 0 ? 0.0 : kSameSolution * y_.head(count).lpNorm<Eigen::Infinity>();
@@ -95,9 +116,10 @@ bool StepSolver::is_same(double size) const {
 void StepSolver::connect(bool converged, const double* const* in, const double* scales,
                          const Attempt& attempt, SolverStatistics& statistics) {
   ++statistics.confirmations;
-  const auto [arrived, reached, is_direct, begins_at_state, iterations] =
+  const VectorXd start = y_;
+  const auto [arrived, reached, arcs, begins_at_state, iterations] =
       continuation_->follow(y_, in, scales[0]);
-  is_mild_ = is_direct;
+  is_mild_ = arrived && (arcs == 1 || (arcs <= kFewArcs && is_straight(start)));
   statistics.iterations += iterations;
   statistics.factorizations += iterations;
   if (arrived && converged && is_same(scales[0])) {

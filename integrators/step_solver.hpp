@@ -26,8 +26,10 @@ class StepSolver {
   VectorXd& unknown() { return y_; }
   const VectorXd& unknown() const { return y_; }
   // The unknowns that a prediction has to fill in: those that the iteration begins with, and the
-  // displacements that the solution is compared with. Ascending.
+  // displacements that the solution is compared with; or all that are found. Not those that no equation
+  // contains: what is extrapolated from extrapolations grows. Ascending.
   std::vector<Index> predicted() const;
+  std::vector<Index> found() const;
   bool is_determined() const { return newton_.is_determined(); }  // as of Newton
 
   // On return unknown() solves the equations; in[0] is its place. `begin` puts there what a second
@@ -36,10 +38,11 @@ class StepSolver {
   struct Attempt {
     double time, h;
   };
+  // `part` as of Newton::solve_roughly.
   template <class Begin>
   void solve(const double* const* in, const double* scales, const Begin& begin,
-             const Attempt& attempt, SolverStatistics& statistics) {
-    if (converges(in, scales, statistics)) return;
+             const Attempt& attempt, SolverStatistics& statistics, double part = 0.0) {
+    if (converges(in, scales, statistics, part)) return;
     ++statistics.failures;
     newton_.reset();
     begin();
@@ -53,8 +56,8 @@ class StepSolver {
   // The solution that is connected to the state. One close to what unknown() predicted is taken for
   // it, every displacement right to a twentieth of its size, if the matrix of an earlier step led
   // there, or the last step was predicted as well; right to a quarter after expect(); and to a
-  // thousandth where the equations of a step bend: where the last curve that was followed did not
-  // lead straight to the solution, or none was. Else it is the one that StepContinuation finds;
+  // thousandth where the equations of a step bend: where the last curve that was followed was neither
+  // one arc nor, of few, one that ended where the velocity of the state pointed to, or none was. Else it is the one that StepContinuation finds;
   // `begin` puts into unknown() what the state alone predicts.
   template <class Begin>
   void solve_connected(const double* const* in, const double* scales, const Begin& begin,
@@ -85,8 +88,9 @@ class StepSolver {
   void expect(const Motion& motion);
 
  private:
-  bool converges(const double* const* in, const double* scales, SolverStatistics& statistics) {
-    result_ = newton_.solve(y_.data(), in, scales);
+  bool converges(const double* const* in, const double* scales, SolverStatistics& statistics,
+                 double part = 0.0) {
+    result_ = newton_.solve_roughly(y_.data(), in, scales, part);
     statistics.iterations += result_.iterations;
     statistics.factorizations += result_.factorizations;
     return result_.status == Newton::Status::converged;
@@ -97,6 +101,7 @@ class StepSolver {
   }
   bool is_as_predicted(double part, double size) const;
   bool is_same(double size) const;
+  bool is_straight(const VectorXd& start) const;
   void connect(bool converged, const double* const* in, const double* scales,
                const Attempt& attempt, SolverStatistics& statistics);
   [[noreturn]] void fail(const Attempt& attempt) const;
@@ -120,8 +125,8 @@ class StepSolver {
   VectorXd usual_;                      // sizes of displacements
   bool is_good_ = false;                // the prediction of this step
   bool is_trusted_ = true;              // that of the last one was good
-  bool is_mild_ = false;      // the last curve that was followed led to the solution at once
-  bool is_expected_ = false;  // the next step goes on with a motion that is known
+  bool is_mild_ = false;                // the last curve that was followed hardly bent
+  bool is_expected_ = false;            // the next step goes on with a motion that is known
   std::string method_;
 };
 

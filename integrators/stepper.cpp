@@ -44,7 +44,12 @@ void Stepper::check(const State& state) const {
   check_size(method_, "z", state.z.size(), system_->auxiliary_size(), true);
 }
 
-void Stepper::take_up(State& state, double h) {
+// `from` may have ended there.
+void Stepper::take_up(State& state, double h, const Stepper* from) {
+  if (from != nullptr && from->is_prepared_ && state == from->last_->after && do_take_over(*from)) {
+    is_prepared_ = true;
+    return;
+  }
   // A step keeps the distance from the manifold that it begins with, or blows it up.
   if (!has_stepped_ && do_keeps_to_manifold()) {
     const double defect = manifold().point_defect(state.x);
@@ -85,14 +90,20 @@ void Stepper::prepare(State& state, double h) {
   last_->after = state = prepared;
 }
 
-void Stepper::step(State& state, double h, double end) {
+void Stepper::step(State& state, double h, double end) { make_step(state, h, end, nullptr); }
+
+void Stepper::step_from(const Stepper& other, State& state, double h, double end) {
+  make_step(state, h, end, &other);
+}
+
+void Stepper::make_step(State& state, double h, double end, const Stepper* from) {
   if (!std::isfinite(h) || h == 0.0) refuse(h);
   const bool goes_on = is_prepared_ && state == last_->after;
   if (!goes_on) {
     check(state);
     if (has_stepped_ && !is_near_last(state)) forget();
     trial_->before = state;
-    take_up(trial_->before, h);
+    take_up(trial_->before, h, from);
   }
   if (has_stepped_ && h != last_->h) do_change_step();
   State& before = goes_on ? last_->after : trial_->before;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 
 #include "courant/integrators/solve_error.hpp"
@@ -61,6 +62,10 @@ class Stepper {
   // made.
   void step(State& state, double h, double end);
   void step(State& state, double h) { step(state, h, state.t + h); }
+  // The same step. Where the state is that at which the last step of `other` ended, a stepper of the
+  // same method, what that knows of the state (bases, directions, derivatives) is taken over, not
+  // found again.
+  void step_from(const Stepper& other, State& state, double h, double end);
 
   // The last step; before the first one, `after` is the state that was prepared. Valid until the
   // next step is made.
@@ -89,6 +94,18 @@ class Stepper {
   // not be looked at by continuation. It is the same step.
   Motion motion() const { return do_motion(); }
   void expect(const Motion& motion) { do_expect(motion); }
+
+  // Another stage of the composition that this is a stage of, or this one in the step before: its
+  // last step is near the next one of this in time, and was predicted from as many steps before. What
+  // its prediction was wrong by, times `at_stage` for what belongs to the stage and `at_end` for what
+  // belongs to the end, corrects that of this.
+  struct Companion {
+    const Stepper* stepper;
+    double at_stage, at_end;
+    double ratio;  // of the step of this to that of the companion: displacements go like steps
+  };
+  // Steppers of the same method, which live as long. Steps stay the same.
+  void accompany(std::span<const Companion> companions) { do_accompany(companions); }
 
   const SolverStatistics& statistics() const { return statistics_; }
 
@@ -129,6 +146,11 @@ class Stepper {
   // The next step begins at this state, which is not where the last one ended; v and z have their
   // sizes.
   virtual void do_prepare(State&, double /*h*/) {}
+  // The next step begins where the last one of the other stepper ended, which takes the place of
+  // do_prepare. False, with nothing changed: what the other one knows is of no use.
+  virtual bool do_take_over(const Stepper& /*other*/) { return false; }
+  // As accompany() says.
+  virtual void do_accompany(std::span<const Companion>) {}
   // Whether steps stay on the manifold: then a state off it is refused.
   virtual bool do_keeps_to_manifold() const { return true; }
   // The next step is of another size: what extrapolates those before is of no use.
@@ -136,7 +158,8 @@ class Stepper {
 
   [[noreturn]] void refuse(double h) const;
   void check(const State& state) const;
-  void take_up(State& state, double h);
+  void take_up(State& state, double h, const Stepper* from = nullptr);
+  void make_step(State& state, double h, double end, const Stepper* from);
   bool is_near_last(const State& state) const;
 
   std::string method_;

@@ -58,7 +58,7 @@ void CFunctions::add(const std::string& symbol, const std::vector<Function::Inpu
              program.c_source(symbol) + "\n";
 }
 
-std::vector<Index> CFunctions::add(const Equations& of) {
+CFunctions::Unknowns CFunctions::add(const Equations& of) {
   const ExprVector& y = of.inputs[0].variables;
   std::vector<Index> kept = range(y.size()), given;
   ExprVector equations = of.equations, unknowns = y;
@@ -122,7 +122,11 @@ std::vector<Index> CFunctions::add(const Equations& of) {
   most_unknowns_ = std::max(most_unknowns_, y.size());
   most_size_ = std::max(most_size_, size);
   most_entries_ = std::max(most_entries_, jacobian.values.size());
-  return kept;
+  Unknowns result;
+  for (Index k = 0; k < std::ssize(kept); ++k)
+    (std::ranges::binary_search(contained, k) ? result.sought : result.left)
+        .push_back(kept[static_cast<std::size_t>(k)]);
+  return result;
 }
 
 std::string CFunctions::prelude() const { return c_prelude(source_); }

@@ -26,8 +26,11 @@ class CFunctions {
     std::vector<Index> groups;
     const Elimination::Options* elimination = nullptr;
   };
-  // The unknowns that the iteration is on.
-  std::vector<Index> add(const Equations& equations);
+  // As of Newton: the unknowns that the iteration begins with, and those that it leaves as they are.
+  struct Unknowns {
+    std::vector<Index> sought, left;
+  };
+  Unknowns add(const Equations& equations);
 
   const std::string& source() const { return source_; }  // all, in the order of add()
   std::string prelude() const;                           // what they call

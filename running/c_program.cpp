@@ -1,10 +1,12 @@
 #include "courant/running/c_program.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 #include "courant/core/message.hpp"
 #include "courant/core/version.hpp"
 #include "courant/core/word_list.hpp"
+#include "courant/integrators/composition.hpp"
 #include "courant/integrators/step_energies.hpp"
 #include "courant/integrators/step_program.hpp"
 #include "courant/running/c_functions.hpp"
@@ -109,14 +111,17 @@ class CProgram {
     }
     if (step_.solve) {
       const StepProgram::Solve& solve = *step_.solve;
-      const std::vector<Index> kept = functions_.add(
-          {.symbol = "step",
-           .inputs = solve.formulas.inputs,
-           .equations = solve.formulas.equations,
-           .groups = groups(),
-           .elimination = solve.formulas.eliminates ? &solve.formulas.elimination : nullptr});
+      const std::vector<Index> sought =
+          functions_
+              .add({.symbol = "step",
+                    .inputs = solve.formulas.inputs,
+                    .equations = solve.formulas.equations,
+                    .groups = groups(),
+                    .elimination =
+                        solve.formulas.eliminates ? &solve.formulas.elimination : nullptr})
+              .sought;
       for (Index i = 0; i < solve.formulas.inputs[0].variables.size(); ++i)
-        if (std::ranges::find(kept, i) != kept.end() ||
+        if (std::ranges::find(sought, i) != sought.end() ||
             (!solve.is_affine && i < solve.displacements))
           predicted_.push_back(i);
       if (solve.projection) add_projection(*solve.projection);
@@ -146,16 +151,17 @@ class CProgram {
       functions_.add("energy", {{"x", of.x}, {"z", of.z}, {"t", of.t}}, of.generator, "E");
   }
   void add_projection(const StepProgram::Solve::Projection& of) {
-    ends_predicted_ = functions_.add(
+    const auto [sought, left] = functions_.add(
         {.symbol = "projection",
          .inputs = of.formulas.inputs,
          .equations = of.formulas.equations,
          .groups = groups(),
          .elimination = of.formulas.eliminates ? &of.formulas.elimination : nullptr});
-    if (of.shifts == 0) {  // then all unknowns are predicted
+    ends_predicted_ = sought;
+    if (of.shifts == 0) {  // then all unknowns that are found are predicted
       ends_predicted_.clear();
       for (Index i = 0; i < of.formulas.inputs[0].variables.size(); ++i)
-        ends_predicted_.push_back(i);
+        if (!std::ranges::binary_search(left, i)) ends_predicted_.push_back(i);
     }
     functions_.add("projected", of.formulas.inputs, of.projected, "x, v and z where it leads");
     functions_.add("shift_from", of.shift_inputs, of.shifted, "where the vector s leads from near");
@@ -239,6 +245,21 @@ class CProgram {
     return all + "static long step_number = 0;\n\n";
   }
 
+  // The parts whose last steps are nearest in time to each, see Composition.
+  std::string nearby_parts(const std::string& name, double part) const {
+    std::string all =
+        name == "at_stage" ? "struct nearby {\n  int part;\n  double times;\n};\n" : "";
+    all += "static const struct nearby " + name + "[PARTS][2] = {\n";
+    if (step_.substeps.size() == 1) return all + "  {{0, 0.0}, {0, 0.0}}};\n";
+    for (const auto& pair : Composition::nearby_stages(step_.substeps, part)) {
+      all += "  {";
+      for (const auto& [stage, times] : pair)
+        all += "{" + std::to_string(stage) + ", " + c_number(times) + "}, ";
+      all += "},\n";
+    }
+    return all + "};\n";
+  }
+
   std::string solved_steps() const {
     const StepProgram::Solve& solve = *step_.solve;
     const bool projects = solve.projection.has_value();
@@ -266,7 +287,7 @@ class CProgram {
     all +=
         "/* A step is made of steps of these parts of it. */\nstatic const double parts[PARTS] = " +
         c_array(Eigen::Map<const VectorXd>(step_.substeps.data(), std::ssize(step_.substeps))) +
-        ";\n\n" + measured_parts();
+        ";\n\n" + nearby_parts("at_stage", 0.5) + nearby_parts("at_end", 1.0) + measured_parts();
     for (const std::string_view part :
          {projects ? text::projected() : text::displaced(), text::looks(),
           projects ? text::projected_part() : text::displaced_part(), text::step()})

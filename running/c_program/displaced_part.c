@@ -2,6 +2,16 @@ static void forget(struct stepper *S) { forget_looks(S); }
 
 static void prepare(struct stepper *S, struct state *state, double h) { (void)S, (void)state, (void)h; }
 
+static void take_over(struct stepper *S, const struct stepper *other) { (void)S, (void)other; }
+
+static void learn_at_stage(struct stepper *S, int c, const struct stepper *other, double times, double ratio) {
+  accompany(&S->predictor, c, &other->predictor, &step_places, times, ratio, DISPLACEMENTS, 0, UNKNOWNS);
+}
+
+static void learn_at_end(struct stepper *S, int c, const struct stepper *other, double times, double ratio) {
+  (void)S, (void)c, (void)other, (void)times, (void)ratio;
+}
+
 static void make_part(struct stepper *S, struct state *state, double h, double end) {
   const struct state before = *state;
   const double size = largest(before.x, COORDINATES);

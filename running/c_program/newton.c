@@ -183,12 +183,14 @@ static int iterate(struct newton *N, const double *const *in, const double *scal
   int fresh = 0; /* A belongs to a point of this solve */
   int close = 0; /* which a short change led to */
   double unsolved = -1.0, first[MOST_SIZE]; /* where changes stalled before, and first */
+  int evaluated = 0; /* G is that of u */
   if (!N->is_factorized) {
-    fresh = 1;
+    fresh = evaluated = 1;
     if (!factorize(N, in)) return 0;
   }
   for (iteration = 0; iteration < 60; ++iteration) {
-    N->of->value(in, N->all);
+    if (!evaluated) N->of->value(in, N->all);
+    evaluated = 0;
     moved = improve(N, scales);
     if (!isfinite(moved)) return 0;
     if (moved <= tolerance) return 1;
@@ -218,7 +220,7 @@ static int iterate(struct newton *N, const double *const *in, const double *scal
         }
       }
       if ((slow && !fresh) || (stalled && !rounded) || !still) {
-        fresh = 1;
+        fresh = evaluated = 1;
         close = moved <= brief;
         compared = 0;
         if (!factorize(N, in)) return 0;

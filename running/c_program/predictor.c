@@ -9,30 +9,94 @@ struct places {
 };
 
 /* The next unknowns by extrapolation of the last ones, for each group of them by the polynomial that would have
-   been best for the last steps. */
+   been best for the last steps. The parts of a step are near each other in time: predictions are corrected by what
+   those of two others were wrong by, as long as it would have made the last one better. */
 struct predictor {
   const struct places *of;
   int newest, count, steps_to_choice;
   double history[MOST_PREDICTED + 1][KEPT];
   double weights[2][2 * KEPT]; /* of unknowns so many steps old, twice over */
+  int degree[2], is_uncorrected[2];
+  const struct predictor *companion[2]; /* or NULL */
+  double times[2][MOST_PREDICTED + 1];
+  double extrapolated[MOST_PREDICTED + 1], corrections[MOST_PREDICTED + 1]; /* of the last prediction */
+  int has_predicted;
 };
 
 static void forget_steps(struct predictor *P, const struct places *of) {
+  const struct predictor before = *P;
+  int i;
   memset(P, 0, sizeof *P);
   P->of = of;
+  for (i = 0; i < 2; ++i) {
+    P->companion[i] = before.companion[i];
+    memcpy(P->times[i], before.times[i], sizeof P->times[i]);
+  }
 }
 
-static void predict(const struct predictor *P, double *y) {
-  int i, j;
-  for (i = 0; i < P->of->count; ++i) {
-    const double *const a = P->history[i], *const b = P->weights[P->of->group[i]] + (KEPT - P->newest);
-    double even = 0.0, odd = 0.0;
-    for (j = 0; j < KEPT; j += 2) {
-      even += a[j] * b[j];
-      odd += a[j + 1] * b[j + 1];
-    }
-    y[P->of->at[i]] = even + odd;
+static double sum_of_products(const double *a, const double *b) {
+  double even = 0.0, odd = 0.0;
+  int j;
+  for (j = 0; j < KEPT; j += 2) {
+    even += a[j] * b[j];
+    odd += a[j + 1] * b[j + 1];
   }
+  return even + odd;
+}
+
+/* Those of `displacements` go like steps, which have this ratio, and those of the last `shifts` unknowns like their
+   squares. */
+static void accompany(struct predictor *P, int c, const struct predictor *other, const struct places *of,
+                      double times, double ratio, int displacements, int shifts, int unknowns) {
+  int i;
+  P->companion[c] = other;
+  for (i = 0; i < of->count; ++i) {
+    P->times[c][i] = times;
+    if (of->at[i] < displacements) P->times[c][i] *= ratio;
+    if (of->at[i] >= unknowns - shifts) P->times[c][i] *= ratio * ratio;
+  }
+}
+
+/* Where a companion cannot tell yet nothing is corrected. */
+static void correct(struct predictor *P, int group) {
+  int i, c;
+  for (i = 0; i < P->of->count; ++i)
+    if (P->of->group[i] == group) P->corrections[i] = 0.0;
+  for (c = 0; c < 2; ++c)
+    if (P->companion[c]->count < P->degree[group] + 2) return;
+  for (c = 0; c < 2; ++c) {
+    const struct predictor *const of = P->companion[c];
+    const double *const weights = P->weights[group] + (KEPT - (of->newest + KEPT - 1) % KEPT);
+    for (i = 0; i < P->of->count; ++i)
+      if (P->of->group[i] == group)
+        P->corrections[i] += P->times[c][i] * (of->history[i][of->newest] - sum_of_products(of->history[i], weights));
+  }
+}
+
+static void predict(struct predictor *P, double *y) {
+  int i, group;
+  for (i = 0; i < P->of->count; ++i)
+    y[P->of->at[i]] = sum_of_products(P->history[i], P->weights[P->of->group[i]] + (KEPT - P->newest));
+  if (P->companion[0] == NULL) return;
+  for (group = 0; group < 2; ++group) correct(P, group);
+  for (i = 0; i < P->of->count; ++i) {
+    double *const predicted = y + P->of->at[i];
+    P->extrapolated[i] = *predicted;
+    if (!P->is_uncorrected[P->of->group[i]]) *predicted += P->corrections[i];
+  }
+  P->has_predicted = 1;
+}
+
+static void judge(struct predictor *P, const double *y) {
+  double plain[2] = {0.0, 0.0}, corrected[2] = {0.0, 0.0};
+  int i, group;
+  for (i = 0; i < P->of->count; ++i) {
+    const double error = y[P->of->at[i]] - P->extrapolated[i];
+    group = P->of->group[i];
+    plain[group] = largest_of(plain[group], fabs(error));
+    corrected[group] = largest_of(corrected[group], fabs(error - P->corrections[i]));
+  }
+  for (group = 0; group < 2; ++group) P->is_uncorrected[group] = !(corrected[group] <= plain[group]);
 }
 
 static int best_degree(const struct predictor *P, int group) {
@@ -58,6 +122,8 @@ static int best_degree(const struct predictor *P, int group) {
 
 static void record(struct predictor *P, const double *y) {
   int i, group, age;
+  if (P->has_predicted) judge(P, y);
+  P->has_predicted = 0;
   P->newest = (P->newest + 1) % KEPT;
   for (i = 0; i < P->of->count; ++i) P->history[i][P->newest] = y[P->of->at[i]];
   if (P->count == 0) P->steps_to_choice = 0;
@@ -66,6 +132,7 @@ static void record(struct predictor *P, const double *y) {
   for (group = 0; group < 2; ++group) {
     const int degree = best_degree(P, group);
     double *const weights = P->weights[group], binomial = 1.0;
+    P->degree[group] = degree;
     for (i = 0; i < 2 * KEPT; ++i) weights[i] = 0.0;
     for (age = 0; age <= degree; ++age) {
       binomial *= (double)(degree + 1 - age) / (age + 1);

@@ -88,6 +88,20 @@ static void prepare(struct stepper *S, struct state *state, double h) {
   take(S, state);
 }
 
+/* The next step begins where that of another part ended. */
+static void take_over(struct stepper *S, const struct stepper *other) {
+  memcpy(S->jets, other->jets, sizeof S->jets);
+}
+
+static void learn_at_stage(struct stepper *S, int c, const struct stepper *other, double times, double ratio) {
+  accompany(&S->predictor, c, &other->predictor, &step_places, times, ratio, DISPLACEMENTS, SHIFTS, UNKNOWNS);
+}
+
+static void learn_at_end(struct stepper *S, int c, const struct stepper *other, double times, double ratio) {
+  accompany(&S->end, c, &other->end, &end_places, times, ratio, 0, SHIFTS, UNKNOWNS);
+  accompany(&S->shift, c, &other->shift, &shift_places, times, ratio, 0, VELOCITIES, VELOCITIES);
+}
+
 static void make_part(struct stepper *S, struct state *state, double h, double end) {
   const struct state before = *state;
   double scales[4], corrected[VELOCITIES + 1];

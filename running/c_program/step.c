@@ -18,10 +18,14 @@ static void step(struct state *state, double h, double end) {
   open_step();
 #endif
   for (i = 0; i < PARTS; ++i) {
+    const struct stepper *const previous = &steppers[i == 0 ? PARTS - 1 : i - 1];
     share += parts[i];
     if (!is_last(&steppers[i], state)) {
       if (steppers[i].has_stepped && !is_near_last(&steppers[i], state)) forget(&steppers[i]);
-      prepare(&steppers[i], state, parts[i] * h);
+      if (PARTS > 1 && is_last(previous, state))
+        take_over(&steppers[i], previous);
+      else
+        prepare(&steppers[i], state, parts[i] * h);
     }
     make_part(&steppers[i], state, parts[i] * h, i + 1 == PARTS ? end : t + share * h);
 #if MEASURES_STEPS
@@ -33,7 +37,13 @@ static void step(struct state *state, double h, double end) {
 
 /* Nothing but the state is known. */
 static void begin_epoch(struct state *state) {
-  int i;
+  int i, c;
+  for (i = 0; PARTS > 1 && i < PARTS; ++i)
+    for (c = 0; c < 2; ++c) {
+      const struct nearby stage = at_stage[i][c], end = at_end[i][c];
+      learn_at_stage(&steppers[i], c, &steppers[stage.part], stage.times, parts[i] / parts[stage.part]);
+      learn_at_end(&steppers[i], c, &steppers[end.part], end.times, parts[i] / parts[end.part]);
+    }
   for (i = 0; i < PARTS; ++i) forget(&steppers[i]);
   prepare(&steppers[0], state, parts[0] * step_size);
   steppers[0].after = *state;

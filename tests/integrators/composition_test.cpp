@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <numeric>
 
 #include "courant/integrators/constrain_first.hpp"
 #include "courant/integrators/discretize_first.hpp"
@@ -144,6 +145,58 @@ BOOST_AUTO_TEST_CASE(stages_keep_what_they_know) {
   }
 }
 
+// Straight lines through the times of two others, of which none is later than the stage itself, give
+// the time of the stage, and are not extended far.
+BOOST_AUTO_TEST_CASE(stages_nearby) {
+  for (const int order : {4, 6, 8})
+    for (const double part : {0.5, 1.0}) {
+      const auto steps = Composition::coefficients(order);
+      const auto time = [&](std::size_t i) {
+        return std::accumulate(steps.begin(), steps.begin() + static_cast<long>(i), 0.0) +
+               part * steps[i];
+      };
+      const auto nearby = Composition::nearby_stages(steps, part);
+      BOOST_TEST_REQUIRE(nearby.size() == steps.size());
+      for (std::size_t i = 0; i < steps.size(); ++i) {
+        double sum = 0.0, end = 0.0;
+        for (const auto& [stage, times] : nearby[i]) {
+          sum += times;
+          end += times * (time(stage) - (stage < i ? 0.0 : 1.0));
+          BOOST_TEST(std::fabs(times) < 3.0 + 1e-12);
+        }
+        BOOST_TEST(std::fabs(sum - 1.0) < 1e-13);
+        BOOST_TEST(std::fabs(end - time(i)) < 1e-13);
+      }
+    }
+}
+
+// Stages of Method 2 go on with the directions and derivatives of the stage before and learn from two others:
+// where steps are long they need half the iterations of steppers that know nothing of each other.
+BOOST_AUTO_TEST_CASE(stages_take_over_and_learn) {
+  const HeldOnSphere held;
+  for (const int order : {4, 6, 8}) {
+    const Pointer method = method_2(held);
+    const auto together = composed(method, order)->stepper();
+    const auto gamma = Composition::coefficients(order);
+    std::vector<std::unique_ptr<Stepper>> apart;
+    for (std::size_t i = 0; i < gamma.size(); ++i) apart.push_back(method->stepper());
+    State state = held.ladder.point, other = state;
+    const double h = 0.1;
+    for (int k = 0; k < 60; ++k) {
+      together->step(state, h);
+      for (std::size_t i = 0; i < gamma.size(); ++i) apart[i]->step(other, gamma[i] * h);
+    }
+    long iterations = 0, confirmations = 0;
+    for (const auto& stage : apart) {
+      iterations += stage->statistics().iterations;
+      confirmations += stage->statistics().confirmations;
+    }
+    BOOST_TEST((state.x - other.x).norm() < 1e-12);
+    BOOST_TEST(2 * together->statistics().iterations < iterations);
+    BOOST_TEST(together->statistics().confirmations <= confirmations);
+  }
+}
+
 // The greatest distance of substeps, made by a stepper a stage, from those of fresh steppers.
 double substeps_from_fresh(const Integrator& method, const State& initial, int order, double h) {
   const auto gamma = Composition::coefficients(order);
@@ -154,7 +207,8 @@ double substeps_from_fresh(const Integrator& method, const State& initial, int o
   for (int k = 0; k < 12; ++k)
     for (std::size_t i = 0; i < gamma.size(); ++i) {
       const State alone = method.advance(state, gamma[i] * h);
-      stages[i]->step(state, gamma[i] * h);
+      stages[i]->step_from(*stages[i == 0 ? gamma.size() - 1 : i - 1], state, gamma[i] * h,
+                           state.t + gamma[i] * h);
       greatest = std::max(greatest, (state.x - alone.x).norm());
     }
   return greatest;

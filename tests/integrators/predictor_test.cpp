@@ -122,4 +122,80 @@ BOOST_AUTO_TEST_CASE(undetermined) {
   BOOST_TEST(!(std::fabs(last(Predictor::kMaxDegree) - 0.3) < 1.0));
 }
 
+namespace {
+
+// The greatest error of predictions of f(k) that learn from those of `near` (k - 0.1) and (k - 0.3).
+template <class Sequence, class Near>
+double error_of_learning(const Sequence& f, const Near& near, bool learns) {
+  Predictor first({2}), second({2}), learning({2});
+  if (learns) {  // by a straight line through both errors
+    learning.learn_from(first, two(1.5, 1.5));
+    learning.learn_from(second, two(-0.5, -0.5));
+  }
+  double greatest = 0.0;
+  VectorXd y = VectorXd::Zero(2);
+  for (int k = 0; k < 100; ++k) {
+    second.record(near(k - 0.3));
+    first.record(near(k - 0.1));
+    if (!learning.is_empty()) learning.predict(y);
+    if (k > 20) greatest = std::max(greatest, (y - f(k)).norm());
+    learning.record(f(k));
+  }
+  return greatest;
+}
+
+VectorXd circle(double k) { return two(std::sin(0.3 * k), std::cos(0.3 * k)); }
+
+}  // namespace
+
+// What sequences nearby in time have been predicted wrongly by, this one will be too. What they are
+// apart by otherwise does not matter, if it is as smooth.
+BOOST_AUTO_TEST_CASE(learns_from_sequences_nearby) {
+  const double alone = error_of_learning(circle, circle, false);
+  BOOST_TEST(error_of_learning(circle, circle, true) < 0.01 * alone);
+  const auto apart = [](double k) { return VectorXd(circle(k) + two(3.0, 0.01 * k * k)); };
+  BOOST_TEST(error_of_learning(circle, apart, true) < 0.01 * alone);
+}
+
+// One that has nothing to do with it, as in another basis, is not believed after the first steps.
+BOOST_AUTO_TEST_CASE(learns_nothing_from_sequences_of_another_kind) {
+  const double alone = error_of_learning(circle, circle, false);
+  const auto turned = [](double k) { return VectorXd(-7.0 * circle(k)); };
+  BOOST_TEST(error_of_learning(circle, turned, true) == alone);
+}
+
+// Where nothing is known of the sequences yet, or no longer, predictions are those without them.
+BOOST_AUTO_TEST_CASE(learns_from_what_is_known) {
+  Predictor near({2}), learning({2}), alone({2});
+  learning.learn_from(near, two(2.0, 2.0));
+  VectorXd y = two(0.0, 0.0), expected = y;
+  for (int k = 0; k < 40; ++k) {
+    if (k == 20) near.forget();
+    if (k < 20) near.record(circle(0.1 * k));
+    if (k >= 20 && k < 40) {
+      learning.predict(y);
+      alone.predict(expected);
+      BOOST_TEST((y == expected));
+    }
+    learning.record(circle(0.1 * k + 0.05));
+    alone.record(circle(0.1 * k + 0.05));
+  }
+}
+
+// What equations leave open is what corrections of one sequence hand to the other: it must not grow.
+BOOST_AUTO_TEST_CASE(undetermined_with_others) {
+  Predictor first({2}), second({2});
+  first.learn_from(second, two(3.0, 3.0));
+  second.learn_from(first, two(3.0, 3.0));
+  VectorXd y = two(1.0, 0.3), z = two(1.0, 0.3);
+  for (int k = 0; k < 2000; ++k) {
+    if (k > 2) first.predict(y), second.predict(z);
+    if (k == 3)
+      first.limit_degree(Predictor::kUndetermined), second.limit_degree(Predictor::kUndetermined);
+    y[0] = std::sin(0.05 * k), z[0] = std::sin(0.05 * k + 0.02);
+    first.record(y), second.record(z);
+  }
+  BOOST_TEST(std::fabs(y[1] - 0.3) < 1e-8);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
