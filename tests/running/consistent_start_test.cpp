@@ -44,6 +44,58 @@ BOOST_AUTO_TEST_CASE(consistent_values_stay) {
   BOOST_TEST(ladder.moves.empty());
 }
 
+// Diodes that block conduct 10⁻¹⁰ times what they do at 0.6 V; what is around a start says nothing of the
+// equations there. At rest, and with a charged capacitor.
+BOOST_AUTO_TEST_CASE(a_bridge_rectifier_starts) {
+  const auto element = [](const char* type, const char* name, const char* from, const char* to) {
+    return Json{{"type", type}, {"name", name}, {"from", from}, {"to", to}};
+  };
+  for (const double leak : {1e-12, 1e-9, 1e-6})
+    for (const double charge : {0.0, 1e-4, 1e-3}) {
+      Json elements = Json::array();
+      const auto add = [&](Json made, const Json& more) {
+        made.update(more);
+        elements.push_back(std::move(made));
+      };
+      add(element("voltage-source", "V", "s", "b"), {{"value", "10*sin(100*pi*t)"}});
+      add(element("resistor", "RS", "s", "a"), {{"value", 1}});
+      const char* const ends[][3] = {
+          {"D1", "a", "p"}, {"D2", "b", "p"}, {"D3", "0", "a"}, {"D4", "0", "b"}};
+      for (const auto& [name, from, to] : ends)
+        add(element("diode", name, from, to),
+            {{"saturation", 1e-12}, {"emission", 1.8}, {"leak", leak}});
+      add(element("capacitor", "C", "p", "0"), {{"value", 1e-4}});
+      add(element("resistor", "R", "p", "0"), {{"value", 1e3}});
+      add(element("resistor", "RG", "b", "0"), {{"value", 1e7}});
+      const ConstraintLadder ladder = start(
+          {{"system",
+            {{"type", "network"}, {"nodes", {"0", "s", "a", "b", "p"}}, {"elements", elements}}},
+           {"initial", {{"q_C", charge}}}});
+      BOOST_TEST_CONTEXT("leak " << leak << ", charge " << charge) {
+        BOOST_TEST((ladder.verdict == Verdict::regular));
+        BOOST_TEST(ladder.moves.empty());
+        BOOST_TEST(!ladder.is_ambiguous());
+        BOOST_TEST(ladder.point.x[0] == charge);
+      }
+    }
+}
+
+// Consistent values of a molecule's size, where accelerations are 10¹⁰ and a tension is 10²⁰: they do not
+// move.
+BOOST_AUTO_TEST_CASE(a_small_pendulum_keeps_its_velocity) {
+  for (const double radius : {1e-4, 1e-7, 1e-9, 1e-10}) {
+    Json experiment = pendulum({{"x", radius}, {"y", 0}, {"v", 0}, {"w", 1}});
+    experiment["system"]["equations"][4] = "x^2 + y^2 - r^2";
+    experiment["system"]["parameters"] = {{"r", radius}};
+    const ConstraintLadder ladder = start(experiment);
+    BOOST_TEST_CONTEXT("radius " << radius) {
+      BOOST_TEST(ladder.moves.empty());
+      BOOST_TEST((ladder.verdict == Verdict::regular || ladder.is_ambiguous()));
+      BOOST_TEST(ladder.point.x[3] == 1.0, boost::test_tools::tolerance(1e-9));
+    }
+  }
+}
+
 // The velocities of a Lagrangian are unknowns of its equations, too: what is given is where these
 // are evaluated first. At rest none of these Lagrangians has a derivative.
 BOOST_AUTO_TEST_CASE(velocities_of_a_lagrangian_enter_the_first_evaluation) {
