@@ -188,11 +188,10 @@ void Newton::give(double* y) {
     y[system_.eliminated()[static_cast<std::size_t>(i)]] = given_[i];
 }
 
-Newton::Result Newton::solve_roughly(double* y, const double* const* in, const double* scales,
-                                     double part) {
-  if (!system_.is_reduced()) return solve_kept(y, in, scales, part);
+Newton::Result Newton::solve(double* y, const double* const* in, const double* scales) {
+  if (!system_.is_reduced()) return solve_kept(y, in, scales);
   const double* const* of_kept = take_kept(y, in);
-  Result result = solve_kept(kept_.data(), of_kept, scales, part);
+  Result result = solve_kept(kept_.data(), of_kept, scales);
   give(y);
   return result;
 }
@@ -232,10 +231,8 @@ bool Newton::approach(double* y, const double* const* in, const double* scales) 
   return arrived;
 }
 
-Newton::Result Newton::solve_kept(double* y, const double* const* in, const double* scales,
-                                  double part) {
+Newton::Result Newton::solve_kept(double* y, const double* const* in, const double* scales) {
   Result result;
-  double tolerance = options_.tolerance;
   const auto residual = all_.head(function_.output_size());
   double previous = std::numeric_limits<double>::infinity();
   double contraction = 0.0;
@@ -262,14 +259,13 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
     if (!evaluated) function_.value(in, all_.data());
     evaluated = false;
     moved = improve(y, scales);
-    if (result.iterations == 1) tolerance = std::max(tolerance, part * moved);
     if (!std::isfinite(moved)) {
       result.residuals.push_back(residual.size() == 0 ? 0.0 : residual.lpNorm<Eigen::Infinity>());
       return result;
     }
     // Least squares of a matrix of this solve are at their least, but that may be no solution.
     const auto accepted = [&] { return is_solved(y, scales, fresh); };
-    if (moved <= tolerance) {
+    if (moved <= options_.tolerance) {
       if (!accepted()) {
         if (fresh) break;
         if (refactorize()) continue;
@@ -282,7 +278,7 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
     if (compared > 0) {
       contraction = moved / previous;
       if (contraction < 0.5 && previous <= kLongStep &&
-          contraction * moved <= (1.0 - contraction) * tolerance && accepted()) {
+          contraction * moved <= (1.0 - contraction) * options_.tolerance && accepted()) {
         result.status = Status::converged;
         return result;
       }
@@ -292,7 +288,7 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
       const bool rounded =
           stalled && (moved > kRoundOff ? stagnant || unsolved_part(y, scales, false) <= kRounded
                                         : close || moved <= std::max(kLeast, 2 * round_off_));
-      const bool slow = contraction > options_.slow && moved > 1e3 * tolerance;
+      const bool slow = contraction > options_.slow && moved > 1e3 * options_.tolerance;
       if ((slow && !fresh) || (stalled && !rounded) ||
           (rounded && !is_still(y, scales, fresh, unsolved))) {
         if (!refactorize()) {

@@ -49,12 +49,7 @@ class Newton {
 
   // in[0] is where y is read and written; in[1] … are the parameters. scales[g]: a typical size of
   // block g (its current values count too). On failure y holds the last iterate.
-  Result solve(double* y, const double* const* in, const double* scales) {
-    return solve_roughly(y, in, scales, 0.0);
-  }
-  // The same, where parameters will change by about `part` of what y changes by at first, and y with
-  // them: an error of that size is as good as none.
-  Result solve_roughly(double* y, const double* const* in, const double* scales, double part);
+  Result solve(double* y, const double* const* in, const double* scales);
 
   // Moves y by damped steps to where solve() converges, from far away; see damped_newton(), which says what
   // is to be thought of the zero that is found. Arguments as of solve(). False, y as it was: it does not
@@ -80,7 +75,7 @@ class Newton {
   bool is_determined() const { return solver_->is_determined(); }
 
  private:
-  Result solve_kept(double* u, const double* const* in, const double* scales, double part);
+  Result solve_kept(double* u, const double* const* in, const double* scales);
   const double* const* take_kept(const double* y, const double* const* in);
   void give(double* y);
   bool factorize(const double* const* in);

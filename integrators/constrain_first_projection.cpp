@@ -16,12 +16,6 @@ constexpr int kMaxProjections = 30;
 constexpr double kTolerance = 1e-16;
 constexpr double kSafety = 10.0;
 
-// Where x moves with W by more than this part, W is not looked at before x is found.
-constexpr double kMostTurning = 0.1;
-
-// Of what x will move by once more with the next W, a part that is no matter.
-constexpr double kRough = 0.1;
-
 // P takes the end of a step to the point of M_f nearby: to a distance below that part of the step.
 // Solutions farther away are other ones, which an old factorisation can lead to.
 constexpr double kNearby = 0.5;
@@ -93,12 +87,8 @@ void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& a
         y.data(), guess_.data(), basis_.data(), directions_.matrix().data(), near_.data(), &t};
     const auto sizes = scales(before, attempt.h, largest(near_));
     const auto begin = [&] { y = start_; };
-    // What x moves by, times `turning`, is about what it will move by with the next W.
-    const double turning =
-        goes_on && !has_fixed_directions() ? turning_ * std::max(y.tail(d_).norm(), far) : 0.0;
-    const double part = turning < kMostTurning ? kRough * turning : 0.0;
     const auto lands_nearby = [&] {
-      solver_.solve(in, sizes.data(), begin, attempt, statistics, part);
+      solver_.solve(in, sizes.data(), begin, attempt, statistics);
       method_.projected_.value(in, found_.data());
       return !goes_on || is_nearby(before, sizes[0]);
     };
@@ -122,7 +112,7 @@ void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& a
       if (goes_on && kSafety * turning_ * distance * change <= kTolerance * size) return;
     } else {
       const double contraction = moved / previous;
-      if (moved <= 1e-15 * size || std::max(contraction, part) * moved <= kTolerance * size ||
+      if (moved <= 1e-15 * size || contraction * moved <= kTolerance * size ||
           (contraction >= 0.5 && moved < 1e-12 * (1.0 + size)))
         return;
     }

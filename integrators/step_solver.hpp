@@ -38,11 +38,10 @@ class StepSolver {
   struct Attempt {
     double time, h;
   };
-  // `part` as of Newton::solve_roughly.
   template <class Begin>
   void solve(const double* const* in, const double* scales, const Begin& begin,
-             const Attempt& attempt, SolverStatistics& statistics, double part = 0.0) {
-    if (converges(in, scales, statistics, part)) return;
+             const Attempt& attempt, SolverStatistics& statistics) {
+    if (converges(in, scales, statistics)) return;
     ++statistics.failures;
     newton_.reset();
     begin();
@@ -88,9 +87,8 @@ class StepSolver {
   void expect(const Motion& motion);
 
  private:
-  bool converges(const double* const* in, const double* scales, SolverStatistics& statistics,
-                 double part = 0.0) {
-    result_ = newton_.solve_roughly(y_.data(), in, scales, part);
+  bool converges(const double* const* in, const double* scales, SolverStatistics& statistics) {
+    result_ = newton_.solve(y_.data(), in, scales);
     statistics.iterations += result_.iterations;
     statistics.factorizations += result_.factorizations;
     return result_.status == Newton::Status::converged;

@@ -190,6 +190,20 @@ void VectorField::Evaluation::operator()(const State& state, VectorXd& rate) {
   solve(state.x, rate, state.t);
 }
 
+// At rest an unknown that is 0 has no size, and its round-off never becomes small next to itself. The
+// equations know one: units in which their derivatives are comparable with 1, times the largest residual or
+// unknown in these.
+void VectorField::Evaluation::take_natural_sizes(const double* const* in) {
+  const Function& F = field_.equations_;
+  VectorXd all(F.output_size() + F.nonzeros());
+  F.value_and_jacobian(in, all.data());
+  if (!all.allFinite()) return;
+  const auto units = equilibrate(F.dense_jacobian(all), kNoise);
+  const double size = std::max(largest(units.row_scale.cwiseProduct(all.head(F.output_size()))),
+                               largest(y_.cwiseQuotient(units.column_scale)));
+  sizes_.head(y_.size()) = size * units.column_scale;
+}
+
 void VectorField::Evaluation::solve(const VectorXd& x, VectorXd& rate, double t) {
   const Manifold& M = *field_.formulas_.system->manifold();
   const double* in[] = {y_.data(), x.data(), basis_.data(), &t};
@@ -198,6 +212,12 @@ void VectorField::Evaluation::solve(const VectorXd& x, VectorXd& rate, double t)
     newton_.reset();
     y_ = field_.formulas_.start;
     sizes_.setConstant(largest(y_));
+    result = newton_.solve(y_.data(), in, sizes_.data());
+  }
+  if (result.status != Newton::Status::converged) {
+    newton_.reset();
+    y_ = field_.formulas_.start;
+    take_natural_sizes(in);
     result = newton_.solve(y_.data(), in, sizes_.data());
   }
   if (result.status != Newton::Status::converged) {

@@ -78,6 +78,7 @@ class VectorField {
 
    private:
     void solve(const VectorXd& x, VectorXd& rate, double t);
+    void take_natural_sizes(const double* const* in);
 
     const VectorField& field_;
     Newton newton_;

@@ -248,7 +248,7 @@ class CProgram {
   // The parts whose last steps are nearest in time to each, see Composition.
   std::string nearby_parts(const std::string& name, double part) const {
     std::string all =
-        name == "at_stage" ? "struct nearby {\n  int part;\n  double times;\n};\n" : "";
+        name == "near_stage" ? "struct nearby {\n  int part;\n  double times;\n};\n" : "";
     all += "static const struct nearby " + name + "[PARTS][2] = {\n";
     if (step_.substeps.size() == 1) return all + "  {{0, 0.0}, {0, 0.0}}};\n";
     for (const auto& pair : Composition::nearby_stages(step_.substeps, part)) {
@@ -287,7 +287,8 @@ class CProgram {
     all +=
         "/* A step is made of steps of these parts of it. */\nstatic const double parts[PARTS] = " +
         c_array(Eigen::Map<const VectorXd>(step_.substeps.data(), std::ssize(step_.substeps))) +
-        ";\n\n" + nearby_parts("at_stage", 0.5) + nearby_parts("at_end", 1.0) + measured_parts();
+        ";\n\n" + nearby_parts("near_stage", 0.5) + nearby_parts("near_end", 1.0) +
+        measured_parts();
     for (const std::string_view part :
          {projects ? text::projected() : text::displaced(), text::looks(),
           projects ? text::projected_part() : text::displaced_part(), text::step()})

@@ -237,9 +237,10 @@ ConsistentJet ConsistentPoint::find(const ConsistentJet& from) const {
   Mobility fixed = mobility(from, false);
   Zero zero = find_zero(F, from.zero.y, fixed);
   // In units that come from what equations are elsewhere, as a diode that conducts is 10¹⁰ times what it is
-  // when it blocks, an equation of the others may be nothing, or no step lead on.
+  // when it blocks, an equation of the others may be nothing, or no step lead on. Linear equations are the same
+  // everywhere.
   fixed.is_matched = true;
-  if (!zero.found || !is_zero(F, zero, fixed)) {
+  if (!from.array.has_constant_jacobian() && !is_zero(F, zero, fixed)) {
     Zero matched = find_confirmed(F, from.zero.y, fixed);
     if (matched.found) zero = std::move(matched);
   }

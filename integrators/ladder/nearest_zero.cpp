@@ -165,12 +165,20 @@ VectorXd stepped(const VectorXd& y, const VectorXd& units, const VectorXd& delta
   return there;
 }
 
-// |F'| for the unknowns that move, without what is within the bound of its error.
+// |F'| for the unknowns that move, without what is within the bound of its error. Equations of others alone
+// are measured by those.
 SparseMatrixXd moving_part(const Linearization& at, const Mobility& mobility) {
   SparseMatrixXd part = at.jacobian.cwiseAbs();
   const bool has_errors = at.error.rows() == part.rows() && at.error.cols() == part.cols();
+  const auto counts = [&](Index i, Index j, double size) {
+    return size > (has_errors ? at.error.coeff(i, j) : 0.0);
+  };
+  std::vector<bool> moves(static_cast<std::size_t>(part.rows()), false);
+  for (Index j = mobility.frozen; j < part.outerSize(); ++j)
+    for (SparseMatrixXd::InnerIterator it(part, j); it; ++it)
+      if (counts(it.row(), j, it.value())) moves[static_cast<std::size_t>(it.row())] = true;
   part.prune([&](Index i, Index j, double size) {
-    return j >= mobility.frozen && size > (has_errors ? at.error.coeff(i, j) : 0.0);
+    return (j >= mobility.frozen || !moves[static_cast<std::size_t>(i)]) && counts(i, j, size);
   });
   return part;
 }
@@ -304,11 +312,13 @@ Zero find_zero(const LinearizableMap& map, const VectorXd& start, const Mobility
 }
 
 bool is_zero(const LinearizableMap& map, const Zero& found, const Mobility& mobility) {
+  constexpr double unseen = 1e-4;  // of an equation, not of its digits
   const Linearization at = map(found.y);
+  if (!is_finite(at)) return false;
   if (is_rounded(at) || !is_small(at.jacobian)) return true;
   const NaturalScaling units =
       SearchUnits(map, mobility, found.y, found.reach, at)(at, found.reach);
-  return units.defect(significant(at), found.reach) <= kAccepted;
+  return units.defect(significant(at), found.reach) <= unseen;
 }
 
 VectorXd kernel_part(const SparseMatrixXd& S, const VectorXd& direction) {

@@ -60,7 +60,7 @@ struct Zero {
 // falls.
 Zero find_zero(const LinearizableMap& map, const VectorXd& start, const Mobility& mobility);
 
-// Whether a zero that was found is one in the units of `mobility` too. Not asked of more than 200 unknowns,
+// Whether a zero that was found is one in the units of `mobility` too, up to a ten-thousandth. Not asked of more than 200 unknowns,
 // whose units cost more than their search.
 bool is_zero(const LinearizableMap& map, const Zero& found, const Mobility& mobility);
 

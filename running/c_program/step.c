@@ -40,7 +40,7 @@ static void begin_epoch(struct state *state) {
   int i, c;
   for (i = 0; PARTS > 1 && i < PARTS; ++i)
     for (c = 0; c < 2; ++c) {
-      const struct nearby stage = at_stage[i][c], end = at_end[i][c];
+      const struct nearby stage = near_stage[i][c], end = near_end[i][c];
       learn_at_stage(&steppers[i], c, &steppers[stage.part], stage.times, parts[i] / parts[stage.part]);
       learn_at_end(&steppers[i], c, &steppers[end.part], end.times, parts[i] / parts[end.part]);
     }

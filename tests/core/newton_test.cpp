@@ -377,33 +377,4 @@ BOOST_AUTO_TEST_CASE(least_squares_are_no_solution) {
   }
 }
 
-// Where a parameter will move y again, an error of that size is as good as none: fewer iterations, an error
-// no larger than it was told, and the next solution is exact.
-BOOST_AUTO_TEST_CASE(rough_solutions_are_as_good_as_they_are_asked_to_be) {
-  Problem problem = make(2, [](const ExprVector& y, const Expr& a) {
-    ExprVector F(2);
-    F << y[0] + 0.3 * sin(y[1]) - a, y[1] - 0.2 * cos(y[0]);
-    return F;
-  });
-  const double scale = 0.0;
-  for (const double part : {1e-2, 1e-5}) {
-    Newton newton(problem.function, {}, {}), exact(problem.function, {}, {});
-    problem.parameter = 0.5;
-    problem.solve(newton);
-    VectorXd solution = problem.y, start = problem.y;
-    problem.solve(exact);
-    problem.parameter = 0.7;
-    const double* of_exact[] = {solution.data(), &problem.parameter};
-    const auto all = exact.solve(solution.data(), of_exact, &scale);
-    const double* in[] = {problem.y.data(), &problem.parameter};
-    const auto result = newton.solve_roughly(problem.y.data(), in, &scale, part);
-    BOOST_TEST((result.status == Newton::Status::converged));
-    BOOST_TEST(result.iterations < all.iterations);
-    BOOST_TEST((problem.y - solution).norm() < part * (start - solution).norm());
-    BOOST_TEST((problem.y - solution).norm() > 1e-15);
-    problem.solve(newton);
-    BOOST_TEST((problem.y - solution).norm() < 1e-15);
-  }
-}
-
 BOOST_AUTO_TEST_SUITE_END()
