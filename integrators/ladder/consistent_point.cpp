@@ -237,10 +237,9 @@ ConsistentJet ConsistentPoint::find(const ConsistentJet& from) const {
   Mobility fixed = mobility(from, false);
   Zero zero = find_zero(F, from.zero.y, fixed);
   // In units that come from what equations are elsewhere, as a diode that conducts is 10¹⁰ times what it is
-  // when it blocks, an equation of the others may be nothing, or no step lead on. Linear equations are the same
-  // everywhere.
+  // when it blocks, an equation of the others may be nothing, or no step lead on.
   fixed.is_matched = true;
-  if (!from.array.has_constant_jacobian() && !is_zero(F, zero, fixed)) {
+  if (from.array.has_exponentials() && zero.is_steep && !is_zero(F, zero, fixed)) {
     Zero matched = find_confirmed(F, from.zero.y, fixed);
     if (matched.found) zero = std::move(matched);
   }

@@ -8,6 +8,7 @@
 
 #include "courant/core/derivative.hpp"
 #include "courant/core/expr_vectors.hpp"
+#include "courant/core/subgraph.hpp"
 #include "courant/integrators/ladder/local_formulation.hpp"
 
 namespace courant {
@@ -98,6 +99,12 @@ DerivativeArray::DerivativeArray(std::shared_ptr<const ImplicitSystem> system, d
   const SparseExprMatrix d_equations = courant::jacobian(local.equations, by);
   constant_jacobian_ = std::all_of(d_equations.values.begin(), d_equations.values.end(),
                                    [](const Expr& entry) { return entry.is_constant(); });
+  const Subgraph formulas(local.equations);
+  exponentials_ =
+      std::any_of(formulas.nodes().begin(), formulas.nodes().end(), [&](std::uint32_t index) {
+        const Op op = formulas.graph().node(index).op;
+        return op == Op::exp || op == Op::sinh || op == Op::cosh;
+      });
   depends_on_time_ = depends(local.equations, ExprVector::Constant(1, time));
   move_to(t, x0);
 }

@@ -57,6 +57,8 @@ class DerivativeArray final : public Prolongation {
   bool depends_on_time() const { return depends_on_time_; }
   // F is affine in (x, v, z) with constant coefficients.
   bool has_constant_jacobian() const override { return constant_jacobian_; }
+  // F contains exp, sinh or cosh, as of a diode: derivatives of any size are near each other.
+  bool has_exponentials() const { return exponentials_; }
 
  private:
   Linearization do_linearize(const VectorXd& y, const VectorXd& uncertainty,
@@ -68,7 +70,7 @@ class DerivativeArray final : public Prolongation {
   std::shared_ptr<const ImplicitSystem> system_;
   Function equations_;  // (xi, xi', z; x0, basis, t) ↦ F, with Jacobian by the first three
   Function state_;      // the same ↦ (x, v)
-  bool constant_jacobian_ = false, depends_on_time_ = false;
+  bool constant_jacobian_ = false, depends_on_time_ = false, exponentials_ = false;
   double t_ = 0.0;
   VectorXd origin_;
   LinearMap<double> basis_;

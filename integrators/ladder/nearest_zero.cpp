@@ -200,6 +200,17 @@ class SearchUnits {
     return NaturalScaling({at.value, magnitude_, at.value_error}, reach);
   }
 
+  // Zero::is_steep, before the search.
+  bool is_steep(const Linearization& start) const {
+    constexpr double steep = 1e20;
+    if (mobility_.is_matched) return false;
+    const SparseMatrixXd there = moving_part(start, mobility_);
+    for (Index j = mobility_.frozen; j < there.outerSize(); ++j)
+      for (SparseMatrixXd::InnerIterator it(there, j); it; ++it)
+        if (it.value() > 0.0 && magnitude_.coeff(it.row(), j) > steep * it.value()) return true;
+    return false;
+  }
+
  private:
   const Mobility& mobility_;
   SparseMatrixXd magnitude_;
@@ -220,6 +231,7 @@ Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& m
   if (!zero.is_finite) return zero;
 
   SearchUnits units_at(map, mobility, start, zero.reach, at);
+  zero.is_steep = is_small(at.jacobian) && units_at.is_steep(at);
   double damping = 0.0;
   bool moves = true;
   // Sparse factors reach what is seen through singular values below 10⁻⁵ only little by little. Where
@@ -315,7 +327,7 @@ bool is_zero(const LinearizableMap& map, const Zero& found, const Mobility& mobi
   constexpr double unseen = 1e-4;  // of an equation, not of its digits
   const Linearization at = map(found.y);
   if (!is_finite(at)) return false;
-  if (is_rounded(at) || !is_small(at.jacobian)) return true;
+  if (is_rounded(at)) return true;
   const NaturalScaling units =
       SearchUnits(map, mobility, found.y, found.reach, at)(at, found.reach);
   return units.defect(significant(at), found.reach) <= unseen;

@@ -44,6 +44,9 @@ struct Zero {
   // not made, and steps that roundings of F would make.
   VectorXd uncertainty;
   VectorXd reach;  // the largest |y_j| that was met, `typical` included
+  // Whether a derivative is over 10²⁰ times around the start what it is there, and no round-off there: as that of
+  // exp (v/25 mV), whose units say nothing of the start.
+  bool is_steep = false;  // not looked for with more than 200 unknowns
   int iterations = 0;
   std::vector<double> history;  // of defect
 };
@@ -60,8 +63,7 @@ struct Zero {
 // falls.
 Zero find_zero(const LinearizableMap& map, const VectorXd& start, const Mobility& mobility);
 
-// Whether a zero that was found is one in the units of `mobility` too, up to a ten-thousandth. Not asked of more than 200 unknowns,
-// whose units cost more than their search.
+// Whether a zero that was found is one in the units of `mobility` too, up to a ten-thousandth.
 bool is_zero(const LinearizableMap& map, const Zero& found, const Mobility& mobility);
 
 // A function to make least: its value, gradient and (Gauss–Newton) Hessian by the first unknowns.

@@ -80,22 +80,6 @@ BOOST_AUTO_TEST_CASE(a_bridge_rectifier_starts) {
     }
 }
 
-// Consistent values of a molecule's size, where accelerations are 10¹⁰ and a tension is 10²⁰: they do not
-// move.
-BOOST_AUTO_TEST_CASE(a_small_pendulum_keeps_its_velocity) {
-  for (const double radius : {1e-4, 1e-7, 1e-9, 1e-10}) {
-    Json experiment = pendulum({{"x", radius}, {"y", 0}, {"v", 0}, {"w", 1}});
-    experiment["system"]["equations"][4] = "x^2 + y^2 - r^2";
-    experiment["system"]["parameters"] = {{"r", radius}};
-    const ConstraintLadder ladder = start(experiment);
-    BOOST_TEST_CONTEXT("radius " << radius) {
-      BOOST_TEST(ladder.moves.empty());
-      BOOST_TEST((ladder.verdict == Verdict::regular || ladder.is_ambiguous()));
-      BOOST_TEST(ladder.point.x[3] == 1.0, boost::test_tools::tolerance(1e-9));
-    }
-  }
-}
-
 // The velocities of a Lagrangian are unknowns of its equations, too: what is given is where these
 // are evaluated first. At rest none of these Lagrangians has a derivative.
 BOOST_AUTO_TEST_CASE(velocities_of_a_lagrangian_enter_the_first_evaluation) {
