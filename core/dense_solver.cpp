@@ -108,7 +108,7 @@ void DenseSolver::equilibrate_by_powers() {
   double* const row = row_.data();
   row_.setOnes();
   column_.setOnes();
-  for (Index k = 0; k < n * n; ++k) S[k] = A[k];
+  scaled_ = A_;
   for (int sweep = 0; sweep < 2; ++sweep) {
     largest_.setZero();
     for (Index j = 0, k = 0; j < n; ++j) {

@@ -238,10 +238,12 @@ ConsistentJet ConsistentPoint::find(const ConsistentJet& from) const {
   Zero zero = find_zero(F, from.zero.y, fixed);
   // In units that come from what equations are elsewhere, as a diode that conducts is 10¹⁰ times what it is
   // when it blocks, an equation of the others may be nothing, or no step lead on.
-  fixed.is_matched = true;
-  if (from.array.has_exponentials() && zero.is_steep && !is_zero(F, zero, fixed)) {
-    Zero matched = find_confirmed(F, from.zero.y, fixed);
-    if (matched.found) zero = std::move(matched);
+  if (from.array.has_exponentials() && is_steep(F, from.zero.y, fixed)) {
+    fixed.is_matched = true;
+    if (!is_zero(F, zero, fixed)) {
+      Zero matched = find_confirmed(F, from.zero.y, fixed);
+      if (matched.found) zero = std::move(matched);
+    }
   }
   if (zero.found) return {from.array, zero};
   const Mobility free = mobility(from, true);

@@ -183,6 +183,12 @@ SparseMatrixXd moving_part(const Linearization& at, const Mobility& mobility) {
   return part;
 }
 
+// Sizes of unknowns that begin at y: what is typical of them counts.
+VectorXd reach_of(const VectorXd& y, const Mobility& mobility) {
+  const VectorXd size = y.cwiseAbs();
+  return mobility.typical.size() > 0 ? VectorXd(size.cwiseMax(mobility.typical)) : size;
+}
+
 // The units of a search at its points, as its mobility asks for them.
 class SearchUnits {
  public:
@@ -200,17 +206,6 @@ class SearchUnits {
     return NaturalScaling({at.value, magnitude_, at.value_error}, reach);
   }
 
-  // Zero::is_steep, before the search.
-  bool is_steep(const Linearization& start) const {
-    constexpr double steep = 1e20;
-    if (mobility_.is_matched) return false;
-    const SparseMatrixXd there = moving_part(start, mobility_);
-    for (Index j = mobility_.frozen; j < there.outerSize(); ++j)
-      for (SparseMatrixXd::InnerIterator it(there, j); it; ++it)
-        if (it.value() > 0.0 && magnitude_.coeff(it.row(), j) > steep * it.value()) return true;
-    return false;
-  }
-
  private:
   const Mobility& mobility_;
   SparseMatrixXd magnitude_;
@@ -223,15 +218,13 @@ Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& m
   const int most_iterations = safeguard ? 100 : 25;
   Zero zero;
   zero.y = start;
-  zero.reach = start.cwiseAbs();
-  if (mobility.typical.size() > 0) zero.reach = zero.reach.cwiseMax(mobility.typical);
+  zero.reach = reach_of(start, mobility);
   zero.defect = std::numeric_limits<double>::infinity();
   Linearization at = map(start);
   zero.is_finite = is_finite(at);
   if (!zero.is_finite) return zero;
 
   SearchUnits units_at(map, mobility, start, zero.reach, at);
-  zero.is_steep = is_small(at.jacobian) && units_at.is_steep(at);
   double damping = 0.0;
   bool moves = true;
   // Sparse factors reach what is seen through singular values below 10⁻⁵ only little by little. Where
@@ -321,6 +314,18 @@ Zero find_zero(const LinearizableMap& map, const VectorXd& start, const Mobility
   if (careful.found) return careful;
   const Zero bold = search(map, start, mobility, false);
   return bold.found ? bold : careful;
+}
+
+bool is_steep(const LinearizableMap& map, const VectorXd& start, const Mobility& mobility) {
+  constexpr double steep = 1e20;
+  const Linearization at = map(start);
+  if (!is_finite(at) || !is_small(at.jacobian)) return false;
+  const SparseMatrixXd there = moving_part(at, mobility),
+                       around = generic_magnitude(map, start, reach_of(start, mobility), at);
+  for (Index j = mobility.frozen; j < there.outerSize(); ++j)
+    for (SparseMatrixXd::InnerIterator it(there, j); it; ++it)
+      if (around.coeff(it.row(), j) > steep * it.value()) return true;
+  return false;
 }
 
 bool is_zero(const LinearizableMap& map, const Zero& found, const Mobility& mobility) {

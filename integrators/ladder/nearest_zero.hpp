@@ -44,9 +44,6 @@ struct Zero {
   // not made, and steps that roundings of F would make.
   VectorXd uncertainty;
   VectorXd reach;  // the largest |y_j| that was met, `typical` included
-  // Whether a derivative is over 10²⁰ times around the start what it is there, and no round-off there: as that of
-  // exp (v/25 mV), whose units say nothing of the start.
-  bool is_steep = false;  // not looked for with more than 200 unknowns
   int iterations = 0;
   std::vector<double> history;  // of defect
 };
@@ -62,6 +59,10 @@ struct Zero {
 // and so do unknowns that a step leaves at its own round-off. Accepted: defect ≤ 10⁻¹⁰, and iterated on until it no longer
 // falls.
 Zero find_zero(const LinearizableMap& map, const VectorXd& start, const Mobility& mobility);
+
+// Whether a derivative is over 10²⁰ times around the start what it is there, and no round-off there: as that
+// of exp (v/25 mV), whose units say nothing of the start. Not looked for with more than 200 unknowns.
+bool is_steep(const LinearizableMap& map, const VectorXd& start, const Mobility& mobility);
 
 // Whether a zero that was found is one in the units of `mobility` too, up to a ten-thousandth.
 bool is_zero(const LinearizableMap& map, const Zero& found, const Mobility& mobility);
