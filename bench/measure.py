@@ -78,7 +78,7 @@ def instructions_of(experiment, steps, folder, cache):
     step = json.loads((ROOT / "experiments" / f"{experiment}.json").read_text())["time"]["step"]
     counted = folder / "callgrind"
     command = [BIN / "courant", "run", ROOT / "experiments" / f"{experiment}.json", "-o", folder / "run", "--force",
-               "--quiet", "--set", "/expect=[]", "--set", f"/time/end={step * steps!r}",
+               "--quiet", "--backend", "native", "--set", "/expect=[]", "--set", f"/time/end={step * steps!r}",
                "--set", f'/output={{"every": {steps}}}']
     environment = dict(os.environ, COURANT_CACHE=str(cache))
     subprocess.run(command, check=True, env=environment, stdout=subprocess.DEVNULL)  # compiles

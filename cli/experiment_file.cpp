@@ -10,6 +10,7 @@
 #include <optional>
 #include <system_error>
 
+#include "courant/cli/waiting.hpp"
 #include "courant/core/message.hpp"
 #include "courant/reading/json_document.hpp"
 #include "courant/reading/setting.hpp"
@@ -99,7 +100,13 @@ int with_experiment(const Console& console, const std::string& file,
                     const std::vector<std::string>& settings) {
   return with_document(
       console, file,
-      [&](const Json& document) { return action(read_experiment_document(document)); }, settings);
+      [&](const Json& document) {
+        std::optional<Waiting> waiting(std::in_place, console, "reading the experiment");
+        const Experiment experiment = read_experiment_document(document);
+        waiting.reset();
+        return action(experiment);
+      },
+      settings);
 }
 
 }  // namespace courant::cli

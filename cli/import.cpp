@@ -4,7 +4,6 @@
 
 #include "courant/cli/command.hpp"
 #include "courant/cli/experiment_file.hpp"
-#include "courant/reading/experiment.hpp"
 #include "courant/reading/netlist.hpp"
 #include "courant/running/output_file.hpp"
 
@@ -15,8 +14,10 @@ int import(const Console& console, const std::string& file, const std::string& o
   const auto text = read_input(console, file, "a netlist");
   if (!text) return wrong;
   return reporting_errors(console, file, [&]() -> int {
-    const Json experiment = import_netlist(*text);
-    read_experiment_document(experiment);  // what is wrong with the network itself
+    std::vector<Problem> notes;
+    const Json experiment = import_netlist(*text, &notes);
+    for (const auto& [where, what] : notes)
+      print_error(console, "note: " + file + ": " + where + ": " + what);
     if (output.empty())
       console.out << experiment.dump(2) << '\n';
     else

@@ -3,6 +3,7 @@
 #include <cctype>
 
 #include "courant/core/version.hpp"
+#include "courant/core/word_list.hpp"
 
 namespace courant::cli {
 namespace {
@@ -56,11 +57,7 @@ std::string head(const std::string& name, const std::string& summary) {
          roff(name) + " \\- " + roff(what) + "\n";
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + bold(name);
-  return text;
-}
+std::string listed(const std::vector<std::string>& names) { return word_list(names, bold); }
 
 std::string entry(const ArgumentSynopsis& argument, bool is_option) {
   std::string text = ".TP\n" + (is_option ? listed(argument.names) : italic(argument.names[0]));

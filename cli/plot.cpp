@@ -29,7 +29,8 @@ std::optional<Figure> figure_of_table(const std::filesystem::path& folder) {
   };
   try {
     if (const Json sweep = read("sweep.json"); !sweep.is_null()) return sweep_figure(sweep);
-    if (const Json study = read("study.json"); !study.is_null()) return study_figure(study);
+    if (const Json study = read("study.json"); !study.is_null())
+      return study_figure(read_study_report(study));
   } catch (const Json::exception&) {
     throw RunFileError(folder.string() + ": its table is not one of a sweep or a study.");
   }
@@ -83,7 +84,7 @@ void add_plot(CLI::App& app, Session& session) {
       ->required();
   plot->add_option("--figure", arguments->figure, "which figure; not every run has all of them")
       ->type_name(
-          "phase|coordinates|axes|sphere|space|paths|energy|energy-detail|constraints|"
+          "phase|coordinates|axes|sphere|space|paths|section|energy|energy-detail|constraints|"
           "observables|sweep|study")
       ->required();
   plot->add_option("-o", arguments->output,

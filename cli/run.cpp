@@ -12,6 +12,7 @@
 #include "courant/cli/sweep.hpp"
 #include "courant/cli/waiting.hpp"
 #include "courant/core/native.hpp"
+#include "courant/running/run_backend.hpp"
 #include "courant/running/runner.hpp"
 
 namespace courant::cli {
@@ -69,7 +70,8 @@ int run_experiment(const Console& console, const RunArguments& arguments,
       options.on_progress = [&](const Progress& progress) { bar->show(progress); };
     }
   }
-  if (arguments.backend == Backend::Kind::automatic && !arguments.quiet)
+  if (worthwhile(arguments.backend, experiment).kind() == Backend::Kind::automatic &&
+      !arguments.quiet)
     if (const std::string defect = machine_compiler()->defect(); !defect.empty())
       print_error(console, "formulas are interpreted, which is slower: " + defect);
   const RunOutcome outcome = run(experiment, options);

@@ -89,8 +89,8 @@ void print_opening(const Console& console, const Experiment& experiment,
   if (experiment.method)
     out << "  " << experiment.method->description << ", " << steps_in_words(*experiment.time)
         << '\n';
-  out << "\n  (dim S, dim M): " << ladder_line(ladder) << "\n  " << verdict_in_words(ladder)
-      << '\n';
+  out << "\n  (dim S, dim M): " << ladder_line(ladder) << '\n';
+  print_wrapped(out, verdict_in_words(ladder), "  ");
   for (const Movement& move : ladder.moves)
     out << "  " << move.name << " had to move from " << shown(move.from) << " to " << shown(move.to)
         << " to be consistent.\n";
@@ -125,6 +125,9 @@ void print_outcome(const Console& console, const RunOutcome& outcome,
   if (const long looked_at = solver.confirmations.value_or(0); looked_at > 0)
     console.out << "  " << looked_at << (looked_at == 1 ? " step was" : " steps were")
                 << " confirmed by continuation in h.\n";
+  if (const long divided = solver.divisions.value_or(0); divided > 0)
+    console.out << "  " << divided << (divided == 1 ? " step was" : " steps were")
+                << " made in halves.\n";
   for (const auto& [name, symmetry] : summary.symmetries)
     if (!symmetry.remark.empty()) console.out << "  " << symmetry.remark << '\n';
   for (const std::string& warning : summary.warnings)

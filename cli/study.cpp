@@ -1,11 +1,13 @@
 #include "courant/running/study.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
 #include <ostream>
+#include <span>
 
 #include "courant/cli/backend.hpp"
 #include "courant/cli/command.hpp"
@@ -14,6 +16,7 @@
 #include "courant/cli/text.hpp"
 #include "courant/cli/waiting.hpp"
 #include "courant/core/message.hpp"
+#include "courant/core/word_list.hpp"
 #include "courant/reading/setting.hpp"
 #include "courant/reporting/figure_file.hpp"
 #include "courant/reporting/study_figure.hpp"
@@ -49,55 +52,46 @@ void add_subjects(const std::string& name, Json document, const std::vector<std:
   }
 }
 
-void print_study(const Console& console, const Json& study) {
+void print_study(const Console& console, const StudyReport& study) {
   std::ostream& out = console.out;
-  for (const Json& method : study.at("methods")) {
-    out << printable(method.at("experiment").get<std::string>()) << ": "
-        << method.at("method").get<std::string>() << '\n';
+  for (const StudyReport::Method& method : study.methods) {
+    out << printable(method.experiment) << ": " << method.method << '\n';
     TextTable table({"  step", "error", "order", "iterations/step", "seconds"});
-    for (const Json& row : method.at("rows")) {
-      const auto steps = row.at("steps").get<double>();
-      table.add({"  " + shown(row.at("step")), shown(row.at("error"), 4), shown(row.at("order"), 3),
-                 shown(row.at("iterations").get<double>() / steps, 3),
-                 shown(row.at("seconds"), 3)});
-    }
+    for (const StudyReport::Row& row : method.rows)
+      table.add({"  " + shown(row.step), shown_if_known(row.error, 4), shown_if_known(row.order, 3),
+                 shown(static_cast<double>(row.iterations) / static_cast<double>(row.steps), 3),
+                 shown_if_known(row.seconds, 3)});
     table.print(out, "");
-    out << "  order " << shown(method.at("order"), 3)
-        << "; reference: " << method.at("reference").get<std::string>();
-    if (const auto error = method.at("reference_error").get<double>(); error > 0.0)
-      out << ", off by some " << shown(error, 1);
+    out << "  order " << shown_if_known(method.order.value_or(StudyReport::kUnknown), 3)
+        << "; reference: " << method.reference;
+    if (method.reference_error > 0.0) out << ", off by some " << shown(method.reference_error, 1);
     out << '\n';
-    if (const std::string remark = method.at("remark"); !remark.empty())
-      print_wrapped(out, remark, "  ");
-    for (const Json& row : method.at("rows"))
-      if (const std::string message = row.at("message"); !message.empty())
-        print_wrapped(out, "step " + shown(row.at("step")) + ": " + message, "  ");
+    if (!method.remark.empty()) print_wrapped(out, method.remark, "  ");
+    for (const StudyReport::Row& row : method.rows)
+      if (!row.message.empty())
+        print_wrapped(out, "step " + shown(row.step) + ": " + row.message, "  ");
     out << '\n';
   }
-  if (study.at("quantities").is_array()) {
-    std::string list;
-    std::size_t count = 0;
+  if (const auto quantities = study.quantities()) {
     constexpr std::size_t most = 8;
-    for (const Json& name : study["quantities"]) {
-      if (++count > most) break;
-      list += (list.empty() ? "" : ", ") + name.get<std::string>();
-    }
-    if (count > most) list += ", …";
-    print_wrapped(out, "The error is the greatest distance of (" + list + ") from the reference.",
+    const auto told = std::span(*quantities).first(std::min(quantities->size(), most));
+    print_wrapped(out,
+                  "The error is the greatest distance of (" + word_list(told) +
+                      (quantities->size() > most ? ", …" : "") + ") from the reference.",
                   "");
   }
 }
 
-void write_files(const ResultFolder& folder, const Json& study) {
-  folder.write(study, study_csv(study));
+void write_files(const ResultFolder& folder, const StudyReport& study) {
+  folder.write(to_json(study), study_csv(study));
   if (const auto figure = study_figure(study)) write_file(folder.file("svg"), figure_svg(*figure));
 }
 
-int status_of_study(const Json& study) {
-  if (study.at("status") == "interrupted") return interrupted;
-  for (const Json& method : study.at("methods"))
-    for (const Json& row : method.at("rows"))
-      if (!row.at("message").get<std::string>().empty()) return failed;
+int status_of_study(const StudyReport& study) {
+  if (study.is_interrupted) return interrupted;
+  for (const StudyReport::Method& method : study.methods)
+    for (const StudyReport::Row& row : method.rows)
+      if (!row.message.empty()) return failed;
   return done;
 }
 
@@ -121,7 +115,7 @@ int study_files(const Console& console, const StudyArguments& arguments) {
     waiting.emplace(console, what);
   };
   if (console.heeds_stop) *console.heeds_stop = true;
-  Json result;
+  StudyReport result;
   const std::string names =
       arguments.files.size() == 1 ? arguments.files.front() : arguments.files.front() + ", …";
   const int status = reporting_errors(console, names, [&] {
@@ -134,10 +128,10 @@ int study_files(const Console& console, const StudyArguments& arguments) {
   if (!arguments.folder.empty())
     write_files(ResultFolder(arguments.folder, "study", arguments.force), result);
   if (arguments.json)
-    console.out << result.dump(2) << '\n';
+    console.out << to_json(result).dump(2) << '\n';
   else
     print_study(console, result);
-  if (result.at("status") == "interrupted") print_error(console, names + ": interrupted");
+  if (result.is_interrupted) print_error(console, names + ": interrupted");
   return status_of_study(result);
 }
 
@@ -147,8 +141,8 @@ Json study_case(const SweepCase& one, const std::filesystem::path& folder,
   options.backend = arguments.backend;
   options.stop = console.stop;
   const StudySubject subject{one.name, read_experiment_document(one.document)};
-  const Json result = study(std::span(&subject, 1), options);
-  if (result.at("status") == "interrupted")
+  const StudyReport result = study(std::span(&subject, 1), options);
+  if (result.is_interrupted)
     return {{"status", "interrupted"}, {"message", "interrupted"}, {"values", Json::object()}};
   std::string written;
   if (!folder.empty()) {
@@ -156,24 +150,26 @@ Json study_case(const SweepCase& one, const std::filesystem::path& folder,
     write_files(mine, result);
     written = one.name;
   }
-  const Json& method = result.at("methods").front();
-  const Json& last = method.at("rows").back();
-  std::string message = method.at("remark");
-  for (const Json& row : method.at("rows"))
-    if (message.empty()) message = row.at("message");
+  const StudyReport::Method& method = result.methods.front();
+  std::string message = method.remark;
+  for (const StudyReport::Row& row : method.rows)
+    if (message.empty()) message = row.message;
+  // The names and values of study.json.
+  const Json of_method = to_json(result).at("methods").front();
+  const Json& last = of_method.at("rows").back();
   return {{"folder", written},
           {"status", "completed"},
           {"message", message},
           {"as_expected", status_of_study(result) == done},
           {"values",
-           {{"method", method.at("method")},
-            {"order", method.at("order")},
+           {{"method", of_method.at("method")},
+            {"order", of_method.at("order")},
             {"step", last.at("step")},
             {"error", last.at("error")},
             {"iterations", last.at("iterations")},
             {"seconds", last.at("seconds")},
-            {"reference", method.at("reference")},
-            {"reference_error", method.at("reference_error")}}}};
+            {"reference", of_method.at("reference")},
+            {"reference_error", of_method.at("reference_error")}}}};
 }
 
 int study_cases(const Console& console, const StudyArguments& arguments) {

@@ -7,15 +7,10 @@
 #include <utility>
 
 #include "courant/core/message.hpp"
+#include "courant/core/text_layout.hpp"
 
 namespace courant::cli {
 namespace {
-
-// Characters, of which each of the texts here takes one column.
-std::size_t width(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-}
 
 // The words of a text; those of a formula that stand in parentheses together, and a sign and = with
 // what follows, unless that is longer than `longest`.
@@ -27,7 +22,7 @@ std::vector<std::string> pieces(const std::string& text, std::size_t longest) {
   const auto finish = [&] {
     if (piece.empty()) return;
     const bool is_side = piece.starts_with("= ") && !result.empty();
-    const std::size_t needed = width(piece) + (is_side ? width(result.back()) + 1 : 0);
+    const std::size_t needed = text_width(piece) + (is_side ? text_width(result.back()) + 1 : 0);
     if (needed > longest)
       result.insert(result.end(), words.begin() + static_cast<std::ptrdiff_t>(begin), words.end());
     else if (is_side)
@@ -75,7 +70,7 @@ void print_wrapped(std::ostream& out, const std::string& text, const std::string
   std::string line = first;
   bool is_begun = false;
   for (const std::string& piece : pieces(text, first.empty() ? 0 : columns - further.size())) {
-    if (is_begun && width(line) + 1 + width(piece) > columns) {
+    if (is_begun && text_width(line) + 1 + text_width(piece) > columns) {
       out << indent << line << '\n';
       line = further;
       is_begun = false;
@@ -95,12 +90,13 @@ void TextTable::print(std::ostream& out, const std::string& indent) const {
   std::vector<std::size_t> widths;
   for (const auto& row : rows_) {
     widths.resize(std::max(widths.size(), row.size()));
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width(row[i]));
+    for (std::size_t i = 0; i < row.size(); ++i)
+      widths[i] = std::max(widths[i], text_width(row[i]));
   }
   for (const auto& row : rows_) {
     std::string line = indent;
     for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string padding(widths[i] - width(row[i]), ' ');
+      const std::string padding(widths[i] - text_width(row[i]), ' ');
       line += (i == 0 ? "" : "  ") + (i == 0 ? row[i] + padding : padding + row[i]);
     }
     line.erase(line.find_last_not_of(' ') + 1);

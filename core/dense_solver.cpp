@@ -100,29 +100,27 @@ bool DenseSolver::do_factorize(const double* entries) {
   return inverse_.allFinite();
 }
 
-// Both kinds of units, twice: rows by columns in units of their own, and columns by such rows.
+// Both kinds of units, twice: rows by columns in units of their own, and columns by such rows. Loops, since
+// expressions take up to twice as long for matrices of four rows.
 void DenseSolver::equilibrate_by_powers() {
   const Index n = A_.rows();
-  const double* const A = A_.data();
-  double* const S = scaled_.data();
-  double* const row = row_.data();
   row_.setOnes();
   column_.setOnes();
   scaled_ = A_;
   for (int sweep = 0; sweep < 2; ++sweep) {
     largest_.setZero();
-    for (Index j = 0, k = 0; j < n; ++j) {
+    for (Index j = 0; j < n; ++j) {
       double size = 0.0;
-      for (Index i = 0; i < n; ++i) size = std::max(size, std::fabs(S[k + i]));
+      for (Index i = 0; i < n; ++i) size = std::max(size, std::fabs(scaled_(i, j)));
       regular_matrix::scale_to_one(size, column_[j]);
-      for (Index i = 0; i < n; ++i, ++k) {
-        S[k] = A[k] * column_[j];
-        largest_[i] = std::max(largest_[i], std::fabs(row[i] * S[k]));
+      for (Index i = 0; i < n; ++i) {
+        scaled_(i, j) = A_(i, j) * column_[j];
+        largest_[i] = std::max(largest_[i], std::fabs(row_[i] * scaled_(i, j)));
       }
     }
-    for (Index i = 0; i < n; ++i) regular_matrix::scale_to_one(largest_[i], row[i]);
-    for (Index j = 0, k = 0; j < n; ++j)
-      for (Index i = 0; i < n; ++i, ++k) S[k] *= row[i];
+    for (Index i = 0; i < n; ++i) regular_matrix::scale_to_one(largest_[i], row_[i]);
+    for (Index j = 0; j < n; ++j)
+      for (Index i = 0; i < n; ++i) scaled_(i, j) *= row_[i];
   }
 }
 

@@ -1,5 +1,7 @@
 #include "courant/core/expr.hpp"
 
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "courant/core/operation.hpp"
@@ -26,6 +28,10 @@ bool is_negation(const Expr& a) {
   const Node* node = node_of(a);
   return node != nullptr && node->op == Op::negate;
 }
+
+// What is made of it is so too, whatever the other operand is.
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+bool is_nan(const Expr& a) { return a.is_constant() && std::isnan(a.value()); }
 
 Expr negated(const Expr& a) { return a.graph().expression(node_of(a)->a); }
 
@@ -62,6 +68,7 @@ Expr& Expr::operator/=(const Expr& other) { return *this = *this / other; }
 Expr operator-(const Expr& a) { return is_negation(a) ? negated(a) : make(Op::negate, a); }
 
 Expr operator+(const Expr& a, const Expr& b) {
+  if (is_nan(a) || is_nan(b)) return not_a_number;
   if (a.is_constant(0.0)) return b;
   if (b.is_constant(0.0)) return a;
   if (is_negation(b)) return a - negated(b);
@@ -70,6 +77,7 @@ Expr operator+(const Expr& a, const Expr& b) {
 }
 
 Expr operator-(const Expr& a, const Expr& b) {
+  if (is_nan(a) || is_nan(b)) return not_a_number;
   if (b.is_constant(0.0)) return a;
   if (a.is_constant(0.0)) return -b;
   if (!a.is_constant() && a == b) return 0.0;
@@ -79,6 +87,7 @@ Expr operator-(const Expr& a, const Expr& b) {
 }
 
 Expr operator*(const Expr& a, const Expr& b) {
+  if (is_nan(a) || is_nan(b)) return not_a_number;
   if (a.is_constant(1.0)) return b;
   if (b.is_constant(1.0)) return a;
   if (a.is_constant(0.0) && !b.is_constant()) return 0.0;
@@ -91,6 +100,7 @@ Expr operator*(const Expr& a, const Expr& b) {
 }
 
 Expr operator/(const Expr& a, const Expr& b) {
+  if (is_nan(a) || is_nan(b)) return not_a_number;
   if (b.is_constant(1.0)) return a;
   if (b.is_constant(-1.0)) return -a;
   if (a.is_constant(0.0) && !b.is_constant()) return 0.0;

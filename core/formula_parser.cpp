@@ -5,6 +5,7 @@
 
 #include "courant/core/formula_error.hpp"
 #include "courant/core/spelling.hpp"
+#include "courant/core/text_layout.hpp"
 
 namespace courant::formula {
 namespace {
@@ -55,10 +56,6 @@ bool begins_operand(TokenKind kind) {
 
 std::string quoted(std::string_view text) { return std::string(1, '"').append(text) += '"'; }
 
-std::string counted(std::size_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
 // `r[20][3]`, `r[20][3]'`
 std::string with_shape(std::string_view name, const Shape& shape, bool is_velocity) {
   std::string text(name);
@@ -69,8 +66,9 @@ std::string with_shape(std::string_view name, const Shape& shape, bool is_veloci
 void check_argument_count(const Token& name, const NamedFunction& function, std::size_t count) {
   if (function.least <= count && count <= function.most) return;
   const std::string at_least = function.least == function.most ? "" : "at least ";
-  fail(name, quoted(name.text) + " takes " + at_least + counted(function.least, "argument") +
-                 ", found " + std::to_string(count));
+  fail(name, quoted(name.text) + " takes " + at_least +
+                 counted(std::ptrdiff_t(function.least), "argument") + ", found " +
+                 std::to_string(count));
 }
 
 }  // namespace

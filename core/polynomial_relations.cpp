@@ -74,14 +74,24 @@ Monomial product(const Monomial& a, const Monomial& b, int sign) {
   return result;
 }
 
-PolynomialRelations::PolynomialRelations(const std::vector<Polynomial>& relations, bool backwards)
-    : backwards_(backwards) {
+PolynomialRelations::PolynomialRelations(const std::vector<Polynomial>& relations,
+                                         MonomialOrder order)
+    : order_(order) {
   for (const Polynomial& relation : relations)
     if (is_polynomial(relation)) add(relation);
   complete();
 }
 
+int PolynomialRelations::eliminated_degree(const Monomial& monomial) const {
+  int sum = 0;
+  for (const auto& [factor, power] : monomial)
+    if (factor >= order_.eliminated_from && factor < order_.eliminated_to) sum += power;
+  return sum;
+}
+
 bool PolynomialRelations::comes_first(const Monomial& a, const Monomial& b) const {
+  const int first_of_a = eliminated_degree(a), first_of_b = eliminated_degree(b);
+  if (first_of_a != first_of_b) return first_of_a > first_of_b;
   const int of_a = total_degree(a), of_b = total_degree(b);
   if (of_a != of_b) return of_a > of_b;
   const auto first = [](auto i, auto end, auto j, auto j_end, auto before) {
@@ -91,8 +101,8 @@ bool PolynomialRelations::comes_first(const Monomial& a, const Monomial& b) cons
     }
     return i != end;
   };
-  return backwards_ ? first(a.rbegin(), a.rend(), b.rbegin(), b.rend(), std::greater<int>())
-                    : first(a.begin(), a.end(), b.begin(), b.end(), std::less<int>());
+  return order_.backwards ? first(a.rbegin(), a.rend(), b.rbegin(), b.rend(), std::greater<int>())
+                          : first(a.begin(), a.end(), b.begin(), b.end(), std::less<int>());
 }
 
 // Its remainder becomes an element; what that makes reducible is added once more. False where
@@ -150,6 +160,16 @@ void PolynomialRelations::complete() {
         }
       }
   }
+}
+
+std::vector<Polynomial> PolynomialRelations::basis() const {
+  std::vector<Polynomial> all;
+  for (const Element& element : basis_) {
+    Polynomial& polynomial = all.emplace_back();
+    for (const auto& [monomial, c] : element.rest) polynomial.emplace(monomial, -c);
+    polynomial.emplace(element.lead, 1.0);
+  }
+  return all;
 }
 
 Polynomial PolynomialRelations::remainder(Polynomial polynomial) const {

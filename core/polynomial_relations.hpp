@@ -15,11 +15,17 @@ using Polynomial = std::map<Monomial, double>;  // no coefficient is 0
 // a b, or a/b for sign = -1.
 Monomial product(const Monomial& a, const Monomial& b, int sign = 1);
 
+struct MonomialOrder {
+  bool backwards = false;
+  int eliminated_from = 0, eliminated_to = 0;  // these numbers, the last one not among them
+};
+
 // The ideal of polynomials r₁ … r_k, by a Gröbner basis of it: where all of them vanish, a
 // polynomial equals its remainder, and remainders of equal polynomials are equal.
 //
-// Monomials are ordered by degree, then by the powers of the factors, those with the smallest
-// number first or, `backwards`, last; the remainder has no multiple of a leading monomial. Factors
+// Monomials are ordered by their degree in the factors that are to be eliminated, then by degree, then
+// by the powers of the factors, those with the smallest number first or, `backwards`, last; the
+// remainder has no multiple of a leading monomial. Factors
 // with negative powers may stand in what is reduced, not in relations; relations that have some are
 // left out. A basis that grows beyond 40 polynomials or 60 terms ends as it is: remainders are
 // right then, but not the only ones.
@@ -27,10 +33,13 @@ Monomial product(const Monomial& a, const Monomial& b, int sign = 1);
 // Reference: Cox, Little, O'Shea, Ideals, Varieties, and Algorithms, 2.7, Theorem 2 (Buchberger).
 class PolynomialRelations {
  public:
-  explicit PolynomialRelations(const std::vector<Polynomial>& relations, bool backwards = false);
+  explicit PolynomialRelations(const std::vector<Polynomial>& relations, MonomialOrder order = {});
 
   // Throws std::length_error for polynomials that grow beyond some hundred terms.
   Polynomial remainder(Polynomial polynomial) const;
+
+  // The basis, each polynomial with 1 as its leading coefficient.
+  std::vector<Polynomial> basis() const;
 
  private:
   struct Element {
@@ -42,7 +51,9 @@ class PolynomialRelations {
   bool add(const Polynomial& polynomial);
   void complete();
 
-  bool backwards_;
+  int eliminated_degree(const Monomial& monomial) const;
+
+  MonomialOrder order_;
   std::vector<Element> basis_;
 };
 

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <limits>
 #include <ostream>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
 #include "courant/core/lu_decomposition.hpp"
+#include "courant/core/message.hpp"
 #include "courant/core/qr_decomposition.hpp"
 #include "courant/core/rank_cut.hpp"
 #include "courant/core/singular_value_decomposition.hpp"
@@ -110,12 +109,11 @@ void conclude(RankDecision& decision, Index rank, double above, double below,
 }
 
 std::ostream& operator<<(std::ostream& out, const RankDecision& decision) {
-  std::ostringstream line;
-  line << "rank " << decision.rank << " of " << decision.rows << " × " << decision.columns
-       << ", gap " << std::setprecision(2) << decision.gap << " (" << decision.above << " | "
-       << decision.below << ", threshold " << decision.threshold << ")"
-       << (decision.ambiguous() ? ", ambiguous" : "");
-  return out << line.str();
+  const auto text = [](double value) { return number_text(value, 2); };
+  return out << "rank " << decision.rank << " of " << size_text(decision.rows, decision.columns)
+             << ", gap " << text(decision.gap) << " (" << text(decision.above) << " | "
+             << text(decision.below) << ", threshold " << text(decision.threshold) << ")"
+             << (decision.ambiguous() ? ", ambiguous" : "");
 }
 
 RankDecision decide_rank(const Eigen::Ref<const MatrixXd>& A, const RankOptions& options) {

@@ -38,14 +38,14 @@ struct Style {
 class Simplifier {
  public:
   Simplifier(const Simplification& given, Style style) : expand_(style.expand) {
-    for (const Expr& relation : given.relations) {
-      const bool as_given = expand_;
-      expand_ = true;
-      relations_.push_back(of(relation));
-      expand_ = as_given;
-    }
+    expand_ = true;
+    for (const Expr& relation : given.relations) relations_.push_back(of(relation));
     if (style.relations != Style::Relations::where_shorter)
-      remainders_.emplace(relations_, style.relations == Style::Relations::last);
+      remainders_.emplace(relations_,
+                          MonomialOrder{.backwards = style.relations == Style::Relations::last});
+    else
+      for (const Expr& constraint : given.constraints) relations_.push_back(of(constraint));
+    expand_ = style.expand;
     known_.clear();
   }
 
@@ -101,6 +101,28 @@ class Simplifier {
     const auto [common, c] = take_out_content(sum);
     if (sum.size() == 1) return {{product(common, sum.begin()->first), c * sum.begin()->second}};
     return {{normal(product(common, {{atom(sum), 1}})), c}};
+  }
+
+  // Terms over the same sums put together: (x - y)/(x^2 + y^2) + ...
+  Sum collected(const Sum& sum) {
+    std::map<Monomial, Sum> over;
+    for (const auto& [monomial, c] : sum) {
+      Monomial below;
+      for (const auto& [factor, exponent] : monomial)
+        if (exponent < 0 && factors_[static_cast<std::size_t>(factor)].is_sum)
+          below.emplace_back(factor, exponent);
+      over[below][product(monomial, below, -1)] = c;
+    }
+    Sum result;
+    for (const auto& [below, above] : over) {
+      if (below.empty()) {
+        for (const auto& [monomial, c] : above) add(result, monomial, c);
+        continue;
+      }
+      const auto [monomial, c] = as_factor(above);
+      add(result, normal(product(monomial, below)), c);
+    }
+    return result;
   }
 
   // Positive powers of the common factor stay: where they vanish, the equation holds.
@@ -369,6 +391,14 @@ class Simplifier {
   Sum value(const Graph& graph, std::uint32_t index) {
     const Node& node = graph.node(index);
     const auto operand = [&](std::uint32_t i) -> const Sum& { return known_.at(i); };
+    static const std::map<Op, const char*> functions = {
+        {Op::exp, "exp"},   {Op::log, "log"},   {Op::tan, "tan"},   {Op::asin, "asin"},
+        {Op::acos, "acos"}, {Op::atan, "atan"}, {Op::sinh, "sinh"}, {Op::cosh, "cosh"},
+        {Op::tanh, "tanh"}, {Op::abs, "abs"},   {Op::sign, "sign"}, {Op::atan2, "atan2"},
+        {Op::min, "min"},   {Op::max, "max"}};
+    if (const auto function = functions.find(node.op); function != functions.end())
+      return arity(node.op) == 1 ? call(function->second, {&operand(node.a)})
+                                 : call(function->second, {&operand(node.a), &operand(node.b)});
     switch (node.op) {
       case Op::constant:
         return number(graph.constant(index));
@@ -397,34 +427,6 @@ class Simplifier {
         circles_.emplace(sine.begin()->first[0].first, cosine.begin()->first[0].first);
         return node.op == Op::sin ? sine : cosine;
       }
-      case Op::exp:
-        return call("exp", {&operand(node.a)});
-      case Op::log:
-        return call("log", {&operand(node.a)});
-      case Op::tan:
-        return call("tan", {&operand(node.a)});
-      case Op::asin:
-        return call("asin", {&operand(node.a)});
-      case Op::acos:
-        return call("acos", {&operand(node.a)});
-      case Op::atan:
-        return call("atan", {&operand(node.a)});
-      case Op::sinh:
-        return call("sinh", {&operand(node.a)});
-      case Op::cosh:
-        return call("cosh", {&operand(node.a)});
-      case Op::tanh:
-        return call("tanh", {&operand(node.a)});
-      case Op::abs:
-        return call("abs", {&operand(node.a)});
-      case Op::sign:
-        return call("sign", {&operand(node.a)});
-      case Op::atan2:
-        return call("atan2", {&operand(node.a), &operand(node.b)});
-      case Op::min:
-        return call("min", {&operand(node.a), &operand(node.b)});
-      case Op::max:
-        return call("max", {&operand(node.a), &operand(node.b)});
       case Op::pow: {
         const std::string base = text(operand(node.a)), exponent = text(operand(node.b));
         return {{{{factor({.text = "(" + base + ")^(" + exponent + ")"}), 1}}, 1.0}};
@@ -473,8 +475,14 @@ std::optional<std::string> shortest(const Simplification& given, const Texts& te
 std::optional<std::string> simplified(const Expr& a, const Simplification& given) {
   return shortest(given, [&](Simplifier& simplifier) {
     const Sum sum = simplifier.of(a);
-    return std::vector<std::string>{simplifier.text(sum),
-                                    simplifier.text(simplifier.factored(sum))};
+    const Sum collected = simplifier.collected(sum);
+    std::vector<std::string> found = {simplifier.text(collected)};
+    try {
+      found.push_back(simplifier.text(sum));
+      found.push_back(simplifier.text(simplifier.factored(sum)));
+    } catch (const TooLarge&) {  // the first one will do
+    }
+    return found;
   });
 }
 

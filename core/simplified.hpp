@@ -15,6 +15,8 @@ struct Simplification {
   // constant one is replaced by that multiple of the constant. What is zero on all points where
   // they are, as a consequence of several of them too, is found to be 0.
   std::vector<Expr> relations = {};
+  // The same, but nothing more is concluded from them than the replacement of multiples.
+  std::vector<Expr> constraints = {};
 };
 
 // The expression as a sum of terms, terms with the same factors put together:

@@ -7,6 +7,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "courant/integrators/composed_differential.hpp"
+#include "courant/integrators/step_parts.hpp"
+
 namespace courant {
 namespace {
 
@@ -74,36 +77,14 @@ class Composition::Trajectory final : public Stepper {
       share += coefficients_[i];
       const bool is_last = i + 1 == stages_.size();
       const Stepper& previous = i == 0 ? *stages_.back() : *stages_[i - 1];
-      advance(*stages_[i], previous, after, coefficients_[i] * h,
-              is_last ? end : before.t + share * h);
+      const CountedWork counted(statistics_, *stages_[i]);
+      stages_[i]->step_from(previous, after, coefficients_[i] * h,
+                            is_last ? end : before.t + share * h);
     }
   }
 
-  // The work of a stage counts, whether it can be made or not.
-  void advance(Stepper& stage, const Stepper& previous, State& state, double h, double end) {
-    const SolverStatistics before = stage.statistics();
-    try {
-      stage.step_from(previous, state, h, end);
-    } catch (...) {
-      statistics_.add_work(before, stage.statistics());
-      throw;
-    }
-    statistics_.add_work(before, stage.statistics());
-  }
-
-  void do_keep(const State&, const State&) override {
-    const Step& last = stages_.back()->last();
-    stage_ = last.stage;
-    effort_ = last.effort;
-    parts_.resize(stages_.size());
-    if (!tells_parts()) return;
-    for (std::size_t i = 0; i < stages_.size(); ++i) parts_[i] = stages_[i]->last();
-  }
-  void do_stage(Step& step) const override {
-    step.stage = stage_;
-    step.effort = effort_;
-    step.parts = parts_;
-  }
+  void do_keep(const State&, const State&) override { parts_.keep(stages_, tells_parts()); }
+  void do_stage(Step& step) const override { parts_.tell(step); }
   void do_discard() override { do_forget(); }
   void do_forget() override {
     for (const auto& stage : stages_) stage->forget();
@@ -116,36 +97,8 @@ class Composition::Trajectory final : public Stepper {
   int order_;
   std::span<const double> coefficients_;
   std::vector<std::unique_ptr<Stepper>> stages_;
-  // Of the last step that stands: what is known of its last stage, and of all if that is asked for.
-  State stage_;
-  VectorXd effort_;
-  std::vector<Step> parts_;
+  StepParts parts_;
 };
-
-namespace {
-
-class ComposedDifferential final : public StepDifferential {
- public:
-  ComposedDifferential(std::string method, std::shared_ptr<const StepDifferential> of_stages)
-      : method_(std::move(method)), of_stages_(std::move(of_stages)) {}
-
- private:
-  MatrixXd do_images(const Step& step, const MatrixXd& V) const override {
-    // Parts that are not told have h = 0.
-    if (step.parts.empty() || step.parts.front().h == 0.0)
-      throw std::invalid_argument(method_ +
-                                  ": the step does not know its parts; expected one that was made "
-                                  "after Stepper::tell_parts().");
-    MatrixXd images = V;
-    for (const Step& part : step.parts) images = (*of_stages_)(part, images);
-    return images;
-  }
-
-  std::string method_;
-  std::shared_ptr<const StepDifferential> of_stages_;
-};
-
-}  // namespace
 
 Composition::Composition(std::shared_ptr<const Integrator> method, int order)
     : Integrator(method ? method->system() : nullptr), method_(std::move(method)), order_(order) {
@@ -213,7 +166,9 @@ std::vector<StepFormulas> Composition::do_formulas() const { return method_->for
 
 std::shared_ptr<const StepDifferential> Composition::do_differential() const {
   auto of_stages = method_->differential();
-  return of_stages ? std::make_shared<ComposedDifferential>(name(), std::move(of_stages)) : nullptr;
+  if (!of_stages) return nullptr;
+  return std::make_shared<ComposedDifferential>(
+      name(), std::vector<std::shared_ptr<const StepDifferential>>{std::move(of_stages)});
 }
 
 std::unique_ptr<Stepper> Composition::do_stepper() const {

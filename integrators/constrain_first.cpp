@@ -196,6 +196,7 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
   fixed_directions_ = fixed_directions(M, *projector_, ladder);
 
   const Trace trace(*this);
+  open_ = trace.open;
   const Backend backend = options.backend.together();
   const Function::Options compiled = {.backend = backend};
   blocks_ = trace.blocks;

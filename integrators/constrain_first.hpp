@@ -6,6 +6,7 @@
 #include "courant/integrators/ladder/constraint_ladder.hpp"
 #include "courant/integrators/maps/discretization_map.hpp"
 #include "courant/integrators/moving_conormals.hpp"
+#include "courant/integrators/open_jets.hpp"
 #include "courant/integrators/projector.hpp"
 #include "courant/integrators/step_program.hpp"
 #include "courant/structures/implicit_system.hpp"
@@ -70,8 +71,9 @@ class ConstrainFirst final : public Integrator, public Programmed {
   std::vector<int> differentiations_;  // of each equation of the system
   Index codimension_;                  // d = dim M - dim M_f
   Index gauge_dimension_;
-  Index blocks_;              // tangent blocks of the unknowns: ξ, ξ', …
-  Index auxiliaries_;         // z, z', …
+  std::optional<OpenJets> open_;  // known once the formulas were traced
+  Index blocks_;                  // tangent blocks of the unknowns: ξ, ξ', …
+  Index auxiliaries_;             // z, z', …
   EquationSystem equations_;  // (ξ, ξ', …, z, …, μ); x₀, basis, W, h, t  ↦ residual of the step
   Function whole_;            // the same without elimination, unless it is affine
   Function advance_;          // the same ↦ R_d⁺(x̄, h v), x̄, v

@@ -42,7 +42,8 @@ ConstrainFirst::Projection::Projection(const ConstrainFirst& method, MovingBasis
       guess_(near_.size()),
       shifted_(VectorXd::Zero(method.system()->manifold()->tangent_dimension())),
       corrected_(shifted_),
-      found_(method.projected_.output_size()) {}
+      found_(method.projected_.output_size()),
+      velocity_(n_) {}
 
 std::vector<Index> ConstrainFirst::Projection::predicted_groups(const ConstrainFirst& method,
                                                                 Index unknowns) {
@@ -63,6 +64,7 @@ void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& a
   const auto& [before, attempt, t, far, goes_on] = approach;
   near_ = near;
   VectorXd& y = solver_.unknown();
+  const double speed = goes_on ? largest_speed(before, y) : 0.0;
   y.head(n_).setZero();
   y.tail(d_).setZero();
   guess_ = near_;
@@ -90,7 +92,7 @@ void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& a
     const auto lands_nearby = [&] {
       solver_.solve(in, sizes.data(), begin, attempt, statistics);
       method_.projected_.value(in, found_.data());
-      return !goes_on || is_nearby(before, sizes[0]);
+      return !goes_on || is_nearby(before, attempt.h * speed, sizes[0]);
     };
     if (!lands_nearby()) {
       ++statistics.failures;
@@ -124,11 +126,21 @@ void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& a
                    "is too large: the projection onto M_f does not converge.");
 }
 
+// The largest of the velocity before the step, of that in its middle and of that after it, extrapolated.
+double ConstrainFirst::Projection::largest_speed(const State& before, const VectorXd& y) {
+  if (n_ == 0) return 0.0;
+  basis_.coordinates_of(before.v, velocity_);
+  const auto middle = y.segment(n_, n_);
+  return std::max({velocity_.lpNorm<Eigen::Infinity>(), middle.lpNorm<Eigen::Infinity>(),
+                   (2.0 * middle - velocity_).lpNorm<Eigen::Infinity>()});
+}
+
 // Whether what was found is not far from near_, next to the step from `before` and to coordinates of
-// that size; nor ξ from guess_, which may have gone around a compact space.
-bool ConstrainFirst::Projection::is_nearby(const State& before, double size) const {
+// that size; nor ξ from guess_, which may have gone around a compact space. Where a coordinate turns it is
+// back after the step where it was: how far the step led, its velocities tell.
+bool ConstrainFirst::Projection::is_nearby(const State& before, double path, double size) const {
   const auto found = found_.head(near_.size());
-  const double step = (near_ - before.x).lpNorm<Eigen::Infinity>();
+  const double step = std::max((near_ - before.x).lpNorm<Eigen::Infinity>(), std::fabs(path));
   const double nearby = std::max(kNearby * step, kNoDistance * size);
   const double foreseen = (guess_ - near_).lpNorm<Eigen::Infinity>();
   return (found - near_).lpNorm<Eigen::Infinity>() <= nearby &&

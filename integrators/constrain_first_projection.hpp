@@ -68,7 +68,8 @@ class ConstrainFirst::Projection {
   static std::vector<Index> predicted_groups(const ConstrainFirst& method, Index unknowns);
 
  private:
-  bool is_nearby(const State& before, double size) const;
+  double largest_speed(const State& before, const VectorXd& y);
+  bool is_nearby(const State& before, double path, double size) const;
   double jet_change(const VectorXd& from, const VectorXd& to) const;
   void move_basis(const VectorXd& x, VectorXd& y);
   void aim(const VectorXd& x, const VectorXd& y, double t);
@@ -86,7 +87,7 @@ class ConstrainFirst::Projection {
   // ‖ΔW‖ / ‖Δx‖ of the last steps; unknown before the first
   double turning_ = std::numeric_limits<double>::infinity();
   MatrixXd vectors_;
-  VectorXd jets_, start_, aimed_, near_, guess_, foreseen_, shifted_, corrected_, found_;
+  VectorXd jets_, start_, aimed_, near_, guess_, foreseen_, shifted_, corrected_, found_, velocity_;
 };
 
 }  // namespace courant

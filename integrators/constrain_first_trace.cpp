@@ -1,5 +1,7 @@
 #include "courant/integrators/constrain_first_trace.hpp"
 
+#include <algorithm>
+
 #include "courant/core/derivative.hpp"
 #include "courant/core/expr_vectors.hpp"
 #include "courant/integrators/ladder/local_formulation.hpp"
@@ -19,7 +21,87 @@ std::pair<Index, Index> contained_jets(const LocalFormulation& local, const Expr
   return {last(local.xi, 2), last(local.z, 1)};
 }
 
+// The derivatives that the equations contain, (ξ', ξ'', …, z, z', …).
+struct Derivatives {
+  // `jet`: Taylor coefficients as those of Prolongation; 0 for what it does not have.
+  Derivatives(const LocalFormulation& local, const ExprVector& equations, const VectorXd& jet,
+              const StepNames& called) {
+    const auto [tangents, orders] = contained_jets(local, equations);
+    const Index n = local.xi[0].size(), m = local.z[0].size();
+    has_open_ones = tangents > 2 || orders > 1;
+    std::vector<ExprVector> parts(local.xi.begin() + 1, local.xi.begin() + tangents);
+    parts.insert(parts.end(), local.z.begin(), local.z.begin() + orders);
+    symbols = joined(parts);
+    values = VectorXd::Zero(symbols.size());
+    const auto add = [&](Index count, Index place, double factorial, JetRole role) {
+      if (place + count <= jet.size())
+        values.segment(std::ssize(roles), count) = factorial * jet.segment(place, count);
+      roles.resize(roles.size() + static_cast<std::size_t>(count), role);
+    };
+    double factorial = 1.0;
+    for (Index k = 1; k < tangents; ++k) {
+      factorial *= static_cast<double>(k);
+      add(n, n + (k - 1) * (n + m), factorial, k == 1 ? JetRole::asked_for : JetRole::carried);
+    }
+    factorial = 1.0;
+    for (Index k = 1; k < tangents; ++k) append(names, called.tangent("", k));
+    for (Index k = 0; k < orders; ++k) {
+      append(names, called.auxiliary(k));
+      factorial *= static_cast<double>(std::max<Index>(k, 1));
+      add(m, 2 * n + k * (n + m), factorial, k == 0 ? JetRole::asked_for : JetRole::may_be_held);
+    }
+  }
+
+  ExprVector symbols;
+  std::vector<std::string> names;
+  VectorXd values;
+  std::vector<JetRole> roles;
+  bool has_open_ones;
+};
+
+// Of more derivatives nothing is left out: matrices would be dense. Large systems are flat, and elimination
+// sees what is open there.
+constexpr Index kManyDerivatives = 200;
+
+std::vector<std::string> chosen_names(const std::vector<std::string>& names,
+                                      const std::vector<Index>& places) {
+  std::vector<std::string> result;
+  for (const Index place : places) result.push_back(names[static_cast<std::size_t>(place)]);
+  return result;
+}
+
 }  // namespace
+
+// S_f without what is open there.
+void ConstrainFirst::Trace::describe(const ConstrainFirst& method, const LocalFormulation& local) {
+  const StepNames called(*method.system());
+  constraints = local.nonzero_equations();
+  constraint_names = called.equations(local);
+  const ConstraintLadder& ladder = *method.ladder_;
+  const Derivatives y(local, constraints, ladder.jet, called);
+  if (method.open_) {
+    open = *method.open_;
+  } else if (method.gauge_dimension_ == 0 && y.has_open_ones &&
+             y.symbols.size() <= kManyDerivatives) {
+    const Function F(
+        "open derivatives",
+        {{"y", y.symbols}, {"xi", local.xi[0]}, {"x0", x0}, {"basis", basis_entries}, {"t", t}},
+        constraints, {.differentiate = {"y"}});
+    const LinearMap<double> B = method.system()->manifold()->tangent_basis(ladder.point.x);
+    open = open_jets(F,
+                     {y.values, VectorXd::Zero(local.xi[0].size()), ladder.point.x,
+                      B.entries().reshaped(), VectorXd::Constant(1, ladder.point.t)},
+                     y.roles);
+  }
+  std::vector<Index> left;
+  for (Index i = 0; i < constraints.size(); ++i)
+    if (!std::ranges::binary_search(open.equations, i)) left.push_back(i);
+  step.left_out = chosen_names(constraint_names, open.equations);
+  step.held = chosen_names(y.names, open.unknowns);
+  constraint_names = chosen_names(constraint_names, left);
+  constraints = substitute(ExprVector(constraints(left)), y.symbols(open.unknowns),
+                           ExprVector::Zero(std::ssize(open.unknowns)));
+}
 
 ConstrainFirst::Trace::Trace(const ConstrainFirst& method) {
   const ImplicitSystem& S = *method.system();
@@ -39,7 +121,7 @@ ConstrainFirst::Trace::Trace(const ConstrainFirst& method) {
                            : ExprMatrix(Eigen::Map<const ExprMatrix>(directions.data(), n, d));
   const ExprVector shift = W * mu;
   const LocalFormulation local(graph, S, x0, basis, t[0], method.differentiations_);
-  constraints = local.nonzero_equations();
+  describe(method, local);
   const auto [tangents, orders] = contained_jets(local, constraints);
   blocks = tangents;
   std::vector<ExprVector> parts(local.xi.begin(), local.xi.begin() + blocks);
@@ -53,7 +135,6 @@ ConstrainFirst::Trace::Trace(const ConstrainFirst& method) {
   for (Index k = 1; k < blocks; ++k) append(unknowns, names.tangent("", k));
   for (Index k = 0; k < orders; ++k) append(unknowns, names.auxiliary(k));
   append(unknowns, StepNames::numbered("mu", d));
-  const std::vector<std::string> constraint_names = names.equations(local);
 
   step.name = method.name();
   const auto ends = map.forward(local.x, ExprVector(h[0] * local.v));

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "courant/integrators/constrain_first.hpp"
+#include "courant/integrators/ladder/local_formulation.hpp"
+#include "courant/integrators/open_jets.hpp"
 #include "courant/integrators/step_formulas.hpp"
 
 namespace courant {
@@ -11,10 +13,15 @@ struct ConstrainFirst::Trace {
   explicit Trace(const ConstrainFirst& method);
 
   StepFormulas step, projection;
+  OpenJets open;  // what `constraints` are without, of S_f as LocalFormulation has it
   Index blocks, auxiliaries;
   ExprVector x0, basis_entries, t, near, s, x;  // parameters
   ExprVector constraints, jets;                 // S_f, and its unknowns (ξ, ξ', …, z, …)
+  std::vector<std::string> constraint_names;
   ExprVector advanced, projected, shifted, corrected;
+
+ private:
+  void describe(const ConstrainFirst& method, const LocalFormulation& local);
 };
 
 }  // namespace courant

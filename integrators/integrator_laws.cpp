@@ -5,9 +5,12 @@
 #include <exception>
 #include <functional>
 #include <limits>
+#include <map>
+#include <optional>
 #include <stdexcept>
 
 #include "courant/core/rank_decision.hpp"
+#include "courant/integrators/integrator_in_units.hpp"
 #include "courant/integrators/step_energies.hpp"
 #include "courant/manifolds/measurement.hpp"
 #include "courant/structures/dirac_interconnection.hpp"
@@ -40,7 +43,8 @@ class IntegratorLaws {
         setting_(setting),
         options_(options),
         M_(*setting.system->manifold()),
-        scale_(std::max(setting.initial.x.norm(), 1e-300)) {}
+        units_(units_of(integrator)),
+        scale_(std::max(in_units(setting.initial.x).norm(), 1e-300)) {}
 
   IntegratorReport run() {
     attempt([&] { return gather_states(); });
@@ -82,7 +86,17 @@ class IntegratorLaws {
     return integrator_.advance(from, h, steps);
   }
   double separation(const State& a, const State& b) const {
-    return M_.separation(a.x, b.x) / scale_;
+    const double apart = units_.size() > 0 ? in_units(a.x - b.x).norm() : M_.separation(a.x, b.x);
+    return apart / scale_;
+  }
+
+  // Numbers of steps that are made in other units are compared in those.
+  static VectorXd units_of(const Integrator& integrator) {
+    const auto* in_units = dynamic_cast<const IntegratorInUnits*>(&integrator);
+    return in_units ? in_units->units().coordinates : VectorXd();
+  }
+  VectorXd in_units(const VectorXd& x) const {
+    return units_.size() > 0 ? VectorXd(x.cwiseQuotient(units_)) : x;
   }
 
   double gather_states() {
@@ -92,14 +106,18 @@ class IntegratorLaws {
       stepper->step(state, setting_.step);
       report_.states.push_back(state.x);
       // A system that starts at zero has the size of where it goes.
-      if (setting_.initial.x.isZero(0.0)) scale_ = std::max(scale_, state.x.norm());
+      if (setting_.initial.x.isZero(0.0)) scale_ = std::max(scale_, in_units(state.x).norm());
     }
     return 0.0;
   }
 
   // Slope of the distance between 2^k and 2^{k+1} steps over the time h. Infinite where the steps
-  // are exact, or so good that fewer than three errors are more than round-off.
-  double measured_order(double h) const {
+  // are exact, or so good that fewer than three errors are more than round-off. Several laws ask for it.
+  double measured_order(double h) {
+    if (const auto known = orders_.find(h); known != orders_.end()) return known->second;
+    return orders_[h] = measure_order(h);
+  }
+  double measure_order(double h) const {
     std::vector<double> steps, errors;
     State coarse = advanced(setting_.initial, h / 2.0, 2);
     for (int count = 4; count <= 64; count *= 2) {
@@ -120,7 +138,7 @@ class IntegratorLaws {
   // The order measured with h next to the claim. With steps shorter than that of the setting it has to be
   // the claim: on the way to the short ones it may be any. Infinite, which is exact, is a defect there, where
   // it may be round-off, and of both_ways, where what is measured is to be seen.
-  double order_defect(double h, bool is_shorter) const {
+  double order_defect(double h, bool is_shorter) {
     if (M_.dimension() == 0 || setting_.is_gauge) return 0.0;
     const double order = measured_order(h);
     const bool is_exactly = options_.both_ways || is_shorter;
@@ -200,18 +218,25 @@ class IntegratorLaws {
     VectorXd y;
     MatrixXd tangent, image;
   };
+  // That of a step of the setting, which several laws ask for.
+  const Differential& differential() {
+    if (!differential_) differential_ = differential(setting_.step);
+    return *differential_;
+  }
   Differential differential(double h) const {
     const VectorXd& x = setting_.initial.x;
     const MatrixXd basis = M_.tangent_basis(x);
+    MatrixXd directions = MatrixXd::Identity(basis.cols(), basis.cols());
+    if (units_.size() > 0) directions = units_.asDiagonal();
     const auto step_from = [&](const VectorXd& from) {
       State start = setting_.initial;
       start.x = from;
       return advanced(start, h, 1).x;
     };
     Differential result;
-    result.tangent = setting_.conormals.rows() == 0
-                         ? MatrixXd(MatrixXd::Identity(basis.cols(), basis.cols()))
-                         : kernel(setting_.conormals * basis, {.data_error = 1e-9});
+    result.tangent = directions;
+    if (setting_.conormals.rows() > 0)
+      result.tangent *= kernel(setting_.conormals * basis * directions, {.data_error = 1e-9});
     result.y = step_from(x);
     const MatrixXd back = M_.tangent_basis(result.y).transpose() * M_.coframe(result.y);
     const double epsilon = 1e-3 * scale_;
@@ -247,7 +272,7 @@ class IntegratorLaws {
         [&] {
           const auto exact = integrator_.differential();
           if (!exact) return 0.0;
-          const Differential step = differential(setting_.step);
+          const Differential& step = differential();
           const MatrixXd image = exact_image(*exact, step.tangent);
           return (image - step.image).norm() / std::max(image.norm(), 1e-300);
         },
@@ -287,14 +312,15 @@ class IntegratorLaws {
 
   void symplecticity_laws() {
     const bool claimed = integrator_.is_symplectic().value_or(false);
-    std::optional<Differential> step;
+    const Differential* step = nullptr;
     attempt([&] {
-      step = differential(setting_.step);
+      step = &differential();
       return 0.0;
     });
     if (step && has_form())
       report_.symplecticity = attempt([&] { return symplecticity_defect(*step); });
-    if (step && setting_.structure && setting_.conormals.rows() == 0)
+    // The distance of two structures means nothing where numbers are far apart.
+    if (step && setting_.structure && setting_.conormals.rows() == 0 && units_.size() == 0)
       report_.preservation = attempt([&] { return preservation_defect(*step); });
     if (!claimed) return;
     auto symplectic = law("P3 Φ_h*ω = ω, as said", kSymplectic);
@@ -439,8 +465,11 @@ class IntegratorLaws {
   const IntegratorSetting& setting_;
   const IntegratorLawOptions& options_;
   const Manifold& M_;
+  const VectorXd units_;  // in which numbers are compared, or empty
   double scale_;
   IntegratorReport report_;
+  std::map<double, double> orders_;  // by h
+  std::optional<Differential> differential_;
 };
 
 }  // namespace

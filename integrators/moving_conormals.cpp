@@ -7,6 +7,7 @@
 #include "courant/core/complete_orthogonal_decomposition.hpp"
 #include "courant/core/derivative.hpp"
 #include "courant/core/equilibration.hpp"
+#include "courant/core/regular_matrix.hpp"
 
 namespace courant {
 namespace {
@@ -14,12 +15,14 @@ namespace {
 // The ladder decided this rank with a gap; here it only has to be found again.
 constexpr double kDataError = 2e-12;
 
-// Entries below this part of both their row and their column are left out when scales are chosen.
-constexpr double kNoise = 1e-14;
+using regular_matrix::kNoise;
 
 // w is as good as its first error times the contraction when it has moved by no more than this, and
 // counts for x only times the distance from M_f.
 constexpr double kConormalTolerance = 1e-13;
+
+// Equations whose terms are below this part of w times their coefficients are solved by round-off.
+constexpr double kVanishing = 1e-4;
 
 }  // namespace
 
@@ -105,9 +108,9 @@ bool MovingConormals::continue_to(const double* const* in) {
   if (!is_moving_ && !predictor_.is_empty()) predictor_.predict(weights_);
   is_moving_ = true;
   const Index r = functions_.constraints.output_size();
-  constexpr double scale = 0.0;
   for (Index j = 0; j < d_; ++j) {
     double* w = weights_.data() + j * r;
+    const double scale = kVanishing * weights_.segment(j * r, r).lpNorm<Eigen::Infinity>();
     const double* all[] = {w, units_.col(j).data(), in[0], in[1], in[2], in[3], kept_.data()};
     if (newton_.solve(w, all, &scale).status != Newton::Status::converged) {
       newton_.reset();

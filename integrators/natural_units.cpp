@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <random>
 #include <utility>
 
 #include "courant/core/complete_orthogonal_decomposition.hpp"
+#include "courant/core/expr_vectors.hpp"
+#include "courant/core/function.hpp"
+#include "courant/core/subgraph.hpp"
 #include "courant/integrators/ladder/derivative_array.hpp"
 #include "courant/integrators/ladder/natural_scaling.hpp"
 
@@ -33,7 +37,7 @@ std::vector<Index> blocks(const Manifold& M) {
 
 // Beyond so many rows and columns scales are powers of two: the linear system would take long.
 constexpr Index kExact = 500;
-// Entries below this, where rows and columns are levelled, are no units.
+// Entries below this, where rows and columns are levelled, are no units, unless all are to count.
 constexpr double kLeastEntry = 1e-9;
 
 // Numbers that are zero come out of the search for a consistent point as what it leaves of the others:
@@ -68,19 +72,86 @@ VectorXd known_sizes(const DerivativeArray& array, const VectorXd& y) {
   return sizes;
 }
 
+// What sines and exponentials are of, as functions of (x, v, z, t): of the size of 1.
+class Arguments {
+ public:
+  explicit Arguments(const ImplicitSystem& system) {
+    Graph graph;
+    const ExprVector x = graph.variables("x", system.manifold()->ambient_dimension()),
+                     v = graph.variables("v", system.manifold()->tangent_dimension()),
+                     z = graph.variables("z", system.auxiliary_size());
+    const Expr t = graph.variable("t");
+    const Subgraph nodes(system.residual(x, v, z, t));
+    std::vector<Expr> found;
+    for (const std::uint32_t node : nodes.nodes())
+      if (is_of_numbers(nodes.graph().node(node).op))
+        found.push_back(nodes.graph().expression(nodes.graph().node(node).a));
+    std::ranges::sort(found, {}, [](const Expr& a) { return a.node(); });
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    if (found.empty()) return;
+    const ExprVector y = joined(x, v, z, ExprVector::Constant(1, t));
+    values_ = Function("arguments", {{"y", y}},
+                       Eigen::Map<const ExprVector>(found.data(), std::ssize(found)),
+                       {.differentiate = {"y"}});
+    jacobian_.resize(values_.output_size() + values_.nonzeros());
+  }
+
+  // Adds Σ (log |∂w/∂y_j| + log c_j)² over the arguments w, to A and b with A s = b where log c = C s; the last
+  // of s is that of T.
+  void add_to(MatrixXd& A, VectorXd& b, const MatrixXd& C, const VectorXd& y) {
+    if (jacobian_.size() == 0) return;
+    const double* in[] = {y.data()};
+    values_.value_and_jacobian(in, jacobian_.data());
+    for (std::size_t k = 0; k < values_.pattern_row().size(); ++k) {
+      const double slope = std::fabs(jacobian_[values_.output_size() + static_cast<Index>(k)]);
+      if (!(slope > 0.0 && std::isfinite(slope))) continue;
+      const Index j = values_.pattern_col()[k];
+      const VectorXd term =
+          j < C.rows() ? VectorXd(C.row(j)) : VectorXd(VectorXd::Unit(C.cols(), C.cols() - 1));
+      A += term * term.transpose();
+      b -= std::log(slope) * term;
+    }
+  }
+
+ private:
+  static bool is_of_numbers(Op op) {
+    switch (op) {
+      case Op::exp:
+      case Op::sin:
+      case Op::cos:
+      case Op::tan:
+      case Op::asin:
+      case Op::acos:
+      case Op::atan:
+      case Op::sinh:
+      case Op::cosh:
+      case Op::tanh:
+        return true;
+      default:
+        return false;
+    }
+  }
+
+  Function values_;
+  VectorXd jacobian_;
+};
+
 // The units c of the columns (ξ, ξ', z), where those of ξ' are those of ξ divided by a unit of time T,
 // and r of the rows that minimise
 //
-//   Σ (log r_i + log |a_ij| + log c_j)²
+//   Σ (log r_i + log |a_ij| + log c_j)² + Σ (log r_i + log |b_i|)²
 //
-// over the entries. Of what that leaves open, which is T where no equation says it, it is
+// over the entries, and over what the equations contain besides where that is not 0: the weight of a body
+// at rest tells T. `arguments` of functions of numbers add theirs at the point (x, v, z, t). Of what that
+// leaves open, which is T where no equation says it, it is
 //
 //   Σ (log c_j - log |y_j|)²
 //
 // that is least, over what is known to differ from zero: reach[j] > 0. A common factor of the units of
 // what the equations connect stays open; it is no matter.
-VectorXd column_units(const SparseMatrixXd& magnitude, const VectorXd& row_scale,
-                      const VectorXd& column_scale, Index n, const VectorXd& reach) {
+VectorXd column_units(const SparseMatrixXd& magnitude, const NaturalScaling& natural, double least,
+                      const VectorXd& constants, Arguments* arguments, const VectorXd& point,
+                      Index n, const VectorXd& reach) {
   const Index m = magnitude.rows(), columns = magnitude.cols(), unknowns = m + columns - n + 1;
   // log c = C s for the unknowns s: rows, ξ, z, T.
   MatrixXd C = MatrixXd::Zero(columns, unknowns);
@@ -92,12 +163,18 @@ VectorXd column_units(const SparseMatrixXd& magnitude, const VectorXd& row_scale
   VectorXd b = VectorXd::Zero(unknowns);
   for (Index j = 0; j < columns; ++j)
     for (SparseMatrixXd::InnerIterator it(magnitude, j); it; ++it) {
-      if (row_scale[it.row()] * it.value() * column_scale[j] < kLeastEntry) continue;
+      if (natural.row_scale[it.row()] * it.value() * natural.column_scale[j] < least) continue;
       VectorXd term = C.row(j);
       term[it.row()] = 1.0;
       A += term * term.transpose();
       b -= std::log(it.value()) * term;
     }
+  for (Index i = 0; i < m; ++i) {
+    if (!(constants[i] > 0.0)) continue;
+    A(i, i) += 1.0;
+    b[i] -= std::log(constants[i]);
+  }
+  if (arguments) arguments->add_to(A, b, C, point);
   const CompleteOrthogonalDecomposition normal(A, 1e-12);
   VectorXd s = normal.solve(b);
   const MatrixXd open = normal.Q().rightCols(unknowns - normal.rank());
@@ -112,10 +189,25 @@ VectorXd column_units(const SparseMatrixXd& magnitude, const VectorXd& row_scale
   return (C * s).array().exp();
 }
 
+// What tells units.
+enum class Evidence {
+  typical,  // entries and sizes that are no small part of others
+  all,  // small entries too that are more than rounding errors, and what equations contain besides
+};
+
+// |∂F_i/∂y_j| at y, of all evidence where it is more than rounding errors.
+SparseMatrixXd magnitude_at(const DerivativeArray& array, const VectorXd& y, Evidence evidence) {
+  const Linearization at = array.linearize(y);
+  SparseMatrixXd magnitude = at.jacobian.cwiseAbs();
+  if (evidence == Evidence::all && at.error.size() > 0)
+    magnitude.prune([&](Index i, Index j, double value) { return value > at.error.coeff(i, j); });
+  return magnitude;
+}
+
 // The largest |∂F_i/∂y_j| at y and at points that are up to these moves away, or to a tenth of them.
 SparseMatrixXd magnitude_near(const DerivativeArray& array, const VectorXd& y,
-                              const VectorXd& moves) {
-  SparseMatrixXd magnitude = array.linearize(y).jacobian.cwiseAbs();
+                              const VectorXd& moves, Evidence evidence) {
+  SparseMatrixXd magnitude = magnitude_at(array, y, evidence);
   if (array.has_constant_jacobian()) return magnitude;
   std::mt19937 generator(20250613);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
@@ -123,33 +215,109 @@ SparseMatrixXd magnitude_near(const DerivativeArray& array, const VectorXd& y,
     const double part = sample < 2 ? 1.0 : 0.1;
     const VectorXd nearby =
         y + moves.unaryExpr([&](double move) { return part * move * uniform(generator); });
-    const SparseMatrixXd there = array.linearize(nearby).jacobian.cwiseAbs();
+    const SparseMatrixXd there = magnitude_at(array, nearby, evidence);
     const Eigen::Map<const VectorXd> entries(there.valuePtr(), there.nonZeros());
     if (entries.allFinite()) magnitude = SparseMatrixXd(magnitude.cwiseMax(there));
   }
   return magnitude;
 }
 
+// |F_i| at y, 0 where that is a small part of the terms of F_i.
+VectorXd constants_at(const DerivativeArray& array, const VectorXd& y, const VectorXd& reach) {
+  const Linearization at = array.linearize(y);
+  const VectorXd least = kZero * (at.jacobian.cwiseAbs() * reach) + at.value_error;
+  return (at.value.array().abs() > least.array()).select(at.value.cwiseAbs(), 0.0);
+}
+
+// Nothing tells the factor of units of what has no connection with any known size or constant, as of a second
+// particle at rest: that of its largest coordinate becomes that of the others.
+void align_components(VectorXd& units, const NaturalScaling& natural, const VectorXd& constants,
+                      Index n, const VectorXd& reach) {
+  std::vector<Index> columns = natural.column_component, rows = natural.row_component;
+  const auto of = [](const std::vector<Index>& components, Index i) {
+    return components[static_cast<std::size_t>(i)];
+  };
+  for (Index j = 0; j < n; ++j) {
+    const Index rate = of(columns, n + j), coordinate = of(columns, j);
+    std::ranges::replace(columns, rate, coordinate);
+    std::ranges::replace(rows, rate, coordinate);
+  }
+  VectorXd known = VectorXd::Zero(natural.component_count), largest = known;
+  for (Index i = 0; i < constants.size(); ++i)
+    if (constants[i] > 0.0) known[of(rows, i)] = 1.0;
+  for (Index j = 0; j < units.size(); ++j)
+    if (reach[j] > 0.0) known[of(columns, j)] = 1.0;
+  for (Index j = 0; j < n; ++j)
+    largest[of(columns, j)] = std::max(largest[of(columns, j)], units[j]);
+  const double size = known.cwiseProduct(largest).maxCoeff();
+  if (!(size > 0.0)) return;
+  for (Index j = 0; j < units.size(); ++j) {
+    const Index c = of(columns, j);
+    if (known[c] == 0.0 && largest[c] > 0.0) units[j] *= size / largest[c];
+  }
+}
+
 // Units of all unknowns of level 0, near the jet y. `reach`: their sizes, 0 where they are zero but for
 // round-off. What vanishes at y is as large as it is nearby: numbers differ by parts of their sizes,
-// and zeros by parts of their units, which is why there are several rounds.
-VectorXd units_near(const DerivativeArray& array, const VectorXd& y, const VectorXd& reach) {
-  constexpr int rounds = 4;
+// and zeros by parts of their units, which is why there are several rounds. Empty where those of all evidence do
+// not settle, as where a unit is made of nothing but itself.
+VectorXd units_near(const DerivativeArray& array, const VectorXd& y, const VectorXd& reach,
+                    Evidence evidence, Arguments* arguments) {
+  constexpr double settled = 0.1;  // a small part of a power of two
+  const bool is_all = evidence == Evidence::all;
+  const int rounds = is_all ? 60 : 4;
+  const double least = is_all ? 0.0 : kLeastEntry;
   const VectorXd at = (reach.array() > 0.0).select(y, 0.0);
+  const VectorXd constants =
+      is_all ? constants_at(array, at, reach) : VectorXd(VectorXd::Zero(array.equation_count()));
   VectorXd moves = 0.1 * reach, units;
+  // (x, v, z, t) a little away, where M has coordinates of its own.
+  const auto point_nearby = [&] {
+    VectorXd point(y.size() + 1);
+    point << at + 0.5 * moves, array.t();
+    point.head(array.base_size()) += array.basis().transpose() * array.origin();
+    return point;
+  };
   for (int round = 0; round < rounds; ++round) {
-    const SparseMatrixXd magnitude = magnitude_near(array, at, moves);
-    const NaturalScaling natural({VectorXd::Zero(magnitude.rows()), magnitude}, reach, kLeastEntry,
+    const SparseMatrixXd magnitude = magnitude_near(array, at, moves, evidence);
+    const bool is_large = magnitude.rows() + magnitude.cols() > kExact;
+    const NaturalScaling natural({VectorXd::Zero(magnitude.rows()), magnitude}, reach, least,
                                  1e-10);
-    units = magnitude.rows() + magnitude.cols() > kExact
-                ? natural.column_scale
-                : column_units(magnitude, natural.row_scale, natural.column_scale,
-                               array.base_size(), reach);
-    if (array.has_constant_jacobian()) break;
+    const VectorXd before = std::exchange(
+        units, is_large
+                   ? natural.column_scale
+                   : column_units(magnitude, natural, least, constants, arguments,
+                                  is_all ? point_nearby() : VectorXd(), array.base_size(), reach));
+    if (is_all) align_components(units, natural, constants, array.base_size(), reach);
+    if (array.has_constant_jacobian()) return units;
+    if (is_all && round > 0 && (units.array() / before.array()).log().abs().maxCoeff() < settled)
+      return units;
     moves = (reach.array() > 0.0).select(0.1 * reach, units);
   }
-  return units;
+  return is_all ? VectorXd() : units;
 }
+
+// Level 0 at a point, and the units of its unknowns (ξ, ξ', z).
+struct Level0 {
+  DerivativeArray array;
+  VectorXd y, units;  // no units where all evidence tells none
+
+  Level0(const std::shared_ptr<const ImplicitSystem>& system, const State& point, Evidence evidence)
+      // The equations themselves: higher derivatives are not all determined, and what an iteration made
+      // of those that are not has no units of its own.
+      : array(system, point.t, point.x), y(array.jet(point.v, point.z)) {
+    if (evidence == Evidence::all && array.has_exponentials()) return;
+    std::optional<Arguments> known;
+    if (evidence == Evidence::all) known.emplace(*system);
+    Arguments* arguments = known ? &*known : nullptr;
+    const VectorXd reach = known_sizes(array, y);
+    units = units_near(array, y, reach, evidence, arguments);
+    if (units.size() == 0) return;
+    const VectorXd seen = without_zeros(reach.cwiseQuotient(units)).cwiseProduct(units);
+    if ((seen.array() > 0.0).count() < (reach.array() > 0.0).count())
+      units = units_near(array, y, (seen.array() > 0.0).select(reach, 0.0), evidence, arguments);
+  }
+};
 
 }  // namespace
 
@@ -158,16 +326,9 @@ VectorXd natural_units(const std::shared_ptr<const ImplicitSystem>& system,
   const Manifold& M = *system->manifold();
   const Index n = M.dimension(), size = M.tangent_dimension();
   if (ladder.point.x.size() == 0 || n == 0) return VectorXd::Ones(size);
-  const DerivativeArray array(system, ladder.point.t, ladder.point.x);
-  // The equations themselves: higher derivatives are not all determined, and what an iteration made
-  // of those that are not has no units of its own.
-  const VectorXd y = array.jet(ladder.point.v, ladder.point.z);
-  const VectorXd reach = known_sizes(array, y);
-  VectorXd units = units_near(array, y, reach);
-  const VectorXd seen = without_zeros(reach.cwiseQuotient(units)).cwiseProduct(units);
-  if ((seen.array() > 0.0).count() < (reach.array() > 0.0).count())
-    units = units_near(array, y, (seen.array() > 0.0).select(reach, 0.0));
-  units = units.head(n).eval();
+  const Level0 level(system, ladder.point, Evidence::typical);
+  const DerivativeArray& array = level.array;
+  const VectorXd units = level.units.head(n);
   if (n == size) return units;
   // The geometric mean over a block, weighted with what each basis vector has in it.
   const std::vector<Index> block = blocks(M);
@@ -183,6 +344,32 @@ VectorXd natural_units(const std::shared_ptr<const ImplicitSystem>& system,
     result[i] = weight[b] > 0.0 ? std::exp(logarithm[b] / weight[b]) : 1.0;
   }
   return result;
+}
+
+std::optional<Units> units_of_all_terms(const std::shared_ptr<const ImplicitSystem>& system,
+                                        const State& point) {
+  const Manifold& M = *system->manifold();
+  const Index unknowns = 2 * M.dimension() + system->auxiliary_size();
+  if (!SystemInUnits::has_units(M) || point.x.size() == 0 ||
+      unknowns + system->equation_count() > kExact)
+    return std::nullopt;
+  const Level0 level(system, point, Evidence::all);
+  if (level.units.size() == 0) return std::nullopt;
+  const SparseMatrixXd terms =
+      magnitude_near(level.array, level.y, 0.1 * level.units, Evidence::all) *
+      level.units.asDiagonal();
+  VectorXd largest = VectorXd::Zero(terms.rows());
+  for (Index j = 0; j < terms.outerSize(); ++j)
+    for (SparseMatrixXd::InnerIterator it(terms, j); it; ++it)
+      largest[it.row()] = std::max(largest[it.row()], it.value());
+  const auto power_of_two = [](double unit) {
+    return unit > 0.0 && std::isfinite(unit) ? std::exp2(std::round(std::log2(unit))) : 1.0;
+  };
+  const Index n = level.array.base_size();
+  return Units{.coordinates = level.units.head(n).unaryExpr(power_of_two),
+               .auxiliary = level.units.tail(system->auxiliary_size()).unaryExpr(power_of_two),
+               .equations = largest.unaryExpr(power_of_two),
+               .time = power_of_two(level.units[0] / level.units[n])};
 }
 
 }  // namespace courant

@@ -1,8 +1,10 @@
 // The sizes that are typical of a system's coordinates.
 #pragma once
 
+#include <optional>
+
 #include "courant/integrators/ladder/constraint_ladder.hpp"
-#include "courant/structures/implicit_system.hpp"
+#include "courant/structures/system_in_units.hpp"
 
 namespace courant {
 
@@ -18,5 +20,14 @@ namespace courant {
 // unit. All 1 where the ladder has no point.
 VectorXd natural_units(const std::shared_ptr<const ImplicitSystem>& system,
                        const ConstraintLadder& ladder);
+
+// Units by the same least squares in which all terms count, however small beside others, and besides what
+// the equations contain without unknowns: the weight of a body at rest tells the unit of time. What sines and
+// exponentials are of has the size of 1. So those of a
+// momentum of 10⁻²⁴ beside a position of 10⁻⁶ are found; those of a leak that is small beside a current are,
+// too. To powers of two, of the equations the sizes of their largest terms. Empty where exponentials let
+// entries be of any size, where a unit is made of nothing but itself, where M has no units, and for systems of more than 500 equations and unknowns.
+std::optional<Units> units_of_all_terms(const std::shared_ptr<const ImplicitSystem>& system,
+                                        const State& point);
 
 }  // namespace courant

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
 #include "courant/core/cholesky_decomposition.hpp"
@@ -167,12 +166,9 @@ Projector::MatrixFormula metric_of_lagrangian(const std::shared_ptr<const Implic
 Projector::Projector(std::string name, VectorXd units)
     : name_(std::move(name)), units_(std::move(units)) {
   for (const double unit : units_)
-    if (!(unit > 0.0) || !std::isfinite(unit)) {
-      std::ostringstream message;
-      message << "Projector(" << name_ << ")::Projector: a unit is " << unit
-              << "; expected positive numbers.";
-      throw std::invalid_argument(message.str());
-    }
+    if (!(unit > 0.0) || !std::isfinite(unit))
+      throw std::invalid_argument("Projector(" + name_ + ")::Projector: a unit is " +
+                                  number_text(unit) + "; expected positive numbers.");
 }
 
 MatrixXd Projector::span(const VectorXd& x, const LinearMap<double>& basis,

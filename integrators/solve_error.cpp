@@ -1,17 +1,16 @@
 #include "courant/integrators/solve_error.hpp"
 
-#include <sstream>
 #include <utility>
+
+#include "courant/core/message.hpp"
 
 namespace courant {
 namespace {
 
 std::string text(const std::string& method, double time, double h,
                  const std::string& what_happened) {
-  std::ostringstream message;
-  message.precision(12);
-  message << method << ": the step of " << h << " from t = " << time << ' ' << what_happened;
-  return message.str();
+  return method + ": the step of " + number_text(h, 12) + " from t = " + number_text(time, 12) +
+         ' ' + what_happened;
 }
 
 }  // namespace
@@ -23,5 +22,12 @@ SolveError::SolveError(Reason reason, const std::string& method, double time, do
       time_(time),
       h_(h),
       residuals_(std::move(residuals)) {}
+
+std::string what_happened(const SolveError& error) {
+  const std::string text = error.what(), before = "from t = ";
+  const std::size_t time = text.find(before);
+  const std::size_t end = time == std::string::npos ? time : text.find(' ', time + before.size());
+  return end == std::string::npos ? text : text.substr(end + 1);
+}
 
 }  // namespace courant

@@ -31,4 +31,7 @@ class SolveError : public std::runtime_error {
   std::vector<double> residuals_;
 };
 
+// What the message says behind the time.
+std::string what_happened(const SolveError& error);
+
 }  // namespace courant

@@ -84,11 +84,12 @@ void StepEnergies::measure(const Step& step, Energies& energies, VectorXd& works
   energies.dissipated.setZero(std::ssize(dissipators_));
   energies.moved = 0.0;
   workspace.resize(powers_.output_size());
-  if (step.parts.empty()) return add(step, energies, workspace);
-  for (const Step& part : step.parts) add(part, energies, workspace);
+  add(step, energies, workspace);
 }
 
 void StepEnergies::add(const Step& step, Energies& energies, VectorXd& powers) const {
+  for (const Step& part : step.parts) add(part, energies, powers);
+  if (!step.parts.empty()) return;
   const State& at = step.stage;
   if (at.x.size() != size_)
     throw std::invalid_argument("StepEnergies: the stage of the step has " +

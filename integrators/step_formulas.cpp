@@ -5,35 +5,13 @@
 
 #include "courant/core/derivative.hpp"
 #include "courant/core/subgraph.hpp"
+#include "courant/core/text_layout.hpp"
 
 namespace courant {
 namespace {
 
 // Where formulas end and their origins begin.
 constexpr std::size_t kOriginColumn = 56;
-
-// Characters, not bytes.
-std::size_t length(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-  }));
-}
-
-std::string padded(std::string text, std::size_t width) {
-  const std::size_t size = length(text);
-  return size < width ? text.append(width - size, ' ') : text;
-}
-
-std::string shortened(const std::string& text, std::size_t width) {
-  if (length(text) <= width) return text;
-  std::string result;
-  std::size_t count = 0;
-  for (const char c : text) {
-    if ((static_cast<unsigned char>(c) & 0xC0) != 0x80 && ++count == width) break;
-    result += c;
-  }
-  return result + "…";
-}
 
 // The expressions with their variables named as in the experiment, in a graph of their own.
 class Named {
@@ -99,6 +77,11 @@ std::string explanation(const StepFormulas& formulas, std::size_t width) {
             "  the least change of all of them.\n";
     return text.str();
   }
+  for (const std::string& equation : formulas.left_out)
+    text << shortened("  left out, since nothing depends on what it decides: " + equation, width)
+         << '\n';
+  for (const std::string& held : formulas.held)
+    text << "  " << held << " = 0, since nothing depends on it\n";
   const Elimination elimination(formulas.equations, y, formulas.elimination);
   const Named named(formulas);
   const auto unknown = [&](Index j) {
@@ -118,7 +101,7 @@ std::string explanation(const StepFormulas& formulas, std::size_t width) {
   for (std::size_t k = 0; k < elimination.kept.size(); ++k) {
     const std::string next =
         " " + unknown(elimination.kept[k]) + (k + 1 < elimination.kept.size() ? "," : "");
-    if (length(line) + length(next) + 24 > width) {
+    if (text_width(line) + text_width(next) + 24 > width) {
       text << line << "\n   ";
       line.clear();
     }

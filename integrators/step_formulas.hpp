@@ -21,6 +21,9 @@ struct StepFormulas {
   std::vector<std::string> equation_names;
   bool eliminates = true;
   Elimination::Options elimination;
+  // Equations that are none of these any more, since they decide unknowns only that nothing depends on, and
+  // such unknowns that are held at zero.
+  std::vector<std::string> left_out, held;
 
   EquationSystem compile(Backend backend) const;
   // y; p ↦ F with its Jacobian by y, interpreted.
@@ -37,6 +40,7 @@ std::string derivative_name(const std::string& name, Index order);
 // columns, long formulas cut off:
 //
 //   constrain-first: 48 equations for 48 unknowns
+//     left out: …                  (what they decide, nothing depends on)
 //     q' = 2*Δq/h                  from: start of q
 //     …
 //   8 equations are left, for Δq, …

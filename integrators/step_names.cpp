@@ -1,5 +1,6 @@
 #include "courant/integrators/step_names.hpp"
 
+#include "courant/core/text_layout.hpp"
 #include "courant/integrators/step_formulas.hpp"
 
 namespace courant {
@@ -50,9 +51,7 @@ std::vector<std::string> StepNames::equations(const LocalFormulation& local) con
     const Index k = order[source]++;
     const std::string& name = system_.names().equations[source];
     if (local.equations[i].is_constant(0.0)) continue;
-    result.push_back(k == 0   ? name
-                     : k == 1 ? "d/dt " + name
-                              : "d^" + std::to_string(k) + "/dt^" + std::to_string(k) + " " + name);
+    result.push_back(time_derivative(name, k));
   }
   return result;
 }

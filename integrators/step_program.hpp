@@ -7,6 +7,7 @@
 
 #include "courant/integrators/step_formulas.hpp"
 #include "courant/integrators/vector_field.hpp"
+#include "courant/structures/system_in_units.hpp"
 
 namespace courant {
 
@@ -60,6 +61,9 @@ struct StepProgram {
     const VectorFieldFormulas* field = nullptr;  // of the method, which has to outlive this
   };
   std::optional<Explicit> explicit_steps = {};
+
+  // In which all this is, if not in those of the system: states are measured before a step, and restored.
+  std::optional<Units> units = {};
 };
 
 // A method that knows its steps as formulas.

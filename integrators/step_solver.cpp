@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
+#include "courant/core/message.hpp"
 #include "courant/core/unknown_selection.hpp"
 
 namespace courant {
@@ -20,7 +20,7 @@ constexpr double kSameSolution = 1e-3;
 // A curve of at most so many arcs, whose end is where it set out for up to this part of usual
 // displacements, hardly bends.
 constexpr int kFewArcs = 3;
-constexpr double kStraight = 0.1;
+constexpr double kHardlyBent = 0.1;
 
 // Two digits of a step, towards zero.
 double rounded_down(double h) {
@@ -96,7 +96,7 @@ bool StepSolver::is_as_predicted(double part, double size) const {
 // size: a coordinate may turn, which takes more arcs than one.
 bool StepSolver::is_straight(const VectorXd& start) const {
   for (Index i = 0; i < usual_.size(); ++i)
-    if (!(std::fabs(y_[i] - start[i]) <= kStraight * std::max(std::fabs(y_[i]), usual_[i])))
+    if (!(std::fabs(y_[i] - start[i]) <= kHardlyBent * std::max(std::fabs(y_[i]), usual_[i])))
       return false;
   return true;
 }
@@ -129,15 +129,14 @@ void StepSolver::connect(bool converged, const double* const* in, const double* 
   newton_.reset();
   if (!arrived) {
     if (reached == 0.0) fail(attempt);
-    std::ostringstream message;
-    message << "has no solution that is connected to the state: the one that is ends at a step of "
-            << reached * attempt.h << ". ";
-    if (const std::string why = surplus(); !why.empty())
-      message << why;
-    else
-      message << "A step of " << rounded_down(0.9 * reached * attempt.h) << " would do.";
-    throw SolveError(SolveError::Reason::disconnected, method_, attempt.time, attempt.h,
-                     message.str());
+    const std::string why = surplus();
+    throw SolveError(
+        SolveError::Reason::disconnected, method_, attempt.time, attempt.h,
+        "has no solution that is connected to the state: the one that is ends at a step of " +
+            number_text(reached * attempt.h) + ". " +
+            (why.empty() ? "A step of " + number_text(rounded_down(0.9 * reached * attempt.h)) +
+                               " would do."
+                         : why));
   }
   ++statistics.failures;
   // A curve that does not begin at the state may confirm what the iteration found; against it, it is no
@@ -154,19 +153,18 @@ void StepSolver::fail(const Attempt& attempt) const {
     throw SolveError(SolveError::Reason::singular, method_, attempt.time, attempt.h,
                      "has a matrix that is not finite; the state is at or near a singular point.",
                      result_.residuals);
-  std::ostringstream message;
   if (result_.status == Newton::Status::converged)
     throw SolveError(SolveError::Reason::disconnected, method_, attempt.time, attempt.h,
                      "has a solution that cannot be followed from the state, and may be a wrong "
                      "one; the step is too large, or the state is at or near a singular point.");
-  message << "did not converge in " << result_.iterations << " iterations, residual "
-          << (result_.residuals.empty() ? 0.0 : result_.residuals.back());
-  if (const std::string why = surplus(); !why.empty())
-    message << ". " << why;
-  else
-    message << "; the step is too large, or the state comes near a singular point.";
-  throw SolveError(SolveError::Reason::diverged, method_, attempt.time, attempt.h, message.str(),
-                   result_.residuals);
+  const std::string why = surplus();
+  throw SolveError(
+      SolveError::Reason::diverged, method_, attempt.time, attempt.h,
+      "did not converge in " + std::to_string(result_.iterations) + " iterations, residual " +
+          number_text(result_.residuals.empty() ? 0.0 : result_.residuals.back()) +
+          (why.empty() ? "; the step is too large, or the state comes near a singular point."
+                       : ". " + why),
+      result_.residuals);
 }
 
 std::string StepSolver::surplus() const {

@@ -3,9 +3,10 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <cstdint>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
+
+#include "courant/core/message.hpp"
 
 namespace courant {
 namespace {
@@ -33,9 +34,8 @@ Stepper::Stepper(std::string method, std::shared_ptr<const ImplicitSystem> syste
     : method_(std::move(method)), system_(std::move(system)) {}
 
 void Stepper::refuse(double h) const {
-  std::ostringstream message;
-  message << method_ << ": h is " << h << "; expected a finite number other than zero.";
-  throw std::invalid_argument(message.str());
+  throw std::invalid_argument(method_ + ": h is " + number_text(h) +
+                              "; expected a finite number other than zero.");
 }
 
 void Stepper::check(const State& state) const {
@@ -54,13 +54,10 @@ void Stepper::take_up(State& state, double h, const Stepper* from) {
   if (!has_stepped_ && do_keeps_to_manifold()) {
     const double defect = manifold().point_defect(state.x);
     const double bound = 1e-6 * (1.0 + state.x.squaredNorm());
-    if (!(defect <= bound)) {
-      std::ostringstream message;
-      message << method_ << ": x is not on " << manifold().name()
-              << ", whose equations it violates by " << defect << "; expected at most " << bound
-              << ". Project it first.";
-      throw std::domain_error(message.str());
-    }
+    if (!(defect <= bound))
+      throw std::domain_error(method_ + ": x is not on " + manifold().name() +
+                              ", whose equations it violates by " + number_text(defect) +
+                              "; expected at most " + number_text(bound) + ". Project it first.");
   }
   if (state.v.size() == 0) state.v = VectorXd::Zero(manifold().tangent_dimension());
   if (state.z.size() == 0) state.z = VectorXd::Zero(system_->auxiliary_size());
@@ -144,11 +141,9 @@ State Stepper::between(double s) { return part(s).after; }
 
 Step Stepper::part(double s) {
   if (!has_stepped_) throw std::logic_error(method_ + ": between: no step has been made.");
-  if (!(s >= 0.0 && s <= 1.0)) {
-    std::ostringstream message;
-    message << method_ << ": between: s is " << s << "; expected a number from 0 to 1.";
-    throw std::invalid_argument(message.str());
-  }
+  if (!(s >= 0.0 && s <= 1.0))
+    throw std::invalid_argument(method_ + ": between: s is " + number_text(s) +
+                                "; expected a number from 0 to 1.");
   if (s == 0.0) return {.before = last_->before, .after = last_->before, .stage = last_->before};
   if (s == 1.0) return last();
   if (!between_) between_ = do_fresh();
@@ -162,12 +157,10 @@ Step Stepper::part(double s) {
 double Stepper::share_at(double t) {
   const Step& step = last();
   const double before = step.before.t, after = step.after.t;
-  if (!has_stepped_ || !((t - before) * (after - t) >= 0.0)) {
-    std::ostringstream message;
-    message << method_ << ": share_at: t is " << t << "; expected a time of the last step, from "
-            << before << " to " << after << '.';
-    throw std::invalid_argument(message.str());
-  }
+  if (!has_stepped_ || !((t - before) * (after - t) >= 0.0))
+    throw std::invalid_argument(method_ + ": share_at: t is " + number_text(t) +
+                                "; expected a time of the last step, from " + number_text(before) +
+                                " to " + number_text(after) + ".");
   const double linear = (t - before) / (after - before);
   if (step.rate == 1.0 || t == before || t == after) return linear;
   std::uintmax_t evaluations = kMostEvaluations;

@@ -18,6 +18,7 @@ struct SolverStatistics {
   long failures = 0;         // iterations that failed and were begun again
   long second_attempts = 0;  // steps that were made in more than one attempt
   long confirmations = 0;    // solutions that were looked at by continuation in h
+  long divisions = 0;        // steps that could not be made at once, and were made in halves
 
   // Takes over what the solver of another stepper did from `before` to `now`. Steps are counted by each
   // stepper itself.

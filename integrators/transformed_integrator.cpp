@@ -1,24 +1,13 @@
 #include "courant/integrators/transformed_integrator.hpp"
 
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
+#include "courant/core/message.hpp"
 #include "courant/integrators/ladder/constraint_algorithm.hpp"
+#include "courant/integrators/step_parts.hpp"
 
 namespace courant {
-
-namespace {
-
-// What a SolveError says behind the time.
-std::string what_happened(const SolveError& error) {
-  const std::string text = error.what(), before = "from t = ";
-  const std::size_t time = text.find(before);
-  const std::size_t end = time == std::string::npos ? time : text.find(' ', time + before.size());
-  return end == std::string::npos ? text : text.substr(end + 1);
-}
-
-}  // namespace
 
 // The stepper of the method goes along the extended states, which are kept from step to step.
 class TransformedIntegrator::Trajectory final : public Stepper {
@@ -45,15 +34,13 @@ class TransformedIntegrator::Trajectory final : public Stepper {
     if (tells_parts()) inner_->tell_parts();
     next_ = at_;
     next_.t = 0.0;
-    const SolverStatistics counted = inner_->statistics();
     try {
+      const CountedWork counted(statistics_, *inner_);
       inner_->step(next_, h, 0.0);
     } catch (const SolveError& error) {
-      statistics_.add_work(counted, inner_->statistics());
       throw SolveError(error.reason(), method(), before.t, h, what_happened(error),
                        error.residuals());
     }
-    statistics_.add_work(counted, inner_->statistics());
     // No step depends on τ: that of an extended state is 0.
     next_.t = 0.0;
     after = transformation_->from_extended(next_);
@@ -63,10 +50,10 @@ class TransformedIntegrator::Trajectory final : public Stepper {
   void check_time(double before, double after, double h) const {
     const double rate = (after - before) / h;
     if (rate > 0.0) return;
-    std::ostringstream message;
-    message << "advances the time by " << rate
-            << " h: dt/dtau has to be positive along the step, and large enough for time to go on.";
-    throw SolveError(SolveError::Reason::left_domain, method(), before, h, message.str());
+    throw SolveError(SolveError::Reason::left_domain, method(), before, h,
+                     "advances the time by " + number_text(rate) +
+                         " h: dt/dtau has to be positive along the step, and large enough for time "
+                         "to go on.");
   }
 
   void do_keep(const State&, const State&) override {

@@ -11,14 +11,14 @@
 #include "courant/core/equilibration.hpp"
 #include "courant/core/expr_vectors.hpp"
 #include "courant/core/message.hpp"
+#include "courant/core/regular_matrix.hpp"
 #include "courant/integrators/ladder/local_formulation.hpp"
 #include "courant/integrators/step_solver.hpp"
 
 namespace courant {
 namespace {
 
-// Entries below this part of both their row and their column are left out when scales are chosen.
-constexpr double kNoise = 1e-14;
+using regular_matrix::kNoise;
 
 // What may be the matter with a point that has no velocity.
 std::string whereabouts(const Manifold& M, const VectorXd& x) {
@@ -79,12 +79,14 @@ VectorFieldFormulas::VectorFieldFormulas(std::shared_ptr<const ImplicitSystem> o
     preference[i] *= std::pow(1e-2, derivatives);
     if (derivatives++ == 0) given.push_back(i);
   }
+  const Index of_structure = system->tangent_blocks() * M.tangent_dimension();
   std::vector<bool> is_explicit(static_cast<std::size_t>(all.size()), false);
   const Elimination elimination(all(given), y, {});
   for (const Elimination::Pivot& pivot : elimination.pivots)
     is_explicit[static_cast<std::size_t>(given[static_cast<std::size_t>(pivot.equation)])] = true;
   for (Index i = 0; i < all.size(); ++i)
-    if (!is_explicit[static_cast<std::size_t>(i)]) preference[i] *= 0.1;
+    // On curved spaces the coefficients of velocities in a structure are numbers on M alone.
+    if (!is_explicit[static_cast<std::size_t>(i)] && i >= of_structure) preference[i] *= 0.1;
   // Of many equations those that give unknowns explicitly are kept, and independent ones are looked
   // for among what is left of the others: the decomposition is dense.
   constexpr Index many = 500;

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 #include <typeinfo>
 
@@ -23,12 +22,6 @@ Matrix with_size(Matrix result, const std::string& name, const char* function, I
                                 size_text(result.rows(), result.cols()) + ", expected " +
                                 size_text(rows, columns) + ".");
   return result;
-}
-
-std::string printed(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
 }
 
 VectorXd normal_vector(Index size, std::mt19937& generator) {
@@ -207,7 +200,7 @@ VectorXd Manifold::do_project(const VectorXd& start) const {
                    {.accepted = 1e-12 * (1.0 + start.norm())});
   if (zero.converged) return zero.y;
   throw std::domain_error(name_ + "::project: no point of the manifold found near x, constraint " +
-                          "defect " + printed(zero.defect) + " after " +
+                          "defect " + number_text(zero.defect) + " after " +
                           std::to_string(zero.iterations) +
                           " iterations; expected 0. Start nearer to the manifold.");
 }
@@ -248,7 +241,7 @@ VectorXd Manifold::newton_inverse(const VectorXd& x, const VectorXd& y) const {
       {.accepted = 1e-11 * (1.0 + y.norm())});
   if (zero.converged) return basis * zero.y;
   throw std::domain_error(
-      name_ + "::inverse_retract: y is not reached from x, defect " + printed(zero.defect) +
+      name_ + "::inverse_retract: y is not reached from x, defect " + number_text(zero.defect) +
       " after Newton's method; expected 0. Is y beyond the injectivity radius?");
 }
 

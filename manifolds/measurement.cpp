@@ -4,7 +4,6 @@
 #include <cmath>
 #include <exception>
 #include <limits>
-#include <sstream>
 
 #include "courant/core/complete_orthogonal_decomposition.hpp"
 #include "courant/core/derivative.hpp"
@@ -123,11 +122,10 @@ double relative(const VectorXd& difference, const VectorXd& scale) {
 
 std::string describe(const char* name, const VectorXd& x) {
   constexpr Index kShown = 6;
-  std::ostringstream out;
-  out << name << " = (";
-  for (Index i = 0; i < std::min(x.size(), kShown); ++i) out << (i > 0 ? ", " : "") << x[i];
-  out << (x.size() > kShown ? ", …)" : ")");
-  return out.str();
+  std::string text = std::string(name) + " = (";
+  for (Index i = 0; i < std::min(x.size(), kShown); ++i)
+    text += (i > 0 ? ", " : "") + number_text(x[i]);
+  return text + (x.size() > kShown ? ", …)" : ")");
 }
 
 std::string describe(const LawSample& sample, const VectorXd& v) {

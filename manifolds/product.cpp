@@ -5,6 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "courant/core/word_list.hpp"
+
 namespace courant {
 namespace {
 
@@ -19,10 +21,8 @@ const Factors& checked(const Factors& factors) {
 }
 
 std::string product_name(const Factors& factors) {
-  std::string result;
-  for (const auto& factor : checked(factors))
-    result += (result.empty() ? "" : ", ") + factor->name();
-  return "Product(" + result + ")";
+  return "Product(" +
+         word_list(checked(factors), [](const auto& factor) { return factor->name(); }) + ")";
 }
 
 using Size = Index (Manifold::*)() const;

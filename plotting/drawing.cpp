@@ -1,14 +1,14 @@
 #include "courant/plotting/drawing.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 
+#include "courant/plotting/digits.hpp"
 #include "courant/plotting/figure.hpp"
 
 namespace courant::plot {
@@ -24,6 +24,19 @@ float nearest_float(double value) {
   return static_cast<float>(value);
 }
 
+// How a variable of that name is set; "" for a word.
+std::string_view variable(std::string_view name) {
+  static const std::map<std::string_view, std::string_view> greek = {
+      {"alpha", "α"}, {"beta", "β"},  {"gamma", "γ"}, {"delta", "δ"},  {"epsilon", "ε"},
+      {"eta", "η"},   {"theta", "θ"}, {"kappa", "κ"}, {"lambda", "λ"}, {"mu", "μ"},
+      {"nu", "ν"},    {"xi", "ξ"},    {"pi", "π"},    {"rho", "ρ"},    {"sigma", "σ"},
+      {"tau", "τ"},   {"phi", "φ"},   {"chi", "χ"},   {"psi", "ψ"},    {"omega", "ω"},
+      {"Delta", "Δ"}, {"Omega", "Ω"}, {"Phi", "Φ"},   {"Psi", "Ψ"},    {"Gamma", "Γ"}};
+  if (name.size() == 1) return name;
+  const auto found = greek.find(name);
+  return found == greek.end() ? std::string_view() : found->second;
+}
+
 }  // namespace
 
 std::string colour_class(std::size_t colour) {
@@ -32,23 +45,26 @@ std::string colour_class(std::size_t colour) {
 std::string_view ink(std::size_t colour) { return palette()[colour % palette().size()].light; }
 
 Markup mathematics(std::string_view text) {
-  const auto word = [](std::string_view from) {
-    const auto end = std::find_if(from.begin(), from.end(), [](char c) {
-      return std::isalpha(static_cast<unsigned char>(c)) == 0;
+  const auto word = [](std::string_view from, bool with_digits) {
+    const auto end = std::find_if(from.begin(), from.end(), [&](char c) {
+      const auto letter = static_cast<unsigned char>(c);
+      return std::isalpha(letter) == 0 && !(with_digits && std::isdigit(letter) != 0);
     });
     return from.substr(0, static_cast<std::size_t>(end - from.begin()));
   };
   Markup markup;
   while (!text.empty()) {
-    const std::size_t size = std::max<std::size_t>(1, word(text).size());
-    const bool variable = word(text).size() == 1;
-    markup += variable ? element("tspan", {{"font-style", "italic"}}, text.substr(0, 1))
-                       : Markup(text.substr(0, size));
+    const std::string_view name = word(text, false), symbol = variable(name);
+    const std::size_t size = std::max<std::size_t>(1, name.size());
+    markup += symbol.empty() ? Markup(text.substr(0, size))
+                             : element("tspan", {{"font-style", "italic"}}, symbol);
     text.remove_prefix(size);
-    if (!variable || !text.starts_with('_')) continue;
-    const std::string_view index = word(text.substr(1));
+    if (symbol.empty() || !text.starts_with('_')) continue;
+    const std::string_view index = word(text.substr(1), true);
     if (index.empty()) continue;
-    markup += element("tspan", {{"dy", 3.0}, {"font-size", 9.0}, {"font-style", "italic"}}, index);
+    const std::string_view letter = variable(index);
+    markup += element("tspan", {{"dy", 3.0}, {"font-size", 9.0}, {"font-style", "italic"}},
+                      letter.empty() ? index : letter);
     text.remove_prefix(1 + index.size());
     return text.empty() ? markup : markup + element("tspan", {{"dy", -3.0}}, mathematics(text));
   }
@@ -78,11 +94,7 @@ Markup dot(std::string_view style, double x, double y, double radius, std::size_
 
 std::string number_list(std::initializer_list<double> numbers) {
   std::string text;
-  for (const double number : numbers) {
-    std::array<char, 40> buffer;
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number).ptr;
-    text.append(text.empty() ? "" : " ").append(buffer.data(), end);
-  }
+  for (const double number : numbers) text += (text.empty() ? "" : " ") + digits(number);
   return text;
 }
 

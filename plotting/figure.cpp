@@ -180,7 +180,9 @@ class Curve {
     const bool function = std::is_sorted(series.x.begin(), series.x.end());
     const auto columns = static_cast<int>(layout.right() - layout.left());
     for (const Stretch stretch : finite_stretches(series.x, series.y)) {
-      if (function && stretch.size() > 4 * static_cast<std::size_t>(columns)) {
+      if (panel.scattered) {
+        dots(stretch);
+      } else if (function && stretch.size() > 4 * static_cast<std::size_t>(columns)) {
         band(stretch, columns);
       } else {
         polyline(stretch);
@@ -200,11 +202,12 @@ class Curve {
                                 {"stroke-width", 0.8}});
     }
     if (!line_.empty()) {
-      curve += element("path", {{"class", "line"},
+      curve += element("path", {{"class", panel_.scattered ? "dots" : "line"},
                                 {"d", line_.str()},
                                 {"fill", "none"},
                                 {"stroke", ink(series_.colour)},
-                                {"stroke-width", 1.4}});
+                                {"stroke-width", panel_.scattered ? 3.0 : 1.4},
+                                {"stroke-linecap", panel_.scattered ? "round" : "butt"}});
     }
     if (rows_ == 0) return element("g", {{"class", style}, {"stroke-linejoin", "round"}}, curve);
     const double x_origin = data_origin(*panel_.x.scale, layout_.x_interval());
@@ -227,6 +230,15 @@ class Curve {
     constexpr std::size_t most_vertices = 4000;
     for (const std::size_t i : evenly_spaced_rows(kept.size(), most_vertices))
       if (i > 0) line_.line_to(kept[i].x, kept[i].y);
+  }
+
+  // Lines without length, whose round caps are seen.
+  void dots(Stretch stretch) {
+    for (std::size_t row = stretch.begin; row < stretch.end; ++row) {
+      const Vertex at = pixel(series_.x[row], series_.y[row]);
+      line_.move_to(at.x, at.y);
+      line_.close();
+    }
   }
 
   void band(Stretch stretch, int columns) {

@@ -51,6 +51,7 @@ struct Panel {
   bool equal_aspect = false;        // a circle is a circle: the height follows from the data
   bool endpoints = false;           // ○ at the start of each curve, ● at its end
   bool points = false;              // ● at each row, for curves of few
+  bool scattered = false;           // rows that are no curve: a dot for each, no line
   std::optional<Space> space = {};  // curves in space, then without axes
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "courant/plotting/digits.hpp"
 #include "courant/plotting/svg.hpp"
 
 namespace courant::plot {
@@ -16,12 +17,9 @@ constexpr const char* minus_sign = "\u2212";
 
 // Fixed decimals, with the sign that typesetting uses.
 std::string fixed(double value, int decimals) {
-  std::array<char, 400> buffer;
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), std::abs(value),
-                                 std::chars_format::fixed, decimals);
-  const std::string digits(buffer.data(), end.ptr);
-  const bool zero = digits.find_first_not_of("0.") == std::string::npos;
-  return (value < 0 && !zero ? minus_sign : "") + digits;
+  const std::string size = digits(std::abs(value), std::chars_format::fixed, decimals);
+  const bool zero = size.find_first_not_of("0.") == std::string::npos;
+  return (value < 0 && !zero ? minus_sign : "") + size;
 }
 
 int floor_log10(double positive) { return static_cast<int>(std::floor(std::log10(positive))); }
@@ -179,10 +177,7 @@ std::string readable(double value, int digits) {
   if (std::isinf(value)) return value < 0 ? "\u2212∞" : "∞";
   if (value == 0) return "0";
   // Scientific first: its exponent is that of the rounded number, so 9.9999999 counts as 10.
-  std::array<char, 64> buffer;
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
-                                 std::chars_format::scientific, digits - 1);
-  const std::string_view text(buffer.data(), static_cast<std::size_t>(end.ptr - buffer.data()));
+  const std::string text = plot::digits(value, std::chars_format::scientific, digits - 1);
   const std::size_t e = text.find('e');
   int power = 0;
   const char* const power_begin = text.data() + e + (text[e + 1] == '+' ? 2 : 1);
@@ -196,7 +191,7 @@ std::string readable(double value, int digits) {
   if (power >= -3 && power < std::max(digits, 6)) {
     return trimmed(fixed(value, std::max(0, digits - 1 - power)));
   }
-  std::string mantissa(text.substr(0, e));
+  std::string mantissa = text.substr(0, e);
   if (mantissa.front() == '-') mantissa.replace(0, 1, minus_sign);
   return trimmed(std::move(mantissa)) + " × " + power_of_ten(power);
 }

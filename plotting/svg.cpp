@@ -1,9 +1,9 @@
 #include "courant/plotting/svg.hpp"
 
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
+
+#include "courant/plotting/digits.hpp"
 
 namespace courant::plot {
 
@@ -125,10 +125,7 @@ Markup svg(double width, double height, std::string_view title, std::string_view
 
 std::string coordinate(double value, int decimals) {
   if (!std::isfinite(value)) return "0";
-  std::array<char, 400> buffer;
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
-                                    std::chars_format::fixed, decimals);
-  std::string text(buffer.data(), result.ptr);
+  std::string text = digits(value, std::chars_format::fixed, decimals);
   if (text.find('.') != std::string::npos) {
     text.erase(text.find_last_not_of('0') + 1);
     if (text.back() == '.') text.pop_back();

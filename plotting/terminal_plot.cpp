@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "courant/plotting/decimation.hpp"
+#include "courant/plotting/digits.hpp"
 
 namespace courant::plot {
 
@@ -37,10 +37,7 @@ std::string coloured(const std::string& text, std::size_t colour, const Terminal
 
 std::string scientific(double value, const TerminalOptions& options) {
   if (options.unicode) return readable(value, 3);
-  std::array<char, 32> buffer;
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
-                                 std::chars_format::general, 3);
-  return {buffer.data(), end.ptr};
+  return digits(value, std::chars_format::general, 3);
 }
 
 // A rectangle of characters on which dots are set: 2 × 4 of them to a character in Braille, one in

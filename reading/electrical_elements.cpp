@@ -81,7 +81,7 @@ std::optional<NetworkElement> read_diode(ObjectReader& object, const NetworkSite
 std::optional<NetworkElement> read_transformer(ObjectReader& object, const NetworkSite& site) {
   ElementReader reader(object, site);
   const auto [from, to] = reader.pair("secondary");
-  const double ratio = reader.constant("ratio");
+  const double ratio = reader.nonzero("ratio");
   transform(reader, ratio, {domains::electrical, reader.node("from"), reader.node("to"), "_1"},
             {domains::electrical, from, to, "_2"});
   return reader.result();
@@ -171,7 +171,7 @@ ElementKinds electrical_elements() {
       {{"ideal-transformer",
         "v₁ = ratio v₂, i₂ = -ratio i₁",
         {name(), current_from(), current_to(), secondary(),
-         required_key("ratio", takes::formula(), "the ratio of turns, a constant")}},
+         required_key("ratio", takes::formula(), "the ratio of turns, a constant other than 0")}},
        read_transformer},
       {{"gyrator",
         "v₁ = r i₂, v₂ = -r i₁",

@@ -10,8 +10,8 @@ NameList energy_words(const Model& model) {
   NameList words;
   const auto system = std::dynamic_pointer_cast<const EnergySystem>(model.system);
   if (!system) return words;
-  const StepEnergies energies(system);
-  if (energies.suppliers().empty() && energies.dissipators().empty()) return words;
+  const StepEnergies::Formulas energies(*system);  // nothing is compiled
+  if (energies.suppliers.empty() && energies.dissipators.empty()) return words;
   const Manifold& M = *system->manifold();
   Graph graph;
   const SymbolTable taken = model.symbols(
@@ -26,8 +26,8 @@ NameList energy_words(const Model& model) {
   };
   add("supplied");
   add("dissipated");
-  for (const std::string& port : energies.suppliers()) add("supplied_" + port);
-  for (const std::string& port : energies.dissipators()) add("dissipated_" + port);
+  for (const std::string& port : energies.suppliers) add("supplied_" + port);
+  for (const std::string& port : energies.dissipators) add("dissipated_" + port);
   return words;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "courant/integrators/divided_integrator.hpp"
 #include "courant/integrators/ladder/constraint_ladder.hpp"
 #include "courant/reading/model.hpp"
 
@@ -81,6 +82,7 @@ struct TimeSpan {
   long steps = 0;
   std::optional<WrittenFormula> rate = {};
   double until = 0.0;
+  std::optional<DividedIntegrator::Options> division = {};
 
   bool is_transformed() const { return rate.has_value(); }
   // Of t, or of τ.

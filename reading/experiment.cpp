@@ -6,6 +6,7 @@
 
 #include "courant/core/declaration.hpp"
 #include "courant/core/message.hpp"
+#include "courant/reading/divided_steps.hpp"
 #include "courant/reading/energy_words.hpp"
 #include "courant/reading/json_document.hpp"
 #include "courant/reading/repetition.hpp"
@@ -44,6 +45,7 @@ std::optional<TimeSpan> read_time(const JsonReader& value, const SymbolTable& co
   const auto rate_key = object.optional("transformation");
   if (rate_key) time.rate = read_formula(*rate_key);
   if (rate_key && !time.rate) return std::nullopt;
+  time.division = read_division(object, constants);
   const auto end_key = object.required("end");
   const double end = end_key ? read_constant(*end_key, constants) : kUnread;
   if (std::isnan(time.start) || std::isnan(time.step) || std::isnan(end)) return std::nullopt;
@@ -61,8 +63,10 @@ std::optional<TimeSpan> read_time(const JsonReader& value, const SymbolTable& co
   }
   time.steps = std::lround(steps);
   if (std::abs(steps - static_cast<double>(time.steps)) > 1e-9 * std::max(1.0, steps)) {
+    const double whole = std::max(1.0, std::round(steps));
     end_key->problem("is " + exact_text(steps) +
-                     " steps after the start; expected a whole number of them");
+                     " steps after the start; expected a whole number of them, as with a step of " +
+                     exact_text((end - time.start) / whole));
     return std::nullopt;
   }
   return time;
@@ -305,6 +309,9 @@ Experiment read_experiment_document(const Json& written) {
 
     if (model && experiment.time && experiment.time->rate)
       transform_time(*experiment.time->rate, *model, findings, experiment);
+    if (experiment.method && experiment.time && experiment.time->division)
+      experiment.method =
+          in_divided_steps(std::move(*experiment.method), *experiment.time->division);
     if (model) {
       experiment.model = *model;
       if (initial)

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "courant/core/text_layout.hpp"
 #include "courant/reading/json_reader.hpp"
 
 namespace courant {
@@ -20,9 +21,7 @@ std::string place(std::string_view text, std::size_t position) {
   const std::string_view before = text.substr(0, std::min(position, text.size()));
   const auto line = std::count(before.begin(), before.end(), '\n') + 1;
   const std::string_view last_line = before.substr(before.rfind('\n') + 1);
-  const auto column =
-      std::count_if(last_line.begin(), last_line.end(), [](char c) { return (c & 0xC0) != 0x80; }) +
-      1;
+  const std::size_t column = text_width(last_line) + 1;
   return "line " + std::to_string(line) + ", column " + std::to_string(column);
 }
 

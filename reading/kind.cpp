@@ -117,7 +117,11 @@ Takes nodes() {
                             {"required", {"repeat", "name"}},
                             {"additionalProperties", false}}})}}}}};
 }
-Takes kind(const std::string& noun) { return {"a " + noun, reference(noun)}; }
+Takes kind(const std::string& noun) {
+  const bool has_vowel =
+      !noun.empty() && std::string_view("aeiou").find(noun[0]) != std::string_view::npos;
+  return {(has_vowel ? "an " : "a ") + noun, reference(noun)};
+}
 
 Takes array_of(const Takes& entry, std::size_t least, std::optional<std::size_t> most) {
   Json schema = {{"type", "array"}};

@@ -63,7 +63,7 @@ Read read_friction(const NetworkDomain& domain) {
 
 std::optional<NetworkElement> read_gear(ObjectReader& object, const NetworkSite& site) {
   ElementReader reader(object, site);
-  const double ratio = reader.constant("ratio");
+  const double ratio = reader.nonzero("ratio");
   transform(reader, ratio, {domains::rotation, reader.node("from"), reader.ground(), "_1"},
             {domains::rotation, reader.node("to"), reader.ground(), "_2"});
   return reader.result();

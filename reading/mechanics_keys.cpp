@@ -3,6 +3,7 @@
 #include "courant/core/derivative.hpp"
 #include "courant/core/expr_vectors.hpp"
 #include "courant/core/message.hpp"
+#include "courant/core/text_layout.hpp"
 
 namespace courant {
 namespace {
@@ -133,10 +134,6 @@ std::optional<Mechanics::Formula> read_damping(const JsonReader& value, const Ph
     for (Index i = 0; i < n; ++i) force[i] = -entries.segment(i * n, n).dot(w);
     return force;
   };
-}
-
-std::string counted(Index count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
 }  // namespace

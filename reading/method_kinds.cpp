@@ -1,8 +1,11 @@
 #include "courant/reading/method_kinds.hpp"
 
+#include <array>
+
 #include "courant/core/message.hpp"
 #include "courant/integrators/composition.hpp"
 #include "courant/integrators/constrain_first.hpp"
+#include "courant/integrators/damped_composition.hpp"
 #include "courant/integrators/discrete_gradient.hpp"
 #include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/explicit_runge_kutta.hpp"
@@ -17,6 +20,7 @@
 #include "courant/integrators/reduced_map.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/torus.hpp"
+#include "courant/reading/method_in_units.hpp"
 #include "courant/reading/transformed_time.hpp"
 
 namespace courant {
@@ -130,10 +134,8 @@ std::shared_ptr<const Integrator> explicit_method(const MethodSetting& at,
       std::make_shared<VectorField>(at.system, at.ladder, at.backend), kind);
 }
 
-// Where Method 1 starts: at the consistent point, or so that its first step leads to where RK2
-// leads.
-State start_of_method_1(const MethodSetting& at, const DiscretizationMap& map, bool rk2) {
-  if (!rk2) return at.initial;
+// Where Method 1 starts so that its first step leads to where RK2 leads.
+State start_of_method_1(const MethodSetting& at, const DiscretizationMap& map) {
   const State next =
       explicit_method(at, ExplicitRungeKutta::Kind::midpoint)->advance(at.initial, at.step);
   const auto bundle = std::dynamic_pointer_cast<const CotangentBundle>(at.system->manifold());
@@ -171,11 +173,58 @@ std::shared_ptr<const Integrator> composed(std::shared_ptr<const Integrator> met
   return std::make_shared<Composition>(std::move(method), order);
 }
 
+// Whether `damping` is asked for, whose steps are those of the theta family; nothing, and a problem, if
+// another discretization is.
+std::optional<bool> read_damping(ObjectReader& object,
+                                 const std::optional<DiscretizationChoice>& map) {
+  const bool is_damped = object.word("damping") == "l-stable";
+  if (!is_damped || !map || map->description == "midpoint") return is_damped;
+  object.optional("damping")->problem(
+      "is \"l-stable\", which is made of steps of the theta family, theta = 0.414 and 1; expected "
+      "the discretization \"midpoint\", which these take the place of");
+  return std::nullopt;
+}
+
+std::string damping_text(bool is_damped) { return is_damped ? ", damped" : ""; }
+
+// The two maps of a DampedComposition, on the space of the states itself: a cotangent lift is explicit in
+// momenta where it is implicit in positions, and damps nothing.
+std::array<MapPointer, 2> damped_maps(const MethodSetting& at) {
+  const auto theta_map = [&](double theta) {
+    return map_at({"theta",
+                   [theta](const ManifoldPointer& M) -> MapPointer {
+                     return std::make_shared<Theta>(M, theta);
+                   }},
+                  at);
+  };
+  return {theta_map(DampedComposition::kThetas[0]), theta_map(DampedComposition::kThetas[1])};
+}
+
+// A method of one or two maps, the order that is asked for, 0 for its own, and where it starts.
+template <class Make>
+PreparedMethod with_maps(const DiscretizationChoice& map, bool is_damped, int order,
+                         const MethodSetting& at, const Make& make) {
+  if (!is_damped) {
+    const auto on_manifold = map_at(map, at);
+    return {composed(make(on_manifold), order), at.initial, on_manifold};
+  }
+  const auto maps = damped_maps(at);
+  return {composed(std::make_shared<DampedComposition>(make(maps[0]), make(maps[1])), order),
+          at.initial, maps[1]};
+}
+
 std::optional<MethodChoice> discretize_first(ObjectReader& object) {
   const auto map = discretization_kinds().read_key(object, "discretization");
   const bool rk2 = object.word("start") == "rk2";
   const auto order = read_order(object);
-  if (!map || !order) return std::nullopt;
+  const auto is_damped = read_damping(object, map);
+  if (!map || !order || !is_damped) return std::nullopt;
+  if (rk2 && *is_damped) {
+    object.optional("start")->problem(
+        "is \"rk2\", which is about one step of the midpoint rule; expected \"on-manifold\" with "
+        "damping");
+    return std::nullopt;
+  }
   if (rk2 && *order > 2) {
     object.optional("start")->problem(
         "is \"rk2\", which is about one step of order 2; expected \"on-manifold\" with order " +
@@ -183,9 +232,9 @@ std::optional<MethodChoice> discretize_first(ObjectReader& object) {
     return std::nullopt;
   }
   return MethodChoice{
-      "discretize-first, " + map->description + order_text(*order) +
+      "discretize-first, " + map->description + damping_text(*is_damped) + order_text(*order) +
           (rk2 ? ", started by rk2" : ""),
-      [map = *map, order = *order, rk2](const MethodSetting& at) {
+      [map = *map, order = *order, is_damped = *is_damped, rk2](const MethodSetting& at) {
         if (order > 2 && at.ladder.degrees_of_freedom < at.system->manifold()->dimension())
           throw ExperimentError("/method/order",
                                 "is " + std::to_string(order) +
@@ -196,34 +245,44 @@ std::optional<MethodChoice> discretize_first(ObjectReader& object) {
           throw std::invalid_argument(
               "the start \"rk2\" is about one step of a given length of time; expected "
               "\"on-manifold\" with a transformation of time");
-        const auto on_manifold = map_at(map, at);
-        return PreparedMethod{
-            composed(std::make_shared<DiscretizeFirst>(
-                         at.system, on_manifold, DiscretizeFirst::Options{.backend = at.backend}),
-                     order),
-            start_of_method_1(at, *on_manifold, rk2), on_manifold};
+        return prepared_in_units(
+            [&](const MethodSetting& in_units) {
+              PreparedMethod method =
+                  with_maps(map, is_damped, order, in_units, [&](const MapPointer& on_manifold) {
+                    return std::make_shared<DiscretizeFirst>(
+                        in_units.system, on_manifold,
+                        DiscretizeFirst::Options{.backend = in_units.backend});
+                  });
+              if (rk2) method.initial = start_of_method_1(in_units, *method.map);
+              return method;
+            },
+            at);
       },
-      [](const MethodSetting&) { return true; }};
+      [is_damped = *is_damped](const MethodSetting&) { return !is_damped; }};
 }
 
 std::optional<MethodChoice> constrain_first(ObjectReader& object) {
   const auto map = discretization_kinds().read_key(object, "discretization");
   const auto projector = projector_kinds().read_key(object, "projector");
   const auto order = read_order(object);
-  if (!map || !projector || !order) return std::nullopt;
+  const auto is_damped = read_damping(object, map);
+  if (!map || !projector || !order || !is_damped) return std::nullopt;
   return MethodChoice{
-      "constrain-first, " + map->description + ", " + projector->description + order_text(*order),
-      [map = *map, projector = *projector, order = *order](const MethodSetting& at) {
-        const auto on_manifold = map_at(map, at);
-        return PreparedMethod{
-            composed(std::make_shared<ConstrainFirst>(
-                         at.system, at.ladder, on_manifold, projector_at(projector, at),
-                         ConstrainFirst::Options{.backend = at.backend}),
-                     order),
-            at.initial, on_manifold};
+      "constrain-first, " + map->description + damping_text(*is_damped) + ", " +
+          projector->description + order_text(*order),
+      [map = *map, projector = *projector, order = *order,
+       is_damped = *is_damped](const MethodSetting& at) {
+        const auto prepare = [&](const MethodSetting& in_units) {
+          return with_maps(map, is_damped, order, in_units, [&](const MapPointer& on_manifold) {
+            return std::make_shared<ConstrainFirst>(
+                in_units.system, in_units.ladder, on_manifold, projector_at(projector, in_units),
+                ConstrainFirst::Options{.backend = in_units.backend});
+          });
+        };
+        return projector.is_of_units ? prepared_in_units(prepare, at) : prepare(at);
       },
-      [](const MethodSetting& at) {
-        return at.ladder.degrees_of_freedom == at.system->manifold()->dimension();
+      [is_damped = *is_damped](const MethodSetting& at) {
+        return !is_damped && at.ladder.degrees_of_freedom == at.system->manifold()->dimension();
       }};
 }
 
@@ -282,8 +341,11 @@ std::optional<MethodChoice> discrete_gradient(ObjectReader& object) {
 
 template <ExplicitRungeKutta::Kind kind>
 std::optional<MethodChoice> explicit_runge_kutta(ObjectReader& object) {
-  return MethodChoice{object.optional("type")->text().value(), [](const MethodSetting& at) {
-                        return PreparedMethod{explicit_method(at, kind), at.initial};
+  const auto prepare = [](const MethodSetting& at) {
+    return PreparedMethod{explicit_method(at, kind), at.initial};
+  };
+  return MethodChoice{object.optional("type")->text().value(), [prepare](const MethodSetting& at) {
+                        return prepared_in_units(prepare, at);
                       }};
 }
 
@@ -314,17 +376,21 @@ Registry<MethodChoice>& method_kinds() {
   const Key map = default_key("discretization", takes::kind("discretization"), "midpoint", "R_d");
   const Key order = optional_key("order", takes::integer(kOrders),
                                  "by symmetric composition; that of the discretization if missing");
+  const Key damping = default_key(
+      "damping", takes::word({"none", "l-stable"}), "none",
+      "l-stable: two steps of the theta family in each, of order 2; what is faster than a "
+      "step dies out, where the midpoint rule carries it on");
   static Registry<MethodChoice> kinds({
       {{"discretize-first",
         "Method 1: (1/h) R_d⁻¹(x₀, x₁) ∈ S₀",
-        {map, order,
+        {map, order, damping,
          default_key("start", takes::word({"on-manifold", "rk2"}), "on-manifold",
                      "at the consistent point, or with the momentum that makes the first step "
                      "that of rk2")}},
        discretize_first},
       {{"constrain-first",
         "Method 2: the constraint algorithm, then R_d projected to M_f",
-        {map, order,
+        {map, order, damping,
          default_key("projector", takes::kind("projector"), "orthogonal",
                      "how points are brought to M_f")}},
        constrain_first},

@@ -59,6 +59,8 @@ struct DiscretizationChoice {
 struct ProjectorChoice {
   std::string description;
   std::function<std::shared_ptr<const Projector>(const MethodSetting&)> make;
+  // Whether it is the same projector whatever the units of coordinates are.
+  bool is_of_units = false;
 };
 
 Registry<MethodChoice>& method_kinds();

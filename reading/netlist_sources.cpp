@@ -3,14 +3,19 @@
 #include <algorithm>
 #include <array>
 
+#include "courant/core/formula.hpp"
+#include "courant/core/message.hpp"
+
 namespace courant::netlist {
 namespace {
 
 class Values {
  public:
-  Values(const std::vector<std::string>& words, std::size_t first, const Scope& scope, int line)
-      : line_(line) {
-    for (std::size_t i = first; i < words.size(); ++i)
+  // The words up to DC or AC, which may stand behind a waveform.
+  Values(const std::vector<std::string>& words, std::size_t first, const Scope& scope, int line,
+         const SymbolTable& parameters)
+      : line_(line), parameters_(parameters) {
+    for (std::size_t i = first; i < words.size() && words[i] != "ac" && words[i] != "dc"; ++i)
       formulas_.push_back(formula(words[i], scope, line));
   }
   std::size_t size() const { return formulas_.size(); }
@@ -21,12 +26,14 @@ class Values {
     return formulas_[i];
   }
   std::string at(std::size_t i, double otherwise) const {
-    return i < size() ? formulas_[i] : digits(otherwise);
+    return i < size() ? formulas_[i] : exact_text(otherwise);
   }
   double number_at(std::size_t i) const {
-    const auto value = number(at(i));
-    if (!value) throw LineError{line_, "\"" + at(i) + "\" is no number; expected one for a time"};
-    return *value;
+    try {
+      return parse_formula(at(i), parameters_).value();
+    } catch (const FormulaError&) {
+      throw LineError{line_, "\"" + at(i) + "\" is no number; expected one for a time"};
+    }
   }
   double number_at(std::size_t i, double otherwise) const {
     return i < size() ? number_at(i) : otherwise;
@@ -35,11 +42,20 @@ class Values {
  private:
   std::vector<std::string> formulas_;
   int line_;
+  const SymbolTable& parameters_;
 };
+
+void add_corner(std::vector<Corner>& corners, double first, double period, const Times& times) {
+  const auto same = [&](const Corner& other) {
+    return other.first == first && other.period == period;
+  };
+  if (first >= times.end || (first <= 0.0 && period == 0.0)) return;
+  if (std::ranges::none_of(corners, same)) corners.push_back({first, period});
+}
 
 // v1 → v2 → v1, again and again: the time within a period s = t - td - n per is
 // per (1/2 + atan(tan(π ((t - td)/per - 1/2)))/π).
-std::string pulse(const Values& values, const Times& times) {
+std::string pulse(const Values& values, const Times& times, std::vector<Corner>& corners) {
   const std::string &v1 = values.at(0), &v2 = values.at(1);
   const double delay = values.number_at(2, 0.0);
   const auto or_default = [](double value, double otherwise) {
@@ -49,21 +65,25 @@ std::string pulse(const Values& values, const Times& times) {
   const double fall = or_default(values.number_at(4, 0.0), times.step);
   const double width = or_default(values.number_at(5, 0.0), times.end);
   const double period = or_default(values.number_at(6, 0.0), times.end);
-  const std::string after = delay == 0.0 ? "t" : "(t - " + digits(delay) + ")";
+  const std::string after = delay == 0.0 ? "t" : "(t - " + exact_text(delay) + ")";
   std::string s = after;
-  if (delay + period < times.end)
-    s = "(" + digits(period) + "*(0.5 + atan(tan(pi*(" + after + "/" + digits(period) +
+  const bool repeats = delay + period < times.end;
+  for (const double corner : {0.0, rise, rise + width, rise + width + fall})
+    add_corner(corners, delay + corner, repeats ? period : 0.0, times);
+  if (repeats)
+    s = "(" + exact_text(period) + "*(0.5 + atan(tan(pi*(" + after + "/" + exact_text(period) +
         " - 0.5)))/pi))";
-  const std::string top = digits(rise + width), end = digits(rise + width + fall);
-  return "if(" + after + " < 0, " + v1 + ", if(" + s + " < " + digits(rise) + ", " + v1 + " + (" +
-         v2 + " - " + v1 + ")*" + s + "/" + digits(rise) + ", if(" + s + " < " + top + ", " + v2 +
-         ", if(" + s + " < " + end + ", " + v2 + " + (" + v1 + " - " + v2 + ")*(" + s + " - " +
-         top + ")/" + digits(fall) + ", " + v1 + "))))";
+  const std::string top = exact_text(rise + width), end = exact_text(rise + width + fall);
+  return "if(" + after + " < 0, " + v1 + ", if(" + s + " < " + exact_text(rise) + ", " + v1 +
+         " + (" + v2 + " - " + v1 + ")*" + s + "/" + exact_text(rise) + ", if(" + s + " < " + top +
+         ", " + v2 + ", if(" + s + " < " + end + ", " + v2 + " + (" + v1 + " - " + v2 + ")*(" + s +
+         " - " + top + ")/" + exact_text(fall) + ", " + v1 + "))))";
 }
 
-std::string sine(const Values& values, const Times& times) {
+std::string sine(const Values& values, const Times& times, std::vector<Corner>& corners) {
   const std::string &offset = values.at(0), &amplitude = values.at(1);
   const std::string frequency = values.at(2, 1.0 / times.end), delay = values.at(3, 0.0);
+  if (const auto begin = number(delay)) add_corner(corners, *begin, 0.0, times);
   const std::string damping = values.at(4, 0.0), phase = values.at(5, 0.0);
   const std::string angle = phase == "0" ? "" : " + pi/180*" + phase;
   const std::string after = delay == "0" ? "t" : "(t - " + delay + ")";
@@ -75,25 +95,32 @@ std::string sine(const Values& values, const Times& times) {
 }
 
 // v₀ + Σ (v_{k+1} - v_k) (min(max(t, t_k), t_{k+1}) - t_k)/(t_{k+1} - t_k)
-std::string piecewise_linear(const Values& values, int line) {
+std::string piecewise_linear(const Values& values, const Times& times, int line,
+                             std::vector<Corner>& corners) {
   if (values.size() < 2 || values.size() % 2 == 1)
     throw LineError{line, "PWL has " + std::to_string(values.size()) +
                               " values; expected pairs of a time and a value"};
+  for (std::size_t k = 0; k < values.size(); k += 2)
+    add_corner(corners, values.number_at(k), 0.0, times);
   std::string sum = values.at(1);
   for (std::size_t k = 0; k + 3 < values.size(); k += 2) {
     const double from = values.number_at(k), to = values.number_at(k + 2);
-    if (!(to > from)) throw LineError{line, "the times of PWL do not increase at " + digits(to)};
-    sum += " + (" + values.at(k + 3) + " - " + values.at(k + 1) + ")*(min(max(t, " + digits(from) +
-           "), " + digits(to) + ") - " + digits(from) + ")/" + digits(to - from);
+    if (!(to > from))
+      throw LineError{line, "the times of PWL do not increase at " + exact_text(to)};
+    sum += " + (" + values.at(k + 3) + " - " + values.at(k + 1) + ")*(min(max(t, " +
+           exact_text(from) + "), " + exact_text(to) + ") - " + exact_text(from) + ")/" +
+           exact_text(to - from);
   }
   return sum;
 }
 
-std::string exponential(const Values& values, const Times& times) {
+std::string exponential(const Values& values, const Times& times, std::vector<Corner>& corners) {
   const std::string &v1 = values.at(0), &v2 = values.at(1);
   const std::string td1 = values.at(2, 0.0), tau1 = values.at(3, times.step);
   const std::string td2 = values.at(4, values.number_at(2, 0.0) + times.step),
                     tau2 = values.at(5, times.step);
+  for (const std::string& begin : {td1, td2})
+    if (const auto corner = number(begin)) add_corner(corners, *corner, 0.0, times);
   const auto part = [](const std::string& from, const std::string& to, const std::string& delay,
                        const std::string& tau) {
     return "if(t < " + delay + ", 0, (" + to + " - " + from + ")*(1 - exp(-(t - " + delay + ")/" +
@@ -105,15 +132,17 @@ std::string exponential(const Values& values, const Times& times) {
 }  // namespace
 
 std::string source(const std::vector<std::string>& words, const Scope& scope, const Times& times,
-                   int line) {
+                   int line, const SymbolTable& parameters, std::vector<Corner>* corners) {
+  std::vector<Corner> unasked;
+  std::vector<Corner>& bends = corners ? *corners : unasked;
   std::string constant = "0";
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
-    const auto values = [&] { return Values(words, i + 1, scope, line); };
-    if (word == "pulse") return pulse(values(), times);
-    if (word == "sin") return sine(values(), times);
-    if (word == "pwl") return piecewise_linear(values(), line);
-    if (word == "exp") return exponential(values(), times);
+    const auto values = [&] { return Values(words, i + 1, scope, line, parameters); };
+    if (word == "pulse") return pulse(values(), times, bends);
+    if (word == "sin") return sine(values(), times, bends);
+    if (word == "pwl") return piecewise_linear(values(), times, line, bends);
+    if (word == "exp") return exponential(values(), times, bends);
     if (word == "ac") {
       while (i + 1 < words.size() && number(words[i + 1])) ++i;
     } else if (word == "sffm" || word == "am" || word == "trnoise" || word == "trrandom") {

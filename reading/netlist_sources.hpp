@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "courant/core/symbol_table.hpp"
+#include "courant/integrators/divided_integrator.hpp"
 #include "courant/reading/netlist_text.hpp"
 
 namespace courant::netlist {
@@ -14,9 +16,11 @@ struct Times {
 };
 
 // The formula of the words of a source after its nodes: [DC] value, PULSE, SIN, PWL or EXP; AC is
-// left out. Values may be expressions of parameters, times of PULSE and PWL are numbers. Throws
-// LineError.
+// left out. Values may be expressions of parameters; times of PULSE and PWL become numbers, by the
+// values of parameters. The times after the start, and before the end, at which it bends are added to
+// `corners` if that is given. Throws LineError.
 std::string source(const std::vector<std::string>& words, const Scope& scope, const Times& times,
-                   int line);
+                   int line, const SymbolTable& parameters = {},
+                   std::vector<Corner>* corners = nullptr);
 
 }  // namespace courant::netlist

@@ -4,6 +4,9 @@
 #include <cctype>
 #include <charconv>
 
+#include "courant/core/formula.hpp"
+#include "courant/core/message.hpp"
+
 namespace courant::netlist {
 namespace {
 
@@ -61,17 +64,24 @@ std::optional<std::pair<double, std::size_t>> leading_number(std::string_view te
   while (letters < text.size() && is_letter(text[letters])) ++letters;
   const std::string unit = lower(text.substr(length, letters - length));
   const auto is = [&](const char* prefix) { return unit.rfind(prefix, 0) == 0; };
-  value *= is("meg")   ? 1e6
-           : is("mil") ? 25.4e-6
-           : is("t")   ? 1e12
-           : is("g")   ? 1e9
-           : is("k")   ? 1e3
-           : is("m")   ? 1e-3
-           : is("u")   ? 1e-6
-           : is("n")   ? 1e-9
-           : is("p")   ? 1e-12
-           : is("f")   ? 1e-15
-                       : 1.0;
+  if (is("mil")) return std::pair(value * 25.4e-6, letters);
+  const char* exponent = is("meg") ? "e6"
+                         : is("t") ? "e12"
+                         : is("g") ? "e9"
+                         : is("k") ? "e3"
+                         : is("m") ? "e-3"
+                         : is("u") ? "e-6"
+                         : is("n") ? "e-9"
+                         : is("p") ? "e-12"
+                         : is("f") ? "e-15"
+                                   : "";
+  // As one decimal number: 100 times the double 1e-9 is not 1e-7.
+  const std::string_view digits(begin, static_cast<std::size_t>(after - begin));
+  const double factor = std::stod(std::string("1") + exponent);
+  if (digits.find_first_of("eE") != std::string_view::npos)
+    return std::pair(value * factor, letters);
+  const std::string whole = std::string(digits) + exponent;
+  std::from_chars(whole.data(), whole.data() + whole.size(), value);
   return std::pair(value, letters);
 }
 
@@ -121,13 +131,26 @@ std::optional<double> number(std::string_view word) {
   return found && found->second == word.size() ? std::optional(found->first) : std::nullopt;
 }
 
-std::string digits(double value) {
-  char buffer[32];
-  return std::string(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
+namespace {
+
+// Throws LineError if the formula, made of the text, is none.
+void check_formula(const std::string& formula, const std::string& text, const Scope& scope,
+                   int line) {
+  SymbolTable symbols;
+  for (const auto& [name, global] : scope)
+    if (!symbols.find(global) && !number(global)) symbols.add(global, 1.0);
+  try {
+    parse_formula(formula, symbols);
+  } catch (const FormulaError& error) {
+    const std::string what = error.what();  // column 7: …, of another text
+    throw LineError{line, "\"" + text + "\" is no expression: " + what.substr(what.find(": ") + 2)};
+  }
 }
 
+}  // namespace
+
 std::string formula(const std::string& word, const Scope& scope, int line) {
-  if (const auto value = number(word)) return digits(*value);
+  if (const auto value = number(word)) return exact_text(*value);
   const bool braces = word.front() == '{';
   const std::string text = braces ? word.substr(1, word.size() - 2) : word;
   std::string result;
@@ -136,7 +159,7 @@ std::string formula(const std::string& word, const Scope& scope, int line) {
     if (is_digit(text[i]) || text[i] == '.') {
       const auto found = leading_number(rest);
       if (!found) throw LineError{line, "\"" + text + "\" has no number where one begins"};
-      result += digits(found->first);
+      result += exact_text(found->first);
       i += found->second;
     } else if (is_letter(text[i])) {
       std::size_t end = i;
@@ -158,6 +181,7 @@ std::string formula(const std::string& word, const Scope& scope, int line) {
       result += text[i++];
     }
   }
+  check_formula(result, text, scope, line);
   return braces ? "(" + result + ")" : result;
 }
 

@@ -28,13 +28,10 @@ std::vector<Line> lines_of(std::string_view text, std::string& title);
 
 // `4.7k`, `10uF`, `1meg`; nothing if it is no number.
 std::optional<double> number(std::string_view word);
-// The fewest digits that read back to the same number.
-std::string digits(double value);
-
 // Names of parameters in a scope: what each is called in the experiment.
 using Scope = std::map<std::string, std::string>;
 
-// A number, a name or an expression in braces, as a formula. Throws LineError.
+// A number, a name or an expression in braces, as a formula. Throws LineError if it is none.
 std::string formula(const std::string& word, const Scope& scope, int line);
 
 }  // namespace courant::netlist

@@ -100,7 +100,8 @@ std::pair<NetworkTerminal, NetworkTerminal> ElementReader::pair(const std::strin
     const auto from = (*nodes)[0].text(), to = (*nodes)[1].text();
     if (from && to) return {{*from, (*nodes)[0].pointer()}, {*to, (*nodes)[1].pointer()}};
   } else if (nodes) {
-    given->expected("an array of two nodes");
+    given->problem("has " + std::to_string(nodes->size()) +
+                   (nodes->size() == 1 ? " entry" : " entries") + "; expected two names");
   }
   right_ = false;
   return {ground(), ground()};
@@ -149,6 +150,14 @@ double ElementReader::positive(const std::string& key) {
   const double value = constant(key);
   if (value > 0.0 && std::isfinite(value)) return value;
   if (const auto given = object_.optional(key)) given->expected("a number greater than 0");
+  right_ = false;
+  return 1.0;
+}
+
+double ElementReader::nonzero(const std::string& key) {
+  const double value = constant(key);
+  if (value != 0.0 && std::isfinite(value)) return value;
+  if (const auto given = object_.optional(key)) given->expected("a number other than 0");
   right_ = false;
   return 1.0;
 }

@@ -117,6 +117,7 @@ class ElementReader {
   // A constant formula of the parameters; 1, and a problem, if it is none.
   double constant(const std::string& key);
   double positive(const std::string& key);
+  double nonzero(const std::string& key);
   std::optional<WrittenFormula> formula(const std::string& key);
 
   // Branches, in the order of their indices.

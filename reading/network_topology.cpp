@@ -2,11 +2,13 @@
 
 #include <boost/graph/connected_components.hpp>
 #include <set>
+#include <span>
 
 #include "courant/core/as_size.hpp"
 #include "courant/core/formula.hpp"
 #include "courant/core/message.hpp"
 #include "courant/core/spelling.hpp"
+#include "courant/core/word_list.hpp"
 #include "courant/structures/kirchhoff.hpp"
 
 namespace courant {
@@ -19,11 +21,10 @@ using Port = NetworkElement::Port;
 // `a`, `a and b`, `a, b and c`, and only the first of many.
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t most = 20;
+  if (names.size() > most)
+    return word_list(std::span(names).first(most)) + " and " + std::to_string(names.size() - most) +
+           " more";
   std::string list;
-  if (names.size() > most) {
-    for (std::size_t i = 0; i < most; ++i) list += (i == 0 ? "" : ", ") + names[i];
-    return list + " and " + std::to_string(names.size() - most) + " more";
-  }
   for (std::size_t i = 0; i < names.size(); ++i)
     list += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
   return list;
@@ -165,7 +166,10 @@ void tell(const std::vector<const Edge*>& edges, const SparseMatrixXd& columns,
     const std::string type = types.size() == 1 ? *types.begin() : "source";
     findings.problem(last->element->pointer,
                      type + (names.size() > 1 ? "s " : " ") + listed(names) +
-                         (names.size() > 1 ? " form a " : " forms a ") + what);
+                         (names.size() > 1 ? " form a " : " forms a ") + what +
+                         (what != "cut-set"   ? ""
+                          : names.size() == 1 ? ": there is no other way for its current"
+                                              : ": there is no other way for their current"));
   }
 }
 
@@ -197,7 +201,7 @@ bool check_sources(const std::vector<Edge>& edges, const NetworkNodes& nodes, Fi
       cut_sets.insertBack(it.row(), static_cast<Index>(k)) = it.value();
   }
   cut_sets.finalize();
-  tell(of_all, cut_sets, "cut-set: there is no other way for their current", findings);
+  tell(of_all, cut_sets, "cut-set", findings);
   return of_sources.links().empty() && columns.empty();
 }
 

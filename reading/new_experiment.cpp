@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "courant/core/spelling.hpp"
+#include "courant/core/word_list.hpp"
 #include "courant/reading/catalogue.hpp"
 
 namespace courant {
@@ -26,12 +27,8 @@ const KindDescription* kind_of(const Shelf* shelf, const std::string& type) {
 std::string comment_on(const Key& key, const std::vector<Shelf>& catalogue) {
   std::string text = key.takes.text;
   for (const Shelf& shelf : catalogue)
-    if (key.takes.text == "a " + shelf.noun) {
-      std::string list;
-      for (const KindDescription& kind : shelf.kinds)
-        list += (list.empty() ? "" : ", ") + kind.type;
-      text += " (" + list + ")";
-    }
+    if (key.takes.text == "a " + shelf.noun)
+      text += " (" + word_list(shelf.kinds, &KindDescription::type) + ")";
   if (key.required) text += "; required";
   if (!key.otherwise.is_null()) text += "; default " + key.otherwise.dump();
   return text + ": " + key.summary;
@@ -71,11 +68,7 @@ std::string inline_text(const Json& value) {
       text += (text.empty() ? " " : ", ") + Json(key).dump() + ": " + inline_text(entry);
     return "{" + text + (text.empty() ? "}" : " }");
   }
-  if (value.is_array()) {
-    std::string text;
-    for (const Json& entry : value) text += (text.empty() ? "" : ", ") + inline_text(entry);
-    return "[" + text + "]";
-  }
+  if (value.is_array()) return "[" + word_list(value, inline_text) + "]";
   return value.dump();
 }
 
@@ -118,13 +111,9 @@ std::string new_experiment(const std::string& type, bool in_formulas) {
   const KindDescription* kind = kind_of(systems, type);
   if (kind == nullptr) {
     std::vector<std::string> types;
-    std::string list;
-    for (const KindDescription& one : systems->kinds) {
-      types.push_back(one.type);
-      list += (list.empty() ? "" : ", ") + one.type;
-    }
+    for (const KindDescription& one : systems->kinds) types.push_back(one.type);
     throw ExperimentError(type, "there is no such kind of system" + did_you_mean(type, types) +
-                                    "; expected one of: " + list);
+                                    "; expected one of: " + word_list(types));
   }
   const Json& example = kind->example;
   if (example.is_null())

@@ -133,7 +133,8 @@ std::optional<ProjectorChoice> orthogonal(ObjectReader& object) {
                                       [&](const MatrixXd& G) -> MatrixXd {
                                         return basis.transpose() * G * basis;
                                       }));
-      }};
+      },
+      !metric->is_euclidean && !metric->formulas && weights->empty()};
 }
 
 // The momenta of pairs (position, momentum), as entries of x.

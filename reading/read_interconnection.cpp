@@ -3,6 +3,7 @@
 
 #include "courant/core/declaration.hpp"
 #include "courant/core/message.hpp"
+#include "courant/core/word_list.hpp"
 #include "courant/reading/system_kinds.hpp"
 #include "courant/structures/interconnection.hpp"
 
@@ -256,13 +257,10 @@ std::optional<Model> read_interconnection(ObjectReader& system) {
   check_definitions(vocabulary, findings);
 
   std::vector<Interconnection::Part> systems;
-  std::string list;
-  for (const Part& part : *parts) {
-    systems.push_back({part.name, part.system});
-    list += (list.empty() ? "" : ", ") + part.name;
-  }
+  for (const Part& part : *parts) systems.push_back({part.name, part.system});
   const auto whole = std::make_shared<Interconnection>(std::move(systems), std::move(joints));
-  model.description = "interconnection of " + list + " on " + whole->manifold()->name();
+  model.description =
+      "interconnection of " + word_list(*parts, &Part::name) + " on " + whole->manifold()->name();
   model.system = whole;
   vocabulary.derived = quantities(*parts, taken);
   if (names.outputs.size() > 0)

@@ -1,11 +1,12 @@
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <set>
 #include <unordered_set>
 
 #include "courant/core/as_size.hpp"
+#include "courant/core/cholesky_decomposition.hpp"
 #include "courant/core/declaration.hpp"
 #include "courant/core/formula.hpp"
+#include "courant/core/lu_decomposition.hpp"
 #include "courant/reading/network_topology.hpp"
 #include "courant/reading/repetition.hpp"
 #include "courant/reading/system_kinds.hpp"
@@ -158,16 +159,16 @@ std::optional<CoupledInductors> couple(const std::vector<NetworkElement>& elemen
     return std::nullopt;
   }
   L.diagonal().array() += 1.0;
-  const Eigen::LLT<MatrixXd> factors(L);
-  if (n > 0 && (factors.info() != Eigen::Success || factors.rcond() < 1e-14)) {
+  const CholeskyDecomposition factors(L);
+  if (n > 0 && !(factors.is_positive_definite() && LuDecomposition(L).pivot_ratio() > 1e-14)) {
     findings.problem(std::get<2>(pairs.back())->pointer,
                      "with the other mutual inductances this makes an inductance matrix that is "
                      "not positive definite; expected weaker coupling");
     return std::nullopt;
   }
-  coupled.inverse = factors.solve(MatrixXd::Identity(n, n));
-  coupled.inverse =
-      root.cwiseInverse().asDiagonal() * coupled.inverse * root.cwiseInverse().asDiagonal();
+  const MatrixXd half =
+      factors.solve_lower(MatrixXd::Identity(n, n)) * root.cwiseInverse().asDiagonal();
+  coupled.inverse = half.transpose() * half;
   return coupled;
 }
 

@@ -1,6 +1,7 @@
 #include "courant/reading/structure_kinds.hpp"
 
 #include "courant/core/message.hpp"
+#include "courant/core/word_list.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/reading/lie_algebra_keys.hpp"
 #include "courant/structures/canonical_symplectic.hpp"
@@ -171,12 +172,6 @@ std::optional<StructurePart> read_structure_part(ObjectReader& object, const Voc
   return StructurePart{*space, *structure};
 }
 
-std::string spelled(const NameList& names) {
-  std::string text;
-  for (const std::string& name : names.element_names()) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 // The parts in an array, whose coordinates together must be those of the site, in order.
 std::optional<std::vector<StructurePart>> read_structure_parts(const JsonReader& value,
                                                                const StructureSite& site,
@@ -197,8 +192,8 @@ std::optional<std::vector<StructurePart>> read_structure_parts(const JsonReader&
   if (parts.size() != elements->size()) return std::nullopt;
   const NameList& expected = site.vocabulary.coordinates;
   if (names.element_names() != expected.element_names()) {
-    value.problem("have the coordinates " + spelled(names) + "; expected " + spelled(expected) +
-                  ", those of the whole, in that order");
+    value.problem("have the coordinates " + word_list(names.element_names()) + "; expected " +
+                  word_list(expected.element_names()) + ", those of the whole, in that order");
     return std::nullopt;
   }
   return parts;

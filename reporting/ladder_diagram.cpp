@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "courant/core/text_layout.hpp"
 #include "courant/plotting/scale.hpp"
-#include "courant/reporting/ladder_explanation.hpp"
 
 namespace courant {
 

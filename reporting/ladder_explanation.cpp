@@ -1,17 +1,18 @@
 #include "courant/reporting/ladder_explanation.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "courant/core/message.hpp"
+#include "courant/core/text_layout.hpp"
+#include "courant/core/word_list.hpp"
 
 namespace courant {
 namespace {
 
 std::string plural(Index count, const std::string& noun) {
-  return (count == 1 ? "one " : std::to_string(count) + " ") + noun + (count == 1 ? "" : "s");
+  return count == 1 ? "one " + noun : counted(count, noun);
 }
 
 // 1.2 dx - 1.6 dy
@@ -20,17 +21,9 @@ std::string linear_form(const LadderReport::Values& components, const std::strin
   int terms = 0;
   for (const auto& [name, value] : components) {
     if (++terms > 6) return text + (value < 0 ? " - \u2026" : " + \u2026");
-    const std::string size = number_text(std::abs(value), 4);
-    text += text.empty() ? (value < 0 ? "-" : "") : (value < 0 ? " - " : " + ");
-    text += (size == "1" ? "" : size + " ") + prefix + name;
+    add_term(text, value, prefix + name, 4);
   }
   return text;
-}
-
-std::string derivative(Index order, const std::string& equation) {
-  if (order == 0) return "[" + equation + "]";
-  if (order == 1) return "d/dt [" + equation + "]";
-  return "d^" + std::to_string(order) + "/dt^" + std::to_string(order) + " [" + equation + "]";
 }
 
 // The highest derivatives first: they are what the constraint is made of, the others what removes
@@ -41,7 +34,8 @@ std::string sources(LadderReport::Origin list) {
   std::string text;
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (i == 5) return text + " and " + std::to_string(list.size() - 5) + " more";
-    text += (i == 0 ? "" : ", ") + derivative(list[i].derivative, list[i].equation);
+    text +=
+        (i == 0 ? "" : ", ") + time_derivative("[" + list[i].equation + "]", list[i].derivative);
   }
   return text;
 }
@@ -61,13 +55,21 @@ void tell_rest(std::size_t count, std::vector<std::string>& lines) {
   if (count > most) lines.push_back("    \u2026 and " + std::to_string(count - most) + " more");
 }
 
-// x' = v: those that are functions of the point from level k on.
-void explain_velocities(const LadderReport::Elimination& found, Index k,
+// x' = v: those that are functions of the point from level k on, and where all are told, those of
+// level 0 too.
+void explain_velocities(const LadderReport::Elimination& found, Index k, bool all,
                         std::vector<std::string>& lines) {
-  std::size_t count = 0;
-  for (const auto& [name, level, formula] : found.velocities)
-    if (level == k && ++count <= most) lines.push_back("    " + name + " = " + formula);
-  tell_rest(count, lines);
+  constexpr std::size_t columns = 90, most_rows = 18;
+  std::size_t rows = 0, left = 0;
+  for (const auto& [name, level, formula] : found.velocities) {
+    if (level != k && !(all && level == 0)) continue;
+    rows += 1 + (name.size() + formula.size()) / columns;
+    if (rows <= most_rows)
+      lines.push_back("    " + name + " = " + formula);
+    else
+      ++left;
+  }
+  if (left > 0) lines.push_back("    \u2026 and " + std::to_string(left) + " more");
 }
 
 // What S_k adds: each equation in velocities, and what becomes of it with those of S_{k-1}.
@@ -125,7 +127,7 @@ void explain_level(const LadderReport& ladder, Index k, std::vector<std::string>
   if (fibre == 0) {
     text += " The velocity is determined at each of its points.";
     if (ladder.elimination && found.velocities.empty())
-      text += " No formula for it of up to three lines was found.";
+      text += " No formula for it of up to five lines was found.";
   }
   if (fibre != 0 && (before != fibre || count > 0))
     text += " The velocity at a point of it is free in " + plural(fibre, "direction") + ".";
@@ -142,7 +144,15 @@ void explain_level(const LadderReport& ladder, Index k, std::vector<std::string>
     }
     tell_rest(constraints.size(), lines);
   }
-  if (k > 0 || fibre == 0) explain_velocities(found, k, lines);
+  const bool is_last = fibre == 0 ? before != 0 : ladder.index == k && k > 0;
+  const bool has_any = std::ranges::any_of(found.velocities, [&](const auto& velocity) {
+    return velocity.level == k || (is_last && velocity.level == 0);
+  });
+  if (!has_any || (k == 0 && fibre != 0)) return;
+  if (fibre != 0) lines.push_back("Velocities that are determined there:");
+  explain_velocities(found, k, is_last, lines);
+  if (is_last && fibre == 0 && std::ssize(found.velocities) < ladder.dimension.value_or(0))
+    lines.push_back("For the others no formula of up to five lines was found.");
 }
 
 // From the equations to 1 = 0, where elimination gets there.
@@ -249,16 +259,6 @@ void explain_unknowns(const LadderReport& ladder, std::vector<std::string>& line
 
 }  // namespace
 
-std::string subscript(Index k) {
-  static constexpr std::array<const char*, 10> digits = {"₀", "₁", "₂", "₃", "₄",
-                                                         "₅", "₆", "₇", "₈", "₉"};
-  std::string text;
-  for (const char digit : std::to_string(k)) {
-    text += digit == '-' ? "₋" : digits[static_cast<std::size_t>(digit - '0')];
-  }
-  return text;
-}
-
 std::vector<std::string> ladder_text_diagram(const LadderReport& ladder) {
   std::string S = "  ", arrows = "  ", M = "  ", dim_S = "dim S  ", dim_M = "dim M  ";
   std::vector<std::string> upper, lower, above, below, relation_S, relation_M;
@@ -310,9 +310,8 @@ std::vector<std::string> ladder_explanation(const LadderReport& ladder) {
       lines.push_back("Gauge: the velocity may be changed at will along");
       for (const LadderReport::Values& direction : gauge)
         lines.push_back("    " + linear_form(direction, ""));
-      std::string names;
-      for (const std::string& name : determined) names += (names.empty() ? "" : ", ") + name;
-      if (!names.empty()) lines.push_back("Determined all the same: " + names + ".");
+      if (!determined.empty())
+        lines.push_back("Determined all the same: " + word_list(determined) + ".");
     }
     if (!redundant.empty()) {
       lines.push_back("Redundant: " + plural(static_cast<Index>(redundant.size()), "equation") +

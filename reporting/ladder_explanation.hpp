@@ -8,9 +8,6 @@
 
 namespace courant {
 
-// k in small digits, "₁₂".
-std::string subscript(Index k);
-
 // S₀ ⊇ S₁ = S₂ over M₀ ⊇ M₁ = M₂ with their dimensions, as lines of text: = where the dimensions
 // repeat, ∅ where a level is empty.
 std::vector<std::string> ladder_text_diagram(const LadderReport& ladder);

@@ -5,7 +5,9 @@
 #include <functional>
 #include <set>
 
+#include "courant/core/text_layout.hpp"
 #include "courant/reporting/energy_figures.hpp"
+#include "courant/reporting/section_figures.hpp"
 #include "courant/reporting/space_figures.hpp"
 
 namespace courant {
@@ -28,10 +30,6 @@ std::vector<LegendEntry> entries(std::span<const Series> series) {
   return legend;
 }
 
-std::string count_of(std::size_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
 // A panel for each column, over time, all runs in each; two abreast.
 Figure over_time(std::span<const Run> runs, std::span<const std::string> columns,
                  std::string caption, std::string name) {
@@ -44,7 +42,7 @@ Figure over_time(std::span<const Run> runs, std::span<const std::string> columns
     panel.x.label = axis_label(runs, "t");
     panel.y.label = axis_label(runs, column);
     panel.series = columns_over_time(runs, column);
-    panel.description = count_of(panel.series.size(), "curve") + ".";
+    panel.description = counted(std::ssize(panel.series), "curve") + ".";
     if (columns.size() > 1) panel.width = narrow, panel.height = narrow_height;
     if (figure.legend.empty()) figure.legend = entries(panel.series);
     figure.panels.push_back(std::move(panel));
@@ -78,7 +76,7 @@ Figure phase_portrait(std::span<const Run> runs, const std::string& q, const std
                             first_rows(table.column("t"), rows)});
   }
   panel.description =
-      "The curves (" + q + ", " + p + ") of " + count_of(panel.series.size(), "run") + ".";
+      "The curves (" + q + ", " + p + ") of " + counted(std::ssize(panel.series), "run") + ".";
   const std::string part = all ? "" : " Only the first rows of long runs are drawn.";
   return {{panel}, entries(panel.series), "Phase portrait. ○ start, ● end." + part, "phase"};
 }
@@ -115,7 +113,7 @@ Figure planar_figure(std::span<const Run> runs, std::span<const PlanarBody> bodi
       x.include(panel.series.back().x);
       y.include(panel.series.back().y);
     }
-    panel.description = "The paths of " + count_of(present.size(), "point") + " in the plane.";
+    panel.description = "The paths of " + counted(std::ssize(present), "point") + " in the plane.";
     if (figure.legend.empty() && present.size() <= plot::palette().size()) {
       figure.legend = entries(panel.series);
     }
@@ -219,8 +217,9 @@ std::size_t legible_rows(const TrajectoryTable& trajectory, std::span<const Plan
                   std::max(fewest, static_cast<std::size_t>(end - lengths.begin())));
 }
 
-std::vector<Figure> motion_figures(std::span<const Run> runs) {
-  if (runs.empty()) return {};
+namespace {
+
+std::vector<Figure> curves_of_motion(std::span<const Run> runs) {
   const std::vector<std::string> coordinates = runs[0].coordinates();
   if (coordinates.empty()) return {};
   const std::string caption = "The coordinates over time.";
@@ -241,6 +240,15 @@ std::vector<Figure> motion_figures(std::span<const Run> runs) {
   if (!bodies.empty()) figures.push_back(planar_figure(runs, bodies));
   if (!figures.empty()) return figures;
   return {over_time(runs, coordinates, caption, "coordinates")};
+}
+
+}  // namespace
+
+std::vector<Figure> motion_figures(std::span<const Run> runs) {
+  if (runs.empty()) return {};
+  std::vector<Figure> figures = curves_of_motion(runs);
+  if (auto section = section_figure(runs)) figures.push_back(std::move(*section));
+  return figures;
 }
 
 std::optional<Figure> observable_figure(std::span<const Run> runs) {

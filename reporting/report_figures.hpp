@@ -38,7 +38,7 @@ std::size_t legible_rows(const TrajectoryTable& trajectory, std::span<const Plan
 
 // The motion. A system with two coordinates: its phase portrait and both over time. With rotations,
 // points of spheres, points in space or planar bodies: the paths of all of these, a panel for each
-// run. Any other: its coordinates over time, the first twelve.
+// run. Any other: its coordinates over time, the first twelve. Poincaré sections after that.
 std::vector<Figure> motion_figures(std::span<const Run> runs);
 
 // Every other observable over time.
@@ -48,7 +48,7 @@ std::optional<Figure> observable_figure(std::span<const Run> runs);
 std::optional<Figure> constraint_figure(std::span<const Run> runs);
 
 // All of these and those of the energy, in the order of a report. Their names are phase, coordinates,
-// axes, sphere, space, paths, energy, energy-detail, constraints, observables.
+// axes, sphere, space, paths, section, energy, energy-detail, constraints, observables.
 std::vector<Figure> all_figures(std::span<const Run> runs);
 
 // A column of all runs that have it, over time; a run's curve has its colour.

@@ -49,6 +49,31 @@ std::vector<std::string> formulas(const Json& value) {
   return result;
 }
 
+// "resistor R1 from a to b value R": an element of a network. "" for anything else.
+std::string element_in_words(const Json& element) {
+  if (!element.is_object() || !element.contains("type")) return "";
+  std::string text = written(element.at("type"));
+  if (element.contains("name")) text += " " + written(element.at("name"));
+  for (const auto& [key, value] : element.items()) {
+    if (key == "type" || key == "name") continue;
+    const std::string told = written(value);
+    if (told.empty()) return "";
+    text += " " + key + " " + told;
+  }
+  return text;
+}
+
+// What is no formula, and short: names, elements of a network, a structure of one word.
+std::vector<std::string> told_in_words(const Json& value) {
+  if (value.is_object())
+    return value.size() == 1 && value.contains("type") ? formulas(value.at("type"))
+                                                       : std::vector<std::string>();
+  std::vector<std::string> lines;
+  for (const Json& element : value) lines.push_back(element_in_words(element));
+  if (std::ranges::count(lines, "") > 0 || lines.size() > kMostEntries) lines.clear();
+  return lines;
+}
+
 // Formulas of the system, then numbers and parameters: those of ready-made systems are members of
 // it. An entry without formulas in the end where something was left out.
 std::vector<Entry> model(const Json& experiment) {
@@ -70,9 +95,13 @@ std::vector<Entry> model(const Json& experiment) {
     if (std::ranges::count(no_formulas, key) > 0) continue;
     const bool is_text =
         value.is_string() || (value.is_array() && !value.empty() && value.front().is_string());
-    if (!is_text && !value.is_object())
+    const bool is_object =
+        value.is_object() || (value.is_array() && !value.empty() && value.front().is_object());
+    if (key == "nodes" && is_text && value.size() <= kMostEntries)
+      entries.push_back({key, {word_list(formulas(value))}});
+    else if (!is_text && !is_object)
       add_parameter(key, value);
-    else if (auto lines = formulas(value); !lines.empty())
+    else if (auto lines = is_object ? told_in_words(value) : formulas(value); !lines.empty())
       entries.push_back({key, std::move(lines)});
     else
       is_whole = is_whole && key == "parameters";

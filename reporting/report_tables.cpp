@@ -50,6 +50,11 @@ Markup column_heads(std::initializer_list<const char*> texts) {
   return heads;
 }
 
+// Which run a row is of is told where there are several.
+Markup heads_by_run(const char* first, std::span<const Run> runs) {
+  return runs.size() > 1 ? column_heads({first, "Run"}) : column_heads({first});
+}
+
 Markup row_head(const Markup& content) { return element("th", {{"scope", "row"}}, content); }
 
 Markup table(std::string_view caption, const Markup& head, const Markup& rows) {
@@ -111,6 +116,10 @@ Markup runs_table(std::span<const Run> runs, std::span<const std::string> labels
       "steps with a second attempt", [](Of run) { return run.solver.second_attempts; }, 6);
   numbers(
       "steps confirmed by continuation", [](Of run) { return run.solver.confirmations; }, 6);
+  if (std::ranges::any_of(
+          runs, [](const Run& run) { return run.summary.solver.divisions.value_or(0) > 0; }))
+    numbers(
+        "steps made in halves", [](Of run) { return run.solver.divisions; }, 6);
   row("backend", [](const Run& run) {
     return words(run.summary.backend.empty() ? missing : run.summary.backend);
   });
@@ -131,7 +140,8 @@ Markup observables_table(std::span<const Run> runs, std::span<const std::string>
     for (std::size_t i = 0; i < runs.size(); ++i) {
       const QuantityRecord* record = runs[i].summary.observable(name);
       if (!record) continue;
-      Markup cells = row_head(name) + words(labels[i]);
+      Markup cells = row_head(name);
+      if (runs.size() > 1) cells += words(labels[i]);
       for (const double value : {record->initial, record->final, record->min, record->max})
         cells += number(value, 7);
       cells += number(record->max_drift, 4);
@@ -139,10 +149,9 @@ Markup observables_table(std::span<const Run> runs, std::span<const std::string>
     }
   }
   if (rows.str().empty()) return {};
-  return table("Observables",
-               column_heads({"Observable", "Run", "Initial", "Final", "Least", "Greatest",
-                             "Greatest drift"}),
-               rows);
+  const Markup heads = heads_by_run("Observable", runs) +
+                       column_heads({"Initial", "Final", "Least", "Greatest", "Greatest drift"});
+  return table("Observables", heads, rows);
 }
 
 Markup expectations_table(std::span<const Run> runs, std::span<const std::string> labels) {
@@ -151,7 +160,8 @@ Markup expectations_table(std::span<const Run> runs, std::span<const std::string
   for (std::size_t i = 0; i < runs.size(); ++i) {
     for (const ExpectationResult& expectation : runs[i].summary.expectations) {
       const bool passed = expectation.passed;
-      Markup cells = row_head(expectation.description) + words(labels[i]);
+      Markup cells = row_head(expectation.description);
+      if (runs.size() > 1) cells += words(labels[i]);
       cells += number(expectation.value, 6) + number(expectation.bound, 6);
       cells +=
           element("td", {{"class", passed ? "good" : "bad"}}, passed ? "✓ passed" : "✗ failed");
@@ -161,8 +171,10 @@ Markup expectations_table(std::span<const Run> runs, std::span<const std::string
     }
   }
   if (all == 0) return {};
-  const auto listed = [](std::string_view caption, const Markup& rows) {
-    return table(caption, column_heads({"Expectation", "Run", "Value", "Bound", "Result"}), rows);
+  const auto listed = [&](std::string_view caption, const Markup& rows) {
+    return table(caption,
+                 heads_by_run("Expectation", runs) + column_heads({"Value", "Bound", "Result"}),
+                 rows);
   };
   const std::string count = std::to_string(all - failed) + " of " + std::to_string(all);
   Markup section = element("p", {},

@@ -12,7 +12,8 @@ namespace {
 using plot::Panel;
 using plot::Series;
 
-Panel panel_over(const Json& study, const char* key, const std::string& label) {
+Panel panel_over(const StudyReport& study, double StudyReport::Row::*key,
+                 const std::string& label) {
   Panel panel;
   panel.title = "Error over " + label;
   panel.x.label = label;
@@ -20,17 +21,14 @@ Panel panel_over(const Json& study, const char* key, const std::string& label) {
   panel.x.scale = panel.y.scale = std::make_shared<plot::LogScale>();
   panel.width = 380;
   panel.points = true;
-  for (const Json& method : study.at("methods")) {
-    Series curve{method.at("method"), {}, {}, panel.series.size()};
-    for (const Json& row : method.at("rows")) {
-      const auto positive = [&](const char* name) {
-        const Json& value = row.at(name);
-        return value.is_number() && value.get<double>() > 0
-                   ? value.get<double>()
-                   : std::numeric_limits<double>::quiet_NaN();
-      };
-      curve.x.push_back(positive(key));
-      curve.y.push_back(positive("error"));
+  const auto positive = [](double value) {
+    return value > 0 ? value : std::numeric_limits<double>::quiet_NaN();
+  };
+  for (const StudyReport::Method& method : study.methods) {
+    Series curve{method.method, {}, {}, panel.series.size()};
+    for (const StudyReport::Row& row : method.rows) {
+      curve.x.push_back(positive(row.*key));
+      curve.y.push_back(positive(row.error));
     }
     panel.series.push_back(std::move(curve));
   }
@@ -45,27 +43,25 @@ bool is_empty(const Panel& panel) {
 
 }  // namespace
 
-std::optional<Figure> study_figure(const Json& study) {
+std::optional<Figure> study_figure(const StudyReport& study) {
   Figure figure;
   figure.name = "study";
-  figure.panels = {panel_over(study, "step", "step h"),
-                   panel_over(study, "seconds", "time in seconds")};
+  figure.panels = {panel_over(study, &StudyReport::Row::step, "step h"),
+                   panel_over(study, &StudyReport::Row::seconds, "time in seconds")};
   if (is_empty(figure.panels.front())) return std::nullopt;
   std::size_t colour = 0;
-  for (const Json& method : study.at("methods")) {
-    std::string label = method.at("method");
-    if (method.at("order").is_number())
-      label += ", order " + plot::readable(method.at("order").get<double>(), 3);
+  for (const StudyReport::Method& method : study.methods) {
+    std::string label = method.method;
+    if (method.order) label += ", order " + plot::readable(*method.order, 3);
     figure.legend.push_back({label, colour++});
   }
   figure.caption = "Greatest error over the step size, and over the time that the steps took.";
-  if (study.at("reference").is_string())
-    figure.caption += " Reference: " + study.at("reference").get<std::string>() + ".";
+  if (const auto reference = study.reference())
+    figure.caption += " Reference: " + *reference + ".";
   else
-    for (const Json& method : study.at("methods"))
-      figure.caption += " Reference of " + method.at("experiment").get<std::string>() + ", " +
-                        method.at("method").get<std::string>() + ": " +
-                        method.at("reference").get<std::string>() + ".";
+    for (const StudyReport::Method& method : study.methods)
+      figure.caption += " Reference of " + method.experiment + ", " + method.method + ": " +
+                        method.reference + ".";
   return figure;
 }
 

@@ -144,6 +144,15 @@ std::string c_array(const std::vector<Index>& numbers) {
   return braces(numbers, [](Index number) { return std::to_string(number); });
 }
 
+std::string c_define(const char* name, Index value) {
+  return std::string("#define ") + name + ' ' + std::to_string(value) + '\n';
+}
+
+std::string c_state(const State& state) {
+  return "{" + c_number(state.t) + ",\n  " + c_array(state.x) + ",\n  " + c_array(state.v) +
+         ",\n  " + c_array(state.z) + "}";
+}
+
 std::string c_comment(std::string text) {
   text = printable(text);
   for (const char* mark : {"*/", "/*", "??"})  // ?? begins a trigraph

@@ -6,6 +6,7 @@
 
 #include "courant/core/elimination.hpp"
 #include "courant/core/function.hpp"
+#include "courant/structures/state.hpp"
 
 namespace courant {
 
@@ -52,5 +53,9 @@ std::string c_number(double value);
 std::string c_comment(std::string text);
 // A text between quotation marks.
 std::string c_string(const std::string& text);
+// A line that gives a whole number a name.
+std::string c_define(const char* name, Index value);
+// What a `struct state` begins with.
+std::string c_state(const State& state);
 
 }  // namespace courant

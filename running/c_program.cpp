@@ -7,11 +7,11 @@
 #include "courant/core/version.hpp"
 #include "courant/core/word_list.hpp"
 #include "courant/integrators/composition.hpp"
-#include "courant/integrators/step_energies.hpp"
 #include "courant/integrators/step_program.hpp"
 #include "courant/running/c_functions.hpp"
 #include "courant/running/c_program_limits.hpp"
 #include "courant/running/c_program_text.hpp"
+#include "courant/running/c_rows.hpp"
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/observed_quantities.hpp"
 
@@ -31,10 +31,6 @@ std::string comment_lines(const std::string& lines) {
   return result;
 }
 
-std::string define(const char* name, Index value) {
-  return std::string("#define ") + name + ' ' + std::to_string(value) + '\n';
-}
-
 class CProgram {
  public:
   explicit CProgram(const Experiment& experiment)
@@ -43,16 +39,19 @@ class CProgram {
         ladder_(start(experiment)),
         prepared_(prepare()),
         step_(step_program(*prepared_.integrator)),
-        observed_(experiment, ladder_) {
-    if (step_.explicit_steps && (observed_.account || observed_.staged.size() > 0))
+        observed_(experiment, ladder_),
+        rows_(step_, observed_, *system_.manifold()) {
+    if (step_.explicit_steps && rows_.measures_steps())
       throw ExperimentError("/observe",
                             "what goes through ports in explicit steps is measured by a run "
                             "alone; expected no energies and no observables at the stage");
-    if (observed_.account) energies_.emplace(*observed_.account);
+    if (step_.units && (rows_.measures_steps() || (step_.explicit_steps && observed_.field)))
+      throw ExperimentError("/observe",
+                            "what is measured along steps in other units is measured by a run "
+                            "alone; expected observables of the state");
     const Manifold& M = *system_.manifold();
     coordinates_ = M.ambient_dimension();
     velocities_ = M.tangent_dimension();
-    measures_ = observed_.account || observed_.staged.size() > 0;
   }
 
   std::string source() {
@@ -64,7 +63,7 @@ class CProgram {
     // What is written last says how large the arrays of the first have to be.
     add_functions();
     const std::string steps = step_.solve ? solved_steps() : explicit_steps();
-    const std::string rows = measurement();
+    const std::string rows = rows_.measurement(ladder_.point);
     std::string all = head() + sizes(state);
     all += text::numbers();
     all += text::newton();
@@ -127,28 +126,11 @@ class CProgram {
       if (solve.projection) add_projection(*solve.projection);
       functions_.add("advance", solve.formulas.inputs, solve.advanced,
                      "where the step leads: x, v, what is known of the stage");
-      if (measures_ && !solve.stage_is_advanced)
+      if (rows_.measures_steps() && !solve.stage_is_advanced)
         functions_.add("stage_point", solve.stage_inputs, solve.stage,
                        "the point between x0 and x1 that the system is evaluated at");
     }
-    functions_.add("observe", observed_.inputs, observed_.quantities,
-                   "the rows after the coordinates");
-    if (observed_.staged.size() > 0)
-      functions_.add("observe_stage", observed_.stage_inputs, observed_.staged,
-                     "observables at the stage of a step");
-    if (!energies_) return;
-    const StepEnergies::Formulas& of = *energies_;
-    if (has_effort())
-      functions_.add("powers",
-                     {{"x", of.x}, {"v", of.v}, {"alpha", of.alpha}, {"z", of.z}, {"t", of.t}},
-                     of.powers, "powers by port, what is supplied first");
-    else
-      functions_.add("powers", {{"x", of.x}, {"v", of.v}, {"z", of.z}, {"t", of.t}},
-                     of.powers_at_stage(), "powers by port, what is supplied first");
-    if (observed_.staged.size() > 0)
-      functions_.add("effort", {{"x", of.x}, {"z", of.z}, {"t", of.t}}, of.effort, "dE");
-    if (of.has_time)
-      functions_.add("energy", {{"x", of.x}, {"z", of.z}, {"t", of.t}}, of.generator, "E");
+    rows_.add_functions(functions_);
   }
   void add_projection(const StepProgram::Solve::Projection& of) {
     const auto [sought, left] = functions_.add(
@@ -184,8 +166,6 @@ class CProgram {
            "static const struct places " + name + "_places = {" + std::to_string(at.size()) + ", " +
            name + "_places_at, " + name + "_places_group};\n";
   }
-  bool has_effort() const { return step_.solve && step_.solve->effort.size() > 0; }
-
   std::string head() const {
     std::ostringstream out;
     out << "/* " << c_comment(experiment_.title.empty() ? "A run of Courant" : experiment_.title)
@@ -208,39 +188,43 @@ class CProgram {
     return out.str();
   }
 
-  std::string state_text(const State& state) const {
-    return "{" + c_number(state.t) + ",\n  " + c_array(state.x) + ",\n  " + c_array(state.v) +
-           ",\n  " + c_array(state.z) + "}";
-  }
-
   std::string sizes(const State& first) const {
     const TimeSpan& time = *experiment_.time;
     std::vector<std::string> names = observed_.names;
     names.resize(observed_.written_count);
     names.insert(names.begin(), "t");
     for (std::string& name : names) name = experiment_.output.heading(name);
-    std::string all = define("COORDINATES", coordinates_) + define("VELOCITIES", velocities_) +
-                      define("AUXILIARIES", system_.auxiliary_size()) +
-                      define("COLUMNS", static_cast<Index>(observed_.written_count)) +
-                      define("STEPS", time.steps) + define("EVERY", experiment_.output.every) +
+    std::string all = c_define("COORDINATES", coordinates_) + c_define("VELOCITIES", velocities_) +
+                      c_define("AUXILIARIES", system_.auxiliary_size()) +
+                      c_define("COLUMNS", static_cast<Index>(observed_.written_count)) +
+                      c_define("STEPS", time.steps) + c_define("EVERY", experiment_.output.every) +
                       "/* After so many steps nothing but the state is known, as in a run that is "
                       "resumed there. */\n" +
-                      define("EPOCH", experiment_.output.epoch) +
+                      c_define("EPOCH", experiment_.output.epoch) +
                       "/* What the arrays of Newton's method hold. */\n" +
-                      define("MOST_UNKNOWNS", functions_.most_unknowns()) +
-                      define("MOST_SIZE", functions_.most_size()) +
-                      define("MOST_ENTRIES", functions_.most_entries()) + define("INPUTS", 6);
+                      c_define("MOST_UNKNOWNS", functions_.most_unknowns()) +
+                      c_define("MOST_SIZE", functions_.most_size()) +
+                      c_define("MOST_ENTRIES", functions_.most_entries()) + c_define("INPUTS", 6);
     if (const auto* field = this->field())
-      all += define("FIELD_UNKNOWNS", field->start.size()) + define("FIELD_Z", field->z_offset) +
-             define("LEFT_OUT", field->left_out.size());
+      all += c_define("FIELD_UNKNOWNS", field->start.size()) +
+             c_define("FIELD_Z", field->z_offset) + c_define("LEFT_OUT", field->left_out.size());
     all +=
         "\nstruct state {\n  double t, x[COORDINATES + 1], v[VELOCITIES + 1], z[AUXILIARIES + "
         "1];\n};\n\n";
     all += "static const double start_time = " + c_number(time.start) +
            ", step_size = " + c_number(time.step) + ";\n";
-    all += "static const struct state first = " + state_text(first) + ";\n";
+    all += "static const struct state first = " + c_state(first) + ";\n";
     if (const auto* field = this->field())
       all += "static const double field_start[] = " + c_array(field->start) + ";\n";
+    all += c_define("HAS_UNITS", step_.units ? 1 : 0) +
+           "static const double time_unit = " + c_number(step_.units ? step_.units->time : 1.0) +
+           ";\n";
+    if (step_.units)
+      all +=
+          "/* Powers of two, in which steps are made. */\nstatic const double coordinate_units[] "
+          "= " +
+          c_array(step_.units->coordinates) +
+          ";\nstatic const double auxiliary_units[] = " + c_array(step_.units->auxiliary) + ";\n";
     all += "static const char heading[] = " + c_string(word_list(names, ",")) + ";\n\n";
     return all + "static long step_number = 0;\n\n";
   }
@@ -269,15 +253,16 @@ class CProgram {
     std::string all =
         "/* Of a step: its unknowns are displacements" +
         std::string(projects ? ", their derivatives, z, and what moves the start" : ", then z") +
-        ". */\n" + define("UNKNOWNS", unknowns) + define("DISPLACEMENTS", n) +
-        define("TANGENT_BLOCKS", solve.tangent_blocks) + define("ADVANCED", solve.advanced.size()) +
-        define("PARTS", std::ssize(step_.substeps)) +
-        define("MOST_PREDICTED", std::max(unknowns, velocities_)) +
-        define("LOOKS_AT_STEPS", solve.is_affine ? 0 : 1) +
-        define("MEASURES_STEPS", measures_ ? 1 : 0);
+        ". */\n" + c_define("UNKNOWNS", unknowns) + c_define("DISPLACEMENTS", n) +
+        c_define("TANGENT_BLOCKS", solve.tangent_blocks) +
+        c_define("ADVANCED", solve.advanced.size()) +
+        c_define("PARTS", std::ssize(step_.substeps)) +
+        c_define("MOST_PREDICTED", std::max(unknowns, velocities_)) +
+        c_define("LOOKS_AT_STEPS", solve.is_affine ? 0 : 1) +
+        c_define("MEASURES_STEPS", rows_.measures_steps() ? 1 : 0);
     if (projects)
-      all += define("SHIFTS", solve.projection->shifts) +
-             define("DIRECTIONS", n * solve.projection->shifts);
+      all += c_define("SHIFTS", solve.projection->shifts) +
+             c_define("DIRECTIONS", n * solve.projection->shifts);
     all += "\n" + std::string(text::predictor()) + places("step", predicted_, tangent);
     if (projects) {
       std::vector<Index> shift;
@@ -287,8 +272,7 @@ class CProgram {
     all +=
         "/* A step is made of steps of these parts of it. */\nstatic const double parts[PARTS] = " +
         c_array(Eigen::Map<const VectorXd>(step_.substeps.data(), std::ssize(step_.substeps))) +
-        ";\n\n" + nearby_parts("near_stage", 0.5) + nearby_parts("near_end", 1.0) +
-        measured_parts();
+        ";\n\n" + nearby_parts("near_stage", 0.5) + nearby_parts("near_end", 1.0) + rows_.parts();
     for (const std::string_view part :
          {projects ? text::projected() : text::displaced(), text::looks(),
           projects ? text::projected_part() : text::displaced_part(), text::step()})
@@ -341,153 +325,14 @@ class CProgram {
            "  has_rate = 0;\n  start_field(&stepped, state);\n}\n\n";
   }
 
-  // What is known of the stage of a step, and the energies that go through the ports.
-  std::string measured_parts() const {
-    if (!measures_) return "";
-    const StepProgram::Solve& solve = *step_.solve;
-    const Index kept = coordinates_ + (solve.projection ? 0 : velocities_);
-    std::ostringstream out;
-    out << "/* ---- the stage of a step, and the energies through its ports "
-           "--------------------------------------------- */\n\n"
-        << "static struct state stage; /* where the system was evaluated */\n";
-    if (has_effort() || (energies_ && observed_.staged.size() > 0))
-      out << "static double stage_effort[VELOCITIES + 1];\n";
-    if (energies_) {
-      const Index suppliers = std::ssize(energies_->suppliers),
-                  losses = std::ssize(energies_->dissipators);
-      out << define("SUPPLIERS", suppliers) << define("DISSIPATORS", losses)
-          << "static double step_supplied[SUPPLIERS + 1], step_dissipated[DISSIPATORS + 1];\n"
-             "static double all_supplied[SUPPLIERS + 1], all_dissipated[DISSIPATORS + 1];\n"
-             "static double balance, last_energy;\n\n"
-             "static double sum(const double *a, int count) {\n"
-             "  double result = 0.0;\n  int i;\n"
-             "  for (i = 0; i < count; ++i) result += a[i];\n  return result;\n}\n\n";
-      if (energies_->has_time)
-        out << "static double energy_at(const struct state *state, double t) {\n"
-               "  const double *in[] = {state->x, stage.z, &t};\n  double value;\n"
-               "  energy(in, &value);\n  return value;\n}\n\n";
-    }
-    out << "static void open_step(void) {\n";
-    if (energies_)
-      out << "  memset(step_supplied, 0, sizeof step_supplied);\n"
-             "  memset(step_dissipated, 0, sizeof step_dissipated);\n";
-    out << "}\n\n"
-        << "static void see_part(const struct state *before, const struct state *after, double h,\n"
-           "                     const double *y, const double *advanced) {\n";
-    if (energies_)
-      out << "  double power[SUPPLIERS + DISSIPATORS + 2];\n  const int ports = SUPPLIERS - "
-          << (energies_->has_time ? 1 : 0) << ";\n  int i;\n";
-    out << "  stage = *after;\n  stage.t = before->t + " << c_number(solve.stage_time) << " * h;\n";
-    if (solve.projection)
-      out << "  memcpy(stage.v, advanced + " << coordinates_ + coordinates_
-          << ", VELOCITIES * sizeof *stage.v);\n  memcpy(stage.z, y + "
-          << solve.tangent_blocks * solve.displacements << ", AUXILIARIES * sizeof *stage.z);\n";
-    if (solve.stage_is_advanced)
-      out << "  memcpy(stage.x, advanced + " << kept << ", COORDINATES * sizeof *stage.x);\n";
-    else
-      out << "  {\n    const double *in[] = {before->x, after->x};\n    stage_point(in, "
-             "stage.x);\n  }\n";
-    if (has_effort())
-      out << "  memcpy(stage_effort, advanced + " << solve.advanced.size() - solve.effort.size()
-          << ", VELOCITIES * sizeof *stage_effort);\n";
-    if (energies_) {
-      out << "  {\n    const double *in[] = {stage.x, stage.v, "
-          << (has_effort() ? "stage_effort, " : "")
-          << "stage.z, &stage.t};\n    powers(in, power);\n  }\n"
-          << "  for (i = 0; i < ports; ++i) step_supplied[i] += h * power[i];\n"
-             "  for (i = 0; i < DISSIPATORS; ++i) step_dissipated[i] += h * power[ports + i];\n";
-      if (energies_->has_time)
-        out << "  step_supplied[ports] += energy_at(after, after->t) - energy_at(after, stage.t) "
-               "+\n"
-               "                          energy_at(before, stage.t) - energy_at(before, "
-               "before->t);\n";
-    }
-    out << "  (void)before, (void)y, (void)advanced;\n}\n\n";
-    return out.str();
-  }
-
-  std::string measurement() const {
-    std::ostringstream out;
-    const bool has_field = observed_.field.has_value();
-    const Index energies = observed_.inputs.back().variables.size();
-    const Index staged = observed_.staged.size();
-    out << "/* ---- rows "
-           "---------------------------------------------------------------------------------------"
-           "--------- */\n\n"
-        << "static double row[" << coordinates_ + observed_.quantities.size() + 1 << "];\n";
-    if (has_field)
-      out << "static struct field observed;\n/* Where the run asks first what rows are. */\n"
-          << "static const struct state ladder_point = " << state_text(ladder_.point) << ";\n";
-    if (energies > 0) out << "static double energies[" << energies << "];\n";
-    if (staged > 0) out << "static double at_stage[" << staged << "];\n";
-    out << "\nstatic void measure(const struct state *state) {\n";
-    const bool of_field = observed_.is_field;
-    if (has_field && !of_field) out << "  start_field(&observed, state);\n";
-    if (has_field) out << "  evaluate_field(&observed, state->x, state->t);\n";
-    out << "  {\n    const double *in[] = {state->x, "
-        << (of_field ? "observed.rate + COORDINATES, observed.rate + COORDINATES + VELOCITIES"
-                     : "state->v, state->z")
-        << ", &state->t, " << (has_field ? "observed.left_out" : "NULL") << ", "
-        << (energies > 0 ? "energies" : "NULL") << "};\n"
-        << "    memcpy(row, state->x, COORDINATES * sizeof *row);\n"
-           "    observe(in, row + COORDINATES);\n  }\n";
-    if (observed_.balance) out << "  row[" << *observed_.balance << "] = balance;\n";
-    for (Index i = 0; i < staged; ++i)
-      out << "  row[" << observed_.stage_places[static_cast<std::size_t>(i)] << "] = at_stage[" << i
-          << "];\n";
-    out << "}\n\n";
-    if (staged > 0) {
-      out << "static void measure_stage(int has_effort) {\n";
-      if (energies_)
-        out << "  if (!has_effort) {\n    const double *in[] = {stage.x, stage.z, &stage.t};\n"
-               "    effort(in, stage_effort);\n  }\n";
-      out << "  {\n    const double *in[] = {stage.x, stage.v, stage.z, &stage.t, "
-          << (energies_ ? "stage_effort" : "NULL") << "};\n    observe_stage(in, at_stage);\n  }\n"
-          << "  (void)has_effort;\n}\n\n";
-    }
-    out << "/* Of the first state. */\nstatic const double *begin_rows(const struct state *state) "
-           "{\n";
-    if (has_field) out << "  start_field(&observed, NULL);\n  measure(&ladder_point);\n";
-    if (staged > 0) out << "  stage = *state;\n  measure_stage(0);\n";
-    out << "  measure(state);\n";
-    if (energies_) out << "  last_energy = row[" << *observed_.H << "];\n";
-    out << "  return row;\n}\n\n/* Where an epoch begins. */\n"
-        << "static void begin_rows_again(const struct state *state) {\n"
-        << (has_field ? "  start_field(&observed, state);\n" : "  (void)state;\n") << "}\n\n"
-        << "/* Of the state that the last step led to. */\n"
-        << "static const double *next_row(const struct state *state) {\n";
-    if (energies_) {
-      out << "  int i;\n"
-             "  for (i = 0; i < SUPPLIERS; ++i) all_supplied[i] += step_supplied[i];\n"
-             "  for (i = 0; i < DISSIPATORS; ++i) all_dissipated[i] += step_dissipated[i];\n";
-      if (energies > 0)
-        out << "  energies[0] = sum(all_supplied, SUPPLIERS);\n"
-               "  energies[1] = sum(all_dissipated, DISSIPATORS);\n"
-               "  memcpy(energies + 2, all_supplied, SUPPLIERS * sizeof *energies);\n"
-               "  memcpy(energies + 2 + SUPPLIERS, all_dissipated, DISSIPATORS * sizeof "
-               "*energies);\n";
-    }
-    if (staged > 0) out << "  measure_stage(" << (has_effort() ? 1 : 0) << ");\n";
-    out << "  measure(state);\n";
-    if (energies_) {
-      const Index H = *observed_.H;
-      out << "  balance = row[" << H << "] - last_energy - sum(step_supplied, SUPPLIERS) +\n"
-          << "            sum(step_dissipated, DISSIPATORS);\n  last_energy = row[" << H << "];\n";
-      if (observed_.balance) out << "  row[" << *observed_.balance << "] = balance;\n";
-    }
-    out << "  return row;\n}\n\n";
-    return out.str();
-  }
-
   const Experiment& experiment_;
   const ImplicitSystem& system_;
   const ConstraintLadder ladder_;
   const PreparedMethod prepared_;
   const StepProgram step_;
   const ObservedQuantities observed_;
-  std::optional<StepEnergies::Formulas> energies_;
+  const CRows rows_;
   Index coordinates_, velocities_;
-  bool measures_;
   CFunctions functions_;
   std::vector<Index> predicted_, ends_predicted_;
 };

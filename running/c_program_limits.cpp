@@ -14,6 +14,10 @@ void check_exportable(const Experiment& experiment) {
   if (experiment.time->is_transformed())
     throw ExperimentError("/time/transformation",
                           "is not written in C; expected steps of one size in t");
+  if (experiment.time->division)
+    throw ExperimentError("/time",
+                          "has corners or halvings, and steps that are divided are not "
+                          "written in C; expected neither");
   if (!experiment.output.at.empty())
     throw ExperimentError("/output/at",
                           "asks for rows between steps, which a program in C does not write; "

@@ -114,6 +114,7 @@ void each_member(Is<SolverStatistics> auto& solver, const auto& visit) {
   visit("failures", solver.failures);
   visit("second_attempts", solver.second_attempts);
   visit("confirmations", solver.confirmations);
+  visit("divisions", solver.divisions);
 }
 
 void each_member(Is<QuantityStatistics::Memory> auto& statistics, const auto& visit) {

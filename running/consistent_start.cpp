@@ -1,12 +1,18 @@
 #include "courant/running/consistent_start.hpp"
 
 #include <cmath>
+#include <memory>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <unordered_set>
 
 #include "courant/core/message.hpp"
 #include "courant/core/rank_decision.hpp"
+#include "courant/core/word_list.hpp"
+#include "courant/integrators/integrator_in_units.hpp"
 #include "courant/integrators/ladder/constraint_algorithm.hpp"
+#include "courant/integrators/ladder/ladder_in_units.hpp"
 #include "courant/running/undefined_formula.hpp"
 
 namespace courant {
@@ -115,6 +121,57 @@ bool has_no_start(const ConstraintLadder& ladder) {
   return ladder.verdict == Verdict::inconsistent || ladder.verdict == Verdict::not_reached;
 }
 
+// The ladder of a system whose numbers may be far apart: then that in natural units, and where it is not
+// the one in the units of the experiment, a doubt.
+class LadderSearch {
+ public:
+  LadderSearch(std::shared_ptr<const ImplicitSystem> system, const InitialGuess& guess,
+               const VectorXd& weight)
+      : system_(std::move(system)), own_(algorithm(weight)) {
+    const VectorXd z = guess.z.size() > 0 ? guess.z : system_->auxiliary_guess(guess.x, guess.v);
+    const auto units = needed_units(system_, {.t = guess.t, .x = guess.x, .v = guess.v, .z = z});
+    if (!units) return;
+    measured_ = std::make_shared<SystemInUnits>(system_, *units);
+    // The metric of the experiment, up to a factor.
+    length_ = units->coordinates.maxCoeff();
+    const VectorXd parts = units->coordinates / length_;
+    in_units_.emplace(algorithm(weight.cwiseProduct(parts.cwiseAbs2())));
+  }
+
+  ConstraintLadder run(const InitialGuess& guess) const {
+    ConstraintLadder own = own_.run(system_, guess);
+    if (!measured_) return own;
+    const State start =
+        measured_->units().measure({.t = guess.t, .x = guess.x, .v = guess.v, .z = guess.z});
+    InitialGuess there = guess;
+    there.t = start.t;
+    there.x = start.x;
+    there.v = start.v;
+    there.z = start.z;
+    ConstraintLadder ladder = restored(in_units_->run(measured_, there), *measured_);
+    ladder.moved *= length_;
+    if (!are_alike(ladder, own))
+      ladder.doubts.push_back(
+          "In the units of the experiment, in which numbers are far apart, the ladder is another "
+          "one, " +
+          to_string(own.verdict) + ".");
+    return ladder;
+  }
+
+ private:
+  static ConstraintAlgorithm algorithm(const VectorXd& weight) {
+    ConstraintAlgorithm::Options options;
+    options.metric = SparseMatrixXd(weight.asDiagonal());
+    return ConstraintAlgorithm(options);
+  }
+
+  std::shared_ptr<const ImplicitSystem> system_;
+  ConstraintAlgorithm own_;
+  std::shared_ptr<const SystemInUnits> measured_;
+  std::optional<ConstraintAlgorithm> in_units_;
+  double length_ = 1.0;
+};
+
 ConstraintLadder found_start(const Experiment& experiment) {
   const auto& system = experiment.model.system;
   const Manifold& M = *system->manifold();
@@ -126,15 +183,13 @@ ConstraintLadder found_start(const Experiment& experiment) {
   if (initial.z.given.any()) guess.z = initial.z.values;
   check_finite(experiment, guess);
 
-  ConstraintAlgorithm::Options options;
-  const VectorXd weight = initial.x.given.cast<double>().matrix().cwiseProduct(initial.weight);
-  options.metric = SparseMatrixXd(weight.asDiagonal());
-  const ConstraintAlgorithm algorithm(options);
+  const LadderSearch search(system, guess,
+                            initial.x.given.cast<double>().matrix().cwiseProduct(initial.weight));
   const auto run = [&](const Flags& x, const Flags& velocities, const Flags& unknowns) {
     guess.hold_x = indices(x);
     guess.hold_v = indices(components_of(velocities, M, coframe));
     guess.hold_z = indices(unknowns);
-    return algorithm.run(system, guess);
+    return search.run(guess);
   };
   // What is given is kept if it can be; velocities and unknowns give way first, then coordinates.
   const bool more_given = initial.velocity.given.any() || initial.z.given.any();
@@ -167,7 +222,7 @@ ConstraintLadder found_start(const Experiment& experiment) {
     forget_moves_of_what_was_not_given(ladder, experiment);
     if (!any_held) return ladder;
     guess.hold_x = guess.hold_v = guess.hold_z = {};
-    const ConstraintLadder free = algorithm.run(system, guess);
+    const ConstraintLadder free = search.run(guess);
     if (free.verdict == Verdict::inconsistent) return free;
     throw ExperimentError("/hold",
                           "what is held contradicts the constraints, which are violated by " +
@@ -176,12 +231,10 @@ ConstraintLadder found_start(const Experiment& experiment) {
   }
   forget_moves_of_what_was_not_given(ladder, experiment);
   if (const auto missing = undetermined(experiment, ladder); !missing.empty()) {
-    std::string list;
-    for (std::size_t i = 0; i < missing.size() && i < 5; ++i)
-      list += (i == 0 ? "" : ", ") + missing[i];
-    if (missing.size() > 5) list += ", …";
-    throw ExperimentError("/initial",
-                          "nothing determines " + list + "; expected more initial values");
+    const auto told = std::span(missing).first(std::min<std::size_t>(missing.size(), 5));
+    throw ExperimentError("/initial", "nothing determines " + word_list(told) +
+                                          (missing.size() > 5 ? ", …" : "") +
+                                          "; expected more initial values");
   }
   return ladder;
 }

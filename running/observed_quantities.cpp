@@ -1,6 +1,7 @@
 #include "courant/running/observed_quantities.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <utility>
@@ -8,6 +9,7 @@
 #include "courant/core/derivative.hpp"
 #include "courant/core/expr_vectors.hpp"
 #include "courant/core/rank_decision.hpp"
+#include "courant/core/uncertain.hpp"
 
 namespace courant {
 namespace {
@@ -18,25 +20,40 @@ struct Arguments {
   Expr t;
 };
 
+// Whether a value of the function is more than its round-off, or not known.
+bool is_seen(const Function& function, const std::array<VectorXd, 4>& point) {
+  std::array<std::vector<Uncertain>, 4> numbers;
+  std::array<const Uncertain*, 4> in;
+  for (std::size_t g = 0; g < point.size(); ++g) {
+    numbers[g].assign(point[g].begin(), point[g].end());
+    in[g] = numbers[g].data();
+  }
+  std::vector<Uncertain> found(static_cast<std::size_t>(function.output_size()));
+  function.taylor_with_jacobian(in.data(), 0, found.data());
+  return std::ranges::any_of(found, [](const Uncertain& slope) {
+    return slope.is_nonzero() || !std::isfinite(slope.value) || !std::isfinite(slope.error);
+  });
+}
+
 // The same function without z if it does not depend on z though z is in it, as the energy ⟨∂L/∂w,
 // w⟩ - L of L = ⟨α(q), w⟩ - H(q): its derivative by z is round-off at random arguments. There z = 0
 // gives H(q) itself, without cancellation. L = |w| has no derivative there and stays as it is.
 Expr without_idle(const Expr& quantity, const Arguments& at, const Manifold& manifold) {
   const ExprVector derivative = gradient(quantity, at.z);
-  const Function sizes(
-      "idle", {{"x", at.x}, {"v", at.v}, {"z", at.z}, {"t", ExprVector::Constant(1, at.t)}},
-      (ExprVector(1 + derivative.size()) << quantity, derivative).finished());
+  const std::vector<Function::Input> inputs = {
+      {"x", at.x}, {"v", at.v}, {"z", at.z}, {"t", ExprVector::Constant(1, at.t)}};
+  const Function slopes("slopes", inputs, derivative);
+  const Function value("value", inputs, ExprVector::Constant(1, quantity));
   std::mt19937 generator(1);
   std::normal_distribution<double> normal;
   const auto random = [&](Index size) {
     return VectorXd::NullaryExpr(size, [&] { return normal(generator); }).eval();
   };
   for (int trial = 0; trial < 3; ++trial) {
-    const VectorXd found = sizes(
-        {manifold.random_point(generator), random(at.v.size()), random(at.z.size()), random(1)});
-    const double derivatives = found.tail(derivative.size()).cwiseAbs().sum();
-    if (!(derivatives <= 1e-13 * (1.0 + std::abs(found[0])))) return quantity;
-    const VectorXd at_zero = sizes({manifold.random_point(generator), random(at.v.size()),
+    const std::array<VectorXd, 4> point = {manifold.random_point(generator), random(at.v.size()),
+                                           random(at.z.size()), random(1)};
+    if (is_seen(slopes, point)) return quantity;
+    const VectorXd at_zero = value({manifold.random_point(generator), random(at.v.size()),
                                     VectorXd::Zero(at.z.size()), random(1)});
     if (!std::isfinite(at_zero[0])) return quantity;
   }

@@ -33,18 +33,7 @@ Observer::Observer(const ObservedQuantities& of, Backend backend)
   form_ = VectorXd::Zero(of.forms.size());
   quantities_ = Function("observe", of.inputs, of.quantities, compiled);
   together.compile();
-  if (H_) {
-    const Expr& H = of.quantities[*H_ - static_cast<Index>(coordinate_count_)];
-    std::vector<ExprVector> slopes;
-    for (std::size_t group = 0; group < 3; ++group) {
-      const ExprVector slope = gradient(H, of.inputs[group].variables);
-      if (std::ranges::all_of(slope, [](const Expr& entry) { return entry.is_constant(0.0); }))
-        continue;
-      slope_groups_.push_back(static_cast<Index>(group));
-      slopes.push_back(slope);
-    }
-    slopes_ = Function("slopes of H", of.inputs, joined(slopes));
-  }
+  if (H_) energy_ = Energy{of.quantities[*H_ - static_cast<Index>(coordinate_count_)], of.inputs};
   // Evaluated once a step; to compile it, and the account, takes seconds where ports are many.
   at_stage_ = Function("observe stages", of.stage_inputs, of.staged);
   stage_ = VectorXd::Zero(of.staged.size());  // of a state by itself there is no stage
@@ -74,7 +63,21 @@ const double* const* Observer::arguments(const State& state) {
   return arguments_.data();
 }
 
+void Observer::find_slopes(const Energy& of) {
+  std::vector<ExprVector> slopes;
+  for (std::size_t group = 0; group < 3; ++group) {
+    const ExprVector slope = gradient(of.H, of.inputs[group].variables);
+    if (std::ranges::all_of(slope, [](const Expr& entry) { return entry.is_constant(0.0); }))
+      continue;
+    slope_groups_.push_back(static_cast<Index>(group));
+    slopes.push_back(slope);
+  }
+  slopes_ = Function("slopes of H", of.inputs, joined(slopes));
+}
+
 std::vector<EnergyTerms> Observer::energy_terms(const State& state) {
+  if (energy_) find_slopes(*energy_);
+  energy_.reset();
   if (slope_groups_.empty()) return {};
   const double* const* in = arguments(state);
   VectorXd slopes(slopes_.output_size());

@@ -100,6 +100,13 @@ class Observer {
   std::size_t coordinate_count_, first_constraint_, written_count_, first_event_;
   // x, v, z, t, what the field leaves out, energies ↦ all between the coordinates and the deviations
   Function quantities_;
+  // H and what it is a function of, until its slopes are asked for: few runs ask for them.
+  struct Energy {
+    Expr H;
+    std::vector<Function::Input> inputs;
+  };
+  void find_slopes(const Energy& of);
+  std::optional<Energy> energy_;
   Function slopes_;  // the same ↦ slopes of H by those of x, v, z that it contains
   std::vector<Index> slope_groups_;  // which these are
   Function at_stage_;                // x, v, z, t, effort ↦ observables at the stage

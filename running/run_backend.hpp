@@ -6,8 +6,8 @@
 
 namespace courant {
 
-// The back end asked for, but in place of the automatic one the interpreter where a system is large and
-// its run short: the compiler takes many seconds for formulas of thousands of instructions, and saves
+// The back end asked for, but in place of the automatic one the interpreter where the run is short: the
+// compiler takes a good part of a second, and many for formulas of thousands of instructions, and saves
 // some nanoseconds an instruction in each step.
 Backend worthwhile(const Backend& asked, const Experiment& experiment);
 

@@ -225,6 +225,8 @@ Run read_run(const std::filesystem::path& directory) {
           .trajectory = trajectory(),
           .summary = std::move(told),
           .experiment = read_json(experiment)};
+  if (const auto events = directory / "events.csv"; std::filesystem::exists(events))
+    run.events = read_events_csv(events, !ended);
   check_one_run(run, experiment, std::filesystem::exists(csv) ? csv : npy);
   return run;
 }
@@ -247,6 +249,39 @@ TrajectoryTable read_trajectory_csv(const std::filesystem::path& file, bool torn
   } catch (const std::invalid_argument& error) {
     fail(file, 1, error.what());
   }
+}
+
+std::map<std::string, TrajectoryTable> read_events_csv(const std::filesystem::path& file,
+                                                       bool torn) {
+  std::ifstream stream = open(file);
+  std::string line;
+  if (!std::getline(stream, line) || stream.eof())
+    fail(file, 1, "the header is missing or cut off.");
+  std::vector<std::string> names = split(line);
+  if (names.front() != "event")
+    fail(file, 1, "the first column is " + excerpt(names.front()) + ", expected event.");
+  names.erase(names.begin());
+  std::ranges::transform(names, names.begin(), without_unit);
+  std::map<std::string, std::vector<std::vector<double>>> columns;
+  for (std::size_t number = 2; std::getline(stream, line); ++number) {
+    if (stream.eof() && torn) break;
+    if (stream.eof()) fail(file, number, "the row has no line end: the file is cut off.");
+    const std::size_t comma = std::min(line.find(','), line.size());
+    auto& of_event = columns[line.substr(0, comma)];
+    of_event.resize(names.size());
+    const std::string_view numbers =
+        std::string_view(line).substr(std::min(comma + 1, line.size()));
+    if (const auto defect = append_row(numbers, of_event)) fail(file, number, *defect);
+  }
+  std::map<std::string, TrajectoryTable> events;
+  for (auto& [event, values] : columns) {
+    try {
+      events.emplace(event, TrajectoryTable(names, std::move(values)));
+    } catch (const std::invalid_argument& error) {
+      fail(file, 1, error.what());
+    }
+  }
+  return events;
 }
 
 TrajectoryTable read_trajectory_npy(const std::filesystem::path& file,

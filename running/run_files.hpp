@@ -49,6 +49,8 @@ struct Run {
   TrajectoryTable trajectory;
   RunSummary summary;
   nlohmann::ordered_json experiment;
+  // By name: when each event occurred, and what was measured there.
+  std::map<std::string, TrajectoryTable> events = {};
 
   // The columns by what they are: `constraint[i]`, the observables of the summary, and the rest but
   // t.
@@ -60,8 +62,8 @@ struct Run {
   std::string axis_label(const std::string& quantity) const;
 };
 
-// Reads trajectory.csv, or trajectory.npy with columns.json (an array of names), summary.json and
-// experiment.json. Of a run that did not end, which was killed or goes on, the rows that are whole
+// Reads trajectory.csv, or trajectory.npy with columns.json (an array of names), summary.json,
+// experiment.json and, if there is one, events.csv. Of a run that did not end, which was killed or goes on, the rows that are whole
 // are read, and the summary has a message that says so. Throws RunFileError, also where the files are
 // of several runs.
 Run read_run(const std::filesystem::path& directory);
@@ -69,6 +71,8 @@ Run read_run(const std::filesystem::path& directory);
 // The parts, each usable alone. Throw RunFileError.
 // `torn`: the last row may be cut off, and is then left out.
 TrajectoryTable read_trajectory_csv(const std::filesystem::path& file, bool torn = false);
+std::map<std::string, TrajectoryTable> read_events_csv(const std::filesystem::path& file,
+                                                       bool torn = false);
 TrajectoryTable read_trajectory_npy(const std::filesystem::path& file,
                                     std::vector<std::string> names, bool torn = false);
 nlohmann::ordered_json read_json(const std::filesystem::path& file);

@@ -85,7 +85,8 @@ RunSummary RunResults::summary(RunStatus told_status,
                  .factorizations_per_step = per(static_cast<double>(solver.factorizations), count),
                  .failures = solver.failures,
                  .second_attempts = solver.second_attempts,
-                 .confirmations = solver.confirmations};
+                 .confirmations = solver.confirmations,
+                 .divisions = solver.divisions};
   told.backend = backend;
   told.wall_seconds = wall_seconds;
   told.steps_per_second = per(count, wall_seconds);

@@ -130,7 +130,8 @@ Json to_json(const RunSummary& summary) {
                     {"factorizations_per_step", solver.factorizations_per_step},
                     {"failures", solver.failures.value_or(0)},
                     {"second_attempts", solver.second_attempts.value_or(0)},
-                    {"confirmations", solver.confirmations.value_or(0)}};
+                    {"confirmations", solver.confirmations.value_or(0)},
+                    {"divisions", solver.divisions.value_or(0)}};
   json["backend"] = summary.backend;
   json["wall_seconds"] = summary.wall_seconds;
   json["steps_per_second"] = summary.steps_per_second;
@@ -193,7 +194,8 @@ RunSummary read_run_summary(const Json& json) {
                     .factorizations_per_step = number(solver, "factorizations_per_step"),
                     .failures = count(solver, "failures"),
                     .second_attempts = count(solver, "second_attempts"),
-                    .confirmations = count(solver, "confirmations")};
+                    .confirmations = count(solver, "confirmations"),
+                    .divisions = count(solver, "divisions")};
   return summary;
 }
 

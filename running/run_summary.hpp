@@ -48,7 +48,7 @@ struct RunSummary {
   std::vector<ExpectationResult> expectations = {};
   struct Solver {
     double iterations_per_step = kUnknown, factorizations_per_step = kUnknown;
-    std::optional<long> failures = {}, second_attempts = {}, confirmations = {};
+    std::optional<long> failures = {}, second_attempts = {}, confirmations = {}, divisions = {};
   };
   Solver solver = {};
   std::string backend = {};

@@ -105,7 +105,8 @@ Kind summary_kind() {
                                     {"factorizations_per_step", a_number},
                                     {"failures", a_number},
                                     {"second_attempts", a_number},
-                                    {"confirmations", a_number}});
+                                    {"confirmations", a_number},
+                                    {"divisions", a_number}});
   return an_object_of(
       {{"id", a_text},
        {"status", a_text, true},

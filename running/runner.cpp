@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
@@ -16,13 +15,13 @@
 #include "courant/running/left_constraints.hpp"
 #include "courant/running/run_backend.hpp"
 #include "courant/running/run_clock.hpp"
+#include "courant/running/run_failure.hpp"
 #include "courant/running/run_folder.hpp"
 #include "courant/running/run_results.hpp"
 #include "courant/running/run_watchers.hpp"
 #include "courant/running/symmetry_check.hpp"
 #include "courant/running/tangent_of_run.hpp"
 #include "courant/running/trajectory_writer.hpp"
-#include "courant/running/undefined_formula.hpp"
 
 namespace courant {
 namespace {
@@ -39,7 +38,8 @@ SolverStatistics operator+(const SolverStatistics& a, const SolverStatistics& b)
           .factorizations = a.factorizations + b.factorizations,
           .failures = a.failures + b.failures,
           .second_attempts = a.second_attempts + b.second_attempts,
-          .confirmations = a.confirmations + b.confirmations};
+          .confirmations = a.confirmations + b.confirmations,
+          .divisions = a.divisions + b.divisions};
 }
 
 class RunUnderway {
@@ -64,7 +64,7 @@ class RunUnderway {
     const bool consistent = ladder_.verdict != Verdict::inconsistent;
     std::optional<PreparedMethod> method;
     if (consistent) {
-      check_finite(ladder_.point);
+      require_finite(observer_, experiment_, ladder_.point);
       method = prepare();
     } else if (!experiment_.expect.inconsistent) {
       fail("The system is inconsistent near the initial values. " + ladder_.reason);
@@ -109,37 +109,6 @@ class RunUnderway {
   void fail(std::string message) {
     results_.status = RunStatus::failed;
     results_.message = std::move(message);
-  }
-
-  // What a step that failed says, and which formula has no value where it was to lead.
-  std::string words_of(const SolveError& error, const State& state) const {
-    const std::string what = error.what();
-    const std::string why = undefined_ahead(experiment_, ladder_, state, experiment_.time->step);
-    if (why.empty()) return what + corner_in_words(what, *experiment_.model.system, ladder_);
-    // What it expected is not to be had; what it advises is.
-    const std::size_t expected = what.rfind("; ");
-    return (expected == std::string::npos ? what + " The cause: "
-                                          : what.substr(0, expected) + ": ") +
-           why + ".";
-  }
-
-  void check_finite(const State& state) {
-    VectorXd row;
-    try {
-      row = observer_.row(state);
-    } catch (const std::domain_error& error) {
-      throw ExperimentError("/initial", without_place(error.what()));
-    }
-    for (Index i = 0; i < static_cast<Index>(observer_.written_count()); ++i)
-      if (!std::isfinite(row[i])) {
-        const std::string where = "at the initial point";
-        const std::string why = undefined_formula(experiment_, state, where);
-        throw ExperimentError("/initial", !why.empty()
-                                              ? why
-                                              : observer_.names()[static_cast<std::size_t>(i)] +
-                                                    " is " + number_text(row[i]) + ' ' + where +
-                                                    "; expected a finite number");
-      }
   }
 
   std::optional<PreparedMethod> prepare() {
@@ -429,7 +398,8 @@ class RunUnderway {
         keeper.keep(checkpoint(k, state, motion, stepper->statistics(), seconds_since(begin)));
       }
     } catch (const SolveError& error) {
-      fail(words_of(error, state) + (ladder_watch_ ? ladder_watch_->decline() : ""));
+      fail(failure_in_words(error, experiment_, ladder_, state) +
+           (ladder_watch_ ? ladder_watch_->decline() : ""));
     } catch (const std::domain_error& error) {
       fail((results_.steps == 0 ? "/method: " : "") + without_place(error.what()));
     }

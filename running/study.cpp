@@ -11,8 +11,8 @@
 
 #include "courant/core/message.hpp"
 #include "courant/core/spelling.hpp"
+#include "courant/reading/divided_steps.hpp"
 #include "courant/reading/transformed_time.hpp"
-#include "courant/running/comma_separated.hpp"
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/observer.hpp"
 
@@ -21,7 +21,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr long kMostMoments = 1000;
 
 // The study is interrupted.
@@ -214,6 +213,7 @@ ReferenceMethod reference_method(const StudiedProblem& problem) {
   auto choice = method_kinds().read(JsonReader(word, "/method", findings));
   findings.require_clean();
   if (time.rate) choice = in_transformed_time(std::move(*choice), *time.rate);
+  if (time.division) choice = in_divided_steps(std::move(*choice), *time.division);
   try {
     return with_order(std::move(*choice));
   } catch (const std::invalid_argument&) {  // no vector field
@@ -276,11 +276,7 @@ Flight timed(const StudiedProblem& problem, long parts) {
   return flight;
 }
 
-struct Row {
-  double step = 0.0, error = kUnknown, order = kUnknown, seconds = kUnknown;
-  long steps = 0, iterations = 0, factorizations = 0;
-  std::string message;
-};
+using Row = StudyReport::Row;
 
 // The slope of log(error) over log(step) at the four smallest steps with an error above `floor`.
 std::optional<double> fitted_order(const std::vector<Row>& rows, double floor) {
@@ -312,36 +308,24 @@ std::string remark_on(const std::vector<Row>& rows, const std::optional<double>&
   return "";
 }
 
-Json known_or_null(double value) { return std::isnan(value) ? Json() : Json(value); }
-
-Json method_json(const StudySubject& subject, const StudiedProblem& problem, const Truth& reference,
-                 const std::vector<Row>& rows, double size) {
+StudyReport::Method method_report(const StudySubject& subject, const StudiedProblem& problem,
+                                  const Truth& reference, std::vector<Row> rows, double size) {
   const double floor = std::max(10.0 * reference.error, 1e-12 * size);
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    if (rows[i - 1].error > floor && rows[i].error > floor)
+      rows[i].order =
+          std::log(rows[i - 1].error / rows[i].error) / std::log(rows[i - 1].step / rows[i].step);
   const std::optional<double> order = fitted_order(rows, floor);
-  Json json{{"experiment", subject.name},
-            {"method", problem.experiment().method->description},
-            {"quantities", problem.quantities()},
-            {"reference", reference.words},
-            {"reference_order", reference.order ? Json(*reference.order) : Json()},
-            {"reference_error", reference.error},
-            {"order", order ? Json(*order) : Json()},
-            {"remark", remark_on(rows, order, floor)},
-            {"rows", Json::array()}};
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Row& row = rows[i];
-    const bool comparable = i > 0 && rows[i - 1].error > floor && row.error > floor;
-    json["rows"].push_back({{"step", row.step},
-                            {"steps", row.steps},
-                            {"error", known_or_null(row.error)},
-                            {"order", comparable ? Json(std::log(rows[i - 1].error / row.error) /
-                                                        std::log(rows[i - 1].step / row.step))
-                                                 : Json()},
-                            {"iterations", row.iterations},
-                            {"factorizations", row.factorizations},
-                            {"seconds", known_or_null(row.seconds)},
-                            {"message", row.message}});
-  }
-  return json;
+  std::string remark = remark_on(rows, order, floor);
+  return {.experiment = subject.name,
+          .method = problem.experiment().method->description,
+          .quantities = problem.quantities(),
+          .reference = reference.words,
+          .reference_order = reference.order,
+          .reference_error = reference.error,
+          .order = order,
+          .remark = std::move(remark),
+          .rows = std::move(rows)};
 }
 
 // What has to be the same for two subjects to have the same reference.
@@ -352,8 +336,8 @@ std::string problem_of(const Experiment& experiment) {
   return parts.dump();
 }
 
-Json study_of(const StudySubject& subject, const StudyOptions& options,
-              std::map<std::string, Truth>& references) {
+StudyReport::Method study_of(const StudySubject& subject, const StudyOptions& options,
+                             std::map<std::string, Truth>& references) {
   StudiedProblem problem(subject, options);
   const std::string key = problem_of(subject.experiment);
   if (!references.contains(key)) references[key] = reference_for(problem, options);
@@ -390,47 +374,21 @@ Json study_of(const StudySubject& subject, const StudyOptions& options,
     }
     rows.push_back(row);
   }
-  return method_json(subject, problem, reference, rows, size);
-}
-
-// The value of a key that all methods share, or null.
-Json shared(const Json& methods, const char* key) {
-  for (const Json& method : methods)
-    if (method.at(key) != methods.front().at(key)) return nullptr;
-  return methods.empty() ? Json() : methods.front().at(key);
+  return method_report(subject, problem, reference, std::move(rows), size);
 }
 
 }  // namespace
 
-Json study(std::span<const StudySubject> subjects, const StudyOptions& options) {
-  Json methods = Json::array();
+StudyReport study(std::span<const StudySubject> subjects, const StudyOptions& options) {
+  StudyReport report;
   std::map<std::string, Truth> references;
-  const char* status = "completed";
   try {
     for (const StudySubject& subject : subjects)
-      methods.push_back(study_of(subject, options, references));
+      report.methods.push_back(study_of(subject, options, references));
   } catch (const Stopped&) {
-    status = "interrupted";
+    report.is_interrupted = true;
   }
-  return {{"status", status},
-          {"reference", shared(methods, "reference")},
-          {"quantities", shared(methods, "quantities")},
-          {"methods", methods}};
-}
-
-std::string study_csv(const Json& study) {
-  const char* const columns[] = {"step",       "steps",          "error",   "order",
-                                 "iterations", "factorizations", "seconds", "message"};
-  std::string csv = "experiment,method";
-  for (const char* column : columns) csv += std::string(",") + column;
-  csv += ",reference\n";
-  for (const Json& method : study.at("methods"))
-    for (const Json& row : method.at("rows")) {
-      csv += csv_cell(method.at("experiment")) + "," + csv_cell(method.at("method"));
-      for (const char* column : columns) csv += "," + csv_cell(row.at(column));
-      csv += "," + csv_cell(method.at("reference")) + '\n';
-    }
-  return csv;
+  return report;
 }
 
 }  // namespace courant

@@ -9,6 +9,7 @@
 
 #include "courant/core/function.hpp"
 #include "courant/reading/experiment.hpp"
+#include "courant/running/study_report.hpp"
 
 namespace courant {
 
@@ -37,21 +38,8 @@ struct StudyOptions {
 // the four smallest steps whose errors are above ten times that of the reference and above round-off.
 // The time is that of the steps alone, the least of several runs where they are short.
 //
-//   {"status": "completed", "reference": "closed form", "quantities": ["q"],
-//    "methods": [{"experiment": "…", "method": "…", "reference": "closed form",
-//                 "reference_order": null, "reference_error": 0, "order": 2.0, "remark": "",
-//                 "rows": [{"step": 0.1, "steps": 10, "error": 1e-3, "order": null,
-//                           "iterations": 30, "factorizations": 10, "seconds": 1e-5,
-//                           "message": ""}, …]}, …]}
-//
-// "order" of a row is that between it and the row before. Steps that cannot be made have the
-// message why, and no error. "quantities" and "reference" are those of all methods, or null where
-// these differ. "reference_order" is the order of the method of the reference. Throws
-// ExperimentError for an experiment without a method, or without one of the quantities.
-Json study(std::span<const StudySubject> subjects, const StudyOptions& options);
-
-// A row a step: experiment, method, step, steps, error, order, iterations, factorizations, seconds,
-// message, reference.
-std::string study_csv(const Json& study);
+// Steps that cannot be made have the message why, and no error. Throws ExperimentError for an experiment
+// without a method, or without one of the quantities.
+StudyReport study(std::span<const StudySubject> subjects, const StudyOptions& options);
 
 }  // namespace courant

@@ -12,17 +12,11 @@
 #include "courant/core/message.hpp"
 #include "courant/core/qr_decomposition.hpp"
 #include "courant/core/singular_value_decomposition.hpp"
+#include "courant/core/text_layout.hpp"
 #include "courant/structures/blocks.hpp"
 
 namespace courant {
 namespace {
-
-std::string number(double value) {
-  std::ostringstream text;
-  text.precision(3);
-  text << value;
-  return text.str();
-}
 
 void require_size(const std::string& name, const Eigen::Ref<const MatrixXd>& matrix, Index rows,
                   Index columns) {
@@ -40,7 +34,7 @@ MatrixXd skew(const std::string& name, const Eigen::Ref<const MatrixXd>& matrix)
   const double defect = (matrix + matrix.transpose()).norm();
   if (defect > 1e-10 * matrix.norm()) {
     throw std::domain_error("LinearDirac: " + name + " has a symmetric part, |" + name + " + " +
-                            name + "ᵀ| = " + number(defect) + "; expected a skew matrix.");
+                            name + "ᵀ| = " + number_text(defect, 3) + "; expected a skew matrix.");
   }
   return skew_part(matrix);
 }
@@ -146,17 +140,13 @@ std::vector<Index> others(const std::vector<Index>& columns, Index n) {
 // "3 α[1] - 2 α[2]": the terms of a linear form, those of rounding size left out.
 std::string linear_form(const Eigen::Ref<const Eigen::RowVectorXd>& coefficients,
                         const std::vector<std::string>& names) {
-  std::ostringstream text;
+  std::string text;
   for (Index k = 0; k < coefficients.size(); ++k) {
     const double c = coefficients[k];
     if (std::abs(c) <= 1e-12 * std::max(1.0, coefficients.cwiseAbs().maxCoeff())) continue;
-    const bool first = text.tellp() == std::streampos(0);
-    text << (first ? (c < 0.0 ? "-" : "") : (c < 0.0 ? " - " : " + "));
-    const std::string size = number(std::abs(c));
-    if (size != "1") text << size << ' ';
-    text << names[static_cast<std::size_t>(k)];
+    add_term(text, c, names[static_cast<std::size_t>(k)], 3);
   }
-  return text.str().empty() ? "0" : text.str();
+  return text.empty() ? "0" : text;
 }
 
 }  // namespace
@@ -164,8 +154,8 @@ std::string linear_form(const Eigen::Ref<const Eigen::RowVectorXd>& coefficients
 LinearDirac::LinearDirac(const PairedSubspace& subspace) : PairedSubspace(subspace) {
   if (is_dirac(1e-8)) return;
   throw std::domain_error("LinearDirac: the subspace has dimension " + std::to_string(dimension()) +
-                          ", isotropy defect " + number(isotropy_defect()) +
-                          " and coisotropy defect " + number(coisotropy_defect()) +
+                          ", isotropy defect " + number_text(isotropy_defect(), 3) +
+                          " and coisotropy defect " + number_text(coisotropy_defect(), 3) +
                           "; expected dimension " + std::to_string(space_dimension()) +
                           " = dim V and defects of at most 1e-08.");
 }
@@ -218,7 +208,7 @@ LinearDirac LinearDirac::nearest(const PairedSubspace& U) {
   if (U.dimension() != n || !U.is_dirac(1e-4)) {
     throw std::domain_error("LinearDirac::nearest: the subspace has dimension " +
                             std::to_string(U.dimension()) + " and isotropy defect " +
-                            number(U.isotropy_defect()) + "; expected dimension " +
+                            number_text(U.isotropy_defect(), 3) + "; expected dimension " +
                             std::to_string(n) + " = dim V and a defect of at most 1e-04.");
   }
   const auto svd = singular_value_decomposition((U.vectors() - U.covectors()) *

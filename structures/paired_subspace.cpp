@@ -1,7 +1,6 @@
 #include "courant/structures/paired_subspace.hpp"
 
 #include <algorithm>
-#include <iomanip>
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
@@ -162,8 +161,8 @@ std::ostream& operator<<(std::ostream& out, const PairedSubspace& U) {
   for (Index k = 0; k < U.dimension(); ++k) {
     const auto print = [&](const auto& column) {
       for (const double entry : column) {
-        text << ' ' << std::setw(8) << std::setprecision(4)
-             << (std::abs(entry) < 5e-13 ? 0.0 : entry);
+        const std::string number = number_text(std::abs(entry) < 5e-13 ? 0.0 : entry, 4);
+        text << std::string(9 - std::min<std::size_t>(number.size(), 8), ' ') << number;
       }
     };
     text << "\n ";

@@ -28,7 +28,8 @@ void check_finite(const char* argument, const VectorXd& values) {
 }
 
 // A zero that is one by the sizes that numbers have there. Those that were met on the way, as after a
-// first step of 10⁸, are no sizes of the problem, and next to them residuals of 1 are round-off.
+// first step of 10⁸, are no sizes of the problem, and next to them residuals of 1 are round-off. Among
+// exponentials each search may go astray so, and its zero has to be one by its terms too.
 Zero find_confirmed(const LinearizableMap& map, const VectorXd& start, const Mobility& mobility) {
   constexpr double accepted = 1e-10;
   Zero zero = find_zero(map, start, mobility);
@@ -37,6 +38,7 @@ Zero find_confirmed(const LinearizableMap& map, const VectorXd& start, const Mob
     if (again.history.front() <= accepted) break;
     zero = std::move(again);
   }
+  if (mobility.has_exponentials && zero.found && !is_met(map(zero.y))) zero.found = false;
   return zero;
 }
 
@@ -147,6 +149,7 @@ Mobility ConsistentPoint::mobility(const ConsistentJet& from, bool x_is_free) co
   const Index n = from.array.base_size(), size = from.zero.y.size();
   Mobility result;
   result.frozen = x_is_free ? 0 : n;
+  result.has_exponentials = from.array.has_exponentials();
   // Where x or a velocity can give way, the velocity does: by a factor of 1000 in the squares.
   result.cost = VectorXd::Constant(size, 0.03);
   result.cost.head(n).setOnes();
@@ -234,17 +237,7 @@ std::optional<ConsistentJet> ConsistentPoint::find_beyond(const ConsistentJet& e
 ConsistentJet ConsistentPoint::find(const ConsistentJet& from) const {
   const LinearizableMap F = conditions(from.array, true);
   const Index n = from.array.base_size();
-  Mobility fixed = mobility(from, false);
-  Zero zero = find_zero(F, from.zero.y, fixed);
-  // In units that come from what equations are elsewhere, as a diode that conducts is 10¹⁰ times what it is
-  // when it blocks, an equation of the others may be nothing, or no step lead on.
-  if (from.array.has_exponentials() && is_steep(F, from.zero.y, fixed)) {
-    fixed.is_matched = true;
-    if (!is_zero(F, zero, fixed)) {
-      Zero matched = find_confirmed(F, from.zero.y, fixed);
-      if (matched.found) zero = std::move(matched);
-    }
-  }
+  Zero zero = find_zero(F, from.zero.y, mobility(from, false));
   if (zero.found) return {from.array, zero};
   const Mobility free = mobility(from, true);
   zero = find_confirmed(F, from.zero.y, free);
@@ -291,6 +284,13 @@ ConsistentPoint::Neighbour ConsistentPoint::find_displaced(const ConsistentJet& 
                                                            const VectorXd& displacement,
                                                            const SparseMatrixXd& magnitude) const {
   return find_around(from, from.array, from.zero.y, displacement, magnitude);
+}
+
+ConsistentJet ConsistentPoint::find_at(const ConsistentJet& from, const VectorXd& xi) const {
+  ConsistentJet jet = from;
+  jet.zero.y.head(xi.size()) = xi;
+  jet.zero = find_zero(conditions(jet.array, false), jet.zero.y, mobility(jet, false));
+  return jet;
 }
 
 ConsistentPoint::Neighbour ConsistentPoint::find_later(const ConsistentJet& from,

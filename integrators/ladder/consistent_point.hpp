@@ -50,6 +50,9 @@ class ConsistentPoint {
   // The same, `later` in time: from where the curve leads whose jet `from` is.
   Neighbour find_later(const ConsistentJet& from, const VectorXd& displacement, double later) const;
 
+  // The zero of F^[k] near `from`, of level k, with ξ_0 = `xi` in its chart. Held values may change.
+  ConsistentJet find_at(const ConsistentJet& from, const VectorXd& xi) const;
+
   // ‖x - x_given‖_W.
   double distance(const VectorXd& x) const;
 

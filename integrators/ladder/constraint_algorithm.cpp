@@ -1,14 +1,13 @@
 #include "courant/integrators/ladder/constraint_algorithm.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 
+#include "courant/core/text_layout.hpp"
 #include "courant/integrators/ladder/consistent_point.hpp"
 #include "courant/integrators/ladder/ladder_levels.hpp"
 #include "courant/integrators/ladder/natural_scaling.hpp"
-#include "courant/integrators/ladder/obstruction.hpp"
+#include "courant/integrators/ladder/singularity.hpp"
 
 namespace courant {
 namespace {
@@ -20,42 +19,6 @@ bool repeats(const std::vector<LadderLevel>& levels) {
   return last.dim_S == before.dim_S && last.dim_M == before.dim_M;
 }
 
-// What a point nearby says of a point.
-struct Comparison {
-  enum class Outcome {
-    alike,      // the same ranks
-    different,  // ranks that are higher nearby: those of the point are not constant around it
-    lower,      // ranks that are lower nearby, where a number was taken for noise
-    unknown,    // no point
-  };
-  Outcome outcome = Outcome::unknown;
-  bool is_certain = true;
-  bool is_hidden = false;       // whether round-off hides if equations follow
-  std::string difference = "";  // in words
-};
-
-Comparison compare(const std::vector<LadderLevel>& here, const std::vector<LadderLevel>& nearby,
-                   const std::string& place = "at a consistent point nearby") {
-  using Outcome = Comparison::Outcome;
-  Comparison result{.outcome = Outcome::alike};
-  for (std::size_t k = 0; k < std::min(here.size(), nearby.size()); ++k) {
-    const LadderLevel &a = here[k], &b = nearby[k];
-    if (a.is_empty || (a.dim_S == b.dim_S && a.dim_M == b.dim_M)) continue;
-    if (b.all.rank < a.all.rank || b.without_tangent.rank < a.without_tangent.rank ||
-        b.without_point.rank < a.without_point.rank) {
-      result.outcome = Outcome::lower;
-      continue;
-    }
-    const std::string level = std::to_string(k);
-    return {.outcome = Outcome::different,
-            .difference = "(dim S_" + level + ", dim M_" + level + ") is (" +
-                          std::to_string(a.dim_S) + ", " + std::to_string(a.dim_M) +
-                          ") here and (" + std::to_string(b.dim_S) + ", " +
-                          std::to_string(b.dim_M) + ") " + place + "."};
-  }
-  return result;
-}
-
 // What a search for a point of the next level changed of the levels before, in words; empty if nothing.
 std::string change(const std::vector<LadderLevel>& before, const std::vector<LadderLevel>& now) {
   for (std::size_t k = 0; k < std::min(before.size(), now.size()); ++k)
@@ -64,12 +27,6 @@ std::string change(const std::vector<LadderLevel>& before, const std::vector<Lad
              std::to_string(before.size() - 1) + " than at that of level " +
              std::to_string(now.size() - 1) + ".";
   return "";
-}
-
-std::string derivative_of(const std::string& name, Index order) {
-  if (order == 0) return name;
-  if (order == 1) return "d/dt " + name;
-  return "d^" + std::to_string(order) + "/dt^" + std::to_string(order) + " " + name;
 }
 
 // The equations that contradict each other at a point where Jᵀ F = 0: those that F, a left null
@@ -84,9 +41,9 @@ std::string contradiction(const ImplicitSystem& system, const Zero& zero) {
     if (std::abs(zero.scaled_value[i]) < 0.1 * largest) continue;
     if (++listed > 6) return names + ", …";
     names += names.empty() ? "" : ", ";
-    names += i < 0
-                 ? ""
-                 : derivative_of(system.names().equations[static_cast<std::size_t>(i % r)], i / r);
+    names +=
+        i < 0 ? ""
+              : time_derivative(system.names().equations[static_cast<std::size_t>(i % r)], i / r);
   }
   return names;
 }
@@ -112,16 +69,6 @@ std::vector<Movement> movements(const ImplicitSystem& system, const InitialGuess
   return moves;
 }
 
-std::vector<LadderLevel> levels_at(const ConsistentJet& jet) {
-  return ladder_levels(jet.array, jet.zero.y, jet.zero.uncertainty);
-}
-
-bool are_certain(const std::vector<LadderLevel>& levels) {
-  return contradictions(levels).empty() &&
-         std::none_of(levels.begin(), levels.end(),
-                      [](const LadderLevel& level) { return level.is_ambiguous(); });
-}
-
 // The levels at the jet. Where they are doubtful the jet is found once more, and stays what was
 // found if that helps.
 std::vector<LadderLevel> levels_at(const ConsistentPoint& consistent, ConsistentJet& jet) {
@@ -133,16 +80,6 @@ std::vector<LadderLevel> levels_at(const ConsistentPoint& consistent, Consistent
   if (!are_certain(second)) return levels;
   jet = std::move(other);
   return second;
-}
-
-// S₁
-std::string level_name(const std::string& letter, Index k) {
-  std::string name = letter;
-  for (const char digit : std::to_string(k)) {
-    name += "\xE2\x82";
-    name += static_cast<char>(0x80 + (digit - '0'));
-  }
-  return name;
 }
 
 // Which of F^[k] at y, or of its derivatives, are not finite, in words.
@@ -160,99 +97,11 @@ std::string not_finite(const ImplicitSystem& system, const DerivativeArray& arra
     if (!is_bad[static_cast<std::size_t>(i)]) continue;
     const std::string& name = system.names().equations[static_cast<std::size_t>(i % r)];
     return std::isfinite(at.value[i])
-               ? "The derivatives of " + derivative_of(name, i / r) +
+               ? "The derivatives of " + time_derivative(name, i / r) +
                      " are not finite at the given values"
-               : derivative_of(name, i / r) + " is not finite at the given values";
+               : time_derivative(name, i / r) + " is not finite at the given values";
   }
   return "The equations are not finite at the given values";
-}
-
-// What is singular at a zero of the derivative array.
-struct Singularity {
-  std::string reason = "";     // in words; empty if nothing is
-  std::string seen_once = "";  // the same, of one direction only
-  bool is_unanimous = true;    // whether no direction says that nothing is
-  bool is_compared = true;     // whether there were points nearby to compare with
-};
-
-// Zeros of constant rank form a manifold whose tangent space is the kernel of the Jacobian: a point at
-// ε in a tangent direction has a zero within O(ε²), and the same ranks there. A neighbour can be
-// misjudged where equations are strongly curved in its direction; a singular point looks singular
-// from everywhere. So the majority decides, and a direction that says otherwise leaves a doubt. With
-// `follow`, what the Jacobian does not see of the equations is examined too. Searches far from what
-// vanishes are for small systems: they take a third of the time of a ladder of 25 rods.
-Singularity singularity(const ConsistentPoint& consistent, const ConsistentJet& at,
-                        const std::vector<LadderLevel>& levels, bool follow) {
-  if (at.array.has_constant_jacobian()) return {};
-  using Outcome = Comparison::Outcome;
-  constexpr Index dense_limit = 200;
-  const bool is_small = at.zero.y.size() <= dense_limit;
-  std::optional<Obstruction> obstruction;
-  if (follow && is_small)
-    obstruction.emplace(at.array, at.zero.y, at.zero.uncertainty, levels.back().all.rank);
-  TangentDisplacement tangents(at.array, at.zero.y, at.zero.reach);
-  const auto look_along = [&](const VectorXd& tangent) -> Comparison {
-    const auto near = consistent.find_displaced(at, 1e-3 * tangent, tangents.magnitude());
-    Comparison result;
-    if (near.jet.zero.found) {
-      const std::vector<LadderLevel> there = levels_at(near.jet);
-      result = compare(levels, there);
-      result.is_certain = are_certain(there);
-      if (result.outcome == Outcome::different) return result;
-    }
-    const auto seen = obstruction ? obstruction->is_seen_along(tangent) : Obstruction::Answer::no;
-    if (seen == Obstruction::Answer::no) return result;
-    if (seen == Obstruction::Answer::unknown) {
-      result.is_hidden = true;
-      return result;
-    }
-    return {.outcome = Outcome::different,
-            .difference =
-                "The equations have solutions in fewer directions than their linear parts: one of "
-                "the constraints has a vanishing gradient here."};
-  };
-  using Units = TangentDisplacement::Units;
-  constexpr std::array units = {Units::own_sizes, Units::large_where_zero, Units::natural,
-                                Units::own_sizes, Units::large_where_zero};
-  int alike = 0, different = 0, compared = 0;
-  bool is_hidden = false;
-  std::string certain, uncertain;
-  for (const Units unit : units) {
-    const Comparison comparison = look_along(
-        tangents.next(is_small || unit != Units::large_where_zero ? unit : Units::natural));
-    is_hidden = is_hidden || comparison.is_hidden;
-    if (comparison.outcome == Outcome::alike && comparison.is_certain && !comparison.is_hidden)
-      ++alike;
-    if (comparison.outcome == Outcome::alike || comparison.outcome == Outcome::lower) ++compared;
-    if (comparison.outcome == Outcome::different && !comparison.is_certain)
-      uncertain = comparison.difference;
-    if (comparison.outcome == Outcome::different && comparison.is_certain) {
-      if (++different == 1) certain = comparison.difference;
-    }
-    if (different == 3 || (alike == 2 && different == 0)) break;
-  }
-  // Ranks that hold at this instant only, as that of t at t = 0, are not those of a motion.
-  if (at.array.depends_on_time() && different == 0) {
-    constexpr std::array moments = {1e-3, 1e-2};
-    const VectorXd nothing = VectorXd::Zero(at.zero.y.size());
-    for (const double moment : moments) {
-      const auto near = consistent.find_later(at, nothing, moment * tangents.time_unit());
-      if (!near.jet.zero.found) continue;
-      const std::vector<LadderLevel> there = levels_at(near.jet);
-      const Comparison comparison = compare(levels, there, "a moment later");
-      if (comparison.outcome != Outcome::different || !are_certain(there)) continue;
-      if (++different == 1) certain = comparison.difference;
-    }
-    if (different == 2) return {.reason = certain};
-  }
-  // A singular point looks singular from everywhere: two directions in which nothing is hidden are enough.
-  if (is_hidden && alike < 2 && uncertain.empty())
-    uncertain =
-        "Round-off hides whether the equations have solutions in all directions that their linear "
-        "parts have, or a constraint has a vanishing gradient here.";
-  const std::string& seen = certain.empty() ? uncertain : certain;
-  if (different >= 2 && different > alike) return {.reason = certain, .is_unanimous = alike == 0};
-  return {.seen_once = seen, .is_compared = compared >= 2};
 }
 
 // What is not as it should be one level above the last, in words; empty if nothing. Equations that follow
@@ -265,7 +114,7 @@ std::string asked_above(const ConsistentPoint& consistent, const ConsistentJet& 
   ConsistentJet start = at;
   start.zero.y = at.array.resized(at.zero.y, last.k + 1);
   const ConsistentJet above = consistent.find(start);
-  const std::string place = level_name("S", last.k + 1);
+  const std::string place = "S" + subscript(last.k + 1);
   if (!above.zero.found)
     return "No point of " + place +
            " was found, though equations follow from others up to the level before.";
@@ -302,52 +151,6 @@ bool is_known_well(const ConsistentJet& at) {
     return largest_by_row(here.error).array() <= certain * largest_by_row(nearby).array();
   };
   return (is_small(units.column_scale) || is_small(at.zero.reach)).all();
-}
-
-// Whether the ranks stay those of the levels if the point is taken for exact. Zeros are exact only at
-// exact points, so that for levels that are not said to be `lowered` only those count that are not far
-// below their bounds, and clearly numbers at the point.
-bool is_same_rank_at(const ConsistentJet& at, const std::vector<LadderLevel>& levels,
-                     bool lowered) {
-  constexpr double far_below = 1e-3;
-  const auto is_hidden = [](const RankDecision& rank) { return rank.below > far_below; };
-  if (!lowered && std::none_of(levels.begin(), levels.end(), [&](const LadderLevel& level) {
-        return is_hidden(level.all) || is_hidden(level.without_tangent) ||
-               is_hidden(level.without_point);
-      }))
-    return true;
-  const std::vector<LadderLevel> exact =
-      ladder_levels(at.array, at.zero.y, VectorXd::Zero(at.zero.y.size()));
-  return compare(levels, exact).outcome != Comparison::Outcome::different ||
-         (!lowered && !are_certain(exact));
-}
-
-// Whether the ranks are lower at the given values than at the point next to them that was found. So they
-// are at the fold of x = y³/3 - y with x' = y, where no solution is: the search ends at 10⁻⁶ of it,
-// where there is one with a velocity of 10⁵.
-bool is_lower_where_given(const ConsistentPoint& consistent, const ConsistentJet& at,
-                          const std::vector<LadderLevel>& levels) {
-  constexpr double next_to = 1e-3;
-  const DerivativeArray given = consistent.start().array;
-  const VectorXd moved = at.array.origin() - given.origin();
-  if (moved.isZero(0.0) || at.array.has_constant_jacobian() || given.base_size() != moved.size() ||
-      moved.lpNorm<Eigen::Infinity>() > next_to * given.origin().lpNorm<Eigen::Infinity>())
-    return false;
-  return compare(ladder_levels(given, at.zero.y, at.zero.uncertainty), levels).outcome ==
-         Comparison::Outcome::different;
-}
-
-// Whether each rank of the levels has a cut with nothing near it. Of a point that is said to be singular the
-// ranks are lower than nearby by what was neglected: numbers near the bound of their error say that only if
-// those that count are far from it.
-bool has_clear_cuts(const std::vector<LadderLevel>& levels) {
-  constexpr double far = 1e5;
-  const auto is_clear = [](const RankDecision& rank) {
-    return rank.below <= 0.0 || rank.rank == 0 || rank.above >= far * rank.below;
-  };
-  return std::all_of(levels.begin(), levels.end(), [&](const LadderLevel& level) {
-    return is_clear(level.all) && is_clear(level.without_tangent) && is_clear(level.without_point);
-  });
 }
 
 // Counts what other points of the final constraint set need as well, now and a moment later: a
@@ -400,7 +203,7 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
       }
       if (!consistent.is_contradiction(next)) {
         has_converged = false;
-        ladder.reason = "The search for a point of " + level_name("S", k) +
+        ladder.reason = "The search for a point of S" + subscript(k) +
                         " did not converge, and the equations do not contradict each other where "
                         "it ended.";
         break;
@@ -411,7 +214,7 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
       empty.residual = next.array.residual(next.zero.y).lpNorm<Eigen::Infinity>();
       ladder.levels.push_back(empty);
       ladder.verdict = Verdict::inconsistent;
-      ladder.reason = "No point of " + level_name("S", k) +
+      ladder.reason = "No point of S" + subscript(k) +
                       " was found near the given values: these equations contradict each other: " +
                       contradiction(*system, next.zero) + ".";
       jet.zero.y = next.array.resized(next.zero.y, k);
@@ -495,6 +298,12 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
   ladder.index = last.k - 1;
   ladder.verdict = ladder.gauge_dimension == 0 ? Verdict::regular : Verdict::gauge;
   describe(ladder, jet.array, jet.zero.y, jet.zero.uncertainty);
+  if (std::string branches = branching(consistent, jet, ladder); !branches.empty()) {
+    ladder.verdict = Verdict::rank_change;
+    ladder.index = -1;
+    ladder.reason = std::move(branches);
+    return ladder;
+  }
   count_differentiations_nearby(ladder, consistent, jet);
   return ladder;
 }

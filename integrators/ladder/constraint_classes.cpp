@@ -8,6 +8,7 @@
 #include "courant/core/lu_decomposition.hpp"
 #include "courant/core/uncertain_matrix.hpp"
 #include "courant/structures/dirac_structure.hpp"
+#include "courant/structures/dirac_system.hpp"
 
 namespace courant {
 namespace {
@@ -135,6 +136,9 @@ std::optional<ConstraintClasses> constraint_classes(const ImplicitSystem& system
                                                     const ConstraintLadder& ladder) {
   const auto structure = system.structure();
   if (!structure || ladder.index < 0) return std::nullopt;
+  // Reactions of constraints on velocities are no vector fields of functions.
+  const auto* dirac = dynamic_cast<const DiracSystem*>(&system);
+  if (dirac && dirac->exterior().constraint) return std::nullopt;
   const VectorXd& x = ladder.point.x;
   const Maps maps = maps_at(*structure, x);
   if (!maps.bivector && !maps.form) return std::nullopt;

@@ -44,7 +44,8 @@ struct ConstraintClasses {
 };
 
 // Nothing for systems without a structure, or with one that is the graph of neither a bivector nor a
-// two-form at the point, and for ladders without an index.
+// two-form at the point, or with constraints on velocities (nonholonomic ones, whose reactions are no
+// vector fields of functions), and for ladders without an index.
 std::optional<ConstraintClasses> constraint_classes(const ImplicitSystem& system,
                                                     const ConstraintLadder& ladder);
 

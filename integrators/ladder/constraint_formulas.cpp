@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "courant/core/derivative.hpp"
+#include "courant/core/normal_form.hpp"
 #include "courant/core/simplified.hpp"
+#include "courant/core/subgraph.hpp"
 
 namespace courant {
 namespace {
 
-constexpr std::size_t longest = 300;  // characters of a formula: three lines
+constexpr std::size_t longest = 450;  // characters of a formula: five lines
+constexpr std::size_t most_operations = 20000, most_operations_of_one = 1000;
 
 using Kind = ConstraintFormulas::Step::Kind;
 
@@ -24,32 +28,50 @@ bool is_number(const std::string& text) {
   return text.find_first_not_of("0123456789.+-e") == std::string::npos;
 }
 
-// Equations on the way to their reduced form.
+// Equations on the way to their reduced form. On a manifold with as many ẋ as v = C ẋ, velocities
+// are ẋ, and equations are taken modulo what points and velocities satisfy.
 class EquationReduction {
  public:
   EquationReduction(const ImplicitSystem& system, const State& point)
-      : point_(point), x_(named(graph_, system.names().coordinates)), t_(graph_.variable("t")) {
-    const ExprVector v = named(graph_, velocity_names(system));
+      : x_(named(graph_, system.names().coordinates)), t_(graph_.variable("t")) {
+    const Manifold& M = *system.manifold();
+    const ExprVector rates = named(graph_, velocity_names(system));
     const ExprVector z = named(graph_, system.names().auxiliary);
-    velocity_count_ = v.size();
-    unknowns_.resize(v.size() + z.size());
-    unknowns_ << v, z;
+    velocity_count_ = rates.size();
+    unknowns_.resize(rates.size() + z.size());
+    unknowns_ << rates, z;
     solution_ = unknowns_;
     solved_.assign(static_cast<std::size_t>(unknowns_.size()), false);
-    const Manifold& M = *system.manifold();
-    motion_ = M.frame(x_) * v;
-    const ExprVector on_manifold = M.constraint(x_);
-    for (const Expr& relation : on_manifold) on_points_.relations.push_back(relation);
+    motion_ = M.frame(x_) * rates;
+    numbers_.resize(x_.size() + 1 + unknowns_.size());
+    numbers_ << point.x, point.t, point.v, point.z;
+
+    ExprVector v = rates;
+    const ExprVector constraint = M.constraint(x_);
+    const std::vector<Expr> on_manifold(constraint.begin(), constraint.end());
+    on_points_.relations = NormalForm(x_, on_manifold).basis();
     on_vectors_ = on_points_;
-    if (on_manifold.size() > 0 && M.tangent_dimension() == M.ambient_dimension()) {
-      tangent_ = M.coframe(x_) * v;
-      for (const Expr& relation : tangent(on_manifold, x_, v))
-        on_vectors_.relations.push_back(relation);
+    if (!on_manifold.empty() && M.tangent_dimension() == M.ambient_dimension()) {
+      v = M.coframe(x_) * rates;
+      motion_ = rates;
+      numbers_.segment(x_.size() + 1, rates.size()) =
+          values(M.frame(constants(point.x)) * constants(point.v));
+      const ExprVector along = tangent(constraint, x_, rates);
+      std::vector<Expr> relations = on_manifold;
+      relations.insert(relations.end(), along.begin(), along.end());
+      normal_form_.emplace(variables(), relations);
+      on_vectors_.relations = normal_form_->basis();
     }
-    const ExprVector F = system.residual(x_, v, z, t_);
-    for (const Expr& equation : F)
-      if (!is_zero(equation)) equations_.push_back(equation);
+    const ExprVector equations = system.residual(x_, v, z, t_);
+    is_too_large_ = Subgraph(equations).size() > most_operations;
+    if (is_too_large_) return;
+    for (const Expr& equation : equations) add(equation);
+    if (normal_form_)
+      if (auto others = normal_form_->eliminated(equations_, unknowns_); !others.empty())
+        equations_ = others;
   }
+
+  bool is_too_large() const { return is_too_large_; }
 
   // Solves for unknowns while it can; what is left without unknowns and is not identically zero is
   // returned, and taken off.
@@ -73,8 +95,14 @@ class EquationReduction {
     return tangent(ExprVector::Constant(1, function), at, rate)[0];
   }
   // With what is known of the unknowns put in.
-  Expr reduced(const Expr& function) const { return substitute(function, unknowns_, solution_); }
-  void add(const Expr& equation) { equations_.push_back(equation); }
+  Expr reduced(const Expr& function) { return normal(substitute(function, unknowns_, solution_)); }
+  void add(const Expr& equation) {
+    if (const Expr remainder = normal(equation); !is_zero(remainder))
+      equations_.push_back(remainder);
+  }
+
+  // Solutions satisfy it.
+  void add_constraint(const Expr& function) { constraints_.push_back(function); }
 
   bool has_unknown(const Expr& function) const {
     for (const Expr& entry : gradient(function, unknowns_))
@@ -82,7 +110,7 @@ class EquationReduction {
     return false;
   }
   double value(const Expr& function) const {
-    const Expr number = substitute(function, variables(), constants(numbers()));
+    const Expr number = substitute(function, variables(), constants(numbers_));
     return number.is_constant() ? number.value() : std::nan("");
   }
   // In the tangent representation.
@@ -95,18 +123,19 @@ class EquationReduction {
   }
 
   std::string written(const Expr& function) const {
-    return short_enough(simplified(in_names(function), given(function)));
+    return short_enough(simplified(function, given(function)));
   }
   std::string written_equation(const Expr& function) const {
-    return short_enough(simplified_equation(in_names(function), given(function)));
+    return short_enough(simplified_equation(function, given(function)));
   }
   // Of unknown u (velocities first) in x and t; empty if others are left in it.
-  std::string solution(Index u) const {
+  std::string solution(Index u) {
     if (!is_function_of_the_point(u)) return "";
-    return written(reduced(named_unknown(u)));
+    const Simplification on_solutions{on_points_.relations, constraints_};
+    return short_enough(simplified(reduced(unknowns_[u]), on_solutions));
   }
-  bool is_function_of_the_point(Index u) const {
-    return solved_[static_cast<std::size_t>(u)] && !has_unknown(reduced(named_unknown(u)));
+  bool is_function_of_the_point(Index u) {
+    return solved_[static_cast<std::size_t>(u)] && !has_unknown(reduced(unknowns_[u]));
   }
   Index velocity_count() const { return velocity_count_; }
 
@@ -119,14 +148,8 @@ class EquationReduction {
            (!has_unknown(function) && simplified(function, on_points_) == "0");
   }
 
-  // The names of velocities are those of ẋ where it has as many components: v = C ẋ, ẋ = E v.
-  Expr in_names(const Expr& function) const {
-    return tangent_.size() > 0 ? substitute(function, unknowns_.head(velocity_count_), tangent_)
-                               : function;
-  }
-  Expr named_unknown(Index u) const {
-    return tangent_.size() > 0 && u < velocity_count_ ? motion_[u] : unknowns_[u];
-  }
+  // Where the point and the velocity are on the manifold.
+  Expr normal(const Expr& function) { return normal_form_ ? (*normal_form_)(function) : function; }
   const Simplification& given(const Expr& function) const {
     return has_unknown(function) ? on_vectors_ : on_points_;
   }
@@ -136,12 +159,6 @@ class EquationReduction {
     all << x_, t_, unknowns_;
     return all;
   }
-  VectorXd numbers() const {
-    VectorXd all(x_.size() + 1 + unknowns_.size());
-    all << point_.x, point_.t, point_.v, point_.z;
-    return all;
-  }
-
   // Solves the equation with fewest unknowns for one that is linear in it; constant coefficients
   // first. False if there is none.
   bool solve_one() {
@@ -150,6 +167,9 @@ class EquationReduction {
     double best_cost = 1e9;
     for (std::size_t e = 0; e < equations_.size(); ++e) {
       if (equations_[e].is_constant()) continue;
+      // Nothing that could be written comes of what is so long.
+      if (Subgraph(ExprVector::Constant(1, equations_[e])).size() > most_operations_of_one)
+        continue;
       const ExprVector g = gradient(equations_[e], unknowns_);
       Index count = 0;
       for (const Expr& entry : g) count += entry.is_constant(0.0) ? 0 : 1;
@@ -180,26 +200,28 @@ class EquationReduction {
                                                         : -rest / coefficient;
     equations_.erase(equations_.begin() + static_cast<std::ptrdiff_t>(best_equation));
     const ExprVector by = ExprVector::Constant(1, result);
-    for (Expr& other : equations_) other = substitute(other, unknown, by);
-    solution_[best_unknown] = result;
+    for (Expr& other : equations_) other = normal(substitute(other, unknown, by));
+    solution_[best_unknown] = normal(result);
     solved_[static_cast<std::size_t>(best_unknown)] = true;
     for (Index u = 0; u < solution_.size(); ++u)
       if (solved_[static_cast<std::size_t>(u)])
-        solution_[u] = substitute(solution_[u], unknown, by);
+        solution_[u] = normal(substitute(solution_[u], unknown, by));
     return true;
   }
 
   Graph graph_;
-  const State& point_;
   ExprVector x_;
   Expr t_;
   Index velocity_count_ = 0;
   ExprVector unknowns_, solution_;  // velocities, then auxiliary unknowns
-  ExprVector motion_;               // ẋ = E(x) v
-  ExprVector tangent_;              // C(x) ẋ, on a manifold with as many ẋ as v; else empty
+  ExprVector motion_;               // ẋ
+  VectorXd numbers_;                // of variables(), at the point
   Simplification on_points_, on_vectors_;
+  std::optional<NormalForm> normal_form_;
+  std::vector<Expr> constraints_;
   std::vector<bool> solved_;
   std::vector<Expr> equations_;
+  bool is_too_large_ = false;
 };
 
 // The formulas of one system, found level by level.
@@ -212,6 +234,7 @@ class Derivation {
         is_told_(static_cast<std::size_t>(elimination_.velocity_count()), false) {}
 
   ConstraintFormulas operator()(Index levels) {
+    if (elimination_.is_too_large()) return {};
     for (Index level = 0; level <= levels; ++level) {
       found_.clear();
       for (const Expr& function : elimination_.constraints()) add_constraint(level, function);
@@ -253,6 +276,7 @@ class Derivation {
     known_.rightCols(1) = g.normalized();
     if (!formula.empty()) result_.constraints.push_back({level, formula});
     found_.push_back(function);
+    elimination_.add_constraint(function);
   }
 
   void differentiate(Index level, const Expr& function, bool goes_on) {

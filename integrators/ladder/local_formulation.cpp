@@ -17,11 +17,12 @@ ExprVector with_reduced_blocks(const ImplicitSystem& system, const LinearMap<Exp
                               zeros ? basis.rows() : basis.cols());
 }
 
-// Which combination of a tangent block stands in which of its equations is up to the basis, and
-// bases turn on the way: each is differentiated as often as any of the block.
+// Which combination of a tangent block stands in which of its equations is up to the basis or, away from
+// its origin, to the chart: on curved spaces each is differentiated as often as any of the block.
 std::vector<int> without_basis(const ImplicitSystem& system, const LinearMap<Expr>& basis,
                                std::vector<int> differentiations) {
-  if (basis.rows() == basis.cols() || differentiations.empty()) return differentiations;
+  const Manifold& M = *system.manifold();
+  if (M.dimension() == M.ambient_dimension() || differentiations.empty()) return differentiations;
   for (Index b = 0; b < system.tangent_blocks(); ++b) {
     const auto first = differentiations.begin() + b * basis.rows();
     const auto last = first + basis.rows();

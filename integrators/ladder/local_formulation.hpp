@@ -15,8 +15,9 @@ namespace courant {
 // Where n = Ñ the basis B is the identity, and no parameter.
 //
 // Where n < Ñ, a block of Ñ equations that is a tangent vector or covector r (ImplicitSystem::
-// tangent_blocks) stands in `equations` as Bᵀr and Ñ - n zeros: near x₀ that says the same. All of
-// a block are differentiated as often as the one that is most often, so that nothing depends on B.
+// tangent_blocks) stands in `equations` as Bᵀr and Ñ - n zeros: near x₀ that says the same. On curved
+// spaces all of a block are differentiated as often as the one that is most often, so that nothing
+// depends on B, nor on where in the chart x is.
 struct LocalFormulation {
   // Traces in `graph` with chart origin `x0` (N) and basis `basis` (Ñ × n). Equation i is
   // differentiated differentiations[i] times; jets up to the order that they contain are made.

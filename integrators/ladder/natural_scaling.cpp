@@ -5,8 +5,6 @@
 #include <random>
 #include <utility>
 
-#include "courant/core/product_scaling.hpp"
-
 namespace courant {
 namespace {
 
@@ -38,20 +36,8 @@ VectorXd significant(const Linearization& at) {
 }
 
 NaturalScaling::NaturalScaling(const Linearization& at, const VectorXd& reach, double noise,
-                               double least_size)
-    : NaturalScaling(at, reach, equilibrate(at.jacobian, noise), least_size) {}
-
-NaturalScaling NaturalScaling::matched(const Linearization& at, const VectorXd& reach) {
-  Equilibration<SparseMatrixXd> scales = equilibrate(at.jacobian, 0.0);
-  const ProductScaling products(scales.scaled);
-  scales.row_scale = scales.row_scale.cwiseProduct(products.row_scale);
-  scales.column_scale = scales.column_scale.cwiseProduct(products.column_scale);
-  scales.scaled = scales.row_scale.asDiagonal() * at.jacobian * scales.column_scale.asDiagonal();
-  return {at, reach, std::move(scales), 0.0};
-}
-
-NaturalScaling::NaturalScaling(const Linearization& at, const VectorXd& reach,
-                               Equilibration<SparseMatrixXd> equilibrated, double least_size) {
+                               double least_size) {
+  Equilibration<SparseMatrixXd> equilibrated = equilibrate(at.jacobian, noise);
   scaled = std::move(equilibrated.scaled);
   row_scale = std::move(equilibrated.row_scale);
   column_scale = std::move(equilibrated.column_scale);

@@ -34,18 +34,9 @@ struct NaturalScaling {
   NaturalScaling(const Linearization& at, const VectorXd& reach, double noise = 1.5e-14,
                  double least_size = 0.0);
 
-  // The same with scales by largest products (ProductScaling) on top: where one unknown is determined by a
-  // small difference of equations, as the potential of a rectifier that blocks, small entries do not
-  // choose the units of the others.
-  static NaturalScaling matched(const Linearization& at, const VectorXd& reach);
-
   // max over components of ‖F‖_∞ / ‖ |S| |y| ‖_∞ in these units: the distance from a zero, next to
   // what the equations are made of.
   double defect(const VectorXd& value, const VectorXd& reach) const;
-
- private:
-  NaturalScaling(const Linearization& at, const VectorXd& reach,
-                 Equilibration<SparseMatrixXd> equilibrated, double least_size);
 };
 
 // The largest |J_ij| at y and at points whose unknowns differ from y by up to a tenth of their

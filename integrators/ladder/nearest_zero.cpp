@@ -165,51 +165,71 @@ VectorXd stepped(const VectorXd& y, const VectorXd& units, const VectorXd& delta
   return there;
 }
 
-// |F'| for the unknowns that move, without what is within the bound of its error. Equations of others alone
-// are measured by those.
-SparseMatrixXd moving_part(const Linearization& at, const Mobility& mobility) {
-  SparseMatrixXd part = at.jacobian.cwiseAbs();
-  const bool has_errors = at.error.rows() == part.rows() && at.error.cols() == part.cols();
-  const auto counts = [&](Index i, Index j, double size) {
-    return size > (has_errors ? at.error.coeff(i, j) : 0.0);
-  };
-  std::vector<bool> moves(static_cast<std::size_t>(part.rows()), false);
-  for (Index j = mobility.frozen; j < part.outerSize(); ++j)
-    for (SparseMatrixXd::InnerIterator it(part, j); it; ++it)
-      if (counts(it.row(), j, it.value())) moves[static_cast<std::size_t>(it.row())] = true;
-  part.prune([&](Index i, Index j, double size) {
-    return (j >= mobility.frozen || !moves[static_cast<std::size_t>(i)]) && counts(i, j, size);
-  });
-  return part;
-}
-
-// Sizes of unknowns that begin at y: what is typical of them counts.
-VectorXd reach_of(const VectorXd& y, const Mobility& mobility) {
-  const VectorXd size = y.cwiseAbs();
-  return mobility.typical.size() > 0 ? VectorXd(size.cwiseMax(mobility.typical)) : size;
-}
-
 // The units of a search at its points, as its mobility asks for them.
 class SearchUnits {
  public:
   SearchUnits(const LinearizableMap& map, const Mobility& mobility, const VectorXd& y,
               const VectorXd& reach, const Linearization& at)
       : mobility_(mobility), magnitude_(mobility.magnitude) {
-    if (!mobility.is_matched && magnitude_.size() == 0)
-      magnitude_ = generic_magnitude(map, y, reach, at);
+    if (magnitude_.size() == 0) magnitude_ = generic_magnitude(map, y, reach, at);
   }
 
   NaturalScaling operator()(const Linearization& at, const VectorXd& reach) {
-    if (mobility_.is_matched)
-      return NaturalScaling::matched({at.value, moving_part(at, mobility_), at.value_error}, reach);
     magnitude_ = SparseMatrixXd(magnitude_.cwiseMax(SparseMatrixXd(at.jacobian.cwiseAbs())));
+    if (mobility_.has_exponentials) heed(at);
     return NaturalScaling({at.value, magnitude_, at.value_error}, reach);
   }
 
  private:
+  // What a diode conducts by elsewhere is no size of what it blocks by: entries that are not round-off here
+  // are what they are here. Frozen unknowns are no matter of equations that others are in.
+  void heed(const Linearization& at) {
+    constexpr double steep = 1e3;
+    std::vector<bool> moves(static_cast<std::size_t>(magnitude_.rows()), false);
+    for (Index j = 0; j < magnitude_.outerSize(); ++j)
+      for (SparseMatrixXd::InnerIterator it(magnitude_, j); it; ++it) {
+        const double here = std::fabs(at.jacobian.coeff(it.row(), j));
+        const double error = at.error.size() > 0 ? at.error.coeff(it.row(), j) : 0.0;
+        if (here > error && it.value() > steep * here) it.valueRef() = here;
+        if (j >= mobility_.frozen && it.value() > 0.0)
+          moves[static_cast<std::size_t>(it.row())] = true;
+      }
+    magnitude_.prune([&](Index i, Index j, double) {
+      return j >= mobility_.frozen || !moves[static_cast<std::size_t>(i)];
+    });
+  }
+
   const Mobility& mobility_;
   SparseMatrixXd magnitude_;
 };
+
+// `units`, smaller where a step by one of them would change a derivative to more than 1000 times the largest one
+// of its equation: an exponential leads out of the range of numbers, when a unit is what a diode blocks by.
+NaturalScaling curbed(NaturalScaling units, const LinearizableMap& map, const VectorXd& y,
+                      const Linearization& at, const Mobility& mobility) {
+  constexpr double most = 1e3;
+  const SparseMatrixXd here = at.jacobian.cwiseAbs();
+  VectorXd largest = VectorXd::Zero(here.rows());  // of a row, in units
+  for (Index j = mobility.frozen; j < here.outerSize(); ++j)
+    for (SparseMatrixXd::InnerIterator it(here, j); it; ++it)
+      largest[it.row()] = std::max(largest[it.row()], it.value() * units.column_scale[j]);
+  const auto grows = [&](Index moved, double size) {
+    VectorXd there = y;
+    there[moved] += size;
+    const Linearization next = map(there);
+    if (!is_finite(next)) return true;
+    for (Index j = mobility.frozen; j < next.jacobian.outerSize(); ++j)
+      for (SparseMatrixXd::InnerIterator it(next.jacobian, j); it; ++it)
+        if (std::fabs(it.value()) * units.column_scale[j] > most * largest[it.row()]) return true;
+    return false;
+  };
+  for (Index j = mobility.frozen; j < y.size(); ++j) {
+    double size = units.column_scale[j];
+    for (int k = 0; k < 60 && (grows(j, size) || grows(j, -size)); ++k) size *= 0.25;
+    units.column_scale[j] = size;
+  }
+  return units;
+}
 
 // With `safeguard`, every step has to be an improvement; else full steps are made.
 Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& mobility,
@@ -218,7 +238,8 @@ Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& m
   const int most_iterations = safeguard ? 100 : 25;
   Zero zero;
   zero.y = start;
-  zero.reach = reach_of(start, mobility);
+  zero.reach = start.cwiseAbs();
+  if (mobility.typical.size() > 0) zero.reach = zero.reach.cwiseMax(mobility.typical);
   zero.defect = std::numeric_limits<double>::infinity();
   Linearization at = map(start);
   zero.is_finite = is_finite(at);
@@ -233,7 +254,7 @@ Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& m
   constexpr int most_slow_steps = 3;
   int slow_steps = 0;
   while (moves) {
-    const NaturalScaling units = units_at(at, zero.reach);
+    NaturalScaling units = units_at(at, zero.reach);
     const VectorXd value = significant(at);
     const VectorXd g = units.row_scale.cwiseProduct(value);
     zero.scaled_value = g;
@@ -241,6 +262,8 @@ Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& m
     const bool rounded = is_rounded(at);
     zero.found = rounded || zero.defect <= kAccepted;
     zero.history.push_back(zero.defect);
+    const bool is_curbed = mobility.has_exponentials && !zero.found && is_small(at.jacobian);
+    if (is_curbed) units = curbed(std::move(units), map, zero.y, at, mobility);
     SparseMatrixXd S = units.row_scale.asDiagonal() * at.jacobian * units.column_scale.asDiagonal();
     S.prune([&](Index, Index column, double) { return column >= mobility.frozen; });
     moves = false;
@@ -251,7 +274,7 @@ Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& m
     const double most_damping = 1e8 * std::min(std::max(1.0, g.norm()), 1e60);
     // At the level of rounding a step that does not help is the end; far from it, too long.
     for (double mu = damping; !is_done && !moves && mu <= (zero.found ? damping : most_damping);
-         mu = std::max(100.0 * mu, least_damping)) {
+         mu = std::max((is_curbed ? 10.0 : 100.0) * mu, least_damping)) {
       const DampedInverse inverse(S, mobility.cost, mu);
       const VectorXd delta = inverse.step(g);
       if (delta.size() == 0 || !delta.allFinite()) continue;
@@ -287,6 +310,10 @@ Zero search(const LinearizableMap& map, const VectorXd& start, const Mobility& m
     }
     if (moves || !zero.found) continue;
     zero.uncertainty = uncertainty(at, units, S, mobility);
+    // exp (v/25 mV) - 1 leaves of a voltage that is 0 what it takes from 1.
+    if (mobility.has_exponentials)
+      for (Index j = mobility.frozen; j < zero.y.size(); ++j)
+        if (start[j] == 0.0 && std::fabs(zero.y[j]) <= zero.uncertainty[j]) zero.y[j] = 0.0;
     // Unknowns that F leaves open collect noise of the iteration, and given ones bring that of the
     // computation that they come from. What is proportional to it must not look like a number.
     for (Index j = 0; j < zero.y.size(); ++j) {
@@ -316,26 +343,10 @@ Zero find_zero(const LinearizableMap& map, const VectorXd& start, const Mobility
   return bold.found ? bold : careful;
 }
 
-bool is_steep(const LinearizableMap& map, const VectorXd& start, const Mobility& mobility) {
-  constexpr double steep = 1e20;
-  const Linearization at = map(start);
-  if (!is_finite(at) || !is_small(at.jacobian)) return false;
-  const SparseMatrixXd there = moving_part(at, mobility),
-                       around = generic_magnitude(map, start, reach_of(start, mobility), at);
-  for (Index j = mobility.frozen; j < there.outerSize(); ++j)
-    for (SparseMatrixXd::InnerIterator it(there, j); it; ++it)
-      if (around.coeff(it.row(), j) > steep * it.value()) return true;
-  return false;
-}
-
-bool is_zero(const LinearizableMap& map, const Zero& found, const Mobility& mobility) {
-  constexpr double unseen = 1e-4;  // of an equation, not of its digits
-  const Linearization at = map(found.y);
-  if (!is_finite(at)) return false;
-  if (is_rounded(at)) return true;
-  const NaturalScaling units =
-      SearchUnits(map, mobility, found.y, found.reach, at)(at, found.reach);
-  return units.defect(significant(at), found.reach) <= unseen;
+bool is_met(const Linearization& at) {
+  constexpr double unseen = 1e-6;  // of the terms
+  return at.value_error.size() != at.value.size() ||
+         (at.value.array().abs() <= unseen / Uncertain::unit * at.value_error.array()).all();
 }
 
 VectorXd kernel_part(const SparseMatrixXd& S, const VectorXd& direction) {

@@ -19,9 +19,10 @@ struct Mobility {
   double noise = 1e-11;           // natural units below which what is left of an unknown is noise
   // The generic magnitude of the derivatives around the start, where it is known; may be empty.
   SparseMatrixXd magnitude = SparseMatrixXd();
-  // Units by the derivatives at each point itself, of the unknowns that move, and by their largest products
-  // (NaturalScaling::matched), instead of by what derivatives are around the start.
-  bool is_matched = false;
+  // Whether derivatives grow as those of exp (v/25 mV) do: they are measured by what they are at each point, not
+  // around it, and steps are as short as they have to be for derivatives to stay of their size. Heeded
+  // for up to 200 unknowns.
+  bool has_exponentials = false;
   // Whether y may be gone to, as the domain of a chart allows; empty: anything may.
   std::function<bool(const VectorXd& y)> admits = {};
 };
@@ -60,12 +61,9 @@ struct Zero {
 // falls.
 Zero find_zero(const LinearizableMap& map, const VectorXd& start, const Mobility& mobility);
 
-// Whether a derivative is over 10²⁰ times around the start what it is there, and no round-off there: as that
-// of exp (v/25 mV), whose units say nothing of the start. Not looked for with more than 200 unknowns.
-bool is_steep(const LinearizableMap& map, const VectorXd& start, const Mobility& mobility);
-
-// Whether a zero that was found is one in the units of `mobility` too, up to a ten-thousandth.
-bool is_zero(const LinearizableMap& map, const Zero& found, const Mobility& mobility);
+// Whether every |F_i| is small next to the terms that it is the sum of, which the bound of its rounding error tells.
+// Units that a search met on its way, as those of 3 V across a diode, do not enter.
+bool is_met(const Linearization& at);
 
 // A function to make least: its value, gradient and (Gauss–Newton) Hessian by the first unknowns.
 struct Quadratic {

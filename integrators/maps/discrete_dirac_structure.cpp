@@ -1,7 +1,8 @@
 #include "courant/integrators/maps/discrete_dirac_structure.hpp"
 
-#include <sstream>
 #include <stdexcept>
+
+#include "courant/core/message.hpp"
 
 namespace courant {
 
@@ -38,12 +39,10 @@ double DiscreteDiracStructure::pairing(const VectorXd& x0, const VectorXd& x1,
   const auto [x, v] = map_->inverse(x0, x1);
   const auto [y, w] = map_->inverse(y0, y1);
   const double apart = structure_->manifold()->separation(x, y);
-  if (!(apart <= 1e-9)) {
-    std::ostringstream text;
-    text << "DiscreteDiracStructure::pairing: the pairs of points are over base points that are "
-         << apart << " apart; expected one base point, up to 1e-09.";
-    throw std::domain_error(text.str());
-  }
+  if (!(apart <= 1e-9))
+    throw std::domain_error(
+        "DiscreteDiracStructure::pairing: the pairs of points are over base points that are " +
+        number_text(apart) + " apart; expected one base point, up to 1e-09.");
   return courant::pairing(v, alpha, w, beta);
 }
 

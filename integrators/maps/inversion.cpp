@@ -1,10 +1,10 @@
 #include "courant/integrators/maps/inversion.hpp"
 
-#include <sstream>
 #include <stdexcept>
 #include <vector>
 
 #include "courant/core/gauss_newton.hpp"
+#include "courant/core/message.hpp"
 
 namespace courant {
 
@@ -67,11 +67,11 @@ DiscretizationMap::TangentVector<double> Inversion::operator()(const VectorXd& x
     const VectorXd value = image_({zero.y, x0, entries});
     return {value.segment(2 * N, N), value.tail(M.tangent_dimension())};
   }
-  std::ostringstream message;
-  message << map_.name() << "::inverse: no tangent vector is mapped to (x0, x1), defect "
-          << zero.defect
-          << " after Newton's method; expected 0. The points are too far apart for this map.";
-  throw std::domain_error(message.str());
+  throw std::domain_error(map_.name() +
+                          "::inverse: no tangent vector is mapped to (x0, x1), defect " +
+                          number_text(zero.defect) +
+                          " after Newton's method; expected 0. The points are too far apart for "
+                          "this map.");
 }
 
 }  // namespace courant

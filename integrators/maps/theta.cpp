@@ -1,23 +1,13 @@
 #include "courant/integrators/maps/theta.hpp"
 
-#include <sstream>
 #include <stdexcept>
 
 #include "courant/core/message.hpp"
 
 namespace courant {
-namespace {
-
-std::string name_of(double theta) {
-  std::ostringstream name;
-  name << "Theta(" << theta << ")";
-  return name.str();
-}
-
-}  // namespace
 
 Theta::Theta(std::shared_ptr<const Manifold> manifold, double theta)
-    : DiscretizationMap(name_of(theta), std::move(manifold)), theta_(theta) {
+    : DiscretizationMap("Theta(" + number_text(theta) + ")", std::move(manifold)), theta_(theta) {
   if (!(theta >= 0.0 && theta <= 1.0))
     throw std::invalid_argument("Theta::Theta: theta is " + number_text(theta) +
                                 "; expected a number in [0, 1].");

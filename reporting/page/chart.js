@@ -195,7 +195,7 @@ class Chart {
     const times = curve.time, last = times.length - 1;
     if (!(time >= times[0] && time <= times[last])) return null;
     const i = Math.min(lastBefore(times, time), Math.max(0, last - 1)), j = Math.min(i + 1, last);
-    const part = j > i && times[j] > times[i] ? (time - times[i]) / (times[j] - times[i]) : 0;
+    const part = !curve.scattered && j > i && times[j] > times[i] ? (time - times[i]) / (times[j] - times[i]) : 0;
     const a = this.place(curve, i), b = this.place(curve, j);
     const place = {x: a.x + part * (b.x - a.x), y: a.y + part * (b.y - a.y), front: a.front};
     return Number.isFinite(place.x) && Number.isFinite(place.y) ? place : null;

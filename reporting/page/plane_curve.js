@@ -5,6 +5,7 @@ class PlaneCurve {
     this.chart = chart;
     this.curve = curve;
     this.drawn = Array.from(curve.element.children);
+    curve.scattered = this.drawn.some((path) => path.classList.contains('dots'));
     this.errors = curve.whole ? {rows: 0, drawing: 1} : {rows: this.errorOfRows(), drawing: this.drawn.some(isBand) ? 1 : 0.1};
   }
 
@@ -12,6 +13,7 @@ class PlaneCurve {
   // misses them by the width of a band's columns, a pixel, or a tenth: plotting/figure.cpp.)
   errorOfRows() {
     const {x, y, overTime} = this.chart, {curve} = this;
+    if (curve.scattered) return 0;
     if (overTime) return (x.drawn[1] - x.drawn[0]) / curve.stretches;
     // How far a smooth curve is from its chords.
     let error = 0;
@@ -40,7 +42,8 @@ class PlaneCurve {
     const add = (attributes) => { if (attributes.d) paths.push(svg('path', attributes)); };
     if (many) add({class: 'band', 'fill-opacity': 0.35, 'stroke-width': 0.8, d: this.envelope(begin, end)});
     if (coarse && chart.overTime) add({class: 'rest', 'fill-opacity': 0.2, d: this.boxes(begin, end)});
-    if (!many) add({class: 'line', fill: 'none', 'stroke-width': 1.4, d: this.polyline(begin, end)});
+    if (curve.scattered) add({class: 'dots', fill: 'none', 'stroke-width': 3, 'stroke-linecap': 'round', d: this.dots()});
+    else if (!many) add({class: 'line', fill: 'none', 'stroke-width': 1.4, d: this.polyline(begin, end)});
     curve.element.replaceChildren(...paths);
     if (!coarse) return '';
     const count = readable(curve.thinning, 2);
@@ -79,6 +82,16 @@ class PlaneCurve {
         pen = true;
       }
       before = place;
+    }
+    return d;
+  }
+
+  // Lines without length at the rows inside the area.
+  dots() {
+    let d = '';
+    for (let i = 0; i < this.curve.size; ++i) {
+      const place = this.chart.place(this.curve, i);
+      if (Number.isFinite(place.x) && Number.isFinite(place.y) && this.chart.inside(place, 0)) d += 'M' + point(place) + 'Z';
     }
     return d;
   }

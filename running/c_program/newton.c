@@ -197,7 +197,8 @@ static int iterate(struct newton *N, const double *const *in, const double *scal
     if (compared > 0) {
       int stalled, stagnant, rounded, slow, still;
       contraction = moved / previous;
-      if (contraction < 0.5 && previous <= 1e-2 && contraction * moved <= (1.0 - contraction) * tolerance)
+      if (contraction < 0.5 && previous <= 1e-2 &&
+          largest_of(contraction, previous) * moved <= (1.0 - contraction) * tolerance)
         return 1;
       stalled = contraction > 0.5;
       stagnant = fresh && compared == 1 && contraction > 0.9 && moved <= brief;

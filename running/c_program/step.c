@@ -45,7 +45,7 @@ static void begin_epoch(struct state *state) {
       learn_at_end(&steppers[i], c, &steppers[end.part], end.times, parts[i] / parts[end.part]);
     }
   for (i = 0; i < PARTS; ++i) forget(&steppers[i]);
-  prepare(&steppers[0], state, parts[0] * step_size);
+  prepare(&steppers[0], state, parts[0] * (step_size / time_unit));
   steppers[0].after = *state;
   steppers[0].is_prepared = 1;
 }

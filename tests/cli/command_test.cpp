@@ -286,12 +286,18 @@ BOOST_AUTO_TEST_CASE(cache_lists_and_clears, *boost::unit_test::precondition([](
   unsetenv("COURANT_CACHE");
 }
 
-// Once, with the reason; who asked for the interpreter, or for silence, is not told.
+// Once, with the reason, where code would be worth it; who asked for the interpreter, or for silence, is
+// not told.
 BOOST_AUTO_TEST_CASE(falling_back_to_the_interpreter_is_said) {
   const TemporaryFolder folder;
   setenv("COURANT_CC", "no-such-compiler", 1);
-  const Answer answer = courant_command({"run", "-", "-o", (folder / "a").string()}, oscillator);
+  const Answer answer = courant_command(
+      {"run", "-", "-o", (folder / "a").string(), "--set", "/expect=[]", "--set", "/time/end=2000"},
+      oscillator);
   BOOST_TEST(answer.status == 0);
+  const Answer of_ten_steps =
+      courant_command({"run", "-", "-o", (folder / "c").string()}, oscillator);
+  BOOST_TEST(of_ten_steps.err == "");
   BOOST_TEST(answer.err ==
              "courant: formulas are interpreted, which is slower: no C compiler: no-such-compiler "
              "is not found. Install one, name one in COURANT_CC, or use the interpreter.\n");

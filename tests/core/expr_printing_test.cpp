@@ -36,6 +36,14 @@ BOOST_FIXTURE_TEST_CASE(parentheses_are_written_where_they_matter, Names) {
   BOOST_TEST(to_string(exp(-x)) == "exp(-x)");
 }
 
+// 0/0 has no sign, and nothing is made of it.
+BOOST_FIXTURE_TEST_CASE(what_is_no_number_stays_so, Names) {
+  const Expr none = Expr(0.0) / 0.0;
+  for (const Expr& a : {none / -x, -x * none, none - x, x + none, -none, x - none, none * 0.0})
+    BOOST_TEST(to_string(a) == "nan");
+  BOOST_TEST((Expr(0.0) * x).is_constant(0.0));
+}
+
 BOOST_FIXTURE_TEST_CASE(conditions_and_functions_are_written_as_in_formulas, Names) {
   BOOST_TEST(to_string(select(x < y, x, -y)) == "if(x < y, x, -y)");
   BOOST_TEST(to_string(logical_or(logical_and(x < y, y <= z), equal(x, z))) ==

@@ -318,6 +318,23 @@ BOOST_AUTO_TEST_CASE(the_way_back_from_far_away_is_no_convergence) {
     }
 }
 
+// u is known after one step, and its block does not move any more; what z still moves by is nothing beside
+// its scale. The matrix was made where u was 0.009 away: z u comes closer by that only.
+BOOST_AUTO_TEST_CASE(an_accidental_contraction_is_no_convergence) {
+  const Problem problem = make(2, [](const ExprVector& y, const Expr&) {
+    ExprVector F(2);
+    F << y[0] - 1.009, y[1] * y[0] - 0.2;
+    return F;
+  });
+  Newton newton(problem.function, {1, 1}, {});
+  VectorXd y = Eigen::Vector2d(1.0, 0.21);
+  const double parameter = 0.0;
+  const double scales[] = {1.0, 2e6};
+  const double* in[] = {y.data(), &parameter};
+  BOOST_TEST((newton.solve(y.data(), in, scales).status == Newton::Status::converged));
+  BOOST_TEST(std::abs(y[1] - 0.2 / 1.009) < 1e-10);
+}
+
 // Down the flank of an exponential all of Newton's steps are 26 mV. Measured by 10⁸ V they are as small
 // as round-off, and as equal.
 BOOST_AUTO_TEST_CASE(equal_steps_down_an_exponential_are_no_round_off) {

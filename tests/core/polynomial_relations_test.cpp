@@ -52,7 +52,7 @@ BOOST_AUTO_TEST_CASE(products_and_quotients_of_monomials) {
 
 BOOST_AUTO_TEST_CASE(multiples_of_relations_vanish_and_nothing_else) {
   for (const bool backwards : {false, true}) {
-    const PolynomialRelations relations({on_sphere}, backwards);
+    const PolynomialRelations relations({on_sphere}, {.backwards = backwards});
     BOOST_TEST(relations.remainder(multiple(on_sphere, sum(factor(3), factor(0)))).empty());
     BOOST_TEST((relations.remainder(dot(0, 0)) == one));
     BOOST_TEST((relations.remainder(dot(3, 3)) == dot(3, 3)));
@@ -63,7 +63,7 @@ BOOST_AUTO_TEST_CASE(multiples_of_relations_vanish_and_nothing_else) {
 // x·p itself is no given relation: Σ xᵢ xᵢ (x·p) = x·p.
 BOOST_AUTO_TEST_CASE(consequences_of_several_relations_are_found) {
   for (const bool backwards : {false, true}) {
-    const PolynomialRelations relations(cotangent_bundle(), backwards);
+    const PolynomialRelations relations(cotangent_bundle(), {.backwards = backwards});
     BOOST_TEST(relations.remainder(dot(0, 3)).empty());
     BOOST_TEST(relations.remainder(multiple(dot(0, 3), dot(3, 3))).empty());
     BOOST_TEST(!relations.remainder(dot(3, 3)).empty());
@@ -86,6 +86,22 @@ BOOST_AUTO_TEST_CASE(equal_polynomials_have_one_remainder) {
   const Polynomial a = multiple(multiple(factor(0), factor(0)), factor(4));
   const Polynomial b = sum(a, multiple(multiple(factor(2), factor(5)), dot(0, 3)), 3.0);
   BOOST_TEST((relations.remainder(a) == relations.remainder(b)));
+}
+
+// x u + y = 0, y u + x = 0 with u to be eliminated: x² = y², and u is no longer there.
+BOOST_AUTO_TEST_CASE(a_factor_is_eliminated) {
+  const Polynomial x = factor(0), y = factor(1), u = factor(2);
+  const std::vector<Polynomial> relations = {sum(multiple(x, u), y), sum(multiple(y, u), x)};
+  const PolynomialRelations basis(relations, {.eliminated_from = 2, .eliminated_to = 3});
+  const Polynomial expected = sum(multiple(x, x), multiple(y, y), -1.0);
+  bool found = false;
+  for (const Polynomial& element : basis.basis()) found = found || element == expected;
+  BOOST_TEST(found);
+  for (const Polynomial& relation : relations) BOOST_TEST(basis.remainder(relation).empty());
+  // u is greater than x and y to any power.
+  const PolynomialRelations solved({sum(u, multiple(x, multiple(x, y)))},
+                                   {.eliminated_from = 2, .eliminated_to = 3});
+  BOOST_TEST((solved.remainder(u) == sum({}, multiple(x, multiple(x, y)), -1.0)));
 }
 
 // A denominator is a factor with a negative power, which no relation touches.

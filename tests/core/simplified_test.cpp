@@ -53,6 +53,22 @@ BOOST_AUTO_TEST_CASE(numbers_are_written_as_people_do) {
   BOOST_TEST(text(1e-9 * x) == "1e-09*x");
 }
 
+// Of vortices on a sphere: what stands over the same distance.
+BOOST_AUTO_TEST_CASE(terms_over_the_same_sum_are_put_together) {
+  const Expr one = 1 / (1 - x * y), two = 1 / (1 - x * z);
+  BOOST_TEST(text(one * x + 2 * two * y - one * z + 3 * two * z) ==
+             "(x - z)/(1 - x*y) + 2*(y + 1.5*z)/(1 - x*z)");
+  BOOST_TEST(text(one * x + two * y) == "x/(1 - x*y) + y/(1 - x*z)");
+}
+
+// Multiples of a constraint are replaced, and nothing else is concluded: y stays, though it is -2 z.
+BOOST_AUTO_TEST_CASE(constraints_shorten_and_do_no_more) {
+  const Simplification given{.constraints = {square(x) + square(y) - 1, y + 2 * z}};
+  BOOST_TEST(simplified(z / (square(x) + square(y)), given).value_or("") == "z");
+  BOOST_TEST(simplified(square(x) * z + x * y, given).value_or("") == "x^2*z + x*y");
+  BOOST_TEST(simplified(x * y + 2 * x * z + 3 * y, given).value_or("") == "3*y");
+}
+
 // What is left when numbers cancel is not written; a small number that nothing cancelled is.
 BOOST_AUTO_TEST_CASE(round_off_is_not_written) {
   BOOST_TEST(text((0.1 + 0.2) * x - 0.3 * x + y) == "y");

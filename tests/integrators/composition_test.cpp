@@ -113,11 +113,12 @@ BOOST_AUTO_TEST_CASE(orders_with_explicit_time) {
 BOOST_AUTO_TEST_CASE(claims_are_those_of_the_method) {
   const HeldOnSphere held;
   const DrivenPendulum pendulum;
+  const auto first = pendulum.method_1(), second = method_2(held);
   for (const int order : {4, 6, 8}) {
-    const Composition on_constraints(method_2(held), order), free(pendulum.method_1(), order);
+    const Composition on_constraints(second, order), free(first, order);
     BOOST_TEST(free.is_symmetric());
-    BOOST_TEST((free.is_symplectic() == pendulum.method_1()->is_symplectic()));
-    BOOST_TEST((on_constraints.is_symplectic() == method_2(held)->is_symplectic()));
+    BOOST_TEST((free.is_symplectic() == first->is_symplectic()));
+    BOOST_TEST((on_constraints.is_symplectic() == second->is_symplectic()));
     BOOST_TEST(free.name() == "discretize-first of order " + std::to_string(order));
     const State there = free.advance(pendulum.initial, 0.2);
     BOOST_TEST((free.advance(there, -0.2).x - pendulum.initial.x).norm() < 1e-14);
@@ -140,6 +141,7 @@ BOOST_AUTO_TEST_CASE(stages_keep_what_they_know) {
     const SolverStatistics& counted = stepper->statistics();
     BOOST_TEST(counted.steps == 60);
     BOOST_TEST(counted.failures == 0);
+    BOOST_TEST(counted.iterations >= 60 * stages);
     BOOST_TEST(counted.iterations <= 2 * stages * plain->statistics().iterations);
     BOOST_TEST(counted.factorizations <= 2 * stages * plain->statistics().factorizations);
   }
@@ -226,8 +228,9 @@ double substeps_from_fresh(const Integrator& method, const State& initial, int o
 // Steps so large that they are confirmed by continuation are those of fresh steppers too.
 BOOST_AUTO_TEST_CASE(stages_make_the_steps_of_fresh_steppers) {
   const HeldOnSphere held;
+  const auto method = method_2(held);
   for (const double h : {0.1, 0.03})
-    BOOST_TEST(substeps_from_fresh(*method_2(held), held.ladder.point, 8, h) < 1e-14);
+    BOOST_TEST(substeps_from_fresh(*method, held.ladder.point, 8, h) < 1e-14);
 }
 
 // The conormals of the third constraint, x[2] = (x[3]² x[4] + x[4]²/2)'', contain x'': what a stage

@@ -1,10 +1,11 @@
 // Steps whose equations have several solutions.
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <functional>
 #include <optional>
 
+#include "courant/core/lu_decomposition.hpp"
 #include "courant/integrators/constrain_first.hpp"
 #include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/ladder/constraint_algorithm.hpp"
@@ -125,7 +126,7 @@ std::optional<VectorXd> reference(const Case& at, const VectorXd& x, double h) {
         down[j] -= d;
         J.col(j) = (residual(up, next) - residual(down, next)) / (2.0 * d);
       }
-      const Eigen::PartialPivLU<MatrixXd> lu(J);
+      const LuDecomposition lu(J);
       if (!(lu.determinant() > 0.0)) break;
       const VectorXd change = lu.solve(residual(y, next));
       y -= change;

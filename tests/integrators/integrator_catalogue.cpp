@@ -4,9 +4,12 @@
 
 #include "courant/integrators/composition.hpp"
 #include "courant/integrators/constrain_first.hpp"
+#include "courant/integrators/damped_composition.hpp"
 #include "courant/integrators/discrete_gradient.hpp"
 #include "courant/integrators/discretize_first.hpp"
+#include "courant/integrators/divided_integrator.hpp"
 #include "courant/integrators/explicit_runge_kutta.hpp"
+#include "courant/integrators/integrator_in_units.hpp"
 #include "courant/integrators/ladder/constraint_algorithm.hpp"
 #include "courant/integrators/maps/adjoint.hpp"
 #include "courant/integrators/maps/cayley_midpoint.hpp"
@@ -75,6 +78,27 @@ class Site {
     for (const auto& [order, longer] : orders)
       add(name + ", order " + std::to_string(order), std::make_shared<Composition>(method, order),
           longer * step_);
+  }
+  // On the manifold of the system, not lifted.
+  void damped_1() const {
+    const auto with = [&](std::size_t i) {
+      return std::make_shared<DiscretizeFirst>(
+          system_, std::make_shared<Theta>(system_->manifold(), DampedComposition::kThetas[i]));
+    };
+    add("discretize-first, damped", std::make_shared<DampedComposition>(with(0), with(1)));
+  }
+  void damped_2() const {
+    const auto with = [&](std::size_t i) {
+      return constrained(
+          std::make_shared<Theta>(system_->manifold(), DampedComposition::kThetas[i]),
+          std::make_shared<OrthogonalProjector>());
+    };
+    add("constrain-first, damped", std::make_shared<DampedComposition>(with(0), with(1)));
+  }
+  void divided(const std::string& name, std::shared_ptr<const Integrator> method,
+               DividedIntegrator::Options options) const {
+    add(name + ", divided",
+        std::make_shared<DividedIntegrator>(std::move(method), std::move(options)));
   }
   void method_2(const std::string& map_name, const MapPointer& map,
                 std::shared_ptr<const Projector> projector) const {
@@ -155,6 +179,12 @@ void on_vector_spaces(std::vector<IntegratorEntry>& table) {
       std::make_shared<DiscretizeFirst>(driven, lift(M, std::make_shared<Theta>(line))),
       {{4, 1.0}, {6, 4.0}, {8, 6.0}});
   pendulum.explicit_methods(3.0);
+  pendulum.damped_1();
+  const auto lifted =
+      std::make_shared<DiscretizeFirst>(driven, lift(M, std::make_shared<Theta>(line)));
+  pendulum.divided("midpoint, halves", lifted, {.halvings = 3});
+  pendulum.divided("midpoint, corners and halves", lifted,
+                   {.corners = {{0.35, 0.0}, {0.41, 0.33}}, .halvings = 3});
 
   // With damping: the map is symplectic, the system is not Lagrangian.
   const auto damped = std::make_shared<examples::FormulaSystem>(M, 0, 2, [](V x, V v, V, T) {
@@ -240,6 +270,7 @@ void with_constraints(std::vector<IntegratorEntry>& table) {
   pendulum.method_2("midpoint, in units", std::make_shared<Theta>(space),
                     std::make_shared<OrthogonalProjector>(Eigen::Vector4d(1.0, 1.0, 3.0, 3.0)));
   pendulum.explicit_methods(4.0);
+  pendulum.damped_2();
 
   // x' = p, p' = -∇V + λ (-y, 0, 1), z' = y x'
   const auto M = std::make_shared<Euclidean>(6);
@@ -251,6 +282,8 @@ void with_constraints(std::vector<IntegratorEntry>& table) {
                           {.x = (VectorXd(6) << 0.3, 0.7, 0.2, 1.0, 0.4, 0.7).finished()}, 0.1,
                           table);
   nonholonomic.method_1("midpoint", std::make_shared<Theta>(M));
+  nonholonomic.damped_1();
+  nonholonomic.damped_2();
   nonholonomic.method_2("midpoint, momentum", std::make_shared<Theta>(M),
                         std::make_shared<MomentumProjector>(*M, std::vector<Index>{3, 4, 5}));
   nonholonomic.composed(
@@ -270,6 +303,7 @@ void on_manifolds(std::vector<IntegratorEntry>& table) {
                       {.x = (VectorXd(6) << 0.6, 0.0, -0.8, 0.4, 0.5, 0.3).finished()}, 0.1, table);
   pendulum.method_1("chordal", lift(M, std::make_shared<Chordal>(sphere)));
   pendulum.method_1("theta = 1", lift(M, std::make_shared<Theta>(sphere, 1.0)));
+  pendulum.damped_1();
   pendulum.discrete_gradients("chordal", lift(M, std::make_shared<Chordal>(sphere)));
 
   // Bases of T(T*S³) turn along the way, and multipliers are found in any of them.
@@ -374,6 +408,25 @@ void in_transformed_time(std::vector<IntegratorEntry>& table) {
        {.system = system, .initial = start, .step = 0.05, .structure = system->structure()}});
 }
 
+void in_other_units(std::vector<IntegratorEntry>& table) {
+  const auto M = cotangent(std::make_shared<Euclidean>(1));
+  const auto system =
+      hamiltonian(M, [](V x, T t) { return 0.5 * square(x[1]) - cos(x[0]) - x[0] * cos(3.0 * t); });
+  const auto measured = std::make_shared<SystemInUnits>(
+      system, Units{.coordinates = Eigen::Vector2d(8.0, 0.25),
+                    .auxiliary = VectorXd::Ones(system->auxiliary_size()),
+                    .equations = VectorXd::Constant(system->equation_count(), 2.0),
+                    .time = 0.5});
+  table.push_back({"discretize-first, midpoint, in other units: driven pendulum",
+                   std::make_shared<IntegratorInUnits>(
+                       measured, std::make_shared<DiscretizeFirst>(
+                                     measured, lift(M, std::make_shared<Theta>(M->base())))),
+                   {.system = system,
+                    .initial = {.t = 0.3, .x = Eigen::Vector2d(0.7, -0.4)},
+                    .step = 0.05,
+                    .structure = system->structure()}});
+}
+
 }  // namespace
 
 std::vector<IntegratorEntry> integrator_catalogue() {
@@ -385,6 +438,7 @@ std::vector<IntegratorEntry> integrator_catalogue() {
   on_duals_of_algebras(table);
   on_a_point(table);
   in_transformed_time(table);
+  in_other_units(table);
   return table;
 }
 

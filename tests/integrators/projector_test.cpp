@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <boost/test/unit_test.hpp>
 
+#include "courant/core/qr_decomposition.hpp"
 #include "courant/integrators/ladder/constraint_algorithm.hpp"
 #include "courant/integrators/natural_units.hpp"
 #include "courant/integrators/projector_laws.hpp"
@@ -109,7 +110,7 @@ BOOST_AUTO_TEST_CASE(laws_reject_what_is_planted) {
   const auto conormals = [](const VectorXd&, const MatrixXd&, const MatrixXd& C) { return C; };
   BOOST_TEST(failed(Planted(conormals, true, false), space, points).empty());
   const auto tangent = [](const VectorXd&, const MatrixXd&, const MatrixXd& C) -> MatrixXd {
-    return C.householderQr().householderQ() * MatrixXd::Identity(4, 4).rightCols(2);
+    return QrDecomposition::in_order(C).Q().rightCols(2);
   };
   BOOST_TEST(failed(Planted(tangent, false, false), space, points).front() == "J1");
   // Along coordinates of whatever basis is given.
@@ -136,8 +137,8 @@ BOOST_AUTO_TEST_CASE(nearest_in_a_metric) {
   const MatrixXd& C = points[0].conormals;
   const Vector4d units(1.0, 2.0, 1e-3, 10.0);
   const MatrixXd one = MatrixXd::Identity(4, 4);
-  const MatrixXd normal = C.transpose().householderQr().householderQ() * MatrixXd::Identity(4, 2);
-  const MatrixXd tangent = MatrixXd(C.transpose().householderQr().householderQ()).rightCols(2);
+  const QrDecomposition factors = QrDecomposition::in_order(C.transpose());
+  const MatrixXd normal = factors.Q(2), tangent = factors.Q().rightCols(2);
   const MatrixXd W = OrthogonalProjector(units).directions(points[0].x, one, normal);
   const MatrixXd G = units.cwiseAbs2().cwiseInverse().asDiagonal();
   BOOST_TEST((tangent.transpose() * G * W).norm() < 1e-9 * (G * W).norm());

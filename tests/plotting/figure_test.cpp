@@ -1,5 +1,6 @@
 #include "courant/plotting/figure.hpp"
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
@@ -151,9 +152,13 @@ BOOST_AUTO_TEST_CASE(axis_labels_are_set_as_mathematics) {
       italics.push_back(span.data());
     }
   }
-  BOOST_TEST(subscripts == (std::vector<std::string>{"theta"}), boost::test_tools::per_element());
+  BOOST_TEST(subscripts == (std::vector<std::string>{"1", "θ"}), boost::test_tools::per_element());
   BOOST_TEST(italics == (std::vector<std::string>{"x", "a", "p", "q"}),
              boost::test_tools::per_element());
+  panel.x.label = "phi_L1 (Wb)";
+  const auto flux = find(parsed(draw(panel).str()), "tspan");
+  BOOST_TEST(std::ranges::any_of(flux, [](const Tree& span) { return span.data() == "φ"; }));
+  BOOST_TEST(std::ranges::any_of(flux, [](const Tree& span) { return span.data() == "L1"; }));
 }
 
 BOOST_AUTO_TEST_CASE(legend_names_what_it_is_given) {
@@ -162,6 +167,22 @@ BOOST_AUTO_TEST_CASE(legend_names_what_it_is_given) {
   BOOST_TEST_REQUIRE(items.size() == 2);
   BOOST_TEST(items[0].data().find("<b>") != std::string::npos);
   BOOST_TEST(attribute(items[1], "class") == "c3");
+}
+
+// No line leads from one to the next.
+BOOST_AUTO_TEST_CASE(rows_that_are_no_curve_are_dots) {
+  Panel panel;
+  panel.series = {{"a", {1, 3, std::nan(""), 2}, {4, 5, 6, 7}, 0, {0, 1, 2, 3}}};
+  panel.scattered = true;
+  for (const std::size_t rows : {std::size_t{0}, std::size_t{100}}) {
+    const auto paths = find(parsed(draw(panel, rows).str()), "path", "dots");
+    BOOST_TEST_REQUIRE(paths.size() == 1U);
+    const std::string d = attribute(paths[0], "d");
+    BOOST_TEST(std::ranges::count(d, 'M') == 3);
+    BOOST_TEST(std::ranges::count(d, 'Z') == 3);
+    BOOST_TEST(std::ranges::count(d, 'L') == 0, d);
+    BOOST_TEST(attribute(paths[0], "stroke-linecap") == "round");
+  }
 }
 
 BOOST_AUTO_TEST_CASE(points_are_drawn_where_there_are_numbers) {

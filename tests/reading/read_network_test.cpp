@@ -48,6 +48,11 @@ BOOST_AUTO_TEST_CASE(wrong_networks_are_refused_in_their_own_words) {
               {"type":"current-source","name":"I2","from":"b","to":"0","value":1},
               {"type":"capacitor","name":"C1","from":"a","to":"b","value":1}])",
           "/system/elements/1: current sources I1 and I2 form a cut-set: there is no other way");
+  refused({"0", "a", "b"},
+          R"([{"type":"current-source","name":"I1","from":"a","to":"b","value":1},
+              {"type":"capacitor","name":"C1","from":"a","to":"0","value":1}])",
+          "/system/elements/0: current source I1 forms a cut-set: there is no other way for its "
+          "current");
   refused({"0", "a", "b"}, R"([{"type":"capacitor","name":"C1","from":"a","to":"0","value":1}])",
           "/system/nodes/2: the node \"b\" floats: no element is connected to it");
   refused({"0", "a", "b", "c"},
@@ -89,6 +94,13 @@ BOOST_AUTO_TEST_CASE(wrong_elements_are_refused) {
         R"(/system/elements/1: has 2 laws; expected only one of "value", "energy" or "voltage")");
   wrong(R"("type":"capacitor","name":"C2","value":-1)",
         "/system/elements/1/value: is -1; expected a number greater than 0");
+  for (const char* ratio : {"0", R"("1-1")"})
+    wrong(
+        std::string(R"("type":"ideal-transformer","name":"T1","secondary":["a","0"],"ratio":)") +
+            ratio,
+        std::string("/system/elements/1/ratio: is ") + ratio + "; expected a number other than 0");
+  wrong(R"("type":"ideal-transformer","name":"T1","secondary":["a"],"ratio":1)",
+        "/system/elements/1/secondary: has 1 entry; expected two names");
   wrong(R"("type":"resistor","name":"R 1","value":1)", R"(/system/elements/1/name: is "R 1")");
   wrong(R"("type":"resistor","name":"R1","value":"1+v_C2")",
         R"(/system/elements/1/value: column 3: unknown name "v_C2")");

@@ -52,15 +52,15 @@ std::string all(const std::vector<std::string>& lines) {
 
 }  // namespace
 
-// x v + y w = 0 by differentiating the length, and T = (v² + w² - y)/(x² + y²) from the second
-// derivative.
+// x v + y w = 0 by differentiating the length, and T = v² + w² - y, (x² + y²) T before, from the
+// second derivative.
 BOOST_AUTO_TEST_CASE(pendulum_in_formulas) {
   const Json found = pendulum();
   BOOST_REQUIRE_EQUAL(found.at("formulas").size(), 2U);
   BOOST_TEST(found["formulas"][0]["formula"] == "x^2 + y^2 - 1");
   BOOST_TEST(found["formulas"][1]["level"] == 1);
   BOOST_TEST(found["formulas"][1]["formula"] == "x*v + y*w");
-  BOOST_TEST(found["unknowns"]["tension"]["formula"] == "(v^2 + w^2 - y)/(x^2 + y^2)",
+  BOOST_TEST(found["unknowns"]["tension"]["formula"] == "v^2 + w^2 - y",
              found["unknowns"]["tension"]["formula"]);
   BOOST_TEST(found["unknowns"]["tension"]["value"].get<double>() == 1.8,
              boost::test_tools::tolerance(1e-12));
@@ -135,6 +135,21 @@ BOOST_AUTO_TEST_CASE(degrees_of_freedom_both_ways) {
   BOOST_TEST(!contains(ladder_explanation(pendulum()), "Classes"));
 }
 
+// A knife edge has no gauge, though its constraint has bracket 0 with itself.
+BOOST_AUTO_TEST_CASE(constraints_on_velocities_have_no_class) {
+  const Json found = ladder(
+      {{"system",
+        {{"type", "mechanical"},
+         {"coordinates", {"x", "y", "theta"}},
+         {"nonholonomic", "sin(theta)*x' - cos(theta)*y'"}}},
+       {"initial", {{"x", 0}, {"y", 0}, {"theta", 0.3}, {"p_x", 0}, {"p_y", 0}, {"p_theta", 1}}}});
+  BOOST_TEST(found["verdict"] == "regular");
+  BOOST_TEST(!found.contains("classes"), found);
+  const auto lines = ladder_explanation(found);
+  BOOST_TEST(!contains(lines, "gauge"), all(lines));
+  BOOST_TEST(contains(lines, "Degrees of freedom: 5"), all(lines));
+}
+
 // The step from level to level: dφ/dt, and what is left of it with the velocities of the level
 // before.
 BOOST_AUTO_TEST_CASE(steps_are_shown) {
@@ -196,6 +211,39 @@ BOOST_AUTO_TEST_CASE(formulas_on_curved_spaces) {
               {"initial", {{"R", {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {"p_R", {0.1, 0.2, 0.3}}}}});
   BOOST_TEST(body["velocities"]["v_R[1]"]["formula"] == "0.5*p_R[1]");
   BOOST_TEST(body["velocities"]["p_R[0]'"]["formula"] == "-p_R[1]*p_R[2]/6");
+}
+
+// Where the velocity is an unknown that is projected, and with the metric of Lorentz.
+BOOST_AUTO_TEST_CASE(formulas_for_momenta_on_curved_spaces) {
+  const Json pendulum = ladder({{"system",
+                                 {{"type", "lagrangian"},
+                                  {"manifold", "sphere"},
+                                  {"coordinates", {"x[3]"}},
+                                  {"lagrangian", "dot(x', x')/2 - 2*x[2]"}}},
+                                {"initial", {{"x", {0.6, 0, 0.8}}, {"x'", {0, 0.3, 0}}}}});
+  BOOST_TEST(pendulum["velocities"]["x[1]'"]["formula"] == "p_x[1]");
+  BOOST_TEST(pendulum["velocities"]["p_x[1]'"]["formula"] ==
+             "x[1]*(2*x[2] - p_x[0]^2 - p_x[1]^2 - p_x[2]^2)");
+  const Json hyperbola =
+      ladder({{"system",
+               {{"type", "hamiltonian"},
+                {"manifold", {{"type", "cotangent-bundle"}, {"base", "hyperbolic"}}},
+                {"coordinates", {"x[3]"}},
+                {"hamiltonian", "(p_x[1]^2 + p_x[2]^2 - p_x[0]^2)/2"}}},
+              {"initial", {{"x", {1, 0, 0}}, {"p_x", {0, 0.6, 0.8}}}}});
+  BOOST_TEST(hyperbola["velocities"]["x[0]'"]["formula"] == "-p_x[0]");
+  BOOST_TEST(hyperbola["velocities"]["p_x[2]'"]["formula"] ==
+             "x[2]*(p_x[1]^2 - p_x[0]^2 + p_x[2]^2)");
+}
+
+// x² + y² = 1 where the velocity is determined; all of it is told there.
+BOOST_AUTO_TEST_CASE(velocities_are_those_of_points_that_satisfy_the_constraints) {
+  const auto lines = ladder_explanation(pendulum());
+  for (const char* line :
+       {"    x' = v", "    y' = w", "    v' = x*(y - v^2 - w^2)", "    w' = y*(y - v^2 - w^2) - 1"})
+    BOOST_TEST((std::count(lines.begin(), lines.end(), line) == 1), line << " is not in\n"
+                                                                         << all(lines));
+  BOOST_TEST(!contains(lines, "For the others"), all(lines));
 }
 
 // Nobody named the angular velocity, which is the unknown of a Lagrangian on SO(3).

@@ -21,6 +21,11 @@ double oscillation(std::size_t column, double t) {
   return std::cos(t + static_cast<double>(column));
 }
 
+std::vector<double> columns_of(const Run& run, const std::string& name) {
+  const auto values = run.events.at("pass").column(name);
+  return {values.begin(), values.end()};
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(planar_bodies_are_found_by_their_names) {
@@ -115,6 +120,33 @@ BOOST_AUTO_TEST_CASE(constraints_are_shown_by_their_greatest_violation) {
   BOOST_TEST(figure->panels[0].series[0].y.back() == 1e-12 * 2.45,
              boost::test_tools::tolerance(1e-12));
   BOOST_TEST(!constraint_figure(std::vector<Run>{table({"t", "q"}, 5, oscillation)}).has_value());
+}
+
+// x does not differ where it is 0, so that (y, p_y) is the plane.
+BOOST_AUTO_TEST_CASE(events_are_a_section) {
+  Run run = table({"t", "x", "y", "p_x", "p_y"}, 60,
+                  [](std::size_t c, double t) { return std::sin(static_cast<double>(c) + 9 * t); });
+  std::vector<std::vector<double>> columns(5);
+  for (int k = 0; k < 12; ++k) {
+    const double t = 0.2 * k;
+    const double row[] = {t, 1e-17 * k, std::cos(t), std::sin(t), std::sin(2 * t)};
+    for (std::size_t c = 0; c < 5; ++c) columns[c].push_back(row[c]);
+  }
+  run.events.emplace("pass", TrajectoryTable({"t", "x", "y", "p_x", "p_y"}, columns));
+  for (auto& column : columns) column.resize(9);
+  run.events.emplace("seldom", TrajectoryTable({"t", "x", "y", "p_x", "p_y"}, columns));
+  const auto figures = motion_figures(std::span(&run, 1));
+  const Figure& section = figures.back();
+  BOOST_TEST(section.name == "section");
+  BOOST_TEST_REQUIRE(section.panels.size() == 1U);
+  BOOST_TEST(section.panels[0].scattered);
+  BOOST_TEST(section.panels[0].series[0].x == columns_of(run, "y"),
+             boost::test_tools::per_element());
+  BOOST_TEST(section.panels[0].series[0].y == columns_of(run, "p_y"),
+             boost::test_tools::per_element());
+  BOOST_TEST(section.caption == "Poincaré section: (y, p_y) where pass occurs, 12 times.");
+  run.events.erase("pass");
+  BOOST_TEST(motion_figures(std::span(&run, 1)).back().name != "section");
 }
 
 BOOST_AUTO_TEST_CASE(axes_have_labels_and_units) {

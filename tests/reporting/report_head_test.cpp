@@ -53,6 +53,21 @@ BOOST_AUTO_TEST_CASE(lists_of_equations_and_ready_made_systems) {
   BOOST_TEST(has(top, "m = 2"));
 }
 
+BOOST_AUTO_TEST_CASE(networks_are_told_in_words) {
+  const Json resistor = {
+      {"type", "resistor"}, {"name", "R1"}, {"from", "a"}, {"to", "b"}, {"value", "R"}};
+  Json network = {{"type", "network"}, {"nodes", {"0", "a", "b"}}, {"elements", {resistor}}};
+  const std::string text = head({run_of({{"system", network}})});
+  BOOST_TEST(has(text, "<code>resistor R1 from a to b value R</code>"), text);
+  BOOST_TEST(has(text, "<code>0, a, b</code>"));
+  BOOST_TEST(!has(text, "and more"));
+  network["elements"][0]["value"] = {{"odd", 1}};
+  BOOST_TEST(has(head({run_of({{"system", network}})}), "and more"));
+  Json canonical = pendulum;
+  canonical["system"]["structure"] = {{"type", "canonical"}};
+  BOOST_TEST(has(head({run_of(canonical)}), "<code>canonical</code>"));
+}
+
 BOOST_AUTO_TEST_CASE(of_several_runs_only_what_all_have) {
   Json other = pendulum;
   other["system"]["hamiltonian"] = "p_q^2";

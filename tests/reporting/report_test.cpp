@@ -73,6 +73,26 @@ BOOST_AUTO_TEST_CASE(page_of_the_three_methods_has_its_figures_and_tables) {
   }
 }
 
+// The column that says which run a row is of is there where there are several.
+BOOST_AUTO_TEST_CASE(tables_of_one_run_do_not_name_it) {
+  const TemporaryFolder folder;
+  const std::vector<Run> runs = read(write_methods(folder, 300));
+  const auto heads_of = [](std::span<const Run> some) {
+    std::vector<std::string> heads;
+    for (const Tree& table : find(parsed_page(report_html(some)), "table"))
+      if (table.get<std::string>("caption") == "Observables")
+        for (const Tree& head : find(table, "th"))
+          if (attribute(head, "scope") == "col") heads.push_back(head.data());
+    return heads;
+  };
+  BOOST_TEST(heads_of(std::span(runs).first(1)) ==
+                 (std::vector<std::string>{"Observable", "Initial", "Final", "Least", "Greatest",
+                                           "Greatest drift"}),
+             boost::test_tools::per_element());
+  BOOST_REQUIRE_EQUAL(heads_of(runs).size(), 7U);
+  BOOST_TEST(heads_of(runs)[1] == "Run");
+}
+
 BOOST_AUTO_TEST_CASE(page_of_long_runs_is_small) {
   const TemporaryFolder folder;
   const std::string page = report_html(read(write_methods(folder, 30'000)));

@@ -78,14 +78,13 @@ BOOST_AUTO_TEST_CASE(without_numbers_there_is_no_figure) {
 }
 
 BOOST_AUTO_TEST_CASE(a_study_is_drawn_over_step_and_time) {
-  const auto row = [](double step, const Json& error, double seconds) {
-    return Json{{"step", step}, {"error", error}, {"seconds", seconds}};
-  };
-  Json study = {{"reference", "closed form"},
-                {"methods",
-                 {{{"method", "rk2"},
-                   {"order", 2.0},
-                   {"rows", {row(0.1, 1e-2, 1e-3), row(0.05, nullptr, 2e-3)}}}}}};
+  StudyReport study;
+  study.methods = {
+      {.experiment = "a",
+       .method = "rk2",
+       .reference = "closed form",
+       .order = 2.0,
+       .rows = {{.step = 0.1, .error = 1e-2, .seconds = 1e-3}, {.step = 0.05, .seconds = 2e-3}}}};
   const auto figure = study_figure(study);
   BOOST_TEST_REQUIRE(figure.has_value());
   BOOST_TEST_REQUIRE(figure->panels.size() == 2u);
@@ -95,17 +94,15 @@ BOOST_AUTO_TEST_CASE(a_study_is_drawn_over_step_and_time) {
   BOOST_TEST(figure->legend[0].label == "rk2, order 2");
   BOOST_TEST(figure->caption.ends_with(" Reference: closed form."), figure->caption);
   // Which one is said of each where they are not the same.
-  Json other = study["methods"][0];
-  other.update({{"experiment", "b"}, {"reference", "rkf78, order 8, at the step 0.025"}});
-  Json both = study;
-  both["reference"] = nullptr;
-  both["methods"][0].update({{"experiment", "a"}, {"reference", "closed form"}});
-  both["methods"].push_back(other);
+  StudyReport both = study;
+  both.methods.push_back(study.methods[0]);
+  both.methods[1].experiment = "b";
+  both.methods[1].reference = "rkf78, order 8, at the step 0.025";
   BOOST_TEST(study_figure(both)->caption.ends_with(
                  " Reference of a, rk2: closed form. Reference of b, rk2: rkf78, order 8, at the "
                  "step 0.025."),
              study_figure(both)->caption);
-  study["methods"][0]["rows"] = Json::array({row(0.1, nullptr, 1e-3)});
+  study.methods[0].rows = {{.step = 0.1, .seconds = 1e-3}};
   BOOST_TEST(!study_figure(study).has_value());
 }
 

@@ -59,7 +59,8 @@ Checkpoint example() {
                      .factorizations = 3,
                      .failures = 4,
                      .second_attempts = 5,
-                     .confirmations = 6},
+                     .confirmations = 6,
+                     .divisions = 7},
           .statistics = {.count = 7.0,
                          .initial = number(30),
                          .final = number(30),
@@ -131,6 +132,7 @@ void check_same(const Checkpoint& a, const Checkpoint& b) {
   BOOST_TEST(a.solver.failures == b.solver.failures);
   BOOST_TEST(a.solver.second_attempts == b.solver.second_attempts);
   BOOST_TEST(a.solver.confirmations == b.solver.confirmations);
+  BOOST_TEST(a.solver.divisions == b.solver.divisions);
   BOOST_TEST(a.statistics.count == b.statistics.count);
   BOOST_TEST(same(a.statistics.initial, b.statistics.initial));
   BOOST_TEST(same(a.statistics.final, b.statistics.final));

@@ -76,8 +76,60 @@ BOOST_AUTO_TEST_CASE(a_bridge_rectifier_starts) {
         BOOST_TEST(ladder.moves.empty());
         BOOST_TEST(!ladder.is_ambiguous());
         BOOST_TEST(ladder.point.x[0] == charge);
+        // At rest nothing is left of what exp (v/45 mV) - 1 takes from 1.
+        BOOST_TEST((charge != 0.0 || ladder.point.z.isZero(0.0)));
       }
     }
+}
+
+// Voltages of diodes that no coordinate stores, where nothing flows yet. Coils do not say what they are.
+BOOST_AUTO_TEST_CASE(a_ring_of_diodes_is_at_rest) {
+  std::ifstream file("experiments/ring_modulator_index_2.json");
+  const ConstraintLadder ladder = consistent_start(read_experiment(Json::parse(file).dump()));
+  BOOST_TEST(ladder.point.x.isZero(0.0));
+  BOOST_TEST(ladder.point.z.isZero(0.0));
+}
+
+// All coordinates are given as 0, which solves nothing: currents between capacitors add up to what is left.
+// The sums that contain no velocity vanish where the search ends, each next to its terms.
+BOOST_AUTO_TEST_CASE(diodes_and_transistors_start_from_zeros) {
+  const auto check = [](const char* name, const Json& coordinates, const Json& equations,
+                        const auto& sums) {
+    Json initial = Json::object();
+    for (const Json& coordinate : coordinates) initial[coordinate.get<std::string>()] = 0;
+    const ConstraintLadder ladder = start(
+        {{"system", {{"type", "implicit"}, {"coordinates", coordinates}, {"equations", equations}}},
+         {"initial", initial}});
+    BOOST_TEST_CONTEXT(name) {
+      BOOST_TEST((ladder.verdict == Verdict::regular));
+      BOOST_TEST(!ladder.is_ambiguous());
+      for (const auto& [sum, size] : sums(ladder.point.x))
+        BOOST_TEST(std::abs(sum) < 1e-11 * size, sum << " of " << size);
+    }
+  };
+  using Sums = std::vector<std::pair<double, double>>;
+  const auto grown = [](double voltage) { return std::exp(voltage / 0.026) - 1.0; };
+  check("a diode in units of 1", {"a", "b"},
+        {"a' - b' + a - 6", "b' - a' + b + 1e-6 * (exp(b / 0.026) - 1)"}, [&](const VectorXd& x) {
+          return Sums{{x[0] - 6.0 + x[1] + 1e-6 * grown(x[1]), 6.0}};
+        });
+  check("a capacitor and a diode", {"a", "b"},
+        {"1e-6 * (a' - b') + (a - 9) / 1e3", "1e-6 * (b' - a') + 1e-12 * (exp(b / 0.026) - 1)"},
+        [&](const VectorXd& x) {
+          return Sums{{(x[0] - 9.0) / 1e3 + 1e-12 * grown(x[1]), 9e-3}};
+        });
+  // The transistor amplifier of the test set (F. Mazzia, C. Magherini) with one transistor.
+  const std::string f = "1e-6 * (exp((u2 - u3) / 0.026) - 1)";
+  check("a transistor amplifier", {"u1", "u2", "u3", "u4", "u5"},
+        {"1e-6 * (u1' - u2') + (u1 - 0.1 * sin(200 * pi * t)) / 1000",
+         "1e-6 * (u2' - u1') - 6 / 9000 + u2 * (1 / 9000 + 1 / 9000) + (1 - 0.99) * " + f,
+         "2e-6 * u3' + u3 / 9000 - " + f, "3e-6 * (u4' - u5') + u4 / 9000 - 6 / 9000 + 0.99 * " + f,
+         "3e-6 * (u5' - u4') + u5 / 9000"},
+        [&](const VectorXd& x) {
+          const double current = 1e-6 * grown(x[1] - x[2]);
+          return Sums{{x[0] / 1e3 - 6.0 / 9e3 + x[1] / 4.5e3 + 0.01 * current, 6.0 / 9e3},
+                      {(x[3] + x[4] - 6.0) / 9e3 + 0.99 * current, 6.0 / 9e3}};
+        });
 }
 
 // The velocities of a Lagrangian are unknowns of its equations, too: what is given is where these

@@ -1,7 +1,10 @@
 // Problems of the literature in the units and from the starts that they are given with, run by the
 // methods that apply, against closed forms and the same problem in other units.
+#include <array>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <string>
+#include <tuple>
 #include <utility>
 
 #include "problems.hpp"
@@ -74,6 +77,90 @@ BOOST_AUTO_TEST_CASE(a_pendulum_of_a_micrometre) {
     const VectorXd expected = large.end(method, 0.3, 60), found = small.end(method, 3e-4, 60);
     BOOST_TEST((1e6 * found.head(2) - expected.head(2)).norm() < bound);
     BOOST_TEST((1e12 * found.tail(2) - expected.tail(2)).norm() < bound);
+  }
+}
+
+// A molecule on a rod of a nanometre, by its momenta of 10⁻³⁰ beside 10⁻⁹.
+BOOST_AUTO_TEST_CASE(a_pendulum_of_a_nanometre) {
+  const double m = 1e-26, l = 1e-9, T = std::sqrt(l);
+  const test::Problem large = pendulum(1.0, 1.0), small = pendulum(m, l);
+  for (const auto& [method, bound] : {std::pair{kMethod1, 1e-8}, std::pair{kMethod2, 1e-4}}) {
+    const VectorXd expected = large.end(method, 0.6, 120), found = small.end(method, 0.6 * T, 120);
+    BOOST_TEST((found.head(2) / l - expected.head(2)).norm() < bound);
+    BOOST_TEST((found.tail(2) * T / (m * l) - expected.tail(2)).norm() < 3.0 * bound);
+  }
+}
+
+// Kepler's problem of an electron and of a planet, with the mass as a metric: 10¹⁸ lies between positions and
+// momenta, one way and the other.
+BOOST_AUTO_TEST_CASE(orbits_in_si_units) {
+  const auto orbit = [](double m, double l, double T) {
+    return test::problem({{"system",
+                           {{"type", "mechanical"},
+                            {"parameters", {{"m", m}, {"k", m * l * l * l / (T * T)}}},
+                            {"coordinates", {"x", "y"}},
+                            {"metric", "m"},
+                            {"potential", "-k/sqrt(x^2 + y^2)"}}},
+                          {"initial", {{"x", l}, {"y", 0}, {"p_x", 0}, {"p_y", 1.2 * m * l / T}}}});
+  };
+  const std::array<double, 3> scales[] = {{9.109e-31, 1e-6, 1e-12}, {5.97e24, 1.496e11, 5e6}};
+  for (const Json& method : {kMethod1, kMethod2}) {
+    const VectorXd expected = orbit(1.0, 1.0, 1.0).end(method, 5.0, 100);
+    for (const auto& [m, l, T] : scales) {
+      const VectorXd end = orbit(m, l, T).end(method, 5.0 * T, 100);
+      BOOST_TEST_CONTEXT(m << " kg, " << method) {
+        BOOST_TEST((end.head(2) / l - expected.head(2)).norm() < 1e-12);
+        BOOST_TEST((end.tail(2) * T / (m * l) - expected.tail(2)).norm() < 1e-12);
+      }
+    }
+  }
+}
+
+// Molecules from starts with zeros: two atoms on a rigid bond, one of them on a spring; two rotors in a field, by
+// angles, from a right angle at rest; a skate. With masses of 10⁻²⁶ kg, lengths of 10⁻¹⁰ m and times of 10⁻¹³ s as
+// with 1.
+BOOST_AUTO_TEST_CASE(molecules_in_si_units) {
+  const auto problem = [](const char* kind, double m, double l, double T) {
+    const std::string name = kind;
+    Json system = {{"parameters", {{"m", m}, {"l", l}, {"E", m * l * l / (T * T)}}}}, initial;
+    const double p = m * l / T;
+    if (name == "bond") {
+      system["type"] = "mechanical";
+      system["coordinates"] = {"x", "y", "u", "v"};
+      system["metric"] = {{"m", 0, 0, 0}, {0, "m", 0, 0}, {0, 0, "2*m", 0}, {0, 0, 0, "2*m"}};
+      system["potential"] = "E*((x/l)^2 + 2*(y/l)^2)/2 + 0.3*E*(u/l - 1)^2";
+      system["holonomic"] = "(x - u)^2 + (y - v)^2 - l^2";
+      initial = {{"x", 0},   {"y", 0},         {"u", l},   {"v", 0},
+                 {"p_x", 0}, {"p_y", 0.2 * p}, {"p_u", 0}, {"p_v", -0.3 * p}};
+    } else if (name == "rotors") {
+      system["type"] = "lagrangian";
+      system["coordinates"] = {"a", "b"};
+      system["lagrangian"] = "m*l^2*(a'^2 + b'^2/2 + a'*b'*cos(a - b)) + E*(2*cos(a) + cos(b))";
+      initial = {{"a", "pi/2"}, {"b", 0}, {"p_a", 0}, {"p_b", 0}};
+    } else {
+      system["type"] = "mechanical";
+      system["coordinates"] = {"x", "y", "a"};
+      system["metric"] = {{"m", 0, 0}, {0, "m", 0}, {0, 0, "m*l^2"}};
+      system["potential"] = "-E*x/(2*l)";
+      system["nonholonomic"] = "sin(a)*x' - cos(a)*y'";
+      initial = {{"x", 0}, {"y", 0}, {"a", 0}, {"p_x", 0}, {"p_y", 0}, {"p_a", p * l}};
+    }
+    return test::problem({{"system", system}, {"initial", initial}});
+  };
+  const double m = 2e-26, l = 1e-10, T = 1e-13;
+  for (const auto& [kind, coordinates, length] :
+       {std::tuple{"bond", Index{4}, l}, {"rotors", Index{2}, 1.0}, {"skate", Index{2}, l}}) {
+    const test::Problem large = problem(kind, 1.0, 1.0, 1.0), small = problem(kind, m, l, T);
+    BOOST_TEST((small.ladder.verdict == Verdict::regular));
+    // The metric of a projector may differ, within the method's error.
+    for (const auto& [method, bound] : {std::pair{kRungeKutta, 1e-12},
+                                        {kMethod1, 1e-9},
+                                        {kMethod2, std::string(kind) == "skate" ? 1e-2 : 1e-9}}) {
+      const VectorXd expected = large.end(method, 2.0, 80), found = small.end(method, 2.0 * T, 80);
+      BOOST_TEST_CONTEXT(kind << ", " << method) {
+        BOOST_TEST((found.head(coordinates) / length - expected.head(coordinates)).norm() < bound);
+      }
+    }
   }
 }
 
@@ -201,6 +288,81 @@ BOOST_AUTO_TEST_CASE(a_nonholonomic_constraint_given_twice) {
       BOOST_TEST(std::abs(final_value(outcome, "z") - std::sqrt(2.0) + 1.0) < 1e-4);
     }
   }
+}
+
+// A satellite of a kilogramme in SI units: p²/2 is small next to GM/r at any random point of such a space.
+BOOST_AUTO_TEST_CASE(the_energy_of_a_satellite) {
+  const double r = 6.778e6, speed = 9000.0, GM = 3.986e14;
+  const Json experiment = {{"system",
+                            {{"type", "mechanical"},
+                             {"coordinates", {"x", "y"}},
+                             {"metric", 1},
+                             {"potential", "-3.986e14/sqrt(x^2+y^2)"}}},
+                           {"initial", {{"x", r}, {"y", 0}, {"p_x", 0}, {"p_y", speed}}},
+                           {"method", kRungeKutta},
+                           {"time", {{"step", 10}, {"end", 500}}}};
+  const TemporaryFolder folder;
+  const QuantityRecord* const H = run_in(folder, experiment).summary.observable("H");
+  BOOST_TEST_REQUIRE((H != nullptr));
+  const double exact = 0.5 * speed * speed - GM / r;
+  BOOST_TEST(std::fabs(H->initial - exact) < 1e-12 * std::fabs(exact));
+  BOOST_TEST(std::fabs(H->final - exact) < 1e-8 * std::fabs(exact));
+}
+
+// An electron in a field of a tesla.
+BOOST_AUTO_TEST_CASE(the_energy_of_an_electron) {
+  const double m = 9.109e-31, speed = 1e6;
+  const Json experiment = {
+      {"system", {{"type", "charged-particle"}, {"m", m}, {"Q", 1.602e-19}, {"B", 1.0}}},
+      {"initial", {{"x", 0}, {"y", 0}, {"p_x", m * speed}, {"p_y", 0}}},
+      {"method", kMethod1},
+      {"time", {{"step", 1e-13}, {"end", 1e-11}}}};
+  const TemporaryFolder folder;
+  const QuantityRecord* const H = run_in(folder, experiment).summary.observable("H");
+  BOOST_TEST_REQUIRE((H != nullptr));
+  BOOST_TEST(std::fabs(H->final - 0.5 * m * speed * speed) < 1e-10 * m * speed * speed);
+}
+
+// Veselova's body may not turn about the vertical, an axis that moves in the body: what the constraint says of
+// the third angular velocity is nothing where this axis is at right angles to the third one. A method that
+// solves for velocities beside a method on the constraint set.
+BOOST_AUTO_TEST_CASE(a_body_that_may_not_turn_about_the_vertical) {
+  const double c = std::cos(0.6), s = std::sin(0.6);
+  Json experiment = {
+      {"system",
+       {{"type", "lagrangian"},
+        {"manifold", "so3"},
+        {"coordinates", {"R[3][3]"}},
+        {"parameters", {{"I", {1.0, 2.0, 2.6}}}},
+        {"lagrangian", "sum(i,0,2,I[i]*v_R[i]^2)/2 - 1.5*R[2][0]^2"},
+        {"nonholonomic", {"R[2][0]*v_R[0]+R[2][1]*v_R[1]+R[2][2]*v_R[2]"}}}},
+      {"initial", {{"R", {{1, 0, 0}, {0, c, -s}, {0, s, c}}}, {"v_R", {1.0, 0.8, -0.8 * s / c}}}},
+      {"method", kRungeKutta},
+      {"time", {{"step", 0.01}, {"end", 2}}}};
+  const TemporaryFolder first, second;
+  const RunOutcome explicitly = run_in(first, experiment);
+  BOOST_TEST_REQUIRE((explicitly.status == RunStatus::completed));
+  BOOST_TEST(explicitly.summary.max_violation.value_or(1.0) < 1e-7);
+  experiment["method"] = {{"type", "constrain-first"}, {"order", 4}};
+  const RunOutcome constrained = run_in(second, experiment);
+  for (const char* coordinate : {"R[2][0]", "R[2][2]", "p_R[0]", "p_R[1]"})
+    BOOST_TEST(std::fabs(final_value(explicitly, coordinate) -
+                         final_value(constrained, coordinate)) < 1e-6,
+               coordinate);
+}
+
+// y³ + y = 2 + cos t, which has an extremum at each multiple of π: there a step leads back to where it began.
+BOOST_AUTO_TEST_CASE(a_prescribed_motion_through_its_extrema) {
+  const Json experiment = {
+      {"system", {{"type", "implicit"}, {"coordinates", {"y"}}, {"equations", {"y^3+y-2-cos(t)"}}}},
+      {"initial", {{"y", 1.2134}}},
+      {"method", kMethod2},
+      {"time", {{"step", 0.1}, {"end", 12}}}};
+  const TemporaryFolder folder;
+  const RunOutcome outcome = run_in(folder, experiment);
+  BOOST_TEST((outcome.status == RunStatus::completed));
+  const double y = final_value(outcome, "y");
+  BOOST_TEST(std::fabs(y * y * y + y - 2.0 - std::cos(12.0)) < 1e-12);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -2,6 +2,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "../integrators/varying_metric.hpp"
+#include "courant/core/qr_decomposition.hpp"
 #include "courant/running/runner.hpp"
 #include "problems.hpp"
 
@@ -51,7 +52,7 @@ double defect_of_39_to_43(const VectorXd& x0, const VectorXd& x1, double h) {
   const VectorXd known = ends(-dH_dq(q, p));
   MatrixXd A(8, 2);
   for (Index a = 0; a < 2; ++a) A.col(a) = ends(mu(q).col(a) - dH_dq(q, p)) - known;
-  const Vector2d lambda = A.householderQr().solve(-known);
+  const Vector2d lambda = QrDecomposition::in_order(A).solve(-known);
   return (A * lambda + known).norm() + constraints(q, p).norm();
 }
 

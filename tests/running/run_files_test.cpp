@@ -263,6 +263,33 @@ BOOST_AUTO_TEST_CASE(files_of_two_runs_are_refused) {
   BOOST_TEST(said().ends_with("experiment.json: is of another run than summary.json."));
 }
 
+BOOST_AUTO_TEST_CASE(events_are_read_by_their_names) {
+  const TemporaryFolder folder;
+  write_run(folder / "run", rk2_path(3), "rk2");
+  BOOST_TEST(read_run(folder / "run").events.empty());
+  const auto file = folder / "run/events.csv";
+  write_text(file, "event,t,x [m]\npass,0.5,1\nturn,0.75,-2\npass,1.5,3\n");
+  const auto events = read_run(folder / "run").events;
+  BOOST_TEST_REQUIRE(events.size() == 2U);
+  BOOST_TEST_REQUIRE(events.at("pass").rows() == 2U);
+  BOOST_TEST(events.at("pass").column("t")[1] == 1.5);
+  BOOST_TEST(events.at("pass").column("x")[1] == 3);
+  BOOST_TEST(events.at("turn").column("x")[0] == -2);
+
+  const auto said = [&](const std::string& text) {
+    write_text(file, text);
+    const std::string message = refusal([&] { read_events_csv(file); });
+    return message.substr(std::min(message.size(), file.string().size()));
+  };
+  BOOST_TEST(said("") == ":1: the header is missing or cut off.");
+  BOOST_TEST(said("t,x\n") == ":1: the first column is \"t\", expected event.");
+  BOOST_TEST(said("event,t\npass,red\n") == ":2: field 1 is \"red\", expected a number.");
+  BOOST_TEST(said("event,t\npass\n") == ":2: field 1 is \"\", expected a number.");
+  BOOST_TEST(said("event,x\npass,1\n").starts_with(":1: TrajectoryTable: the first column is"));
+  BOOST_TEST(said("event,t\npass,1") == ":2: the row has no line end: the file is cut off.");
+  BOOST_TEST(read_events_csv(file, true).empty());
+}
+
 BOOST_AUTO_TEST_CASE(units_in_the_heads_of_columns_are_no_part_of_the_names) {
   const TemporaryFolder folder;
   write_text(folder / "a.csv", "t [s],x[0] [m],p [kg m/s],H\n0,1,2,3\n");

@@ -45,7 +45,8 @@ RunSummary example() {
                     .factorizations_per_step = 0.25,
                     .failures = 1,
                     .second_attempts = 2,
-                    .confirmations = 3};
+                    .confirmations = 3,
+                    .divisions = 4};
   return summary;
 }
 
@@ -69,6 +70,7 @@ BOOST_AUTO_TEST_CASE(reads_back_to_what_was_written) {
   BOOST_TEST(read.power_balance->max_imbalance == 1e-16);
   BOOST_TEST(read.expectations[0].passed);
   BOOST_TEST(read.solver.confirmations.value() == 3);
+  BOOST_TEST(read.solver.divisions.value() == 4);
 }
 
 BOOST_AUTO_TEST_CASE(what_is_missing_or_null_is_not_known) {

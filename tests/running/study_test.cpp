@@ -38,7 +38,7 @@ StudyOptions options() { return {.backend = Backend::interpreter}; }
 
 Json study_of(const Experiment& one, const StudyOptions& how = options()) {
   const StudySubject subject{"subject", one};
-  return study(std::span(&subject, 1), how).at("methods").front();
+  return to_json(study(std::span(&subject, 1), how)).at("methods").front();
 }
 
 }  // namespace
@@ -136,15 +136,49 @@ BOOST_AUTO_TEST_CASE(steps_that_cannot_be_made_are_said) {
 BOOST_AUTO_TEST_CASE(methods_share_what_is_the_same) {
   const StudySubject subjects[] = {{"a", experiment(pendulum, "rk2")},
                                    {"a", experiment(pendulum, "rk4")}};
-  const Json both = study(subjects, options());
+  const StudyReport report = study(subjects, options());
+  const Json both = to_json(report);
   BOOST_TEST(both["status"] == "completed");
   BOOST_TEST(both["reference"].is_string());
   BOOST_TEST(both["methods"][0]["reference_error"] == both["methods"][1]["reference_error"]);
-  const std::string csv = study_csv(both);
+  const std::string csv = study_csv(report);
   BOOST_TEST(std::count(csv.begin(), csv.end(), '\n') == 11);
   BOOST_TEST(csv.find("experiment,method,step,steps,error,order,iterations,factorizations,seconds,"
                       "message,reference\na,rk2,0.1,20,") == 0u);
   BOOST_TEST(says(csv, ",,\"rkf78, order 8, at the step"), csv);
+}
+
+// What is known and what is not.
+BOOST_AUTO_TEST_CASE(what_is_written_is_read_back) {
+  StudyReport report;
+  report.is_interrupted = true;
+  report.methods = {{.experiment = "a",
+                     .method = "rk2",
+                     .quantities = {"q", "p"},
+                     .reference = "closed form",
+                     .order = 1.875,
+                     .rows = {{.step = 0.25, .message = "cannot be made"},
+                              {.step = 0.125,
+                               .error = 1e-3,
+                               .seconds = 0.5,
+                               .order = 2.5,
+                               .steps = 8,
+                               .iterations = 16,
+                               .factorizations = 1}}},
+                    {.experiment = "b",
+                     .method = "rk4",
+                     .quantities = {"q", "p"},
+                     .reference = "rkf78",
+                     .reference_order = 8,
+                     .reference_error = 1e-13,
+                     .remark = "Not every step could be made."}};
+  const Json json = to_json(report);
+  BOOST_TEST(json["reference"].is_null());
+  BOOST_TEST(json["quantities"] == Json({"q", "p"}));
+  BOOST_TEST(json["methods"][0]["rows"][0]["error"].is_null());
+  BOOST_TEST(json["methods"][1]["order"].is_null());
+  BOOST_TEST(to_json(read_study_report(json)) == json);
+  BOOST_CHECK_THROW(read_study_report(Json{{"methods", 3}}), Json::exception);
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_studied_is_refused) {
@@ -156,7 +190,9 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_studied_is_refused) {
   StudyOptions how = options();
   how.stop = &stop;
   const StudySubject subject{"a", experiment(pendulum, "rk2")};
-  BOOST_TEST(study(std::span(&subject, 1), how)["status"] == "interrupted");
+  const StudyReport report = study(std::span(&subject, 1), how);
+  BOOST_TEST(report.is_interrupted);
+  BOOST_TEST(to_json(report)["status"] == "interrupted");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -219,7 +219,7 @@ BOOST_AUTO_TEST_CASE(studies) {
     experiment["time"] = {{"step", order == 2 ? 0.02 : 0.1}, {"end", 5}, {"transformation", "r"}};
     const StudySubject subject{"kepler", read_experiment(experiment.dump())};
     const Json result =
-        study(std::span(&subject, 1), {.steps = 4, .backend = Backend::interpreter});
+        to_json(study(std::span(&subject, 1), {.steps = 4, .backend = Backend::interpreter}));
     const Json& method = result["methods"][0];
     BOOST_TEST(std::abs(method["order"].get<double>() - order) < 0.15, method["order"].dump());
     const long steps = method["rows"][0]["steps"].get<long>();

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "courant/core/derivative.hpp"
+#include "courant/core/lu_decomposition.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/structures/canonical_symplectic.hpp"
 #include "courant/structures/constrained_family.hpp"
@@ -48,7 +49,7 @@ VectorXd velocity(const EnergySystem& system, const VectorXd& x, const VectorXd&
   const ExprVector first = F.head(n);
   const MatrixXd A = values(jacobian(first, v).dense());
   const VectorXd b = values(substitute(first, v, ExprVector::Zero(n)));
-  return A.partialPivLu().solve(-b);
+  return LuDecomposition(A).solve(-b);
 }
 
 // ⟨α, v⟩ - Σ supplied + Σ dissipated.

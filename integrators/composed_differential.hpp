@@ -1,0 +1,28 @@
+// The differential of a step that is made of others.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "courant/integrators/step_differential.hpp"
+
+namespace courant {
+
+// T Φ_s ∘ … ∘ T Φ_1 at a Step with parts 1, …, s. With one differential for all of them, or
+// with several in turn: part i has that of i modulo their number.
+class ComposedDifferential final : public StepDifferential {
+ public:
+  // `method` is named in messages.
+  ComposedDifferential(std::string method,
+                       std::vector<std::shared_ptr<const StepDifferential>> of_parts);
+
+ private:
+  // Throws std::invalid_argument where the step does not know its parts.
+  MatrixXd do_images(const Step& step, const MatrixXd& V) const override;
+
+  std::string method_;
+  std::vector<std::shared_ptr<const StepDifferential>> of_parts_;
+};
+
+}  // namespace courant

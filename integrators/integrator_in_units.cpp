@@ -1,0 +1,178 @@
+#include "courant/integrators/integrator_in_units.hpp"
+
+#include <functional>
+#include <stdexcept>
+
+#include "courant/integrators/natural_units.hpp"
+#include "courant/integrators/step_differential.hpp"
+#include "courant/integrators/step_parts.hpp"
+
+namespace courant {
+namespace {
+
+// `time`: what becomes of 1.
+Step in_other_units(const Step& step, double time,
+                    const std::function<State(const State&)>& converted) {
+  Step result{.h = time * step.h,
+              .before = converted(step.before),
+              .after = converted(step.after),
+              .stage = converted(step.stage)};
+  result.rate = step.rate;
+  for (const Step& part : step.parts) result.parts.push_back(in_other_units(part, time, converted));
+  return result;
+}
+
+}  // namespace
+
+// The stepper of the method goes along the measured states.
+class IntegratorInUnits::Trajectory final : public Stepper {
+ public:
+  Trajectory(std::shared_ptr<const ImplicitSystem> system, Units units,
+             std::shared_ptr<const Integrator> method)
+      : Stepper(method->name(), system),
+        system_(std::move(system)),
+        units_(std::move(units)),
+        rates_(units_.coordinates / units_.time),
+        integrator_(std::move(method)),
+        inner_(integrator_->stepper()) {}
+
+ private:
+  void do_prepare(State& state, double h) override {
+    State measured = units_.measure(state);
+    inner_->prepare(measured, h / units_.time);
+    state = units_.restore(measured);
+  }
+
+  void do_step(const State& before, double h, State& after) override {
+    if (tells_parts()) inner_->tell_parts();
+    at_.t = before.t / units_.time;
+    at_.x = before.x.cwiseQuotient(units_.coordinates);
+    at_.v = before.v.cwiseQuotient(units_.coordinates) * units_.time;
+    at_.z = before.z.cwiseQuotient(units_.auxiliary);
+    try {
+      const CountedWork counted(statistics_, *inner_);
+      inner_->step(at_, h / units_.time, after.t / units_.time);
+    } catch (const SolveError& error) {
+      throw SolveError(error.reason(), method(), before.t, h, in_system_time(error),
+                       error.residuals());
+    }
+    restore(at_, after);
+  }
+
+  // What a SolveError says, but for steps that would do, in another unit of time.
+  std::string in_system_time(const SolveError& error) const {
+    const std::string text = what_happened(error);
+    const std::size_t advice = text.find(": the one that is ends");
+    if (units_.time == 1.0 || advice == std::string::npos) return text;
+    return text.substr(0, advice) + ".";
+  }
+
+  void do_keep(const State&, const State&) override {
+    const Step& last = inner_->last();
+    restore(last.stage, stage_);
+    stage_.t = units_.time * last.stage.t;
+    if (tells_parts())
+      parts_ = in_other_units(last, units_.time, [&](const State& state) {
+                 return units_.restore(state);
+               }).parts;
+  }
+  void do_stage(Step& step) const override {
+    step.stage = stage_;
+    step.parts = parts_;
+  }
+
+  // What a method does not tell of a stage is empty.
+  void restore(const State& measured, State& state) const {
+    const auto restored = [](const VectorXd& values, const VectorXd& units, VectorXd& result) {
+      if (values.size() == 0)
+        result.resize(0);
+      else
+        result = values.cwiseProduct(units);
+    };
+    restored(measured.x, units_.coordinates, state.x);
+    restored(measured.v, rates_, state.v);
+    restored(measured.z, units_.auxiliary, state.z);
+  }
+
+  void do_discard() override { inner_->forget(); }
+  void do_forget() override { inner_->forget(); }
+  Motion do_motion() const override { return inner_->motion(); }
+  void do_expect(const Motion& motion) override { inner_->expect(motion); }
+  std::unique_ptr<Stepper> do_fresh() const override {
+    return std::make_unique<Trajectory>(system_, units_, integrator_);
+  }
+
+  std::shared_ptr<const ImplicitSystem> system_;
+  Units units_;
+  VectorXd rates_;  // of velocities
+  std::shared_ptr<const Integrator> integrator_;
+  std::unique_ptr<Stepper> inner_;
+  State at_;     // measured
+  State stage_;  // of the last step that stands
+  std::vector<Step> parts_;
+};
+
+class IntegratorInUnits::Differential final : public StepDifferential {
+ public:
+  Differential(Units units, std::shared_ptr<const StepDifferential> measured)
+      : units_(std::move(units)), measured_(std::move(measured)) {}
+
+ private:
+  MatrixXd do_images(const Step& step, const MatrixXd& V) const override {
+    const Step measured = in_other_units(step, 1.0 / units_.time,
+                                         [&](const State& state) { return units_.measure(state); });
+    const auto u = units_.coordinates.asDiagonal();
+    return u * (*measured_)(measured, u.inverse() * V);
+  }
+
+  Units units_;
+  std::shared_ptr<const StepDifferential> measured_;
+};
+
+IntegratorInUnits::IntegratorInUnits(const std::shared_ptr<const SystemInUnits>& system,
+                                     std::shared_ptr<const Integrator> method)
+    : Integrator(system ? system->system() : nullptr), method_(std::move(method)) {
+  if (!method_ || method_->system() != system)
+    throw std::invalid_argument(
+        "IntegratorInUnits::IntegratorInUnits: the method is missing, or it is not one of the "
+        "system in these units.");
+  units_ = system->units();
+}
+
+std::unique_ptr<Stepper> IntegratorInUnits::do_stepper() const {
+  return std::make_unique<Trajectory>(system(), units_, method_);
+}
+
+std::vector<StepFormulas> IntegratorInUnits::do_formulas() const {
+  std::vector<StepFormulas> formulas = method_->formulas();
+  for (StepFormulas& step : formulas) step.name += ", in natural units";
+  return formulas;
+}
+
+StepProgram IntegratorInUnits::program() const {
+  StepProgram program = step_program(*method_);
+  program.units = units_;
+  return program;
+}
+
+std::shared_ptr<const StepDifferential> IntegratorInUnits::do_differential() const {
+  auto measured = method_->differential();
+  if (!measured) return nullptr;
+  return std::make_shared<Differential>(units_, std::move(measured));
+}
+
+std::optional<Units> needed_units(const std::shared_ptr<const ImplicitSystem>& system,
+                                  const State& point) {
+  constexpr double comparable = 1e6, usual_time = 1e9;
+  auto units = units_of_all_terms(system, point);
+  // Velocities of zero beside others may leave units open that equations tell alone.
+  if (!units) units = units_of_all_terms(system, {.t = point.t, .x = point.x});
+  if (!units || units->coordinates.size() == 0) return std::nullopt;
+  const bool are_comparable =
+      units->coordinates.maxCoeff() <= comparable * units->coordinates.minCoeff();
+  if (are_comparable && units->time <= usual_time && units->time >= 1.0 / usual_time)
+    return std::nullopt;
+  return units;
+}
+
+}  // namespace courant

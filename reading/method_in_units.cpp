@@ -1,0 +1,30 @@
+#include "courant/reading/method_in_units.hpp"
+
+#include "courant/integrators/integrator_in_units.hpp"
+#include "courant/integrators/ladder/constraint_algorithm.hpp"
+
+namespace courant {
+
+PreparedMethod prepared_in_units(const std::function<PreparedMethod(const MethodSetting&)>& prepare,
+                                 const MethodSetting& at) {
+  const auto units = at.own ? std::nullopt : needed_units(at.system, at.ladder.point);
+  if (!units) return prepare(at);
+  const auto system = std::make_shared<const SystemInUnits>(at.system, *units);
+  const State initial = units->measure(at.initial);
+  const ConstraintLadder ladder = ConstraintAlgorithm().run(
+      system, {.t = initial.t, .x = initial.x, .v = initial.v, .z = initial.z});
+  if (ladder.verdict != at.ladder.verdict || ladder.index != at.ladder.index ||
+      ladder.degrees_of_freedom != at.ladder.degrees_of_freedom)
+    return prepare(at);
+  PreparedMethod method = prepare({.system = system,
+                                   .ladder = ladder,
+                                   .initial = initial,
+                                   .step = at.step,
+                                   .backend = at.backend,
+                                   .vocabulary = at.vocabulary});
+  method.integrator = std::make_shared<IntegratorInUnits>(system, method.integrator);
+  method.initial = units->restore(method.initial);
+  return method;
+}
+
+}  // namespace courant

@@ -1,0 +1,91 @@
+// The cards of a SPICE netlist: which elements, parameters and subcircuits it has.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "courant/reading/findings.hpp"
+#include "courant/reading/netlist_sources.hpp"
+#include "courant/reading/netlist_text.hpp"
+
+namespace courant::netlist {
+
+// What is wrong with a netlist, by lines. The same of one line is told once: a line of a subcircuit
+// is read for each instance.
+class LineProblems {
+ public:
+  // Line 0 is the whole.
+  void add(int line, const std::string& what);
+  // Does it; a LineError is a problem.
+  void guard(const std::function<void()>& action);
+  bool empty() const { return problems_.empty(); }
+  // Throws ExperimentError, in the order of the lines, unless empty().
+  void require_none() const;
+
+ private:
+  std::vector<std::pair<int, std::string>> problems_;
+};
+
+// `rs`, `rs and cjo`, `rs, cjo and tt`
+std::string in_words(const std::vector<std::string>& names);
+
+struct Assignment {
+  std::string name, value;
+  int line;
+};
+using Assignments = std::vector<Assignment>;
+
+// The words of a line before its first assignment, and the assignments `name = value` at its end.
+struct Card {
+  const Line* line;
+  std::vector<std::string> words;
+  Assignments assigned;
+
+  // Throws LineError if there is none.
+  const std::string& word(std::size_t i, const char* what) const;
+  // Nothing if it is not assigned.
+  std::optional<std::string> value(const std::string& key) const;
+  // The word or, where words end before it, what is assigned to the key. Throws LineError.
+  const std::string& value_of(std::size_t i, const std::string& key) const;
+  // Throws LineError if there are more words than that, or assignments to other keys.
+  void allow(std::size_t words, const std::vector<std::string>& keys) const;
+};
+// Throws LineError.
+Card card_of(const Line& line);
+
+struct DiodeModel {
+  int line = 0;
+  std::string saturation = "1e-14", emission = "1";
+};
+
+// The netlist itself, or one of its subcircuits.
+struct Part {
+  int line = 0;
+  std::vector<std::string> nodes = {};
+  Assignments header = {};      // parameters that an instance may set
+  Assignments parameters = {};  // of .param
+  std::map<std::string, DiodeModel> models = {};
+  std::vector<Line> elements = {};
+};
+
+struct InitialPotential {  // of .ic
+  std::string node, value;
+  int line;
+};
+
+struct Deck {
+  std::string title;
+  Part whole;
+  std::map<std::string, Part> subcircuits;
+  std::optional<Card> transient;
+  std::vector<Line> lines;  // which the cards point to
+  std::vector<InitialPotential> initial;
+};
+
+// Reads all cards but those of elements. .print, .plot, .options and other cards that say what to
+// show are passed over, and so are the commands between .control and .endc that do.
+Deck read_deck(std::string_view text, LineProblems& problems);
+
+}  // namespace courant::netlist

@@ -1,0 +1,61 @@
+// The elements of a netlist, with its subcircuits put in their places.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "courant/core/symbol_table.hpp"
+#include "courant/reading/netlist_cards.hpp"
+#include "courant/reading/netlist_operating_point.hpp"
+
+namespace courant::netlist {
+
+// A capacitor or an inductor.
+struct NetlistStorage {
+  std::string name, state;  // C1, q_C1
+  std::string value;        // a formula of parameters, F or H
+  std::size_t element;      // of `fixed`
+  bool is_capacitor;
+  std::optional<std::string> given;  // by ic=
+  int line;
+};
+
+struct NetlistCircuit {
+  Json parameters = Json::object();  // as `network` takes them
+  Json nodes = Json::array({"0"}), elements = Json::array();
+  std::map<std::string, int> parameter_lines;
+  std::vector<int> node_lines = {0}, element_lines;
+
+  SymbolTable values;  // of parameters, and of t: 0
+  Scope scope;         // outside of all subcircuits
+  std::map<std::string, std::size_t>
+      nodes_by_name;                 // as in the netlist; x1.m is in the instance x1
+  std::vector<std::string> sources;  // of voltage, outside of all subcircuits
+  std::vector<NetlistStorage> storages;
+  StaticCircuit fixed;             // at t = 0
+  std::vector<std::string> names;  // of the elements of `fixed`
+  std::vector<int> lines;
+  bool at_rest = true;  // whether all sources are 0 at t = 0
+
+  // Of a circuit without capacitors and inductors: the node of a capacitor beside a resistor that stand
+  // for the state that a network needs, and that stays 0.
+  std::optional<std::size_t> resting;
+
+  Times times;
+  double largest_step = 0.0;    // 0: not given
+  std::vector<Corner> corners;  // of the values of sources
+  bool from_given = false;      // uic
+
+  std::string name_of(std::size_t node) const { return nodes[node].get<std::string>(); }
+  // Throws LineError unless it is a finite number.
+  double value_of(const std::string& formula, int line) const;
+};
+
+// A number where the formula is one.
+Json written_value(const std::string& formula);
+
+NetlistCircuit read_circuit(const Deck& deck, LineProblems& problems);
+
+}  // namespace courant::netlist

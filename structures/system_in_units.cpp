@@ -1,0 +1,96 @@
+#include "courant/structures/system_in_units.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace courant {
+namespace {
+
+void check_units(const char* what, const VectorXd& units, Index size) {
+  const bool are_powers = std::all_of(units.begin(), units.end(), [](double unit) {
+    int exponent = 0;
+    return std::isfinite(unit) && std::frexp(unit, &exponent) == 0.5;
+  });
+  if (units.size() != size || !are_powers)
+    throw std::invalid_argument(std::string("SystemInUnits::SystemInUnits: the units of the ") +
+                                what + " are " + std::to_string(units.size()) +
+                                " numbers; expected " + std::to_string(size) + " powers of two.");
+}
+
+// Empty for what is not given.
+VectorXd times(const VectorXd& units, const VectorXd& values) {
+  return values.size() == 0 ? VectorXd() : VectorXd(units.cwiseProduct(values));
+}
+
+ExprVector times(const VectorXd& units, const ExprVector& values) {
+  ExprVector result = values;
+  for (Index i = 0; i < values.size(); ++i) result[i] = units[i] * values[i];
+  return result;
+}
+
+State scaled(const State& state, const VectorXd& coordinates, const VectorXd& auxiliary,
+             double time) {
+  const auto fits = [](const VectorXd& values, const VectorXd& units) {
+    return values.size() == 0 || values.size() == units.size();
+  };
+  if (!fits(state.x, coordinates) || !fits(state.v, coordinates) || !fits(state.z, auxiliary))
+    throw std::invalid_argument("Units: the state has other sizes than the units.");
+  return {.t = time * state.t,
+          .x = times(coordinates, state.x),
+          .v = times(coordinates / time, state.v),
+          .z = times(auxiliary, state.z),
+          .carried = state.carried};
+}
+
+}  // namespace
+
+State Units::measure(const State& state) const {
+  return scaled(state, coordinates.cwiseInverse(), auxiliary.cwiseInverse(), 1.0 / time);
+}
+
+State Units::restore(const State& measured) const {
+  return scaled(measured, coordinates, auxiliary, time);
+}
+
+bool SystemInUnits::has_units(const Manifold& M) {
+  return M.dimension() == M.ambient_dimension() && M.dimension() == M.tangent_dimension() &&
+         std::isinf(M.injectivity_radius(VectorXd::Zero(M.ambient_dimension())));
+}
+
+SystemInUnits::SystemInUnits(std::shared_ptr<const ImplicitSystem> system, Units units)
+    : ImplicitSystem(system ? system->manifold() : nullptr, system ? system->auxiliary_size() : 0,
+                     system ? system->equation_count() : 0, system ? system->names() : Names{}),
+      system_(std::move(system)),
+      units_(std::move(units)) {
+  if (!has_units(*manifold()))
+    throw std::invalid_argument("SystemInUnits::SystemInUnits: coordinates on " +
+                                manifold()->name() + " have no units of their own.");
+  check_units("coordinates", units_.coordinates, manifold()->dimension());
+  check_units("auxiliary unknowns", units_.auxiliary, auxiliary_size());
+  check_units("equations", units_.equations, equation_count());
+  check_units("time", VectorXd::Constant(1, units_.time), 1);
+}
+
+ExprVector SystemInUnits::do_residual(const ExprVector& x, const ExprVector& v, const ExprVector& z,
+                                      const Expr& t) const {
+  return times(
+      units_.equations.cwiseInverse(),
+      system_->residual(times(units_.coordinates, x), times(units_.coordinates / units_.time, v),
+                        times(units_.auxiliary, z), units_.time * t));
+}
+
+std::optional<Expr> SystemInUnits::do_energy(const ExprVector& x, const ExprVector& z,
+                                             const Expr& t) const {
+  return system_->energy(times(units_.coordinates, x), times(units_.auxiliary, z), units_.time * t);
+}
+
+VectorXd SystemInUnits::do_auxiliary_guess(const VectorXd& x, const VectorXd& v) const {
+  return system_
+      ->auxiliary_guess(times(units_.coordinates, x), times(units_.coordinates / units_.time, v))
+      .cwiseQuotient(units_.auxiliary);
+}
+
+}  // namespace courant

@@ -1,0 +1,61 @@
+#include "courant/reading/method_in_units.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include "courant/integrators/integrator_in_units.hpp"
+#include "courant/integrators/ladder/constraint_algorithm.hpp"
+#include "courant/reading/experiment.hpp"
+
+BOOST_AUTO_TEST_SUITE(method_in_units_test)
+
+using namespace courant;
+
+namespace {
+
+// Kepler's problem by momenta, prepared for a method that this JSON describes.
+PreparedMethod orbit(double m, double l, double T, const Json& method) {
+  const Experiment experiment = read_experiment(Json{
+      {"system",
+       {{"type", "mechanical"},
+        {"parameters", {{"m", m}, {"k", m * l * l * l / (T * T)}}},
+        {"coordinates", {"x", "y"}},
+        {"metric", "m"},
+        {"potential", "-k/sqrt(x^2 + y^2)"}}},
+      {"initial", {{"x", l}, {"y", 0}, {"p_x", 0}, {"p_y", m * l / T}}},
+      {"method", method},
+      {"time", {{"step", 0.01 * T}, {"end", T}}}}.dump());
+  const auto& system = experiment.model.system;
+  const ConstraintLadder ladder =
+      ConstraintAlgorithm().run(system, {.x = experiment.initial.x.values, .hold_x = {0, 1, 2, 3}});
+  return experiment.method->prepare({.system = system,
+                                     .ladder = ladder,
+                                     .initial = ladder.point,
+                                     .step = 0.01 * T,
+                                     .backend = Backend::interpreter,
+                                     .vocabulary = &experiment.model.vocabulary});
+}
+
+bool is_in_units(const PreparedMethod& method) {
+  return dynamic_cast<const IntegratorInUnits*>(method.integrator.get()) != nullptr;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(an_electron_is_moved_in_units) {
+  for (const char* type : {"discretize-first", "constrain-first", "rk4"}) {
+    BOOST_TEST(is_in_units(orbit(9.109e-31, 1e-6, 1e-12, {{"type", type}})), type);
+    BOOST_TEST(!is_in_units(orbit(1.0, 1.0, 1.0, {{"type", type}})), type);
+  }
+  // The initial state is that of the system.
+  const PreparedMethod method = orbit(9.109e-31, 1e-6, 1e-12, {{"type", "rk4"}});
+  BOOST_TEST(method.initial.x[0] == 1e-6);
+}
+
+// A projector that is nearest in given units is another one in others.
+BOOST_AUTO_TEST_CASE(a_metric_of_the_experiment_keeps_its_units) {
+  const Json euclidean = {{"type", "constrain-first"},
+                          {"projector", {{"type", "orthogonal"}, {"metric", "euclidean"}}}};
+  BOOST_TEST(!is_in_units(orbit(9.109e-31, 1e-6, 1e-12, euclidean)));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,95 @@
+#include "courant/structures/system_in_units.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <stdexcept>
+
+#include "courant/manifolds/cotangent_bundle.hpp"
+#include "courant/manifolds/euclidean.hpp"
+#include "courant/manifolds/sphere.hpp"
+#include "courant/manifolds/torus.hpp"
+
+BOOST_AUTO_TEST_SUITE(system_in_units)
+
+using namespace courant;
+
+namespace {
+
+// x' = 3 z, x z = t.
+class Flow final : public ImplicitSystem {
+ public:
+  Flow()
+      : ImplicitSystem(std::make_shared<Euclidean>(1), 1, 2,
+                       {.coordinates = {"charge"}, .auxiliary = {}, .equations = {}}) {}
+
+ private:
+  ExprVector do_residual(const ExprVector& x, const ExprVector& v, const ExprVector& z,
+                         const Expr& t) const override {
+    ExprVector result(2);
+    result << v[0] - 3.0 * z[0], x[0] * z[0] - t;
+    return result;
+  }
+  std::optional<Expr> do_energy(const ExprVector& x, const ExprVector& z,
+                                const Expr& t) const override {
+    return x[0] + 10.0 * z[0] + t;
+  }
+  VectorXd do_auxiliary_guess(const VectorXd& x, const VectorXd&) const override { return 5.0 * x; }
+};
+
+VectorXd numbers(std::initializer_list<double> values) {
+  return Eigen::Map<const VectorXd>(values.begin(), static_cast<Index>(values.size()));
+}
+
+const Units kUnits = {numbers({4.0}), numbers({0.5}), numbers({8.0, 2.0}), 0.5};
+
+SystemInUnits measured() { return {std::make_shared<Flow>(), kUnits}; }
+
+}  // namespace
+
+// (4·3/0.5 - 3·0.5·7)/8 and (4·2·0.5·7 - 0.5·6)/2.
+BOOST_AUTO_TEST_CASE(numbers_are_measured) {
+  const SystemInUnits system = measured();
+  const VectorXd r = system.residual(numbers({2.0}), numbers({3.0}), numbers({7.0}), 6.0);
+  BOOST_TEST(r[0] == 1.6875);
+  BOOST_TEST(r[1] == 12.5);
+  BOOST_TEST(system.auxiliary_guess(numbers({2.0}), numbers({0.0}))[0] == 80.0);
+  const ExprVector x = ExprVector::Constant(1, Expr(2.0)), z = ExprVector::Constant(1, Expr(7.0));
+  BOOST_TEST(system.energy(x, z, 1.0)->value() == 43.5);
+  BOOST_TEST(system.names().coordinates[0] == "charge");
+}
+
+BOOST_AUTO_TEST_CASE(states_are_restored_to_the_last_bit) {
+  const State state{.t = 0.1, .x = numbers({0.3}), .v = numbers({-1.7}), .z = numbers({1e-9})};
+  const State there = kUnits.measure(state);
+  BOOST_TEST(there.t == 0.2);
+  BOOST_TEST(there.x[0] == 0.075);
+  BOOST_TEST(there.v[0] == -0.2125);
+  BOOST_TEST(there.z[0] == 2e-9);
+  BOOST_TEST((kUnits.restore(there) == state));
+  BOOST_TEST(kUnits.measure({.t = 0.1, .x = numbers({0.3})}).v.size() == 0);
+  BOOST_CHECK_THROW(kUnits.measure({.x = numbers({1.0, 2.0})}), std::invalid_argument);
+}
+
+BOOST_AUTO_TEST_CASE(coordinates_that_depend_on_each_other_have_no_units) {
+  const auto plane = std::make_shared<Euclidean>(2);
+  BOOST_TEST(SystemInUnits::has_units(*plane));
+  BOOST_TEST(SystemInUnits::has_units(CotangentBundle(plane)));
+  BOOST_TEST(!SystemInUnits::has_units(Sphere(2)));
+  BOOST_TEST(!SystemInUnits::has_units(Torus(1)));
+}
+
+BOOST_AUTO_TEST_CASE(units_that_would_round_are_refused) {
+  Units other = kUnits;
+  other.coordinates[0] = 3.0;
+  BOOST_CHECK_THROW(SystemInUnits(std::make_shared<Flow>(), other), std::invalid_argument);
+  other = kUnits;
+  other.auxiliary[0] = 0.0;
+  BOOST_CHECK_THROW(SystemInUnits(std::make_shared<Flow>(), other), std::invalid_argument);
+  other = kUnits;
+  other.time = 0.3;
+  BOOST_CHECK_THROW(SystemInUnits(std::make_shared<Flow>(), other), std::invalid_argument);
+  other = kUnits;
+  other.equations = numbers({1.0});
+  BOOST_CHECK_THROW(SystemInUnits(std::make_shared<Flow>(), other), std::invalid_argument);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
