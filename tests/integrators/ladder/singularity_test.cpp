@@ -31,8 +31,8 @@ Singularity at_level_0(const SystemPointer& system, std::initializer_list<double
   return singularity(consistent, jet, levels_at(jet), true);
 }
 
-ConstraintLadder ladder(const SystemPointer& system, std::initializer_list<double> x) {
-  return ConstraintAlgorithm().run(system, {.x = at(x).x});
+ConstraintLadder ladder(const SystemPointer& system, const InitialGuess& start) {
+  return ConstraintAlgorithm().run(system, start);
 }
 
 // θ' = ω, ω²/2 = cos θ: a pendulum by its energy.
@@ -74,9 +74,8 @@ BOOST_AUTO_TEST_CASE(cuts_with_nothing_near_are_clear) {
 
 // Rest and motion both solve the equations where a motion turns: differentiated, they read ω (ω' + sin θ) = 0.
 BOOST_AUTO_TEST_CASE(turning_points_are_singular) {
-  for (const auto& [system, x] :
-       {std::pair(pendulum(), std::initializer_list<double>{std::numbers::pi / 2, 0.0}),
-        std::pair(oscillator(), std::initializer_list<double>{1.0, 0.0})}) {
+  for (const auto& [system, x] : {std::pair(pendulum(), at({std::numbers::pi / 2, 0.0})),
+                                  std::pair(oscillator(), at({1.0, 0.0}))}) {
     const ConstraintLadder found = ladder(system, x);
     BOOST_TEST(to_string(found.verdict) == "rank-change", found.reason);
     BOOST_TEST(!found.is_ambiguous());
@@ -85,9 +84,8 @@ BOOST_AUTO_TEST_CASE(turning_points_are_singular) {
 
 // Elsewhere on the same curves there is one solution.
 BOOST_AUTO_TEST_CASE(points_between_turning_points_are_regular) {
-  for (const auto& [system, x] :
-       {std::pair(pendulum(), std::initializer_list<double>{0.5, std::sqrt(2.0 * std::cos(0.5))}),
-        std::pair(oscillator(), std::initializer_list<double>{0.6, -0.8})}) {
+  for (const auto& [system, x] : {std::pair(pendulum(), at({0.5, std::sqrt(2.0 * std::cos(0.5))})),
+                                  std::pair(oscillator(), at({0.6, -0.8}))}) {
     const ConstraintLadder found = ladder(system, x);
     BOOST_TEST(to_string(found.verdict) == "regular", found.reason);
     BOOST_TEST(found.degrees_of_freedom == 1);
@@ -102,7 +100,7 @@ BOOST_AUTO_TEST_CASE(hidden_constraints_are_no_branches) {
     return equations({v[0] - x[2], v[1] - x[3], v[2] + z[0] * x[0], v[3] + z[0] * x[1] + 1,
                       square(x[0]) + square(x[1]) - 1});
   });
-  const ConstraintLadder found = ladder(rod, {1.0, 0.0, 0.0, 0.0});
+  const ConstraintLadder found = ladder(rod, at({1.0, 0.0, 0.0, 0.0}));
   BOOST_TEST(to_string(found.verdict) == "regular", found.reason);
   BOOST_TEST(found.degrees_of_freedom == 2);
 }
