@@ -78,7 +78,7 @@ const char* to_string(RunStatus status) {
   return "";
 }
 
-const QuantityRecord* RunSummary::observable(std::string_view name) const {
+const QuantityRecord* RunSummary::observable(std::string_view name) const& {
   for (const auto& [known, record] : observables)
     if (known == name) return &record;
   return nullptr;

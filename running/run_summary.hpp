@@ -54,8 +54,9 @@ struct RunSummary {
   std::string backend = {};
   double wall_seconds = kUnknown, steps_per_second = kUnknown;
 
-  // Nothing if there is none of this name.
-  const QuantityRecord* observable(std::string_view name) const;
+  // Nothing if there is none of this name. It lives as long as the summary.
+  const QuantityRecord* observable(std::string_view name) const&;
+  const QuantityRecord* observable(std::string_view name) const&& = delete;
 };
 
 // "completed", as summaries have it.

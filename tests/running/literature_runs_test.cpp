@@ -302,7 +302,8 @@ BOOST_AUTO_TEST_CASE(the_energy_of_a_satellite) {
                            {"method", kRungeKutta},
                            {"time", {{"step", 10}, {"end", 500}}}};
   const TemporaryFolder folder;
-  const QuantityRecord* const H = run_in(folder, experiment).summary.observable("H");
+  const RunOutcome outcome = run_in(folder, experiment);
+  const QuantityRecord* const H = outcome.summary.observable("H");
   BOOST_TEST_REQUIRE((H != nullptr));
   const double exact = 0.5 * speed * speed - GM / r;
   BOOST_TEST(std::fabs(H->initial - exact) < 1e-12 * std::fabs(exact));
@@ -318,7 +319,8 @@ BOOST_AUTO_TEST_CASE(the_energy_of_an_electron) {
       {"method", kMethod1},
       {"time", {{"step", 1e-13}, {"end", 1e-11}}}};
   const TemporaryFolder folder;
-  const QuantityRecord* const H = run_in(folder, experiment).summary.observable("H");
+  const RunOutcome outcome = run_in(folder, experiment);
+  const QuantityRecord* const H = outcome.summary.observable("H");
   BOOST_TEST_REQUIRE((H != nullptr));
   BOOST_TEST(std::fabs(H->final - 0.5 * m * speed * speed) < 1e-10 * m * speed * speed);
 }
