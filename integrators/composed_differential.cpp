@@ -1,12 +1,18 @@
 #include "courant/integrators/composed_differential.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
 namespace courant {
 
-ComposedDifferential::ComposedDifferential(
-    std::string method, std::vector<std::shared_ptr<const StepDifferential>> of_parts)
+std::shared_ptr<const StepDifferential> ComposedDifferential::of(std::string method, Parts parts) {
+  if (std::ranges::find(parts, nullptr) != parts.end()) return nullptr;
+  return std::shared_ptr<const StepDifferential>(
+      new ComposedDifferential(std::move(method), std::move(parts)));
+}
+
+ComposedDifferential::ComposedDifferential(std::string method, Parts of_parts)
     : method_(std::move(method)), of_parts_(std::move(of_parts)) {}
 
 MatrixXd ComposedDifferential::do_images(const Step& step, const MatrixXd& V) const {

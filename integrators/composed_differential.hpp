@@ -13,16 +13,19 @@ namespace courant {
 // with several in turn: part i has that of i modulo their number.
 class ComposedDifferential final : public StepDifferential {
  public:
-  // `method` is named in messages.
-  ComposedDifferential(std::string method,
-                       std::vector<std::shared_ptr<const StepDifferential>> of_parts);
+  using Parts = std::vector<std::shared_ptr<const StepDifferential>>;
+
+  // Nothing if one of them is missing. `method` is named in messages.
+  static std::shared_ptr<const StepDifferential> of(std::string method, Parts parts);
 
  private:
+  ComposedDifferential(std::string method, Parts of_parts);
+
   // Throws std::invalid_argument where the step does not know its parts.
   MatrixXd do_images(const Step& step, const MatrixXd& V) const override;
 
   std::string method_;
-  std::vector<std::shared_ptr<const StepDifferential>> of_parts_;
+  Parts of_parts_;
 };
 
 }  // namespace courant

@@ -165,10 +165,7 @@ StepProgram Composition::program() const {
 std::vector<StepFormulas> Composition::do_formulas() const { return method_->formulas(); }
 
 std::shared_ptr<const StepDifferential> Composition::do_differential() const {
-  auto of_stages = method_->differential();
-  if (!of_stages) return nullptr;
-  return std::make_shared<ComposedDifferential>(
-      name(), std::vector<std::shared_ptr<const StepDifferential>>{std::move(of_stages)});
+  return ComposedDifferential::of(name(), {method_->differential()});
 }
 
 std::unique_ptr<Stepper> Composition::do_stepper() const {

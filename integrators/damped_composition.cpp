@@ -55,8 +55,8 @@ DampedComposition::DampedComposition(std::shared_ptr<const Integrator> first,
       steps_[1]->order() != 1)
     throw std::invalid_argument(
         "DampedComposition::DampedComposition: the second step is missing, or of another system, "
-        "or "
-        "one of the two is not of order 1; expected the same method with theta = sqrt(2) - 1 and "
+        "or one of the two is not of order 1; expected the same method with theta = sqrt(2) - 1 "
+        "and "
         "theta = 1.");
 }
 
@@ -69,11 +69,7 @@ std::vector<StepFormulas> DampedComposition::do_formulas() const {
 }
 
 std::shared_ptr<const StepDifferential> DampedComposition::do_differential() const {
-  auto first = steps_[0]->differential(), second = steps_[1]->differential();
-  if (!first || !second) return nullptr;
-  return std::make_shared<ComposedDifferential>(
-      name(),
-      std::vector<std::shared_ptr<const StepDifferential>>{std::move(first), std::move(second)});
+  return ComposedDifferential::of(name(), {steps_[0]->differential(), steps_[1]->differential()});
 }
 
 std::unique_ptr<Stepper> DampedComposition::do_stepper() const {

@@ -22,10 +22,10 @@ namespace courant {
 //   R(z) = (1 + (1-2γ) z) / (1 - γz)²,      |R| ≤ 1 for Re z ≤ 0,   R(∞) = 0
 //
 // so that the method is L-stable, where the midpoint rule has R(∞) = -1: a motion that is much faster than
-// a step dies out within it, the current of a coil behind a diode that blocks, say. Of all γ
-// this one has the least error constant |R - exp| = 0.0404 |z|³, half that of the midpoint rule; R is that
-// of TR-BDF2 and of the SDIRK method of order 2 (E. Hairer, G. Wanner, Solving Ordinary Differential
-// Equations II, IV.6; R. E. Bank et al., IEEE Trans. CAD 4 (1985) 436). Implicit Euler comes last: a step ends where the
+// a step dies out within it, the current of a coil behind a diode that blocks, say. Of all γ this one has the
+// least error constant |R - exp| = 0.0404 |z|³, half that of the midpoint rule; R is that of TR-BDF2 and of
+// the SDIRK method of order 2 (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.6;
+// R. E. Bank et al., IEEE Trans. CAD 4 (1985) 436). Implicit Euler comes last: a step ends where the
 // equations hold at its end, with efforts and multipliers that belong to it.
 //
 // Not symmetric; no form and no energy is preserved.

@@ -153,10 +153,7 @@ std::vector<double> DividedIntegrator::corners_within(const std::vector<Corner>&
 }
 
 std::shared_ptr<const StepDifferential> DividedIntegrator::do_differential() const {
-  auto of_pieces = method_->differential();
-  if (!of_pieces) return nullptr;
-  return std::make_shared<ComposedDifferential>(
-      name(), std::vector<std::shared_ptr<const StepDifferential>>{std::move(of_pieces)});
+  return ComposedDifferential::of(name(), {method_->differential()});
 }
 
 std::unique_ptr<Stepper> DividedIntegrator::do_stepper() const {

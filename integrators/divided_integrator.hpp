@@ -21,9 +21,10 @@ struct Corner {
 //   * In halves: a step, or a piece of one, that Φ refuses (SolveError) is made as two of half the size, and each
 //     of those that is refused again, up to the given number of times.
 //
-// A step depends on the state and on h alone, as those of every method. Order, symmetry, form and energy are those of
-// Φ; symmetry where no step is halved, since the way back meets the same corners, but may not be refused where the way there was. SolverStatistics::divisions counts the steps that were made in halves. A Step has
-// the pieces as its parts, each with the parts that Φ makes it of.
+// A step depends on the state and on h alone, as those of every method. Order, symmetry, form and energy are
+// those of Φ; symmetry where no step is halved, since the way back meets the same corners, but may not be
+// refused where the way there was. SolverStatistics::divisions counts the steps that were made in halves. A
+// Step has the pieces as its parts, each with the parts that Φ makes it of.
 class DividedIntegrator final : public Integrator {
  public:
   struct Options {

@@ -32,7 +32,6 @@ class IntegratorInUnits::Trajectory final : public Stepper {
       : Stepper(method->name(), system),
         system_(std::move(system)),
         units_(std::move(units)),
-        rates_(units_.coordinates / units_.time),
         integrator_(std::move(method)),
         inner_(integrator_->stepper()) {}
 
@@ -45,10 +44,7 @@ class IntegratorInUnits::Trajectory final : public Stepper {
 
   void do_step(const State& before, double h, State& after) override {
     if (tells_parts()) inner_->tell_parts();
-    at_.t = before.t / units_.time;
-    at_.x = before.x.cwiseQuotient(units_.coordinates);
-    at_.v = before.v.cwiseQuotient(units_.coordinates) * units_.time;
-    at_.z = before.z.cwiseQuotient(units_.auxiliary);
+    units_.measure(before, at_);
     try {
       const CountedWork counted(statistics_, *inner_);
       inner_->step(at_, h / units_.time, after.t / units_.time);
@@ -56,7 +52,7 @@ class IntegratorInUnits::Trajectory final : public Stepper {
       throw SolveError(error.reason(), method(), before.t, h, in_system_time(error),
                        error.residuals());
     }
-    restore(at_, after);
+    units_.restore(at_, after);
   }
 
   // What a SolveError says, but for steps that would do, in another unit of time.
@@ -69,8 +65,7 @@ class IntegratorInUnits::Trajectory final : public Stepper {
 
   void do_keep(const State&, const State&) override {
     const Step& last = inner_->last();
-    restore(last.stage, stage_);
-    stage_.t = units_.time * last.stage.t;
+    units_.restore(last.stage, stage_);
     if (tells_parts())
       parts_ = in_other_units(last, units_.time, [&](const State& state) {
                  return units_.restore(state);
@@ -79,19 +74,6 @@ class IntegratorInUnits::Trajectory final : public Stepper {
   void do_stage(Step& step) const override {
     step.stage = stage_;
     step.parts = parts_;
-  }
-
-  // What a method does not tell of a stage is empty.
-  void restore(const State& measured, State& state) const {
-    const auto restored = [](const VectorXd& values, const VectorXd& units, VectorXd& result) {
-      if (values.size() == 0)
-        result.resize(0);
-      else
-        result = values.cwiseProduct(units);
-    };
-    restored(measured.x, units_.coordinates, state.x);
-    restored(measured.v, rates_, state.v);
-    restored(measured.z, units_.auxiliary, state.z);
   }
 
   void do_discard() override { inner_->forget(); }
@@ -104,7 +86,6 @@ class IntegratorInUnits::Trajectory final : public Stepper {
 
   std::shared_ptr<const ImplicitSystem> system_;
   Units units_;
-  VectorXd rates_;  // of velocities
   std::shared_ptr<const Integrator> integrator_;
   std::unique_ptr<Stepper> inner_;
   State at_;     // measured

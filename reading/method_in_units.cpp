@@ -2,6 +2,7 @@
 
 #include "courant/integrators/integrator_in_units.hpp"
 #include "courant/integrators/ladder/constraint_algorithm.hpp"
+#include "courant/integrators/ladder/ladder_in_units.hpp"
 
 namespace courant {
 
@@ -13,9 +14,7 @@ PreparedMethod prepared_in_units(const std::function<PreparedMethod(const Method
   const State initial = units->measure(at.initial);
   const ConstraintLadder ladder = ConstraintAlgorithm().run(
       system, {.t = initial.t, .x = initial.x, .v = initial.v, .z = initial.z});
-  if (ladder.verdict != at.ladder.verdict || ladder.index != at.ladder.index ||
-      ladder.degrees_of_freedom != at.ladder.degrees_of_freedom)
-    return prepare(at);
+  if (!are_alike(ladder, at.ladder)) return prepare(at);
   PreparedMethod method = prepare({.system = system,
                                    .ladder = ladder,
                                    .initial = initial,

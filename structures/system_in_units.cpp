@@ -21,8 +21,18 @@ void check_units(const char* what, const VectorXd& units, Index size) {
 }
 
 // Empty for what is not given.
+template <class Sizes>
+void multiply(const Eigen::MatrixBase<Sizes>& units, const VectorXd& values, VectorXd& result) {
+  if (values.size() == 0)
+    result.resize(0);
+  else
+    result = units.cwiseProduct(values);
+}
+
 VectorXd times(const VectorXd& units, const VectorXd& values) {
-  return values.size() == 0 ? VectorXd() : VectorXd(units.cwiseProduct(values));
+  VectorXd result;
+  multiply(units, values, result);
+  return result;
 }
 
 ExprVector times(const VectorXd& units, const ExprVector& values) {
@@ -31,28 +41,43 @@ ExprVector times(const VectorXd& units, const ExprVector& values) {
   return result;
 }
 
-State scaled(const State& state, const VectorXd& coordinates, const VectorXd& auxiliary,
-             double time) {
-  const auto fits = [](const VectorXd& values, const VectorXd& units) {
-    return values.size() == 0 || values.size() == units.size();
+void check_sizes(const State& state, const Units& units) {
+  const auto fits = [](const VectorXd& values, const VectorXd& sizes) {
+    return values.size() == 0 || values.size() == sizes.size();
   };
-  if (!fits(state.x, coordinates) || !fits(state.v, coordinates) || !fits(state.z, auxiliary))
+  if (!fits(state.x, units.coordinates) || !fits(state.v, units.coordinates) ||
+      !fits(state.z, units.auxiliary))
     throw std::invalid_argument("Units: the state has other sizes than the units.");
-  return {.t = time * state.t,
-          .x = times(coordinates, state.x),
-          .v = times(coordinates / time, state.v),
-          .z = times(auxiliary, state.z),
-          .carried = state.carried};
 }
 
 }  // namespace
 
+void Units::measure(const State& state, State& measured) const {
+  check_sizes(state, *this);
+  measured.t = state.t / time;
+  multiply(coordinates.cwiseInverse(), state.x, measured.x);
+  multiply(time * coordinates.cwiseInverse(), state.v, measured.v);
+  multiply(auxiliary.cwiseInverse(), state.z, measured.z);
+}
+
+void Units::restore(const State& measured, State& state) const {
+  check_sizes(measured, *this);
+  state.t = time * measured.t;
+  multiply(coordinates, measured.x, state.x);
+  multiply(coordinates / time, measured.v, state.v);
+  multiply(auxiliary, measured.z, state.z);
+}
+
 State Units::measure(const State& state) const {
-  return scaled(state, coordinates.cwiseInverse(), auxiliary.cwiseInverse(), 1.0 / time);
+  State measured{.carried = state.carried};
+  measure(state, measured);
+  return measured;
 }
 
 State Units::restore(const State& measured) const {
-  return scaled(measured, coordinates, auxiliary, time);
+  State state{.carried = measured.carried};
+  restore(measured, state);
+  return state;
 }
 
 bool SystemInUnits::has_units(const Manifold& M) {

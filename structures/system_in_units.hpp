@@ -18,6 +18,9 @@ struct Units {
   // A state in these units, and back, with all its v and z or none. Throw std::invalid_argument on wrong sizes.
   State measure(const State& state) const;
   State restore(const State& measured) const;
+  // The same into memory that is there; what is `carried` there stays.
+  void measure(const State& state, State& measured) const;
+  void restore(const State& measured, State& state) const;
 };
 
 // The system with numbers (x̂, v̂, ẑ, t̂) where the other one has x = u x̂, v = u v̂ / T, z = w ẑ, t = T t̂:
