@@ -61,21 +61,13 @@ void DenseSolver::pseudo_invert(const Equilibration<MatrixXd>& S) {
     if (as_it_is.rank() == decomposition.rank()) inverse_ = as_it_is.pseudo_inverse();
   }
   inverse_ = inverse_ * S.row_scale.asDiagonal();
-  if (determined_) return;
-  open_ = MatrixXd::Identity(A_.cols(), A_.cols()) - inverse_ * A_;
-  column_scale_ = S.column_scale;
+  if (!determined_) open_ = MatrixXd::Identity(A_.cols(), A_.cols()) - inverse_ * A_;
 }
 
-void DenseSolver::do_settle(double* x, Index first) {
-  // The entries of a projection are known to about the error that the rank was decided with.
-  constexpr double known = 1e-9;
-  const Index size = open_.cols() - first;
-  if (determined_ || size <= 0) return;
-  const auto opened =
-      column_scale_.cwiseInverse().asDiagonal() * open_ * column_scale_.asDiagonal();
-  if (MatrixXd(opened).topRows(first).norm() > known) return;
-  Eigen::Map<VectorXd> rest(x + first, size);
-  rest -= (open_.bottomRightCorner(size, size) * rest).eval();
+void DenseSolver::do_settle(double* x, const double* x0) {
+  if (determined_) return;
+  Eigen::Map<VectorXd> settled(x, open_.cols());
+  settled -= (open_ * (settled - Eigen::Map<const VectorXd>(x0, open_.cols()))).eval();
 }
 
 bool DenseSolver::do_factorize(const double* entries) {

@@ -20,7 +20,7 @@ class DenseSolver final : public LinearSolver {
   bool do_factorize(const double* entries) override;
   void do_solve(const double* b, double* x) override { multiply_(inverse_, b, x); }
   bool do_is_determined() const override { return determined_; }
-  void do_settle(double* x, Index first) override;
+  void do_settle(double* x, const double* x0) override;
   int do_orientation() const override { return orientation_; }
   void equilibrate_by_powers();
   bool invert(const MatrixXd& S, const VectorXd& row, const VectorXd& column, double least_ratio);
@@ -33,8 +33,7 @@ class DenseSolver final : public LinearSolver {
   VectorXd largest_;       // of each row
   LuDecomposition lu_;
   MatrixXd inverse_;
-  MatrixXd open_;          // I - A⁺ A where A leaves unknowns open
-  VectorXd column_scale_;  // units in which its entries are comparable
+  MatrixXd open_;  // I - A⁺ A where A leaves unknowns open
   bool determined_ = false;
   int orientation_ = 0;
   void (*multiply_)(const MatrixXd& A, const double* b, double* x);  // made for the size

@@ -38,9 +38,9 @@ class LinearSolver {
   void solve(const double* b, double* x) { do_solve(b, x); }
   // Whether A determines all of x: its columns are independent.
   bool is_determined() const { return do_is_determined(); }
-  // Takes from x_first, x_{first+1}, … what A leaves open: x ← A⁺ A x. Nothing is done if A leaves
-  // unknowns before `first` open too.
-  void settle(double* x, Index first) { do_settle(x, first); }
+  // Where A leaves x open, takes it from x₀: x ← x₀ + A⁺ A (x - x₀). Of all x with this product A x the
+  // one next to x₀. x₀: n numbers.
+  void settle(double* x, const double* x0) { do_settle(x, x0); }
   // The sign of det A; 0 if it is not known, or A is not square or singular.
   int orientation() const { return do_orientation(); }
 
@@ -50,7 +50,7 @@ class LinearSolver {
   virtual void do_solve(const double* b, double* x) = 0;
   virtual bool do_is_determined() const = 0;
   // May override, if A may leave unknowns open:
-  virtual void do_settle(double* /*x*/, Index /*first*/) {}
+  virtual void do_settle(double* /*x*/, const double* /*x0*/) {}
   // May override: 0 is what is not known.
   virtual int do_orientation() const { return 0; }
 };

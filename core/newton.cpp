@@ -66,6 +66,7 @@ Newton::Newton(EquationSystem system, std::vector<Index> groups, const Options& 
   solver_ = options_.solver ? options_.solver(contained.pattern) : linear_solver(contained.pattern);
   all_.resize(function_.output_size() + function_.nonzeros());
   step_.resize(static_cast<Index>(contained_.size()));
+  settled_.resize(step_.size());
   magnitude_.resize(function_.output_size());
   stalled_.resize(function_.output_size());
   if (!system_.is_reduced()) return;
@@ -159,18 +160,17 @@ bool Newton::is_still(const double* y, const double* scales, bool fresh, double&
   return !falls;
 }
 
-void Newton::settle(VectorXd& y, Index first) {
+void Newton::settle(VectorXd& y, const VectorXd& y0) {
   if (!factorized_ || solver_->is_determined()) return;
-  const auto unknown = [&](std::size_t k) -> double& {
-    return y[system_.kept()[static_cast<std::size_t>(contained_[k])]];
+  const auto place = [&](std::size_t k) {
+    return system_.kept()[static_cast<std::size_t>(contained_[k])];
   };
-  Index begin = 0;
   for (std::size_t k = 0; k < contained_.size(); ++k) {
-    step_[static_cast<Index>(k)] = unknown(k);
-    if (system_.kept()[static_cast<std::size_t>(contained_[k])] < first) ++begin;
+    settled_[static_cast<Index>(k)] = y[place(k)];
+    step_[static_cast<Index>(k)] = y0[place(k)];
   }
-  solver_->settle(step_.data(), begin);
-  for (std::size_t k = 0; k < contained_.size(); ++k) unknown(k) = step_[static_cast<Index>(k)];
+  solver_->settle(settled_.data(), step_.data());
+  for (std::size_t k = 0; k < contained_.size(); ++k) y[place(k)] = settled_[static_cast<Index>(k)];
 }
 
 // What the equations that are left take: u in place of y.

@@ -56,9 +56,10 @@ class Newton {
   // get there.
   bool approach(double* y, const double* const* in, const double* scales);
 
-  // Takes from the unknowns from `first` on what the last factorisation leaves open: predictions of
-  // it would grow without bounds.
-  void settle(VectorXd& y, Index first);
+  // Where the last factorisation leaves unknowns open, takes them from y₀; others stay as predicted. Those
+  // that solve() would have moved least from there are found again from there, while predictions of what
+  // is open grow without bounds.
+  void settle(VectorXd& y, const VectorXd& y0);
 
   // Forgets the kept factorisation.
   void reset() {
@@ -100,7 +101,7 @@ class Newton {
   std::vector<const double*> in_;
   VectorXd kept_, given_;  // unknowns
   VectorXd all_;           // F and the entries of its Jacobian
-  VectorXd step_;
+  VectorXd step_, settled_;
   VectorXd magnitude_, stalled_;  // of the terms that each equation is a sum of
 };
 

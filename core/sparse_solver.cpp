@@ -98,8 +98,8 @@ void SparseSolver::do_solve(const double* b, double* x) {
   result.array() *= column_scale_.array();
 }
 
-void SparseSolver::do_settle(double* x, Index first) {
-  if (dense_ && !is_sparse_) dense_->settle(x, first);
+void SparseSolver::do_settle(double* x, const double* x0) {
+  if (dense_ && !is_sparse_) dense_->settle(x, x0);
 }
 
 int SparseSolver::do_orientation() const {

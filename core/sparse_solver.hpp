@@ -26,7 +26,7 @@ class SparseSolver final : public LinearSolver {
   bool do_is_determined() const override {
     return is_sparse_ || (dense_ && dense_->is_determined());
   }
-  void do_settle(double* x, Index first) override;
+  void do_settle(double* x, const double* x0) override;
   int do_orientation() const override;
   bool is_regular(double least_ratio);
 

@@ -87,11 +87,12 @@ class ConstrainFirst::Trajectory final : public Stepper {
       y = projection_.jets();
       y.head(n_) = 0.5 * h * y.segment(n_, n_);
     };
-    if (predictor_.is_empty())
-      begin();
-    else
+    begin();
+    if (!predictor_.is_empty()) {
+      start_ = y;
       predictor_.predict(y);
-    solver_.settle(2 * n_);
+      solver_.settle(start_);
+    }
     const double* in[] = {y.data(), before.x.data(), basis_.data(), projection_.directions().data(),
                           &h,       &before.t};
     const StepSolver::Attempt attempt{before.t, h};
@@ -170,6 +171,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
   RoundOffProjection round_off_projection_;
   MovingBasis basis_;  // B at x_k
   Projection projection_;
+  VectorXd start_;  // what the state alone predicts
   VectorXd near_, advanced_;
   VectorXd stage_, stage_z_;  // (x̄, v) and z of the last step that stands
 };

@@ -81,7 +81,7 @@ void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& a
     if (iteration == 0 && goes_on && !end_.is_empty()) {
       end_.predict(y);
       y.head(n_).setZero();
-      solver_.settle(2 * n_);
+      solver_.settle(start_);
     }
     aim(guess_, y, t);
     aimed_ = y;

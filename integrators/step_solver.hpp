@@ -70,8 +70,8 @@ class StepSolver {
     begin();
     connect(converged, in, scales, attempt, statistics);
   }
-  // As of Newton, for what unknown() predicts.
-  void settle(Index first) { newton_.settle(y_, first); }
+  // As of Newton, for what unknown() predicts; y₀ is what the state alone predicts.
+  void settle(const VectorXd& y0) { newton_.settle(y_, y0); }
   // The step that was solved stands.
   void keep();
   // The kept factorisation, and the sizes of displacements.

@@ -53,6 +53,24 @@ BOOST_AUTO_TEST_CASE(redundant_and_undetermined_systems) {
   BOOST_TEST((x - VectorXd(Eigen::Vector3d(2.0, 0.0, 3.0))).norm() < 1e-14);
 }
 
+// What the equation says, x₁ + x₂, is kept; what it leaves open, x₁ - x₂, is taken from x₀.
+BOOST_AUTO_TEST_CASE(what_is_open_is_settled) {
+  const double row[] = {1.0, 1.0};
+  DenseSolver solver(full(1, 2));
+  BOOST_TEST_REQUIRE(solver.factorize(row));
+  Eigen::Vector2d x(3.0, 1.0);
+  const Eigen::Vector2d x0(0.5, 1.5);
+  solver.settle(x.data(), x0.data());
+  BOOST_TEST((x - Eigen::Vector2d(1.5, 2.5)).norm() < 1e-15);
+
+  const double regular[] = {1.0, 1.0, 1.0, -1.0};
+  DenseSolver determined(full(2, 2));
+  BOOST_TEST_REQUIRE(determined.factorize(regular));
+  x = Eigen::Vector2d(3.0, 1.0);
+  determined.settle(x.data(), x0.data());
+  BOOST_TEST((x - Eigen::Vector2d(3.0, 1.0)).norm() == 0.0);
+}
+
 BOOST_AUTO_TEST_CASE(more_equations_than_unknowns) {
   const double entries[] = {1.0, 1.0};
   DenseSolver solver(full(2, 1));

@@ -160,6 +160,22 @@ BOOST_AUTO_TEST_CASE(undetermined_unknowns_are_noticed) {
   }
 }
 
+// The difference of the two that only their sum is known of; an unknown in no equation stays.
+BOOST_AUTO_TEST_CASE(undetermined_unknowns_are_settled) {
+  Problem problem = make(3, [](const ExprVector& y, const Expr& a) {
+    return ExprVector(ExprVector::Constant(1, y[0] + y[2] - a));
+  });
+  Newton newton(problem.function, {}, {});
+  const VectorXd predicted = Eigen::Vector3d(3.0, 9.0, 1.0);
+  const VectorXd start = Eigen::Vector3d(0.5, 5.0, 1.5);
+  VectorXd y = predicted;
+  newton.settle(y, start);
+  BOOST_TEST((y - predicted).norm() == 0.0);
+  BOOST_TEST_REQUIRE((problem.solve(newton, 1.0).status == Newton::Status::converged));
+  newton.settle(y, start);
+  BOOST_TEST((y - VectorXd(Eigen::Vector3d(1.5, 9.0, 2.5))).norm() < 1e-15);
+}
+
 // A factorisation that has become old contracts badly: what it leaves is not round-off, however
 // small it is.
 BOOST_AUTO_TEST_CASE(slow_is_not_round_off) {

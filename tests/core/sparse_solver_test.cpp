@@ -148,8 +148,9 @@ BOOST_AUTO_TEST_CASE(what_is_not_regular_is_solved_as_dense_solver_does) {
     const VectorXd b = random_vector(A.pattern.rows, generator);
     BOOST_TEST((solution(sparse, b, n) - solution(dense, b, n)).norm() == 0.0);
     VectorXd x = random_vector(n, generator), y = x;
-    sparse.settle(x.data(), 0);
-    dense.settle(y.data(), 0);
+    const VectorXd x0 = random_vector(n, generator);
+    sparse.settle(x.data(), x0.data());
+    dense.settle(y.data(), x0.data());
     BOOST_TEST((x - y).norm() == 0.0);
   }
 }

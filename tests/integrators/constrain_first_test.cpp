@@ -323,6 +323,36 @@ BOOST_AUTO_TEST_CASE(projections_end_nearby) {
   BOOST_TEST(stepper->statistics().failures > 0);
 }
 
+// The model of Christ and Lee with V = (r² - 1)²/4 + r²/2: in every frame r'' = -r³, so that from rest
+// r = r₀ cn(r₀ t; ½). With r₀² = 1.04 that is 0.400408 at t = 6.
+BOOST_AUTO_TEST_CASE(gauge_variables_stay_with_the_state) {
+  const auto phase_space = std::make_shared<CotangentBundle>(std::make_shared<Euclidean>(3));
+  const auto system = std::make_shared<DiracSystem>(
+      std::make_shared<CanonicalSymplectic>(phase_space),
+      std::make_shared<Lagrangian>(
+          phase_space, [](const ExprVector& q, const ExprVector& w, const Expr&) {
+            const Expr r2 = square(q[0]) + square(q[1]);
+            return 0.5 * (square(w[0] + q[2] * q[1]) + square(w[1] - q[2] * q[0])) -
+                   0.25 * square(r2 - 1.0) - 0.5 * r2;
+          }));
+  const auto map =
+      std::make_shared<CotangentLift>(phase_space, std::make_shared<Theta>(phase_space->base()));
+  for (const double turning : {0.0, 0.3, 2.0}) BOOST_TEST_CONTEXT("z = " << turning) {
+      VectorXd x = VectorXd::Zero(6);
+      x.head(3) << 1.0, 0.2, turning;
+      const ConstraintLadder ladder = ConstraintAlgorithm().run(system, {.x = x});
+      BOOST_TEST_REQUIRE(to_string(ladder.verdict) == "gauge");
+      const ConstrainFirst method(system, ladder, map, std::make_shared<OrthogonalProjector>());
+      const auto stepper = method.stepper();
+      State state = ladder.point;
+      for (int k = 0; k < 600; ++k) stepper->step(state, 0.01);
+      BOOST_TEST(std::abs(state.x.head(2).norm() - 0.400408) < 2e-3);
+      BOOST_TEST(std::abs(state.x[0] * state.x[4] - state.x[1] * state.x[3]) < 1e-13);
+      // Of two attempts in a step most would be lost.
+      BOOST_TEST(stepper->statistics().failures <= 6);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(momentum_projector_refuses_position_constraints) {
   // A holonomic constraint cannot be met by moving momenta.
   const auto phase_space = std::make_shared<CotangentBundle>(std::make_shared<Euclidean>(2));
