@@ -12,6 +12,9 @@
 namespace courant {
 namespace {
 
+// Of the powers of two that scales are.
+constexpr double kMostExponent = 1022.0;
+
 // An entry a_ij ≠ 0 of the matrix, by its size log₂|a_ij|.
 struct Entry {
   Index row, column;
@@ -30,7 +33,9 @@ class Scaling {
                               std::to_string(column) + ") of the matrix is " + number_text(value) +
                               "; expected a finite number.");
     }
-    if (value != 0.0) entries_.push_back({row, column, std::log2(std::abs(value))});
+    // The scale of a subnormal number may be none itself.
+    if (std::abs(value) >= std::numeric_limits<double>::min())
+      entries_.push_back({row, column, std::log2(std::abs(value))});
   }
 
   // Brings every row and column maximum to 1. The distance from that halves in each sweep: entries
@@ -101,7 +106,9 @@ class Scaling {
   }
 
   static VectorXd powers_of_two(const VectorXd& exponent) {
-    return exponent.unaryExpr([](double e) { return std::exp2(std::round(e)); });
+    return exponent.unaryExpr([](double e) {
+      return std::exp2(std::clamp(std::round(e), -kMostExponent, kMostExponent));
+    });
   }
 
   std::vector<Entry> entries_;

@@ -29,7 +29,8 @@ using SparseMatrixXd = Eigen::SparseMatrix<double>;
 // An entry that is at most `noise` times the largest of its row and of its column, both levelled,
 // counts as zero: else a 1e-17 that stands for 0 would be scaled up like a number. So E1 holds as
 // far as D₁, D₂ do not push entries below that, and a row or column of nothing but rounding noise
-// cannot be told from a small one: whoever knows better sets its entries to zero first.
+// cannot be told from a small one: whoever knows better sets its entries to zero first. Subnormal
+// numbers, below 2^-1022, count as zero: they have lost their digits.
 template <class Matrix>
 struct Equilibration {
   Matrix scaled;                     // S

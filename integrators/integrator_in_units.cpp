@@ -1,5 +1,6 @@
 #include "courant/integrators/integrator_in_units.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <stdexcept>
 
@@ -145,12 +146,15 @@ std::shared_ptr<const StepDifferential> IntegratorInUnits::do_differential() con
 std::optional<Units> needed_units(const std::shared_ptr<const ImplicitSystem>& system,
                                   const State& point) {
   constexpr double comparable = 1e6, usual_time = 1e9;
+  constexpr double most = 1e90;  // products of three have to be numbers
   auto units = units_of_all_terms(system, point);
   // Velocities of zero beside others may leave units open that equations tell alone.
   if (!units) units = units_of_all_terms(system, {.t = point.t, .x = point.x});
   if (!units || units->coordinates.size() == 0) return std::nullopt;
-  const bool are_comparable =
-      units->coordinates.maxCoeff() <= comparable * units->coordinates.minCoeff();
+  const double smallest = units->coordinates.minCoeff(), largest = units->coordinates.maxCoeff();
+  if (std::min(smallest, units->time) < 1.0 / most || std::max(largest, units->time) > most)
+    return std::nullopt;
+  const bool are_comparable = largest <= comparable * smallest;
   if (are_comparable && units->time <= usual_time && units->time >= 1.0 / usual_time)
     return std::nullopt;
   return units;

@@ -149,6 +149,7 @@ class LadderSearch {
     there.v = start.v;
     there.z = start.z;
     ConstraintLadder ladder = restored(in_units_->run(measured_, there), *measured_);
+    if (ladder.levels.empty()) return own;
     ladder.moved *= length_;
     if (!are_alike(ladder, own))
       ladder.doubts.push_back(
@@ -196,7 +197,10 @@ ConstraintLadder found_start(const Experiment& experiment) {
   ConstraintLadder ladder = run(initial.x.given, initial.velocity.given, initial.z.given);
   if (has_no_start(ladder) && more_given)
     ladder = run(initial.x.given, initial.velocity.held, initial.z.held);
-  if (has_no_start(ladder)) {
+  // Equations that contradict what is given may nearly hold far away.
+  std::optional<ConstraintLadder> far;
+  if (!has_no_start(ladder) && !ladder.levels.back().is_solved) far = ladder;
+  if (has_no_start(ladder) || far) {
     ladder = run(initial.x.held, initial.velocity.held, initial.z.held);
     if (!has_no_start(ladder) && more_given) {
       // Velocities and unknowns that can be kept at the point that was found.
@@ -216,6 +220,7 @@ ConstraintLadder found_start(const Experiment& experiment) {
         ladder.moves.insert(ladder.moves.begin(), moves_of_x.begin(), moves_of_x.end());
       }
     }
+    if (far && (has_no_start(ladder) || ladder.is_ambiguous())) ladder = *std::move(far);
   }
   const bool any_held = initial.x.held.any() || initial.velocity.held.any() || initial.z.held.any();
   if (ladder.verdict == Verdict::inconsistent) {

@@ -96,6 +96,18 @@ BOOST_AUTO_TEST_CASE(drops_noise_but_not_small_numbers) {
   BOOST_TEST(!dropped(1e-12));
 }
 
+// A column of nothing but what is left of a zero, next to a row of ones.
+BOOST_AUTO_TEST_CASE(numbers_whose_scale_is_no_number) {
+  for (const double left : {1e-320, 3e-308, 1e-300}) BOOST_TEST_CONTEXT(left) {
+      const Equilibration<MatrixXd> S =
+          equilibrate(MatrixXd{{1e10, 1e10, left}, {1e10, -1e10, 0}}, noise);
+      BOOST_TEST(S.scaled.allFinite());
+      BOOST_TEST(S.row_scale.allFinite());
+      BOOST_TEST(S.column_scale.allFinite());
+      BOOST_TEST((S.scaled(0, 2) == 0.0) == (left < 1e-310));
+    }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
 
 }  // namespace courant

@@ -44,6 +44,48 @@ BOOST_AUTO_TEST_CASE(consistent_values_stay) {
   BOOST_TEST(ladder.moves.empty());
 }
 
+// A crane whose load follows x = γ, z = 4 + γ: a ladder of index 4 without anything to choose. With the
+// tension l = m (g - γ'')/z the trolley is at s = γ + γ'' z/(g - γ''), not where it is given; searches
+// that hold it there end far away, where nothing is solved. At rest it may stay.
+BOOST_AUTO_TEST_CASE(a_crane_starts_where_its_path_tells) {
+  for (const bool is_at_rest : {true, false}) {
+    const std::string path = is_at_rest ? "0*t" : "0.3*(1 - cos(t))";
+    const double acceleration = is_at_rest ? 0.0 : 0.3, g = 9.81;
+    const ConstraintLadder ladder =
+        start({{"system",
+                {{"type", "implicit"},
+                 {"coordinates", {"x", "z", "s", "n", "vx", "vz", "vs", "vn"}},
+                 {"unknowns", {"l", "F", "N"}},
+                 {"equations",
+                  {"x' - vx", "z' - vz", "s' - vs", "n' - vn", "100*vx' + l*(x - s)",
+                   "100*vz' + l*z - 981", "10*vs' - F - l*(x - s)", "5*vn' + N - l*n",
+                   "(x - s)^2 + z^2 - n^2", "x - " + path, "z - 4 - " + path}}}},
+               {"initial", {{"x", 0}, {"z", 4}, {"s", 0}, {"n", 4}}}});
+    BOOST_TEST((ladder.verdict == Verdict::regular), ladder.reason);
+    BOOST_TEST(!ladder.is_ambiguous());
+    BOOST_TEST(ladder.degrees_of_freedom == 0);
+    BOOST_TEST(ladder.index == 4);
+    const double s = acceleration * 4.0 / (g - acceleration);
+    BOOST_TEST(std::fabs(ladder.point.x[2] - s) < 1e-10);
+    BOOST_TEST(std::fabs(ladder.point.x[3] - std::hypot(s, 4.0)) < 1e-10);
+    BOOST_TEST(std::fabs(ladder.point.z[0] - 100.0 * (g - acceleration) / 4.0) < 1e-8);
+  }
+}
+
+// q'' = 0 but for 10⁻²⁹⁸: units of such numbers are none that can be calculated with.
+BOOST_AUTO_TEST_CASE(numbers_at_the_end_of_their_range_are_taken_as_they_are) {
+  for (const char* power : {"1000", "1070"}) {
+    const ConstraintLadder ladder =
+        start({{"system",
+                {{"type", "hamiltonian"},
+                 {"coordinates", {"q"}},
+                 {"hamiltonian", "((p_q^2 + q^2)/2)^" + std::string(power)}}},
+               {"initial", {{"q", 1}, {"p_q", 0}}}});
+    BOOST_TEST((ladder.verdict == Verdict::regular), ladder.reason);
+    BOOST_TEST(ladder.degrees_of_freedom == 2);
+  }
+}
+
 // Diodes that block conduct 10⁻¹⁰ times what they do at 0.6 V; what is around a start says nothing of the
 // equations there. At rest, and with a charged capacitor.
 BOOST_AUTO_TEST_CASE(a_bridge_rectifier_starts) {
