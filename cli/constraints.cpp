@@ -48,10 +48,10 @@ void print_ladder(const Console& console, const Experiment& experiment,
   for (const std::string& line : ladder_explanation(ladder)) print_wrapped(out, line, "  ");
   if (!ladder.moves.empty()) {
     out << '\n';
-    print_wrapped(out,
-                  "Initial values that had to move to be consistent, by " + shown(ladder.moved, 4) +
-                      " in all:",
-                  "  ");
+    // Of velocities and unknowns, which have units of their own, there is no sum.
+    const std::string sum =
+        ladder.moved > 0.0 ? ", by " + shown(ladder.moved, 4) + " in all:" : ":";
+    print_wrapped(out, "Initial values that had to move to be consistent" + sum, "  ");
     for (const Movement& move : ladder.moves)
       out << "      " << move.name << " from " << shown(move.from) << " to " << shown(move.to)
           << '\n';

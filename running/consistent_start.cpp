@@ -113,7 +113,8 @@ void forget_moves_of_what_was_not_given(ConstraintLadder& ladder, const Experime
   }
   for (Index i = 0; i < initial.z.given.size(); ++i)
     if (initial.z.given[i]) given.insert(names.auxiliary[static_cast<std::size_t>(i)]);
-  std::erase_if(ladder.moves, [&](const Movement& move) { return !given.contains(move.name); });
+  // Once each: a velocity of a Lagrangian is an unknown as well.
+  std::erase_if(ladder.moves, [&](const Movement& move) { return given.erase(move.name) == 0; });
 }
 
 // Whether the search found no point of the last level: what it was to keep may be why.
@@ -136,6 +137,15 @@ class LadderSearch {
     length_ = units->coordinates.maxCoeff();
     const VectorXd parts = units->coordinates / length_;
     in_units_.emplace(algorithm(weight.cwiseProduct(parts.cwiseAbs2())));
+  }
+
+  // What the equations themselves make of the guess, without what they imply; nothing if they contradict it.
+  std::optional<State> solved(const InitialGuess& guess) const {
+    ConstraintAlgorithm::Options options;
+    options.max_level = 0;
+    const ConstraintLadder ladder = ConstraintAlgorithm(options).run(system_, guess);
+    if (ladder.levels.empty() || ladder.levels.back().is_empty) return std::nullopt;
+    return ladder.point;
   }
 
   ConstraintLadder run(const InitialGuess& guess) const {
@@ -184,29 +194,40 @@ ConstraintLadder found_start(const Experiment& experiment) {
   if (initial.z.given.any()) guess.z = initial.z.values;
   check_finite(experiment, guess);
 
-  const LadderSearch search(system, guess,
-                            initial.x.given.cast<double>().matrix().cwiseProduct(initial.weight));
-  const auto run = [&](const Flags& x, const Flags& velocities, const Flags& unknowns) {
+  const VectorXd weight_of_given =
+      initial.x.given.cast<double>().matrix().cwiseProduct(initial.weight);
+  const LadderSearch search(system, guess, weight_of_given);
+  const auto run = [&](const LadderSearch& with, const Flags& x, const Flags& velocities,
+                       const Flags& unknowns) {
     guess.hold_x = indices(x);
     guess.hold_v = indices(components_of(velocities, M, coframe));
     guess.hold_z = indices(unknowns);
-    return search.run(guess);
+    return with.run(guess);
   };
   // What is given is kept if it can be; velocities and unknowns give way first, then coordinates.
   const bool more_given = initial.velocity.given.any() || initial.z.given.any();
-  ConstraintLadder ladder = run(initial.x.given, initial.velocity.given, initial.z.given);
-  if (has_no_start(ladder) && more_given)
-    ladder = run(initial.x.given, initial.velocity.held, initial.z.held);
+  ConstraintLadder ladder = run(search, initial.x.given, initial.velocity.given, initial.z.given);
+  if (has_no_start(ladder) && more_given) {
+    // From the momenta that belong to the velocities, which move no farther than they must.
+    const InitialGuess given = guess;
+    if (const auto point = search.solved(guess)) guess.x = point->x;
+    const VectorXd weight = initial.x.given.select(weight_of_given, 1.0);
+    ladder = run(LadderSearch(system, guess, weight), initial.x.given, initial.velocity.held,
+                 initial.z.held);
+    ladder.moved = 0.0;  // what is given of x stays
+    guess = given;
+  }
   // Equations that contradict what is given may nearly hold far away.
   std::optional<ConstraintLadder> far;
   if (!has_no_start(ladder) && !ladder.levels.back().is_solved) far = ladder;
   if (has_no_start(ladder) || far) {
-    ladder = run(initial.x.held, initial.velocity.held, initial.z.held);
+    ladder = run(search, initial.x.held, initial.velocity.held, initial.z.held);
     if (!has_no_start(ladder) && more_given) {
       // Velocities and unknowns that can be kept at the point that was found.
       const VectorXd given = guess.x;
       guess.x = ladder.point.x;
-      const ConstraintLadder kept = run(initial.x.given, initial.velocity.given, initial.z.given);
+      const ConstraintLadder kept =
+          run(search, initial.x.given, initial.velocity.given, initial.z.given);
       guess.x = given;
       if (!has_no_start(kept) && (!kept.is_ambiguous() || ladder.is_ambiguous())) {
         std::vector<Movement> moves_of_x = ladder.moves;

@@ -100,7 +100,6 @@ BOOST_AUTO_TEST_CASE(the_place_is_that_of_the_wrong_value) {
                      "/system/parameters/m: is inf; expected a finite number"),
            std::pair("too_many_coordinates", "/system: takes more memory than there is"),
            std::pair("submanifold_without_start", "/initial: no point of "),
-           std::pair("decide_rank", "/initial: the constraint algorithm fails at"),
            std::pair("momentum_projector_no_summary",
                      "constrain-first: the step of 1 from t = 0 has no solution that is connected "
                      "to the state"),

@@ -86,6 +86,23 @@ BOOST_AUTO_TEST_CASE(numbers_at_the_end_of_their_range_are_taken_as_they_are) {
   }
 }
 
+// The model of Christ and Lee with velocities that turn: the angular momentum has to be 0, so that of
+// p = (x' + z y, y' - z x) = (0.56, -0.2) what points away from the centre is left, (0.5, 0.1).
+BOOST_AUTO_TEST_CASE(velocities_that_contradict_a_constraint_move_no_farther_than_they_must) {
+  const ConstraintLadder ladder =
+      start({{"system",
+              {{"type", "lagrangian"},
+               {"coordinates", {"x", "y", "z"}},
+               {"lagrangian", "((x' + z*y)^2 + (y' - z*x)^2)/2 - (x^2 + y^2)/2"}}},
+             {"initial", {{"x", 1}, {"y", 0.2}, {"z", 0.3}, {"x'", 0.5}, {"y'", 0.1}}}});
+  BOOST_TEST((ladder.verdict == Verdict::gauge), ladder.reason);
+  const VectorXd& x = ladder.point.x;
+  BOOST_TEST((x.head(3) - Eigen::Vector3d(1.0, 0.2, 0.3)).norm() < 1e-12);
+  BOOST_TEST(std::fabs(x[0] * x[4] - x[1] * x[3]) < 1e-12);
+  BOOST_TEST((x.segment(3, 2) - Eigen::Vector2d(0.5, 0.1)).norm() < 0.02);
+  BOOST_TEST(ladder.moves.size() == 2u);
+}
+
 // Diodes that block conduct 10⁻¹⁰ times what they do at 0.6 V; what is around a start says nothing of the
 // equations there. At rest, and with a charged capacitor.
 BOOST_AUTO_TEST_CASE(a_bridge_rectifier_starts) {
