@@ -31,6 +31,8 @@ RATIOS = [
      {"sphere/native": "native", "sphere/interpreter": "interpreter"}),
     ("manifold_step", "free rigid body on T\\*SO(3), Cayley midpoint", "rotations_by_hand",
      {"rotations/native": "native", "rotations/interpreter": "interpreter"}),
+    ("constrained", "pendulum in Cartesian coordinates, Method 2, h = 0.01", "pendulum_by_hand",
+     {"pendulum/native": "native", "pendulum/interpreter": "interpreter"}),
     ("chain", "10 masses between springs, 50 steps from a fresh start", "by_hand/10",
      {"generic/10": "interpreter"}),
     ("chain", "100 masses", "by_hand/100", {"generic/100": "interpreter"}),
