@@ -31,10 +31,10 @@ std::string with_zeros(const Experiment& experiment) {
   return experiment.initial.x.given.all() ? "" : " (with 0 for what is not given)";
 }
 
-void check_near_manifold(const Experiment& experiment, const InitialGuess& guess) {
+void check_near_manifold(const Experiment& experiment, const VectorXd& x) {
   const Manifold& M = *experiment.model.system->manifold();
   try {
-    M.project(guess.x);
+    M.project(x);
   } catch (const std::domain_error& error) {
     throw ExperimentError("/initial", "no point of " + M.name() + " is near the initial values" +
                                           with_zeros(experiment) + ": " +
@@ -183,79 +183,117 @@ class LadderSearch {
   double length_ = 1.0;
 };
 
-ConstraintLadder found_start(const Experiment& experiment) {
-  const auto& system = experiment.model.system;
-  const Manifold& M = *system->manifold();
-  const InitialValues& initial = experiment.initial;
-  InitialGuess guess{.t = experiment.start(), .x = initial.x.values};
-  check_near_manifold(experiment, guess);
-  const LinearMap<double> coframe = M.coframe(guess.x);
-  if (initial.velocity.given.any()) guess.v = coframe * initial.velocity.values;
-  if (initial.z.given.any()) guess.z = initial.z.values;
-  check_finite(experiment, guess);
+// The search for a start that keeps what is given if it can: velocities and unknowns give way first, then
+// coordinates; what is held does not.
+class StartSearch {
+ public:
+  explicit StartSearch(const Experiment& experiment)
+      : experiment_(experiment),
+        initial_(experiment.initial),
+        coframe_(manifold_near_start().coframe(initial_.x.values)),
+        guess_(first_guess()),
+        weight_(initial_.x.given.cast<double>().matrix().cwiseProduct(initial_.weight)),
+        ladders_(experiment.model.system, guess_, weight_) {}
 
-  const VectorXd weight_of_given =
-      initial.x.given.cast<double>().matrix().cwiseProduct(initial.weight);
-  const LadderSearch search(system, guess, weight_of_given);
-  const auto run = [&](const LadderSearch& with, const Flags& x, const Flags& velocities,
-                       const Flags& unknowns) {
+  ConstraintLadder find() const {
+    ConstraintLadder ladder = all_kept(guess_.x);
+    if (has_no_start(ladder) && more_is_given()) ladder = coordinates_kept();
+    if (has_no_start(ladder)) return coordinates_moved();
+    if (ladder.levels.back().is_solved) return ladder;
+    // Equations that contradict what is given may nearly hold far away.
+    ConstraintLadder moved = coordinates_moved();
+    return has_no_start(moved) || moved.is_ambiguous() ? ladder : moved;
+  }
+
+  // Nothing is held.
+  ConstraintLadder free() const { return ladders_.run(guess_); }
+
+ private:
+  const Manifold& manifold_near_start() const {
+    check_near_manifold(experiment_, initial_.x.values);
+    return *experiment_.model.system->manifold();
+  }
+
+  InitialGuess first_guess() const {
+    InitialGuess guess{.t = experiment_.start(), .x = initial_.x.values};
+    if (initial_.velocity.given.any()) guess.v = coframe_ * initial_.velocity.values;
+    if (initial_.z.given.any()) guess.z = initial_.z.values;
+    check_finite(experiment_, guess);
+    return guess;
+  }
+
+  // Velocities or unknowns.
+  bool more_is_given() const { return initial_.velocity.given.any() || initial_.z.given.any(); }
+
+  InitialGuess holding(InitialGuess guess, const Flags& x, const Flags& velocities,
+                       const Flags& unknowns) const {
+    const Manifold& M = *experiment_.model.system->manifold();
     guess.hold_x = indices(x);
-    guess.hold_v = indices(components_of(velocities, M, coframe));
+    guess.hold_v = indices(components_of(velocities, M, coframe_));
     guess.hold_z = indices(unknowns);
-    return with.run(guess);
-  };
-  // What is given is kept if it can be; velocities and unknowns give way first, then coordinates.
-  const bool more_given = initial.velocity.given.any() || initial.z.given.any();
-  ConstraintLadder ladder = run(search, initial.x.given, initial.velocity.given, initial.z.given);
-  if (has_no_start(ladder) && more_given) {
-    // From the momenta that belong to the velocities, which move no farther than they must.
-    const InitialGuess given = guess;
-    if (const auto point = search.solved(guess)) guess.x = point->x;
-    const VectorXd weight = initial.x.given.select(weight_of_given, 1.0);
-    ladder = run(LadderSearch(system, guess, weight), initial.x.given, initial.velocity.held,
-                 initial.z.held);
+    return guess;
+  }
+
+  // All that is given, of coordinates what x has.
+  ConstraintLadder all_kept(const VectorXd& x) const {
+    InitialGuess guess =
+        holding(guess_, initial_.x.given, initial_.velocity.given, initial_.z.given);
+    guess.x = x;
+    return ladders_.run(guess);
+  }
+
+  // From the momenta that belong to the velocities, which move no farther than they must.
+  ConstraintLadder coordinates_kept() const {
+    InitialGuess guess = holding(guess_, initial_.x.given, initial_.velocity.held, initial_.z.held);
+    const InitialGuess given =
+        holding(guess_, initial_.x.given, initial_.velocity.given, initial_.z.given);
+    if (const auto point = ladders_.solved(given)) guess.x = point->x;
+    const VectorXd weight = initial_.x.given.select(weight_, 1.0);
+    ConstraintLadder ladder = LadderSearch(experiment_.model.system, guess, weight).run(guess);
     ladder.moved = 0.0;  // what is given of x stays
-    guess = given;
+    return ladder;
   }
-  // Equations that contradict what is given may nearly hold far away.
-  std::optional<ConstraintLadder> far;
-  if (!has_no_start(ladder) && !ladder.levels.back().is_solved) far = ladder;
-  if (has_no_start(ladder) || far) {
-    ladder = run(search, initial.x.held, initial.velocity.held, initial.z.held);
-    if (!has_no_start(ladder) && more_given) {
-      // Velocities and unknowns that can be kept at the point that was found.
-      const VectorXd given = guess.x;
-      guess.x = ladder.point.x;
-      const ConstraintLadder kept =
-          run(search, initial.x.given, initial.velocity.given, initial.z.given);
-      guess.x = given;
-      if (!has_no_start(kept) && (!kept.is_ambiguous() || ladder.is_ambiguous())) {
-        std::vector<Movement> moves_of_x = ladder.moves;
-        const std::vector<std::string>& coordinates = system->names().coordinates;
-        std::erase_if(moves_of_x, [&](const Movement& move) {
-          return std::find(coordinates.begin(), coordinates.end(), move.name) == coordinates.end();
-        });
-        const double moved = ladder.moved;
-        ladder = kept;
-        ladder.moved = moved;
-        ladder.moves.insert(ladder.moves.begin(), moves_of_x.begin(), moves_of_x.end());
-      }
-    }
-    if (far && (has_no_start(ladder) || ladder.is_ambiguous())) ladder = *std::move(far);
+
+  // With velocities and unknowns that can be kept at the point that is found.
+  ConstraintLadder coordinates_moved() const {
+    const ConstraintLadder ladder =
+        ladders_.run(holding(guess_, initial_.x.held, initial_.velocity.held, initial_.z.held));
+    if (has_no_start(ladder) || !more_is_given()) return ladder;
+    ConstraintLadder kept = all_kept(ladder.point.x);
+    if (has_no_start(kept) || (kept.is_ambiguous() && !ladder.is_ambiguous())) return ladder;
+    std::vector<Movement> moves = ladder.moves;
+    const std::vector<std::string>& coordinates = experiment_.model.system->names().coordinates;
+    std::erase_if(moves, [&](const Movement& move) {
+      return std::find(coordinates.begin(), coordinates.end(), move.name) == coordinates.end();
+    });
+    kept.moves.insert(kept.moves.begin(), moves.begin(), moves.end());
+    kept.moved = ladder.moved;
+    return kept;
   }
+
+  const Experiment& experiment_;
+  const InitialValues& initial_;
+  LinearMap<double> coframe_;
+  InitialGuess guess_;
+  VectorXd weight_;  // of the coordinates that are given
+  LadderSearch ladders_;
+};
+
+ConstraintLadder found_start(const Experiment& experiment) {
+  const StartSearch search(experiment);
+  ConstraintLadder ladder = search.find();
+  forget_moves_of_what_was_not_given(ladder, experiment);
+  const InitialValues& initial = experiment.initial;
   const bool any_held = initial.x.held.any() || initial.velocity.held.any() || initial.z.held.any();
   if (ladder.verdict == Verdict::inconsistent) {
-    forget_moves_of_what_was_not_given(ladder, experiment);
     if (!any_held) return ladder;
-    guess.hold_x = guess.hold_v = guess.hold_z = {};
-    const ConstraintLadder free = search.run(guess);
+    const ConstraintLadder free = search.free();
     if (free.verdict == Verdict::inconsistent) return free;
     throw ExperimentError("/hold",
                           "what is held contradicts the constraints, which are violated by " +
                               number_text(ladder.levels.back().residual, 3) +
                               "; expected values that satisfy them. " + ladder.reason);
   }
-  forget_moves_of_what_was_not_given(ladder, experiment);
   if (const auto missing = undetermined(experiment, ladder); !missing.empty()) {
     const auto told = std::span(missing).first(std::min<std::size_t>(missing.size(), 5));
     throw ExperimentError("/initial", "nothing determines " + word_list(told) +
