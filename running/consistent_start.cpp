@@ -113,8 +113,7 @@ void forget_moves_of_what_was_not_given(ConstraintLadder& ladder, const Experime
   }
   for (Index i = 0; i < initial.z.given.size(); ++i)
     if (initial.z.given[i]) given.insert(names.auxiliary[static_cast<std::size_t>(i)]);
-  // Once each: a velocity of a Lagrangian is an unknown as well.
-  std::erase_if(ladder.moves, [&](const Movement& move) { return given.erase(move.name) == 0; });
+  std::erase_if(ladder.moves, [&](const Movement& move) { return !given.contains(move.name); });
 }
 
 // Whether the search found no point of the last level: what it was to keep may be why.
