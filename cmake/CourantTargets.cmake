@@ -5,18 +5,40 @@
 set(courant_precompiled <Eigen/Core> <Eigen/SparseCore> <algorithm> <cmath> <functional> <memory> <random> <stdexcept>
     <string> <vector> <courant/core/function.hpp>)
 
+# How much a release optimises the rooms in which nothing is in an inner loop; the others have -O3. It takes a third to
+# half of the compiler's time.
+set(courant_optimisation_manifolds -O1)
+set(courant_optimisation_structures -O1)
+set(courant_optimisation_systems -O1)
+foreach(room reading plotting reporting cli tests)
+  set(courant_optimisation_${room} -Og)
+endforeach()
+
+# courant_optimise(<target> <room>)
+function(courant_optimise target room)
+  if(NOT courant_optimisation_${room})
+    return()
+  endif()
+  set(level ${courant_optimisation_${room}})
+  target_compile_options(${target} PRIVATE $<$<OR:$<CONFIG:Release>,$<BOOL:${COURANT_SANITIZE}>>:${level}>
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>) # seen in Eigen, and not there
+endfunction()
+
 # courant_precompile(<target> <room> <suffix> [<header>...])
 #
-# Uses precompiled headers in a target: those above and the given ones. They are compiled in core and, because JSON is
-# read from there on, once more in reading; the other rooms take them from one of the two (<suffix>: "" or "_tests").
-# Plotting knows nothing but the standard library.
+# Uses precompiled headers in a target: those above and the given ones. GCC compiles by the optimisation that these were
+# compiled with, whatever its command line says, so the rooms that share them are optimised alike: core and integrators
+# have those of core; structures and systems those of manifolds; reporting those of reading, which have JSON too, as
+# running has. Tests have those of the tests of core and of reading (<suffix>: "_tests"). Plotting knows nothing but the standard library.
 function(courant_precompile target room suffix)
-  if(room STREQUAL core)
+  if(room STREQUAL core OR (room STREQUAL manifolds AND suffix STREQUAL ""))
     target_precompile_headers(${target} PRIVATE ${courant_precompiled} ${ARGN})
-  elseif(room STREQUAL reading)
+  elseif(room STREQUAL reading OR (room STREQUAL running AND suffix STREQUAL ""))
     target_precompile_headers(${target} PRIVATE ${courant_precompiled} <nlohmann/json.hpp> ${ARGN})
   elseif(room MATCHES "^(running|reporting|cli)$")
     target_precompile_headers(${target} REUSE_FROM courant_reading${suffix})
+  elseif(room MATCHES "^(structures|systems)$" AND suffix STREQUAL "")
+    target_precompile_headers(${target} REUSE_FROM courant_manifolds)
   elseif(NOT room STREQUAL plotting)
     target_precompile_headers(${target} REUSE_FROM courant_core${suffix})
   endif()
@@ -51,6 +73,7 @@ function(courant_library room)
   add_library(${target} ${sources} ${headers})
   add_library(Courant::${room} ALIAS ${target})
   courant_settings(${target})
+  courant_optimise(${target} ${room})
   courant_precompile(${target} ${room} "")
   courant_unite(${target})
   target_include_directories(${target} PUBLIC
@@ -83,12 +106,11 @@ function(courant_tests room)
   set(target courant_${room}_tests)
   add_executable(${target} ${sources})
   courant_settings(${target})
+  courant_optimise(${target} tests)
   courant_precompile(${target} ${room} _tests <Eigen/Geometry> <boost/test/unit_test.hpp>)
   courant_unite(${target})
   # The one file that defines BOOST_TEST_MODULE before it includes Boost.Test.
   set_source_files_properties(${room}/main.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
-  # Tests run for seconds and compile for minutes.
-  target_compile_options(${target} PRIVATE -O1 -Wno-maybe-uninitialized) # at -O1 GCC sees it in Eigen
   target_compile_definitions(${target} PRIVATE BOOST_TEST_DYN_LINK)
   target_link_libraries(${target} PRIVATE courant_${room} Boost::unit_test_framework)
 
