@@ -29,6 +29,5 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/CourantConfigVersion.cmak
 install(FILES
   ${PROJECT_BINARY_DIR}/CourantConfig.cmake
   ${PROJECT_BINARY_DIR}/CourantConfigVersion.cmake
-  ${PROJECT_SOURCE_DIR}/cmake/FindKLU.cmake
-  ${PROJECT_SOURCE_DIR}/cmake/FindSPQR.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/FindSuiteSparse.cmake
   DESTINATION ${package_dir})
