@@ -110,9 +110,10 @@ class DividedIntegrator::Trajectory final : public Stepper {
   std::optional<Motion> expected_;  // for the step after the next preparation
 };
 
-DividedIntegrator::DividedIntegrator(std::shared_ptr<const Integrator> method, Options options)
-    : Integrator(method ? method->system() : nullptr),
-      method_(std::move(method)),
+DividedIntegrator::DividedIntegrator(const std::shared_ptr<const Integrator>& method,
+                                     Options options)
+    : WrappingIntegrator("DividedIntegrator", method ? method->system() : nullptr,
+                         method ? method->system() : nullptr, method),
       options_(std::move(options)) {
   if (options_.halvings < 0 || options_.halvings > kMostHalvings)
     throw std::invalid_argument("DividedIntegrator::DividedIntegrator: halvings is " +
@@ -153,11 +154,11 @@ std::vector<double> DividedIntegrator::corners_within(const std::vector<Corner>&
 }
 
 std::shared_ptr<const StepDifferential> DividedIntegrator::do_differential() const {
-  return ComposedDifferential::of(name(), {method_->differential()});
+  return ComposedDifferential::of(name(), {wrapped()->differential()});
 }
 
 std::unique_ptr<Stepper> DividedIntegrator::do_stepper() const {
-  return std::make_unique<Trajectory>(method_, options_, name());
+  return std::make_unique<Trajectory>(wrapped(), options_, name());
 }
 
 }  // namespace courant

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "courant/integrators/integrator.hpp"
+#include "courant/integrators/wrapping_integrator.hpp"
 
 namespace courant {
 
@@ -24,8 +24,9 @@ struct Corner {
 // A step depends on the state and on h alone, as those of every method. Order, symmetry, form and energy are
 // those of Φ; symmetry where no step is halved, since the way back meets the same corners, but may not be
 // refused where the way there was. SolverStatistics::divisions counts the steps that were made in halves. A
-// Step has the pieces as its parts, each with the parts that Φ makes it of.
-class DividedIntegrator final : public Integrator {
+// Step has the pieces as its parts, each with the parts that Φ makes it of. In formulas() h is the size of a
+// piece.
+class DividedIntegrator final : public WrappingIntegrator {
  public:
   struct Options {
     std::vector<Corner> corners = {};
@@ -36,31 +37,19 @@ class DividedIntegrator final : public Integrator {
 
   // Throws std::invalid_argument unless times and periods are finite, periods not negative, and
   // there are 0 to 60 halvings.
-  DividedIntegrator(std::shared_ptr<const Integrator> method, Options options);
+  DividedIntegrator(const std::shared_ptr<const Integrator>& method, Options options);
 
   // The corners within the step from t to t + h, in the order of the way. Throws SolveError for more than
   // 1e4 of one period.
   static std::vector<double> corners_within(const std::vector<Corner>& corners, double t, double h);
 
-  const std::shared_ptr<const Integrator>& undivided() const { return method_; }
-
-  std::string name() const override { return method_->name(); }
-  int order() const override { return method_->order(); }
-  bool is_symmetric() const override { return method_->is_symmetric(); }
-  std::optional<bool> is_symplectic() const override { return method_->is_symplectic(); }
-  bool has_exact_energy() const override { return method_->has_exact_energy(); }
-  bool is_native() const override { return method_->is_native(); }
-
  private:
   class Trajectory;
 
   std::unique_ptr<Stepper> do_stepper() const override;
-  // Those of Φ, where h is the size of a piece.
-  std::vector<StepFormulas> do_formulas() const override { return method_->formulas(); }
   // The product of those of the pieces.
   std::shared_ptr<const StepDifferential> do_differential() const override;
 
-  std::shared_ptr<const Integrator> method_;
   Options options_;
 };
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <functional>
-#include <stdexcept>
+#include <utility>
 
 #include "courant/integrators/natural_units.hpp"
 #include "courant/integrators/step_differential.hpp"
@@ -50,18 +50,9 @@ class IntegratorInUnits::Trajectory final : public Stepper {
       const CountedWork counted(statistics_, *inner_);
       inner_->step(at_, h / units_.time, after.t / units_.time);
     } catch (const SolveError& error) {
-      throw SolveError(error.reason(), method(), before.t, h, in_system_time(error),
-                       error.residuals());
+      throw error.of_step(method(), before.t, h, units_.time);
     }
     units_.restore(at_, after);
-  }
-
-  // What a SolveError says, but for steps that would do, in another unit of time.
-  std::string in_system_time(const SolveError& error) const {
-    const std::string text = what_happened(error);
-    const std::size_t advice = text.find(": the one that is ends");
-    if (units_.time == 1.0 || advice == std::string::npos) return text;
-    return text.substr(0, advice) + ".";
   }
 
   void do_keep(const State&, const State&) override {
@@ -113,32 +104,28 @@ class IntegratorInUnits::Differential final : public StepDifferential {
 
 IntegratorInUnits::IntegratorInUnits(const std::shared_ptr<const SystemInUnits>& system,
                                      std::shared_ptr<const Integrator> method)
-    : Integrator(system ? system->system() : nullptr), method_(std::move(method)) {
-  if (!method_ || method_->system() != system)
-    throw std::invalid_argument(
-        "IntegratorInUnits::IntegratorInUnits: the method is missing, or it is not one of the "
-        "system in these units.");
-  units_ = system->units();
-}
+    : WrappingIntegrator("IntegratorInUnits", system ? system->system() : nullptr, system,
+                         std::move(method)),
+      units_(system->units()) {}
 
 std::unique_ptr<Stepper> IntegratorInUnits::do_stepper() const {
-  return std::make_unique<Trajectory>(system(), units_, method_);
+  return std::make_unique<Trajectory>(system(), units_, wrapped());
 }
 
 std::vector<StepFormulas> IntegratorInUnits::do_formulas() const {
-  std::vector<StepFormulas> formulas = method_->formulas();
+  std::vector<StepFormulas> formulas = wrapped()->formulas();
   for (StepFormulas& step : formulas) step.name += ", in natural units";
   return formulas;
 }
 
 StepProgram IntegratorInUnits::program() const {
-  StepProgram program = step_program(*method_);
+  StepProgram program = step_program(*wrapped());
   program.units = units_;
   return program;
 }
 
 std::shared_ptr<const StepDifferential> IntegratorInUnits::do_differential() const {
-  auto measured = method_->differential();
+  auto measured = wrapped()->differential();
   if (!measured) return nullptr;
   return std::make_shared<Differential>(units_, std::move(measured));
 }

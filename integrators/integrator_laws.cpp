@@ -10,7 +10,6 @@
 #include <stdexcept>
 
 #include "courant/core/rank_decision.hpp"
-#include "courant/integrators/integrator_in_units.hpp"
 #include "courant/integrators/step_energies.hpp"
 #include "courant/manifolds/measurement.hpp"
 #include "courant/structures/dirac_interconnection.hpp"
@@ -43,7 +42,7 @@ class IntegratorLaws {
         setting_(setting),
         options_(options),
         M_(*setting.system->manifold()),
-        units_(units_of(integrator)),
+        units_(integrator.coordinate_units()),
         scale_(std::max(in_units(setting.initial.x).norm(), 1e-300)) {}
 
   IntegratorReport run() {
@@ -91,10 +90,6 @@ class IntegratorLaws {
   }
 
   // Numbers of steps that are made in other units are compared in those.
-  static VectorXd units_of(const Integrator& integrator) {
-    const auto* in_units = dynamic_cast<const IntegratorInUnits*>(&integrator);
-    return in_units ? in_units->units().coordinates : VectorXd();
-  }
   VectorXd in_units(const VectorXd& x) const {
     return units_.size() > 0 ? VectorXd(x.cwiseQuotient(units_)) : x;
   }

@@ -22,12 +22,6 @@ constexpr double kSameSolution = 1e-3;
 constexpr int kFewArcs = 3;
 constexpr double kHardlyBent = 0.1;
 
-// Two digits of a step, towards zero.
-double rounded_down(double h) {
-  const double unit = std::pow(10.0, std::floor(std::log10(std::fabs(h))) - 1.0);
-  return std::trunc(h / unit) * unit;
-}
-
 }  // namespace
 
 StepSolver::StepSolver(const EquationSystem& equations, std::vector<Index> groups,
@@ -129,14 +123,9 @@ void StepSolver::connect(bool converged, const double* const* in, const double* 
   newton_.reset();
   if (!arrived) {
     if (reached == 0.0) fail(attempt);
-    const std::string why = surplus();
-    throw SolveError(
-        SolveError::Reason::disconnected, method_, attempt.time, attempt.h,
-        "has no solution that is connected to the state: the one that is ends at a step of " +
-            number_text(reached * attempt.h) + ". " +
-            (why.empty() ? "A step of " + number_text(rounded_down(0.9 * reached * attempt.h)) +
-                               " would do."
-                         : why));
+    throw SolveError(SolveError::Reason::disconnected, method_, attempt.time, attempt.h,
+                     "has no solution that is connected to the state", {},
+                     SolveError::Reach{.h = reached * attempt.h, .remedy = surplus()});
   }
   ++statistics.failures;
   // A curve that does not begin at the state may confirm what the iteration found; against it, it is no

@@ -1,7 +1,7 @@
 #include "courant/integrators/transformed_integrator.hpp"
 
 #include <cmath>
-#include <stdexcept>
+#include <utility>
 
 #include "courant/core/message.hpp"
 #include "courant/integrators/ladder/constraint_algorithm.hpp"
@@ -38,8 +38,7 @@ class TransformedIntegrator::Trajectory final : public Stepper {
       const CountedWork counted(statistics_, *inner_);
       inner_->step(next_, h, 0.0);
     } catch (const SolveError& error) {
-      throw SolveError(error.reason(), method(), before.t, h, what_happened(error),
-                       error.residuals());
+      throw error.of_step(method(), before.t, h);
     }
     // No step depends on τ: that of an extended state is 0.
     next_.t = 0.0;
@@ -103,14 +102,10 @@ class TransformedIntegrator::Trajectory final : public Stepper {
 TransformedIntegrator::TransformedIntegrator(
     std::shared_ptr<const TimeTransformation> transformation,
     std::shared_ptr<const Integrator> method)
-    : Integrator(transformation ? transformation->system() : nullptr),
-      transformation_(std::move(transformation)),
-      method_(std::move(method)) {
-  if (!method_ || method_->system() != transformation_->extended())
-    throw std::invalid_argument(
-        "TransformedIntegrator::TransformedIntegrator: the method is missing, or it is not one of "
-        "the extended system of the transformation.");
-}
+    : WrappingIntegrator("TransformedIntegrator",
+                         transformation ? transformation->system() : nullptr,
+                         transformation ? transformation->extended() : nullptr, std::move(method)),
+      transformation_(std::move(transformation)) {}
 
 ConstraintLadder extended_ladder(const TimeTransformation& transformation, const State& initial) {
   const State start = transformation.to_extended(initial);
@@ -119,7 +114,7 @@ ConstraintLadder extended_ladder(const TimeTransformation& transformation, const
 }
 
 std::unique_ptr<Stepper> TransformedIntegrator::do_stepper() const {
-  return std::make_unique<Trajectory>(transformation_, method_, name());
+  return std::make_unique<Trajectory>(transformation_, wrapped(), name());
 }
 
 }  // namespace courant

@@ -1,8 +1,8 @@
 // TransformedIntegrator: steps of one size in a time τ, of varying size in t.
 #pragma once
 
-#include "courant/integrators/integrator.hpp"
 #include "courant/integrators/ladder/constraint_ladder.hpp"
+#include "courant/integrators/wrapping_integrator.hpp"
 #include "courant/structures/time_transformation.hpp"
 
 namespace courant {
@@ -19,37 +19,28 @@ namespace courant {
 // and a symplectic method, that the form of T*(Q × R) is preserved. Order, symmetry, constraints and
 // (unless E depends on t) an exact balance of energy are those of the method. A step that does not go
 // forward in t for h > 0, as where g vanishes or is negative, throws SolveError.
-class TransformedIntegrator final : public Integrator {
+class TransformedIntegrator final : public WrappingIntegrator {
  public:
-  // `method` is of transformation->extended(); throws std::invalid_argument otherwise.
+  // `method` is of transformation->extended(), and wrapped(): its laws are those of every integrator. Throws
+  // std::invalid_argument otherwise.
   TransformedIntegrator(std::shared_ptr<const TimeTransformation> transformation,
                         std::shared_ptr<const Integrator> method);
 
   const std::shared_ptr<const TimeTransformation>& transformation() const {
     return transformation_;
   }
-  // That of the extended system: its laws are those of every integrator.
-  const std::shared_ptr<const Integrator>& extended() const { return method_; }
-
-  std::string name() const override { return method_->name() + " in transformed time"; }
-  int order() const override { return method_->order(); }
-  bool is_symmetric() const override { return method_->is_symmetric(); }
-  // On the extended phase space.
-  std::optional<bool> is_symplectic() const override { return method_->is_symplectic(); }
+  std::string name() const override { return wrapped()->name() + " in transformed time"; }
   bool has_exact_energy() const override {
-    return method_->has_exact_energy() && !transformation_->has_time_in_energy();
+    return wrapped()->has_exact_energy() && !transformation_->has_time_in_energy();
   }
-  bool is_native() const override { return method_->is_native(); }
+  VectorXd coordinate_units() const override { return {}; }
 
  private:
   class Trajectory;
 
   std::unique_ptr<Stepper> do_stepper() const override;
-  // Those of the extended system.
-  std::vector<StepFormulas> do_formulas() const override { return method_->formulas(); }
 
   std::shared_ptr<const TimeTransformation> transformation_;
-  std::shared_ptr<const Integrator> method_;
 };
 
 // The ladder of the extended system where a state of the system itself is.

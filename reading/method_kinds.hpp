@@ -17,6 +17,8 @@
 
 namespace courant {
 
+class TransformedIntegrator;
+
 // What a method is made for.
 struct MethodSetting {
   std::shared_ptr<const ImplicitSystem> system;
@@ -36,6 +38,9 @@ struct PreparedMethod {
   std::shared_ptr<const Integrator> integrator;
   State initial;
   std::shared_ptr<const DiscretizationMap> map = {};
+  // In transformed time: the method that makes the integrator's steps, whose laws are those of the extended
+  // system.
+  std::shared_ptr<const TransformedIntegrator> transformed = {};
 };
 
 // The choice of a method, before there is a system to make it for.

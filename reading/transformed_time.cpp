@@ -48,7 +48,8 @@ PreparedMethod prepare(const MethodChoice& choice, const WrittenFormula& formula
                                           .vocabulary = own.vocabulary,
                                           .own = &own,
                                           .transformation = time});
-  method.integrator = std::make_shared<TransformedIntegrator>(time, method.integrator);
+  method.integrator = method.transformed =
+      std::make_shared<TransformedIntegrator>(time, method.integrator);
   method.initial = time->from_extended(method.initial);
   return method;
 }

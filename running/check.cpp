@@ -8,7 +8,6 @@
 
 #include "courant/core/derivative.hpp"
 #include "courant/core/message.hpp"
-#include "courant/integrators/divided_integrator.hpp"
 #include "courant/integrators/integrator_laws.hpp"
 #include "courant/integrators/ladder/ladder_laws.hpp"
 #include "courant/integrators/maps/laws.hpp"
@@ -244,10 +243,8 @@ class Check {
       add_laws(checks, "discretization map",
                lift ? check_cotangent_lift(*lift) : check_discretization_map(*method->map));
     }
-    const auto* divided = dynamic_cast<const DividedIntegrator*>(method->integrator.get());
-    const Integrator& undivided = divided ? *divided->undivided() : *method->integrator;
-    const auto* transformed = dynamic_cast<const TransformedIntegrator*>(&undivided);
-    const Integrator& integrator = transformed ? *transformed->extended() : *method->integrator;
+    const auto& transformed = method->transformed;
+    const Integrator& integrator = transformed ? *transformed->wrapped() : *method->integrator;
     const auto structure = experiment_.model.structure();
     const IntegratorSetting setting =
         transformed ? extended_setting(*transformed->transformation(), method->initial)
