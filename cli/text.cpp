@@ -8,6 +8,7 @@
 
 #include "courant/core/message.hpp"
 #include "courant/core/text_layout.hpp"
+#include "courant/core/word_list.hpp"
 
 namespace courant::cli {
 namespace {
@@ -105,18 +106,13 @@ void TextTable::print(std::ostream& out, const std::string& indent) const {
 }
 
 std::string ladder_line(const LadderReport& ladder) {
-  std::string line;
-  std::optional<std::pair<std::optional<Index>, std::optional<Index>>> before;
-  for (const LadderReport::Level& level : ladder.levels) {
-    const std::pair pair(level.dim_S, level.dim_M);
-    if (before == pair) continue;
-    before = pair;
-    if (!line.empty()) line += " ⊇ ";
-    line += level.dim_S
-                ? "(" + std::to_string(*level.dim_S) + ", " + shown_if_known(level.dim_M) + ")"
-                : "∅";
-  }
-  return line;
+  return word_list(
+      ladder.dimensions(),
+      [](const LadderReport::Dimensions& of) {
+        const auto& [S, M] = of;
+        return S ? "(" + std::to_string(*S) + ", " + shown_if_known(M) + ")" : "∅";
+      },
+      " ⊇ ");
 }
 
 }  // namespace courant::cli

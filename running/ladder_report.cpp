@@ -137,6 +137,14 @@ LadderReport discrete_ladder_report(const ConstraintLadder& ladder, const Implic
   return report;
 }
 
+std::vector<LadderReport::Dimensions> LadderReport::dimensions() const {
+  std::vector<Dimensions> list;
+  for (const Level& level : levels)
+    if (const Dimensions pair(level.dim_S, level.dim_M); list.empty() || list.back() != pair)
+      list.push_back(pair);
+  return list;
+}
+
 LadderReport ladder_report(const ConstraintLadder& ladder, const ImplicitSystem& system) {
   LadderReport report = discrete_ladder_report(ladder, system);
   const bool has_end = ladder.index >= 0;

@@ -86,6 +86,10 @@ struct LadderReport {
     bool is_determined = false;
     std::optional<std::string> formula = {};
   };
+  // (dim S, dim M) of each level but those that only confirm the one before.
+  using Dimensions = std::pair<std::optional<Index>, std::optional<Index>>;
+  std::vector<Dimensions> dimensions() const;
+
   // What is known at the end.
   struct End {
     std::vector<Unknown> unknowns = {};

@@ -8,6 +8,7 @@
 #include <new>
 
 #include "courant/core/message.hpp"
+#include "courant/core/word_list.hpp"
 #include "courant/reading/experiment.hpp"
 #include "courant/running/comma_separated.hpp"
 #include "courant/running/consistent_start.hpp"
@@ -196,15 +197,13 @@ Json ladder_of_case(const SweepCase& one) {
     return count ? Json(*count) : Json();
   };
   double gap = LadderReport::kUnknown;
-  std::string dimensions, before;
-  for (const LadderReport::Level& level : ladder.levels) {
-    gap = std::fmin(gap, level.gap);
-    const std::string pair =
-        "(" + known(level.dim_S).dump() + " " + known(level.dim_M).dump() + ")";
-    if (pair == before) continue;
-    before = pair;
-    dimensions += (dimensions.empty() ? "" : " ") + pair;
-  }
+  for (const LadderReport::Level& level : ladder.levels) gap = std::fmin(gap, level.gap);
+  const std::string dimensions = word_list(
+      ladder.dimensions(),
+      [&](const LadderReport::Dimensions& of) {
+        return "(" + known(of.first).dump() + " " + known(of.second).dump() + ")";
+      },
+      " ");
   return {{"status", "completed"},
           {"message", ladder.reason},
           {"values",

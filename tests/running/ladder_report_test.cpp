@@ -41,6 +41,15 @@ const Json inconsistent = {
 
 }  // namespace
 
+BOOST_AUTO_TEST_CASE(levels_that_only_confirm_have_no_dimensions_of_their_own) {
+  using Pair = LadderReport::Dimensions;
+  const LadderReport ladder{.levels = {{.k = 0, .dim_S = 4, .dim_M = 3},
+                                       {.k = 1, .dim_S = 2, .dim_M = 2},
+                                       {.k = 2, .dim_S = 2, .dim_M = 2},
+                                       {.k = 3}}};
+  BOOST_TEST((ladder.dimensions() == std::vector<Pair>{{4, 3}, {2, 2}, {{}, {}}}));
+}
+
 BOOST_AUTO_TEST_CASE(reads_back_to_what_was_written) {
   for (const Json& experiment : {gauge, redundant, pendulum, inconsistent}) {
     const LadderReport whole = report(experiment);
