@@ -13,6 +13,7 @@
 #include "courant/running/energy_watch.hpp"
 #include "courant/running/ladder_report.hpp"
 #include "courant/running/left_constraints.hpp"
+#include "courant/running/observer_elsewhere.hpp"
 #include "courant/running/run_backend.hpp"
 #include "courant/running/run_clock.hpp"
 #include "courant/running/run_failure.hpp"
@@ -21,7 +22,7 @@
 #include "courant/running/run_watchers.hpp"
 #include "courant/running/symmetry_check.hpp"
 #include "courant/running/tangent_of_run.hpp"
-#include "courant/running/trajectory_writer.hpp"
+#include "courant/running/trajectory_rows.hpp"
 
 namespace courant {
 namespace {
@@ -81,15 +82,15 @@ class RunUnderway {
                                 : experiment_.time ? experiment_.time->time(first)
                                                    : 0.0);
     folder.write_summary(results_.summary(RunStatus::running, {}));
-    writer_ = make_writer(folder);
+    rows_.open(folder);
     if (method && !experiment_.events.empty()) watch_events(folder);
     make_watchers(first);
-    CheckpointKeeper keeper(folder.checkpoint_file(), *writer_, options_.checkpoint_interval);
+    CheckpointKeeper keeper(folder.checkpoint_file(), rows_.file(), options_.checkpoint_interval);
     if (method)
       integrate(*method, checkpoint, keeper);
     else if (consistent && first == 0)
       goes_on({.after = ladder_.point}, 0);
-    writer_->flush();
+    rows_.file().flush();
     keeper.flush();
 
     RunOutcome outcome{results_.status, results_.message, {}, results_.expectations()};
@@ -99,13 +100,6 @@ class RunUnderway {
   }
 
  private:
-  // The column of the transformed time, unless the experiment has another use for the name.
-  bool writes_tau() const {
-    const auto& names = observer_.names();
-    const auto end = names.begin() + static_cast<std::ptrdiff_t>(observer_.written_count());
-    return clock_.is_transformed() && std::find(names.begin(), end, "tau") == end;
-  }
-
   void fail(std::string message) {
     results_.status = RunStatus::failed;
     results_.message = std::move(message);
@@ -138,43 +132,11 @@ class RunUnderway {
     return std::nullopt;
   }
 
-  // Of the quantities in a row of the trajectory.
-  std::vector<std::string> written_names() const {
-    std::vector<std::string> names = observer_.names();
-    names.resize(observer_.written_count());
-    return names;
-  }
-
-  // The numbers of a row that the trajectory has.
-  std::vector<Index> written_columns() const {
-    std::vector<Index> columns;
-    for (std::size_t i = 0; i < observer_.written_count(); ++i)
-      if (i >= observer_.coordinate_count() || experiment_.output.has_column(observer_.names()[i]))
-        columns.push_back(static_cast<Index>(i));
-    return columns;
-  }
-
-  std::unique_ptr<TrajectoryWriter> make_writer(const RunFolder& folder) const {
-    std::vector<std::string> columns = {"t"};
-    if (writes_tau()) columns.push_back("tau");
-    for (const Index i : columns_)
-      columns.push_back(observer_.names()[static_cast<std::size_t>(i)]);
-    for (std::string& column : columns) column = experiment_.output.heading(column);
-    std::optional<std::uintmax_t> keep;
-    if (folder.checkpoint()) keep = folder.checkpoint()->trajectory_size;
-    return make_trajectory_writer(experiment_.output.format, folder.path(), columns, keep);
-  }
-
   // All that is told of the states of the run, in this order. What ends the run is told last.
   void make_watchers(long first) {
     watchers_.push_back(keep_statistics(results_.statistics));
     watchers_.push_back(write_rows(
-        *writer_,
-        [this](long k) {
-          return !experiment_.time || clock_.is_last() ||
-                 experiment_.output.is_written(k, *experiment_.time);
-        },
-        columns_));
+        rows_.file(), [this](long k) { return rows_.has_step(k); }, rows_.columns()));
     watchers_.push_back(
         find_not_finite(not_finite_, static_cast<Index>(observer_.written_count())));
     if (experiment_.time && !clock_.is_transformed() && !experiment_.expect.times.empty()) {
@@ -200,8 +162,8 @@ class RunUnderway {
                      .row = k == 0 ? observer_.begin(state) : observer_.advance(step),
                      .step = step};
     if (clock_.is_transformed()) {
-      if (writes_tau()) moment.tau = clock_.tau();
-      keep_expected(t, moment.row);
+      if (rows_.has_tau()) moment.tau = clock_.tau();
+      rows_.keep(t, moment.row);
     }
     results_.steps = k;
     results_.t = t;
@@ -220,84 +182,25 @@ class RunUnderway {
     return !end && !clock_.is_last();
   }
 
-  // A row that expectations ask for by its time.
-  void keep_expected(double t, const VectorXd& row) {
-    for (const double moment : experiment_.expect.times)
-      if (moment == t) results_.rows_at_times[moment] = row;
-  }
-
-  // What is measured at states that other steps lead to has an observer of its own, made when it is
-  // needed.
-  const VectorXd& row_elsewhere(const State& state) {
-    elsewhere(state);
-    return elsewhere_->row(state);
-  }
-  // What was observed before the step that was made, where something is measured within steps.
-  void keep_observed() {
-    if (!event_watch_ && experiment_.output.at.empty() && !clock_.is_transformed()) return;
-    observed_before_ = observer_.memory();
-  }
-  // At the end of a part of that step, with the energies and the tangent map up to there.
-  const VectorXd& row_within(const Step& part) {
-    elsewhere(part.after);
-    elsewhere_->recall(observed_before_);
-    return elsewhere_->advance(part);
-  }
-  void elsewhere(const State& state) {
-    if (!elsewhere_) {
-      elsewhere_.emplace(experiment_, ladder_, Backend::interpreter);
-      if (const TangentMap* map = observer_.tangent_map()) elsewhere_->follow(*map);
-    }
-    elsewhere_->restart(state);
-  }
-
-  // In transformed time, what is asked for by its time in the step that was made, step k: rows of the
-  // trajectory, and those that expectations ask for. Those at its end are told by goes_on.
-  void visit_times(Stepper& stepper, long k) {
-    const TimeSpan& time = *experiment_.time;
-    const double before = stepper.last().before.t;
-    const double after = clock_.is_last() ? time.until : stepper.last().after.t;
-    std::map<double, bool> moments;  // whether they are written
-    for (const double t : experiment_.expect.times) moments[t] = false;
-    for (const double t : experiment_.output.at) moments[t] = true;
-    for (const auto& [t, is_written] : moments) {
-      if (!(t > before && (t < after || (t == after && is_written && !clock_.is_last())))) continue;
-      const double share = stepper.share_at(std::min(t, stepper.last().after.t));
-      const VectorXd& row = row_within(stepper.part(share));
-      keep_expected(t, row);
-      if (!is_written) continue;
-      const double tau = time.time(k - 1) + share * stepper.last().h;
-      append_row(*writer_, t, writes_tau() ? std::optional(tau) : std::nullopt, row(columns_));
-    }
-  }
-
-  // The rows that are asked for between step k - 1 and the one that was made, step k.
-  void write_between(Stepper& stepper, long k) {
-    if (clock_.is_transformed()) return visit_times(stepper, k);
-    if (experiment_.output.at.empty()) return;
-    const TimeSpan& time = *experiment_.time;
-    for (const double t : experiment_.output.between(k, time)) {
-      const VectorXd& row = row_within(stepper.part((t - time.time(k - 1)) / time.step));
-      writer_->append(t, row(columns_));
-    }
+  // Whether something is measured within steps.
+  bool looks_into_steps() const {
+    return event_watch_ || !experiment_.output.at.empty() || clock_.is_transformed();
   }
 
   void watch_energy(const PreparedMethod& method) {
     if (const auto H = energy())
       energy_watch_.emplace(
-          method.integrator, [this, H = *H](const State& state) { return row_elsewhere(state)[H]; },
-          [this](const State& state) {
-            elsewhere(state);
-            return elsewhere_->energy_terms(state);
-          },
-          *H, method.initial);
+          method.integrator,
+          [this, H = *H](const State& state) { return elsewhere_.row(state)[H]; },
+          [this](const State& state) { return elsewhere_.energy_terms(state); }, *H,
+          method.initial);
   }
 
   void watch_events(const RunFolder& folder) {
     std::optional<EventWatch::Memory> memory;
     if (folder.checkpoint()) memory = folder.checkpoint()->event_watch;
     event_watch_.emplace(experiment_.events, static_cast<Index>(observer_.first_event()),
-                         written_names(), experiment_.expect.occurrences, folder.path(),
+                         rows_.names(), experiment_.expect.occurrences, folder.path(),
                          std::move(memory));
     results_.event_watch = &*event_watch_;
   }
@@ -315,7 +218,7 @@ class RunUnderway {
                    .k = k,
                    .state = state,
                    .motion = motion,
-                   .trajectory_size = writer_->size(),
+                   .trajectory_size = rows_.file().size(),
                    .wall_seconds = results_.wall_seconds + seconds,
                    .solver = results_.solver + solver,
                    .statistics = results_.statistics.memory(),
@@ -372,8 +275,9 @@ class RunUnderway {
     State state = from ? from->state : method.initial;
     long k = from ? from->k : 0;
     if (event_watch_)
-      event_watch_->set_curve(
-          *stepper, [this](const Step& part) -> const VectorXd& { return row_within(part); });
+      event_watch_->set_curve(*stepper, [this](const Step& part) -> const VectorXd& {
+        return elsewhere_.row_within(part);
+      });
     const auto begin = Clock::now();
     try {
       bool going = true;
@@ -388,8 +292,8 @@ class RunUnderway {
         for (; going && k < end; ++k) {
           stepper->step(state, time.step, time.time(k + 1));
           if (clock_.is_transformed()) clock_.end_step(*stepper, state, k + 1);
-          keep_observed();
-          write_between(*stepper, k + 1);
+          if (looks_into_steps()) elsewhere_.begin_step();
+          rows_.write_between(*stepper, k + 1, elsewhere_);
           going = goes_on(stepper->last(), k + 1);
         }
         if (!going || k == time.steps) break;
@@ -444,7 +348,7 @@ class RunUnderway {
   const LadderReport ladder_report_;
   const std::vector<SymmetryFinding> symmetries_;
   Observer observer_;
-  const std::vector<Index> columns_ = written_columns();
+  ObserverElsewhere elsewhere_{experiment_, ladder_, observer_};
 
   RunResults results_{.experiment = experiment_,
                       .ladder = ladder_,
@@ -455,9 +359,7 @@ class RunUnderway {
   RunClock clock_{experiment_.time};
   std::optional<LadderWatch> ladder_watch_;
   std::optional<EnergyWatch> energy_watch_;
-  std::unique_ptr<TrajectoryWriter> writer_;
-  std::optional<Observer> elsewhere_;
-  Observer::Memory observed_before_;  // the step that was made
+  TrajectoryRows rows_{experiment_, observer_, clock_, results_.rows_at_times};
   std::optional<EventWatch> event_watch_;
   std::vector<std::unique_ptr<RunWatcher>> watchers_;
 };

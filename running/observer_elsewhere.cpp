@@ -1,0 +1,20 @@
+#include "courant/running/observer_elsewhere.hpp"
+
+namespace courant {
+
+Observer& ObserverElsewhere::at(const State& state) {
+  if (!own_) {
+    own_.emplace(experiment_, ladder_, Backend::interpreter);
+    if (const TangentMap* map = of_.tangent_map()) own_->follow(*map);
+  }
+  own_->restart(state);
+  return *own_;
+}
+
+const VectorXd& ObserverElsewhere::row_within(const Step& part) {
+  Observer& observer = at(part.after);
+  observer.recall(before_);
+  return observer.advance(part);
+}
+
+}  // namespace courant
