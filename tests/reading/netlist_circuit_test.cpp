@@ -1,0 +1,119 @@
+#include "courant/reading/netlist_circuit.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <string>
+
+BOOST_AUTO_TEST_SUITE(netlist_circuit)
+
+using namespace courant;
+using namespace courant::netlist;
+
+namespace {
+
+NetlistCircuit circuit_of(const std::string& body) {
+  LineProblems problems;
+  const Deck deck = read_deck("A title\n" + body + "\n.tran 1u 1m\n", problems);
+  NetlistCircuit circuit = read_circuit(deck, problems);
+  problems.require_none();
+  return circuit;
+}
+
+std::string refusal(const std::string& body) {
+  try {
+    circuit_of(body);
+  } catch (const ExperimentError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(elements_of_a_network_and_of_its_operating_point) {
+  const NetlistCircuit circuit = circuit_of("V1 a 0 5\nR1 a b 2k\nC1 b gnd 1u ic=3");
+  BOOST_TEST(circuit.nodes == Json({"0", "a", "b"}));
+  BOOST_TEST(
+      circuit.elements[1] ==
+      Json({{"type", "resistor"}, {"name", "R1"}, {"from", "a"}, {"to", "b"}, {"value", 2000.0}}));
+  BOOST_TEST(circuit.element_lines == std::vector<int>({2, 3, 4}),
+             boost::test_tools::per_element());
+  BOOST_TEST(circuit.fixed.nodes == 3u);
+  BOOST_TEST((circuit.fixed.elements[2].kind == StaticElement::Kind::capacitor));
+  BOOST_TEST(circuit.fixed.elements[2].to == 0u);
+  BOOST_TEST_REQUIRE(circuit.storages.size() == 1u);
+  BOOST_TEST(circuit.storages[0].state == "q_C1");
+  BOOST_TEST(circuit.storages[0].given.value() == "3");
+  BOOST_TEST(!circuit.at_rest);
+  BOOST_TEST(circuit.times.end == 1e-3);
+  BOOST_TEST(!circuit.resting.has_value());
+}
+
+// Of a subcircuit every instance has its own nodes, names and parameters.
+BOOST_AUTO_TEST_CASE(instances_stand_in_the_places_of_subcircuits) {
+  const NetlistCircuit circuit = circuit_of(
+      ".param top=3\n.subckt part in out size=1\nR1 in mid {size*top}\nC1 mid out 1u\n.ends\n"
+      "V1 a 0 0\nX1 a 0 part\nX2 a 0 part size=7");
+  BOOST_TEST(circuit.nodes == Json({"0", "a", "x1_mid", "x2_mid"}));
+  BOOST_TEST(circuit.nodes_by_name.at("x2.mid") == 3u);
+  BOOST_TEST(circuit.elements[1].at("name") == "x1_R1");
+  BOOST_TEST(circuit.elements[3].at("value") == "(x2_size*top)");
+  BOOST_TEST(circuit.fixed.elements[1].value == 3.0);
+  BOOST_TEST(circuit.fixed.elements[3].value == 21.0);
+  BOOST_TEST(circuit.parameters.at("x1_size") == 1.0);
+  BOOST_TEST(circuit.at_rest);
+  BOOST_TEST(circuit.sources.size() == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(controlled_sources) {
+  const NetlistCircuit circuit =
+      circuit_of("V1 a 0 1\nR1 a 0 1\nE1 b 0 a 0 2\nF1 b 0 V1 3\nC1 b 0 1");
+  BOOST_TEST(circuit.elements[2].at("value") == "2*potential_a");
+  BOOST_TEST(circuit.elements[3].at("value") == "3*i_V1");
+  BOOST_TEST(circuit.fixed.elements[2].gain == 2.0);
+  BOOST_TEST(circuit.fixed.elements[2].control_from == 1u);
+  BOOST_TEST(circuit.fixed.elements[3].control.value() == 0u);
+}
+
+// k = 1: one flux, an ideal transformer beside the first inductor. k = ½: a mutual inductance.
+BOOST_AUTO_TEST_CASE(coupled_inductors) {
+  const std::string windings = "V1 a 0 1\nL1 a 0 4m\nL2 b 0 1m\nR1 b 0 1\nK1 L1 L2 ";
+  const NetlistCircuit whole = circuit_of(windings + "1"), half = circuit_of(windings + "0.5");
+  BOOST_TEST(whole.storages.size() == 1u);
+  BOOST_TEST(whole.elements.size() == 4u);
+  BOOST_TEST(whole.elements.back().at("type") == "ideal-transformer");
+  BOOST_TEST(whole.elements.back().at("ratio") == "sqrt(0.004/(0.001))");
+  BOOST_TEST(half.storages.size() == 2u);
+  BOOST_TEST(half.elements.back().at("type") == "mutual-inductance");
+  BOOST_TEST(std::abs(half.fixed.couplings[0].mutual - 1e-3) < 1e-18);
+}
+
+// A network needs a state.
+BOOST_AUTO_TEST_CASE(a_circuit_without_storage_gets_one_that_rests) {
+  const NetlistCircuit circuit = circuit_of("V1 a 0 1\nR1 a 0 1");
+  BOOST_TEST(circuit.resting.value() == 2u);
+  BOOST_TEST(circuit.name_of(2) == "rest");
+  BOOST_TEST(circuit.elements.size() == 4u);
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_built_is_refused_at_its_line) {
+  BOOST_TEST(refusal("R1 a 0 1\nr1 a 0 2") == "line 3: the name r1 is that of line 2 again");
+  BOOST_TEST(refusal("Q1 a b c npn").starts_with("line 2: the element Q1 is not supported"));
+  BOOST_TEST(refusal("X1 a 0 part") == "line 2: unknown subcircuit \"part\"");
+  BOOST_TEST(refusal(".subckt p a b\nx1 a b p\n.ends\nx1 a 0 p") ==
+             "line 3: the subcircuit p contains itself");
+  BOOST_TEST(refusal(".subckt p a b\nr1 a b 1\n.ends\nx1 a 0 c p") ==
+             "line 5: has 3 nodes; the subcircuit p has 2");
+  BOOST_TEST(refusal(".subckt p a b\nr1 a b 1\n.ends\nx1 a 0 p k=1") ==
+             "line 5: the subcircuit p has no parameter k");
+  BOOST_TEST(refusal("F1 a 0 V9 1") == "line 2: needs the voltage source v9, which is not there");
+  BOOST_TEST(refusal("D1 a 0 dd") == "line 2: unknown model \"dd\"");
+  BOOST_TEST(refusal("R1 a 0 {1/0}").starts_with("line 2: "));
+  BOOST_TEST(refusal("R1 a 0 1\n.tran 1u").starts_with("line 3: expected .tran step end"));
+}
+
+BOOST_AUTO_TEST_CASE(numbers_are_written_as_numbers) {
+  BOOST_TEST(written_value("4.7k") == Json(4700.0));
+  BOOST_TEST(written_value("2*rx") == Json("2*rx"));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
