@@ -1,6 +1,6 @@
 """Measures what bench/README.md holds, and writes its tables. Called by scripts/bench.
 
-measure.py BIN ROOT [instructions|check|work]
+measure.py BIN ROOT [ratios|instructions|check|work]
 
 Times are medians of several repetitions in one process, and only their ratios are written. Instructions a step are the
 difference of two runs of the command, of which one makes twice as many steps, counted by callgrind; they are the same
@@ -25,14 +25,21 @@ ALLOWED = 1.05  # instructions a step, of those that were recorded
 
 # What is compared: executable, by hand, and the others with their names in the table.
 RATIOS = [
-    ("point_vortices", "four vortices, regular form on R⁸, h = 1, by Newton", "hand_written_newton",
-     {"courant_step/native": "native", "courant_step/interpreter": "interpreter"}),
+    ("point_vortices", "four vortices, regular form on R⁸, h = 1, next to Newton", "newton_by_hand",
+     {"simplified_newton_by_hand": "simplified Newton by hand", "fixed_point_by_hand": "fixed point by hand",
+      "generic/bivector_native": "native", "generic/bivector_interpreter": "interpreter"}),
+    ("point_vortices", "the same, next to a fixed point, the best by hand", "fixed_point_by_hand",
+     {"generic/bivector_native": "native"}),
+    ("point_vortices", "the singular Lagrangian on T\\*R⁸, next to the regular form of this program",
+     "generic/bivector_native", {"generic/method_1_native": "Method 1", "generic/method_2_native": "Method 2"}),
     ("manifold_step", "reduced rigid body on S², chordal map, h = 0.05", "sphere_by_hand",
      {"sphere/native": "native", "sphere/interpreter": "interpreter"}),
     ("manifold_step", "free rigid body on T\\*SO(3), Cayley midpoint", "rotations_by_hand",
      {"rotations/native": "native", "rotations/interpreter": "interpreter"}),
     ("constrained", "pendulum in Cartesian coordinates, Method 2, h = 0.01", "pendulum_by_hand",
      {"pendulum/native": "native", "pendulum/interpreter": "interpreter"}),
+    ("constrained", "heavy top in R¹⁸, Method 2, h = 0.0025", "heavy_top_by_hand",
+     {"heavy_top/native": "native", "heavy_top/interpreter": "interpreter"}),
     ("chain", "10 masses between springs, 50 steps from a fresh start", "by_hand/10",
      {"generic/10": "interpreter"}),
     ("chain", "100 masses", "by_hand/100", {"generic/100": "interpreter"}),
@@ -191,9 +198,11 @@ def main():
         written("work", [f"{machine()}; seconds of processor time:", *work_tables(work())])
     if WHAT == "work":
         return
-    if WHAT == "all":
+    if WHAT in ("all", "ratios"):
         written("ratios", [f"{machine()}:", "", "| bench | what | time, by hand = 1 |", "|---|---|---|",
                            *ratio_rows()])
+    if WHAT == "ratios":
+        return
     written("instructions", [f"{machine()}:", "", "| experiment | instructions a step |", "|---|---|",
                              *(f"| `{name}` | {count:,} |" for name, count in instructions())])
 
