@@ -26,13 +26,12 @@ void multiply(const MatrixXd& A, const double* b, double* x) {
   if constexpr (n == Eigen::Dynamic) {
     Eigen::Map<VectorXd>(x, A.rows()).noalias() = A * Eigen::Map<const VectorXd>(b, A.cols());
   } else {
-    // By numbers, not by packets: b has just been written number by number, and a packet would wait
-    // until that has reached the cache.
-    const double* entry = A.data();
-    double sum[n] = {};
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) sum[i] += *entry++ * b[j];
-    for (int i = 0; i < n; ++i) x[i] = sum[i];
+    // b number by number, as it has just been written: a packet would wait until that has reached the
+    // cache.
+    const Eigen::Map<const Eigen::Matrix<double, n, n>> columns(A.data());
+    Eigen::Matrix<double, n, 1> sum = Eigen::Matrix<double, n, 1>::Zero();
+    for (int j = 0; j < n; ++j) sum += columns.col(j) * b[j];
+    Eigen::Map<Eigen::Matrix<double, n, 1>>(x, n) = sum;
   }
 }
 

@@ -1,6 +1,5 @@
 #include "courant/core/equation_system.hpp"
 
-#include <algorithm>
 #include <numeric>
 #include <stdexcept>
 
@@ -19,17 +18,13 @@ EquationSystem::EquationSystem(const std::string& name, const std::vector<Functi
   Elimination elimination(equations, y, options.elimination);
   kept_ = std::move(elimination.kept);
   pivots_ = std::move(elimination.pivots);
-  for (const Elimination::Pivot& pivot : pivots_) eliminated_.push_back(pivot.unknown);
-  std::sort(eliminated_.begin(), eliminated_.end());
-  const auto pick = [](const ExprVector& from, const std::vector<Index>& places) {
-    return ExprVector(from(places));
-  };
   std::vector<Function::Input> left = inputs;
-  left[0].variables = pick(y, kept_);
+  left[0].variables = y(kept_);
   left_ = Function(name, left, elimination.equations,
                    {.differentiate = {unknown}, .backend = options.backend});
-  given_ = Function(name + ", given unknowns", left, pick(elimination.unknowns, eliminated_),
-                    {.backend = options.backend});
+  if (is_reduced())
+    unknowns_ =
+        Function(name + ", unknowns", left, elimination.unknowns, {.backend = options.backend});
 }
 
 EquationSystem::EquationSystem(Function equations)

@@ -34,17 +34,16 @@ class EquationSystem {
 
   // u; p ↦ G, with the Jacobian by u.
   const Function& left() const { return left_; }
-  // u; p ↦ those y_j that are not kept, ascending.
-  const Function& given() const { return given_; }
+  // u; p ↦ y, all of it; nothing unless is_reduced().
+  const Function& unknowns() const { return unknowns_; }
   const std::vector<Index>& kept() const { return kept_; }
-  const std::vector<Index>& eliminated() const { return eliminated_; }  // ascending
   // How, in the order of elimination.
   const std::vector<Elimination::Pivot>& pivots() const { return pivots_; }
 
  private:
   Index size_ = 0;
-  Function left_, given_;
-  std::vector<Index> kept_, eliminated_;
+  Function left_, unknowns_;
+  std::vector<Index> kept_;
   std::vector<Elimination::Pivot> pivots_;
 };
 

@@ -59,4 +59,8 @@ class LinearSolver {
 // entries are missing, a SparseSolver.
 std::unique_ptr<LinearSolver> linear_solver(const MatrixPattern& pattern);
 
+// The one that is faster where each matrix serves one or two right sides: a SparseSolver from a dozen
+// unknowns on, if most entries are missing.
+std::unique_ptr<LinearSolver> brief_linear_solver(const MatrixPattern& pattern);
+
 }  // namespace courant

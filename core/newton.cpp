@@ -42,6 +42,48 @@ constexpr double kSolved = 1e-9;
 // Relative changes that are round-off everywhere.
 constexpr double kLeast = 2.0 * std::numeric_limits<double>::epsilon();
 
+// What became of some unknowns: their largest change, their largest size after it, the sum of all changes.
+struct Movement {
+  double largest = 0.0, size = 0.0, total = 0.0;
+};
+
+// u_i ← u_i - change_i for begin ≤ i < end, two at a time.
+Movement subtract(double* u, const double* change, Index begin, Index end) {
+  using Two = Eigen::Array2d;
+  Two largest = Two::Zero(), size = Two::Zero(), total = Two::Zero();
+  Index i = begin;
+  for (; i + 1 < end; i += 2) {
+    const Two step = Eigen::Map<const Two>(change + i), length = step.abs();
+    Eigen::Map<Two> two(u + i);
+    const Two moved = two - step;
+    two = moved;
+    largest = largest.max(length);
+    size = size.max(moved.abs());
+    total += length;
+  }
+  Movement result{std::max(largest[0], largest[1]), std::max(size[0], size[1]),
+                  total[0] + total[1]};
+  if (i == end) return result;
+  u[i] -= change[i];
+  const double length = std::fabs(change[i]);
+  return {std::max(result.largest, length), std::max(result.size, std::fabs(u[i])),
+          result.total + length};
+}
+
+// The same for the unknowns at these places.
+Movement subtract(double* u, const double* change, const Index* places, Index begin, Index end) {
+  Movement result;
+  for (Index i = begin; i < end; ++i) {
+    double& unknown = u[places[i]];
+    const double length = std::fabs(change[i]);
+    unknown -= change[i];
+    result.largest = std::max(result.largest, length);
+    result.size = std::max(result.size, std::fabs(unknown));
+    result.total += length;
+  }
+  return result;
+}
+
 }  // namespace
 
 Newton::Newton(EquationSystem system, std::vector<Index> groups, const Options& options)
@@ -59,6 +101,8 @@ Newton::Newton(EquationSystem system, std::vector<Index> groups, const Options& 
   ContainedUnknowns contained(function_);
   contained_ = std::move(contained.places);
   ends_ = group_ends(groups_, contained_);
+  is_contiguous_ =
+      !contained_.empty() && contained_.back() - contained_.front() + 1 == std::ssize(contained_);
   std::vector<bool> is_contained(system_.kept().size());
   for (const Index place : contained_) is_contained[static_cast<std::size_t>(place)] = true;
   for (std::size_t k = 0; k < is_contained.size(); ++k)
@@ -72,7 +116,6 @@ Newton::Newton(EquationSystem system, std::vector<Index> groups, const Options& 
   if (!system_.is_reduced()) return;
   in_.resize(static_cast<std::size_t>(function_.input_count()));
   kept_.resize(std::ssize(system_.kept()));
-  given_.resize(std::ssize(system_.eliminated()));
 }
 
 bool Newton::factorize(const double* const* in) {
@@ -85,21 +128,18 @@ double Newton::improve(double* y, const double* scales) {
   solver_->solve(all_.data(), step_.data());
   double result = 0.0;
   double total = 0.0;  // not finite if one of the changes is not
-  const Index* contained = contained_.data();
-  Index i = 0;
+  Index begin = 0;
   for (std::size_t g = 0; g < ends_.size(); ++g) {
-    double moved = 0.0;
-    double size = scales[g];
-    for (const Index end = ends_[g]; i < end; ++i) {
-      double& unknown = y[contained[i]];
-      const double change = std::fabs(step_[i]);
-      unknown -= step_[i];
-      moved = std::max(moved, change);
-      size = std::max(size, std::fabs(unknown));
-      total += change;
-    }
+    const Index end = ends_[g];
+    const Movement movement = is_contiguous_
+                                  ? subtract(y + contained_.front(), step_.data(), begin, end)
+                                  : subtract(y, step_.data(), contained_.data(), begin, end);
+    begin = end;
+    total += movement.total;
+    const double size = std::max(scales[g], movement.size);
     // A block of scale 0 that ends at 0 has moved by all of itself.
-    if (moved > 0.0) result = std::max(result, size > 0.0 ? moved / size : 1.0);
+    if (movement.largest > 0.0)
+      result = std::max(result, size > 0.0 ? movement.largest / size : 1.0);
   }
   return std::isfinite(total) ? result : std::numeric_limits<double>::infinity();
 }
@@ -183,13 +223,7 @@ const double* const* Newton::take_kept(const double* y, const double* const* in)
 }
 
 // All unknowns by those that are kept.
-void Newton::give(double* y) {
-  system_.given().value(in_.data(), given_.data());
-  for (Index i = 0; i < kept_.size(); ++i)
-    y[system_.kept()[static_cast<std::size_t>(i)]] = kept_[i];
-  for (Index i = 0; i < given_.size(); ++i)
-    y[system_.eliminated()[static_cast<std::size_t>(i)]] = given_[i];
-}
+void Newton::give(double* y) { system_.unknowns().value(in_.data(), y); }
 
 Newton::Result Newton::solve(double* y, const double* const* in, const double* scales) {
   if (!system_.is_reduced()) return solve_kept(y, in, scales);

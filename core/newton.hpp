@@ -93,14 +93,15 @@ class Newton {
   std::vector<Index> groups_;     // their sizes among those
   std::vector<Index> contained_;  // kept unknowns that F contains, ascending
   std::vector<Index> ends_;       // of the groups, in contained_
+  bool is_contiguous_ = false;    // contained_, without gaps
   Options options_;
   std::unique_ptr<LinearSolver>
       solver_;  // for a row an equation, a column an unknown of contained_
   bool factorized_ = false;
   double round_off_ = 0.0;  // by how much iterates moved when they stalled with a new factorisation
   std::vector<const double*> in_;
-  VectorXd kept_, given_;  // unknowns
-  VectorXd all_;           // F and the entries of its Jacobian
+  VectorXd kept_;  // unknowns
+  VectorXd all_;   // F and the entries of its Jacobian
   VectorXd step_, settled_;
   VectorXd magnitude_, stalled_;  // of the terms that each equation is a sum of
 };

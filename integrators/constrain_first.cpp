@@ -87,9 +87,9 @@ class ConstrainFirst::Trajectory final : public Stepper {
       y = projection_.jets();
       y.head(n_) = 0.5 * h * y.segment(n_, n_);
     };
-    begin();
+    if (predictor_.is_empty() || solver_.needs_start()) begin();
     if (!predictor_.is_empty()) {
-      start_ = y;
+      if (!solver_.is_determined()) start_ = y;
       predictor_.predict(y);
       solver_.settle(start_);
     }

@@ -30,6 +30,8 @@ ConstrainFirst::Projection::Projection(const ConstrainFirst& method, MovingBasis
       d_(method.codimension_),
       rest_((method.blocks_ - 2) * n_ + method.auxiliaries_),
       solver_(method.projection_, {n_, n_, rest_, d_}, method.name() + " (projection)"),
+      is_explicit_(solver_.is_explicit() && has_fixed_directions() &&
+                   n_ == method.system()->manifold()->tangent_dimension()),
       end_(predicted_groups(method, solver_.unknown().size()),
            method.fixed_directions_.size() > 0 ? solver_.predicted() : solver_.found()),
       shift_({method.system()->manifold()->tangent_dimension()}),
@@ -64,10 +66,19 @@ void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& a
   const auto& [before, attempt, t, far, goes_on] = approach;
   near_ = near;
   VectorXd& y = solver_.unknown();
-  const double speed = goes_on ? largest_speed(before, y) : 0.0;
   y.head(n_).setZero();
   y.tail(d_).setZero();
   guess_ = near_;
+  if (is_explicit_) {
+    const double* in[] = {
+        y.data(), guess_.data(), basis_.data(), directions_.matrix().data(), near_.data(), &t};
+    constexpr double unused[4] = {};
+    solver_.solve(
+        in, unused, [] {}, attempt, statistics);
+    method_.projected_.value(in, found_.data());
+    return;
+  }
+  const double speed = goes_on ? largest_speed(before, y) : 0.0;
   if (goes_on && !shift_.is_empty()) {
     shift_.predict(shifted_);
     const double* in[] = {near_.data(), shifted_.data()};
@@ -175,6 +186,7 @@ void ConstrainFirst::Projection::aim(const VectorXd& x, const VectorXd& y, doubl
 }
 
 void ConstrainFirst::Projection::record() {
+  if (is_explicit_) return;
   VectorXd& y = solver_.unknown();
   if (!solver_.is_determined()) end_.limit_degree(Predictor::kUndetermined);
   y.head(n_).setZero();
@@ -225,7 +237,7 @@ void ConstrainFirst::Projection::take_over(const Projection& other, bool goes_on
 void ConstrainFirst::Projection::learn_from(const Projection& other,
                                             const Stepper::Companion& companion) {
   const double ratio = companion.ratio, times = companion.at_end;
-  if (times == 0.0) return;
+  if (times == 0.0 || is_explicit_) return;
   end_.learn_from(other.end_, times_of(times, ratio, 0));
   shift_.learn_from(other.shift_, VectorXd::Constant(shifted_.size(), times * (ratio * ratio)));
   conormals_.learn_from(other.conormals_, times);

@@ -78,8 +78,9 @@ class ConstrainFirst::Projection {
   const ConstrainFirst& method_;
   Index n_, d_, rest_;
   StepSolver solver_;
-  Predictor end_;    // of its unknowns; of all that are found where W depends on them
-  Predictor shift_;  // of the vector at near_ that leads to x
+  bool is_explicit_;  // formulas give what is found: nothing is foreseen
+  Predictor end_;     // of its unknowns; of all that are found where W depends on them
+  Predictor shift_;   // of the vector at near_ that leads to x
   MovingBasis& basis_;
   MovingConormals conormals_;
   MovingDirections directions_;  // W

@@ -12,16 +12,12 @@ namespace {
 
 constexpr int kStepsBetweenChoices = 32;
 
-// Σ a_j b_j, the even places and the odd ones apart: two sums at a time, in an order that does not
-// depend on the machine, so that steps in C give the same bits.
-template <int size>
-double sum_of_products(const double* a, const double* b) {
-  static_assert(size % 2 == 0);
-  using Two = Eigen::Map<const Eigen::Array2d>;
-  Eigen::Array2d sums = Two(a) * Two(b);
-  for (int j = 2; j < size; j += 2) sums += Two(a + j) * Two(b + j);
-  return sums[0] + sums[1];
-}
+// Two unknowns, or one.
+using Two = Eigen::Array2d;
+void read(const double* from, Two& to) { to = Eigen::Map<const Two>(from); }
+void read(const double* from, double& to) { to = *from; }
+void enlarge(Two& size, const Two& by) { size = size.max(by.abs()); }
+void enlarge(double& size, double by) { size = std::max(size, std::fabs(by)); }
 
 std::vector<Index> all_of(const std::vector<Index>& groups) {
   std::vector<Index> places(
@@ -39,41 +35,60 @@ Predictor::Predictor(const std::vector<Index>& groups, std::vector<Index> places
     groups_.push_back({.begin = begin, .end = end});
     begin = end;
   }
-  history_.setZero(kKept, std::ssize(places_));
+  is_contiguous_ = !places_.empty() && places_.back() - places_.front() + 1 == std::ssize(places_);
+  history_.setZero(2 * kKept, std::ssize(places_));
+  extrapolated_.setZero(std::ssize(places_));
 }
 
 Predictor::Predictor(const std::vector<Index>& groups) : Predictor(groups, all_of(groups)) {}
 
 void Predictor::learn_from(const Predictor& other, const VectorXd& times) {
   companions_.push_back({.predictor = &other, .times = times(places_)});
-  extrapolated_.setZero(std::ssize(places_));
-  corrections_ = errors_ = extrapolated_;
+  corrections_ = errors_ = before_ = VectorXd::Zero(std::ssize(places_));
+}
+
+// Σ_j w_j (what was recorded j steps before that of this age), in ascending order of j for each unknown,
+// so that steps in C give the same bits; two unknowns at a time.
+void Predictor::extrapolate(const Group& group, int age, double* result) const {
+  const double* const rows = recorded(age);
+  const Index stride = history_.cols();
+  Index i = group.begin;
+  for (; i + 1 < group.end; i += 2) {
+    const double* row = rows + i;
+    Two sum = group.weights[0] * Eigen::Map<const Two>(row);
+    for (int j = 1; j <= group.degree; ++j) {
+      row -= stride;
+      sum += group.weights[static_cast<std::size_t>(j)] * Eigen::Map<const Two>(row);
+    }
+    Eigen::Map<Two>(result + i) = sum;
+  }
+  if (i == group.end) return;
+  const double* row = rows + i;
+  double sum = group.weights[0] * *row;
+  for (int j = 1; j <= group.degree; ++j) {
+    row -= stride;
+    sum += group.weights[static_cast<std::size_t>(j)] * *row;
+  }
+  result[i] = sum;
 }
 
 void Predictor::predict(VectorXd& y) {
-  for (const Group& group : groups_) {
-    const double* weights = group.weights.data() + (kKept - newest_);
-    for (Index i = group.begin; i < group.end; ++i)
-      y[places_[static_cast<std::size_t>(i)]] =
-          sum_of_products<kKept>(history_.col(i).data(), weights);
-  }
-  if (companions_.empty()) return;
+  const bool is_corrected = !companions_.empty();
+  double* const result =
+      is_contiguous_ && !is_corrected ? y.data() + places_.front() : extrapolated_.data();
+  for (const Group& group : groups_) extrapolate(group, 0, result);
+  if (result != extrapolated_.data()) return;
+  for (std::size_t i = 0; i < places_.size(); ++i)
+    y[places_[i]] = extrapolated_[static_cast<Index>(i)];
+  if (!is_corrected) return;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
-    const Group& group = groups_[g];
     correct(g);
-    for (Index i = group.begin; i < group.end; ++i) {
-      double& predicted = y[places_[static_cast<std::size_t>(i)]];
-      extrapolated_[i] = predicted;
-      if (group.is_corrected) predicted += corrections_[i];
-    }
+    const Group& group = groups_[g];
+    if (!group.is_corrected) continue;
+    for (Index i = group.begin; i < group.end; ++i)
+      y[places_[static_cast<std::size_t>(i)]] += corrections_[i];
   }
   has_predicted_ = true;
-}
-
-// ∇ᵈ⁺¹ of the newest unknown.
-double Predictor::newest_error(const Group& group, Index i) const {
-  const double* weights = group.weights.data() + (kKept - (newest_ + kKept - 1) % kKept);
-  return history_(newest_, i) - sum_of_products<kKept>(history_.col(i).data(), weights);
 }
 
 // Zero where a companion cannot tell yet, and where something is left open: no equation would stop
@@ -85,9 +100,14 @@ void Predictor::correct(std::size_t g) {
   for (const auto& [of, times] : companions_)
     if (of->count_ < group.degree + 2) return;
   for (const auto& [of, times] : companions_) {
-    const bool is_known = of->groups_[g].judged_degree == group.degree;
+    if (of->groups_[g].judged_degree == group.degree) {
+      for (Index i = group.begin; i < group.end; ++i) corrections_[i] += times[i] * of->errors_[i];
+      continue;
+    }
+    of->extrapolate(group, 1, before_.data());
+    const double* const newest = of->recorded(0);
     for (Index i = group.begin; i < group.end; ++i)
-      corrections_[i] += times[i] * (is_known ? of->errors_[i] : of->newest_error(group, i));
+      corrections_[i] += times[i] * (newest[i] - before_[i]);
   }
 }
 
@@ -109,8 +129,14 @@ void Predictor::record(const VectorXd& y) {
   if (has_predicted_) judge(y);
   has_predicted_ = false;
   newest_ = (newest_ + 1) % kKept;
-  for (Index i = 0; i < history_.cols(); ++i)
-    history_(newest_, i) = y[places_[static_cast<std::size_t>(i)]];
+  double* const newest = history_.data() + newest_ * history_.cols();
+  double* const again = newest + kKept * history_.cols();
+  const double* const from = is_contiguous_ ? y.data() + places_.front() : extrapolated_.data();
+  if (!is_contiguous_)
+    for (std::size_t i = 0; i < places_.size(); ++i)
+      extrapolated_[static_cast<Index>(i)] = y[places_[i]];
+  std::copy_n(from, places_.size(), newest);
+  std::copy_n(from, places_.size(), again);
   if (count_ == 0) steps_to_choice_ = 0;
   count_ = std::min(count_ + 1, kKept);
   if (--steps_to_choice_ > 0) return;
@@ -120,7 +146,7 @@ void Predictor::record(const VectorXd& y) {
 
 void Predictor::forget() {
   for (Group& group : groups_) {
-    group.weights.setZero();
+    group.weights = {};
     group.degree = 0;
     group.is_corrected = true;
     group.judged_degree = -1;
@@ -144,36 +170,41 @@ void Predictor::choose_degrees() {
 // The degree that would have been best for the newest unknowns; one higher than those that can be
 // judged if the errors have fallen so far.
 int Predictor::best_degree(const Group& group) const {
-  std::array<double, kMaxDegree + 1> largest = {};           // |∇ᵈ⁺¹| of the newest unknowns
   const int degrees = std::min(count_ - 1, kMaxDegree + 1);  // those that can be judged
-  for (Index i = group.begin; i < group.end; ++i) {
-    std::array<double, kKept> differences;  // ∇ʲ of the unknown that is so many steps old
-    for (int age = 0; age < count_; ++age)
-      differences[static_cast<std::size_t>(age)] = history_((newest_ + kKept - age) % kKept, i);
-    for (int d = 0; d < degrees; ++d) {
-      const int remaining = count_ - d - 1;
-      for (std::size_t age = 0; age < static_cast<std::size_t>(remaining); ++age)
-        differences[age] -= differences[age + 1];
-      double& error = largest[static_cast<std::size_t>(d)];
-      for (std::size_t age = 0; age < static_cast<std::size_t>(std::min(remaining, kJudged)); ++age)
-        error = std::max(error, std::fabs(differences[age]));
-    }
-  }
   if (degrees == 0) return 0;
+  std::array<Two, kMaxDegree + 1> of_two;  // |∇ᵈ⁺¹| of the newest unknowns
+  std::array<double, kMaxDegree + 1> largest = {};
+  of_two.fill(Two::Zero());
+  Index i = group.begin;
+  for (; i + 1 < group.end; i += 2) judge_degrees(i, degrees, of_two.data());
+  if (i < group.end) judge_degrees(i, degrees, largest.data());
+  for (std::size_t d = 0; d < largest.size(); ++d)
+    largest[d] = std::max(largest[d], of_two[d].maxCoeff());
   const auto best = static_cast<int>(std::min_element(largest.begin(), largest.begin() + degrees) -
                                      largest.begin());
   return best == degrees - 1 ? std::min(best + 1, kMaxDegree) : best;
 }
 
+// Of the unknown i, or of i and i + 1.
+template <class Numbers>
+void Predictor::judge_degrees(Index i, int degrees, Numbers* largest) const {
+  Numbers differences[kKept];  // ∇ʲ of the unknown that is so many steps old
+  for (int age = 0; age < count_; ++age) read(recorded(age) + i, differences[age]);
+  for (int d = 0; d < degrees; ++d) {
+    const int remaining = count_ - d - 1;
+    for (int age = 0; age < remaining; ++age) differences[age] -= differences[age + 1];
+    for (int age = 0; age < std::min(remaining, kJudged); ++age)
+      enlarge(largest[d], differences[age]);
+  }
+}
+
 void Predictor::set_degree(Group& group, int degree) {
   group.degree = degree;
-  group.weights.setZero();
+  group.weights = {};
   double binomial = 1.0;
   for (int age = 0; age <= degree; ++age) {
     binomial *= static_cast<double>(degree + 1 - age) / (age + 1);
-    const double weight = age % 2 == 0 ? binomial : -binomial;
-    group.weights[kKept - age] = weight;
-    group.weights[(2 * kKept - age) % (2 * kKept)] = weight;
+    group.weights[static_cast<std::size_t>(age)] = age % 2 == 0 ? binomial : -binomial;
   }
 }
 

@@ -1,6 +1,7 @@
 // The next unknown of a sequence of steps, by extrapolation of the last ones.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "courant/core/expr.hpp"
@@ -56,9 +57,7 @@ class Predictor {
     int degree = 0;
     bool is_corrected = true;  // the last prediction would have been better for it
     int judged_degree = -1;    // that of errors_; -1 before there are any
-    // Of the unknowns that are -m mod kKept steps old, twice over: at kKept - newest_ begin the
-    // weights of the rows.
-    Eigen::Matrix<double, 2 * kKept, 1> weights = Eigen::Matrix<double, 2 * kKept, 1>::Zero();
+    std::array<double, kMaxDegree + 1> weights = {};  // of unknowns so many steps old
   };
 
   struct Companion {
@@ -66,21 +65,29 @@ class Predictor {
     VectorXd times;  // for each place
   };
 
+  // Those that were recorded so many steps ago.
+  const double* recorded(int age) const {
+    return history_.data() + (newest_ + kKept - age) * history_.cols();
+  }
+  void extrapolate(const Group& group, int age, double* result) const;
   void correct(std::size_t group);
   void judge(const VectorXd& y);
-  double newest_error(const Group& group, Index i) const;
   void choose_degrees();
   int best_degree(const Group& group) const;
+  template <class Numbers>
+  void judge_degrees(Index i, int degrees, Numbers* largest) const;
   static void set_degree(Group& group, int degree);
 
   std::vector<Group> groups_;  // of places
   std::vector<Index> places_;
-  // A ring: a row an unknown, the newest in row newest_.
-  Eigen::Matrix<double, kKept, Eigen::Dynamic> history_;
+  bool is_contiguous_ = false;  // places_, without gaps
+  // A ring, twice over: the newest unknowns are in the rows newest_ and newest_ + kKept.
+  Eigen::Matrix<double, 2 * kKept, Eigen::Dynamic, Eigen::RowMajor> history_;
   std::vector<Companion> companions_;
   VectorXd extrapolated_, corrections_;  // of the prediction that was made last
   VectorXd errors_;                      // of the extrapolation of the newest unknown
-  bool has_predicted_ = false;           // since the last record()
+  VectorXd before_;             // workspace: what would have been predicted for a companion's
+  bool has_predicted_ = false;  // since the last record()
   int newest_ = 0;
   int count_ = 0;  // unknowns in the history
   int steps_to_choice_ = 0;

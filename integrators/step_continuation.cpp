@@ -67,7 +67,7 @@ StepContinuation::StepContinuation(Function equations, const Layout& layout)
     : equations_(std::move(equations)), layout_(layout) {
   ContainedUnknowns contained(equations_);
   contained_ = std::move(contained.places);
-  solver_ = linear_solver(contained.pattern);
+  solver_ = brief_linear_solver(contained.pattern);
   in_.resize(static_cast<std::size_t>(equations_.input_count()));
   y_.resize(equations_.input_size(0));
   all_.resize(equations_.output_size() + equations_.nonzeros());

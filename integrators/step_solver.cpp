@@ -28,6 +28,7 @@ StepSolver::StepSolver(const EquationSystem& equations, std::vector<Index> group
                        std::string method)
     : newton_(equations, std::move(groups), {}),
       y_(VectorXd::Zero(equations.size())),
+      other_(y_),
       method_(std::move(method)) {}
 
 StepSolver::StepSolver(const EquationSystem& equations, std::vector<Index> groups,
@@ -73,17 +74,17 @@ void StepSolver::expect(const Motion& motion) {
 void StepSolver::keep() {
   is_trusted_ = is_good_;
   is_expected_ = false;
-  for (Index i = 0; i < usual_.size(); ++i)
-    usual_[i] = std::max(std::fabs(y_[i]), kForgotten * usual_[i]);
+  usual_ = y_.head(usual_.size()).cwiseAbs().cwiseMax(kForgotten * usual_);
 }
 
 bool StepSolver::is_as_predicted(double part, double size) const {
+  const double least = kNoDisplacement * size;
+  bool result = true;
   for (Index i = 0; i < usual_.size(); ++i) {
     const double change = std::fabs(y_[i] - other_[i]);
-    if (!(change <= std::max(part * std::max(std::fabs(y_[i]), usual_[i]), kNoDisplacement * size)))
-      return false;
+    result &= change <= std::max(part * std::max(std::fabs(y_[i]), usual_[i]), least);
   }
-  return true;
+  return result;
 }
 
 // Whether displacements are those that the velocity of the state predicted, up to a part of their usual

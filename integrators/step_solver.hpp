@@ -31,6 +31,11 @@ class StepSolver {
   std::vector<Index> predicted() const;
   std::vector<Index> found() const;
   bool is_determined() const { return newton_.is_determined(); }  // as of Newton
+  // Whether the equations give all unknowns that they contain, whatever a prediction says.
+  bool is_explicit() const { return newton_.sought().empty(); }
+  // Whether unknown() matters beyond predicted(): where no equation contains an unknown, and where the last
+  // matrix left something open.
+  bool needs_start() const { return !newton_.left().empty() || !newton_.is_determined(); }
 
   // On return unknown() solves the equations; in[0] is its place. `begin` puts there what a second
   // try begins with if the first fails, and a third one, by damped steps. `attempt` is named in the
@@ -62,7 +67,7 @@ class StepSolver {
   void solve_connected(const double* const* in, const double* scales, const Begin& begin,
                        const Attempt& attempt, SolverStatistics& statistics) {
     if (!continuation_) return solve(in, scales, begin, attempt, statistics);
-    other_ = y_;
+    other_.head(usual_.size()) = y_.head(usual_.size());
     const bool converged = converges(in, scales, statistics);
     is_good_ = converged && is_as_predicted(allowed(), scales[0]);
     if (is_good_ && (is_trusted_ || result_.factorizations == 0)) return;

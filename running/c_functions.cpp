@@ -60,16 +60,15 @@ void CFunctions::add(const std::string& symbol, const std::vector<Function::Inpu
 
 CFunctions::Unknowns CFunctions::add(const Equations& of) {
   const ExprVector& y = of.inputs[0].variables;
-  std::vector<Index> kept = range(y.size()), given;
+  std::vector<Index> kept = range(y.size());
   ExprVector equations = of.equations, unknowns = y;
   if (of.elimination) {
     Elimination elimination(of.equations, y, *of.elimination);
     kept = elimination.kept;
     equations = elimination.equations;
     unknowns = elimination.unknowns;
-    for (const Elimination::Pivot& pivot : elimination.pivots) given.push_back(pivot.unknown);
-    std::sort(given.begin(), given.end());
   }
+  const bool is_reduced = std::ssize(kept) < y.size();
   std::vector<Function::Input> inputs = of.inputs;
   inputs[0].variables = ExprVector(y(kept));
   const SparseExprMatrix jacobian = courant::jacobian(equations, inputs[0].variables);
@@ -89,8 +88,7 @@ CFunctions::Unknowns CFunctions::add(const Equations& of) {
   all << equations, jacobian.values;
   add(of.symbol + "_residual", inputs, equations, "the residuals G of these equations");
   add(of.symbol + "_jacobian", inputs, all, "G, then the entries of dG/du");
-  if (!given.empty())
-    add(of.symbol + "_given", inputs, ExprVector(unknowns(given)), "the unknowns that u gives");
+  if (is_reduced) add(of.symbol + "_unknowns", inputs, unknowns, "all unknowns y");
 
   std::vector<Index> group, column;
   for (const Index place : kept) {
@@ -104,7 +102,6 @@ CFunctions::Unknowns CFunctions::add(const Equations& of) {
     source_ += "static const int " + of.symbol + "_" + name + "[] = " + c_array(numbers) + ";\n";
   };
   array("kept", kept);
-  array("given_at", given);
   array("contained", contained);
   array("group", group);
   array("row", jacobian.row);
@@ -113,12 +110,11 @@ CFunctions::Unknowns CFunctions::add(const Equations& of) {
   const auto number = [](Index value) { return std::to_string(value) + ", "; };
   const auto name = [&](const char* what) { return of.symbol + "_" + what; };
   source_ += "static const struct equations " + of.symbol + "_equations = {\n  " + number(size) +
-             number(std::ssize(kept)) + number(std::ssize(given)) +
-             number(std::max<Index>(1, std::ssize(of.groups))) + number(jacobian.values.size()) +
-             "\n  " + name("kept") + ", " + name("given_at") + ", " + name("contained") + ", " +
-             name("group") + ",\n  " + name("row") + ", " + name("column") + ", " +
+             number(std::ssize(kept)) + number(std::max<Index>(1, std::ssize(of.groups))) +
+             number(jacobian.values.size()) + "\n  " + name("kept") + ", " + name("contained") +
+             ", " + name("group") + ",\n  " + name("row") + ", " + name("column") + ", " +
              name("contained_column") + ",\n  " + name("residual") + ", " + name("jacobian") +
-             ", " + (given.empty() ? "NULL" : name("given")) + "};\n\n";
+             ", " + (is_reduced ? name("unknowns") : "NULL") + "};\n\n";
   most_unknowns_ = std::max(most_unknowns_, y.size());
   most_size_ = std::max(most_size_, size);
   most_entries_ = std::max(most_entries_, jacobian.values.size());

@@ -6,14 +6,15 @@ typedef void map(const double *const *in, double *out);
 /* G(u; p) = 0, for those unknowns u of y that are kept; the others are given by u. */
 struct equations {
   int size;             /* equations, and unknowns that they contain */
-  int kept, given;      /* unknowns */
+  int kept;             /* unknowns */
   int groups;           /* of unknowns that are measured by one scale */
   int entries;          /* of the Jacobian */
-  const int *kept_at, *given_at; /* places in y */
+  const int *kept_at;   /* places in y */
   const int *contained; /* places in u of the unknowns that the equations contain */
   const int *group;     /* of each of u */
   const int *row, *column, *contained_column; /* of each entry, in u and among those that are contained */
-  map *value, *value_and_jacobian, *give;
+  map *value, *value_and_jacobian;
+  map *unknowns; /* u; p -> y, or NULL where all are kept */
 };
 
 /* Simplified Newton: u <- u - A G(u), A the inverse of an earlier Jacobian as long as it contracts well. */
@@ -21,7 +22,7 @@ struct newton {
   const struct equations *of;
   int is_factorized, factorizations;
   double round_off; /* by how much iterates moved when they stalled with a new factorisation */
-  double u[MOST_UNKNOWNS], given[MOST_UNKNOWNS];
+  double u[MOST_UNKNOWNS];
   double all[MOST_SIZE + MOST_ENTRIES]; /* G and the entries of its Jacobian */
   double change[MOST_SIZE];
   double inverse[MOST_SIZE * MOST_SIZE]; /* column by column */
@@ -247,9 +248,10 @@ static int solve(struct newton *N, double *y, const double *const *in, const dou
   for (i = 0; i < N->of->kept; ++i) N->u[i] = y[N->of->kept_at[i]];
   N->factorizations = 0;
   converged = iterate(N, of_kept, scales);
-  if (N->of->given > 0) N->of->give(of_kept, N->given);
-  for (i = 0; i < N->of->kept; ++i) y[N->of->kept_at[i]] = N->u[i];
-  for (i = 0; i < N->of->given; ++i) y[N->of->given_at[i]] = N->given[i];
+  if (N->of->unknowns != NULL)
+    N->of->unknowns(of_kept, y);
+  else
+    for (i = 0; i < N->of->kept; ++i) y[N->of->kept_at[i]] = N->u[i];
   return converged;
 }
 

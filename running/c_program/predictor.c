@@ -14,8 +14,8 @@ struct places {
 struct predictor {
   const struct places *of;
   int newest, count, steps_to_choice;
-  double history[MOST_PREDICTED + 1][KEPT];
-  double weights[2][2 * KEPT]; /* of unknowns so many steps old, twice over */
+  double history[KEPT][MOST_PREDICTED + 1]; /* a ring */
+  double weights[2][DEGREES + 1]; /* of unknowns so many steps old */
   int degree[2], is_uncorrected[2];
   const struct predictor *companion[2]; /* or NULL */
   double times[2][MOST_PREDICTED + 1];
@@ -34,14 +34,17 @@ static void forget_steps(struct predictor *P, const struct places *of) {
   }
 }
 
-static double sum_of_products(const double *a, const double *b) {
-  double even = 0.0, odd = 0.0;
+/* Those that were recorded so many steps ago. */
+static const double *recorded(const struct predictor *P, int age) {
+  return P->history[(P->newest + KEPT - age) % KEPT];
+}
+
+/* What those of P that were recorded so many steps ago, and before, tell of the next unknown i. */
+static double extrapolated(const struct predictor *P, int i, int age, const double *weights, int degree) {
+  double sum = weights[0] * recorded(P, age)[i];
   int j;
-  for (j = 0; j < KEPT; j += 2) {
-    even += a[j] * b[j];
-    odd += a[j + 1] * b[j + 1];
-  }
-  return even + odd;
+  for (j = 1; j <= degree; ++j) sum += weights[j] * recorded(P, age + j)[i];
+  return sum;
 }
 
 /* Those of `displacements` go like steps, which have this ratio, and those of the last `shifts` unknowns like their
@@ -66,17 +69,19 @@ static void correct(struct predictor *P, int group) {
     if (P->companion[c]->count < P->degree[group] + 2) return;
   for (c = 0; c < 2; ++c) {
     const struct predictor *const of = P->companion[c];
-    const double *const weights = P->weights[group] + (KEPT - (of->newest + KEPT - 1) % KEPT);
     for (i = 0; i < P->of->count; ++i)
       if (P->of->group[i] == group)
-        P->corrections[i] += P->times[c][i] * (of->history[i][of->newest] - sum_of_products(of->history[i], weights));
+        P->corrections[i] += P->times[c][i] * (recorded(of, 0)[i] -
+                                               extrapolated(of, i, 1, P->weights[group], P->degree[group]));
   }
 }
 
 static void predict(struct predictor *P, double *y) {
   int i, group;
-  for (i = 0; i < P->of->count; ++i)
-    y[P->of->at[i]] = sum_of_products(P->history[i], P->weights[P->of->group[i]] + (KEPT - P->newest));
+  for (i = 0; i < P->of->count; ++i) {
+    group = P->of->group[i];
+    y[P->of->at[i]] = extrapolated(P, i, 0, P->weights[group], P->degree[group]);
+  }
   if (P->companion[0] == NULL) return;
   for (group = 0; group < 2; ++group) correct(P, group);
   for (i = 0; i < P->of->count; ++i) {
@@ -106,7 +111,7 @@ static int best_degree(const struct predictor *P, int group) {
   for (i = 0; i < P->of->count; ++i) {
     if (P->of->group[i] != group) continue;
     for (age = 0; age < P->count; ++age)
-      differences[age] = P->history[i][(P->newest + KEPT - age) % KEPT];
+      differences[age] = recorded(P, age)[i];
     for (d = 0; d < degrees; ++d) {
       const int remaining = P->count - d - 1;
       for (age = 0; age < remaining; ++age) differences[age] -= differences[age + 1];
@@ -125,7 +130,7 @@ static void record(struct predictor *P, const double *y) {
   if (P->has_predicted) judge(P, y);
   P->has_predicted = 0;
   P->newest = (P->newest + 1) % KEPT;
-  for (i = 0; i < P->of->count; ++i) P->history[i][P->newest] = y[P->of->at[i]];
+  for (i = 0; i < P->of->count; ++i) P->history[P->newest][i] = y[P->of->at[i]];
   if (P->count == 0) P->steps_to_choice = 0;
   if (P->count < KEPT) ++P->count;
   if (--P->steps_to_choice > 0) return;
@@ -133,11 +138,9 @@ static void record(struct predictor *P, const double *y) {
     const int degree = best_degree(P, group);
     double *const weights = P->weights[group], binomial = 1.0;
     P->degree[group] = degree;
-    for (i = 0; i < 2 * KEPT; ++i) weights[i] = 0.0;
     for (age = 0; age <= degree; ++age) {
       binomial *= (double)(degree + 1 - age) / (age + 1);
-      weights[KEPT - age] = age % 2 == 0 ? binomial : -binomial;
-      weights[(2 * KEPT - age) % (2 * KEPT)] = weights[KEPT - age];
+      weights[age] = age % 2 == 0 ? binomial : -binomial;
     }
   }
   P->steps_to_choice = P->count < KEPT ? 1 : STEPS_BETWEEN_CHOICES;

@@ -49,7 +49,7 @@ static void project(struct stepper *S, const struct state *before, double h, dou
   set_scales(before, h, largest(S->near, COORDINATES), scales);
   if (!solve(&S->projector, S->p, in, scales)) fail("is not projected at once");
   projected(in, S->found);
-  if (goes_on) {
+  if (goes_on && projection_equations.size > 0) {
     double moved = 0.0, length = 0.0, away = 0.0, nearby;
     for (i = 0; i < COORDINATES; ++i) {
       length = largest_of(length, fabs(S->near[i] - before->x[i]));
@@ -120,9 +120,11 @@ static void make_part(struct stepper *S, struct state *state, double h, double e
   check_finite(state);
   keep(S, &before, state, h);
   clear_places(S->p);
-  record(&S->end, S->p);
-  corrected_shift(from, corrected);
-  record(&S->shift, corrected);
+  if (projection_equations.size > 0) { /* else formulas give what is found: nothing is foreseen */
+    record(&S->end, S->p);
+    corrected_shift(from, corrected);
+    record(&S->shift, corrected);
+  }
   accept(S);
 }
 

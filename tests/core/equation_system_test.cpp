@@ -1,5 +1,6 @@
 #include "courant/core/equation_system.hpp"
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
@@ -47,7 +48,7 @@ BOOST_AUTO_TEST_CASE(newton_finds_the_same_solution) {
   BOOST_TEST(whole.kept().size() == 5);
   BOOST_TEST(reduced.is_reduced());
   BOOST_TEST(reduced.kept().size() == 1);
-  BOOST_TEST(reduced.eliminated().size() == 4);
+  BOOST_TEST(reduced.unknowns().output_size() == 5);
   BOOST_TEST(reduced.size() == 5);
   const VectorXd start = (VectorXd(5) << 0.8, 0.3, 0.6, 0.1, 0.2).finished();
   const VectorXd a = Eigen::Vector2d(0.4, 0.7);
@@ -65,7 +66,8 @@ BOOST_AUTO_TEST_CASE(given_unknowns_are_not_read) {
   VectorXd start = (VectorXd(5) << 0.8, 0.3, 0.6, 0.1, 0.2).finished();
   const VectorXd a = Eigen::Vector2d(0.4, 0.7);
   const Solution expected = solve(system, start, a);
-  for (const Index j : system.eliminated()) start[j] = std::nan("");
+  for (Index j = 0; j < start.size(); ++j)
+    if (!std::ranges::binary_search(system.kept(), j)) start[j] = std::nan("");
   const Solution found = solve(system, start, a);
   BOOST_TEST((found.result.status == Newton::Status::converged));
   BOOST_TEST(found.y == expected.y);

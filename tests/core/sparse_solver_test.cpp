@@ -176,8 +176,14 @@ BOOST_AUTO_TEST_CASE(the_faster_one_is_taken) {
       }
     return pattern;
   };
-  const auto is_sparse = [](const MatrixPattern& pattern) {
-    return dynamic_cast<SparseSolver*>(linear_solver(pattern).get()) != nullptr;
+  const auto is_sparse_solver = [](const std::unique_ptr<LinearSolver>& solver) {
+    return dynamic_cast<SparseSolver*>(solver.get()) != nullptr;
+  };
+  const auto is_sparse = [&](const MatrixPattern& pattern) {
+    return is_sparse_solver(linear_solver(pattern));
+  };
+  const auto is_briefly_sparse = [&](const MatrixPattern& pattern) {
+    return is_sparse_solver(brief_linear_solver(pattern));
   };
   BOOST_TEST(is_sparse(chain(1000)));
   BOOST_TEST(!is_sparse(chain(10)));
@@ -190,6 +196,11 @@ BOOST_AUTO_TEST_CASE(the_faster_one_is_taken) {
     full.column.push_back(k / 100);
   }
   BOOST_TEST(!is_sparse(full));
+  // An inverse of fifty rows pays if it is multiplied with many times.
+  BOOST_TEST(!is_sparse(chain(50)));
+  BOOST_TEST(is_briefly_sparse(chain(50)));
+  BOOST_TEST(!is_briefly_sparse(chain(6)));
+  BOOST_TEST(!is_briefly_sparse(full));
 }
 
 BOOST_AUTO_TEST_SUITE_END()
