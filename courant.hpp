@@ -19,6 +19,7 @@
 #include "courant/integrators/discrete_gradient.hpp"
 #include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/explicit_runge_kutta.hpp"
+#include "courant/integrators/field_projector.hpp"
 #include "courant/integrators/fixed_time_projector.hpp"
 #include "courant/integrators/integrator_in_units.hpp"
 #include "courant/integrators/integrator_laws.hpp"

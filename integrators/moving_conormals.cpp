@@ -7,15 +7,14 @@
 #include "courant/core/complete_orthogonal_decomposition.hpp"
 #include "courant/core/derivative.hpp"
 #include "courant/core/equilibration.hpp"
-#include "courant/core/regular_matrix.hpp"
 
 namespace courant {
 namespace {
 
-// The ladder decided this rank with a gap; here it only has to be found again.
+// The ladder decided this rank with a gap; here it only has to be found again. Points of a long run are on
+// their manifold up to 1e-14 times the squares of their coordinates, and entries that should be zero are as
+// large: they are errors of data too, and choose no units.
 constexpr double kDataError = 2e-12;
-
-using regular_matrix::kNoise;
 
 // w is as good as its first error times the contraction when it has moved by no more than this, and
 // counts for x only times the distance from M_f.
@@ -188,7 +187,7 @@ void MovingConormals::find(const double* const* in) {
   }
   // Combinations of equations that contain dξ alone do not depend on the units of the other unknowns;
   // equations without those are measured by what they say of ξ.
-  const Equilibration<MatrixXd> S = equilibrate(by_others, kNoise);
+  const Equilibration<MatrixXd> S = equilibrate(by_others, kDataError);
   VectorXd row = S.row_scale;
   for (Index i = 0; i < by_xi.rows(); ++i) {
     const double size = by_xi.row(i).lpNorm<Eigen::Infinity>();

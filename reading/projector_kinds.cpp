@@ -1,5 +1,6 @@
 #include "courant/core/cholesky_decomposition.hpp"
 #include "courant/core/message.hpp"
+#include "courant/integrators/field_projector.hpp"
 #include "courant/integrators/natural_units.hpp"
 #include "courant/reading/method_kinds.hpp"
 
@@ -43,6 +44,20 @@ std::vector<Index> entries(const std::string& name, const std::string& pointer,
   }
 }
 
+// x ↦ rows × columns, of formulas by rows; ExperimentError where they are none of the point.
+Projector::MatrixFormula point_matrix(const WrittenFormulas& formulas, Index rows, Index columns,
+                                      const MethodSetting& at) {
+  const Vocabulary vocabulary = names(at);
+  Graph graph;
+  Findings findings;
+  check(formulas, vocabulary.symbols({.x = graph.variables("x", at.initial.x.size())}), findings);
+  findings.require_clean();
+  return [formulas, vocabulary, rows, columns](const ExprVector& x) {
+    const ExprVector values = evaluate(formulas, vocabulary.symbols({.x = x}));
+    return ExprMatrix(values.reshaped<Eigen::RowMajor>(rows, columns));
+  };
+}
+
 // A matrix of formulas of the point; symmetric and positive definite at the initial point, as seen
 // by `seen`.
 Projector::MatrixFormula metric_formula(const MetricChoice& metric, Index size,
@@ -52,15 +67,7 @@ Projector::MatrixFormula metric_formula(const MetricChoice& metric, Index size,
   if (formulas.shape != Shape{size, size})
     throw ExperimentError(metric.pointer,
                           "is no " + size_text(size, size) + " matrix; expected one");
-  const Vocabulary vocabulary = names(at);
-  Graph graph;
-  Findings findings;
-  check(formulas, vocabulary.symbols({.x = graph.variables("x", at.initial.x.size())}), findings);
-  findings.require_clean();
-  const Projector::MatrixFormula formula = [formulas, vocabulary, size](const ExprVector& x) {
-    const ExprVector values = evaluate(formulas, vocabulary.symbols({.x = x}));
-    return ExprMatrix(values.reshaped<Eigen::RowMajor>(size, size));
-  };
+  const auto formula = point_matrix(formulas, size, size, at);
   const MatrixXd G = values(formula(constants(at.initial.x)));
   const bool symmetric = (G - G.transpose()).norm() <= 1e-12 * G.norm();
   const MatrixXd part = seen(G);
@@ -221,6 +228,44 @@ std::optional<ProjectorChoice> momentum(ObjectReader& object) {
       }};
 }
 
+// Fields as they are written, a row each, for the directions at `at`.
+ProjectorPointer along_fields(const WrittenFormulas& fields, const std::string& pointer,
+                              const MethodSetting& at) {
+  const Manifold& M = *at.system->manifold();
+  const Index size = M.tangent_dimension();
+  const Index count = M.dimension() - at.ladder.degrees_of_freedom;
+  const bool is_one = fields.shape.size() == 1;
+  const Shape shape = is_one ? Shape{1, fields.shape[0]} : fields.shape;
+  if (shape != Shape{count, size})
+    throw ExperimentError(pointer, "is " + size_text(shape[0], shape[1]) + "; expected " +
+                                       size_text(count, size) + ", a tangent vector of " +
+                                       M.name() + " a row for each constraint of M_f");
+  const auto rows = point_matrix(fields, count, size, at);
+  const auto columns = [rows](const ExprVector& x) -> ExprMatrix { return rows(x).transpose(); };
+  const MatrixXd V = values(columns(constants(at.initial.x)));
+  const LinearMap<double> basis = M.tangent_basis(at.initial.x);
+  const MatrixXd across = V - basis * (basis.transpose() * V);
+  if (!V.allFinite() || across.norm() > 1e-9 * V.norm())
+    throw ExperimentError(pointer, "is not tangent to " + M.name() +
+                                       " at the initial point, off by " +
+                                       number_text(across.norm()) + "; expected tangent vectors");
+  return std::make_shared<FieldProjector>(M, count, columns, natural_units(at.system, at.ladder));
+}
+
+std::optional<ProjectorChoice> directions(ObjectReader& object) {
+  const auto key = object.required("fields");
+  const auto fields = key ? read_formulas(*key) : std::nullopt;
+  if (!fields) return std::nullopt;
+  if (fields->shape.size() != 1 && fields->shape.size() != 2) {
+    key->expected("vector fields, one a row");
+    return std::nullopt;
+  }
+  return ProjectorChoice{"projector along given directions",
+                         [fields = *fields, pointer = key->pointer()](const MethodSetting& at) {
+                           return along_fields(fields, pointer, at);
+                         }};
+}
+
 }  // namespace
 
 Registry<ProjectorChoice>& projector_kinds() {
@@ -237,6 +282,11 @@ Registry<ProjectorChoice>& projector_kinds() {
                       "positions and their momenta, where M is no cotangent bundle"),
          optional_key("metric", takes::metric({"kinetic", "euclidean"}), "g_ij of Section 8.2")}},
        momentum},
+      {{"directions",
+        "along vector fields of one's own, as many as M_f has constraints",
+        {required_key("fields", takes::field_rows(),
+                      "formulas of the point, a tangent vector a row")}},
+       directions},
   });
   return kinds;
 }

@@ -1,5 +1,6 @@
 #include <Eigen/LU>
 #include <boost/test/unit_test.hpp>
+#include <random>
 
 #include "../integrators/varying_metric.hpp"
 #include "courant/core/qr_decomposition.hpp"
@@ -124,6 +125,72 @@ BOOST_AUTO_TEST_CASE(equations_39_to_43_of_a_lagrangian) {
   }
 }
 
+// Vector fields of one's own: (0, μ¹) and (0, μ²) are those of the momentum projector. p₂ and p₃ alone may
+// move as well; that is another method of order 2, which keeps the constraints too.
+BOOST_AUTO_TEST_CASE(directions_of_ones_own) {
+  const test::Problem motion = test::problem(nonholonomic(1.0));
+  const VectorXd x0 = motion.ladder.point.x;
+  const Json along = {
+      {"type", "directions"},
+      {"fields", {{0, 0, 0, 0, "-q[1]", 0, 1, 0}, {0, 0, 0, 0, 0, "-2*q[0]", 0, 2}}}};
+  const double h = 0.1;
+  BOOST_TEST(defect_of_39_to_43(x0, motion.end(method(along), h, 1), h) < 1e-13);
+
+  const Json last = {{"type", "directions"},
+                     {"fields", {{0, 0, 0, 0, 0, 0, 1, 0}, {0, 0, 0, 0, 0, 0, 0, 1}}}};
+  const VectorXd x1 = motion.end(method(last), h, 1);
+  BOOST_TEST(defect_of_39_to_43(x0, x1, h) > 1e-6);
+  BOOST_TEST(constraints(x1.head(4), x1.tail(4)).norm() < 1e-14);
+  const VectorXd exact = motion.end({{"type", "dopri5"}}, 1.0, 400);
+  for (const Json& projector : {along, last}) {
+    const double order = motion.order(method(projector), 1.0, exact);
+    BOOST_TEST(std::abs(order - 2.0) < 0.15, projector << " shows " << order);
+  }
+}
+
+// On SO(3), where M_f is ω₃ = 0: p_R moves along (c, 0, 1), one row for one constraint.
+BOOST_AUTO_TEST_CASE(directions_on_a_group) {
+  const Json system = {
+      {"type", "mechanical"},       {"manifold", "so3"},
+      {"coordinates", {"R[3][3]"}}, {"metric", {{1.5, 0, 0.3}, {0, 2.5, 0.4}, {0.3, 0.4, 1.2}}},
+      {"potential", "0.7*R[2][2]"}, {"nonholonomic", "v_R[2]"}};
+  const Json initial = {{"R", {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}}, {"v_R", {0.8, -0.5, 0}}};
+  const test::Problem body = test::problem({{"system", system}, {"initial", initial}});
+  const Json along = {{"type", "directions"}, {"fields", {0, 0, 0, "0.2*R[2][0]", 0, 1}}};
+  const VectorXd exact = body.end({{"type", "dopri5"}}, 1.0, 400);
+  const double order = body.order(method(along), 1.0, exact);
+  BOOST_TEST(std::abs(order - 2.0) < 0.15, "shows " << order);
+  const VectorXd difference =
+      body.end(method(along), 1.0, 8) - body.end(method("momentum"), 1.0, 8);
+  BOOST_TEST(difference.norm() > 1e-6);
+}
+
+// A matrix in a long run is a rotation up to 1e-14, so that entries of Jacobians that should be zero are
+// as large. They are no numbers: a stepper that begins there moves p along the conormal, and leaves R.
+BOOST_AUTO_TEST_CASE(a_rotation_up_to_round_off) {
+  const Json system = {{"type", "mechanical"},
+                       {"manifold", "so3"},
+                       {"coordinates", {"R[3][3]"}},
+                       {"metric", {{1.4, 0, 0.3}, {0, 2.1, 0.4}, {0.3, 0.4, 1.7}}},
+                       {"potential", "0.7*R[2][2] + 0.5*R[0][1] + 0.3*R[1][0]"},
+                       {"nonholonomic", "v_R[2] - 0.25*v_R[0]"}};
+  const Json initial = {{"R", {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}}, {"v_R", {0.6, -0.5, 0.15}}};
+  const test::Problem body = test::problem({{"system", system}, {"initial", initial}});
+  const PreparedMethod prepared =
+      body.prepare({{"type", "constrain-first"}, {"discretization", "cayley"}}, 0.1);
+  std::mt19937 generator(4);
+  std::uniform_real_distribution<double> off(-6e-15, 6e-15);
+  for (int i = 0; i < 20; ++i) {
+    const State on = prepared.integrator->advance(prepared.initial, 0.1, 2 * i);
+    State near = on;
+    for (double& entry : near.x.head(9)) entry += off(generator);
+    const double difference =
+        (prepared.integrator->advance(near, 0.1, 3).x - prepared.integrator->advance(on, 0.1, 3).x)
+            .norm();
+    BOOST_TEST(difference < 1e-12, "after " << 2 * i << " steps it is " << difference);
+  }
+}
+
 // Neither projector depends on the unit of the momenta, unless it is told to measure numbers.
 BOOST_AUTO_TEST_CASE(units_of_momenta_do_not_matter) {
   const auto end = [](double unit, const Json& projector) {
@@ -240,6 +307,16 @@ BOOST_AUTO_TEST_CASE(what_is_wrong_is_said_where_it_is) {
   begins({{"type", "orthogonal"}, {"weights", {{"q", 2}}}, {"metric", "euclidean"}},
          "/method/projector/weights: are given beside a metric");
   begins({{"type", "orthogonal"}, {"metric", "kinetic"}}, "/method/projector/metric: ");
+  const Json row = {0, 0, 0, 0, "-q[1]", 0, 1, 0};
+  begins({{"type", "directions"}, {"fields", row}},
+         "/method/projector/fields: is 1 × 8; expected 2 × 8, a tangent vector of Euclidean(8) a "
+         "row for each constraint of M_f");
+  begins({{"type", "directions"}, {"fields", {row, {0, 0, 0, 0, 0, "qq", 0, 1}}}},
+         "/method/projector/fields/1/5: column 1: unknown name \"qq\"");
+  begins({{"type", "directions"}, {"fields", {row, {0, 0, 0, 0, "t", 0, 0, 1}}}},
+         "/method/projector/fields/1/4: ");
+  begins({{"type", "directions"}, {"fields", "q[0]"}}, "/method/projector/fields: ");
+  begins({{"type", "directions"}}, "/method/projector/fields: is missing");
   Json indefinite = Json::array();
   for (int i = 0; i < 4; ++i) {
     Json row = Json::array();
