@@ -1,4 +1,6 @@
+#include <Eigen/LU>
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 
 #include "problems.hpp"
 
@@ -60,6 +62,51 @@ BOOST_AUTO_TEST_CASE(orders_that_cannot_be_had_are_refused) {
          "/method/order: is 4, but on a system with constraints");
   begins(refusal(kPendulum, {{"type", "discretize-first"}, {"order", 4}, {"start", "rk2"}}),
          "/method/start: is \"rk2\"");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+BOOST_AUTO_TEST_SUITE(method_order_long)
+
+using namespace courant;
+
+// A body in a field that may not turn about an axis fixed in it, on T*SO(3): nonlinear, curved, with a
+// nonholonomic constraint. Method 2 of each order; the bench constrained_orders.py makes 10⁶ steps.
+BOOST_AUTO_TEST_CASE(orders_and_constraints_on_rotations) {
+  const test::Problem body = test::problem(
+      {{"system",
+        {{"type", "mechanical"},
+         {"manifold", "so3"},
+         {"coordinates", {"R[3][3]"}},
+         {"metric", {{1.4, 0, 0.3}, {0, 2.1, 0.4}, {0.3, 0.4, 1.7}}},
+         {"potential", "0.7*R[2][2] + 0.5*R[0][1] + 0.3*R[1][0]"},
+         {"nonholonomic", "v_R[2] - 0.25*v_R[0]"}}},
+       {"initial", {{"R", {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}}, {"v_R", {0.6, -0.5, 0.15}}}}});
+  const VectorXd exact = body.end({{"type", "rkf78"}}, 1.0, 100);
+  const Eigen::Matrix3d I{{1.4, 0.0, 0.3}, {0.0, 2.1, 0.4}, {0.3, 0.4, 1.7}};
+  const std::vector<std::vector<long>> counts = {
+      {32, 64, 128, 256}, {8, 16, 32, 64}, {6, 9, 12, 18}, {4, 5, 6, 8}};
+  for (const int order : {2, 4, 6, 8}) {
+    const Json method = {
+        {"type", "constrain-first"}, {"discretization", "cayley"}, {"order", order}};
+    const double shown =
+        body.order(method, 1.0, exact, 0, counts[static_cast<std::size_t>(order / 2 - 1)]);
+    BOOST_TEST(std::abs(shown - order) < 0.15, "order " << order << " shows " << shown);
+
+    const PreparedMethod prepared = body.prepare(method, 0.1);
+    const auto stepper = prepared.integrator->stepper();
+    State state = prepared.initial;
+    double worst = 0.0, off = 0.0;
+    for (int k = 0; k < 4000; ++k) {
+      if (k % 500 == 499) stepper->forget();  // as a run does at its epochs
+      stepper->step(state, 0.1);
+      const Eigen::Vector3d omega = I.inverse() * state.x.tail(3);
+      worst = std::max(worst, std::abs(omega[2] - 0.25 * omega[0]));
+      off = std::max(off, std::abs(state.x.head(3).squaredNorm() - 1.0));
+    }
+    BOOST_TEST(worst < 1e-14, "order " << order << " leaves its constraint by " << worst);
+    BOOST_TEST(off < 1e-13, "order " << order << " leaves SO(3) by " << off);
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()
