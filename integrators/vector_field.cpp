@@ -72,11 +72,18 @@ VectorFieldFormulas::VectorFieldFormulas(std::shared_ptr<const ImplicitSystem> o
   // instead of the equation for it, momenta would be free to leave M_f. And those that give an unknown
   // explicitly before the others: their pivots cannot vanish, as those of two rolling constraints do
   // where the wheels are parallel.
+  // All of them stay far above round-off, whatever the index is.
+  constexpr double lower = 2.0, lowest = 8.0;  // digits
+  const int most =
+      ladder.differentiations.empty()
+          ? 0
+          : *std::max_element(ladder.differentiations.begin(), ladder.differentiations.end());
+  const double derived = std::pow(10.0, -std::min(lower, lowest / std::max(most, 1)));
   std::vector<int> order(static_cast<std::size_t>(system->equation_count()), 0);
   std::vector<Index> given;
   for (Index i = 0; i < all.size(); ++i) {
     int& derivatives = order[static_cast<std::size_t>(local.source[static_cast<std::size_t>(i)])];
-    preference[i] *= std::pow(1e-2, derivatives);
+    preference[i] *= std::pow(derived, derivatives);
     if (derivatives++ == 0) given.push_back(i);
   }
   const Index of_structure = system->tangent_blocks() * M.tangent_dimension();

@@ -42,6 +42,24 @@ BOOST_AUTO_TEST_CASE(units_are_no_matter) {
   }
 }
 
+// x₅ = sin t, x_{i-1} = x_i': equations are differentiated up to six times, and each of them is needed.
+BOOST_AUTO_TEST_CASE(of_a_long_chain) {
+  const auto chain = examples::flat(
+      6, 0, 6, [](const ExprVector& x, const ExprVector& w, const ExprVector&, const Expr& t) {
+        return examples::equations(
+            {x[5] - sin(t), x[0] - w[1], x[1] - w[2], x[2] - w[3], x[3] - w[4], x[4] - w[5]});
+      });
+  const ConstraintLadder ladder = ConstraintAlgorithm().run(chain, {.x = VectorXd::Zero(6)});
+  const VectorField field(chain, ladder, Backend::interpreter);
+  VectorField::Evaluation evaluate(field);
+  const double c = std::cos(1.0), s = std::sin(1.0);
+  VectorXd rate(6);
+  evaluate((VectorXd(6) << c, s, -c, -s, c, s).finished(), rate, 1.0);
+  BOOST_TEST((rate - (VectorXd(6) << -s, c, s, -c, -s, c).finished()).lpNorm<Eigen::Infinity>() <
+             1e-12);
+  BOOST_TEST(evaluate.left_out().lpNorm<Eigen::Infinity>() < 1e-12);
+}
+
 BOOST_AUTO_TEST_CASE(of_a_point_there_is_one) {
   const auto point = examples::flat(
       0, 0, 0, [](const ExprVector&, const ExprVector&, const ExprVector&, const Expr&) {
