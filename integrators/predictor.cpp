@@ -12,6 +12,11 @@ namespace {
 
 constexpr int kStepsBetweenChoices = 32;
 
+// Every second unknown is extrapolated up to this order, where that would have been wrong by less than this
+// part of what the best polynomial through all of them would have been.
+constexpr int kMaxAlternatingOrder = 4;
+constexpr double kMuchBetter = 0.25;
+
 // Two unknowns, or one.
 using Two = Eigen::Array2d;
 void read(const double* from, Two& to) { to = Eigen::Map<const Two>(from); }
@@ -47,16 +52,17 @@ void Predictor::learn_from(const Predictor& other, const VectorXd& times) {
   corrections_ = errors_ = before_ = VectorXd::Zero(std::ssize(places_));
 }
 
-// Σ_j w_j (what was recorded j steps before that of this age), in ascending order of j for each unknown,
-// so that steps in C give the same bits; two unknowns at a time.
+// Σ_j w_j (what was recorded `spacing` steps after one another), from that of this age on, in ascending order
+// of j for each unknown, so that steps in C give the same bits; two unknowns at a time.
 void Predictor::extrapolate(const Group& group, int age, double* result) const {
-  const double* const rows = recorded(age);
-  const Index stride = history_.cols();
+  const auto& [order, spacing] = group.rule;
+  const double* const rows = recorded(age + spacing - 1);
+  const Index stride = spacing * history_.cols();
   Index i = group.begin;
   for (; i + 1 < group.end; i += 2) {
     const double* row = rows + i;
     Two sum = group.weights[0] * Eigen::Map<const Two>(row);
-    for (int j = 1; j <= group.degree; ++j) {
+    for (int j = 1; j < order; ++j) {
       row -= stride;
       sum += group.weights[static_cast<std::size_t>(j)] * Eigen::Map<const Two>(row);
     }
@@ -65,7 +71,7 @@ void Predictor::extrapolate(const Group& group, int age, double* result) const {
   if (i == group.end) return;
   const double* row = rows + i;
   double sum = group.weights[0] * *row;
-  for (int j = 1; j <= group.degree; ++j) {
+  for (int j = 1; j < order; ++j) {
     row -= stride;
     sum += group.weights[static_cast<std::size_t>(j)] * *row;
   }
@@ -98,9 +104,9 @@ void Predictor::correct(std::size_t g) {
   corrections_.segment(group.begin, group.end - group.begin).setZero();
   if (limit_ <= kUndetermined) return;
   for (const auto& [of, times] : companions_)
-    if (of->count_ < group.degree + 2) return;
+    if (of->count_ < group.rule.reach() + 1) return;
   for (const auto& [of, times] : companions_) {
-    if (of->groups_[g].judged_degree == group.degree) {
+    if (of->groups_[g].judged == group.rule) {
       for (Index i = group.begin; i < group.end; ++i) corrections_[i] += times[i] * of->errors_[i];
       continue;
     }
@@ -120,12 +126,12 @@ void Predictor::judge(const VectorXd& y) {
       corrected = std::max(corrected, std::fabs(errors_[i] - corrections_[i]));
     }
     group.is_corrected = corrected <= plain;
-    group.judged_degree = group.degree;
+    group.judged = group.rule;
   }
 }
 
 void Predictor::record(const VectorXd& y) {
-  for (Group& group : groups_) group.judged_degree = -1;
+  for (Group& group : groups_) group.judged.reset();
   if (has_predicted_) judge(y);
   has_predicted_ = false;
   newest_ = (newest_ + 1) % kKept;
@@ -140,16 +146,16 @@ void Predictor::record(const VectorXd& y) {
   if (count_ == 0) steps_to_choice_ = 0;
   count_ = std::min(count_ + 1, kKept);
   if (--steps_to_choice_ > 0) return;
-  choose_degrees();
+  choose_rules();
   steps_to_choice_ = count_ < kKept ? 1 : kStepsBetweenChoices;
 }
 
 void Predictor::forget() {
   for (Group& group : groups_) {
     group.weights = {};
-    group.degree = 0;
+    group.rule = {};
     group.is_corrected = true;
-    group.judged_degree = -1;
+    group.judged.reset();
   }
   has_predicted_ = false;
   history_.setZero();
@@ -160,51 +166,67 @@ void Predictor::forget() {
 void Predictor::limit_degree(int degree) {
   if (degree >= limit_) return;
   limit_ = degree;
-  if (count_ > 0) choose_degrees();
+  if (count_ > 0) choose_rules();
 }
 
-void Predictor::choose_degrees() {
-  for (Group& group : groups_) set_degree(group, std::min(limit_, best_degree(group)));
+void Predictor::choose_rules() {
+  for (Group& group : groups_) set_rule(group, best_rule(group));
 }
 
-// The degree that would have been best for the newest unknowns; one higher than those that can be
-// judged if the errors have fallen so far.
-int Predictor::best_degree(const Group& group) const {
-  const int degrees = std::min(count_ - 1, kMaxDegree + 1);  // those that can be judged
-  if (degrees == 0) return 0;
-  std::array<Two, kMaxDegree + 1> of_two;  // |∇ᵈ⁺¹| of the newest unknowns
-  std::array<double, kMaxDegree + 1> largest = {};
+// The rule that would have been best for the newest unknowns; of one order more than those that can be judged
+// if the errors of polynomials have fallen so far.
+Predictor::Rule Predictor::best_rule(const Group& group) const {
+  const int most = std::min(count_ - 1, kMaxDegree + 1);  // orders that can be judged
+  if (most == 0) return {};
+  const Errors of_all = errors(group, 1, most);
+  const auto lowest = std::min_element(of_all.begin(), of_all.begin() + most);
+  Rule best{.order = static_cast<int>(lowest - of_all.begin()) + 1};
+  const int most_of_second = std::min({kMaxAlternatingOrder, limit_ + 1, (count_ - kJudged) / 2});
+  if (most_of_second > 0) {
+    const Errors of_second = errors(group, 2, most_of_second);
+    const auto second = std::min_element(of_second.begin(), of_second.begin() + most_of_second);
+    if (*second < kMuchBetter * *lowest)
+      best = {.order = static_cast<int>(second - of_second.begin()) + 1, .spacing = 2};
+  }
+  if (best.spacing == 1 && best.order == most)
+    best.order = std::min(best.order + 1, kMaxDegree + 1);
+  best.order = std::min(best.order, limit_ + 1);
+  return best;
+}
+
+// What the rules of this spacing, of order 1 and so on, would have been wrong by for the newest unknowns.
+Predictor::Errors Predictor::errors(const Group& group, int spacing, int most) const {
+  std::array<Two, kMaxDegree + 1> of_two;
   of_two.fill(Two::Zero());
+  Errors result = {};
   Index i = group.begin;
-  for (; i + 1 < group.end; i += 2) judge_degrees(i, degrees, of_two.data());
-  if (i < group.end) judge_degrees(i, degrees, largest.data());
-  for (std::size_t d = 0; d < largest.size(); ++d)
-    largest[d] = std::max(largest[d], of_two[d].maxCoeff());
-  const auto best = static_cast<int>(std::min_element(largest.begin(), largest.begin() + degrees) -
-                                     largest.begin());
-  return best == degrees - 1 ? std::min(best + 1, kMaxDegree) : best;
+  for (; i + 1 < group.end; i += 2) judge_orders(i, spacing, most, of_two.data());
+  if (i < group.end) judge_orders(i, spacing, most, result.data());
+  for (std::size_t k = 0; k < result.size(); ++k)
+    result[k] = std::max(result[k], of_two[k].maxCoeff());
+  return result;
 }
 
 // Of the unknown i, or of i and i + 1.
 template <class Numbers>
-void Predictor::judge_degrees(Index i, int degrees, Numbers* largest) const {
-  Numbers differences[kKept];  // ∇ʲ of the unknown that is so many steps old
+void Predictor::judge_orders(Index i, int spacing, int most, Numbers* largest) const {
+  Numbers differences[kKept];  // of the unknown that is so many steps old
   for (int age = 0; age < count_; ++age) read(recorded(age) + i, differences[age]);
-  for (int d = 0; d < degrees; ++d) {
-    const int remaining = count_ - d - 1;
-    for (int age = 0; age < remaining; ++age) differences[age] -= differences[age + 1];
+  for (int order = 1; order <= most; ++order) {
+    const int remaining = count_ - order * spacing;
+    for (int age = 0; age < remaining; ++age) differences[age] -= differences[age + spacing];
     for (int age = 0; age < std::min(remaining, kJudged); ++age)
-      enlarge(largest[d], differences[age]);
+      enlarge(largest[order - 1], differences[age]);
   }
 }
 
-void Predictor::set_degree(Group& group, int degree) {
-  group.degree = degree;
+void Predictor::set_rule(Group& group, const Rule& rule) {
+  group.rule = rule;
   group.weights = {};
   double binomial = 1.0;
-  for (int age = 0; age <= degree; ++age) {
-    binomial *= static_cast<double>(degree + 1 - age) / (age + 1);
-    group.weights[static_cast<std::size_t>(age)] = age % 2 == 0 ? binomial : -binomial;
+  for (int j = 0; j < rule.order; ++j) {
+    binomial *= static_cast<double>(rule.order - j) / (j + 1);
+    group.weights[static_cast<std::size_t>(j)] = j % 2 == 0 ? binomial : -binomial;
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "courant/core/expr.hpp"
@@ -16,6 +17,13 @@ namespace courant {
 // steps are short and the motion is smooth, a low one where it is rough or round-off is all that is
 // left. It is chosen for each of some consecutive groups of unknowns apart, in every step at first,
 // later now and then.
+//
+// Symmetric methods carry what is infinitely fast on with the other sign in each step, as multipliers and
+// momenta of Method 1 under constraints. Where that is much better, every second unknown is extrapolated,
+//
+//   y_{k+1} ≈ Σ_{j=0}^{d} (-1)ʲ (d+1 choose j+1) y_{k-1-2j},
+//
+// which is exact for p(k) + (-1)ᵏ q(k) with polynomials p, q of degree d.
 //
 // The stages of a composition are near each other in time, and each is extrapolated from as many steps
 // before: what the prediction of one was wrong by, the next one's will be wrong by too, but for the
@@ -52,12 +60,20 @@ class Predictor {
   static constexpr int kJudged = 3;  // last steps that degrees are judged by
   static constexpr int kKept = kMaxDegree + 1 + kJudged;
 
+  // Σ_{j<order} (-1)ʲ (order choose j+1) y_{k+1-(j+1) spacing}: a polynomial of degree order - 1.
+  struct Rule {
+    int order = 1, spacing = 1;
+    bool operator==(const Rule&) const = default;
+    int reach() const { return order * spacing; }  // so many of the last unknowns
+  };
+  using Errors = std::array<double, kMaxDegree + 1>;  // of each order
+
   struct Group {
     Index begin, end;  // in places_
-    int degree = 0;
-    bool is_corrected = true;  // the last prediction would have been better for it
-    int judged_degree = -1;    // that of errors_; -1 before there are any
-    std::array<double, kMaxDegree + 1> weights = {};  // of unknowns so many steps old
+    Rule rule = {};
+    bool is_corrected = true;         // the last prediction would have been better for it
+    std::optional<Rule> judged = {};  // that of errors_
+    std::array<double, kMaxDegree + 1> weights = {};  // of the rule, for each j
   };
 
   struct Companion {
@@ -72,11 +88,12 @@ class Predictor {
   void extrapolate(const Group& group, int age, double* result) const;
   void correct(std::size_t group);
   void judge(const VectorXd& y);
-  void choose_degrees();
-  int best_degree(const Group& group) const;
+  void choose_rules();
+  Rule best_rule(const Group& group) const;
+  Errors errors(const Group& group, int spacing, int most) const;
   template <class Numbers>
-  void judge_degrees(Index i, int degrees, Numbers* largest) const;
-  static void set_degree(Group& group, int degree);
+  void judge_orders(Index i, int spacing, int most, Numbers* largest) const;
+  static void set_rule(Group& group, const Rule& rule);
 
   std::vector<Group> groups_;  // of places
   std::vector<Index> places_;

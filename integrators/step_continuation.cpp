@@ -127,6 +127,7 @@ bool StepContinuation::converges(double sigma, const double* const* in, double s
     evaluate(sigma, in, true);
     if (!all_.allFinite() || !solver_->factorize(all_.data() + equations_.output_size()))
       return false;
+    if (is_determined_ && !solver_->is_determined()) return false;
     solver_->solve(all_.data(), step_.data());
     const double change = largest_part(step_, sigma, size);
     if (!std::isfinite(change) || (iteration == 0 && change > near)) return false;
@@ -250,6 +251,10 @@ StepContinuation::Result StepContinuation::follow(VectorXd& y, const double* con
                              : start.head(layout_.displacements).lpNorm<Eigen::Infinity>();
   const double seen = fastest > 0.0 ? kSeen * size / fastest : kFarthest;
   const double beginning = std::clamp(seen, kBeginning, kFarthest);
+  u_ = start;
+  evaluate(1.0, in, true);
+  is_determined_ = all_.allFinite() && solver_->factorize(all_.data() + equations_.output_size()) &&
+                   solver_->is_determined();
   Result result;
   for (const Attempt& attempt : {Attempt{true, true, beginning, kUnseen * seen},
                                  Attempt{false, true, beginning, kUnseen * seen},

@@ -22,8 +22,9 @@ namespace courant {
 //
 // Where the state does not obey all equations, as after a step of Method 1 with constraints,
 // displacements do not vanish for σ → 0: the curve begins with a jump to where they hold. Where they have
-// no limit either it begins at a tenth of the step, with any solution that Newton's method finds. One
-// object a trajectory.
+// no limit either it begins at a tenth of the step, with any solution that Newton's method finds. So near
+// the state that the matrix loses rank to round-off, which that of the step itself has, nothing is seen, and
+// no curve begins. One object a trajectory.
 class StepContinuation {
  public:
   // Group 0 of `equations` is y, whose first `displacements` entries are displacements from the
@@ -80,9 +81,10 @@ class StepContinuation {
   std::unique_ptr<LinearSolver> solver_;
   std::vector<const double*> in_;
   double h_ = 0.0;
-  int orientation_ = 0;   // of the curve so far
-  bool vanishes_ = true;  // as in Attempt
-  Point point_;           // the last one
+  int orientation_ = 0;        // of the curve so far
+  bool is_determined_ = true;  // whether the matrix of the step has full rank
+  bool vanishes_ = true;       // as in Attempt
+  Point point_;                // the last one
   // Unknowns of this σ with displacements and shifts divided by σ, and their derivative by σ.
   VectorXd u_, tangent_;
   VectorXd predicted_;

@@ -1,6 +1,6 @@
 /* ---- prediction ---------------------------------------------------------------------------------------- */
 
-enum { KEPT = 12, DEGREES = 8, JUDGED = 3, STEPS_BETWEEN_CHOICES = 32 };
+enum { KEPT = 12, DEGREES = 8, ALTERNATING_ORDERS = 4, JUDGED = 3, STEPS_BETWEEN_CHOICES = 32 };
 
 /* Places in y, each in one of two groups. */
 struct places {
@@ -8,15 +8,21 @@ struct places {
   const int *at, *group;
 };
 
-/* The next unknowns by extrapolation of the last ones, for each group of them by the polynomial that would have
+/* A polynomial of degree order - 1 through the last unknowns, or through every second one. */
+struct rule {
+  int order, spacing;
+};
+
+/* The next unknowns by extrapolation of the last ones, for each group of them by the rule that would have
    been best for the last steps. The parts of a step are near each other in time: predictions are corrected by what
    those of two others were wrong by, as long as it would have made the last one better. */
 struct predictor {
   const struct places *of;
   int newest, count, steps_to_choice;
   double history[KEPT][MOST_PREDICTED + 1]; /* a ring */
-  double weights[2][DEGREES + 1]; /* of unknowns so many steps old */
-  int degree[2], is_uncorrected[2];
+  double weights[2][DEGREES + 1]; /* of the rule */
+  struct rule rule[2];
+  int is_uncorrected[2];
   const struct predictor *companion[2]; /* or NULL */
   double times[2][MOST_PREDICTED + 1];
   double extrapolated[MOST_PREDICTED + 1], corrections[MOST_PREDICTED + 1]; /* of the last prediction */
@@ -29,6 +35,7 @@ static void forget_steps(struct predictor *P, const struct places *of) {
   memset(P, 0, sizeof *P);
   P->of = of;
   for (i = 0; i < 2; ++i) {
+    P->rule[i].order = P->rule[i].spacing = 1;
     P->companion[i] = before.companion[i];
     memcpy(P->times[i], before.times[i], sizeof P->times[i]);
   }
@@ -39,11 +46,11 @@ static const double *recorded(const struct predictor *P, int age) {
   return P->history[(P->newest + KEPT - age) % KEPT];
 }
 
-/* What those of P that were recorded so many steps ago, and before, tell of the next unknown i. */
-static double extrapolated(const struct predictor *P, int i, int age, const double *weights, int degree) {
-  double sum = weights[0] * recorded(P, age)[i];
+/* What those of P that were recorded so many steps ago, and before, tell of the next unknown i by the rule. */
+static double extrapolated(const struct predictor *P, int i, int age, const double *weights, const struct rule *rule) {
+  double sum = weights[0] * recorded(P, age + rule->spacing - 1)[i];
   int j;
-  for (j = 1; j <= degree; ++j) sum += weights[j] * recorded(P, age + j)[i];
+  for (j = 1; j < rule->order; ++j) sum += weights[j] * recorded(P, age + (j + 1) * rule->spacing - 1)[i];
   return sum;
 }
 
@@ -66,13 +73,13 @@ static void correct(struct predictor *P, int group) {
   for (i = 0; i < P->of->count; ++i)
     if (P->of->group[i] == group) P->corrections[i] = 0.0;
   for (c = 0; c < 2; ++c)
-    if (P->companion[c]->count < P->degree[group] + 2) return;
+    if (P->companion[c]->count < P->rule[group].order * P->rule[group].spacing + 1) return;
   for (c = 0; c < 2; ++c) {
     const struct predictor *const of = P->companion[c];
     for (i = 0; i < P->of->count; ++i)
       if (P->of->group[i] == group)
         P->corrections[i] += P->times[c][i] * (recorded(of, 0)[i] -
-                                               extrapolated(of, i, 1, P->weights[group], P->degree[group]));
+                                               extrapolated(of, i, 1, P->weights[group], &P->rule[group]));
   }
 }
 
@@ -80,7 +87,7 @@ static void predict(struct predictor *P, double *y) {
   int i, group;
   for (i = 0; i < P->of->count; ++i) {
     group = P->of->group[i];
-    y[P->of->at[i]] = extrapolated(P, i, 0, P->weights[group], P->degree[group]);
+    y[P->of->at[i]] = extrapolated(P, i, 0, P->weights[group], &P->rule[group]);
   }
   if (P->companion[0] == NULL) return;
   for (group = 0; group < 2; ++group) correct(P, group);
@@ -104,29 +111,50 @@ static void judge(struct predictor *P, const double *y) {
   for (group = 0; group < 2; ++group) P->is_uncorrected[group] = !(corrected[group] <= plain[group]);
 }
 
-static int best_degree(const struct predictor *P, int group) {
-  double largest_difference[DEGREES + 1] = {0}, differences[KEPT];
-  const int degrees = P->count - 1 < DEGREES + 1 ? P->count - 1 : DEGREES + 1;
-  int i, d, age, best = 0;
+/* What the rule would have been wrong by, for the newest unknowns. */
+static double largest_error(const struct predictor *P, int group, int order, int spacing) {
+  const int judged = P->count - order * spacing < JUDGED ? P->count - order * spacing : JUDGED;
+  double largest = 0.0, differences[KEPT];
+  int i, age, power;
   for (i = 0; i < P->of->count; ++i) {
     if (P->of->group[i] != group) continue;
-    for (age = 0; age < P->count; ++age)
-      differences[age] = recorded(P, age)[i];
-    for (d = 0; d < degrees; ++d) {
-      const int remaining = P->count - d - 1;
-      for (age = 0; age < remaining; ++age) differences[age] -= differences[age + 1];
-      for (age = 0; age < remaining && age < JUDGED; ++age)
-        largest_difference[d] = largest_of(largest_difference[d], fabs(differences[age]));
+    for (age = 0; age < order * spacing + judged; ++age) differences[age] = recorded(P, age)[i];
+    for (power = 1; power <= order; ++power)
+      for (age = 0; age < (order - power) * spacing + judged; ++age) differences[age] -= differences[age + spacing];
+    for (age = 0; age < judged; ++age) largest = largest_of(largest, fabs(differences[age]));
+  }
+  return largest;
+}
+
+static struct rule best_rule(const struct predictor *P, int group) {
+  const int most = P->count - 1 < DEGREES + 1 ? P->count - 1 : DEGREES + 1;
+  struct rule best = {1, 1};
+  double least, error;
+  int order;
+  if (most == 0) return best;
+  least = largest_error(P, group, 1, 1);
+  for (order = 2; order <= most; ++order) {
+    error = largest_error(P, group, order, 1);
+    if (error < least) {
+      best.order = order;
+      least = error;
     }
   }
-  if (degrees == 0) return 0;
-  for (d = 1; d < degrees; ++d)
-    if (largest_difference[d] < largest_difference[best]) best = d;
-  return best == degrees - 1 && best < DEGREES ? best + 1 : best;
+  least *= 0.25;
+  for (order = 1; order <= ALTERNATING_ORDERS && 2 * order + JUDGED <= P->count; ++order) {
+    error = largest_error(P, group, order, 2);
+    if (error < least) {
+      best.order = order;
+      best.spacing = 2;
+      least = error;
+    }
+  }
+  if (best.spacing == 1 && best.order == most && best.order < DEGREES + 1) ++best.order;
+  return best;
 }
 
 static void record(struct predictor *P, const double *y) {
-  int i, group, age;
+  int i, group;
   if (P->has_predicted) judge(P, y);
   P->has_predicted = 0;
   P->newest = (P->newest + 1) % KEPT;
@@ -135,12 +163,12 @@ static void record(struct predictor *P, const double *y) {
   if (P->count < KEPT) ++P->count;
   if (--P->steps_to_choice > 0) return;
   for (group = 0; group < 2; ++group) {
-    const int degree = best_degree(P, group);
+    const struct rule rule = best_rule(P, group);
     double *const weights = P->weights[group], binomial = 1.0;
-    P->degree[group] = degree;
-    for (age = 0; age <= degree; ++age) {
-      binomial *= (double)(degree + 1 - age) / (age + 1);
-      weights[age] = age % 2 == 0 ? binomial : -binomial;
+    P->rule[group] = rule;
+    for (i = 0; i < rule.order; ++i) {
+      binomial *= (double)(rule.order - i) / (i + 1);
+      weights[i] = i % 2 == 0 ? binomial : -binomial;
     }
   }
   P->steps_to_choice = P->count < KEPT ? 1 : STEPS_BETWEEN_CHOICES;

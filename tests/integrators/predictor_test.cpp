@@ -63,6 +63,16 @@ BOOST_AUTO_TEST_CASE(smooth) {
   for (std::size_t k = 20; k < found.size(); ++k) BOOST_TEST(found[k] < 3e-12);
 }
 
+// A part that changes its sign in each step, beside a smooth one: polynomials would be wrong by all of it.
+BOOST_AUTO_TEST_CASE(alternating) {
+  Predictor predictor({1, 1});
+  const auto found = errors(predictor, 200, [](int k) {
+    const double sign = k % 2 == 0 ? 1.0 : -1.0;
+    return two(std::sin(0.05 * k) + sign * std::cos(0.03 * k), std::cos(0.03 * k));
+  });
+  for (std::size_t k = 20; k < found.size(); ++k) BOOST_TEST(found[k] < 2e-4);
+}
+
 // In noise the last value is about as good as any; high degrees would make it 2⁸ times larger.
 BOOST_AUTO_TEST_CASE(rough) {
   Predictor predictor({1, 1});
