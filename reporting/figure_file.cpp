@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <system_error>
 #include <vector>
@@ -57,19 +59,23 @@ void convert(const std::filesystem::path& svg, const std::filesystem::path& file
 void write_converted(const std::string& drawing, const std::filesystem::path& file) {
   std::filesystem::path svg = file, picture = file;
   svg += ".svg.new";
-  picture += ".new";
+  picture += ".picture.new";
   write_file(svg, drawing, file);
-  std::error_code error;
+  std::error_code ignored;
+  std::filesystem::remove(picture, ignored);
+  const auto remove_both = [&] {
+    for (const auto& part : {svg, picture}) std::filesystem::remove(part, ignored);
+  };
   try {
     convert(svg, file, picture);
-    std::filesystem::rename(picture, file, error);
+    std::ifstream converted(picture, std::ios::binary);
+    const std::string content(std::istreambuf_iterator<char>(converted), {});
+    write_file(file, content);
   } catch (const OutputError&) {
-    std::filesystem::remove(svg, error);
-    std::filesystem::remove(picture, error);
+    remove_both();
     throw;
   }
-  std::filesystem::remove(svg);
-  if (error) throw OutputError(file.string() + ": cannot be written: " + error.message());
+  remove_both();
 }
 
 struct Column {

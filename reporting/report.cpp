@@ -1,10 +1,8 @@
 #include "courant/reporting/report.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <optional>
 #include <stdexcept>
-#include <system_error>
 
 #include "courant/core/word_list.hpp"
 #include "courant/plotting/curve_data.hpp"
@@ -15,6 +13,7 @@
 #include "courant/reporting/report_script.hpp"
 #include "courant/reporting/report_tables.hpp"
 #include "courant/reporting/typesetting.hpp"
+#include "courant/running/output_file.hpp"
 
 namespace courant {
 
@@ -286,19 +285,7 @@ std::string report_html(std::span<const Run> runs) {
 }
 
 void write_report(std::span<const Run> runs, const std::filesystem::path& output) {
-  const std::string page = report_html(runs);
-  std::filesystem::path part = output;
-  part += ".part";
-  std::ofstream stream(part, std::ios::binary);
-  stream << page;
-  stream.close();
-  std::error_code error;
-  if (stream) std::filesystem::rename(part, output, error);
-  if (!stream || error) {
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
-    throw RunFileError(output.string() + ": cannot be written.");
-  }
+  write_file(output, report_html(runs));
 }
 
 }  // namespace courant

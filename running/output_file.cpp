@@ -17,6 +17,15 @@ namespace {
 
 std::string last_error() { return std::generic_category().message(errno); }
 
+// The file that links lead to, which is there or not.
+std::filesystem::path at_end_of_links(std::filesystem::path path) {
+  constexpr int most_links = 40;
+  std::error_code error;
+  for (int i = 0; i < most_links && std::filesystem::is_symlink(path, error); ++i)
+    path = path.parent_path() / std::filesystem::read_symlink(path, error);
+  return path;
+}
+
 }  // namespace
 
 OutputFile::OutputFile(const std::filesystem::path& path, const std::filesystem::path& asked,
@@ -25,10 +34,8 @@ OutputFile::OutputFile(const std::filesystem::path& path, const std::filesystem:
   if (descriptor_ < 0) fail();
 }
 
-OutputFile::OutputFile(const std::filesystem::path& path) : OutputFile(path, path) {}
-
-OutputFile::OutputFile(const std::filesystem::path& path, const std::filesystem::path& asked)
-    : OutputFile(path, asked, O_CREAT | O_TRUNC) {}
+OutputFile::OutputFile(const std::filesystem::path& path)
+    : OutputFile(path, path, O_CREAT | O_TRUNC) {}
 
 OutputFile::OutputFile(const std::filesystem::path& path, Existing) : OutputFile(path, path, 0) {}
 
@@ -75,14 +82,23 @@ void write_file(const std::filesystem::path& path, std::string_view content) {
 
 void write_file(const std::filesystem::path& path, std::string_view content,
                 const std::filesystem::path& asked) {
-  std::filesystem::path temporary = path;
-  temporary += ".new";
   std::error_code error;
-  try {
-    OutputFile file(temporary, asked);
+  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error) &&
+      !std::filesystem::is_directory(path, error)) {  // a device, a pipe: it is not replaced
+    OutputFile file(path, asked, 0);
     file.write(content);
-    file.close();
-    std::filesystem::rename(temporary, path, error);
+    return file.close();
+  }
+  const std::filesystem::path file = at_end_of_links(path);
+  std::filesystem::path temporary = file;
+  temporary += ".new";
+  try {
+    // What stands under that name may be a link that somebody else has left.
+    std::filesystem::remove(temporary, error);
+    OutputFile part(temporary, asked, O_CREAT | O_EXCL);
+    part.write(content);
+    part.close();
+    std::filesystem::rename(temporary, file, error);
     if (error) refuse_file(asked, error.message());
   } catch (const OutputError&) {
     std::filesystem::remove(temporary, error);

@@ -19,9 +19,8 @@ class OutputError : public std::runtime_error {
 // A file, written as its owner says. Throws OutputError.
 class OutputFile {
  public:
-  // A new file; an existing one is replaced at once. Errors have the name `asked`, where it is another.
+  // A new file; an existing one is replaced at once.
   explicit OutputFile(const std::filesystem::path& path);
-  OutputFile(const std::filesystem::path& path, const std::filesystem::path& asked);
   // A file that is there, to be written on.
   struct Existing {};
   OutputFile(const std::filesystem::path& path, Existing);
@@ -40,14 +39,18 @@ class OutputFile {
   void close();
 
  private:
+  // Errors have the name `asked`.
   OutputFile(const std::filesystem::path& path, const std::filesystem::path& asked, int flags);
+  friend void write_file(const std::filesystem::path& path, std::string_view content,
+                         const std::filesystem::path& asked);
   [[noreturn]] void fail() const;
   std::filesystem::path asked_;
   int descriptor_;
 };
 
-// Writes a file whole: under another name in its folder first, then moved. Throws OutputError with
-// the name of the file, or with `asked` if this file is made on the way to that one.
+// Writes a file whole: under another name in its folder first, then moved. Where links lead to the
+// file they stay; a device or a pipe is written to as it is. Throws OutputError with the name of the
+// file, or with `asked` if this file is made on the way to that one.
 void write_file(const std::filesystem::path& path, std::string_view content);
 void write_file(const std::filesystem::path& path, std::string_view content,
                 const std::filesystem::path& asked);

@@ -1,5 +1,10 @@
 #include "courant/running/output_file.hpp"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 
 #include "temporary_folder.hpp"
@@ -67,6 +72,37 @@ BOOST_AUTO_TEST_CASE(a_full_disk_is_an_error) {
   if (!std::filesystem::exists("/dev/full")) return;
   OutputFile file("/dev/full");
   BOOST_CHECK_THROW(file.write("x"), OutputError);
+}
+
+// root may replace a device by a file; nothing but a restart brings it back.
+BOOST_AUTO_TEST_CASE(a_pipe_is_written_to_and_stays) {
+  const TemporaryFolder folder;
+  const std::filesystem::path pipe = folder / "pipe";
+  BOOST_TEST_REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  const int end = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  write_file(pipe, "through");
+  BOOST_TEST(std::filesystem::is_fifo(pipe));
+  std::string found(16, ' ');
+  found.resize(static_cast<std::size_t>(std::max<ssize_t>(read(end, found.data(), 16), 0)));
+  BOOST_TEST(found == "through");
+  close(end);
+}
+
+BOOST_AUTO_TEST_CASE(links_stay_links) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "there");
+  std::filesystem::create_symlink("there/a", folder / "link");
+  for (const char* content : {"new", "newer"}) {
+    write_file(folder / "link", content);
+    BOOST_TEST(std::filesystem::is_symlink(folder / "link"));
+    BOOST_TEST(read_text(folder / "there" / "a") == content);
+  }
+  // Nor does a link under the name on the way lead anywhere.
+  write_text(folder / "precious", "precious");
+  std::filesystem::create_symlink("precious", folder / "b.new");
+  write_file(folder / "b", "b");
+  BOOST_TEST(read_text(folder / "b") == "b");
+  BOOST_TEST(read_text(folder / "precious") == "precious");
 }
 
 BOOST_AUTO_TEST_CASE(makes_folders) {
