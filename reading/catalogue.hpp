@@ -20,6 +20,11 @@ struct Shelf {
 // added included.
 std::vector<Shelf> catalogue();
 
+// The keys that all kinds of a shelf with three or more of them have, with the same meaning; they are said once.
+std::vector<Key> common_keys(const Shelf& shelf);
+// The shelf without these.
+Shelf without_common_keys(Shelf shelf);
+
 // The table of a shelf between two comments, as docs/experiment-format.md has it.
 std::string marked_table(const Shelf& shelf);
 

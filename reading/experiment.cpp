@@ -27,6 +27,22 @@ double read_constant(const JsonReader& value, const SymbolTable& constants) {
   return number ? (*number)[0] : kUnread;
 }
 
+// A step > 0, or a period and how many steps it has. NaN, and a problem, if it is neither.
+double read_step(const JsonReader& value, const SymbolTable& constants) {
+  const auto positive = [&](const JsonReader& entry) {
+    const double number = read_constant(entry, constants);
+    if (!(number <= 0.0)) return number;
+    entry.expected("a number greater than 0");
+    return kUnread;
+  };
+  if (!value.value().is_object()) return positive(value);
+  ObjectReader object(value);
+  const auto period = object.required("period"), steps = object.required("steps");
+  const auto count = steps ? steps->integer(1) : std::nullopt;
+  const double time = period ? positive(*period) : kUnread;
+  return count ? time / static_cast<double>(*count) : kUnread;
+}
+
 // The number of steps must be whole: a last step of another size would be another method. In transformed
 // time steps are of all sizes.
 std::optional<TimeSpan> read_time(const JsonReader& value, const SymbolTable& constants) {
@@ -37,11 +53,7 @@ std::optional<TimeSpan> read_time(const JsonReader& value, const SymbolTable& co
   else
     object.default_value("start", 0.0);
   const auto step_key = object.required("step");
-  time.step = step_key ? read_constant(*step_key, constants) : kUnread;
-  if (time.step <= 0.0) {
-    step_key->expected("a number greater than 0");
-    time.step = kUnread;
-  }
+  time.step = step_key ? read_step(*step_key, constants) : kUnread;
   const auto rate_key = object.optional("transformation");
   if (rate_key) time.rate = read_formula(*rate_key);
   if (rate_key && !time.rate) return std::nullopt;

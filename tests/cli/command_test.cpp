@@ -7,6 +7,7 @@
 #include "../running/temporary_folder.hpp"
 #include "answer.hpp"
 #include "courant/core/native.hpp"
+#include "courant/core/text_layout.hpp"
 #include "courant/running/run_files.hpp"
 
 namespace courant {
@@ -251,10 +252,32 @@ BOOST_AUTO_TEST_CASE(list_has_every_kind) {
   const Answer text = courant_command({"list"});
   BOOST_TEST(text.status == 0);
   BOOST_TEST(text.out.find("point-vortices") != std::string::npos);
+  std::istringstream lines(text.out);
+  for (std::string line; std::getline(lines, line);) BOOST_TEST(text_width(line) <= 100u, line);
   const auto json = nlohmann::json::parse(courant_command({"list", "--json"}).out);
   for (const char* shelf :
        {"systems", "manifolds", "structures", "methods", "discretizations", "projectors"})
     BOOST_TEST(json[shelf].size() > 1u);
+}
+
+BOOST_AUTO_TEST_CASE(list_has_the_kinds_that_are_asked_for) {
+  const Answer two = courant_command({"list", "lagrangian", "so3"});
+  BOOST_TEST(two.status == 0);
+  BOOST_TEST(two.out.starts_with("systems\n  lagrangian: "));
+  BOOST_TEST(two.out.find("manifolds\n  so3: ") != std::string::npos);
+  BOOST_TEST(two.out.find("\"definitions\"") != std::string::npos);
+  BOOST_TEST(two.out.find("mechanical:") == std::string::npos);
+  // What all kinds take is said once.
+  const Answer systems = courant_command({"list", "systems"});
+  const std::string once = "\"definitions\"";
+  const std::size_t at = systems.out.find(once);
+  BOOST_TEST(at != std::string::npos);
+  BOOST_TEST(systems.out.find(once, at + 1) == std::string::npos);
+  BOOST_TEST(systems.out.find("manifolds") == std::string::npos);
+  const Answer none = courant_command({"list", "lagrangain"});
+  BOOST_TEST(none.status == 2);
+  BOOST_TEST(none.err.find("lagrangain: there is no such kind (did you mean \"lagrangian\"?)") !=
+             std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(report_compares_runs) {

@@ -88,6 +88,14 @@ BOOST_AUTO_TEST_CASE(refuses_strengths_and_steps_that_mean_nothing) {
              "/time/step: is -1.0; expected a number greater than 0");
   BOOST_TEST(problems(vortices, "/time/step", 0) ==
              "/time/step: is 0; expected a number greater than 0");
+  Json in_periods = vortices;
+  in_periods["time"]["step"] = {{"period", "2*(1 + 1)"}, {"steps", 8}};
+  BOOST_TEST(read_experiment(in_periods.dump()).time->step == 0.5);
+  BOOST_TEST(problems(vortices, "/time/step", Json{{"period", -1}, {"steps", 0}}) ==
+             "/time/step/steps: is 0; expected an integer, at least 1\n"
+             "/time/step/period: is -1; expected a number greater than 0");
+  BOOST_TEST(problems(vortices, "/time/step", Json{{"period", 1}}) ==
+             "/time/step/steps: is missing");
   const std::string not_whole = problems(vortices, "/time/step", 0.7);
   BOOST_TEST(not_whole.starts_with("/time/end: is 428.57"), not_whole);
   BOOST_TEST(not_whole.ends_with("as with a step of 0.6993006993006993"), not_whole);
