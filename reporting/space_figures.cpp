@@ -62,6 +62,21 @@ std::vector<SpatialPoint> body_axes(const Run& run, const std::string& name) {
   return axes;
 }
 
+// Whether a formula of the system takes the array for a vector: norm(q), dot(q, e), cross(w, q).
+bool is_vector(const Run& run, const std::string& array) {
+  if (!run.experiment.is_object() || !run.experiment.contains("system")) return false;
+  const std::string text = run.experiment["system"].dump();
+  for (const std::string function : {"norm(", "dot(", "cross("})
+    for (std::size_t at = text.find(function); at != std::string::npos;
+         at = text.find(function, at + 1)) {
+      const std::size_t first = at + function.size(), end = text.find(')', first);
+      std::string arguments = text.substr(first, end - first);
+      std::erase(arguments, ' ');
+      if (("," + arguments + ",").find("," + array + ",") != std::string::npos) return true;
+    }
+  return false;
+}
+
 // The points by their names, and whether they are surely in space.
 struct Candidate {
   SpatialPoint point;
@@ -86,7 +101,7 @@ std::vector<Candidate> candidates(const Run& run, const std::vector<std::string>
       if (exists(array + "[3]") || !body_axes(run, name.substr(0, head) + "[0][0]").empty())
         continue;
       point = {{name, array + "[1]", array + "[2]"}, array};
-      is_place = array.ends_with("]") || array == "x" || array == "r";
+      is_place = array.ends_with("]") || array == "x" || array == "r" || is_vector(run, array);
     }
     if (std::ranges::all_of(point.columns, exists)) found.push_back({point, is_place});
   }

@@ -27,8 +27,9 @@ struct SpatialPoints {
 //   body_axes  the columns of each array R[3][3] that is orthogonal in the first row
 //   sphere     arrays of three, (x, y, z), (x[i], y[i], z[i]) and (xi, yi, zi) with |x| the same in all
 //              rows, to a thousandth; one for each radius
-//   space      the other ones of these that are no generalised coordinates: arrays x and r, a[i][3] and
-//              those named x, y, z. None where all stay in a plane z = constant.
+//   space      the other ones of these that are no generalised coordinates: arrays x and r, a[i][3],
+//              those named x, y, z, and q[3] where a formula of the system has norm(q), dot(q, …) or
+//              cross(…, q). None where all stay in a plane z = constant.
 std::vector<SpatialPoints> spatial_points(const Run& run);
 
 // A picture of each of these that the first run has, with a panel for each run that has it too. Their

@@ -88,7 +88,16 @@ BOOST_AUTO_TEST_CASE(places_in_space_are_curves_and_coordinates_are_not) {
     BOOST_TEST_REQUIRE(all.size() == 1);
     BOOST_CHECK(all[0].kind == Kind::space);
   }
-  BOOST_TEST(spatial_points(table({"t", "q[0]", "q[1]", "q[2]"}, 100, helix)).empty());
+  Run generalised = table({"t", "q[0]", "q[1]", "q[2]"}, 100, helix);
+  BOOST_TEST(spatial_points(generalised).empty());
+  // Unless the formulas of the system take them for a vector.
+  const auto with_potential = [&](const char* potential) {
+    generalised.experiment = {{"system", {{"potential", potential}}}};
+    return spatial_points(generalised).size();
+  };
+  BOOST_TEST(with_potential("k*(norm(q) - l)^2") == 1u);
+  BOOST_TEST(with_potential("dot(e, q)") == 1u);
+  BOOST_TEST(with_potential("norm(eq) + q[0]") == 0u);
   BOOST_TEST(spatial_points(table({"t", "r[0]", "r[1]", "r[2]", "r[3]"}, 100, helix)).empty());
   // Three bodies in a plane are no point of space.
   BOOST_TEST(
