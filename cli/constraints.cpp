@@ -5,6 +5,7 @@
 
 #include "courant/cli/command.hpp"
 #include "courant/cli/experiment_file.hpp"
+#include "courant/cli/run_text.hpp"
 #include "courant/cli/sweep.hpp"
 #include "courant/cli/text.hpp"
 #include "courant/cli/waiting.hpp"
@@ -53,8 +54,7 @@ void print_ladder(const Console& console, const Experiment& experiment,
         ladder.moved > 0.0 ? ", by " + shown(ladder.moved, 4) + " in all:" : ":";
     print_wrapped(out, "Initial values that had to move to be consistent" + sum, "  ");
     for (const Movement& move : ladder.moves)
-      out << "      " << move.name << " from " << shown(move.from) << " to " << shown(move.to)
-          << '\n';
+      out << "      " << move.name << ' ' << from_and_to(move) << '\n';
   }
 }
 

@@ -1,6 +1,7 @@
 #include "courant/cli/run_text.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <ostream>
 
 #include "courant/core/message.hpp"
@@ -81,6 +82,14 @@ std::string steps_in_words(const TimeSpan& time) {
 
 }  // namespace
 
+std::string from_and_to(const Movement& move) {
+  // What is left of a sum that is zero.
+  const double to = std::abs(move.to) < 1e-13 * std::abs(move.from) ? 0.0 : move.to;
+  int digits = 6;
+  while (digits < 17 && shown(move.from, digits) == shown(to, digits)) ++digits;
+  return "from " + shown(move.from, digits) + " to " + shown(to, digits);
+}
+
 void print_opening(const Console& console, const Experiment& experiment,
                    const LadderReport& ladder) {
   std::ostream& out = console.out;
@@ -92,8 +101,7 @@ void print_opening(const Console& console, const Experiment& experiment,
   out << "\n  (dim S, dim M): " << ladder_line(ladder) << '\n';
   print_wrapped(out, verdict_in_words(ladder), "  ");
   for (const Movement& move : ladder.moves)
-    out << "  " << move.name << " had to move from " << shown(move.from) << " to " << shown(move.to)
-        << " to be consistent.\n";
+    out << "  " << move.name << " had to move " << from_and_to(move) << " to be consistent.\n";
   out << std::flush;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "courant/cli/command.hpp"
 #include "courant/cli/text.hpp"
@@ -13,6 +14,9 @@ namespace courant::cli {
 // What is run, and what the constraint algorithm found.
 void print_opening(const Console& console, const Experiment& experiment,
                    const LadderReport& ladder);
+
+// How a value moved, with as many digits as show it.
+std::string from_and_to(const Movement& move);
 
 // Where a run goes on.
 void print_resumption(const Console& console, long k, double t);

@@ -1,5 +1,6 @@
 #include "courant/core/normal_form.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -106,6 +107,70 @@ std::vector<Expr> NormalForm::eliminated(const std::vector<Expr>& equations,
   for (const Polynomial& element : basis.basis())
     if (const Polynomial rest = relations_->remainder(element); !rest.empty())
       result.push_back(expression(element));
+  return result;
+}
+
+std::vector<Expr> NormalForm::consequences(const std::vector<Expr>& equations,
+                                           const ExprVector& unknowns) {
+  if (unknowns.size() == 0) return {};
+  std::vector<Polynomial> all = given_;
+  std::map<int, int> eliminated;  // roots and reciprocals by the numbers that they have here
+  int next = factors_.rbegin()->first + 1;
+  try {
+    for (const Expr& equation : equations) all.push_back(polynomial(equation));
+    const std::map<int, Expr> found = factors_;
+    for (const auto& [number, entry] : found) {
+      if (number >= 0) break;
+      if (!depends(ExprVector::Constant(1, entry), unknowns)) continue;
+      eliminated.emplace(number, next++);
+      const Node& node = entry.graph().node(entry.node());
+      if (node.op == Op::sqrt) {  // r² = a
+        all.push_back({{{{number, 2}}, 1.0}});
+        add_multiple(all.back(), polynomial(entry.graph().expression(node.a)), -1.0);
+      } else if (node.op == Op::divide && entry.graph().expression(node.a).is_constant(1.0)) {
+        all.push_back(
+            expanded(polynomial(entry.graph().expression(node.b)), {{{{number, 1}}, 1.0}}));
+        add_multiple(all.back(), {{Monomial{}, 1.0}}, -1.0);
+      } else {
+        return {};
+      }
+    }
+  } catch (const std::length_error&) {
+    return {};
+  }
+  // What stands below has a reciprocal, so that it is not 0: u r = 1.
+  std::map<int, int> reciprocals;
+  for (Polynomial& one : all) {
+    for (const auto& [monomial, c] : one)
+      for (const auto& [below, power] : monomial)
+        if (power < 0 && !reciprocals.contains(below)) reciprocals.emplace(below, next++);
+    one = without_denominators(one);
+  }
+  for (const auto& [below, reciprocal] : reciprocals)
+    all.push_back({{{{below, 1}, {reciprocal, 1}}, 1.0}, {Monomial{}, -1.0}});
+  for (Polynomial& one : all) {
+    Polynomial renumbered;
+    for (const auto& [monomial, c] : one) {
+      Monomial with;
+      for (const auto& [number, power] : monomial) {
+        const auto other = eliminated.find(number);
+        with.emplace_back(other == eliminated.end() ? number : other->second, power);
+      }
+      std::ranges::sort(with);
+      renumbered.emplace(std::move(with), c);
+    }
+    one = std::move(renumbered);
+  }
+  const int first = numbers_.at(unknowns[0].node());
+  const PolynomialRelations basis(all, {.eliminated_from = first, .eliminated_to = next});
+  std::vector<Expr> result;
+  for (const Polynomial& element : basis.basis()) {
+    const bool is_free = std::ranges::all_of(element, [&](const auto& term) {
+      return std::ranges::all_of(term.first,
+                                 [&](const auto& power) { return power.first < first; });
+    });
+    if (is_free && !relations_->remainder(element).empty()) result.push_back(expression(element));
+  }
   return result;
 }
 

@@ -33,6 +33,16 @@ class NormalForm {
   // polynomial of `variables`.
   std::vector<Expr> eliminated(const std::vector<Expr>& equations, const ExprVector& unknowns);
 
+  // Polynomials without `unknowns`, which are last of the variables, that vanish where the relations and
+  // `equations` do; roots and denominators with unknowns in them are eliminated too. So p + v/√(v² + w²) = 0
+  // and q + w/√(v² + w²) = 0 have the consequence p² + q² - 1. Nothing where one of the equations is none of a
+  // polynomial of the unknowns, their roots and what stands below.
+  std::vector<Expr> consequences(const std::vector<Expr>& equations, const ExprVector& unknowns);
+
+  // Whether the relations contradict each other, as x² + y² - 1 = 0 and x² + y² - 2 = 0 do: multiplied by
+  // polynomials they add up to 1.
+  bool hold_nowhere() const { return relations_->hold_nowhere(); }
+
  private:
   int factor(const Expr& a);
   const Polynomial& polynomial(const Expr& a);

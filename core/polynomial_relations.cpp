@@ -11,12 +11,6 @@ namespace {
 
 constexpr std::size_t kMostElements = 40, kMostTerms = 60, kMostPairs = 300;
 
-int total_degree(const Monomial& monomial) {
-  int sum = 0;
-  for (const auto& [factor, power] : monomial) sum += power;
-  return sum;
-}
-
 bool is_polynomial(const Polynomial& a) {
   return std::ranges::all_of(a, [](const auto& term) {
     return std::ranges::all_of(term.first, [](const auto& power) { return power.second > 0; });
@@ -44,7 +38,14 @@ Monomial least_common_multiple(const Monomial& a, const Monomial& b) {
   return {powers.begin(), powers.end()};
 }
 
-// Coefficients that cancel leave round-off: 1e-13 of what was added is zero.
+}  // namespace
+
+int total_degree(const Monomial& monomial) {
+  int sum = 0;
+  for (const auto& [factor, power] : monomial) sum += power;
+  return sum;
+}
+
 void add_term(Polynomial& polynomial, const Monomial& monomial, double c) {
   const auto [at, is_new] = polynomial.emplace(monomial, c);
   if (is_new) return;
@@ -52,8 +53,6 @@ void add_term(Polynomial& polynomial, const Monomial& monomial, double c) {
   at->second += c;
   if (std::fabs(at->second) <= 1e-13 * size) polynomial.erase(at);
 }
-
-}  // namespace
 
 Monomial product(const Monomial& a, const Monomial& b, int sign) {
   Monomial result;
@@ -121,7 +120,10 @@ bool PolynomialRelations::add(const Polynomial& polynomial) {
         element.lead = monomial;
         leading = c;
       }
-    if (element.lead.empty()) continue;  // 1 = 0: the relations hold nowhere
+    if (element.lead.empty()) {  // 1 = 0
+      hold_nowhere_ = true;
+      continue;
+    }
     for (const auto& [monomial, c] : next)
       if (monomial != element.lead) element.rest.emplace(monomial, -c / leading);
     std::erase_if(basis_, [&](const Element& other) {

@@ -15,6 +15,12 @@ using Polynomial = std::map<Monomial, double>;  // no coefficient is 0
 // a b, or a/b for sign = -1.
 Monomial product(const Monomial& a, const Monomial& b, int sign = 1);
 
+// The sum of its powers.
+int total_degree(const Monomial& monomial);
+
+// Adds c times a monomial. Coefficients that cancel leave round-off: 1e-13 of what was added is zero.
+void add_term(Polynomial& polynomial, const Monomial& monomial, double c);
+
 struct MonomialOrder {
   bool backwards = false;
   int eliminated_from = 0, eliminated_to = 0;  // these numbers, the last one not among them
@@ -41,6 +47,9 @@ class PolynomialRelations {
   // The basis, each polynomial with 1 as its leading coefficient.
   std::vector<Polynomial> basis() const;
 
+  // Whether 1 is in the ideal, so that not all of the relations vanish anywhere.
+  bool hold_nowhere() const { return hold_nowhere_; }
+
  private:
   struct Element {
     Monomial lead;
@@ -55,6 +64,7 @@ class PolynomialRelations {
 
   MonomialOrder order_;
   std::vector<Element> basis_;
+  bool hold_nowhere_ = false;
 };
 
 }  // namespace courant

@@ -7,6 +7,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "courant/core/factor_table.hpp"
+#include "courant/core/polynomial_quotient.hpp"
 #include "courant/core/polynomial_relations.hpp"
 #include "courant/core/subgraph.hpp"
 #include "courant/core/written_number.hpp"
@@ -17,8 +19,6 @@ namespace {
 // The expression is too large to be written by hand.
 struct TooLarge {};
 
-constexpr std::size_t longest = 1000;  // characters of a sum
-
 // Factors by their number in the table of a Simplifier.
 using Sum = Polynomial;
 
@@ -28,16 +28,19 @@ Monomial power(Monomial a, int k) {
   return a;
 }
 
-// How a sum is brought to a form: products of sums multiplied out or not, and relations applied
-// where they make it shorter, or always, to the first or to the last of their factors.
+// How a sum is brought to a form: products of sums multiplied out or not, relations applied where
+// they make it shorter, or always, to the first or to the last of their factors, and fractions added
+// to one fraction or not.
 struct Style {
   bool expand = true;
   enum class Relations { where_shorter, first, last } relations = Relations::where_shorter;
+  bool add_fractions = false;
 };
 
 class Simplifier {
  public:
-  Simplifier(const Simplification& given, Style style) : expand_(style.expand) {
+  Simplifier(const Simplification& given, Style style)
+      : expand_(style.expand), adds_fractions_(style.add_fractions) {
     expand_ = true;
     for (const Expr& relation : given.relations) relations_.push_back(of(relation));
     if (style.relations != Style::Relations::where_shorter)
@@ -83,16 +86,12 @@ class Simplifier {
     return {common, lead};
   }
 
-  // c · monomial · (sum), as text.
   std::string text(const Sum& sum) const {
-    if (sum.empty()) return "0";
-    std::string result;
-    for (const auto& [monomial, c] : in_order(sum)) {
-      if (result.size() > longest) throw TooLarge();
-      result += result.empty() ? (c < 0 ? "-" : "") : (c < 0 ? " - " : " + ");
-      result += text(monomial, std::fabs(c));
+    try {
+      return factors_.text(sum);
+    } catch (const std::length_error&) {
+      throw TooLarge();
     }
-    return result;
   }
 
   // Written with a common factor in front, where there is one.
@@ -109,8 +108,7 @@ class Simplifier {
     for (const auto& [monomial, c] : sum) {
       Monomial below;
       for (const auto& [factor, exponent] : monomial)
-        if (exponent < 0 && factors_[static_cast<std::size_t>(factor)].is_sum)
-          below.emplace_back(factor, exponent);
+        if (exponent < 0 && factors_[factor].is_sum) below.emplace_back(factor, exponent);
       over[below][product(monomial, below, -1)] = c;
     }
     Sum result;
@@ -125,6 +123,42 @@ class Simplifier {
     return result;
   }
 
+  // One fraction: all terms over what stands below any of them, as a product of sums; those that
+  // divide what stands above are divided out.
+  Sum as_fraction(const Sum& sum) {
+    std::map<int, int> powers;
+    for (const auto& [monomial, c] : sum)
+      for (const auto& [factor, exponent] : monomial)
+        if (exponent < 0) powers[factor] = std::max(powers[factor], -exponent);
+    if (powers.empty()) return sum;
+    const Monomial below(powers.begin(), powers.end());
+    Sum above;
+    for (const auto& [monomial, c] : sum) {
+      Sum term = {{Monomial{}, c}};
+      for (const auto& [factor, exponent] : product(monomial, below)) {
+        const FactorTable::Factor& entry = factors_[factor];
+        if (!entry.is_sum)
+          term = times(term, {{{{factor, exponent}}, 1.0}});
+        else
+          for (int i = 0; i < exponent; ++i) term = times(term, entry.sum);
+      }
+      above = plus(above, term);
+    }
+    for (auto& [factor, exponent] : powers) {
+      const FactorTable::Factor& entry = factors_[factor];
+      while (entry.is_sum && exponent > 0) {
+        const std::optional<Sum> fewer = courant::quotient(above, entry.sum, circles_);
+        if (!fewer) break;
+        above = *fewer;
+        --exponent;
+      }
+    }
+    std::erase_if(powers, [](const auto& entry) { return entry.second == 0; });
+    const auto [monomial, c] = as_factor(with_sines(above, circles_));
+    if (c == 0.0) return {};
+    return opened({{normal(product(monomial, {powers.begin(), powers.end()}, -1)), c}});
+  }
+
   // Positive powers of the common factor stay: where they vanish, the equation holds.
   Sum equation(Sum sum) {
     const auto [common, c] = take_out_content(sum);
@@ -137,8 +171,10 @@ class Simplifier {
     return result;
   }
 
+  bool adds_fractions() const { return adds_fractions_; }
+
   double leading(const Sum& sum) const {
-    return sum.empty() ? 1.0 : in_descending_order(sum).front().second;
+    return sum.empty() ? 1.0 : factors_.in_descending_order(sum).front().second;
   }
 
   static Sum scaled(Sum sum, double factor) {
@@ -147,105 +183,46 @@ class Simplifier {
   }
 
  private:
-  struct Factor {
-    std::string text;
-    Sum sum = {};  // of a sum in parentheses, or the argument of a square root
-    bool is_sum = false, is_root = false, is_variable = false;
-  };
-
   static Sum number(double value) { return value == 0.0 ? Sum{} : Sum{{Monomial{}, value}}; }
 
-  int factor(Factor entry) {
-    const auto found = numbers_.find(entry.text);
-    if (found != numbers_.end()) return found->second;
-    const int n = static_cast<int>(factors_.size());
-    numbers_.emplace(entry.text, n);
-    factors_.push_back(std::move(entry));
-    return n;
-  }
   int atom(const Sum& sum) {
-    return factor({.text = "(" + text(sum) + ")", .sum = sum, .is_sum = true});
+    return factors_.number({.text = "(" + text(sum) + ")", .sum = sum, .is_sum = true});
   }
 
-  // The coefficient of the leading term; where relations have made the sum, the smallest one if all
-  // are multiples of it, with that sign.
+  // The coefficient of the leading term, the smallest or the largest one, with the sign of the leading
+  // one: that which leaves the shortest numbers.
   double content(const Sum& sum) const {
-    const double lead = in_order(sum).front().second;
-    if (!remainders_) return lead;
-    double smallest = lead;
-    for (const auto& [monomial, c] : sum)
+    const double lead = factors_.in_order(sum).front().second;
+    double smallest = lead, largest = lead;
+    for (const auto& [monomial, c] : sum) {
       if (std::fabs(c) < std::fabs(smallest)) smallest = std::copysign(c, lead);
-    for (const auto& [monomial, c] : sum)
-      if (std::fabs(std::remainder(c, smallest)) > 1e-12 * std::fabs(c)) return lead;
-    return smallest;
-  }
-
-  static int degree(const Monomial& monomial) {
-    int sum = 0;
-    for (const auto& [factor, exponent] : monomial) sum += exponent;
-    return sum;
-  }
-
-  // Variables in the order of the graph, then what stands in parentheses in that of its text.
-  bool before(int a, int b) const {
-    const Factor &of_a = factors_[static_cast<std::size_t>(a)],
-                 &of_b = factors_[static_cast<std::size_t>(b)];
-    if (of_a.is_variable != of_b.is_variable) return of_a.is_variable;
-    return of_a.is_variable ? a < b : of_a.text < of_b.text;
-  }
-
-  // High degrees first, then the order of the factors.
-  std::vector<std::pair<Monomial, double>> in_descending_order(const Sum& sum) const {
-    count(sum.size());
-    std::vector<std::pair<Monomial, double>> terms(sum.begin(), sum.end());
-    std::stable_sort(terms.begin(), terms.end(), [this](const auto& a, const auto& b) {
-      const int of_a = degree(a.first), of_b = degree(b.first);
-      if (of_a != of_b) return of_a > of_b;
-      // x² before x y before y².
-      for (std::size_t i = 0; i < a.first.size() && i < b.first.size(); ++i) {
-        if (a.first[i].first != b.first[i].first) return before(a.first[i].first, b.first[i].first);
-        if (a.first[i].second != b.first[i].second) return a.first[i].second > b.first[i].second;
+      if (std::fabs(c) > std::fabs(largest)) largest = std::copysign(c, lead);
+    }
+    const auto letters = [&](double content) {
+      std::size_t count = 0;
+      for (const auto& [monomial, c] : sum) {
+        const WrittenNumber number = written_number(std::fabs(c / content));
+        count += number.above.size() + number.below.size() + (number.below.empty() ? 0 : 1);
       }
-      return a.first.size() > b.first.size();
-    });
-    return terms;
-  }
-  // With a positive term in front, if there is one.
-  std::vector<std::pair<Monomial, double>> in_order(const Sum& sum) const {
-    auto terms = in_descending_order(sum);
-    if (!terms.empty() && terms.front().second < 0.0) {
-      const auto positive = std::find_if(terms.begin(), terms.end(),
-                                         [](const auto& term) { return term.second > 0.0; });
-      if (positive != terms.end()) std::rotate(terms.begin(), positive, positive + 1);
+      return count;
+    };
+    double best = lead;
+    std::size_t fewest = letters(lead);
+    for (const double other : {smallest, largest}) {
+      if (other == lead) continue;
+      if (const std::size_t count = letters(other); count < fewest) {
+        fewest = count;
+        best = other;
+      }
     }
-    return terms;
-  }
-
-  std::string text(const Monomial& monomial, double size) const {
-    const WrittenNumber number = written_number(size);
-    std::string above = number.above, below = number.below;
-    int count_below = below.empty() ? 0 : below.find('*') == std::string::npos ? 1 : 2;
-    for (const auto& [factor, exponent] : monomial) {
-      const int k = std::abs(exponent);
-      const bool alone = exponent > 0 && k == 1 && monomial.size() == 1 && size == 1.0;
-      std::string piece = factors_[static_cast<std::size_t>(factor)].text;
-      if (alone && factors_[static_cast<std::size_t>(factor)].is_sum)
-        return piece.substr(1, piece.size() - 2);
-      if (k > 1) piece += "^" + std::to_string(k);
-      std::string& side = exponent > 0 ? above : below;
-      side += (side.empty() ? "" : "*") + piece;
-      if (exponent < 0) ++count_below;
-    }
-    if (above.empty()) above = "1";
-    if (below.empty()) return above;
-    return above + "/" + (count_below > 1 ? "(" + below + ")" : below);
+    return best;
   }
 
   // Roots to an even power become what is under them.
   Monomial normal(Monomial monomial) {
     for (std::size_t i = 0; i < monomial.size(); ++i) {
       const auto [factor, exponent] = monomial[i];
-      const Factor& entry = factors_[static_cast<std::size_t>(factor)];
+      const FactorTable::Factor& entry = factors_[factor];
       if (!entry.is_root || std::abs(exponent) < 2) continue;
       const int pairs = exponent / 2, left = exponent - 2 * pairs;
       Sum under = entry.sum;
@@ -260,7 +237,7 @@ class Simplifier {
   }
 
   void count(std::size_t terms = 1) const {
-    constexpr std::size_t most = 10000;  // some milliseconds
+    const std::size_t most = adds_fractions_ ? 100'000 : 10'000;  // some milliseconds
     if ((work_ += terms) > most) throw TooLarge();
   }
 
@@ -276,7 +253,8 @@ class Simplifier {
   // What relations and sin² + cos² = 1 make of it.
   Sum reduced(Sum sum) {
     if (remainders_) sum = remainders_->remainder(std::move(sum));
-    if (sum.size() > 100) throw TooLarge();
+    if (sum.size() > (adds_fractions_ ? 400u : 100u)) throw TooLarge();
+    if (adds_fractions_) sum = in_cosines(std::move(sum), circles_);
     const std::size_t relations = remainders_ ? 0 : relations_.size();
     count(sum.size() * (1 + relations + circles_.size()));
     bool changed = true;
@@ -340,9 +318,9 @@ class Simplifier {
   }
 
   Sum times(const Sum& a, const Sum& b) {
-    const std::size_t terms = a.size() * b.size();
+    const std::size_t terms = a.size() * b.size(), most_terms = adds_fractions_ ? 400 : 48;
     const bool distribute = a.size() <= 1 || b.size() <= 1 ? expand_ || is_number(a) || is_number(b)
-                                                           : expand_ && terms <= 48;
+                                                           : expand_ && terms <= most_terms;
     if (!distribute && terms > 0) {
       const auto [of_a, c] = as_factor(a);
       const auto [of_b, d] = as_factor(b);
@@ -363,7 +341,7 @@ class Simplifier {
     if (sum.size() != 1) return sum;
     const auto& [monomial, c] = *sum.begin();
     if (monomial.size() != 1 || monomial[0].second != 1) return sum;
-    const Factor& entry = factors_[static_cast<std::size_t>(monomial[0].first)];
+    const FactorTable::Factor& entry = factors_[monomial[0].first];
     return entry.is_sum ? scaled(entry.sum, c) : sum;
   }
 
@@ -378,14 +356,15 @@ class Simplifier {
       for (int i = 1; i < k; ++i) result = times(result, sum);
       return result;
     }
-    const auto [monomial, c] = as_factor(sum);
+    const auto [monomial, c] = as_factor(adds_fractions_ && k < 0 ? as_fraction(sum) : sum);
+    if (c == 0.0) throw TooLarge();  // 1/0
     return opened({{normal(power(monomial, k)), std::pow(c, k)}});
   }
 
   Sum call(const std::string& name, std::initializer_list<const Sum*> arguments) {
     std::string inside;
     for (const Sum* argument : arguments) inside += (inside.empty() ? "" : ", ") + text(*argument);
-    return {{{{factor({.text = name + "(" + inside + ")"}), 1}}, 1.0}};
+    return {{{{factors_.number({.text = name + "(" + inside + ")"}), 1}}, 1.0}};
   }
 
   Sum value(const Graph& graph, std::uint32_t index) {
@@ -403,7 +382,7 @@ class Simplifier {
       case Op::constant:
         return number(graph.constant(index));
       case Op::variable:
-        return {{{{factor({.text = graph.name(index), .is_variable = true}), 1}}, 1.0}};
+        return {{{{factors_.number({.text = graph.name(index), .variable = index}), 1}}, 1.0}};
       case Op::negate:
         return scaled(operand(node.a), -1.0);
       case Op::add:
@@ -419,7 +398,7 @@ class Simplifier {
       case Op::sqrt: {
         const Sum& under = operand(node.a);
         const std::string name = "sqrt(" + text(under) + ")";
-        return {{{{factor({.text = name, .sum = under, .is_root = true}), 1}}, 1.0}};
+        return {{{{factors_.number({.text = name, .sum = under, .is_root = true}), 1}}, 1.0}};
       }
       case Op::sin:
       case Op::cos: {
@@ -429,20 +408,19 @@ class Simplifier {
       }
       case Op::pow: {
         const std::string base = text(operand(node.a)), exponent = text(operand(node.b));
-        return {{{{factor({.text = "(" + base + ")^(" + exponent + ")"}), 1}}, 1.0}};
+        return {{{{factors_.number({.text = "(" + base + ")^(" + exponent + ")"}), 1}}, 1.0}};
       }
       default: {  // conditions, and what only the library writes
         const std::string as_it_is = to_string(graph.expression(index), 200);
-        return {{{{factor({.text = "(" + as_it_is + ")"}), 1}}, 1.0}};
+        return {{{{factors_.number({.text = "(" + as_it_is + ")"}), 1}}, 1.0}};
       }
     }
   }
 
-  bool expand_;
+  bool expand_, adds_fractions_;
   mutable std::size_t work_ = 0;
-  std::vector<Factor> factors_;
-  std::map<std::string, int> numbers_;
-  std::map<int, int> circles_;  // sin(a) and cos(a)
+  FactorTable factors_;
+  Circles circles_;
   std::vector<Sum> relations_;
   std::optional<PolynomialRelations> remainders_;
   std::unordered_map<std::uint32_t, Sum> known_;
@@ -453,7 +431,8 @@ template <class Texts>
 std::optional<std::string> shortest(const Simplification& given, const Texts& texts) {
   std::optional<std::string> best;
   using enum Style::Relations;
-  std::vector<Style> styles = {{.expand = true}, {.expand = false}};
+  std::vector<Style> styles = {
+      {.expand = true}, {.expand = false}, {.expand = true, .add_fractions = true}};
   if (!given.relations.empty())
     for (const Style::Relations relations : {first, last}) styles.push_back({true, relations});
   for (const Style& style : styles) {
@@ -480,6 +459,8 @@ std::optional<std::string> simplified(const Expr& a, const Simplification& given
     try {
       found.push_back(simplifier.text(sum));
       found.push_back(simplifier.text(simplifier.factored(sum)));
+      if (simplifier.adds_fractions())
+        found.push_back(simplifier.text(simplifier.as_fraction(sum)));
     } catch (const TooLarge&) {  // the first one will do
     }
     return found;

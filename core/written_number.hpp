@@ -9,8 +9,8 @@ namespace courant {
 //
 //   0.5   0.5 above        1/3   3 below        π/4   pi above, 4 below        1/(2π)   2*pi below
 //
-// Short decimals as they are, fractions with denominators of up to 24, the same times π or 1/π;
-// else six digits.
+// Short decimals as they are, fractions with denominators of up to 24, the same times π or 1/π; else
+// six digits if these are all there are, then fractions of up to four digits over three, then six digits.
 struct WrittenNumber {
   std::string above, below;
 };

@@ -49,10 +49,12 @@ std::vector<Entry> of_level(const std::vector<Entry>& list, Index k) {
   return entries;
 }
 
-constexpr int most = 6;  // lines of a kind
+// How many of so many lines of a kind are shown: no line says that one or two more are left out.
+std::size_t shown_of(std::size_t count) { return count <= 8 ? count : 6; }
 
 void tell_rest(std::size_t count, std::vector<std::string>& lines) {
-  if (count > most) lines.push_back("    \u2026 and " + std::to_string(count - most) + " more");
+  if (const std::size_t left = count - shown_of(count); left > 0)
+    lines.push_back("    \u2026 and " + std::to_string(left) + " more");
 }
 
 // x' = v: those that are functions of the point from level k on, and where all are told, those of
@@ -75,7 +77,7 @@ void explain_velocities(const LadderReport::Elimination& found, Index k, bool al
 // What S_k adds: each equation in velocities, and what becomes of it with those of S_{k-1}.
 void explain_steps(const std::vector<ConstraintFormulas::Step>& steps, Index k,
                    std::vector<std::string>& lines) {
-  for (std::size_t i = 0; i < steps.size() && i < most; ++i) {
+  for (std::size_t i = 0; i < shown_of(steps.size()); ++i) {
     const std::string &derivative = steps[i].derivative, &result = steps[i].result;
     std::string text = "    " + derivative + " = 0";
     if (result == "0")
@@ -134,11 +136,11 @@ void explain_level(const LadderReport& ladder, Index k, std::vector<std::string>
   lines.push_back(text);
 
   const bool all_formulas = formulas.size() == constraints.size();
-  for (std::size_t i = 0; i < formulas.size() && i < most; ++i)
+  for (std::size_t i = 0; i < shown_of(formulas.size()); ++i)
     lines.push_back("    " + formulas[i].formula + " = 0");
   tell_rest(formulas.size(), lines);
   if (!all_formulas) {
-    for (std::size_t i = 0; i < constraints.size() && i < most; ++i) {
+    for (std::size_t i = 0; i < shown_of(constraints.size()); ++i) {
       lines.push_back("    differential here: " + linear_form(constraints[i].gradient, "d"));
       lines.push_back("    from " + sources(constraints[i].from));
     }
@@ -155,25 +157,47 @@ void explain_level(const LadderReport& ladder, Index k, std::vector<std::string>
     lines.push_back("For the others no formula of up to five lines was found.");
 }
 
+// The constraints of levels below `end`, where the ladder has no end to tell more of them.
+void list_constraints(const LadderReport::Elimination& found, Index end,
+                      std::vector<std::string>& lines) {
+  for (Index k = 0; k < end; ++k) {
+    const auto formulas = of_level(found.formulas, k);
+    if (formulas.empty()) continue;
+    lines.push_back(k == 0 ? "Level 0. The equations contain"
+                           : "Level " + std::to_string(k) + ". Differentiated, that leads to");
+    for (std::size_t i = 0; i < shown_of(formulas.size()); ++i)
+      lines.push_back("    " + formulas[i].formula + " = 0" +
+                      (formulas[i].is_singular ? ", whose differential is 0 here" : ""));
+    tell_rest(formulas.size(), lines);
+  }
+}
+
 // From the equations to 1 = 0, where elimination gets there.
 void explain_contradiction(const LadderReport::Elimination& found,
                            std::vector<std::string>& lines) {
   const ConstraintFormulas::Step* last = nullptr;
   for (const ConstraintFormulas::Step& step : found.steps)
     if (step.kind == ConstraintFormulas::Step::Kind::contradiction) last = &step;
-  if (!last) return;
-  const Index end = last->level;
-  const std::string &derivative = last->derivative, &result = last->result;
-  if (derivative.empty()) {
-    lines.push_back("The equations lead to " + result + " = 0: no velocity satisfies them.");
+  const auto levels_of = [&](const auto& list) {
+    Index most = -1;
+    for (const auto& entry : list) most = std::max(most, entry.level);
+    return most + 1;
+  };
+  if (!last || last->derivative.empty()) {
+    const std::size_t before = lines.size();
+    list_constraints(found, last ? last->level + 1 : levels_of(found.formulas), lines);
+    if (!last && lines.size() > before)
+      lines.push_back("No point nearby satisfies these and what follows from them.");
+    else if (last && !last->constraint.empty())
+      lines.push_back("These have no zero in common: together they lead to 1 = 0.");
+    else if (last)
+      lines.push_back("The equations lead to " + last->result +
+                      " = 0: no velocity satisfies them.");
     return;
   }
-  for (Index k = 0; k < end; ++k) {
-    lines.push_back(k == 0 ? "Level 0. The equations contain"
-                           : "Level " + std::to_string(k) + ". Differentiated, that leads to");
-    for (const auto& [level, formula] : of_level(found.formulas, k))
-      lines.push_back("    " + formula + " = 0");
-  }
+  const Index end = last->level;
+  const std::string &derivative = last->derivative, &result = last->result;
+  list_constraints(found, end, lines);
   lines.push_back("Level " + std::to_string(end) + ". Solutions stay on M" + subscript(end - 1) +
                   ": from " + last->constraint + " = 0 follows");
   lines.push_back("    " + derivative + " = 0");
@@ -297,6 +321,8 @@ std::vector<std::string> ladder_explanation(const LadderReport& ladder) {
   if (ladder.constraints) {
     const Index last = ladder.index.value_or(static_cast<Index>(ladder.levels.size()) - 1);
     for (Index k = 0; k <= last; ++k) explain_level(ladder, k, lines);
+  } else if (ladder.elimination && ladder.verdict == Verdict::rank_change) {
+    list_constraints(*ladder.elimination, std::ssize(ladder.levels), lines);
   } else if (ladder.elimination) {
     explain_contradiction(*ladder.elimination, lines);
   }

@@ -40,7 +40,9 @@ LadderReport::Values components(const VectorXd& vector, const std::vector<std::s
 LadderReport::Elimination elimination(const ConstraintFormulas& formulas,
                                       const std::vector<std::string>& velocities) {
   LadderReport::Elimination found{.formulas = formulas.constraints, .steps = formulas.steps};
-  for (const auto& [component, level, formula] : formulas.velocities)
+  auto in_order = formulas.velocities;
+  std::ranges::sort(in_order, {}, &ConstraintFormulas::Velocity::component);
+  for (const auto& [component, level, formula] : in_order)
     found.velocities.push_back({velocities[static_cast<std::size_t>(component)], level, formula});
   return found;
 }
@@ -89,7 +91,11 @@ LadderReport::End end(const ConstraintLadder& ladder, const ImplicitSystem& syst
   for (std::size_t i = 0; i < ladder.differentiations.size(); ++i)
     if (ladder.differentiations[i] > 0)
       found.differentiations.emplace_back(system.names().equations[i], ladder.differentiations[i]);
-  // Dependences of derivatives follow from those of equations or say that a constraint is kept.
+  // Dependences of derivatives follow from those of equations or say that a constraint is kept. Where a
+  // manifold lies in a space with more coordinates, its equations are as many as these.
+  const Manifold& M = *system.manifold();
+  const auto in_excess = static_cast<std::size_t>(M.tangent_dimension() - M.dimension());
+  if (system.tangent_blocks() > 0 && ladder.redundancies.size() <= in_excess) return found;
   for (const Combination& combination : ladder.redundancies)
     if (std::all_of(combination.terms.begin(), combination.terms.end(),
                     [](const Combination::Term& term) { return term.derivative == 0; }))
@@ -148,7 +154,8 @@ std::vector<LadderReport::Dimensions> LadderReport::dimensions() const {
 LadderReport ladder_report(const ConstraintLadder& ladder, const ImplicitSystem& system) {
   LadderReport report = discrete_ladder_report(ladder, system);
   const bool has_end = ladder.index >= 0;
-  if (!has_end && ladder.verdict != Verdict::inconsistent) return report;
+  if (!has_end && ladder.verdict != Verdict::inconsistent && ladder.verdict != Verdict::rank_change)
+    return report;
   const ConstraintFormulas formulas = constraint_formulas(system, ladder);
   report.elimination = elimination(formulas, velocity_names(system));
   if (!has_end) return report;

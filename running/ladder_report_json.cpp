@@ -52,8 +52,10 @@ void write_classes(Json& json, const LadderReport::Classes& classes) {
 
 void write_elimination(Json& json, const LadderReport::Elimination& found) {
   json["formulas"] = Json::array();
-  for (const auto& [level, formula] : found.formulas)
+  for (const auto& [level, formula, is_singular] : found.formulas) {
     json["formulas"].push_back({{"level", level}, {"formula", formula}});
+    if (is_singular) json["formulas"].back()["singular"] = true;
+  }
   json["steps"] = Json::array();
   for (const ConstraintFormulas::Step& step : found.steps)
     json["steps"].push_back({{"level", step.level},
@@ -140,7 +142,8 @@ LadderReport::Elimination read_elimination(const Json& json) {
   using Kind = ConstraintFormulas::Step::Kind;
   LadderReport::Elimination found;
   for (const Json& entry : part(json, "formulas"))
-    found.formulas.push_back({whole(entry, "level").value_or(0), entry.value("formula", "")});
+    found.formulas.push_back({whole(entry, "level").value_or(0), entry.value("formula", ""),
+                              entry.value("singular", false)});
   for (const Json& entry : part(json, "steps"))
     found.steps.push_back(
         {.level = whole(entry, "level").value_or(0),

@@ -101,6 +101,19 @@ class EquationReduction {
       equations_.push_back(remainder);
   }
 
+  // What follows from the equations that are left when velocities and unknowns that occur in them in
+  // another way than linearly are eliminated.
+  std::vector<Expr> consequences() const {
+    std::vector<Expr> left;
+    for (const Expr& equation : equations_)
+      if (has_unknown(equation)) left.push_back(equation);
+    return NormalForm(variables(), {}).consequences(left, unknowns_);
+  }
+  // Whether functions of the point have no zero in common.
+  bool have_no_common_zero(const std::vector<Expr>& functions) const {
+    return NormalForm(x_, functions).hold_nowhere();
+  }
+
   // Solutions satisfy it.
   void add_constraint(const Expr& function) { constraints_.push_back(function); }
 
@@ -154,6 +167,23 @@ class EquationReduction {
     return has_unknown(function) ? on_vectors_ : on_points_;
   }
 
+  double largest(const ExprVector& functions) const {
+    double found = 0.0;
+    for (const Expr& function : functions) found = std::max(found, std::abs(value(function)));
+    return found;
+  }
+  // At the point, next to how fast it changes there and to the other coefficients of its equation: what is
+  // identically zero, though its formula does not tell, is round-off of these.
+  bool vanishes(const Expr& function, double others) const {
+    const double least = others > 1e-6 ? 1e-10 * others : 1e-6;
+    if (!(std::abs(value(function)) > least)) return true;
+    double size = 0.0;
+    const ExprVector along = gradient(function, variables());
+    for (Index i = 0; i < along.size(); ++i)
+      size += std::abs(value(along[i])) * std::max(1.0, std::abs(numbers_[i]));
+    return !(std::abs(value(function)) > 1e-6 * size);
+  }
+
   ExprVector variables() const {
     ExprVector all(x_.size() + 1 + unknowns_.size());
     all << x_, t_, unknowns_;
@@ -177,7 +207,7 @@ class EquationReduction {
         if (g[u].is_constant(0.0)) continue;
         double cost = static_cast<double>(count);
         if (!g[u].is_constant()) {
-          bool linear = std::abs(value(g[u])) > 1e-6;
+          bool linear = !vanishes(g[u], largest(g));
           for (const Expr& second : gradient(g[u], unknowns_))
             linear = linear && second.is_constant(0.0);
           if (!linear) continue;
@@ -238,6 +268,8 @@ class Derivation {
     for (Index level = 0; level <= levels; ++level) {
       found_.clear();
       for (const Expr& function : elimination_.constraints()) add_constraint(level, function);
+      if (std::ssize(found_) < constraint_count(level))
+        for (const Expr& function : elimination_.consequences()) add_constraint(level, function);
       add_velocities(level);
       if (contradicted_) break;
       for (const Expr& function : found_) differentiate(level + 1, function, level < levels);
@@ -255,6 +287,11 @@ class Derivation {
   }
 
  private:
+  // By ranks.
+  Index constraint_count(Index level) const {
+    return std::ranges::count(ladder_.constraints, level, &PointConstraint::level);
+  }
+
   void add_constraint(Index level, const Expr& function) {
     const double value = elimination_.value(function);
     VectorXd g = elimination_.gradient_at_point(function);
@@ -266,9 +303,22 @@ class Derivation {
       contradicted_ = true;
       return;
     }
-    if (!(size > 0.0) || !(std::abs(value) < 1e-8 * size * (1.0 + ladder_.point.x.norm()))) {
-      // Where there is no consistent point, constraints need not hold at the one that was found.
-      if (ladder_.index >= 0 || !(size > 0.0)) return;
+    if (!(size > 0.0)) {
+      if (ladder_.verdict == Verdict::rank_change && std::abs(value) < 1e-8 && !formula.empty())
+        result_.constraints.push_back({level, formula, true});
+      return;
+    }
+    // Where there is no consistent point, constraints need not hold at the one that was found.
+    const bool holds = std::abs(value) < 1e-8 * size * (1.0 + ladder_.point.x.norm());
+    if (!holds && ladder_.verdict != Verdict::inconsistent) return;
+    if (ladder_.verdict == Verdict::inconsistent && !formula.empty()) {
+      all_.push_back(function);
+      if (elimination_.have_no_common_zero(all_)) {
+        result_.constraints.push_back({level, formula});
+        result_.steps.push_back({level, Kind::contradiction, formula, "", "1"});
+        contradicted_ = true;
+        return;
+      }
     }
     g -= known_ * (known_.transpose() * g);
     if (g.norm() < 1e-8 * size) return;  // follows from those before
@@ -317,6 +367,7 @@ class Derivation {
   EquationReduction elimination_;
   MatrixXd known_;           // orthonormal: the gradients so far
   std::vector<Expr> found_;  // constraints of this level
+  std::vector<Expr> all_;    // of all levels, where they contradict each other
   std::vector<bool> is_told_;
   bool contradicted_ = false;
   ConstraintFormulas result_;
@@ -348,30 +399,51 @@ std::vector<std::string> velocity_names(const ImplicitSystem& system) {
     return names;
   }
   // On a cotangent bundle the fibre has as many components as the velocity of the base.
-  const std::size_t half = size / 2;
-  const bool has_momenta =
-      size % 2 == 0 && half < coordinates.size() &&
-      std::all_of(coordinates.end() - static_cast<std::ptrdiff_t>(half), coordinates.end(),
-                  [](const std::string& name) { return name.starts_with("p_"); });
-  for (std::size_t i = 0; i < size; ++i) {
-    if (!has_momenta) {
-      names.push_back("v[" + std::to_string(i) + "]");
-      continue;
+  // Components that are those of the velocity of a coordinate.
+  Graph graph;
+  const ExprVector x = named(graph, coordinates), v = graph.variables("v", M.tangent_dimension());
+  const ExprVector motion = M.frame(x) * v;
+  names.resize(size);
+  std::vector<std::string> others;  // arrays of coordinates whose velocities are no components
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    const auto component =
+        std::ranges::find_if(v, [&](const Expr& c) { return c.node() == motion[Index(i)].node(); });
+    if (component != v.end()) {
+      names[static_cast<std::size_t>(component - v.begin())] = coordinates[i] + "'";
+    } else if (const std::string array = coordinates[i].substr(0, coordinates[i].find('['));
+               others.empty() || others.back() != array) {
+      others.push_back(array);
     }
-    const std::string& momentum = coordinates[coordinates.size() - half + i % half];
-    names.push_back(i < half ? "v_" + momentum.substr(2) : momentum + "'");
   }
+  // They are called after their momenta, or three in a row after each of these arrays, as of rotations and
+  // points that turn with them.
+  std::vector<std::string> called;
+  for (const std::string& name : coordinates)
+    if (name.starts_with("p_")) called.push_back("v_" + name.substr(2));
+  const auto unnamed = static_cast<std::size_t>(std::ranges::count(names, std::string()));
+  if (called.size() != unnamed) {
+    called.clear();
+    for (std::size_t i = 0; i < unnamed; ++i)
+      called.push_back(unnamed == 3 * others.size()
+                           ? "v_" + others[i / 3] + "[" + std::to_string(i % 3) + "]"
+                           : "v[" + std::to_string(i) + "]");
+  }
+  std::size_t next = 0;
+  for (std::string& name : names)
+    if (name.empty()) name = called[next++];
   return names;
 }
 
 ConstraintFormulas constraint_formulas(const ImplicitSystem& system,
                                        const ConstraintLadder& ladder) {
-  const bool is_empty = ladder.verdict == Verdict::inconsistent && !ladder.levels.empty();
+  const bool is_empty =
+      (ladder.verdict == Verdict::inconsistent || ladder.verdict == Verdict::rank_change) &&
+      !ladder.levels.empty();
   const Manifold& M = *system.manifold();
   if ((ladder.index < 0 && !is_empty) || ladder.point.x.size() != M.ambient_dimension() ||
       ladder.point.v.size() != M.tangent_dimension() ||
       ladder.point.z.size() != system.auxiliary_size() ||
-      M.tangent_dimension() + system.auxiliary_size() > 80)
+      M.tangent_dimension() + system.auxiliary_size() > 200)
     return {};
   return Derivation(system, ladder)(is_empty ? ladder.levels.back().k : ladder.index);
 }

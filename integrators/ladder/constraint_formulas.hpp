@@ -13,7 +13,8 @@ namespace courant {
 struct ConstraintFormulas {
   struct Constraint {
     Index level;
-    std::string formula;  // that vanishes on M_level
+    std::string formula;       // that vanishes on M_level
+    bool is_singular = false;  // its differential vanishes at the point
   };
   struct Value {
     Index unknown;        // auxiliary
@@ -51,15 +52,18 @@ std::string to_string(ConstraintFormulas::Step::Kind kind);
 // that occur in them linearly, with a constant coefficient or one that does not vanish at the
 // point, and put into the others; an equation without unknowns left is a constraint, and its time
 // derivative the next equation. Constraints are kept if they vanish at the point and add a
-// direction to the gradients of those before them. What takes more than a few lines is left out.
-// For up to 80 velocities and unknowns; nothing otherwise.
+// direction to the gradients of those before them. Where ranks tell of more constraints, polynomial
+// elimination looks for them: p = v/|v| has the consequence |p| = 1. What takes more than a few lines is
+// left out. For up to 200 velocities and unknowns; nothing otherwise.
 //
-// `ladder` has an index, or is inconsistent: then the last step may be a contradiction.
+// `ladder` has an index; or its rank changes, and constraints may be singular; or it is inconsistent, and
+// the last step may be a contradiction: that of a derivative, or of constraints without a common zero, the
+// last of which it names.
 ConstraintFormulas constraint_formulas(const ImplicitSystem& system,
                                        const ConstraintLadder& ladder);
 
 // Names of the components of the velocity (Ñ) in the representation of the manifold: x' of a
-// coordinate x; where they are not those of ẋ, v_R[0] beside the momentum p_R[0], else v[0].
+// coordinate x that is one of them; else v_R[0] of R[3][3], or v[0].
 std::vector<std::string> velocity_names(const ImplicitSystem& system);
 
 }  // namespace courant

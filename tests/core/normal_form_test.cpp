@@ -76,6 +76,33 @@ BOOST_AUTO_TEST_CASE(unknowns_are_eliminated) {
   BOOST_TEST(form.eliminated({sin(u[0])}, u).empty());
 }
 
+// p = u/|u| has the length 1, whatever u is; with a denominator and a root that u is under.
+BOOST_AUTO_TEST_CASE(consequences_are_free_of_unknowns) {
+  NormalForm form(variables(), {});
+  const Expr length = sqrt(dot(u, u));
+  std::vector<Expr> equations;
+  for (Index i = 0; i < 3; ++i) equations.push_back(v[i] - 2.0 * u[i] / length);
+  const auto found = form.consequences(equations, u);
+  BOOST_REQUIRE_EQUAL(found.size(), 1U);
+  const Expr sphere = dot(v, v) - 4.0;
+  BOOST_TEST(
+      (form(found[0] - sphere).is_constant(0.0) || form(found[0] + sphere).is_constant(0.0)));
+  // v₀ = 1/(u₀ + 1), v₁ = u₀ + 2: a denominator with several terms.
+  const auto hyperbola = form.consequences({v[0] - 1.0 / (u[0] + 1.0), v[1] - u[0] - 2.0}, u);
+  BOOST_REQUIRE_EQUAL(hyperbola.size(), 1U);
+  BOOST_TEST((form(hyperbola[0] - v[0] * v[1] + v[0] + 1.0).is_constant(0.0)));
+  BOOST_TEST(form.consequences({v[0] - sin(u[0])}, u).empty());
+  BOOST_TEST(form.consequences({v[0] - u[0]}, u).empty());
+}
+
+BOOST_AUTO_TEST_CASE(contradictions_are_noticed) {
+  const Expr circle = square(x[0]) + square(x[1]);
+  BOOST_TEST(NormalForm(variables(), {circle - 1.0, circle - 2.0}).hold_nowhere());
+  BOOST_TEST(NormalForm(variables(), {x[0], x[0] - 1.0}).hold_nowhere());
+  BOOST_TEST(!NormalForm(variables(), {circle - 1.0, x[0] - 2.0}).hold_nowhere());
+  BOOST_TEST(!NormalForm(variables(), {circle}).hold_nowhere());
+}
+
 BOOST_AUTO_TEST_CASE(what_is_too_long_stays_as_it_is) {
   NormalForm form = on_sphere();
   Expr product = 1.0;

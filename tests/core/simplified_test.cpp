@@ -53,6 +53,24 @@ BOOST_AUTO_TEST_CASE(numbers_are_written_as_people_do) {
   BOOST_TEST(text(1e-9 * x) == "1e-09*x");
 }
 
+// Fractions are added where that is shorter, and what divides both sides is divided out.
+BOOST_AUTO_TEST_CASE(fractions_are_added) {
+  BOOST_TEST(text(x / (x + y) + y / (x + y)) == "1");
+  BOOST_TEST(text(1 / (x - y) - 1 / (x + y) - 2 * y / (square(x) - square(y))) == "0");
+  BOOST_TEST(text((square(x) - square(y)) / (x + y) * z) == "z*(x - y)");
+  // A rolling disk: sin² (1 + cos²) - sin² cos² + cos² + 1 is 2.
+  const Expr s2 = square(sin(x)), c2 = square(cos(x));
+  BOOST_TEST(text(y / (s2 * (c2 + 1) - s2 * c2 + c2 + 1)) == "0.5*y");
+  BOOST_TEST(text((y - y * c2) / z) == "y*sin(x)^2/z");
+}
+
+// The numbers that were written, not 9.81 times others.
+BOOST_AUTO_TEST_CASE(the_factor_in_front_leaves_short_numbers) {
+  BOOST_TEST(text((9.81 * x - square(y)) * (z + 1)) == "(9.81*x - y^2)*(z + 1)");
+  BOOST_TEST(text(1 / (9.81 * x - square(y)) + 1 / (19.62 * x - 2 * square(y))) ==
+             "1.5/(9.81*x - y^2)");
+}
+
 // Of vortices on a sphere: what stands over the same distance.
 BOOST_AUTO_TEST_CASE(terms_over_the_same_sum_are_put_together) {
   const Expr one = 1 / (1 - x * y), two = 1 / (1 - x * z);

@@ -194,6 +194,63 @@ BOOST_AUTO_TEST_CASE(a_contradiction_is_derived) {
 }
 
 // On S², with |x| = 1 and x·p = 0 used; on SO(3), with names for the angular velocity.
+// Two constraints that no point satisfies: nothing has to be differentiated.
+BOOST_AUTO_TEST_CASE(constraints_without_a_common_zero_are_told) {
+  const auto lines =
+      ladder_explanation(ladder({{"system",
+                                  {{"type", "implicit"},
+                                   {"coordinates", {"x", "y"}},
+                                   {"equations", {"x^2 + y^2 - 1", "x^2 + y^2 - 2"}}}},
+                                 {"initial", {{"x", 0.6}, {"y", 0.8}}}}));
+  BOOST_TEST(all(lines).starts_with("Level 0. The equations contain\n    x^2 + y^2 - 1 = 0\n    "
+                                    "x^2 + y^2 - 2 = 0\nThese have no zero in common: together "
+                                    "they lead to 1 = 0.\n"),
+             all(lines));
+}
+
+// Where the rank changes, the constraint shows why: z² has no linear part where z = 0.
+BOOST_AUTO_TEST_CASE(singular_constraints_are_told) {
+  const Json found = ladder(
+      {{"system",
+        {{"type", "lagrangian"},
+         {"coordinates", {"x", "y", "z"}},
+         {"lagrangian", "x'*z' + y*z^2/2"}}},
+       {"initial", {{"x", 0.3}, {"y", 0.2}, {"z", 0}, {"p_x", 0.4}, {"p_y", 0}, {"p_z", 0.5}}}});
+  BOOST_TEST(found.at("verdict") == "rank-change");
+  BOOST_TEST(all(ladder_explanation(found))
+                 .starts_with(
+                     "Level 0. The equations contain\n    p_y = 0\nLevel 1. "
+                     "Differentiated, that leads to\n    z^2 = 0, whose differential is 0 here\n"),
+             all(ladder_explanation(found)));
+}
+
+// Momenta of the length of a vector: no equation is linear in a velocity.
+BOOST_AUTO_TEST_CASE(the_mass_shell_is_found) {
+  const Json found = ladder(
+      {{"system",
+        {{"type", "lagrangian"},
+         {"coordinates", {"s", "x", "y"}},
+         {"parameters", {{"m", 2}}},
+         {"lagrangian", "-m*sqrt(s'^2 - x'^2 - y'^2)"}}},
+       {"initial", {{"s", 0.1}, {"x", 0.2}, {"y", 0.3}, {"s'", 1.3}, {"x'", 0.5}, {"y'", 0.4}}}});
+  BOOST_REQUIRE_EQUAL(found.at("formulas").size(), 1U);
+  BOOST_TEST(found["formulas"][0]["formula"] == "p_s^2 - p_x^2 - p_y^2 - 4");
+}
+
+// A plate that rolls: the formulas of its textbook.
+BOOST_AUTO_TEST_CASE(velocities_of_a_rolling_disk_are_simplified) {
+  const auto lines = ladder_explanation(ladder(
+      {{"system",
+        {{"type", "mechanical"},
+         {"coordinates", {"x", "y", "theta", "phi"}},
+         {"potential", "-0.2*x"},
+         {"nonholonomic", {"x' - cos(phi)*theta'", "y' - sin(phi)*theta'"}}}},
+       {"initial",
+        {{"x", 0.1}, {"y", 0.2}, {"theta", 0.3}, {"phi", 0.7}, {"theta'", 1}, {"phi'", 0.4}}}}));
+  BOOST_TEST(contains(lines, "    p_theta' = 0.1*cos(phi)"), all(lines));
+  BOOST_TEST(contains(lines, "    p_x' = 0.1*cos(phi)^2 - p_theta*p_phi*sin(phi)"), all(lines));
+}
+
 BOOST_AUTO_TEST_CASE(formulas_on_curved_spaces) {
   const Json sphere = ladder({{"system",
                                {{"type", "hamiltonian"},
