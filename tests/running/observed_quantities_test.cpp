@@ -33,7 +33,7 @@ BOOST_AUTO_TEST_CASE(the_numbers_of_a_row) {
   BOOST_TEST(row.H.value() == 4);
   BOOST_TEST(row.names[6] == "constraint[0]");
   BOOST_TEST(!row.balance.has_value());
-  BOOST_TEST(row.account == nullptr);
+  BOOST_TEST(!row.account);
 
   const Function all("row", row.inputs, row.quantities);
   const VectorXd x = Eigen::Vector4d(0.5, 2.0, 3.0, -1.0), none = VectorXd::Zero(8);
@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(ports_have_an_account) {
     "time": { "step": 0.1, "end": 1 }
   })json"));
   const ObservedQuantities row = observed(damped);
-  BOOST_TEST(row.account != nullptr);
+  BOOST_TEST((row.account != nullptr));
   BOOST_TEST_REQUIRE(row.balance.has_value());
   BOOST_TEST(row.names[static_cast<std::size_t>(*row.balance)] == "balance");
 }
