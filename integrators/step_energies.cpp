@@ -30,6 +30,7 @@ StepEnergies::Formulas::Formulas(const EnergySystem& S) {
   for (const Expr& power : all) moved = moved + abs(power);
   for (Index i = 0; i < v.size(); ++i) moved = moved + abs(alpha[i] * v[i]);
   all.push_back(moved);
+  all.push_back(ExprVector(alpha.cwiseProduct(v)).sum());
   powers = Eigen::Map<const ExprVector>(all.data(), std::ssize(all));
   generator = ExprVector::Constant(1, S.generator(x, z, t[0]));
   has_time = depends(generator, t);
@@ -82,7 +83,7 @@ StepEnergies::Energies StepEnergies::operator()(const Step& step) const {
 void StepEnergies::measure(const Step& step, Energies& energies, VectorXd& workspace) const {
   energies.supplied.setZero(std::ssize(suppliers_));
   energies.dissipated.setZero(std::ssize(dissipators_));
-  energies.moved = 0.0;
+  energies.moved = energies.stage_balance = 0.0;
   workspace.resize(powers_.output_size());
   add(step, energies, workspace);
 }
@@ -104,10 +105,13 @@ void StepEnergies::add(const Step& step, Energies& energies, VectorXd& powers) c
     powers_at_stage_.value(in, powers.data());
   }
   const Index losses = energies.dissipated.size();
-  const Index ports = powers.size() - losses - 1;
+  const Index ports = powers.size() - losses - 2;
   energies.supplied.head(ports) += step.duration() * powers.head(ports);
   energies.dissipated += step.duration() * powers.segment(ports, losses);
-  energies.moved += std::fabs(step.duration()) * powers[powers.size() - 1];
+  energies.moved += std::fabs(step.duration()) * powers[ports + losses];
+  energies.stage_balance +=
+      step.duration() *
+      (powers[ports + losses + 1] - powers.head(ports).sum() + powers.segment(ports, losses).sum());
   if (!has_time_) return;
   const auto E = [&](const State& state, double t) {
     double value = 0.0;

@@ -39,8 +39,9 @@ class StepEnergies {
     std::vector<std::string> suppliers, dissipators;
     bool has_time = false;         // the last of the suppliers, which has no power
     ExprVector x, v, alpha, z, t;  // variables
-    ExprVector powers;             // by port, suppliers first, and what moves in a unit of time
-    ExprVector effort, generator;  // d_xE; E
+    // By port, suppliers first, what moves in a unit of time, and ⟨α, v⟩.
+    ExprVector powers;
+    ExprVector effort, generator;        // d_xE; E
     ExprVector powers_at_stage() const;  // with d_xE for α
   };
   explicit StepEnergies(std::shared_ptr<const EnergySystem> system,
@@ -57,6 +58,8 @@ class StepEnergies {
     // What moves within the system and through its ports: h Σ |α_i v_i| + Σ |supplied| + Σ |dissipated|.
     // Next to it, and to H, round-off in a balance is small, also where H is zero by cancellation.
     double moved = 0.0;
+    // h ⟨α, v⟩ - supplied + dissipated at the stage, what time supplies left out: 0 by (29), (31).
+    double stage_balance = 0.0;
     double supply() const { return sum_in_order(supplied); }
     double loss() const { return sum_in_order(dissipated); }
   };
@@ -77,7 +80,7 @@ class StepEnergies {
   Index size_;  // of points
   void add(const Step& step, Energies& energies, VectorXd& powers) const;
 
-  // x, v, α, z, t ↦ powers by port, suppliers first, and what moves in a unit of time; for α = d_xE
+  // x, v, α, z, t ↦ powers by port, suppliers first, what moves in a unit of time, and ⟨α, v⟩; for α = d_xE
   // x, v, z, t ↦ the same.
   Function powers_, powers_at_stage_;
   Function effort_;     // x, z, t ↦ d_xE

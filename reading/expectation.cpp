@@ -361,9 +361,11 @@ bool read_violation(ObjectReader& entry, const Reading& reading) {
   return true;
 }
 
-// {"max_imbalance": 1e-12}: how far any step is from the balance of energy.
-bool read_imbalance(ObjectReader& entry, const Reading& reading) {
-  const auto key = entry.optional("max_imbalance");
+// {"max_imbalance": 1e-12}: how far any step is from the balance of energy; {"max_stage_imbalance": 1e-12}: from
+// that of power at its stage.
+bool read_imbalance(ObjectReader& entry, const Reading& reading, const char* name,
+                    const char* description, double RunRecord::*greatest) {
+  const auto key = entry.optional(name);
   if (!key) return false;
   const auto bound = key->number();
   if (!bound) return true;
@@ -373,11 +375,10 @@ bool read_imbalance(ObjectReader& entry, const Reading& reading) {
         "expected another expectation");
   } else if (is_bound_of_change(*key, *bound, false, reading)) {
     reading.expectations.imbalance = true;
-    reading.expectations.checks.push_back(
-        [bound = *bound, pointer = entry.place().pointer()](const RunRecord& record) {
-          return compared(pointer, "greatest imbalance of energy in a step",
-                          record.completed ? record.max_imbalance : kUnknown, bound);
-        });
+    reading.expectations.checks.push_back([bound = *bound, pointer = entry.place().pointer(),
+                                           description, greatest](const RunRecord& record) {
+      return compared(pointer, description, record.completed ? record.*greatest : kUnknown, bound);
+    });
   }
   return true;
 }
@@ -390,11 +391,16 @@ void read_entry(const JsonReader& value, const Reading& reading) {
   if (const auto state = entry.optional("state")) return read_state(entry, *state, reading);
   const bool certificate = read_certificate(entry, reading);
   const bool violation = read_violation(entry, reading);
-  const bool imbalance = read_imbalance(entry, reading);
-  if (!certificate && !violation && !imbalance && value.value().empty())
+  const bool imbalance =
+      read_imbalance(entry, reading, "max_imbalance", "greatest imbalance of energy in a step",
+                     &RunRecord::max_imbalance);
+  const bool stage_imbalance = read_imbalance(entry, reading, "max_stage_imbalance",
+                                              "greatest imbalance of power at the stage of a step",
+                                              &RunRecord::max_stage_imbalance);
+  if (!certificate && !violation && !imbalance && !stage_imbalance && value.value().empty())
     value.problem(
         "expects nothing; expected \"observable\", \"state\", \"event\", \"verdict\", \"ladder\", "
-        "\"max_violation\" or \"max_imbalance\"");
+        "\"max_violation\", \"max_imbalance\" or \"max_stage_imbalance\"");
 }
 
 }  // namespace

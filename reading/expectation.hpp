@@ -41,8 +41,9 @@ struct RunRecord {
   double max_violation = std::numeric_limits<double>::quiet_NaN();  // of the constraints, if any
   std::map<std::string, EventRecord> events;
   const ConstraintLadder* ladder = nullptr;  // null if not reached
-  // The greatest imbalance of a step, as of PowerAccount, if the system knows its powers.
+  // The greatest imbalances of a step, as of PowerAccount, if the system knows its powers.
   double max_imbalance = std::numeric_limits<double>::quiet_NaN();
+  double max_stage_imbalance = std::numeric_limits<double>::quiet_NaN();
 };
 
 // One entry of `expectations` in a summary.

@@ -74,7 +74,7 @@ std::string CRows::parts() const {
       << "static void see_part(const struct state *before, const struct state *after, double h,\n"
          "                     const double *y, const double *advanced) {\n";
   if (energies_)
-    out << "  double power[SUPPLIERS + DISSIPATORS + 2];\n  const int ports = SUPPLIERS - "
+    out << "  double power[SUPPLIERS + DISSIPATORS + 3];\n  const int ports = SUPPLIERS - "
         << (energies_->has_time ? 1 : 0) << ";\n  int i;\n";
   out << "  stage = *after;\n  stage.t = before->t + " << c_number(solve.stage_time) << " * h;\n";
   if (solve.projection)

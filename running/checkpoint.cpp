@@ -175,6 +175,8 @@ void each_member(Is<PowerAccount::Memory> auto& power_account, const auto& visit
   visit("balance", power_account.balance);
   visit("greatest", power_account.greatest);
   visit("size", power_account.size);
+  visit("stage_greatest", power_account.stage_greatest);
+  visit("moved", power_account.moved);
   visit("supplied", power_account.supplied);
   visit("dissipated", power_account.dissipated);
 }

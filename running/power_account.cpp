@@ -23,13 +23,20 @@ void PowerAccount::settle(double H) {
   Memory& now = memory_;
   now.balance = H - now.last - last_.supply() + last_.loss();
   now.size = std::max(now.size, std::fabs(H) + std::fabs(now.last) + last_.moved);
+  now.moved = std::max(now.moved, last_.moved);
   // Not std::max: what is not a number stays.
   if (!(std::fabs(now.balance) <= now.greatest)) now.greatest = std::fabs(now.balance);
+  const double at_stage = std::fabs(last_.stage_balance);
+  if (!(at_stage <= now.stage_greatest)) now.stage_greatest = at_stage;
   now.last = H;
 }
 
 double PowerAccount::imbalance() const {
   return memory_.size > 0.0 ? memory_.greatest / memory_.size : memory_.greatest;
+}
+
+double PowerAccount::stage_imbalance() const {
+  return memory_.moved > 0.0 ? memory_.stage_greatest / memory_.moved : memory_.stage_greatest;
 }
 
 PowerAccount::Report PowerAccount::report() const {
@@ -43,7 +50,8 @@ PowerAccount::Report PowerAccount::report() const {
           .dissipated = ports(energies_.dissipators(), memory_.dissipated),
           .stored = memory_.last - memory_.first,
           .max_balance = memory_.greatest,
-          .max_imbalance = imbalance()};
+          .max_imbalance = imbalance(),
+          .max_stage_imbalance = stage_imbalance()};
 }
 
 void PowerAccount::recall(const Memory& memory) {

@@ -15,8 +15,9 @@ namespace courant {
 //   balance = H(x₁) - H(x₀) - supplied + dissipated
 //
 // where supplied and dissipated are those of the step. Next to the greatest |H(x₀)| + |H(x₁)| + what
-// moved (StepEnergies) in a step, the greatest |balance| is the imbalance of the run. One object a
-// trajectory.
+// moved (StepEnergies) in a step, the greatest |balance| is the imbalance of the run. The stage balance of a
+// step, h ⟨α, v⟩ - supplied + dissipated, is 0 whatever the method is, if its equations are solved; next to the
+// greatest that moved in a step the greatest is the stage imbalance. One object a trajectory.
 class PowerAccount {
  public:
   explicit PowerAccount(StepEnergies energies) : energies_(std::move(energies)) {}
@@ -34,12 +35,14 @@ class PowerAccount {
   double dissipated() const { return sum_in_order(memory_.dissipated); }
   double balance() const { return memory_.balance; }  // of the last step
   double imbalance() const;                           // 0 before the first step
+  double stage_imbalance() const;                     // the same
 
   // What is told of the run.
   struct Report {
     std::vector<std::pair<std::string, double>> supplied, dissipated;  // by port
     double stored;                                                     // ΔH
     double max_balance, max_imbalance;  // the greatest |balance|, and next to the energies
+    double max_stage_imbalance;
   };
   Report report() const;
 
@@ -47,6 +50,7 @@ class PowerAccount {
   struct Memory {
     double first = 0.0, last = 0.0;  // H
     double balance = 0.0, greatest = 0.0, size = 0.0;
+    double stage_greatest = 0.0, moved = 0.0;
     VectorXd supplied = {}, dissipated = {};  // by port
   };
   const Memory& memory() const { return memory_; }

@@ -24,7 +24,8 @@ std::vector<ExpectationResult> RunResults::expectations() const {
       record.quantities[observer.names()[i]] = statistics.record(static_cast<Index>(i));
     record.max_violation = max_violation();
     if (const PowerAccount* account = observer.account())
-      record.max_imbalance = account->imbalance();
+      record.max_imbalance = account->imbalance(),
+      record.max_stage_imbalance = account->stage_imbalance();
   }
   if (event_watch) record.events = event_watch->records();
   std::vector<ExpectationResult> results;

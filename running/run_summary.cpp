@@ -112,7 +112,8 @@ Json to_json(const RunSummary& summary) {
                              {"dissipated", named(balance->dissipated)},
                              {"stored", balance->stored},
                              {"max_balance", balance->max_balance},
-                             {"max_imbalance", balance->max_imbalance}};
+                             {"max_imbalance", balance->max_imbalance},
+                             {"max_stage_imbalance", balance->max_stage_imbalance}};
   for (const auto& [name, symmetry] : summary.symmetries)
     json["symmetries"][name] = {{"conserved", symmetry.is_conserved}, {"remark", symmetry.remark}};
   for (const auto& [name, event] : summary.events) {
@@ -180,7 +181,8 @@ RunSummary read_run_summary(const Json& json) {
                              .dissipated = read_named(part(balance, "dissipated", nothing)),
                              .stored = number(balance, "stored"),
                              .max_balance = number(balance, "max_balance"),
-                             .max_imbalance = number(balance, "max_imbalance")};
+                             .max_imbalance = number(balance, "max_imbalance"),
+                             .max_stage_imbalance = number(balance, "max_stage_imbalance")};
   }
   for (const Json& expectation : part(json, "expectations", nothing))
     summary.expectations.push_back({.pointer = {},

@@ -62,11 +62,12 @@ std::shared_ptr<const PortHamiltonianSystem> open(Hamiltonian::Formula H) {
 // h ⟨α, v⟩ - supplied + dissipated, and H(x₁) - H(x₀) less the same.
 struct Balance {
   Balance(const StepEnergies& energies, const Step& step) {
-    const auto [supplied, dissipated, moved_energy] = energies(step);
+    const auto [supplied, dissipated, moved_energy, at_stage] = energies(step);
     const double ports = supplied.sum() - dissipated.sum();
     const bool has_time = !energies.suppliers().empty() && energies.suppliers().back() == "time";
     of_efforts = step.h * energies.effort(step).dot(step.stage.v) - ports +
                  (has_time ? supplied[supplied.size() - 1] : 0.0);
+    BOOST_TEST(std::abs(at_stage - of_efforts) <= 1e-13 * moved_energy);
     of_energy = energies.energy(step.after) - energies.energy(step.before) - ports;
   }
   double of_efforts, of_energy;
@@ -90,7 +91,7 @@ BOOST_AUTO_TEST_CASE(powers_by_port) {
   BOOST_TEST((step.stage.x - x).norm() < 1e-15);
   const double y0 = 0.2 * 2.0 * x[0] + (1.0 + x[0]) * x[1] + 0.3 * u[0], y1 = 0.5 * x[1];
   BOOST_TEST(std::abs(u[0] - (std::sin(0.35) - 2.0 * y0)) < 1e-14);
-  const auto [supplied, dissipated, moved_energy] = energies(step);
+  const auto [supplied, dissipated, moved_energy, at_stage] = energies(step);
   BOOST_TEST(std::abs(supplied[0] - h * y0 * u[0]) < 1e-15);
   BOOST_TEST(std::abs(supplied[1] - h * y1 * u[1]) < 1e-15);
   BOOST_TEST(std::abs(dissipated[0] - h * (0.4 + x[0] * x[0]) * x[1] * x[1]) < 1e-15);
@@ -186,7 +187,7 @@ BOOST_AUTO_TEST_CASE(method_2_of_closed_ports) {
   for (int k = 0; k < 50; ++k) {
     stepper->step(state, 0.1);
     const Balance balance(energies, stepper->last());
-    const auto [supplied, dissipated, moved_energy] = energies(stepper->last());
+    const auto [supplied, dissipated, moved_energy, at_stage] = energies(stepper->last());
     BOOST_TEST(std::abs(balance.of_efforts) < 1e-14);
     BOOST_TEST(std::abs(balance.of_energy) < 1e-14);
     BOOST_TEST(std::abs(supplied[0]) < 1e-14);
@@ -221,7 +222,7 @@ BOOST_AUTO_TEST_CASE(forces_and_moving_constraints) {
   for (int k = 0; k < 20; ++k) {
     stepper->step(state, 0.1);
     const Step& step = stepper->last();
-    const auto [supplied, dissipated, moved_energy] = energies(step);
+    const auto [supplied, dissipated, moved_energy, at_stage] = energies(step);
     const VectorXd& v = step.stage.v;
     BOOST_TEST(std::abs(supplied[0] - 0.1 * (-0.3 * v[0] * v[0] + 2.0 * v[1])) < 1e-14);
     BOOST_TEST(std::abs(std::abs(supplied[1]) -

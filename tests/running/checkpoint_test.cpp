@@ -87,6 +87,8 @@ Checkpoint example() {
                                                     .balance = -0.0,
                                                     .greatest = Limits::quiet_NaN(),
                                                     .size = 0.1,
+                                                    .stage_greatest = number(),
+                                                    .moved = number(),
                                                     .supplied = number(20),
                                                     .dissipated = VectorXd(0)},
               .tangent_map = TangentMap::Memory{
@@ -101,6 +103,8 @@ void check_same(const Observer::Memory& a, const Observer::Memory& b) {
     BOOST_TEST(same(a.power_account->balance, b.power_account->balance));
     BOOST_TEST(same(a.power_account->greatest, b.power_account->greatest));
     BOOST_TEST(same(a.power_account->size, b.power_account->size));
+    BOOST_TEST(same(a.power_account->stage_greatest, b.power_account->stage_greatest));
+    BOOST_TEST(same(a.power_account->moved, b.power_account->moved));
     BOOST_TEST(same(a.power_account->supplied, b.power_account->supplied));
     BOOST_TEST(same(a.power_account->dissipated, b.power_account->dissipated));
   }

@@ -2,6 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 
 #include "../reading/experiment_problems.hpp"
@@ -98,6 +99,9 @@ BOOST_AUTO_TEST_CASE(energies_and_stages_of_a_run) {
     const double imbalance = account.max_imbalance;
     BOOST_TEST((exact ? imbalance < 1e-14 : imbalance > 1e-5), method << ": " << imbalance);
     if (exact) BOOST_TEST(imbalance >= 0.0);
+    // (29) and (31), next to what moves: whatever the method is, and H.
+    BOOST_TEST(account.max_stage_imbalance < 1e-14);
+    BOOST_TEST(account.max_stage_imbalance > 0.0);
   }
 }
 
@@ -106,6 +110,10 @@ BOOST_AUTO_TEST_CASE(expectations_of_the_balance) {
   experiment["expect"] = {{{"max_imbalance", 1e-13}}, {{"observable", "balance"}, {"max", 1e-13}}};
   BOOST_TEST(RunIn(experiment).outcome.as_expected());
   experiment["method"] = "discretize-first";
+  BOOST_TEST(!RunIn(experiment).outcome.as_expected());
+  experiment["expect"] = {{{"max_stage_imbalance", 1e-14}}};
+  BOOST_TEST(RunIn(experiment).outcome.as_expected());
+  experiment["expect"] = {{{"max_stage_imbalance", 1e-300}}};
   BOOST_TEST(!RunIn(experiment).outcome.as_expected());
   experiment["expect"] = {{{"max_imbalance", -1}}};
   BOOST_TEST(problems(experiment).find("/expect/0/max_imbalance: is -1") == 0u,
@@ -244,6 +252,49 @@ BOOST_AUTO_TEST_CASE(reactions) {
   BOOST_TEST(asked.outcome.summary.power_balance.has_value());
   BOOST_TEST((asked.column("supplied") == asked.column("work")));
   BOOST_TEST(std::abs(asked.column("work").back()) < 1e-13);
+}
+
+// A source that is not the one of the equations: the stage of a step knows.
+BOOST_AUTO_TEST_CASE(a_step_that_is_not_solved_has_no_balance_at_its_stage) {
+  const Experiment experiment = read_experiment(driven("discretize-first").dump());
+  const auto system = std::dynamic_pointer_cast<const EnergySystem>(experiment.model.system);
+  PowerAccount account((StepEnergies(system)));
+  account.open(0.0);
+  Step step;
+  step.before = {
+      .t = 0.0, .x = VectorXd{{1.0, 0.0}}, .v = VectorXd::Zero(2), .z = VectorXd::Zero(1)};
+  step.after = step.before;
+  step.after.t = 0.1;
+  step.h = 0.1;
+  // p' = -q³ - p/2 + u with q = 1, p = 2, u = 3 is 1; 1.5 is not.
+  step.stage = {
+      .t = 0.05, .x = VectorXd{{1.0, 2.0}}, .v = VectorXd{{2.0, 1.0}}, .z = VectorXd{{3.0}}};
+  account.enter(step);
+  account.settle(0.0);
+  BOOST_TEST(account.stage_imbalance() < 1e-15);
+  step.stage.v[1] = 1.5;
+  account.enter(step);
+  account.settle(0.0);
+  // p (1.5 - 1) next to |q³ q'| + |p p'| + |u p| + p²/2
+  BOOST_TEST(std::abs(account.stage_imbalance() - 1.0 / 13.0) < 1e-14);
+}
+
+// Every experiment with ports, that is, expects the balance of power at its stages.
+BOOST_AUTO_TEST_CASE(all_experiments_with_ports_expect_the_balance) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator("experiments")) {
+    if (entry.path().extension() != ".json" || entry.path().filename() == "schema.json") continue;
+    const Json experiment = Json::parse(read_text(entry.path()));
+    const Json& type = experiment.at("system").at("type");
+    if (type != "port-hamiltonian" && type != "network" && type != "interconnection") continue;
+    ++count;
+    BOOST_TEST(std::ranges::any_of(experiment.at("expect"),
+                                   [](const Json& entry) {
+                                     return entry.value("max_stage_imbalance", 1.0) <= 1e-12;
+                                   }),
+               entry.path());
+  }
+  BOOST_TEST(count >= 30);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -26,7 +26,8 @@ RunSummary example() {
                                                            .dissipated = {},
                                                            .stored = 0.25,
                                                            .max_balance = 1e-15,
-                                                           .max_imbalance = 1e-16},
+                                                           .max_imbalance = 1e-16,
+                                                           .max_stage_imbalance = 1e-17},
                      .ladder = LadderReport{.verdict = Verdict::regular, .index = 1},
                      .backend = "native",
                      .wall_seconds = 0.25,
@@ -68,6 +69,7 @@ BOOST_AUTO_TEST_CASE(reads_back_to_what_was_written) {
   BOOST_TEST(read.power_balance->stored == 0.25);
   BOOST_TEST(read.power_balance->max_balance == 1e-15);
   BOOST_TEST(read.power_balance->max_imbalance == 1e-16);
+  BOOST_TEST(read.power_balance->max_stage_imbalance == 1e-17);
   BOOST_TEST(read.expectations[0].passed);
   BOOST_TEST(read.solver.confirmations.value() == 3);
   BOOST_TEST(read.solver.divisions.value() == 4);
