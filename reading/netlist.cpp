@@ -25,6 +25,7 @@ class Import {
         largest_step_(circuit_.largest_step) {
     for (const InitialPotential& initial : deck_.initial)
       problems_.guard([&] { add_initial(initial); });
+    for (const InitialPotential& guess : deck_.nodesets) problems_.guard([&] { add_guess(guess); });
     problems_.require_none();
     check_network();
     initial_ = initial();
@@ -55,11 +56,12 @@ class Import {
   const std::vector<Problem>& notes() const { return notes_; }
 
  private:
-  // Diodes next to coils make time constants down to 1e-16 s, with which the midpoint rule rings.
+  // Diodes next to coils make time constants down to 1e-16 s, with which the midpoint rule rings. Where they
+  // cut coils off, derivatives of the constraints grow beyond all bounds: Method 1 has none, and the last of
+  // its damped steps ends where the constraints hold.
   Json method() const {
-    Json method = {{"type", "constrain-first"}, {"discretization", "midpoint"}};
-    if (has_diodes()) method["damping"] = "l-stable";
-    return method;
+    if (!has_diodes()) return {{"type", "constrain-first"}, {"discretization", "midpoint"}};
+    return {{"type", "discretize-first"}, {"discretization", "midpoint"}, {"damping", "l-stable"}};
   }
   bool has_diodes() const {
     return std::any_of(circuit_.elements.begin(), circuit_.elements.end(),
@@ -82,9 +84,12 @@ class Import {
     notes_.push_back({"line " + std::to_string(line), what});
   }
 
-  void add_initial(const InitialPotential& initial) {
-    const double value =
-        circuit_.value_of(formula(initial.value, circuit_.scope, initial.line), initial.line);
+  double value_of(const InitialPotential& initial) const {
+    return circuit_.value_of(formula(initial.value, circuit_.scope, initial.line), initial.line);
+  }
+
+  // The node that is meant, 0 for the ground.
+  std::size_t node_of(const InitialPotential& initial) const {
     std::size_t place = 0;
     if (initial.node != "0" && initial.node != "gnd") {
       const auto found = circuit_.nodes_by_name.find(initial.node);
@@ -96,11 +101,27 @@ class Import {
       }
       place = found->second;
     }
-    if (place == 0) {
-      if (value != 0.0)
-        throw LineError{initial.line, "the ground is at 0 V; expected another node"};
-      return;
-    }
+    if (place == 0 && value_of(initial) != 0.0)
+      throw LineError{initial.line, "the ground is at 0 V; expected another node"};
+    return place;
+  }
+
+  // .nodeset: where an operating point is looked for first.
+  void add_guess(const InitialPotential& guess) {
+    const std::size_t place = node_of(guess);
+    const double value = value_of(guess);
+    if (circuit_.from_given) note(guess.line, ".nodeset has no effect with uic in .tran");
+    const auto same = [&](const auto& other) { return other.node == place; };
+    if (place == 0 || std::ranges::any_of(circuit_.fixed.held, same)) return;
+    circuit_.at_rest = circuit_.at_rest && value == 0.0;
+    std::erase_if(circuit_.fixed.guessed, same);
+    circuit_.fixed.guessed.push_back({place, value});
+  }
+
+  void add_initial(const InitialPotential& initial) {
+    const std::size_t place = node_of(initial);
+    const double value = value_of(initial);
+    if (place == 0) return;
     given_[place] = formula(initial.value, circuit_.scope, initial.line);
     given_lines_[place] = initial.line;
     circuit_.at_rest = circuit_.at_rest && value == 0.0;

@@ -54,7 +54,9 @@ class DeckReader {
     } else if (first == ".tran") {
       deck_.transient = card_of(line);
     } else if (first == ".ic") {
-      add_initial(line);
+      add_potentials(line, deck_.initial);
+    } else if (first == ".nodeset") {
+      add_potentials(line, deck_.nodesets);
     } else if (first == ".title") {
       deck_.title.clear();
       for (std::size_t i = 1; i < line.written.size(); ++i)
@@ -86,12 +88,14 @@ class DeckReader {
                                 std::to_string(known->second.line) + " again"};
   }
 
-  void add_initial(const Line& line) {
-    const auto wrong = [&] { return LineError{line.number, "expected .ic v(node)=value …"}; };
+  void add_potentials(const Line& line, std::vector<InitialPotential>& potentials) {
+    const auto wrong = [&] {
+      return LineError{line.number, "expected " + line.words[0] + " v(node)=value …"};
+    };
     if (line.words.size() % 4 != 1 || line.words.size() == 1) throw wrong();
     for (std::size_t i = 1; i < line.words.size(); i += 4) {
       if (line.words[i] != "v" || line.words[i + 2] != "=") throw wrong();
-      deck_.initial.push_back({line.words[i + 1], line.words[i + 3], line.number});
+      potentials.push_back({line.words[i + 1], line.words[i + 3], line.number});
     }
   }
 

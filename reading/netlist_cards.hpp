@@ -70,7 +70,7 @@ struct Part {
   std::vector<Line> elements = {};
 };
 
-struct InitialPotential {  // of .ic
+struct InitialPotential {  // of .ic or .nodeset
   std::string node, value;
   int line;
 };
@@ -81,7 +81,7 @@ struct Deck {
   std::map<std::string, Part> subcircuits;
   std::optional<Card> transient;
   std::vector<Line> lines;  // which the cards point to
-  std::vector<InitialPotential> initial;
+  std::vector<InitialPotential> initial, nodesets;
 };
 
 // Reads all cards but those of elements. .print, .plot, .options and other cards that say what to

@@ -34,12 +34,16 @@ class StaticEquations {
         unknown_[k] = size_++;
     }
     first_held_ = size_;
-    size_ += static_cast<Index>(circuit.held.size());
+    first_guessed_ = first_held_ + static_cast<Index>(circuit.held.size());
+    size_ = first_guessed_ + static_cast<Index>(circuit.guessed.size());
     y_ = VectorXd::Zero(size_);
     at_ = VectorXd::Zero(static_cast<Index>(circuit.elements.size()));
   }
 
   std::variant<OperatingPoint, NoOperatingPoint> solve() {
+    is_guessing_ = !circuit_.guessed.empty();
+    if (is_guessing_ && !newton(0.0, 1.0)) go_to_zero();
+    is_guessing_ = false;
     if (!(newton(0.0, 1.0) || by_conductances() || by_sources()))
       return NoOperatingPoint{"no operating point was found", {}};
     const OperatingPoint point = result();
@@ -197,12 +201,21 @@ class StaticEquations {
           break;
       }
     }
-    for (std::size_t k = 0; k < circuit_.held.size(); ++k) {
-      const Index node = row_of(circuit_.held[k].node), own = first_held_ + static_cast<Index>(k);
+    const auto hold = [&](const StaticCircuit::Held& held, Index own) {
+      const Index node = row_of(held.node);
       linear.add(node, own, 1.0);
       linear.add(own, node, 1.0);
       linear.add(own, own, -kHoldingResistance);
-      linear.add(own, part * circuit_.held[k].potential);
+      linear.add(own, part * held.potential);
+    };
+    for (std::size_t k = 0; k < circuit_.held.size(); ++k)
+      hold(circuit_.held[k], first_held_ + static_cast<Index>(k));
+    for (std::size_t k = 0; k < circuit_.guessed.size(); ++k) {
+      const Index own = first_guessed_ + static_cast<Index>(k);
+      if (is_guessing_)
+        hold(circuit_.guessed[k], own);
+      else
+        linear.add(own, own, 1.0);  // no current
     }
     return linear;
   }
@@ -365,7 +378,8 @@ class StaticEquations {
   std::vector<Balance> balances_;
   std::vector<Index> balance_;  // of each element: its number, or -1
   std::vector<Index> unknown_;  // of each element: that of its current, or -1
-  Index size_ = 0, first_held_ = 0;
+  Index size_ = 0, first_held_ = 0, first_guessed_ = 0;
+  bool is_guessing_ = false;
   VectorXd y_;   // potentials but that of the ground, then currents
   VectorXd at_;  // of each element: where a diode is linearised
 };

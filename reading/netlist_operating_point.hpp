@@ -46,6 +46,7 @@ struct StaticCircuit {
   std::vector<StaticElement> elements = {};
   std::vector<Coupling> couplings = {};
   std::vector<Held> held = {};
+  std::vector<Held> guessed = {};  // nodes with .nodeset, none of them held
 };
 
 struct OperatingPoint {
@@ -65,7 +66,7 @@ struct NoOperatingPoint {
 // of current connect have no charge, loops of inductors and sources of voltage no flux.
 //
 // Modified nodal analysis, and Newton's method with the limits of SPICE on the voltages of diodes: at
-// first from 0 V; then with conductances from every node to the ground and beside every diode, which
+// first from 0 V, or from where it leads to with the guessed nodes held too; then with conductances from every node to the ground and beside every diode, which
 // are taken away in steps; then with sources that grow in steps. The last equations are those of the
 // circuit itself, and their residual is round-off. Source: Nagel, SPICE2 (1975), sections 4 and 5.
 std::variant<OperatingPoint, NoOperatingPoint> operating_point(const StaticCircuit& circuit);

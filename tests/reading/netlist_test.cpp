@@ -116,6 +116,8 @@ BOOST_AUTO_TEST_CASE(methods_of_netlists) {
   const Json lossless = import_netlist(body + ".tran 1u 1m\n");
   BOOST_TEST(!lossless["method"].contains("damping"));
   const Json diode = import_netlist(body + "D1 b 0 dm\n.model dm D\n.tran 1u 1m\n");
+  BOOST_TEST(lossless["method"]["type"] == "constrain-first");
+  BOOST_TEST(diode["method"]["type"] == "discretize-first");
   BOOST_TEST(diode["method"]["damping"] == "l-stable");
   BOOST_TEST(diode["time"]["halvings"] == 10);
   BOOST_CHECK_NO_THROW(read_experiment(diode.dump()));
@@ -180,6 +182,30 @@ BOOST_AUTO_TEST_CASE(operating_points) {
   const Json held = import_netlist("t\nV1 a 0 5\n.ic v(b)=2\n" + circuit).at("initial");
   BOOST_TEST(is_near(held.at("q_C1"), 2e-9));
   BOOST_TEST(is_near(held.at("phi_L1"), 2e-9));
+}
+
+// .nodeset is where an operating point is looked for first, not where it is.
+BOOST_AUTO_TEST_CASE(guessed_potentials) {
+  const std::string circuit = "V1 a 0 5\nR1 a b 1k\nC1 b 0 1n\nD1 b 0 dm\n.model dm D\n";
+  const auto charge = [&](const std::string& guess, const char* times = ".tran 1u 10u\n") {
+    std::vector<Problem> notes;
+    const Json found = import_netlist("t\n" + circuit + guess + times, &notes);
+    return std::pair(found.at("initial").at("q_C1").get<double>(), notes.size());
+  };
+  const double expected = charge("").first;
+  for (const char* guess : {".nodeset v(b)=0.6\n", ".nodeset v(b)=-300 v(a)=2\n"}) {
+    BOOST_TEST(std::abs(charge(guess).first - expected) < 1e-12 * expected);
+    BOOST_TEST(charge(guess).second == 0u);
+  }
+  BOOST_TEST(std::abs(charge(".ic v(b)=0.2\n.nodeset v(b)=0.6\n").first - 2e-10) < 1e-16);
+  refused(circuit + ".nodeset v(output)=1", "line 7: unknown node \"output\"");
+  refused(circuit + ".nodeset b=1", "line 7: expected .nodeset v(node)=value …");
+  refused(circuit + ".nodeset v(0)=1", "line 7: the ground is at 0 V; expected another node");
+  std::vector<Problem> notes;
+  import_netlist("t\n" + circuit + ".nodeset v(b)=1\n.tran 1u 10u uic\n", &notes);
+  BOOST_TEST_REQUIRE(notes.size() == 1u);
+  BOOST_TEST(notes[0].where == "line 7");
+  BOOST_TEST(notes[0].what == ".nodeset has no effect with uic in .tran");
 }
 
 // With uic, potentials of .ic are the voltages of capacitors that have no ic=, and other nodes are at
