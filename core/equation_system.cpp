@@ -13,6 +13,7 @@ EquationSystem::EquationSystem(const std::string& name, const std::vector<Functi
   if (!options.eliminates) {
     *this = EquationSystem(Function(name, inputs, equations,
                                     {.differentiate = {unknown}, .backend = options.backend}));
+    exponentials_ = Exponentials(name, inputs, equations);
     return;
   }
   Elimination elimination(equations, y, options.elimination);
@@ -22,6 +23,7 @@ EquationSystem::EquationSystem(const std::string& name, const std::vector<Functi
   left[0].variables = y(kept_);
   left_ = Function(name, left, elimination.equations,
                    {.differentiate = {unknown}, .backend = options.backend});
+  exponentials_ = Exponentials(name, left, elimination.equations);
   if (is_reduced())
     unknowns_ =
         Function(name + ", unknowns", left, elimination.unknowns, {.backend = options.backend});

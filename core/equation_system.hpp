@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "courant/core/elimination.hpp"
+#include "courant/core/exponentials.hpp"
 #include "courant/core/function.hpp"
 
 namespace courant {
@@ -36,6 +37,8 @@ class EquationSystem {
   const Function& left() const { return left_; }
   // u; p ↦ y, all of it; nothing unless is_reduced().
   const Function& unknowns() const { return unknowns_; }
+  // Those of G; none of a system that was made of a function.
+  const Exponentials& exponentials() const { return exponentials_; }
   const std::vector<Index>& kept() const { return kept_; }
   // How, in the order of elimination.
   const std::vector<Elimination::Pivot>& pivots() const { return pivots_; }
@@ -43,6 +46,7 @@ class EquationSystem {
  private:
   Index size_ = 0;
   Function left_, unknowns_;
+  Exponentials exponentials_;
   std::vector<Index> kept_;
   std::vector<Elimination::Pivot> pivots_;
 };

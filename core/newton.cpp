@@ -39,6 +39,13 @@ constexpr double kRounded = 16.0 * std::numeric_limits<double>::epsilon();
 // Above these, after iterations that do not move any more, something is not solved.
 constexpr double kSolved = 1e-9;
 
+// Where the equations have exponentials: arguments below which these are nothing; what an error of arguments is
+// that is round-off; a change that a matrix is of use over; and the part of their terms that residuals may be else.
+constexpr double kNothing = -30.0;
+constexpr double kStill = 1e-13;
+constexpr double kSameSlope = 1.0;
+constexpr double kHolds = 2e-14;
+
 // Relative changes that are round-off everywhere.
 constexpr double kLeast = 2.0 * std::numeric_limits<double>::epsilon();
 
@@ -113,6 +120,14 @@ Newton::Newton(EquationSystem system, std::vector<Index> groups, const Options& 
   settled_.resize(step_.size());
   magnitude_.resize(function_.output_size());
   stalled_.resize(function_.output_size());
+  if (system_.exponentials().count() > 0) {
+    limited_.emplace(system_.exponentials());
+    arguments_.resize(system_.exponentials().count());
+    last_arguments_.resize(arguments_.size());
+    at_matrix_.resize(arguments_.size());
+    last_.resize(function_.input_size(0));
+    last_in_.resize(static_cast<std::size_t>(function_.input_count()));
+  }
   if (!system_.is_reduced()) return;
   in_.resize(static_cast<std::size_t>(function_.input_count()));
   kept_.resize(std::ssize(system_.kept()));
@@ -120,6 +135,7 @@ Newton::Newton(EquationSystem system, std::vector<Index> groups, const Options& 
 
 bool Newton::factorize(const double* const* in) {
   function_.value_and_jacobian(in, all_.data());
+  if (limited_) system_.exponentials().arguments().value(in, at_matrix_.data());
   return factorized_ = solver_->factorize(all_.data() + function_.output_size());
 }
 
@@ -200,6 +216,36 @@ bool Newton::is_still(const double* y, const double* scales, bool fresh, double&
   return !falls;
 }
 
+// Whether the last change left the arguments of exponentials where they were, by a matrix that was made near
+// there: one of a point far up an exponential makes steps of any shortness. Or whether the equations hold next
+// to their terms at y, by the matrix there. Scales say nothing of this: voltages of diodes are measured by 10⁷ times
+// their size, next to which all of an exponential is round-off.
+bool Newton::is_settled(const double* y, const double* const* in, bool fresh) {
+  if (!limited_) return true;
+  last_ = Eigen::Map<const VectorXd>(y, last_.size());
+  for (std::size_t k = 0; k < contained_.size(); ++k)
+    last_[contained_[k]] += step_[static_cast<Index>(k)];
+  std::copy_n(in, last_in_.size(), last_in_.begin());
+  last_in_[0] = last_.data();
+  const Function& arguments = system_.exponentials().arguments();
+  arguments.value(in, arguments_.data());
+  arguments.value(last_in_.data(), last_arguments_.data());
+  const auto differs = [&](const VectorXd& from) {
+    return (arguments_.cwiseMax(kNothing) - from.cwiseMax(kNothing)).lpNorm<Eigen::Infinity>();
+  };
+  const double change = differs(last_arguments_), away = differs(at_matrix_);
+  // The matrix is wrong by about the change of the arguments since.
+  if (away <= kSameSlope && change * std::max(change, away) <= kStill) return true;
+  if (!fresh) return false;
+  function_.value_and_jacobian(in, all_.data());
+  magnitude_.setZero();
+  const auto& row = function_.pattern_row();
+  const auto& column = function_.pattern_col();
+  for (std::size_t k = 0; k < row.size(); ++k)
+    magnitude_[row[k]] += std::fabs(all_[magnitude_.size() + static_cast<Index>(k)] * y[column[k]]);
+  return largest_part(magnitude_) <= kHolds;
+}
+
 void Newton::settle(VectorXd& y, const VectorXd& y0) {
   if (!factorized_ || solver_->is_determined()) return;
   const auto place = [&](std::size_t k) {
@@ -237,6 +283,15 @@ bool Newton::approach(double* y, const double* const* in, const double* scales) 
   const bool is_reduced = system_.is_reduced();
   const double* const* of_kept = is_reduced ? take_kept(y, in) : in;
   double* const u = is_reduced ? kept_.data() : y;
+  if (limited_) {
+    last_ = Eigen::Map<const VectorXd>(u, last_.size());
+    if (limited_->solve(u, of_kept)) {
+      reset();
+      if (is_reduced) give(y);
+      return true;
+    }
+    std::copy(last_.begin(), last_.end(), u);
+  }
   DampedEquations equations;
   Index begin = 0;
   for (const Index end : ends_) {
@@ -309,6 +364,11 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
         result.status = Status::singular;
         return result;
       }
+      if (!is_settled(y, in, fresh)) {
+        if (refactorize()) continue;
+        result.status = Status::singular;
+        return result;
+      }
       result.status = Status::converged;
       return result;
     }
@@ -316,7 +376,7 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
       contraction = moved / previous;
       if (contraction < 0.5 && previous <= kLongStep &&
           std::max(contraction, previous) * moved <= (1.0 - contraction) * options_.tolerance &&
-          accepted()) {
+          accepted() && is_settled(y, in, fresh)) {
         result.status = Status::converged;
         return result;
       }
@@ -328,7 +388,7 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
                                         : close || moved <= std::max(kLeast, 2 * round_off_));
       const bool slow = contraction > options_.slow && moved > 1e3 * options_.tolerance;
       if ((slow && !fresh) || (stalled && !rounded) ||
-          (rounded && !is_still(y, scales, fresh, unsolved))) {
+          (rounded && (!is_still(y, scales, fresh, unsolved) || !is_settled(y, in, fresh)))) {
         if (!refactorize()) {
           result.status = Status::singular;
           return result;

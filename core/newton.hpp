@@ -1,9 +1,11 @@
 // Newton's method with kept factorisations, for the equations of a step.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "courant/core/equation_system.hpp"
+#include "courant/core/limited_newton.hpp"
 #include "courant/core/linear_solver.hpp"
 
 namespace courant {
@@ -85,6 +87,7 @@ class Newton {
   double largest_part(const VectorXd& magnitude) const;
   bool sees_all() const;
   bool is_solved(const double* y, const double* scales, bool fresh);
+  bool is_settled(const double* y, const double* const* in, bool fresh);
   bool is_still(const double* y, const double* scales, bool fresh, double& before);
 
   EquationSystem system_;
@@ -103,6 +106,10 @@ class Newton {
   VectorXd kept_;  // unknowns
   VectorXd all_;   // F and the entries of its Jacobian
   VectorXd step_, settled_;
+  std::optional<LimitedNewton> limited_;  // where there are exponentials
+  // Of those, at y, before the last change and where the matrix was made; y before the last change.
+  VectorXd arguments_, last_arguments_, at_matrix_, last_;
+  std::vector<const double*> last_in_;
   VectorXd magnitude_, stalled_;  // of the terms that each equation is a sum of
 };
 

@@ -142,8 +142,8 @@ VectorField::VectorField(VectorFieldFormulas formulas, Backend backend)
     : formulas_(std::move(formulas)) {
   const auto& inputs = formulas_.inputs;
   const Backend together = backend.together();
-  equations_ = Function("vector field", inputs, formulas_.equations,
-                        {.differentiate = {"y"}, .backend = together});
+  equations_ = EquationSystem("vector field", inputs, formulas_.equations,
+                              {.backend = together, .eliminates = false});
   left_out_ = Function("left out", inputs, formulas_.left_out, {.backend = together});
   rate_ = Function("rate", inputs, formulas_.rate, {.backend = together});
   basis_ = MovingBasis::projection(*formulas_.system->manifold(), together);
@@ -203,7 +203,7 @@ void VectorField::Evaluation::operator()(const State& state, VectorXd& rate) {
 // equations know one: units in which their derivatives are comparable with 1, times the largest residual or
 // unknown in these.
 void VectorField::Evaluation::take_natural_sizes(const double* const* in) {
-  const Function& F = field_.equations_;
+  const Function& F = field_.equations_.left();
   VectorXd all(F.output_size() + F.nonzeros());
   F.value_and_jacobian(in, all.data());
   if (!all.allFinite()) return;

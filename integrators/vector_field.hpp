@@ -89,10 +89,10 @@ class VectorField {
 
  private:
   VectorFieldFormulas formulas_;
-  Function equations_;  // y = (ξ', …, z, …); x, basis, t ↦ the equations kept
-  Function rate_;       // the same ↦ ẋ, v, z
-  Function left_out_;   // the same ↦ the equations of y that are not kept
-  Function basis_;      // of MovingBasis
+  EquationSystem equations_;  // y = (ξ', …, z, …); x, basis, t ↦ the equations kept
+  Function rate_;             // the same ↦ ẋ, v, z
+  Function left_out_;         // the same ↦ the equations of y that are not kept
+  Function basis_;            // of MovingBasis
 };
 
 }  // namespace courant

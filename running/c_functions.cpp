@@ -5,6 +5,7 @@
 
 #include "courant/core/c_prelude.hpp"
 #include "courant/core/derivative.hpp"
+#include "courant/core/exponentials.hpp"
 #include "courant/core/message.hpp"
 #include "courant/core/program.hpp"
 
@@ -90,6 +91,10 @@ CFunctions::Unknowns CFunctions::add(const Equations& of) {
   add(of.symbol + "_jacobian", inputs, all, "G, then the entries of dG/du");
   if (is_reduced) add(of.symbol + "_unknowns", inputs, unknowns, "all unknowns y");
 
+  const ExprVector arguments = exponential_arguments(equations, inputs[0].variables);
+  if (arguments.size() > 0)
+    add(of.symbol + "_arguments", inputs, arguments, "what exponentials in them are of");
+
   std::vector<Index> group, column;
   for (const Index place : kept) {
     Index g = 0, end = of.groups.empty() ? y.size() : of.groups[0];
@@ -111,13 +116,15 @@ CFunctions::Unknowns CFunctions::add(const Equations& of) {
   const auto name = [&](const char* what) { return of.symbol + "_" + what; };
   source_ += "static const struct equations " + of.symbol + "_equations = {\n  " + number(size) +
              number(std::ssize(kept)) + number(std::max<Index>(1, std::ssize(of.groups))) +
-             number(jacobian.values.size()) + "\n  " + name("kept") + ", " + name("contained") +
-             ", " + name("group") + ",\n  " + name("row") + ", " + name("column") + ", " +
-             name("contained_column") + ",\n  " + name("residual") + ", " + name("jacobian") +
-             ", " + (is_reduced ? name("unknowns") : "NULL") + "};\n\n";
+             number(jacobian.values.size()) + number(arguments.size()) + "\n  " + name("kept") +
+             ", " + name("contained") + ", " + name("group") + ",\n  " + name("row") + ", " +
+             name("column") + ", " + name("contained_column") + ",\n  " + name("residual") + ", " +
+             name("jacobian") + ", " + (is_reduced ? name("unknowns") : "NULL") + ", " +
+             (arguments.size() == 0 ? "NULL" : name("arguments")) + "};\n\n";
   most_unknowns_ = std::max(most_unknowns_, y.size());
   most_size_ = std::max(most_size_, size);
   most_entries_ = std::max(most_entries_, jacobian.values.size());
+  most_arguments_ = std::max(most_arguments_, arguments.size());
   Unknowns result;
   for (Index k = 0; k < std::ssize(kept); ++k)
     (std::ranges::binary_search(contained, k) ? result.sought : result.left)

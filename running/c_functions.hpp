@@ -38,10 +38,11 @@ class CFunctions {
   Index most_unknowns() const { return most_unknowns_; }
   Index most_size() const { return most_size_; }
   Index most_entries() const { return most_entries_; }
+  Index most_arguments() const { return most_arguments_; }
 
  private:
   std::string source_;
-  Index most_unknowns_ = 1, most_size_ = 4, most_entries_ = 1;
+  Index most_unknowns_ = 1, most_size_ = 4, most_entries_ = 1, most_arguments_ = 1;
 };
 
 // Numbers of an array in C, in braces; one zero if there are none.

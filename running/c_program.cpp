@@ -204,7 +204,9 @@ class CProgram {
                       "/* What the arrays of Newton's method hold. */\n" +
                       c_define("MOST_UNKNOWNS", functions_.most_unknowns()) +
                       c_define("MOST_SIZE", functions_.most_size()) +
-                      c_define("MOST_ENTRIES", functions_.most_entries()) + c_define("INPUTS", 6);
+                      c_define("MOST_ENTRIES", functions_.most_entries()) +
+                      c_define("MOST_ARGUMENTS", functions_.most_arguments()) +
+                      c_define("INPUTS", 6);
     if (const auto* field = this->field())
       all += c_define("FIELD_UNKNOWNS", field->start.size()) +
              c_define("FIELD_Z", field->z_offset) + c_define("LEFT_OUT", field->left_out.size());

@@ -238,6 +238,12 @@ ConsistentJet ConsistentPoint::find(const ConsistentJet& from) const {
   const LinearizableMap F = conditions(from.array, true);
   const Index n = from.array.base_size();
   Zero zero = find_zero(F, from.zero.y, mobility(from, false));
+  const bool has_exponentials = from.array.has_exponentials();
+  if (zero.found && !(has_exponentials && !is_met(F(zero.y)))) return {from.array, zero};
+  if (const auto start = from.array.beyond_exponentials(from.zero.y))
+    if (const Zero other = find_zero(F, *start, mobility(from, false));
+        other.found && is_met(F(other.y)))
+      return {from.array, other};
   if (zero.found) return {from.array, zero};
   const Mobility free = mobility(from, true);
   zero = find_confirmed(F, from.zero.y, free);

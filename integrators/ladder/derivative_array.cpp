@@ -8,6 +8,7 @@
 
 #include "courant/core/derivative.hpp"
 #include "courant/core/expr_vectors.hpp"
+#include "courant/core/limited_newton.hpp"
 #include "courant/core/subgraph.hpp"
 #include "courant/integrators/ladder/local_formulation.hpp"
 
@@ -105,6 +106,14 @@ DerivativeArray::DerivativeArray(std::shared_ptr<const ImplicitSystem> system, d
         const Op op = formulas.graph().node(index).op;
         return op == Op::exp || op == Op::sinh || op == Op::cosh;
       });
+  if (exponentials_)
+    of_rates_ = Exponentials("F",
+                             {{"rates", joined(local.xi[1], local.z[0])},
+                              {"xi", local.xi[0]},
+                              {"x0", origin},
+                              {"basis", basis_parameters(basis)},
+                              {"t", ExprVector::Constant(1, time)}},
+                             local.equations);
   depends_on_time_ = depends(local.equations, ExprVector::Constant(1, time));
   move_to(t, x0);
 }
@@ -131,6 +140,20 @@ VectorXd DerivativeArray::jet(const VectorXd& v, const VectorXd& z) const {
   if (v.size() > 0) y.segment(x_offset(1), base_size()) = basis_.transpose() * v;
   if (z.size() > 0) y.segment(z_offset(0), auxiliary_size()) = z;
   return y;
+}
+
+std::optional<VectorXd> DerivativeArray::beyond_exponentials(const VectorXd& y) const {
+  if (of_rates_.count() == 0) return std::nullopt;
+  const Index n = base_size(), m = auxiliary_size();
+  VectorXd rates(n + m);
+  rates << y.segment(x_offset(1), n), y.segment(z_offset(0), m);
+  const VectorXd xi = y.head(n), basis = basis_entries();
+  const double* in[] = {rates.data(), xi.data(), origin_.data(), basis.data(), &t_};
+  if (!LimitedNewton(of_rates_).solve(rates.data(), in)) return std::nullopt;
+  VectorXd there = y;
+  there.segment(x_offset(1), n) = rates.head(n);
+  there.segment(z_offset(0), m) = rates.tail(m);
+  return there;
 }
 
 VectorXd DerivativeArray::resized(const VectorXd& y, Index k) const {

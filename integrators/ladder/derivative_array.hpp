@@ -2,7 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
+#include "courant/core/exponentials.hpp"
 #include "courant/core/function.hpp"
 #include "courant/integrators/ladder/prolongation.hpp"
 #include "courant/structures/implicit_system.hpp"
@@ -59,6 +61,9 @@ class DerivativeArray final : public Prolongation {
   bool has_constant_jacobian() const override { return constant_jacobian_; }
   // F contains exp, sinh or cosh, as of a diode: derivatives of any size are near each other.
   bool has_exponentials() const { return exponentials_; }
+  // y with ξ_1 and z_0 at which F vanishes at the same ξ_0, found from those of y with limits on
+  // exponentials (LimitedNewton). Nothing if F has none, or if they are not found.
+  std::optional<VectorXd> beyond_exponentials(const VectorXd& y) const;
 
  private:
   Linearization do_linearize(const VectorXd& y, const VectorXd& uncertainty,
@@ -68,8 +73,9 @@ class DerivativeArray final : public Prolongation {
   VectorXd basis_entries() const;  // column by column; empty where the basis is the identity
 
   std::shared_ptr<const ImplicitSystem> system_;
-  Function equations_;  // (xi, xi', z; x0, basis, t) ↦ F, with Jacobian by the first three
-  Function state_;      // the same ↦ (x, v)
+  Function equations_;     // (xi, xi', z; x0, basis, t) ↦ F, with Jacobian by the first three
+  Function state_;         // the same ↦ (x, v)
+  Exponentials of_rates_;  // of F as equations for (xi', z); xi, x0, basis, t
   bool constant_jacobian_ = false, depends_on_time_ = false, exponentials_ = false;
   double t_ = 0.0;
   VectorXd origin_;

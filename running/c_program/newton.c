@@ -9,12 +9,14 @@ struct equations {
   int kept;             /* unknowns */
   int groups;           /* of unknowns that are measured by one scale */
   int entries;          /* of the Jacobian */
+  int exponentials;     /* in G, by what they are of */
   const int *kept_at;   /* places in y */
   const int *contained; /* places in u of the unknowns that the equations contain */
   const int *group;     /* of each of u */
   const int *row, *column, *contained_column; /* of each entry, in u and among those that are contained */
   map *value, *value_and_jacobian;
-  map *unknowns; /* u; p -> y, or NULL where all are kept */
+  map *unknowns;  /* u; p -> y, or NULL where all are kept */
+  map *arguments; /* u; p -> what exponentials are of, or NULL where there are none */
 };
 
 /* Simplified Newton: u <- u - A G(u), A the inverse of an earlier Jacobian as long as it contracts well. */
@@ -25,6 +27,7 @@ struct newton {
   double u[MOST_UNKNOWNS];
   double all[MOST_SIZE + MOST_ENTRIES]; /* G and the entries of its Jacobian */
   double change[MOST_SIZE];
+  double at_matrix[MOST_ARGUMENTS]; /* of exponentials, where the Jacobian is that of */
   double inverse[MOST_SIZE * MOST_SIZE]; /* column by column */
 };
 
@@ -95,6 +98,7 @@ static int factorize(struct newton *N, const double *const *in) {
   ++N->factorizations;
   N->is_factorized = 0;
   N->of->value_and_jacobian(in, N->all);
+  if (N->of->exponentials > 0) N->of->arguments(in, N->at_matrix);
   for (k = 0; k < n * n; ++k) A[k] = 0.0;
   for (k = 0; k < N->of->entries; ++k) {
     if (!isfinite(N->all[n + k])) return 0;
@@ -175,6 +179,36 @@ static double unsolved_part(const struct newton *N, const double *scales) {
   return largest_part(N, magnitude);
 }
 
+/* Whether the last change left the arguments of exponentials where they were, by a matrix that was made near
+   there, or the equations hold next to their terms, by the matrix at u. */
+static int is_settled(struct newton *N, const double *const *in, int fresh) {
+  const struct equations *const of = N->of;
+  double now[MOST_ARGUMENTS], before[MOST_ARGUMENTS], last[MOST_UNKNOWNS], change = 0.0, away = 0.0;
+  double magnitude[MOST_SIZE];
+  const double *at_last[INPUTS];
+  int i, k;
+  if (of->exponentials == 0) return 1;
+  for (i = 1; i < INPUTS; ++i) at_last[i] = in[i];
+  at_last[0] = last;
+  for (i = 0; i < of->kept; ++i) last[i] = N->u[i];
+  for (i = 0; i < of->size; ++i) last[of->contained[i]] += N->change[i];
+  of->arguments(in, now);
+  of->arguments(at_last, before);
+  for (i = 0; i < of->exponentials; ++i) {
+    /* Below -30 exponentials are nothing. */
+    const double at = largest_of(now[i], -30.0);
+    change = largest_of(change, fabs(at - largest_of(before[i], -30.0)));
+    away = largest_of(away, fabs(at - largest_of(N->at_matrix[i], -30.0)));
+  }
+  if (away <= 1.0 && change * largest_of(change, away) <= 1e-13) return 1;
+  if (!fresh) return 0;
+  of->value_and_jacobian(in, N->all);
+  for (i = 0; i < of->size; ++i) magnitude[i] = 0.0;
+  for (k = 0; k < of->entries; ++k)
+    magnitude[of->row[k]] += fabs(N->all[of->size + k] * N->u[of->column[k]]);
+  return largest_part(N, magnitude) <= 2e-14;
+}
+
 /* Iterates to round-off: until changes are so small, or contract so well, that nothing is left, or until they
    only move by round-off. Zero if that fails. */
 static int iterate(struct newton *N, const double *const *in, const double *scales) {
@@ -194,12 +228,20 @@ static int iterate(struct newton *N, const double *const *in, const double *scal
     evaluated = 0;
     moved = improve(N, scales);
     if (!isfinite(moved)) return 0;
-    if (moved <= tolerance) return 1;
+    if (moved <= tolerance) {
+      if (is_settled(N, in, fresh)) return 1;
+      fresh = evaluated = 1;
+      close = moved <= brief;
+      compared = 0;
+      if (!factorize(N, in)) return 0;
+      continue;
+    }
     if (compared > 0) {
       int stalled, stagnant, rounded, slow, still;
       contraction = moved / previous;
       if (contraction < 0.5 && previous <= 1e-2 &&
-          largest_of(contraction, previous) * moved <= (1.0 - contraction) * tolerance)
+          largest_of(contraction, previous) * moved <= (1.0 - contraction) * tolerance &&
+          is_settled(N, in, fresh))
         return 1;
       stalled = contraction > 0.5;
       stagnant = fresh && compared == 1 && contraction > 0.9 && moved <= brief;
@@ -220,6 +262,7 @@ static int iterate(struct newton *N, const double *const *in, const double *scal
           still = unsolved >= 0.0 && !(part < 0.5 * unsolved);
           unsolved = part;
         }
+        if (still) still = is_settled(N, in, fresh);
       }
       if ((slow && !fresh) || (stalled && !rounded) || !still) {
         fresh = evaluated = 1;

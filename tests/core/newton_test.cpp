@@ -410,4 +410,36 @@ BOOST_AUTO_TEST_CASE(least_squares_are_no_solution) {
   }
 }
 
+// A resistor and a diode, with the scale that voltages of circuits have, 10⁷ times their size: by it all of the
+// exponential is round-off, and with the matrix of a point far up no step is long.
+BOOST_AUTO_TEST_CASE(a_matrix_far_up_an_exponential_settles_nothing) {
+  constexpr double saturation = 1e-14, scale = 0.02585, resistance = 2200.0;
+  Graph graph;
+  const ExprVector y = graph.variables("y", 1), a = graph.variables("a", 1);
+  const EquationSystem system(
+      "diode", {{"y", y}, {"a", a}},
+      ExprVector::Constant(1, saturation * (exp(y[0] / scale) - 1.0) - (a[0] - y[0]) / resistance),
+      {.eliminates = false});
+  for (const double first : {0.0, 0.7, 1.4})
+    for (const double voltage : {5.0, -5.0, 0.3}) {
+      Newton newton(system, {}, {});
+      double at = first, before = first < 1.0 ? first : 1e9;
+      const double* in[] = {&at, &before};
+      const double size = 5e7;
+      newton.solve(&at, in, &size);  // keeps a matrix of where it ends
+      before = voltage;
+      const bool converged = newton.solve(&at, in, &size).status == Newton::Status::converged;
+      BOOST_TEST_CONTEXT(voltage << " V after " << first) {
+        if (!converged) {
+          at = 0.0;
+          BOOST_TEST_REQUIRE(newton.approach(&at, in, &size));
+          BOOST_TEST_REQUIRE((newton.solve(&at, in, &size).status == Newton::Status::converged));
+        }
+        const double current = (voltage - at) / resistance;
+        BOOST_TEST(std::abs(saturation * std::expm1(at / scale) - current) <
+                   1e-12 * (std::abs(current) + std::abs(voltage) / resistance));
+      }
+    }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -16,11 +16,11 @@ namespace {
 
 // The netlist with accurate steps and with what makes ngspice write potentials to a file.
 std::string for_ngspice(std::string netlist, const std::vector<std::string>& nodes,
-                        const std::string& output) {
-  std::string control =
-      ".options reltol=1e-6 abstol=1e-15 vntol=1e-9 chgtol=1e-18\n.control\n"
-      "set wr_singlescale\nset wr_vecnames\nset numdgt=12\nrun\nwrdata " +
-      output;
+                        const std::string& output, const std::string& options) {
+  std::string control = ".options " + options +
+                        "\n.control\n"
+                        "set wr_singlescale\nset wr_vecnames\nset numdgt=12\nrun\nwrdata " +
+                        output;
   for (const std::string& node : nodes) control += " v(" + node + ")";
   // The greatest step, after the start: that of the netlist.
   const std::size_t tran = netlist.find(".tran"), end = netlist.find('\n', tran);
@@ -31,6 +31,61 @@ std::string for_ngspice(std::string netlist, const std::vector<std::string>& nod
   netlist.replace(netlist.find(".end\n"), 5, control + "\nquit\n.endc\n.end\n");
   return netlist;
 }
+
+const std::string accurate = "reltol=1e-6 abstol=1e-15 vntol=1e-9 chgtol=1e-18";
+
+// The rows of a run and those of ngspice.
+struct Comparison {
+  Waveforms ours, theirs;
+  std::vector<std::string> nodes;  // columns 1, 2, … of theirs
+  Json experiment;
+  bool completed = false;
+  double stage_imbalance = 0.0;
+  std::vector<std::string> warnings;
+
+  explicit Comparison(const std::string& name, const std::string& options = accurate) {
+    const std::string netlist = read_text("tests/corpus/netlists/" + name + ".cir");
+    experiment = import_netlist(netlist);
+    const TemporaryFolder folder;
+    const RunOutcome outcome = run_in(folder, experiment);
+    BOOST_TEST_REQUIRE((outcome.status == RunStatus::completed), outcome.message);
+    completed = true;
+    stage_imbalance = outcome.summary.power_balance->max_stage_imbalance;
+    warnings = outcome.summary.warnings;
+    ours = read_table(folder / "run/trajectory.csv", ',');
+    for (const auto& [key, formula] : experiment.at("observe").items())
+      if (key.rfind("potential_", 0) == 0 && key.find("x1_") == std::string::npos)
+        nodes.push_back(key.substr(10));
+    write_text(folder / "circuit.cir",
+               for_ngspice(netlist, nodes, (folder / "potentials.txt").string(), options));
+    BOOST_REQUIRE(
+        std::system(
+            ("ngspice -b " + (folder / "circuit.cir").string() + " > /dev/null 2>&1").c_str()) >=
+        0);
+    theirs = read_table(folder / "potentials.txt", ' ');
+    BOOST_REQUIRE(theirs.rows.size() > 100u);
+    BOOST_REQUIRE(theirs.rows.back()[0] > 0.999 * ours.rows.back()[0]);
+  }
+
+  // |ours - theirs| of each row, next to the largest potential of the circuit.
+  std::vector<double> differences(const std::string& node) const {
+    double largest = 0.0;
+    for (const std::string& any : nodes)
+      for (const auto& row : theirs.rows)
+        largest = std::max(largest, std::abs(row[number(any) + 1]));
+    std::vector<double> result;
+    for (const auto& row : ours.rows)
+      result.push_back(
+          std::abs(row[ours.column("potential_" + node)] - theirs.at(row[0], number(node) + 1)) /
+          largest);
+    return result;
+  }
+
+ private:
+  std::size_t number(const std::string& node) const {
+    return static_cast<std::size_t>(std::ranges::find(nodes, node) - nodes.begin());
+  }
+};
 
 }  // namespace
 
@@ -46,42 +101,64 @@ BOOST_AUTO_TEST_CASE(waveforms_of_netlists) {
                            // Which begin at an operating point, or with potentials of .ic.
                            "zener", "supply", "phase_shift", "whole_coupling"})
     BOOST_TEST_CONTEXT(name) {
-      const std::string netlist = read_text(std::string("tests/corpus/netlists/") + name + ".cir");
-      const Json experiment = import_netlist(netlist);
-      const TemporaryFolder folder;
-      BOOST_REQUIRE(run_in(folder, experiment).status == RunStatus::completed);
-      const Waveforms ours = read_table(folder / "run/trajectory.csv", ',');
-      std::vector<std::string> nodes;
-      for (const auto& [key, formula] : experiment.at("observe").items())
-        if (key.rfind("potential_", 0) == 0 && key.find("x1_") == std::string::npos)
-          nodes.push_back(key.substr(10));
-      write_text(folder / "circuit.cir",
-                 for_ngspice(netlist, nodes, (folder / "potentials.txt").string()));
-      BOOST_REQUIRE(
-          std::system(
-              ("ngspice -b " + (folder / "circuit.cir").string() + " > /dev/null 2>&1").c_str()) >=
-          0);
-      const Waveforms theirs = read_table(folder / "potentials.txt", ' ');
-      BOOST_REQUIRE(theirs.rows.size() > 100u);
-
-      double largest = 0.0, difference = 0.0;
-      for (std::size_t k = 0; k < nodes.size(); ++k) {
-        const std::size_t column = ours.column("potential_" + nodes[k]);
-        for (const auto& row : ours.rows) {
-          largest = std::max(largest, std::abs(row[column]));
-          difference = std::max(difference, std::abs(row[column] - theirs.at(row[0], k + 1)));
-        }
-      }
+      const Comparison comparison(name);
       double energy_there = 0.0, imbalance = 0.0;
+      const Waveforms& ours = comparison.ours;
       for (const auto& row : ours.rows) {
         for (const char* energy : {"supplied", "H"})
           energy_there = std::max(energy_there, std::abs(row[ours.column(energy)]));
         imbalance = std::max(imbalance, std::abs(row[ours.column("balance")]));
       }
-      const bool is_damped = experiment["method"].contains("damping");
+      const bool is_damped = comparison.experiment["method"].contains("damping");
       BOOST_TEST(imbalance <= (is_damped ? 1e-5 : 1e-8) * energy_there);
-      BOOST_TEST_MESSAGE(name << ": " << difference / largest);
-      BOOST_TEST(difference < 1e-3 * largest);
+      BOOST_TEST(comparison.stage_imbalance < 5e-12);
+      for (const std::string& node : comparison.nodes)
+        BOOST_TEST(std::ranges::max(comparison.differences(node)) < 1e-3, node);
+    }
+}
+
+// Circuits that simulators find hard: diodes with nothing but themselves in their way, in series, in front of
+// coils whose currents end, at transformers with no ground of their own. ngspice needs other tolerances for
+// some of them: with those above it ends early. Where a current ends a potential jumps, in a row or two. What
+// is stored, supplied and lost is balanced to 5e-12 at the stages of all steps.
+BOOST_AUTO_TEST_CASE(hard_netlists) {
+  if (std::system("command -v ngspice > /dev/null") != 0) {
+    BOOST_TEST_MESSAGE("ngspice is not installed");
+    return;
+  }
+  const std::string plain = "reltol=1e-5";
+  struct Hard {
+    std::string name, options;
+    std::vector<std::string> nodes;
+    double rows = 1.0;  // so many of them are as near
+  };
+  const std::vector<Hard> all = {
+      {"resistive_clipper", accurate, {"a"}},
+      {"series_diodes", accurate, {"a", "b"}},
+      {"bridge_stiff", accurate, {"a", "b", "p"}},
+      {"three_phase", "reltol=1e-4 abstol=1e-9 rshunt=1e12", {"a1", "b1", "c1", "p", "m"}},
+      {"transformer_bridge", plain, {"a", "p", "m", "s1", "s2"}},
+      {"halfwave_coil", plain, {"c"}},
+      {"halfwave_coil", plain, {"b"}, 0.99},
+      {"center_tap", plain, {"a", "o"}},
+      {"buck_dcm", accurate, {"out"}},
+      {"buck_dcm", accurate, {"sw"}, 0.99},
+      {"buck_resistive", plain, {"x", "out"}},
+      {"coil_to_diode", accurate, {"sw", "out"}},
+      {"quiet_diode", accurate, {"a"}},
+  };
+  for (const Hard& hard : all) BOOST_TEST_CONTEXT(hard.name) {
+      const Comparison comparison(hard.name, hard.options);
+      BOOST_TEST(comparison.stage_imbalance < 5e-12);
+      // The edge of a pulse is no finding.
+      if (hard.name == "quiet_diode") BOOST_TEST(comparison.warnings.empty());
+      for (const std::string& node : hard.nodes) {
+        std::vector<double> differences = comparison.differences(node);
+        std::ranges::sort(differences);
+        const auto last =
+            static_cast<std::size_t>(hard.rows * static_cast<double>(differences.size() - 1));
+        BOOST_TEST(differences[last] < 1e-3, node);
+      }
     }
 }
 
@@ -105,7 +182,7 @@ BOOST_AUTO_TEST_CASE(chokes_do_not_ring) {
   long far = 0;
   for (const double drop : potentials()) far += drop > 0.05 || drop < -1.1 ? 1 : 0;
   BOOST_TEST(far <= 3);
-  experiment["method"].erase("damping");
+  experiment["method"] = "constrain-first";
   double largest = 0.0;
   for (const double drop : potentials()) largest = std::max(largest, std::abs(drop));
   BOOST_TEST(largest > 1e3);
