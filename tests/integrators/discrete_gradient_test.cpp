@@ -206,7 +206,7 @@ BOOST_AUTO_TEST_CASE(networks) {
     for (int k = 0; k < 200; ++k) {
       const double before = energies.energy(state);
       stepper->step(state, 0.1);
-      const auto [supplied, dissipated, moved_energy] = energies(stepper->last());
+      const auto [supplied, dissipated, moved_energy, at_stage] = energies(stepper->last());
       BOOST_TEST(dissipated[0] >= 0.0);
       moved += dissipated[0];
       BOOST_TEST(std::abs(energies.energy(state) - before - supplied[0] + dissipated[0]) < 3e-15);

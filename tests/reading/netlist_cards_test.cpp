@@ -94,7 +94,6 @@ BOOST_AUTO_TEST_CASE(cards_out_of_place_are_refused) {
   BOOST_TEST(refusal(".control\nrun").starts_with("line 2: .control has no .endc"));
   BOOST_TEST(refusal(".control\nalter r1=2\n.endc")
                  .starts_with("line 3: the command alter is not supported"));
-  BOOST_TEST(refusal(".nodeset v(a)=1") == "line 2: .nodeset is not supported");
   BOOST_TEST(refusal(".param") == "line 2: expected .param name=value …");
   BOOST_TEST(refusal(".model q npn").starts_with("line 2: models of the type npn"));
   BOOST_TEST(refusal(".model d d is=1 cjo=2 tt=3") ==

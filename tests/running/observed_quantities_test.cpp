@@ -18,7 +18,7 @@ BOOST_AUTO_TEST_CASE(the_numbers_of_a_row) {
   const Problem pendulum = problem(Json::parse(R"json({
     "system": { "type": "mechanical", "coordinates": ["x", "y"], "potential": "y",
                 "holonomic": ["x^2 + y^2 - 1"] },
-    "initial": { "x": 1, "y": 0 },
+    "initial": { "x": 1, "y": 0, "p_x": 0, "p_y": 0 },
     "method": { "type": "constrain-first", "discretization": "midpoint" },
     "time": { "step": 0.1, "end": 1 },
     "observe": { "far": "x + 10*y" }
@@ -38,7 +38,10 @@ BOOST_AUTO_TEST_CASE(the_numbers_of_a_row) {
   const Function all("row", row.inputs, row.quantities);
   const VectorXd x = Eigen::Vector4d(0.5, 2.0, 3.0, -1.0), none = VectorXd::Zero(8);
   std::vector<const double*> in(row.inputs.size(), none.data());
+  VectorXd velocities = none;
+  velocities.head(2) = x.tail(2);
   in[0] = x.data();
+  in[1] = in[2] = velocities.data();
   VectorXd values(all.output_size());
   all.value(in.data(), values.data());
   BOOST_TEST(values[0] == 5.0 + 2.0);                   // p²/2 + y

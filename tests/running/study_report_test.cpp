@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(a_line_a_step) {
              "experiment,method,step,steps,error,order,iterations,factorizations,seconds,message,"
              "reference\n"
              "\"pendulum, long\",midpoint,0.1,10,0.001,,30,0,0.5,,closed form\n"
-             "\"pendulum, long\",midpoint,0.05,20,0.00025,2.0,60,7,,\"said \"\"so\"\"\",closed "
+             "\"pendulum, long\",midpoint,0.05,20,0.00025,2,60,7,,\"said \"\"so\"\"\",closed "
              "form\n");
 }
 

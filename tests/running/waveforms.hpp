@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -41,7 +42,7 @@ inline Waveforms read_table(const std::filesystem::path& path, char separator) {
   if (std::getline(file, line)) table.names = words();
   while (std::getline(file, line)) {
     std::vector<double> row;
-    for (const std::string& word : words()) row.push_back(std::stod(word));
+    for (const std::string& word : words()) row.push_back(std::strtod(word.c_str(), nullptr));
     if (!row.empty()) table.rows.push_back(std::move(row));
   }
   return table;
