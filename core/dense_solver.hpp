@@ -22,6 +22,9 @@ class DenseSolver final : public LinearSolver {
   bool do_is_determined() const override { return determined_; }
   void do_settle(double* x, const double* x0) override;
   int do_orientation() const override { return orientation_; }
+  double* do_inverse() override {
+    return determined_ && A_.rows() == A_.cols() ? inverse_.data() : nullptr;
+  }
   void equilibrate_by_powers();
   bool invert(const MatrixXd& S, const VectorXd& row, const VectorXd& column, double least_ratio);
   void pseudo_invert(const Equilibration<MatrixXd>& S);

@@ -43,6 +43,9 @@ class LinearSolver {
   void settle(double* x, const double* x0) { do_settle(x, x0); }
   // The sign of det A; 0 if it is not known, or A is not square or singular.
   int orientation() const { return do_orientation(); }
+  // A⁻¹, column by column, where it is kept as numbers that solve() multiplies with and that the caller may
+  // improve until the next factorize(); null elsewhere, and where A is not square or singular.
+  double* inverse() { return do_inverse(); }
 
  private:
   // To subclass, override:
@@ -53,6 +56,8 @@ class LinearSolver {
   virtual void do_settle(double* /*x*/, const double* /*x0*/) {}
   // May override: 0 is what is not known.
   virtual int do_orientation() const { return 0; }
+  // May override.
+  virtual double* do_inverse() { return nullptr; }
 };
 
 // The solver that is faster for the pattern: a DenseSolver, or from some hundred unknowns on, if most

@@ -6,7 +6,9 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "courant/core/broyden_update.hpp"
 #include "courant/core/damped_newton.hpp"
+#include "courant/core/static_size.hpp"
 #include "courant/core/unknown_selection.hpp"
 
 namespace courant {
@@ -45,6 +47,11 @@ constexpr double kNothing = -30.0;
 constexpr double kStill = 1e-13;
 constexpr double kSameSlope = 1.0;
 constexpr double kHolds = 2e-14;
+
+// A change of this relative length is far enough above round-off that the next one tells what the matrix lacks.
+constexpr double kTeaches = 1e-12;
+// A matrix that contracts so well is kept as it is.
+constexpr double kGood = 0.01;
 
 // Relative changes that are round-off everywhere.
 constexpr double kLeast = 2.0 * std::numeric_limits<double>::epsilon();
@@ -91,6 +98,27 @@ Movement subtract(double* u, const double* change, const Index* places, Index be
   return result;
 }
 
+// change = A F, u ← u - change, for a square A of n rows, without a way through memory. Returns the largest
+// change, ∞ if one is not finite; `size`: the largest size of u.
+template <int n>
+double improve_small(const double* A, const double* F, double* u, double* change, double& size) {
+  using Vector = Eigen::Array<double, n, 1>;
+  const Eigen::Map<const Eigen::Array<double, n, n>> columns(A);
+  Vector sum = Vector::Zero();
+  for (int j = 0; j < n; ++j) sum += columns.col(j) * F[j];
+  Eigen::Map<Vector>{change} = sum;
+  const Vector moved = Eigen::Map<const Vector>(u) - sum;
+  Eigen::Map<Vector>{u} = moved;
+  const Vector length = sum.abs();
+  size = moved.abs().maxCoeff();
+  return std::isfinite(length.sum()) ? length.maxCoeff() : std::numeric_limits<double>::infinity();
+}
+
+// Of unknowns of this size; a block of scale 0 that ends at 0 has moved by all of itself.
+double relative(double change, double size) {
+  return change > 0.0 ? (size > 0.0 ? change / size : 1.0) : change;
+}
+
 }  // namespace
 
 Newton::Newton(EquationSystem system, std::vector<Index> groups, const Options& options)
@@ -110,6 +138,15 @@ Newton::Newton(EquationSystem system, std::vector<Index> groups, const Options& 
   ends_ = group_ends(groups_, contained_);
   is_contiguous_ =
       !contained_.empty() && contained_.back() - contained_.front() + 1 == std::ssize(contained_);
+  sizes_.setZero(std::ssize(ends_));
+  while (group_ + 1 < ends_.size() && ends_[group_] == 0) ++group_;
+  if (is_contiguous_ && ends_[group_] == ends_.back())
+    improve_ = with_static_size(std::ssize(contained_), [](auto n) -> Improve {
+      if constexpr (decltype(n)::value == Eigen::Dynamic)
+        return nullptr;
+      else
+        return &improve_small<decltype(n)::value>;
+    });
   std::vector<bool> is_contained(system_.kept().size());
   for (const Index place : contained_) is_contained[static_cast<std::size_t>(place)] = true;
   for (std::size_t k = 0; k < is_contained.size(); ++k)
@@ -118,6 +155,8 @@ Newton::Newton(EquationSystem system, std::vector<Index> groups, const Options& 
   all_.resize(function_.output_size() + function_.nonzeros());
   step_.resize(static_cast<Index>(contained_.size()));
   settled_.resize(step_.size());
+  before_.resize(step_.size());
+  weighted_.resize(step_.size());
   magnitude_.resize(function_.output_size());
   stalled_.resize(function_.output_size());
   if (system_.exponentials().count() > 0) {
@@ -136,11 +175,20 @@ Newton::Newton(EquationSystem system, std::vector<Index> groups, const Options& 
 bool Newton::factorize(const double* const* in) {
   function_.value_and_jacobian(in, all_.data());
   if (limited_) system_.exponentials().arguments().value(in, at_matrix_.data());
-  return factorized_ = solver_->factorize(all_.data() + function_.output_size());
+  factorized_ = solver_->factorize(all_.data() + function_.output_size());
+  inverse_ = factorized_ ? solver_->inverse() : nullptr;
+  return factorized_;
 }
 
 // y ← y - A F. Returns the largest change of a block relative to its scale.
 double Newton::improve(double* y, const double* scales) {
+  if (improve_ != nullptr && inverse_ != nullptr) {
+    double& size = sizes_[static_cast<Index>(group_)];
+    const double change =
+        improve_(inverse_, all_.data(), y + contained_.front(), step_.data(), size);
+    size = std::max(scales[group_], size);
+    return relative(change, size);
+  }
   solver_->solve(all_.data(), step_.data());
   double result = 0.0;
   double total = 0.0;  // not finite if one of the changes is not
@@ -153,11 +201,20 @@ double Newton::improve(double* y, const double* scales) {
     begin = end;
     total += movement.total;
     const double size = std::max(scales[g], movement.size);
-    // A block of scale 0 that ends at 0 has moved by all of itself.
-    if (movement.largest > 0.0)
-      result = std::max(result, size > 0.0 ? movement.largest / size : 1.0);
+    sizes_[static_cast<Index>(g)] = size;
+    result = std::max(result, relative(movement.largest, size));
   }
   return std::isfinite(total) ? result : std::numeric_limits<double>::infinity();
+}
+
+// The kept inverse, by the last two changes, both made with it.
+void Newton::learn() {
+  Index i = 0;
+  for (std::size_t g = 0; g < ends_.size(); ++g) {
+    const double size = sizes_[static_cast<Index>(g)];
+    for (; i < ends_[g]; ++i) weighted_[i] = size > 0.0 ? before_[i] / size / size : 0.0;
+  }
+  broyden_update(inverse_, before_, step_, weighted_);
 }
 
 // The largest part that a residual is of the terms J_ij y_j of its equation, or with `any` of the terms of any
@@ -332,6 +389,7 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
   bool close = false;      // which a short change led to
   double unsolved = -1.0;  // where changes stalled before, if they did
   bool evaluated = false;  // F is that of y
+  bool learned = false;    // A has learned from this solve
   int compared = 0;        // iterations with the same A before, which made `previous`
   double moved = std::numeric_limits<double>::infinity();
   const auto refactorize = [&] {
@@ -400,6 +458,13 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
         result.status = Status::converged;
         return result;
       }
+    }
+    if (inverse_ != nullptr && !learned && !limited_) {
+      learned = compared > 0 && previous > kTeaches && moved > kGood * previous;
+      if (learned)
+        learn();
+      else
+        before_ = step_;
     }
     previous = moved;
     ++compared;

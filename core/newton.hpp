@@ -15,8 +15,8 @@ namespace courant {
 //
 // Simplified Newton: y ← y - A F(y) with A the pseudo-inverse of an earlier Jacobian (least squares
 // of redundant equations, least change of undetermined unknowns), as the linear solver keeps it, as
-// long as it contracts well. Convergence is relative to
-// the scale of the unknowns: the error left is estimated from the last change and the contraction,
+// long as it contracts well. A kept inverse learns from each solve, where two changes contract badly, so that it
+// follows the Jacobian along a trajectory, see broyden_update(). Convergence is relative to the scale of the unknowns: the error left is estimated from the last change and the contraction,
 // and iterates that only move by round-off are accepted too (an absolute test goes on for ever once
 // the state is large), as are those whose residual is round-off of its terms, or that a matrix made
 // just before does not bring nearer: close to a singular point unknowns move far for round-off.
@@ -83,6 +83,7 @@ class Newton {
   void give(double* y);
   bool factorize(const double* const* in);
   double improve(double* y, const double* scales);
+  void learn();
   double unsolved_part(const double* y, const double* scales, bool any);
   double largest_part(const VectorXd& magnitude) const;
   bool sees_all() const;
@@ -97,15 +98,24 @@ class Newton {
   std::vector<Index> contained_;  // kept unknowns that F contains, ascending
   std::vector<Index> ends_;       // of the groups, in contained_
   bool is_contiguous_ = false;    // contained_, without gaps
+  // Of improve() for a small inverse, where all unknowns that F contains are side by side in one group;
+  // else null.
+  using Improve = double (*)(const double* inverse, const double* F, double* u, double* change,
+                             double& size);
+  Improve improve_ = nullptr;
+  std::size_t group_ = 0;  // the first one that F contains unknowns of
   Options options_;
   std::unique_ptr<LinearSolver>
       solver_;  // for a row an equation, a column an unknown of contained_
   bool factorized_ = false;
+  double* inverse_ = nullptr;  // of the solver
   double round_off_ = 0.0;  // by how much iterates moved when they stalled with a new factorisation
   std::vector<const double*> in_;
   VectorXd kept_;  // unknowns
   VectorXd all_;   // F and the entries of its Jacobian
   VectorXd step_, settled_;
+  VectorXd sizes_;                        // of groups, at the last change
+  VectorXd before_, weighted_;            // the change before, and in units of those sizes
   std::optional<LimitedNewton> limited_;  // where there are exponentials
   // Of those, at y, before the last change and where the matrix was made; y before the last change.
   VectorXd arguments_, last_arguments_, at_matrix_, last_;

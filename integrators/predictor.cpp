@@ -52,30 +52,41 @@ void Predictor::learn_from(const Predictor& other, const VectorXd& times) {
   corrections_ = errors_ = before_ = VectorXd::Zero(std::ssize(places_));
 }
 
-// Σ_j w_j (what was recorded `spacing` steps after one another), from that of this age on, in ascending order
-// of j for each unknown, so that steps in C give the same bits; two unknowns at a time.
+// Σ_j w_j (what was recorded `spacing` steps after one another), from that of this age on. The oldest come first, in
+// the same order for each unknown, so that steps in C give the same bits: the newest have been found just now, and
+// what waits for them should be short.
 void Predictor::extrapolate(const Group& group, int age, double* result) const {
   const auto& [order, spacing] = group.rule;
-  const double* const rows = recorded(age + spacing - 1);
+  const double* const oldest = recorded(age + order * spacing - 1);
   const Index stride = spacing * history_.cols();
-  Index i = group.begin;
-  for (; i + 1 < group.end; i += 2) {
-    const double* row = rows + i;
-    Two sum = group.weights[0] * Eigen::Map<const Two>(row);
-    for (int j = 1; j < order; ++j) {
-      row -= stride;
-      sum += group.weights[static_cast<std::size_t>(j)] * Eigen::Map<const Two>(row);
+  const double* const weights = group.weights.data();
+  const auto sum = [&]<class Numbers>(Index i, Numbers* sums, int count, int width) {
+    const double* row = oldest + i;
+    Numbers number;
+    for (int k = 0; k < count; ++k) {
+      read(row + k * width, number);
+      sums[k] = weights[order - 1] * number;
     }
-    Eigen::Map<Two>(result + i) = sum;
+    for (int j = order - 2; j >= 0; --j) {
+      row += stride;
+      for (int k = 0; k < count; ++k) {
+        read(row + k * width, number);
+        sums[k] += weights[j] * number;
+      }
+    }
+  };
+  Index i = group.begin;
+  for (; i + 7 < group.end; i += 8) {
+    Two eight[4];
+    sum(i, eight, 4, 2);
+    for (int k = 0; k < 4; ++k) Eigen::Map<Two>(result + i + 2 * k) = eight[k];
   }
-  if (i == group.end) return;
-  const double* row = rows + i;
-  double sum = group.weights[0] * *row;
-  for (int j = 1; j < order; ++j) {
-    row -= stride;
-    sum += group.weights[static_cast<std::size_t>(j)] * *row;
+  for (; i + 1 < group.end; i += 2) {
+    Two two;
+    sum(i, &two, 1, 2);
+    Eigen::Map<Two>(result + i) = two;
   }
-  result[i] = sum;
+  if (i < group.end) sum(i, result + i, 1, 1);
 }
 
 void Predictor::predict(VectorXd& y) {

@@ -84,11 +84,17 @@ void StepSolver::keep() {
 bool StepSolver::is_as_predicted(double part, double size) const {
   if (size > 0.0 && size < kFewDigits) return true;
   const double least = kNoDisplacement * size;
+  using Two = Eigen::Array2d;
   bool result = true;
-  for (Index i = 0; i < usual_.size(); ++i) {
-    const double change = std::fabs(y_[i] - other_[i]);
-    result &= change <= std::max(part * std::max(std::fabs(y_[i]), usual_[i]), least);
+  Index i = 0;
+  for (; i + 1 < usual_.size(); i += 2) {
+    const Two y = y_.segment<2>(i), change = (y - other_.segment<2>(i).array()).abs();
+    const Two bound = (part * y.abs().max(usual_.segment<2>(i).array())).max(least);
+    result &= (change[0] <= bound[0]) & (change[1] <= bound[1]);
   }
+  if (i < usual_.size())
+    result &= std::fabs(y_[i] - other_[i]) <=
+              std::max(part * std::max(std::fabs(y_[i]), usual_[i]), least);
   return result;
 }
 

@@ -1,7 +1,6 @@
 #include "courant/structures/state.hpp"
 
-#include <bit>
-#include <cstdint>
+#include <cstring>
 #include <utility>
 
 namespace courant {
@@ -9,11 +8,9 @@ namespace {
 
 // Whether they are the same numbers, bit by bit: a NaN is the same as itself.
 bool same(const VectorXd& a, const VectorXd& b) {
-  if (a.size() != b.size()) return false;
-  std::uint64_t differences = 0;
-  for (Index i = 0; i < a.size(); ++i)
-    differences |= std::bit_cast<std::uint64_t>(a[i]) ^ std::bit_cast<std::uint64_t>(b[i]);
-  return differences == 0;
+  return a.size() == b.size() &&
+         (a.size() == 0 || std::memcmp(a.data(), b.data(),
+                                       static_cast<std::size_t>(a.size()) * sizeof(double)) == 0);
 }
 
 }  // namespace

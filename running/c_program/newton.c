@@ -27,6 +27,7 @@ struct newton {
   double u[MOST_UNKNOWNS];
   double all[MOST_SIZE + MOST_ENTRIES]; /* G and the entries of its Jacobian */
   double change[MOST_SIZE];
+  double before[MOST_SIZE]; /* the change before, until this solve taught something */
   double at_matrix[MOST_ARGUMENTS]; /* of exponentials, where the Jacobian is that of */
   double inverse[MOST_SIZE * MOST_SIZE]; /* column by column */
 };
@@ -152,6 +153,43 @@ static double improve(struct newton *N, const double *scales) {
   return isfinite(total) ? result : INFINITY;
 }
 
+/* In two parts, even places and odd ones. */
+static double dot(const double *a, const double *b, int n) {
+  double even = 0.0, odd = 0.0;
+  int i;
+  for (i = 0; i + 1 < n; i += 2) {
+    even += a[i] * b[i];
+    odd += a[i + 1] * b[i + 1];
+  }
+  if (i < n) even += a[i] * b[i];
+  return even + odd;
+}
+
+/* The inverse learns from two changes s and r that it made, so that A (G(u) - G(u - s)) = s (Broyden): A <- A
+   + r (s^T W A) / (s^T W (s - r)), with the sizes of groups for units. */
+static void learn(struct newton *N, const double *scales) {
+  const struct equations *const of = N->of;
+  const int n = of->size;
+  double weighted[MOST_SIZE], length, along, factor;
+  int g, i = 0, j;
+  for (g = 0; g < of->groups; ++g) {
+    double size = scales[g];
+    const int begin = i;
+    for (; i < n && of->group[of->contained[i]] == g; ++i)
+      size = largest_of(size, fabs(N->u[of->contained[i]]));
+    for (j = begin; j < i; ++j) weighted[j] = size > 0.0 ? N->before[j] / size / size : 0.0;
+  }
+  length = dot(weighted, N->before, n);
+  along = dot(weighted, N->change, n);
+  if (!(fabs(along) <= 0.5 * length && length > 0.0 && isfinite(length))) return;
+  factor = 1.0 / (length - along);
+  for (j = 0; j < n; ++j) {
+    double *const column = N->inverse + j * n;
+    const double part = dot(weighted, column, n) * factor;
+    for (i = 0; i < n; ++i) column[i] += N->change[i] * part;
+  }
+}
+
 /* The terms J_ij u_j of each residual. */
 static void terms(const struct newton *N, const double *scales, double *magnitude) {
   const struct equations *const of = N->of;
@@ -214,7 +252,7 @@ static int is_settled(struct newton *N, const double *const *in, int fresh) {
 static int iterate(struct newton *N, const double *const *in, const double *scales) {
   const double tolerance = 1e-17, round_off = 1e-9, brief = 1e-4;
   double previous = INFINITY, contraction, moved = INFINITY;
-  int iteration, compared = 0;
+  int iteration, i, learned = 0, compared = 0;
   int fresh = 0; /* A belongs to a point of this solve */
   int close = 0; /* which a short change led to */
   double unsolved = -1.0, first[MOST_SIZE]; /* where changes stalled before, and first */
@@ -275,6 +313,13 @@ static int iterate(struct newton *N, const double *const *in, const double *scal
         N->round_off = close && moved <= round_off ? moved : 0.998 * N->round_off;
         return 1;
       }
+    }
+    if (N->of->exponentials == 0 && !learned) {
+      learned = compared > 0 && previous > 1e-12 && moved > 0.01 * previous;
+      if (learned)
+        learn(N, scales);
+      else
+        for (i = 0; i < N->of->size; ++i) N->before[i] = N->change[i];
     }
     previous = moved;
     ++compared;

@@ -46,11 +46,12 @@ static const double *recorded(const struct predictor *P, int age) {
   return P->history[(P->newest + KEPT - age) % KEPT];
 }
 
-/* What those of P that were recorded so many steps ago, and before, tell of the next unknown i by the rule. */
+/* What those of P that were recorded so many steps ago, and before, tell of the next unknown i by the rule. The oldest
+   come first. */
 static double extrapolated(const struct predictor *P, int i, int age, const double *weights, const struct rule *rule) {
-  double sum = weights[0] * recorded(P, age + rule->spacing - 1)[i];
-  int j;
-  for (j = 1; j < rule->order; ++j) sum += weights[j] * recorded(P, age + (j + 1) * rule->spacing - 1)[i];
+  int j = rule->order - 1;
+  double sum = weights[j] * recorded(P, age + (j + 1) * rule->spacing - 1)[i];
+  while (--j >= 0) sum += weights[j] * recorded(P, age + (j + 1) * rule->spacing - 1)[i];
   return sum;
 }
 

@@ -55,6 +55,18 @@ BOOST_AUTO_TEST_CASE(polynomials) {
   }
 }
 
+// Eight, two and one at a time, each unknown is extrapolated from what it was itself.
+BOOST_AUTO_TEST_CASE(many_unknowns) {
+  Predictor predictor({11, 8});
+  const auto found = errors(predictor, 30, [](int k) {
+    VectorXd y(19);
+    for (Index i = 0; i < 19; ++i)
+      y[i] = static_cast<double>(i) - 0.3 * k + std::pow(0.05 * k, i % 4);
+    return y;
+  });
+  for (std::size_t k = 5; k < found.size(); ++k) BOOST_TEST(found[k] < 1e-11);
+}
+
 // Smooth and slow: all but round-off is foreseen, which a parabola is far from.
 BOOST_AUTO_TEST_CASE(smooth) {
   Predictor predictor({1, 1});
