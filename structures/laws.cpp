@@ -182,7 +182,7 @@ std::vector<LawResult> check_generating_family(const GeneratingFamily& family,
   const ExprVector d_lambda = family.stationarity(x, lambda, t[0]);
   ExprVector both(d_x.size() + d_lambda.size());
   both << d_x, d_lambda;
-  const Function derivatives("derivatives", inputs, both, {.differentiate = {"lambda"}});
+  const Function derivatives("derivatives", inputs, both);
   const std::string subject = "GeneratingFamily on " + M.name();
 
   LawMeasurement first(subject, "G1 differential and stationarity are the derivatives of value",
@@ -215,13 +215,7 @@ std::vector<LawResult> check_generating_family(const GeneratingFamily& family,
         where);
     if (family.is_morse().value_or(false))
       morse.add(
-          [&] {
-            if (k == 0) return 0.0;
-            const MatrixXd J = derivatives.jacobian({at.x, at.lambda, time});
-            MatrixXd condition(n + k, k);
-            condition << basis.transpose() * J.topRows(d_x.size()), J.bottomRows(k);
-            return static_cast<double>(k - decide_rank(condition, {.data_error = 1e-11}).rank);
-          },
+          [&] { return k == 0 ? 0.0 : static_cast<double>(k - family_rank(family, at).rank); },
           where);
   }
   std::vector<LawResult> results{first.result()};
