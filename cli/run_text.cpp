@@ -7,6 +7,7 @@
 #include "courant/core/message.hpp"
 #include "courant/plotting/terminal_plot.hpp"
 #include "courant/reporting/ladder_diagram.hpp"
+#include "courant/reporting/ladder_explanation.hpp"
 #include "courant/reporting/report_figures.hpp"
 #include "courant/running/run_files.hpp"
 
@@ -100,6 +101,8 @@ void print_opening(const Console& console, const Experiment& experiment,
         << '\n';
   out << "\n  (dim S, dim M): " << ladder_line(ladder) << '\n';
   print_wrapped(out, verdict_in_words(ladder), "  ");
+  if (ladder.family && !ladder.family->is_morse())
+    print_wrapped(out, family_in_words(ladder), "  ");
   for (const Movement& move : ladder.moves)
     out << "  " << move.name << " had to move " << from_and_to(move) << " to be consistent.\n";
   out << std::flush;

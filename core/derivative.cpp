@@ -1,6 +1,8 @@
 #include "courant/core/derivative.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -267,6 +269,16 @@ SparseExprMatrix jacobian(const ExprVector& y, const ExprVector& x) {
   const Subgraph subgraph(y);
   const auto index = indices("jacobian", x, subgraph);
   std::vector<Row> rows(subgraph.size());
+  // The rows of a sum of n terms, one term longer each, are n²/2 numbers: each is kept until its last use.
+  constexpr std::size_t always = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> last_use(subgraph.size(), 0);
+  for (std::size_t at = 0; at < subgraph.size(); ++at) {
+    const Node node = subgraph.graph().node(subgraph.nodes()[at]);
+    const std::uint32_t operands[] = {node.a, node.b, node.c};
+    for (int i = 0; i < arity(node.op); ++i) last_use[subgraph.position(operands[i])] = at;
+  }
+  for (Index i = 0; i < y.size(); ++i)
+    if (!y[i].is_constant()) last_use[subgraph.position(y[i])] = always;
   for (std::size_t at = 0; at < subgraph.size(); ++at) {
     if (index[at] != kNoIndex) rows[at] = {{index[at], 1.0}};
     const Operation operation(subgraph, at);
@@ -281,6 +293,8 @@ SparseExprMatrix jacobian(const ExprVector& y, const ExprVector& x) {
         rows[at] = merge(rows[at], row, [](const Expr& a, const Expr& b) { return a + b; });
       }
     }
+    for (int i = 0; i < operation.count; ++i)
+      if (last_use[operation.at[i]] == at) Row().swap(rows[operation.at[i]]);
   }
 
   SparseExprMatrix result;

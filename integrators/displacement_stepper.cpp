@@ -1,5 +1,7 @@
 #include "courant/integrators/displacement_stepper.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace courant {
@@ -11,11 +13,18 @@ DisplacementStepper::DisplacementStepper(std::string method,
       advance_(formulas.advance),
       projection_(formulas.constraint),
       m_(this->system().auxiliary_size()),
+      contained_(formulas.contained),
       solver_(formulas.equations, {formulas.displacements, m_}, this->method(), formulas.whole,
               {.displacements = formulas.displacements, .h = formulas.h}),
       predictor_({formulas.displacements, m_}, solver_.predicted()),
       next_(advance_.output_size()),
       kept_(next_) {}
+
+double DisplacementStepper::size_of(const VectorXd& x) const {
+  double size = 0.0;
+  for (const Index i : contained_) size = std::max(size, std::fabs(x[i]));
+  return size > 0.0 ? size : largest(x);
+}
 
 void DisplacementStepper::make_step(const double* const* in, const State& before, double h,
                                     State& after) {
@@ -28,7 +37,7 @@ void DisplacementStepper::make_step(const double* const* in, const State& before
     begin();
   else
     predictor_.predict(y);
-  const double size = largest(before.x);
+  const double size = size_of(before.x);
   const double scales[] = {size, auxiliary_scale(largest(before.z), size)};
   solver_.solve_connected(in, scales, begin, {before.t, h}, statistics_);
 

@@ -21,9 +21,10 @@ class DisplacementStepper : public Stepper {
     const EquationSystem& equations;
     const Function& whole;    // the same without elimination, or empty, see StepSolver
     const Function& advance;  // the inputs of the equations ↦ x₁, v, what is kept of the stage
-    const Function& constraint;  // of RoundOffProjection
-    Index displacements;         // so many numbers of y
-    Index h;                     // the input that is h
+    const Function& constraint;    // of RoundOffProjection
+    Index displacements;           // so many numbers of y
+    std::vector<Index> contained;  // the coordinates of x that the equations contain
+    Index h;                       // the input that is h
   };
   DisplacementStepper(std::string method, std::shared_ptr<const ImplicitSystem> system,
                       const Formulas& formulas);
@@ -44,6 +45,7 @@ class DisplacementStepper : public Stepper {
   // are those of the state.
   virtual void do_begin(const State& before, double h, VectorXd& y) = 0;
 
+  double size_of(const VectorXd& x) const;
   void do_change_step() override { predictor_.forget(); }
   void do_accompany(std::span<const Companion> companions) override;
   Motion do_motion() const override { return solver_.motion(manifold()); }
@@ -52,6 +54,9 @@ class DisplacementStepper : public Stepper {
   Function advance_;
   RoundOffProjection projection_;
   Index m_;  // the size of z
+  // The coordinates that the equations contain. Displacements are solved for next to these: a body that has
+  // gone far in a space whose equations do not contain its place moves as one that has not.
+  const std::vector<Index> contained_;
   StepSolver solver_;
   Predictor predictor_;
   VectorXd next_, kept_;  // what advance_ gives for the step that is made, and the last that stands

@@ -18,6 +18,7 @@ class ReducedMap::Trajectory final : public DisplacementStepper {
                              .advance = method.advance_,
                              .constraint = method.constraint_,
                              .displacements = method.rate_.output_size(),
+                             .contained = method.contained_,
                              .h = 2}),
         method_(method),
         rate_(method.rate_.output_size()) {}
@@ -216,6 +217,7 @@ ReducedMap::ReducedMap(std::shared_ptr<const DiracSystem> system,
                                 "of the group, as on vectors and on tensors.");
   const Trace trace(*this);
   const Backend backend = options.backend.together();
+  contained_ = trace.formulas.contained(1);
   equations_ = trace.formulas.compile(backend);
   if (!trace.formulas.is_affine())
     whole_ = equations_.is_reduced() ? trace.formulas.whole() : equations_.left();

@@ -72,8 +72,9 @@ class ReducedMap final : public Integrator {
   std::shared_ptr<const LiePoisson> structure_;
   std::shared_ptr<const DiscretizationMap> map_;
   GroupAction action_;
-  EquationSystem equations_;  // y = (w, Δμ, z); x₀, h, t ↦ residual
-  Function whole_;            // the same without elimination, unless it is affine
+  std::vector<Index> contained_;  // the coordinates of x₀ that the equations contain
+  EquationSystem equations_;      // y = (w, Δμ, z); x₀, h, t ↦ residual
+  Function whole_;                // the same without elimination, unless it is affine
   Function advance_;     // the same ↦ (μ₁, a₁, x₁), its rate at the stage, (p̄, ā, x̄)
   Function rate_;        // x₀, z, t ↦ v/h and dμ/dt there
   Function constraint_;  // of RoundOffProjection

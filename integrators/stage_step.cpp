@@ -20,6 +20,7 @@ class StageStep::Trajectory final : public DisplacementStepper {
              .advance = method.advance_,
              .constraint = method.constraint_,
              .displacements = method.tangent_blocks_ * method.system_->manifold()->dimension(),
+             .contained = method.contained_,
              .h = 3}),
         method_(method),
         n_(manifold().dimension()),
@@ -178,6 +179,7 @@ StageStep::StageStep(std::string name, std::shared_ptr<const ImplicitSystem> sys
   const Backend backend = with.together();
   tangent_blocks_ = trace.tangent_blocks;
   efforts_ = trace.effort.size();
+  contained_ = trace.formulas.contained(1);
   equations_ = trace.formulas.compile(backend);
   if (!trace.formulas.is_affine())
     whole_ = equations_.is_reduced() ? trace.formulas.whole() : equations_.left();

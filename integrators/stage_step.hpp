@@ -61,8 +61,9 @@ class StageStep {
   std::shared_ptr<const ImplicitSystem> system_;
   std::shared_ptr<const DiscretizationMap> map_;
   Method method_;
-  EquationSystem equations_;  // y; x₀, basis, h, t ↦ residual
-  Function whole_;            // the same without elimination, unless it is affine
+  std::vector<Index> contained_;  // the coordinates of x₀ that the equations contain
+  EquationSystem equations_;      // y; x₀, basis, h, t ↦ residual
+  Function whole_;                // the same without elimination, unless it is affine
   Function advance_;          // the same ↦ x₁, v, x̄ unless the map has an inverse, the effort
   Function stage_;            // x₀, x₁ ↦ x̄ where it has
   Function basis_;            // of MovingBasis

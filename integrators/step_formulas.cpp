@@ -55,6 +55,15 @@ Function StepFormulas::whole() const {
   return Function(name, inputs, equations, {.differentiate = {inputs[0].name}});
 }
 
+std::vector<Index> StepFormulas::contained(std::size_t group) const {
+  const Subgraph all(equations);
+  const ExprVector& variables = inputs[group].variables;
+  std::vector<Index> result;
+  for (Index i = 0; i < variables.size(); ++i)
+    if (all.contains(variables[i])) result.push_back(i);
+  return result;
+}
+
 bool StepFormulas::is_affine() const {
   const ExprVector& y = inputs[0].variables;
   const Subgraph matrix(jacobian(equations, y).values);

@@ -316,6 +316,18 @@ std::vector<std::string> ladder_text_diagram(const LadderReport& ladder) {
   return {dim_S, margin + S, margin + arrows, margin + M, dim_M};
 }
 
+std::string family_in_words(const LadderReport& ladder) {
+  if (!ladder.family) return "";
+  const auto& [multipliers, rank] = *ladder.family;
+  const std::string measured =
+      "the rank of \u2202_\u03bb(\u2202_xE, \u2202_\u03bbE) is " + std::to_string(rank);
+  if (ladder.family->is_morse())
+    return "E is a Morse family here: " + measured + ", the number of multipliers \u03bb.";
+  return "E is no Morse family here: " + measured + ", less than the " +
+         plural(multipliers, "multiplier") +
+         " \u03bb, so that nothing says that \U0001d4db is a Lagrangian submanifold.";
+}
+
 std::vector<std::string> ladder_explanation(const LadderReport& ladder) {
   std::vector<std::string> lines;
   if (ladder.constraints) {
@@ -347,6 +359,7 @@ std::vector<std::string> ladder_explanation(const LadderReport& ladder) {
         lines.push_back("    " + sources(redundant[i]));
     }
   }
+  if (ladder.family) lines.push_back(family_in_words(ladder));
   const LadderReport::Level* weakest = nullptr;
   for (const LadderReport::Level& level : ladder.levels)
     if (!std::isnan(level.gap) && (!weakest || level.gap < weakest->gap)) weakest = &level;

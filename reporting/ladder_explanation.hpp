@@ -17,4 +17,8 @@ std::vector<std::string> ladder_text_diagram(const LadderReport& ladder);
 // One paragraph an entry; entries that begin with a space belong under the one before.
 std::vector<std::string> ladder_explanation(const LadderReport& ladder);
 
+// Whether E(x, λ) is a Morse family at the point, in a sentence; empty of a system that is not given by
+// one.
+std::string family_in_words(const LadderReport& ladder);
+
 }  // namespace courant

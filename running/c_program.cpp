@@ -246,6 +246,15 @@ class CProgram {
     return all + "};\n";
   }
 
+  static std::string contained_coordinates(const std::vector<Index>& contained) {
+    std::string list;
+    for (const Index i : contained) list += (list.empty() ? "" : ", ") + std::to_string(i);
+    return c_define("CONTAINED", std::ssize(contained)) +
+           "/* The coordinates that the equations of a step contain. */\n"
+           "static const int contained[] = {" +
+           (list.empty() ? "0" : list) + "};\n";
+  }
+
   std::string solved_steps() const {
     const StepProgram::Solve& solve = *step_.solve;
     const bool projects = solve.projection.has_value();
@@ -262,6 +271,7 @@ class CProgram {
         c_define("MOST_PREDICTED", std::max(unknowns, velocities_)) +
         c_define("LOOKS_AT_STEPS", solve.is_affine ? 0 : 1) +
         c_define("MEASURES_STEPS", rows_.measures_steps() ? 1 : 0);
+    if (!projects) all += contained_coordinates(solve.formulas.contained(1));
     if (projects)
       all += c_define("SHIFTS", solve.projection->shifts) +
              c_define("DIRECTIONS", n * solve.projection->shifts);

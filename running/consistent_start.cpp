@@ -138,12 +138,13 @@ class LadderSearch {
     in_units_.emplace(algorithm(weight.cwiseProduct(parts.cwiseAbs2())));
   }
 
-  // What the equations themselves make of the guess, without what they imply; nothing if they contradict it.
-  std::optional<State> solved(const InitialGuess& guess) const {
+  // What the equations themselves make of the guess, without what they imply; where it contradicts them, what
+  // they leave the least residual at. Nothing where they are not defined.
+  std::optional<State> nearly_solved(const InitialGuess& guess) const {
     ConstraintAlgorithm::Options options;
     options.max_level = 0;
     const ConstraintLadder ladder = ConstraintAlgorithm(options).run(system_, guess);
-    if (ladder.levels.empty() || ladder.levels.back().is_empty) return std::nullopt;
+    if (ladder.levels.empty() || !ladder.point.x.allFinite()) return std::nullopt;
     return ladder.point;
   }
 
@@ -246,7 +247,8 @@ class StartSearch {
     InitialGuess guess = holding(guess_, initial_.x.given, initial_.velocity.held, initial_.z.held);
     const InitialGuess given =
         holding(guess_, initial_.x.given, initial_.velocity.given, initial_.z.given);
-    if (const auto point = ladders_.solved(given)) guess.x = point->x;
+    if (const auto point = ladders_.nearly_solved(given))
+      guess.x = initial_.x.given.select(guess.x, point->x);
     const VectorXd weight = initial_.x.given.select(weight_, 1.0);
     ConstraintLadder ladder = LadderSearch(experiment_.model.system, guess, weight).run(guess);
     ladder.moved = 0.0;  // what is given of x stays

@@ -25,6 +25,9 @@ constexpr double kConvergent = 0.6;
 
 // Steps times coordinates of what is made again from the start: a tenth of a second, about.
 constexpr double kMostWork = 1e5;
+// Where ports and what they dissipate leave this part of a change of H, as damping takes it, steps of other sizes
+// may differ by that part of it.
+constexpr double kAccounted = 0.1, kAgreed = 1e-2;
 // An error of H that is more than this part of its terms is said, whether it converges or not.
 constexpr double kMostOfTerms = 1e-2;
 
@@ -32,16 +35,16 @@ constexpr double kMostOfTerms = 1e-2;
 
 EnergyWatch::EnergyWatch(std::shared_ptr<const Integrator> integrator,
                          std::function<double(const State&)> energy,
-                         std::function<std::vector<EnergyTerms>(const State&)> terms, Index column,
-                         State start)
+                         std::function<std::vector<EnergyTerms>(const State&)> terms,
+                         Columns columns, State start)
     : integrator_(std::move(integrator)),
       energy_(std::move(energy)),
       terms_(std::move(terms)),
-      column_(column),
+      columns_(columns),
       start_(std::move(start)) {}
 
 std::optional<RunEnd> EnergyWatch::watch(const RunMoment& moment) {
-  const double H = moment.row[column_];
+  const double H = moment.row[columns_.energy];
   if (moment.k == 0) memory_.initial = H;
   memory_.largest = std::max(memory_.largest, std::fabs(H));
   const double change = std::fabs(H - memory_.initial);
@@ -86,7 +89,8 @@ EnergyWatch::Sizes EnergyWatch::sizes(const State& state) const {
   return result;
 }
 
-bool EnergyWatch::converges(const State& from, double h, long count, double most) const {
+bool EnergyWatch::converges(const State& from, double h, long count, double agreed,
+                            double most) const {
   double end[3];
   try {
     int parts = 1;
@@ -100,22 +104,27 @@ bool EnergyWatch::converges(const State& from, double h, long count, double most
     return true;
   }
   const double first = std::fabs(end[0] - end[1]), second = std::fabs(end[1] - end[2]);
-  return !(second > kConvergent * first && second > kLeast * memory_.largest) &&
-         !(first + second > most);
+  const bool stays = second > kConvergent * first && second > kLeast * memory_.largest;
+  return !(stays && first + second > agreed) && !(first + second > most);
 }
 
 bool EnergyWatch::is_explained(const RunMoment& moment, double terms) const {
   const Step& step = moment.step;
   constexpr double any = std::numeric_limits<double>::infinity();
-  if (converges(step.before, step.h, 1, any)) return true;
+  const double change = std::fabs(moment.row[columns_.energy] - memory_.initial);
+  const bool is_accounted =
+      columns_.balance && std::fabs(moment.row[*columns_.balance]) <= kAccounted * change;
+  const double agreed = is_accounted ? kAgreed * change : 0.0;
+  if (converges(step.before, step.h, 1, agreed, any)) return true;
   // An error that changes its sign, as after the edge of a pulse, makes the first of the differences small by
   // accident: those of shorter steps tell.
-  if (converges(step.before, step.h / 3.0, 3, any) && converges(step.before, step.h / 9.0, 9, any))
+  if (converges(step.before, step.h / 3.0, 3, agreed, any) &&
+      converges(step.before, step.h / 9.0, 9, agreed, any))
     return true;
   constexpr double all_parts = 1 + 3 + 9;
   const double work =
       all_parts * static_cast<double>(moment.k * std::max<Index>(1, start_.x.size()));
-  return work <= kMostWork && converges(start_, step.h, moment.k, kMostOfTerms * terms);
+  return work <= kMostWork && converges(start_, step.h, moment.k, agreed, kMostOfTerms * terms);
 }
 
 }  // namespace courant

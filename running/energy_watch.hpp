@@ -28,11 +28,17 @@ namespace courant {
 // further after a finding.
 class EnergyWatch final : public RunWatcher {
  public:
-  // `energy`: H of a state that a step ended at, `terms`: what it consists of there; `column`: of H in
-  // the rows; `start`: of the run.
+  // Where numbers are in the rows of the run.
+  struct Columns {
+    Index energy;  // H
+    // H - H(0) - supplied + dissipated, where energy goes through ports. Where that is little next to the
+    // change of H, and shorter steps change H as much but for a hundredth, the ports explain it.
+    std::optional<Index> balance = {};
+  };
+  // `energy`: H of a state that a step ended at, `terms`: what it consists of there; `start`: of the run.
   EnergyWatch(std::shared_ptr<const Integrator> integrator,
               std::function<double(const State&)> energy,
-              std::function<std::vector<EnergyTerms>(const State&)> terms, Index column,
+              std::function<std::vector<EnergyTerms>(const State&)> terms, Columns columns,
               State start);
 
   std::optional<RunEnd> watch(const RunMoment& moment) override;
@@ -54,8 +60,8 @@ class EnergyWatch final : public RunWatcher {
 
  private:
   // Whether H after `count` steps of h, and after as many as there are in one, three and nine parts,
-  // differs by less and less, and by no more than `most`.
-  bool converges(const State& from, double h, long count, double most) const;
+  // differs by less and less, or by no more than `agreed`; and by no more than `most`.
+  bool converges(const State& from, double h, long count, double agreed, double most) const;
   bool is_explained(const RunMoment& moment, double terms) const;
   // Of what H consists of at a state, by its slopes: the sum of |∂H/∂x_i x_i|, and by how much rounding
   // of the coordinates, and of v and z where H contains them, changes H.
@@ -67,7 +73,7 @@ class EnergyWatch final : public RunWatcher {
   std::shared_ptr<const Integrator> integrator_;
   std::function<double(const State&)> energy_;
   std::function<std::vector<EnergyTerms>(const State&)> terms_;
-  Index column_;
+  Columns columns_;
   State start_;
   Memory memory_;
 };

@@ -2,6 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+
+#include "courant/structures/dirac_system.hpp"
+#include "courant/structures/family_rank.hpp"
+#include "courant/structures/morse_family.hpp"
 
 namespace courant {
 namespace {
@@ -70,6 +75,25 @@ std::vector<LadderReport::Constraint> constraints(const ConstraintLadder& ladder
     found.push_back({constraint.level, components(constraint.gradient, covectors),
                      origin(constraint.origin, system)});
   return found;
+}
+
+// Nothing where there is no λ, or no point of 𝓛 at which the derivatives exist.
+std::optional<LadderReport::Family> family(const ConstraintLadder& ladder,
+                                           const ImplicitSystem& system) {
+  const auto* dirac = dynamic_cast<const DiracSystem*>(&system);
+  if (!dirac || !dynamic_cast<const MorseFamily*>(dirac->family().get())) return std::nullopt;
+  const GeneratingFamily& E = *dirac->family();
+  const Index k = E.parameter_size();
+  const State& point = ladder.point;
+  if (k == 0 || ladder.verdict == Verdict::inconsistent || !point.x.allFinite() ||
+      point.z.size() < k || !point.z.head(k).allFinite())
+    return std::nullopt;
+  try {
+    const RankDecision rank = family_rank(E, {point.x, point.z.head(k), point.t});
+    return LadderReport::Family{.multipliers = k, .rank = rank.rank};
+  } catch (const std::domain_error&) {
+    return std::nullopt;
+  }
 }
 
 LadderReport::End end(const ConstraintLadder& ladder, const ImplicitSystem& system,
@@ -153,6 +177,7 @@ std::vector<LadderReport::Dimensions> LadderReport::dimensions() const {
 
 LadderReport ladder_report(const ConstraintLadder& ladder, const ImplicitSystem& system) {
   LadderReport report = discrete_ladder_report(ladder, system);
+  report.family = family(ladder, system);
   const bool has_end = ladder.index >= 0;
   if (!has_end && ladder.verdict != Verdict::inconsistent && ladder.verdict != Verdict::rank_change)
     return report;

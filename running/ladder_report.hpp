@@ -39,6 +39,13 @@ struct LadderReport {
   Values consistent_point = {};
   double moved = 0.0;
   std::vector<Movement> moves = {};
+  // Of a MorseFamily E(x, λ) that the system is given by, at the consistent point: how many λ there
+  // are, and the rank of ∂_λ(∂_xE, ∂_λE).
+  struct Family {
+    Index multipliers = 0, rank = 0;
+    bool is_morse() const { return rank == multipliers; }
+  };
+  std::optional<Family> family = {};
   bool is_ambiguous = false;
   std::vector<std::string> doubts = {};
   std::string reason = {};

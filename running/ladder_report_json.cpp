@@ -202,6 +202,10 @@ Json to_json(const LadderReport& ladder) {
                               {"residual", level.residual}});
   for (const Movement& move : ladder.moves)
     json["moves"].push_back({{"name", move.name}, {"from", move.from}, {"to", move.to}});
+  if (ladder.family)
+    json["family"] = {{"multipliers", ladder.family->multipliers},
+                      {"rank", ladder.family->rank},
+                      {"morse", ladder.family->is_morse()}};
   if (ladder.classes) write_classes(json, *ladder.classes);
   if (ladder.constraints) {
     json["constraints"] = Json::array();
@@ -241,6 +245,9 @@ LadderReport read_ladder_report(const Json& json) {
                             .from = number_at(move, "from"),
                             .to = number_at(move, "to")});
   for (const Json& doubt : part(json, "doubts")) ladder.doubts.push_back(doubt.get<std::string>());
+  if (const Json& family = part(json, "family"); !family.empty())
+    ladder.family = {.multipliers = whole(family, "multipliers").value_or(0),
+                     .rank = whole(family, "rank").value_or(0)};
   if (json.contains("classes")) ladder.classes = read_classes(json);
   if (json.contains("constraints")) {
     ladder.constraints.emplace();

@@ -192,7 +192,9 @@ class RunUnderway {
       energy_watch_.emplace(
           method.integrator,
           [this, H = *H](const State& state) { return elsewhere_.row(state)[H]; },
-          [this](const State& state) { return elsewhere_.energy_terms(state); }, *H,
+          [this](const State& state) { return elsewhere_.energy_terms(state); },
+          EnergyWatch::Columns{.energy = *H,
+                               .balance = observer_.account() ? column("balance") : std::nullopt},
           method.initial);
   }
 
@@ -329,11 +331,12 @@ class RunUnderway {
     if (!warning.empty()) results_.warnings.push_back(std::move(warning));
   }
 
-  std::optional<Index> energy() const {
+  std::optional<Index> column(const std::string& name) const {
     const auto& names = observer_.names();
-    const auto found = std::find(names.begin(), names.end(), "H");
+    const auto found = std::find(names.begin(), names.end(), name);
     return found == names.end() ? std::nullopt : std::optional(found - names.begin());
   }
+  std::optional<Index> energy() const { return column("H"); }
   double energy_drift() const {
     const auto H = energy();
     if (!H) return std::numeric_limits<double>::quiet_NaN();

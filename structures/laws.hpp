@@ -6,6 +6,7 @@
 
 #include "courant/manifolds/laws.hpp"
 #include "courant/structures/dirac_structure.hpp"
+#include "courant/structures/family_rank.hpp"
 #include "courant/structures/generating_family.hpp"
 
 namespace courant {
@@ -22,12 +23,6 @@ std::vector<LawResult> check_structure(const DiracStructure& structure,
                                        const LawOptions& options = {});
 std::vector<LawResult> check_structure(const DiracStructure& structure,
                                        const LawOptions& options = {});
-
-// A point of 𝓛: ∂_λE(x, λ, t) = 0.
-struct FamilyPoint {
-  VectorXd x, lambda;
-  double t = 0.0;
-};
 
 // Every law of `family` (G1, G2 in the comment of GeneratingFamily) at the points. Derivatives are
 // held against differences of order 6 of the value alone.

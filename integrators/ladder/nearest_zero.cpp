@@ -1,5 +1,6 @@
 #include "courant/integrators/ladder/nearest_zero.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
@@ -354,6 +355,16 @@ VectorXd kernel_part(const SparseMatrixXd& S, const VectorXd& direction) {
   return normal.size() == 0 ? VectorXd(VectorXd::Zero(direction.size())) : direction - normal;
 }
 
+// argmin ½ δᵀPδ - aᵀδ where S δ = 0, in an orthonormal basis of the kernel: rows of S that depend on each other,
+// which leave a factorisation without exchanges no digits, do no harm. Empty where S is not finite.
+VectorXd step_in_kernel(const SparseMatrixXd& P, const SparseMatrixXd& S, const VectorXd& a) {
+  if (!S.coeffs().isFinite().all()) return VectorXd();
+  const CompleteOrthogonalDecomposition rows(MatrixXd(S.transpose()), kNegligible);
+  const MatrixXd Z = rows.Q().rightCols(S.cols() - rows.rank());
+  const MatrixXd reduced = Z.transpose() * (P * Z).eval();
+  return Z * reduced.ldlt().solve(Z.transpose() * a);
+}
+
 Zero least_zero(const LinearizableMap& map,
                 const std::function<Quadratic(const VectorXd& y)>& objective, const Zero& at,
                 const Mobility& mobility) {
@@ -364,6 +375,7 @@ Zero least_zero(const LinearizableMap& map,
   VectorXd before;  // the whole step before this one
   double shortest_step = std::numeric_limits<double>::infinity();
   int stalled = 0;
+  bool loses_digits = false;
   for (int iteration = 0; iteration < 50; ++iteration) {
     const Quadratic goal = objective(best.y);
     if (goal.value == 0.0) break;
@@ -386,7 +398,12 @@ Zero least_zero(const LinearizableMap& map,
                              it.value() / strength);
     lifted.setFromTriplets(entries.begin(), entries.end());
     P += lifted;
-    const VectorXd delta = SaddlePoint(P, S, gamma).solve(right, VectorXd::Zero(S.rows()));
+    VectorXd delta = SaddlePoint(P, S, gamma).solve(right, VectorXd::Zero(S.rows()));
+    // No step takes more from the objective than there is: one that promises to has lost its digits, and so
+    // may the steps after it.
+    const double most = 1.01 * 2.0 * goal.value / strength;
+    loses_digits = loses_digits || (delta.allFinite() && right.dot(delta) > most);
+    if (loses_digits && is_small(S)) delta = step_in_kernel(P, S, right);
     if (delta.size() == 0 || !delta.allFinite()) break;
 
     const double step = delta.norm();

@@ -12,9 +12,17 @@ static void learn_at_end(struct stepper *S, int c, const struct stepper *other, 
   (void)S, (void)c, (void)other, (void)times, (void)ratio;
 }
 
+/* Displacements are solved for next to this. */
+static double size_of(const double *x) {
+  double size = 0.0;
+  int i;
+  for (i = 0; i < CONTAINED; ++i) size = largest_of(size, fabs(x[contained[i]]));
+  return size > 0.0 ? size : largest(x, COORDINATES);
+}
+
 static void make_part(struct stepper *S, struct state *state, double h, double end) {
   const struct state before = *state;
-  const double size = largest(before.x, COORDINATES);
+  const double size = size_of(before.x);
   const double scales[2] = {size, 1e7 * largest(before.z, AUXILIARIES) + 1e-3 * size};
   if (S->predictor.count == 0)
     begin(S, &before, h, S->y);

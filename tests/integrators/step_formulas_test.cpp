@@ -91,5 +91,14 @@ BOOST_AUTO_TEST_CASE(an_explanation_names_what_goes_and_what_stays) {
 
 }  // namespace
 
+BOOST_AUTO_TEST_CASE(variables_that_equations_contain) {
+  StepFormulas formulas;
+  const ExprVector y = formulas.graph.variables("y", 2), x = formulas.graph.variables("x", 4);
+  formulas.inputs = {{"y", y}, {"x", x}};
+  formulas.equations = ExprVector{{y[0] - sin(x[3]), y[0] * (x[1] - x[1]) + x[1]}};
+  BOOST_TEST((formulas.contained(0) == std::vector<Index>{0}));
+  BOOST_TEST((formulas.contained(1) == std::vector<Index>{1, 3}));
+}
+
 BOOST_AUTO_TEST_SUITE_END()
 }  // namespace courant

@@ -340,6 +340,21 @@ BOOST_AUTO_TEST_CASE(redundant_equations_are_told) {
   BOOST_TEST(contains(ladder_explanation(found), "Redundant: one equation follows"));
 }
 
+BOOST_AUTO_TEST_CASE(the_rank_of_a_family_is_told) {
+  const auto lines = [](const char* family) {
+    return ladder_explanation(ladder({{"system",
+                                       {{"type", "morse-family"},
+                                        {"coordinates", {"q"}},
+                                        {"multipliers", {"l", "m"}},
+                                        {"family", family}}},
+                                      {"initial", {{"q", 0}, {"p_q", 0}}}}));
+  };
+  BOOST_TEST(contains(lines("p_q^2/2 + l*q + 2*m*q"), "E is no Morse family here: the rank"));
+  BOOST_TEST(contains(lines("p_q^2/2 + l*q + 2*m*q"), "is 1, less than the 2 multipliers"));
+  BOOST_TEST(contains(lines("p_q^2/2 + l*q + 2*m*p_q"), "E is a Morse family here: the rank"));
+  BOOST_TEST(!contains(ladder_explanation(pendulum()), "Morse family"));
+}
+
 BOOST_AUTO_TEST_CASE(what_ends_without_an_index_is_still_explained) {
   const Json found = ladder(
       {{"system", {{"type", "lagrangian"}, {"coordinates", {"q"}}, {"lagrangian", "q' + q"}}},

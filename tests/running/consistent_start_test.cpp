@@ -103,6 +103,63 @@ BOOST_AUTO_TEST_CASE(velocities_that_contradict_a_constraint_move_no_farther_tha
   BOOST_TEST(ladder.moves.size() == 2u);
 }
 
+// A carriage on two wheels, whose velocities are rounded to two digits: along itself it moves by (cos 0.2, sin 0.2),
+// nearly (0.98, 0.2). Those of its wheels are not given and turn as they must, on a level and at an axle that is
+// ahead of the centre of mass.
+BOOST_AUTO_TEST_CASE(rounded_velocities_move_no_farther_than_they_must) {
+  for (const double l : {0.0, 0.3}) {
+    const ConstraintLadder ladder = start(
+        {{"system",
+          {{"type", "lagrangian"},
+           {"coordinates", {"x", "y", "th", "a", "b"}},
+           {"parameters", {{"m", 10}, {"l", l}, {"J", 2}, {"K", 0.2}, {"R", 0.15}, {"c", 0.4}}},
+           {"lagrangian",
+            "m/2*(x'^2 + y'^2) + m*l*th'*(y'*cos(th) - x'*sin(th)) + J/2*th'^2 + K/2*(a'^2 + "
+            "b'^2)"},
+           {"nonholonomic",
+            {"x'*cos(th) + y'*sin(th) + c*th' + R*a'", "x'*cos(th) + y'*sin(th) - c*th' + R*b'",
+             "y'*cos(th) - x'*sin(th)"}}}},
+         {"initial",
+          {{"x", 0},
+           {"y", 0},
+           {"th", 0.2},
+           {"a", 0},
+           {"b", 0},
+           {"x'", 0.98},
+           {"y'", 0.2},
+           {"th'", 1.5}}}});
+    BOOST_TEST((ladder.verdict == Verdict::regular), ladder.reason);
+    const VectorXd& v = ladder.point.v;
+    BOOST_TEST(ladder.point.x[2] == 0.2);
+    BOOST_TEST((v.head(3) - Eigen::Vector3d(0.98, 0.2, 1.5)).norm() < 0.01);
+    BOOST_TEST(std::fabs(v[1] * std::cos(0.2) - v[0] * std::sin(0.2)) < 1e-12);
+    BOOST_TEST(std::fabs(0.15 * v[3] + std::hypot(v[0], v[1]) + 0.4 * v[2]) < 1e-12);
+  }
+}
+
+// A body whose velocity about its third axis has to be 0, with its attitude and an advected direction: momenta about
+// that axis go, and hardly anything else. The equations of the attitude depend on each other.
+BOOST_AUTO_TEST_CASE(what_no_constraint_contains_stays) {
+  const ConstraintLadder ladder =
+      start({{"system",
+              {{"type", "euler-poincare"},
+               {"algebra", "so3"},
+               {"advected", {"G[3]"}},
+               {"representation", "vectors"},
+               {"attitude", {"R[3][3]"}},
+               {"lagrangian", "(xi[0]^2 + 2*xi[1]^2 + 3*xi[2]^2)/2 - G[2] - 0.3*G[0]"},
+               {"nonholonomic", "xi[2]"}}},
+             {"initial",
+              {{"mu", {0.5, 0.4, 0.9}},
+               {"G", {0.6, 0, 0.8}},
+               {"R", {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}}}});
+  BOOST_TEST((ladder.verdict == Verdict::regular), ladder.reason);
+  const VectorXd& x = ladder.point.x;
+  const VectorXd nearest{{0.5, 0.4, 0.0, 0.6, 0.0, 0.8, 1, 0, 0, 0, 1, 0, 0, 0, 1}};
+  BOOST_REQUIRE(x.size() == nearest.size());
+  BOOST_TEST((x - nearest).lpNorm<Eigen::Infinity>() < 1e-5);
+}
+
 // Diodes that block conduct 10⁻¹⁰ times what they do at 0.6 V; what is around a start says nothing of the
 // equations there. At rest, and with a charged capacitor.
 BOOST_AUTO_TEST_CASE(a_bridge_rectifier_starts) {

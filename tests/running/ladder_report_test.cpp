@@ -80,6 +80,28 @@ BOOST_AUTO_TEST_CASE(has_what_was_found) {
   BOOST_TEST(empty.elimination.has_value());
 }
 
+// E = p²/2 + λ₀ q + λ₁ c(q, p): conditions that repeat each other, and such that do not.
+BOOST_AUTO_TEST_CASE(the_rank_of_a_family) {
+  const auto found = [](const char* second) {
+    return report({{"system",
+                    {{"type", "morse-family"},
+                     {"coordinates", {"q"}},
+                     {"multipliers", {"l", "m"}},
+                     {"family", "p_q^2/2 + l*q + m*(" + std::string(second) + ")"}}},
+                   {"initial", {{"q", 0}, {"p_q", 0}}}});
+  };
+  for (const auto& [second, rank] : {std::pair{"3*q", 1}, std::pair{"p_q", 2}}) {
+    const LadderReport read = read_ladder_report(to_json(found(second)));
+    BOOST_REQUIRE(read.family);
+    BOOST_TEST(read.family->multipliers == 2);
+    BOOST_TEST(read.family->rank == rank);
+  }
+  BOOST_TEST(to_json(found("3*q")).at("family").at("morse") == false);
+  BOOST_TEST(to_json(found("p_q")).at("family").at("morse") == true);
+  // Those of the conditions of a Lagrangian are told as redundant equations.
+  BOOST_TEST(!report(gauge).family);
+}
+
 // p' = - (∇V)ᵀP - |p|² x, with gravity 2 along z. From everywhere, axes and rest included.
 BOOST_AUTO_TEST_CASE(velocities_on_the_sphere_are_formulas) {
   Json experiment = {{"system",

@@ -96,10 +96,13 @@ BOOST_AUTO_TEST_CASE(waveforms_of_netlists) {
     BOOST_TEST_MESSAGE("ngspice is not installed");
     return;
   }
-  for (const char* name : {"rc_pulse", "rlc_uic", "rectifier", "transformer", "amplifier", "bridge",
-                           "doubler", "cockcroft", "peak_detector", "pulse_corner",
-                           // Which begin at an operating point, or with potentials of .ic.
-                           "zener", "supply", "phase_shift", "whole_coupling"})
+  for (const char* name :
+       {"rc_pulse", "rlc_uic", "rectifier", "transformer", "amplifier", "bridge", "doubler",
+        "cockcroft", "peak_detector", "pulse_corner",
+        // Which begin at an operating point, or with potentials of .ic.
+        "zener", "supply", "phase_shift", "whole_coupling",
+        // An oscillator with a controlled source, a filter of order 7, two tanks.
+        "wien_bridge", "butterworth", "coupled_tanks"})
     BOOST_TEST_CONTEXT(name) {
       const Comparison comparison(name);
       double energy_there = 0.0, imbalance = 0.0;
@@ -111,7 +114,8 @@ BOOST_AUTO_TEST_CASE(waveforms_of_netlists) {
       }
       const bool is_damped = comparison.experiment["method"].contains("damping");
       BOOST_TEST(imbalance <= (is_damped ? 1e-5 : 1e-8) * energy_there);
-      BOOST_TEST(comparison.stage_imbalance < 5e-12);
+      BOOST_TEST(comparison.stage_imbalance <
+                 (std::string_view(name) == "amplifier" ? 2e-12 : 1e-12));
       for (const std::string& node : comparison.nodes)
         BOOST_TEST(std::ranges::max(comparison.differences(node)) < 1e-3, node);
     }
@@ -120,7 +124,7 @@ BOOST_AUTO_TEST_CASE(waveforms_of_netlists) {
 // Circuits that simulators find hard: diodes with nothing but themselves in their way, in series, in front of
 // coils whose currents end, at transformers with no ground of their own. ngspice needs other tolerances for
 // some of them: with those above it ends early. Where a current ends a potential jumps, in a row or two. What
-// is stored, supplied and lost is balanced to 5e-12 at the stages of all steps.
+// is stored, supplied and lost is balanced at the stages of all steps.
 BOOST_AUTO_TEST_CASE(hard_netlists) {
   if (std::system("command -v ngspice > /dev/null") != 0) {
     BOOST_TEST_MESSAGE("ngspice is not installed");
@@ -149,9 +153,12 @@ BOOST_AUTO_TEST_CASE(hard_netlists) {
   };
   for (const Hard& hard : all) BOOST_TEST_CONTEXT(hard.name) {
       const Comparison comparison(hard.name, hard.options);
-      BOOST_TEST(comparison.stage_imbalance < 5e-12);
+      // Tens of amperes through exponentials leave more.
+      BOOST_TEST(comparison.stage_imbalance < (hard.name == "three_phase"  ? 5e-12
+                                               : hard.name == "center_tap" ? 2e-12
+                                                                           : 1e-12));
       // The edge of a pulse is no finding.
-      if (hard.name == "quiet_diode") BOOST_TEST(comparison.warnings.empty());
+      BOOST_TEST(comparison.warnings.empty());
       for (const std::string& node : hard.nodes) {
         std::vector<double> differences = comparison.differences(node);
         std::ranges::sort(differences);
