@@ -2,9 +2,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <memory>
 #include <new>
 #include <ostream>
 
+#include "courant/cli/help_formatter.hpp"
 #include "courant/cli/synopsis.hpp"
 #include "courant/core/message.hpp"
 #include "courant/core/spelling.hpp"
@@ -73,6 +75,7 @@ int command(const std::vector<std::string>& arguments, const Console& console) {
   Session session{console};
   CLI::App app("Geometric integrators from Dirac structures and the constraint algorithm.",
                "courant");
+  app.formatter(std::make_shared<HelpFormatter>());
   app.require_subcommand(1);
   app.set_version_flag("--version", "courant " COURANT_VERSION_STRING);
   add_run(app, session);

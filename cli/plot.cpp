@@ -84,7 +84,8 @@ void add_plot(CLI::App& app, Session& session) {
       ->required();
   plot->add_option("--figure", arguments->figure, "which figure; not every run has all of them")
       ->type_name(
-          "phase|coordinates|axes|sphere|space|paths|section|energy|energy-detail|constraints|"
+          "phase|coordinates|axes|sphere|space|paths|section|energy-balance|energy|energy-detail|"
+          "constraints|"
           "observables|sweep|study")
       ->required();
   plot->add_option("-o", arguments->output,

@@ -33,16 +33,23 @@ std::filesystem::path page_of(const ReportArguments& arguments) {
          "report.html";
 }
 
+// Of all steps where nothing comes in or goes out, of all rows otherwise.
+double greatest_energy_error(const Run& run) {
+  const auto error = energy_error(run);
+  if (error && error->is_balance) return greatest_size(error->values);
+  const QuantityRecord* H = run.summary.observable("H");
+  return H ? H->max_drift : RunSummary::kUnknown;
+}
+
 void print_comparison(const Console& console, const std::vector<Run>& runs) {
-  TextTable table({"run", "method", "max |H - H(0)|", "", "steps", "steps/s", "expected"});
+  TextTable table({"run", "method", "energy error", "", "steps", "steps/s", "expected"});
   for (const Run& run : runs) {
     const RunSummary& summary = run.summary;
-    const QuantityRecord* H = summary.observable("H");
     const auto trend = energy_trend(run);
     const auto passed =
         std::count_if(summary.expectations.begin(), summary.expectations.end(),
                       [](const ExpectationResult& expectation) { return expectation.passed; });
-    table.add({run.name, summary.method, shown_if_known(H ? H->max_drift : RunSummary::kUnknown, 4),
+    table.add({run.name, summary.method, shown_if_known(greatest_energy_error(run), 4),
                trend ? word(trend->growth) : "", std::to_string(summary.steps),
                shown_if_known(summary.steps_per_second, 3),
                std::to_string(passed) + " of " + std::to_string(summary.expectations.size())});
@@ -53,20 +60,21 @@ void print_comparison(const Console& console, const std::vector<Run>& runs) {
       console.out << printable(run.name) << ": " << run.summary.message << '\n';
 }
 
-// |H - H(0)| of the runs that have an energy.
+// The energy errors of the runs that have an energy.
 void print_energies(const Console& console, const std::vector<Run>& runs) {
   const std::vector<std::string> labels = run_labels(runs);
   std::vector<plot::Series> series;
+  std::string name = "H - H(0)";
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const TrajectoryTable& table = runs[i].trajectory;
-    if (!table.contains("H") || table.rows() < 2) continue;
-    const auto t = table.column("t"), H = table.column("H");
-    series.push_back({labels[i], {t.begin(), t.end()}, {H.begin(), H.end()}, i});
-    for (double& value : series.back().y) value -= H.front();
+    auto error = energy_error(runs[i]);
+    if (!error || error->values.size() < 2) continue;
+    const auto t = runs[i].trajectory.column("t");
+    if (error->is_balance) name = "H - H(0) - supplied + dissipated";
+    series.push_back({labels[i], {t.begin(), t.end()}, std::move(error->values), i});
   }
   if (series.empty()) return;
   console.out << '\n'
-              << plot::terminal_log_plot("|H - H(0)|", series,
+              << plot::terminal_log_plot("|" + name + "|", series,
                                          {.unicode = console.unicode, .colour = console.colour});
 }
 

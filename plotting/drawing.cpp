@@ -10,6 +10,7 @@
 
 #include "courant/plotting/digits.hpp"
 #include "courant/plotting/figure.hpp"
+#include "courant/plotting/scale.hpp"
 
 namespace courant::plot {
 
@@ -37,14 +38,28 @@ std::string_view variable(std::string_view name) {
   return found == greek.end() ? std::string_view() : found->second;
 }
 
-}  // namespace
+bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
-std::string colour_class(std::size_t colour) {
-  return "c" + std::to_string(colour % palette().size());
+// "kg m²/s" of "kg m^2/s".
+std::string unit_text(std::string_view unit) {
+  std::string text;
+  while (!unit.empty()) {
+    std::size_t size = unit[0] != '^' ? 0 : unit.starts_with("^-") ? 2 : 1;
+    const std::size_t sign = size;
+    while (size > 0 && size < unit.size() && is_digit(unit[size])) ++size;
+    if (size > sign) {
+      text += superscript(unit.substr(1, size - 1));
+    } else {
+      size = 1;
+      text += unit[0];
+    }
+    unit.remove_prefix(size);
+  }
+  return text;
 }
-std::string_view ink(std::size_t colour) { return palette()[colour % palette().size()].light; }
 
-Markup mathematics(std::string_view text) {
+// Of a quantity without its unit.
+Markup name_of_quantity(std::string_view text) {
   const auto word = [](std::string_view from, bool with_digits) {
     const auto end = std::find_if(from.begin(), from.end(), [&](char c) {
       const auto letter = static_cast<unsigned char>(c);
@@ -66,9 +81,25 @@ Markup mathematics(std::string_view text) {
     markup += element("tspan", {{"dy", 3.0}, {"font-size", 9.0}, {"font-style", "italic"}},
                       letter.empty() ? index : letter);
     text.remove_prefix(1 + index.size());
-    return text.empty() ? markup : markup + element("tspan", {{"dy", -3.0}}, mathematics(text));
+    return text.empty() ? markup
+                        : markup + element("tspan", {{"dy", -3.0}}, name_of_quantity(text));
   }
   return markup;
+}
+
+}  // namespace
+
+std::string colour_class(std::size_t colour) {
+  return "c" + std::to_string(colour % palette().size());
+}
+std::string_view ink(std::size_t colour) { return palette()[colour % palette().size()].light; }
+
+Markup mathematics(std::string_view text) {
+  const std::size_t unit = text.find(" [");
+  const std::size_t end = text.find(']', std::min(unit, text.size()));
+  if (end == std::string_view::npos) return name_of_quantity(text);
+  return name_of_quantity(text.substr(0, unit)) + unit_text(text.substr(unit, end - unit)) +
+         text.substr(end);
 }
 
 Markup text(double x, double y, std::string_view anchor, const Markup& content) {

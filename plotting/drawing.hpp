@@ -17,7 +17,8 @@ std::string colour_class(std::size_t colour);
 std::string_view ink(std::size_t colour);
 
 // A name as one sets it: single letters and the names of Greek ones are variables, and stand in
-// italics; what follows one after an underscore is its subscript.
+// italics; what follows one after an underscore is its subscript. A unit in brackets behind it stays
+// upright, with its powers raised: "p [kg m²/s]".
 Markup mathematics(std::string_view text);
 
 Markup text(double x, double y, std::string_view anchor, const Markup& content);

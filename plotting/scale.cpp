@@ -161,15 +161,17 @@ double nice_step(double length, int pieces) {
   return 10 * decade;
 }
 
-std::string power_of_ten(int exponent, bool negative) {
-  static constexpr std::array<const char*, 10> superscripts = {"⁰", "¹", "²", "³", "⁴",
-                                                               "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string text = negative ? minus_sign : "";
-  text += "10";
-  for (const char digit : std::to_string(exponent)) {
-    text += digit == '-' ? "⁻" : superscripts[static_cast<std::size_t>(digit - '0')];
-  }
+std::string superscript(std::string_view number) {
+  static constexpr std::array<const char*, 10> raised = {"⁰", "¹", "²", "³", "⁴",
+                                                         "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text;
+  for (const char digit : number)
+    text += digit == '-' ? "⁻" : raised[static_cast<std::size_t>(digit - '0')];
   return text;
+}
+
+std::string power_of_ten(int exponent, bool negative) {
+  return (negative ? minus_sign : "") + ("10" + superscript(std::to_string(exponent)));
 }
 
 std::string readable(double value, int digits) {

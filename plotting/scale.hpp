@@ -118,6 +118,9 @@ class WordScale final : public Scale {
 // The least of 1, 2, 5 times a power of ten that cuts `length` > 0 into at most `pieces` steps.
 double nice_step(double length, int pieces);
 
+// Digits, after a minus or not, raised: "⁻¹²".
+std::string superscript(std::string_view number);
+
 // "10⁻⁴", "0", "−10³": sign · 10^exponent in Unicode.
 std::string power_of_ten(int exponent, bool negative = false);
 

@@ -29,23 +29,37 @@ double median_size(std::span<const double> values) {
   return *middle;
 }
 
-// H - H(0).
-std::vector<Series> energy_errors(std::span<const Run> runs) {
-  std::vector<Series> series = columns_over_time(runs, "H");
-  std::erase_if(series, [](const Series& one) { return one.y.empty(); });
-  for (Series& one : series) {
-    const double initial = one.y.front();
-    for (double& value : one.y) value -= initial;
+// A curve for each run that has H, with what it is called.
+struct EnergyErrors {
+  std::vector<Series> series;
+  std::string name = "H − H(0)";
+};
+
+EnergyErrors energy_errors(std::span<const Run> runs) {
+  EnergyErrors errors;
+  const std::vector<std::string> labels = run_labels(runs);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    auto error = energy_error(runs[i]);
+    if (!error) continue;
+    const auto t = runs[i].trajectory.column("t");
+    if (error->is_balance) errors.name = name_of(*error);
+    errors.series.push_back({labels[i], {t.begin(), t.end()}, std::move(error->values), i});
   }
-  return series;
+  return errors;
 }
 
-Panel energy_panel(std::span<const Run> runs, std::vector<Series> series) {
-  Panel panel;
-  panel.title = "Energy error H − H(0) over time";
-  panel.x.label = axis_label(runs, "t");
+// " [J]" where H has a unit.
+std::string unit_of_energy(std::span<const Run> runs) {
   const std::string label = axis_label(runs, "H");
-  panel.y.label = "H − H(0)" + (label.starts_with("H ") ? label.substr(1) : "");
+  const std::size_t unit = label.rfind(" [");
+  return unit == std::string::npos ? "" : label.substr(unit);
+}
+
+Panel energy_panel(std::span<const Run> runs, const std::string& name, std::vector<Series> series) {
+  Panel panel;
+  panel.title = "Energy error " + name + " over time";
+  panel.x.label = axis_label(runs, "t");
+  panel.y.label = name + unit_of_energy(runs);
   for (const Series& one : series)
     panel.description += one.label + ": at most " + plot::readable(greatest_size(one.y), 3) + ". ";
   panel.series = std::move(series);
@@ -87,15 +101,16 @@ std::string trends(std::span<const Run> runs) {
 }
 
 // A panel for each, with the same axes; all in one where there are too many.
-std::vector<Panel> panels_of(std::span<const Run> runs, const std::vector<Series>& errors,
+std::vector<Panel> panels_of(std::span<const Run> runs, const EnergyErrors& errors,
                              const std::shared_ptr<const plot::Scale>& scale) {
   std::vector<Panel> panels;
-  if (errors.size() > most_panels)
-    panels.push_back(energy_panel(runs, errors));
+  if (errors.series.size() > most_panels)
+    panels.push_back(energy_panel(runs, errors.name, errors.series));
   else
-    for (const Series& one : errors) panels.push_back(energy_panel(runs, {one}));
+    for (const Series& one : errors.series)
+      panels.push_back(energy_panel(runs, errors.name, {one}));
   Interval x, y;
-  for (const Series& one : errors) x.include(one.x), y.include(one.y);
+  for (const Series& one : errors.series) x.include(one.x), y.include(one.y);
   for (Panel& panel : panels) {
     panel.x.interval = x;
     panel.y.interval = y;
@@ -115,7 +130,8 @@ std::vector<plot::LegendEntry> legend_of(const std::vector<Series>& errors) {
 }
 
 // The smaller errors on linear axes: of long runs their beginning, and the whole, abreast.
-Figure detail(std::span<const Run> runs, const std::vector<Series>& kept, bool is_long) {
+Figure detail(std::span<const Run> runs, const std::string& name, const std::vector<Series>& kept,
+              bool is_long) {
   Figure figure;
   figure.name = "energy-detail";
   figure.caption = "The smaller energy errors on linear axes";
@@ -132,7 +148,7 @@ Figure detail(std::span<const Run> runs, const std::vector<Series>& kept, bool i
       parts.insert(parts.begin(), std::move(start));
     }
     for (Series& part : parts) {
-      Panel panel = energy_panel(runs, {std::move(part)});
+      Panel panel = energy_panel(runs, name, {std::move(part)});
       panel.y.interval = y;
       panel.height = energy_height;
       if (is_long) panel.width = energy_width;
@@ -146,14 +162,46 @@ Figure detail(std::span<const Run> runs, const std::vector<Series>& kept, bool i
   return figure;
 }
 
-}  // namespace
-
-double greatest_size(std::span<const double> values) {
-  double size = 0;
-  for (const double value : values)
-    if (std::isfinite(value)) size = std::max(size, std::abs(value));
-  return size;
+// What is stored, supplied and dissipated since the start, a panel for each run in which energy comes in or goes
+// out, all with the same axes. Nothing if there is no such run.
+std::optional<Figure> balance_figure(std::span<const Run> runs) {
+  Figure figure;
+  figure.name = "energy-balance";
+  figure.caption =
+      "What is stored, H − H(0), beside what was supplied and dissipated since the start.";
+  const std::vector<std::string> labels = run_labels(runs);
+  Interval y;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const auto error = energy_error(runs[i]);
+    if (!error || !error->is_balance) continue;
+    const TrajectoryTable& table = runs[i].trajectory;
+    const auto t = table.column("t");
+    Panel panel;
+    panel.title = "Energy balance over time";
+    panel.heading = runs.size() > 1 ? labels[i] : "";
+    panel.x.label = axis_label(runs, "t");
+    panel.y.label = "energy" + unit_of_energy(runs);
+    if (runs.size() > 1) panel.height = 200;
+    for (const char* name : {"H", "supplied", "dissipated"}) {
+      const auto values = table.column(name);
+      const double before = panel.series.empty() ? values.front() : 0.0;
+      const std::string label = panel.series.empty() ? "H − H(0)" : name;
+      panel.series.push_back(
+          {label, {t.begin(), t.end()}, {values.begin(), values.end()}, panel.series.size()});
+      for (double& value : panel.series.back().y) value -= before;
+      y.include(panel.series.back().y);
+    }
+    panel.description = "H − H(0), supplied and dissipated energy of " + labels[i] + ".";
+    if (figure.legend.empty())
+      for (const Series& one : panel.series) figure.legend.push_back({one.label, one.colour});
+    figure.panels.push_back(std::move(panel));
+  }
+  if (figure.panels.empty() || figure.panels.size() > most_panels) return std::nullopt;
+  for (Panel& panel : figure.panels) panel.y.interval = y;
+  return figure;
 }
+
+}  // namespace
 
 double symmetric_log_threshold(std::span<const Series> series) {
   double smallest = 0, largest = 0;
@@ -170,35 +218,37 @@ double symmetric_log_threshold(std::span<const Series> series) {
 }
 
 std::optional<EnergyTrend> energy_trend(const Run& run) {
-  if (!run.trajectory.contains("H") || run.trajectory.rows() == 0) return std::nullopt;
-  const auto H = run.trajectory.column("H");
-  std::vector<double> error(H.begin(), H.end());
-  for (double& value : error) value -= H.front();
-  return energy_trend(run.trajectory.column("t"), error, greatest_size(H));
+  const auto error = energy_error(run);
+  if (!error) return std::nullopt;
+  return energy_trend(run.trajectory.column("t"), error->values, error->size);
 }
 
 std::vector<Figure> energy_figures(std::span<const Run> runs) {
-  const std::vector<Series> errors = energy_errors(runs);
-  if (errors.empty()) return {};
-  Figure all{{}, legend_of(errors), "Energy error", "energy"};
-  if (are_alike(errors)) {
+  const EnergyErrors errors = energy_errors(runs);
+  if (errors.series.empty()) return {};
+  std::vector<Figure> figures;
+  if (auto balance = balance_figure(runs)) figures.push_back(std::move(*balance));
+
+  Figure all{{}, legend_of(errors.series), "Energy error", "energy"};
+  if (!figures.empty()) all.caption += ", " + errors.name;
+  if (are_alike(errors.series)) {
     all.panels = panels_of(runs, errors, std::make_shared<plot::LinearScale>());
     all.caption += ".";
   } else {
-    const double threshold = symmetric_log_threshold(errors);
+    const double threshold = symmetric_log_threshold(errors.series);
     all.panels = panels_of(runs, errors, std::make_shared<plot::SymmetricLogScale>(threshold));
     all.caption += " on a symmetric-log axis, linear within ±" +
                    plot::power_of_ten(static_cast<int>(std::lround(std::log10(threshold)))) +
                    " (shaded).";
   }
   all.caption += trends(runs);
-  std::vector<Figure> figures = {std::move(all)};
+  figures.push_back(std::move(all));
 
-  const std::vector<Series> kept = without_greatest(errors);
+  const std::vector<Series> kept = without_greatest(errors.series);
   const bool is_long =
       std::ranges::any_of(kept, [](const Series& one) { return one.x.size() > many; });
-  if ((kept.size() < errors.size() || is_long) && kept.size() <= most_panels)
-    figures.push_back(detail(runs, kept, is_long));
+  if ((kept.size() < errors.series.size() || is_long) && kept.size() <= most_panels)
+    figures.push_back(detail(runs, errors.name, kept, is_long));
   return figures;
 }
 

@@ -142,7 +142,7 @@ class Figures {
  private:
   Markup caption(const std::string& text) {
     const std::string number = "Figure " + std::to_string(++count_) + ".";
-    return element("figcaption", {}, element("b", {}, number) + " " + text);
+    return element("figcaption", {}, element("b", {}, number) + " " + unbroken(text));
   }
 
   std::size_t rows_;

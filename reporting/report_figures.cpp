@@ -254,8 +254,12 @@ std::vector<Figure> motion_figures(std::span<const Run> runs) {
 std::optional<Figure> observable_figure(std::span<const Run> runs) {
   std::vector<std::string> names;
   for (const Run& run : runs) {
+    const auto error = energy_error(run);
+    const auto is_of_energy = [&](const std::string& name) {
+      return name == "H" || (error && (name == "supplied" || name == "dissipated"));
+    };
     for (const std::string& name : run.observables()) {
-      if (name != "H" && std::find(names.begin(), names.end(), name) == names.end())
+      if (!is_of_energy(name) && std::find(names.begin(), names.end(), name) == names.end())
         names.push_back(name);
     }
   }

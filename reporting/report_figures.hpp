@@ -41,14 +41,14 @@ std::size_t legible_rows(const TrajectoryTable& trajectory, std::span<const Plan
 // run. Any other: its coordinates over time, the first twelve. Poincaré sections after that.
 std::vector<Figure> motion_figures(std::span<const Run> runs);
 
-// Every other observable over time.
+// Every observable over time that is not in the pictures of the energy.
 std::optional<Figure> observable_figure(std::span<const Run> runs);
 
 // The greatest |constraint[i]| over time, of the runs that have constraints.
 std::optional<Figure> constraint_figure(std::span<const Run> runs);
 
 // All of these and those of the energy, in the order of a report. Their names are phase, coordinates,
-// axes, sphere, space, paths, section, energy, energy-detail, constraints, observables.
+// axes, sphere, space, paths, section, energy-balance, energy, energy-detail, constraints, observables.
 std::vector<Figure> all_figures(std::span<const Run> runs);
 
 // A column of all runs that have it, over time; a run's curve has its colour.

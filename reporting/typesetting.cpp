@@ -4,6 +4,7 @@
 #include <cctype>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace courant {
@@ -115,6 +116,15 @@ Markup typeset_manifolds(std::string_view text) {
     text.remove_prefix(size);
   }
   return markup;
+}
+
+std::string unbroken(std::string_view text) {
+  std::string result(text);
+  for (const auto& [broken, whole] :
+       {std::pair(" × 10", "\u00a0×\u00a010"), std::pair(" ± ", "\u00a0±\u00a0")})
+    for (std::size_t at = 0; (at = result.find(broken, at)) != std::string::npos;)
+      result.replace(at, std::string_view(broken).size(), whole);
+  return result;
 }
 
 }  // namespace courant

@@ -1,6 +1,7 @@
 // Text with its mathematics set, for pages.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "courant/plotting/svg.hpp"
@@ -15,5 +16,8 @@ plot::Markup typeset(std::string_view text);
 // is T*S² then, and "Product(Euclidean(3), SpecialOrthogonal3(cayley))" is ℝ³ × SO(3). Names that are
 // not known stay as they are.
 plot::Markup typeset_manifolds(std::string_view text);
+
+// The same text, whose numbers stay in one line: "1.2 × 10⁻⁴ ± 3 × 10⁻⁵" with spaces that do not break.
+std::string unbroken(std::string_view text);
 
 }  // namespace courant

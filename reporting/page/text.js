@@ -19,10 +19,12 @@ function unsigned(text, count) {
   return all;
 }
 
-function powerOfTen(exponent) {
+function superscript(number) {
   const raised = {'-': '⁻', 0: '⁰', 1: '¹', 2: '²', 3: '³', 4: '⁴', 5: '⁵', 6: '⁶', 7: '⁷', 8: '⁸', 9: '⁹'};
-  return '10' + Array.from(String(exponent), (digit) => raised[digit]).join('');
+  return Array.from(String(number), (digit) => raised[digit]).join('');
 }
+
+function powerOfTen(exponent) { return '10' + superscript(exponent); }
 
 // As plot::readable: "0.697421", "−1.16 × 10⁻⁴".
 function readable(value, digits) {
@@ -53,10 +55,11 @@ function typeset(text) {
   return all;
 }
 
-// "distance [m]" as its name and its unit.
+// "area [m^2]" as its name and its unit, "m²".
 function nameAndUnit(label) {
   const found = label.match(/^(.*) \[([^\]]*)\]$/);
-  return found ? {name: found[1], unit: ' ' + found[2]} : {name: label, unit: ''};
+  if (!found) return {name: label, unit: ''};
+  return {name: found[1], unit: ' ' + found[2].replace(/\^(-?\d+)/g, (_, power) => superscript(power))};
 }
 
 function html(tag, attributes, ...content) {

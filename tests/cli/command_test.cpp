@@ -336,6 +336,25 @@ BOOST_AUTO_TEST_CASE(help_says_what_the_environment_does) {
     BOOST_TEST(help.find(word) != std::string::npos, help);
 }
 
+BOOST_AUTO_TEST_CASE(help_fits_a_terminal) {
+  for (const char* command :
+       {"run", "constraints", "check", "study", "list", "schema", "import", "export", "report",
+        "plot", "new", "tour", "cache", "completion", "man"}) {
+    const std::string help = courant_command({command, "--help"}).out;
+    std::istringstream lines(help);
+    for (std::string line; std::getline(lines, line);) BOOST_TEST(text_width(line) <= 100u, line);
+  }
+  // What an option means goes on below where it begins.
+  const std::string run = courant_command({"run", "--help"}).out;
+  BOOST_TEST(run.find("\n                              interpreter, slower") != std::string::npos,
+             run);
+  // All words are there, in their order.
+  std::string kinds = courant_command({"new", "--help"}).out;
+  std::erase_if(kinds, [](char c) { return c == ' ' || c == '\n'; });
+  BOOST_TEST(kinds.find("|optimal-control|euler-poincare|port-hamiltonian|") != std::string::npos,
+             kinds);
+}
+
 BOOST_AUTO_TEST_CASE(wrong_command_lines_are_status_2) {
   BOOST_TEST(courant_command({"rnu", "x"}).err ==
              "courant: unknown command \"rnu\" (did you mean \"run\"?); `courant --help` lists the "

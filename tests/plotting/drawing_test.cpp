@@ -26,4 +26,14 @@ BOOST_AUTO_TEST_CASE(float_text_has_the_rows_that_are_asked_for) {
   BOOST_TEST(float_text(values, rows, 6) == float_text(std::vector<double>{-5, -8.5}, {{0, 1}}));
 }
 
+// What stands in italics and what does not is told by tests of figures.
+BOOST_AUTO_TEST_CASE(units_are_upright_with_raised_powers) {
+  BOOST_TEST(mathematics("momentum [kg m^2/s]").str() == "momentum [kg m²/s]");
+  BOOST_TEST(mathematics("noise [V s^-12 m^x ^]").str() == "noise [V s⁻¹² m^x ^]");
+  BOOST_TEST(mathematics("area [m^2] (× 10⁻³)").str() == "area [m²] (× 10⁻³)");
+  // Indices are no units.
+  BOOST_TEST(mathematics("x[2]").str().find("</tspan>[2]") != std::string::npos);
+  BOOST_TEST(mathematics("x [m]").str().ends_with("</tspan> [m]"));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -90,6 +90,28 @@ BOOST_AUTO_TEST_CASE(many_runs_share_a_panel) {
              })}).empty());
 }
 
+// A damped oscillator: its energy goes where it should.
+BOOST_AUTO_TEST_CASE(what_is_dissipated_is_shown_beside_what_is_stored) {
+  const std::vector<Run> runs = {
+      table({"t", "H", "supplied", "dissipated"}, 400, [](std::size_t column, double t) {
+        const double lost = 1 - std::exp(-t), error = 1e-6 * std::sin(5 * t);
+        return column == 1 ? 2 - lost + error : column == 2 ? 0.0 : lost;
+      })};
+  const auto figures = energy_figures(runs);
+  BOOST_TEST_REQUIRE(figures.size() == 2);
+  BOOST_TEST(figures[0].name == "energy-balance");
+  BOOST_TEST_REQUIRE(figures[0].panels.size() == 1);
+  BOOST_CHECK(labels(figures[0].panels[0].series) == (Texts{"H − H(0)", "supplied", "dissipated"}));
+  BOOST_TEST(figures[0].legend.size() == 3);
+  BOOST_TEST(figures[0].panels[0].series[0].y.front() == 0.0);
+  BOOST_TEST(std::abs(figures[0].panels[0].series[0].y.back() + 1) < 1e-5);
+  BOOST_TEST(std::abs(figures[0].panels[0].series[2].y.back() - 1) < 1e-5);
+  BOOST_TEST(figures[1].name == "energy");
+  BOOST_TEST(figures[1].panels[0].y.label == "H − H(0) − supplied + dissipated");
+  BOOST_TEST(figures[1].caption.find("It is bounded, at most 1 × 10⁻⁶") != std::string::npos,
+             figures[1].caption);
+}
+
 BOOST_AUTO_TEST_CASE(the_linear_zone_holds_the_smallest_curve) {
   const auto threshold = [](const std::vector<double>& sizes) {
     std::vector<plot::Series> series;

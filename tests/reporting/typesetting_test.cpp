@@ -37,4 +37,9 @@ BOOST_AUTO_TEST_CASE(sentences_have_subscripts_and_italics) {
              "a space <i>S</i><sub><i>k</i>+1</sub> of <i>TM</i>");
 }
 
+BOOST_AUTO_TEST_CASE(numbers_stay_in_one_line) {
+  BOOST_TEST(unbroken("a slope of 2 × 10⁻¹¹ ± 4 × 10⁻¹², 3 × 4") ==
+             "a slope of 2\u00a0×\u00a010⁻¹¹\u00a0±\u00a04\u00a0×\u00a010⁻¹², 3 × 4");
+}
+
 BOOST_AUTO_TEST_SUITE_END()
