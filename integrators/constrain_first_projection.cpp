@@ -214,7 +214,8 @@ bool ConstrainFirst::Projection::accept(const VectorXd& x) {
     directions_.keep();
     conormals_.keep();
   }
-  if (!basis_.move_to(found_.head(x.size()))) is_turned_ = true;
+  guess_ = found_.head(x.size());  // a vector that is there: nothing is allocated
+  if (!basis_.move_to(guess_)) is_turned_ = true;
   basis_.keep();
   const bool goes_on = !is_turned_;
   if (is_turned_) forget_motion();
