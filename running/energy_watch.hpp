@@ -28,12 +28,11 @@ namespace courant {
 // further after a finding.
 class EnergyWatch final : public RunWatcher {
  public:
-  // `energy`: H of a state that a step ended at, `terms`: what it consists of there; `column`: of H in
+  // `energy`: H of a state that a step ended at, `sizes`: what it is made of there; `column`: of H in
   // the rows; `start`: of the run.
   EnergyWatch(std::shared_ptr<const Integrator> integrator,
               std::function<double(const State&)> energy,
-              std::function<std::vector<EnergyTerms>(const State&)> terms, Index column,
-              State start);
+              std::function<EnergySizes(const State&)> sizes, Index column, State start);
 
   std::optional<RunEnd> watch(const RunMoment& moment) override;
   // Empty, or a sentence about the first such step. One at which H changed by nothing next to what came
@@ -57,16 +56,11 @@ class EnergyWatch final : public RunWatcher {
   // differs by less and less, and by no more than `most`.
   bool converges(const State& from, double h, long count, double most) const;
   bool is_explained(const RunMoment& moment, double terms) const;
-  // Of what H consists of at a state, by its slopes: the sum of |∂H/∂x_i x_i|, and by how much rounding
-  // of the coordinates, and of v and z where H contains them, changes H.
-  struct Sizes {
-    double terms = 0.0, round_off = 0.0;
-  };
-  Sizes sizes(const State& state) const;
+  EnergySizes sizes(const State& state) const;
 
   std::shared_ptr<const Integrator> integrator_;
   std::function<double(const State&)> energy_;
-  std::function<std::vector<EnergyTerms>(const State&)> terms_;
+  std::function<EnergySizes(const State&)> sizes_;
   Index column_;
   State start_;
   Memory memory_;

@@ -192,7 +192,7 @@ class RunUnderway {
       energy_watch_.emplace(
           method.integrator,
           [this, H = *H](const State& state) { return elsewhere_.row(state)[H]; },
-          [this](const State& state) { return elsewhere_.energy_terms(state); }, *H,
+          [this](const State& state) { return elsewhere_.energy_sizes(state); }, *H,
           method.initial);
   }
 
