@@ -11,6 +11,7 @@
 #include "courant/core/product_scaling.hpp"
 #include "courant/core/rank_cut.hpp"
 #include "courant/core/singular_value_decomposition.hpp"
+#include "courant/core/uncertain_elimination.hpp"
 
 namespace courant {
 namespace {
@@ -293,6 +294,22 @@ SparseMatrixXd heeding_errors(const UncertainMatrix& A) {
   return SparseMatrixXd(A.value.cwiseAbs()).cwiseMax(error);
 }
 
+// By elimination, each pivot in units of its error.
+RankDecision eliminated(const UncertainMatrix& A) {
+  const UncertainElimination elimination(A);
+  RankDecision decision;
+  decision.rank = elimination.rank;
+  decision.rows = A.rows();
+  decision.columns = A.cols();
+  decision.singular_values.resize(elimination.rank);
+  for (Index i = 0; i < elimination.rank; ++i)
+    decision.singular_values[i] =
+        std::min(elimination.margins[static_cast<std::size_t>(i)], kExact);
+  decision.above = decision.rank > 0 ? decision.singular_values.minCoeff() : kExact;
+  decision.below = elimination.left;
+  return decision;
+}
+
 // Every scaling proves a rank, and none proves too much. Where the first does not prove all that there
 // could be, the others may: the second does not see small entries, the first does not see which are
 // large, and the third sees errors.
@@ -319,6 +336,14 @@ RankDecision decide_block(const UncertainMatrix& A) {
   consider(decided(level, ProductScaling(level.value)));
   if (is_settled()) return decision;
   consider(decided(A, equilibrate(heeding_errors(A), 0.0)));
+  if (is_settled() || std::max(A.rows(), A.cols()) > dense_limit) return decision;
+  const RankDecision by_pivots = eliminated(level);
+  if (by_pivots.rank > decision.rank) return by_pivots;
+  if (by_pivots.rank ==
+      decision.rank) {  // each is evidence that these are numbers, and the rest is not
+    decision.above = std::max(decision.above, by_pivots.above);
+    decision.below = std::min(decision.below, by_pivots.below);
+  }
   return decision;
 }
 

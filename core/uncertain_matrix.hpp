@@ -32,11 +32,12 @@ struct UncertainMatrix {
 //      For every matrix of the set has a singular value within ‖E‖ of each σ (Weyl). That is a proof
 //      in any scales, so the highest rank of three counts: Equilibration makes all entries as equal as
 //      can be, ProductScaling heeds the large ones alone, and the equilibration of the larger of
-//      entries and 10⁸ times their errors heeds errors.
+//      entries and 10⁸ times their errors heeds errors. Where these do not settle it, the pivots of an
+//      UncertainElimination may prove more: there each entry has its own error, and no unit.
 //
 // Singular values, `above`, `below` and `threshold` of the result are in units of ε of their block,
 // so that the threshold is 1; gap = σ_r / max(σ_{r+1}, 1), with pivots among the σ by how many times
-// they are their error. Ambiguous where a σ counted is hardly more than the threshold, or one
+// they are their error, also those of an elimination that proves more. Ambiguous where a σ counted is hardly more than the threshold, or one
 // that does not count is not far below it: a zero comes out at a small part of the bound.
 // An error that is not finite makes the decision ambiguous with gap 0.
 //

@@ -16,8 +16,7 @@ namespace {
 constexpr double kLeast = 1e-6;
 constexpr double kFurther = 4.0;
 
-// Coordinates are rounded by about so many of the least part of the largest of them, in each step.
-constexpr double kRoundings = 4.0 * std::numeric_limits<double>::epsilon();
+// Numbers are rounded in each step, and in the solution of the first.
 constexpr double kFirstSteps = 10.0;
 
 // A method of order 1 has a third; errors that do not fall at all, one or more.
@@ -35,11 +34,11 @@ constexpr double kMostOfTerms = 1e-2;
 
 EnergyWatch::EnergyWatch(std::shared_ptr<const Integrator> integrator,
                          std::function<double(const State&)> energy,
-                         std::function<std::vector<EnergyTerms>(const State&)> terms,
-                         Columns columns, State start)
+                         std::function<EnergySizes(const State&)> sizes, Columns columns,
+                         State start)
     : integrator_(std::move(integrator)),
       energy_(std::move(energy)),
-      terms_(std::move(terms)),
+      sizes_(std::move(sizes)),
       columns_(columns),
       start_(std::move(start)) {}
 
@@ -71,22 +70,12 @@ std::string EnergyWatch::finding() const {
   return memory_.found_at > kLeast * memory_.largest ? memory_.finding : "";
 }
 
-EnergyWatch::Sizes EnergyWatch::sizes(const State& state) const {
-  Sizes result;
+EnergySizes EnergyWatch::sizes(const State& state) const {
   try {
-    for (const auto& [numbers, slopes] : terms_(state)) {
-      if (numbers.size() == 0) continue;
-      const double rounding = kRoundings * numbers.lpNorm<Eigen::Infinity>();
-      for (Index i = 0; i < numbers.size(); ++i) {
-        const double slope = std::fabs(slopes[i]);
-        if (!std::isfinite(slope)) continue;
-        result.terms += slope * std::fabs(numbers[i]);
-        result.round_off += slope * rounding;
-      }
-    }
-  } catch (const std::domain_error&) {  // then nothing is known of the terms
+    return sizes_(state);
+  } catch (const std::domain_error&) {  // then nothing is known of them
+    return {};
   }
-  return result;
 }
 
 bool EnergyWatch::converges(const State& from, double h, long count, double agreed,

@@ -35,11 +35,10 @@ class EnergyWatch final : public RunWatcher {
     // change of H, and shorter steps change H as much but for a hundredth, the ports explain it.
     std::optional<Index> balance = {};
   };
-  // `energy`: H of a state that a step ended at, `terms`: what it consists of there; `start`: of the run.
+  // `energy`: H of a state that a step ended at, `sizes`: what it is made of there; `start`: of the run.
   EnergyWatch(std::shared_ptr<const Integrator> integrator,
               std::function<double(const State&)> energy,
-              std::function<std::vector<EnergyTerms>(const State&)> terms, Columns columns,
-              State start);
+              std::function<EnergySizes(const State&)> sizes, Columns columns, State start);
 
   std::optional<RunEnd> watch(const RunMoment& moment) override;
   // Empty, or a sentence about the first such step. One at which H changed by nothing next to what came
@@ -63,16 +62,11 @@ class EnergyWatch final : public RunWatcher {
   // differs by less and less, or by no more than `agreed`; and by no more than `most`.
   bool converges(const State& from, double h, long count, double agreed, double most) const;
   bool is_explained(const RunMoment& moment, double terms) const;
-  // Of what H consists of at a state, by its slopes: the sum of |∂H/∂x_i x_i|, and by how much rounding
-  // of the coordinates, and of v and z where H contains them, changes H.
-  struct Sizes {
-    double terms = 0.0, round_off = 0.0;
-  };
-  Sizes sizes(const State& state) const;
+  EnergySizes sizes(const State& state) const;
 
   std::shared_ptr<const Integrator> integrator_;
   std::function<double(const State&)> energy_;
-  std::function<std::vector<EnergyTerms>(const State&)> terms_;
+  std::function<EnergySizes(const State&)> sizes_;
   Columns columns_;
   State start_;
   Memory memory_;

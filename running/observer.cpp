@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "courant/core/derivative.hpp"
 #include "courant/core/expr_vectors.hpp"
 #include "courant/core/message.hpp"
+#include "courant/core/uncertain.hpp"
 
 namespace courant {
 
@@ -63,33 +63,33 @@ const double* const* Observer::arguments(const State& state) {
   return arguments_.data();
 }
 
-void Observer::find_slopes(const Energy& of) {
-  std::vector<ExprVector> slopes;
-  for (std::size_t group = 0; group < 3; ++group) {
-    const ExprVector slope = gradient(of.H, of.inputs[group].variables);
-    if (std::ranges::all_of(slope, [](const Expr& entry) { return entry.is_constant(0.0); }))
-      continue;
-    slope_groups_.push_back(static_cast<Index>(group));
-    slopes.push_back(slope);
-  }
-  slopes_ = Function("slopes of H", of.inputs, joined(slopes));
-}
-
-std::vector<EnergyTerms> Observer::energy_terms(const State& state) {
-  if (energy_) find_slopes(*energy_);
+EnergySizes Observer::energy_sizes(const State& state) {
+  if (energy_) H_of_ = Function("H", energy_->inputs, ExprVector::Constant(1, energy_->H));
   energy_.reset();
-  if (slope_groups_.empty()) return {};
+  if (H_of_.output_size() == 0) return {};
+  // Coordinates are rounded by about so many of the least part of the largest of them, in each step.
+  constexpr double roundings = 4.0 * std::numeric_limits<double>::epsilon();
+  constexpr Index rounded_groups = 3;  // x, v, z
   const double* const* in = arguments(state);
-  VectorXd slopes(slopes_.output_size());
-  slopes_.value(in, slopes.data());
-  std::vector<EnergyTerms> result;
-  Index begin = 0;
-  for (const Index group : slope_groups_) {
-    const Index size = slopes_.input_size(group);
-    result.push_back({Eigen::Map<const VectorXd>(in[group], size), slopes.segment(begin, size)});
-    begin += size;
-  }
-  return result;
+  const auto error_of_H = [&](bool next_to_largest) {
+    std::vector<std::vector<Uncertain>> groups(static_cast<std::size_t>(H_of_.input_count()));
+    std::vector<const Uncertain*> pointers;
+    for (Index g = 0; g < H_of_.input_count(); ++g) {
+      std::vector<Uncertain>& group = groups[static_cast<std::size_t>(g)];
+      const Index size = in[g] == nullptr ? 0 : H_of_.input_size(g);
+      const Eigen::Map<const VectorXd> numbers(in[g], size);
+      const double largest = size == 0 ? 0.0 : numbers.lpNorm<Eigen::Infinity>();
+      for (const double number : numbers)
+        group.emplace_back(number, g < rounded_groups
+                                       ? roundings * (next_to_largest ? largest : std::fabs(number))
+                                       : 0.0);
+      pointers.push_back(group.data());
+    }
+    Uncertain H;
+    H_of_.taylor_with_jacobian(pointers.data(), 0, &H);
+    return std::isfinite(H.error) ? H.error : 0.0;
+  };
+  return {.terms = error_of_H(false) / roundings, .round_off = error_of_H(true)};
 }
 
 const VectorXd& Observer::row(const State& state) {

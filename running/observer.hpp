@@ -16,10 +16,11 @@
 
 namespace courant {
 
-// Of one group of the numbers that an energy is a function of, as the coordinates: them, and the slopes of H
-// by them.
-struct EnergyTerms {
-  VectorXd numbers, slopes;
+// What H is made of at a state, by bounds of errors: `terms` is what H is small next to where they cancel, the
+// factor that an error of all its numbers, each next to itself, comes out with; `round_off` is by how much it
+// changes when each number is off by a few roundings of the largest of its group (x, v, z).
+struct EnergySizes {
+  double terms = 0.0, round_off = 0.0;
 };
 
 // What a run measures at each state: the coordinates, H where the system has an energy, the energies
@@ -64,8 +65,9 @@ class Observer {
   // a stage, and no bound of the imbalance is expected.
   const PowerAccount* account() const { return account_ ? &*account_ : nullptr; }
 
-  // H at a state by what it is a function of. Nothing without an energy.
-  std::vector<EnergyTerms> energy_terms(const State& state);
+  // Both 0 without an energy, and where nothing is known of it. Slopes of H do not tell: those of
+  // Σ v ∂L/∂v - L for an L of the first degree in v vanish like H itself, and are round-off.
+  EnergySizes energy_sizes(const State& state);
 
   // From begin() or recall() on measures the defects of this map; the steps have to know their parts.
   void follow(TangentMap map) { map_ = std::move(map); }
@@ -100,15 +102,13 @@ class Observer {
   std::size_t coordinate_count_, first_constraint_, written_count_, first_event_;
   // x, v, z, t, what the field leaves out, energies ↦ all between the coordinates and the deviations
   Function quantities_;
-  // H and what it is a function of, until its slopes are asked for: few runs ask for them.
+  // H and what it is a function of, until its sizes are asked for: few runs ask for them.
   struct Energy {
     Expr H;
     std::vector<Function::Input> inputs;
   };
-  void find_slopes(const Energy& of);
   std::optional<Energy> energy_;
-  Function slopes_;  // the same ↦ slopes of H by those of x, v, z that it contains
-  std::vector<Index> slope_groups_;  // which these are
+  Function H_of_;                    // the same ↦ H, once it is asked for
   Function at_stage_;                // x, v, z, t, effort ↦ observables at the stage
   std::vector<Index> stage_places_;  // of those in a row
   VectorXd stage_;

@@ -19,9 +19,7 @@ class ObserverElsewhere {
 
   // References to rows are valid until the next call.
   const VectorXd& row(const State& state) { return at(state).row(state); }
-  std::vector<EnergyTerms> energy_terms(const State& state) {
-    return at(state).energy_terms(state);
-  }
+  EnergySizes energy_sizes(const State& state) { return at(state).energy_sizes(state); }
 
   // Parts of the run's next step begin with what its observer knows now.
   void begin_step() { before_ = of_.memory(); }

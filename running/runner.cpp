@@ -192,7 +192,7 @@ class RunUnderway {
       energy_watch_.emplace(
           method.integrator,
           [this, H = *H](const State& state) { return elsewhere_.row(state)[H]; },
-          [this](const State& state) { return elsewhere_.energy_terms(state); },
+          [this](const State& state) { return elsewhere_.energy_sizes(state); },
           EnergyWatch::Columns{.energy = *H,
                                .balance = observer_.account() ? column("balance") : std::nullopt},
           method.initial);

@@ -133,9 +133,16 @@ std::string asked_above(const ConsistentPoint& consistent, const ConsistentJet& 
 bool is_known_well(const ConsistentJet& at) {
   constexpr double certain = 1.0;
   const VectorXd& y = at.zero.y;
-  const Linearization here =
+  Linearization here =
       at.array.linearize(y, at.zero.uncertainty.cwiseMax(Prolongation::rounding(y)));
   const SparseMatrixXd nearby = GenericScaling(at.array, y, at.zero.reach).magnitude;
+  // Of what vanishes around the point too, as sin² + cos² - 1 does, the uncertainty of the point makes
+  // nothing.
+  const SparseMatrixXd rounding = at.array.linearize(y).error;
+  for (Index j = 0; j < here.error.outerSize(); ++j)
+    for (SparseMatrixXd::InnerIterator it(here.error, j); it; ++it)
+      if (nearby.coeff(it.row(), j) == 0.0)
+        it.valueRef() = std::min(it.value(), rounding.coeff(it.row(), j));
   const NaturalScaling units({VectorXd::Zero(here.value.size()), nearby}, at.zero.reach, 1e-9,
                              1e-10);
   // Of one measure alone too little is known: units come from equations whose entries may vanish, sizes

@@ -5,44 +5,90 @@
 #include "courant/core/singular_value_decomposition.hpp"
 
 namespace courant {
+namespace {
+
+constexpr double kLast = 1.0 / 16.0;  // of a direction
+constexpr double kMeasurable = 1e3;   // times the bound of rounding errors
+constexpr double kSmall = 1e-1;       // of ε², in comparable units: less need not be seen
+
+}  // namespace
 
 Obstruction::Obstruction(const Prolongation& array, const VectorXd& y, const VectorXd& uncertainty,
-                         Index rank)
+                         Index rank, const SparseMatrixXd& magnitude)
     : array_(array), y_(y), uncertainty_(uncertainty) {
   const ComparableJacobian at(array, y, uncertainty);
+  at_ = array.linearize(y);
   const SingularValueDecomposition svd = singular_value_decomposition(MatrixXd(at.scaled.value));
   row_scale_ = at.row_scale;
   // Errors turn W by their part of the least singular value that counts, in radians.
   constexpr double least_turned = 1e-3;
   is_known_ = rank == 0 || at.scaled.error.norm() <= least_turned * svd.values[rank - 1];
-  unseen_ = svd.U.rightCols(svd.U.cols() - rank).transpose() * row_scale_.asDiagonal();
+  // Rows that a combination has nothing to do with may be 10²⁰ times as large.
+  constexpr double round_off = 1e-14;
+  unseen_ = svd.U.rightCols(svd.U.cols() - rank).transpose().unaryExpr([](double weight) {
+    return std::fabs(weight) <= round_off ? 0.0 : weight;
+  });
+  const VectorXd seen = SparseMatrixXd(at.scaled.value.cwiseAbs()) * VectorXd::Ones(y.size());
+  magnitude_of_empty_ = magnitude;
+  magnitude_of_empty_.prune([&](Index row, Index, double) { return seen[row] == 0.0; });
+}
+
+VectorXd Obstruction::row_scale_along(const VectorXd& direction) const {
+  const VectorXd size = magnitude_of_empty_ * direction.cwiseAbs();
+  return (size.array() > 0.0).select(size.cwiseInverse(), row_scale_);
+}
+
+double Obstruction::least_seen(const MatrixXd& unseen, const Linearization& there,
+                               const VectorXd& step, double epsilon) const {
+  SparseMatrixXd change = (there.jacobian - at_.jacobian).cwiseAbs();
+  const SparseMatrixXd error = at_.error + there.error;
+  change.prune([&](Index i, Index j, double size) { return size > error.coeff(i, j); });
+  const double bend = (unseen.cwiseAbs() * (change * step.cwiseAbs())).norm();
+  const double natural = epsilon * epsilon;
+  return kSmall * (bend > 0.0 ? std::min(bend, natural) : natural);
+}
+
+// The bounds of errors say what the zero that is meant, which is a little elsewhere, may make of g. The
+// numbers themselves have rounding errors alone: where they are far below ε², nothing is hidden.
+bool Obstruction::is_small_along(const VectorXd& direction) const {
+  const MatrixXd unseen = unseen_ * row_scale_along(direction).asDiagonal();
+  for (double epsilon = kLast; epsilon > kLast / 100.0; epsilon *= 0.25) {
+    const Linearization there = array_.linearize(y_ + epsilon * direction);
+    const double g = (unseen * there.value).norm();
+    const double noise = (unseen.cwiseAbs() * there.value_error).norm();
+    if (std::max(g, kMeasurable * noise) < least_seen(unseen, there, epsilon * direction, epsilon))
+      return true;
+  }
+  return false;
 }
 
 Obstruction::Answer Obstruction::is_seen_along(const VectorXd& direction) const {
   if (unseen_.rows() == 0) return Answer::no;
+  const VectorXd row_scale = row_scale_along(direction);
+  const MatrixXd unseen = unseen_ * row_scale.asDiagonal();
   // From 10⁻⁷ of a unit, which may be a large one, to where functions bend away from their powers: g ~ ε²
   // is above round-off from 10⁻⁶ on, ε³ from 10⁻⁴. What looks like a power at three sizes is one.
-  constexpr double first = 1.0 / 4194304.0, last = 1.0 / 16.0, ratio = 4.0, least_power = 2.5;
-  constexpr double measurable = 1e3;    // times the bound of rounding errors
-  constexpr double negligible = 1e-13;  // next to all of F, in comparable units
+  constexpr double first = 1.0 / 4194304.0, ratio = 4.0, least_power = 2.5;
+  constexpr double negligible = 1e-13;  // next to the terms of g, in comparable units
   constexpr double least_growth = 8.0;  // of all of F, which is quadratic along a tangent
-  constexpr double small = 1e-1;        // of ε², in comparable units: less need not be seen
   double before = 0.0, all_before = 0.0, weak_before = 0.0;
   int slow = 0, weak = 0;
   bool is_tangent = true, is_visible = false;
   const auto seen = [&] { return is_tangent && is_known_ ? Answer::yes : Answer::unknown; };
-  for (double epsilon = first; epsilon <= last; epsilon *= ratio) {
+  for (double epsilon = first; epsilon <= kLast; epsilon *= ratio) {
     const VectorXd y = y_ + epsilon * direction;
     const Linearization there =
         array_.linearize(y, uncertainty_.cwiseMax(Prolongation::rounding(y)));
     if (!there.value.allFinite()) return Answer::no;
-    const double g = (unseen_ * there.value).norm();
-    const double row_noise = row_scale_.cwiseProduct(there.value_error).norm();
-    const double noise = (unseen_.cwiseAbs() * there.value_error).norm();
-    const double all = row_scale_.cwiseProduct(there.value).norm();
-    is_visible = is_visible || measurable * noise < small * epsilon * epsilon;
+    const double g = (unseen * there.value).norm();
+    const double row_noise = row_scale.cwiseProduct(there.value_error).norm();
+    const double noise = (unseen.cwiseAbs() * there.value_error).norm();
+    const double terms = (unseen.cwiseAbs() * there.value.cwiseAbs()).norm();
+    const double all = row_scale.cwiseProduct(there.value).norm();
+    is_visible =
+        is_visible || kMeasurable * noise < least_seen(unseen, there, epsilon * direction, epsilon);
     // Off the tangent space what J does not see is of second order everywhere.
-    const bool is_measured = all > measurable * row_noise;
+    const bool is_measured = all > kMeasurable * row_noise;
     if (all_before > 0.0 && is_measured && all < least_growth * all_before) return Answer::no;
     all_before = is_measured ? all : 0.0;
     if (before > 0.0) {
@@ -53,11 +99,12 @@ Obstruction::Answer Obstruction::is_seen_along(const VectorXd& direction) const 
     // Above the bound of its error g is not zero, though little is known of how it grows.
     weak = weak_before > 0.0 && std::log(g / weak_before) < least_power * std::log(ratio) ? weak + 1
                                                                                           : 0;
-    weak_before = g > noise && g > negligible * all ? g : 0.0;
-    if (before > 0.0 || (g > measurable * noise && g > negligible * all)) before = g;
+    weak_before = g > noise && g > negligible * terms ? g : 0.0;
+    if (before > 0.0 || (g > kMeasurable * noise && g > negligible * terms)) before = g;
   }
   if (slow > 0) return seen();
-  return is_visible && weak < 2 ? Answer::no : Answer::unknown;
+  if (weak >= 2) return Answer::unknown;
+  return is_visible || is_small_along(direction) ? Answer::no : Answer::unknown;
 }
 
 }  // namespace courant

@@ -16,9 +16,10 @@ namespace courant {
 // the equations has no linear part and does not vanish either.
 class Obstruction {
  public:
-  // `rank`: of the Jacobian at y. Dense: for up to a few hundred unknowns.
-  Obstruction(const Prolongation& array, const VectorXd& y, const VectorXd& uncertainty,
-              Index rank);
+  // `rank`: of the Jacobian at y; `magnitude`: what its entries are around y. Dense: for up to a few hundred
+  // unknowns.
+  Obstruction(const Prolongation& array, const VectorXd& y, const VectorXd& uncertainty, Index rank,
+              const SparseMatrixXd& magnitude);
 
   // yes: g falls like a power below 2.5 at the smallest three ε at which it is measurable, and all of F
   // grows as along a tangent there. unknown: round-off hides either, or W is not known.
@@ -26,10 +27,22 @@ class Obstruction {
   Answer is_seen_along(const VectorXd& direction) const;
 
  private:
+  // The row scales of the Jacobian. Rows that vanish at y have none there: theirs are of what they are around
+  // y, in the units of the direction.
+  VectorXd row_scale_along(const VectorXd& direction) const;
+  // What of g need not be seen: a part of ε², in comparable units, or of what bends the unseen equations on
+  // this step, by the change of their derivatives. Where all unknowns are 0 nothing tells their units.
+  double least_seen(const MatrixXd& unseen, const Linearization& there, const VectorXd& step,
+                    double epsilon) const;
+  // Whether g is far below ε² in this direction, and above rounding errors.
+  bool is_small_along(const VectorXd& direction) const;
+
   const Prolongation& array_;
   VectorXd y_, uncertainty_, row_scale_;
-  MatrixXd unseen_;       // Wᵀ diag(r), with the row scales r of the Jacobian
-  bool is_known_ = true;  // W
+  MatrixXd unseen_;                    // the transpose of W, for F in units of the rows
+  Linearization at_;                   // y
+  SparseMatrixXd magnitude_of_empty_;  // of the rows that vanish at y alone
+  bool is_known_ = true;               // W
 };
 
 }  // namespace courant

@@ -71,9 +71,10 @@ Singularity singularity(const ConsistentPoint& consistent, const ConsistentJet& 
   constexpr Index dense_limit = 200;
   const bool is_small = at.zero.y.size() <= dense_limit;
   std::optional<Obstruction> obstruction;
-  if (follow && is_small)
-    obstruction.emplace(at.array, at.zero.y, at.zero.uncertainty, levels.back().all.rank);
   TangentDisplacement tangents(at.array, at.zero.y, at.zero.reach);
+  if (follow && is_small)
+    obstruction.emplace(at.array, at.zero.y, at.zero.uncertainty, levels.back().all.rank,
+                        tangents.magnitude());
   const auto look_along = [&](const VectorXd& tangent) -> Comparison {
     const auto near = consistent.find_displaced(at, 1e-3 * tangent, tangents.magnitude());
     Comparison result;
@@ -148,7 +149,7 @@ bool is_same_rank_at(const ConsistentJet& at, const std::vector<LadderLevel>& le
       }))
     return true;
   const std::vector<LadderLevel> exact =
-      ladder_levels(at.array, at.zero.y, VectorXd::Zero(at.zero.y.size()));
+      ladder_levels(at.array, at.zero.y, (lowered ? 0.0 : far_below) * at.zero.uncertainty);
   return compare(levels, exact).outcome != Comparison::Outcome::different ||
          (!lowered && !are_certain(exact));
 }

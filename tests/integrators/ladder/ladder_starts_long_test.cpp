@@ -1,8 +1,10 @@
 // Every system of the catalogue from ten starts, in other orders, units and coordinates, with terms
 // added that are zero but for rounding. The aim is that no verdict is wrong without saying that it is
-// ambiguous; the bounds hold what is measured. Other seeds and counts, one line a ladder that is wrong or
-// doubted:
-//   courant_integrators_tests -t ladder_starts_long_test -l message -- seed=5000 variants=40 system=Cawley
+// ambiguous; the bounds hold what is measured. Other seeds and counts (54 systems from 10 starts in 40
+// variants are 21,600 ladders, in five minutes), one line a ladder that is wrong or doubted:
+//   courant_integrators_tests -t ladder_starts_long_test -l message -- seed=5000 variants=40
+// Of these those of one system, from one start, or one of its variants alone:
+//   … -- seed=5000 variants=40 system=Cawley "start=at rest" variant=3
 #include <boost/test/unit_test.hpp>
 #include <iostream>
 #include <string>
@@ -47,10 +49,13 @@ std::string doubts(const ConstraintLadder& ladder) {
   return text;
 }
 
+// Of the variants the one that is asked for alone, all (-1), or none where there is no such variant.
 void count(const KnownLadder& known, const KnownStart& start, std::mt19937& generator, int variants,
-           Count& counted) {
+           int only, Count& counted) {
   for (int variant = 0; variant < variants; ++variant) {
-    const ConstraintLadder ladder = variant_of(start.problem, variant, generator).ladder();
+    const Problem problem = variant_of(start.problem, variant, generator);
+    if (only >= 0 && variant != only) continue;
+    const ConstraintLadder ladder = problem.ladder();
     const bool right = ladder.verdict == start.verdict &&
                        (start.dimensions.empty() || dimensions(ladder) == start.dimensions);
     ++counted.ladders;
@@ -87,22 +92,24 @@ BOOST_AUTO_TEST_CASE(ten_starts_of_every_system_in_eight_variants) {
   const unsigned first_seed = number("seed", usual_seed);
   unsigned seed = first_seed;
   const unsigned variants = number("variants", usual_variants);
-  const std::string system = argument("system", "");
+  const std::string system = argument("system", ""), kind = argument("start", "");
+  const int only = argument("variant", "").empty() ? -1 : static_cast<int>(number("variant", 0));
   for (const KnownLadder& known : catalogue()) {
     std::mt19937 generator(++seed);
     if (!system.empty() && known.name != system) continue;
     for (const KnownStart& start :
          first_seed == usual_seed ? ten_starts(known) : ten_starts(known, seed))
-      count(known, start, generator, static_cast<int>(variants), counted);
+      count(known, start, generator, static_cast<int>(variants),
+            kind.empty() || kind == start.kind ? only : static_cast<int>(variants), counted);
   }
   std::cout << counted.ladders << " ladders, " << counted.wrong << " wrong, of these "
             << counted.wrong_in_silence << " in silence; " << counted.ambiguous
             << " right ones ambiguous\n";
   BOOST_TEST(counted.wrong_in_silence == 0);
-  if (variants != usual_variants || !system.empty()) return;
+  if (variants != usual_variants || !system.empty() || !kind.empty() || only >= 0) return;
   BOOST_TEST(counted.ladders == 4320);
-  BOOST_TEST(counted.wrong <= 116);
-  BOOST_TEST(counted.ambiguous <= 105);
+  BOOST_TEST(counted.wrong <= 105);
+  BOOST_TEST(counted.ambiguous <= 87);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -23,7 +23,9 @@ Obstruction::Answer answer(const std::function<ExprVector(V x)>& F, Index n, con
   const DerivativeArray array(system, 0.0, x);
   VectorXd y = VectorXd::Zero(2 * n), direction = y;
   direction.head(n) = d;
-  return Obstruction(array, y, VectorXd::Constant(2 * n, error), rank).is_seen_along(direction);
+  const SparseMatrixXd magnitude = GenericScaling(array, y, direction.cwiseAbs()).magnitude;
+  return Obstruction(array, y, VectorXd::Constant(2 * n, error), rank, magnitude)
+      .is_seen_along(direction);
 }
 
 bool is_seen(const std::function<ExprVector(V x)>& F, Index n, const VectorXd& x, Index rank,
@@ -47,6 +49,16 @@ BOOST_AUTO_TEST_CASE(singular_zeros) {
   BOOST_TEST(is_seen(
       [](V x) {
         return equations({1e-8 * square(x[0]), x[1] + square(x[0])});
+      },
+      3, vector({0, 0, 0}), 1, vector({0.7, 0, 0.3})));
+}
+
+// A row that vanishes at the point has no unit there, and one of 10⁻²⁴ is no round-off of the others:
+// Cawley's z² = 0 with z in units of 10⁻¹², beside an equation that is curved in the same direction.
+BOOST_AUTO_TEST_CASE(rows_that_vanish_are_measured_by_what_they_are_nearby) {
+  BOOST_TEST(is_seen(
+      [](V x) {
+        return equations({square(1e-12 * x[0]), x[1] + square(x[2])});
       },
       3, vector({0, 0, 0}), 1, vector({0.7, 0, 0.3})));
 }
@@ -79,6 +91,16 @@ BOOST_AUTO_TEST_CASE(what_errors_hide_is_left_open) {
   const auto beside = [](V x) { return equations({square(x[0]), x[1] + square(x[0])}); };
   BOOST_TEST((answer(beside, 2, vector({0, 0}), 1, vector({0.7, 0})) == Answer::yes));
   BOOST_TEST((answer(beside, 2, vector({0, 0}), 1, vector({0.7, 0}), 0.01) == Answer::unknown));
+}
+
+// Where a zero is known to 10⁻⁶ only, bounds of errors are larger than ε². The numbers are far below it.
+BOOST_AUTO_TEST_CASE(the_error_of_a_zero_hides_nothing_that_numbers_show) {
+  const auto twice = [](V x) {
+    const Expr circle = square(x[0]) + square(x[1]) - 1;
+    return equations({circle, circle * (2 + x[0])});
+  };
+  BOOST_TEST((answer(twice, 2, vector({0.6, -0.8}), 1, vector({0.4, 0.3}), 1e-6) ==
+              Obstruction::Answer::no));
 }
 
 // As many equations as their rank: nothing is left unseen.
