@@ -14,9 +14,18 @@ inline void require(bool holds, const std::string& what, const std::string& foun
   std::abort();
 }
 
+// Whether a message has "::" in it that is not the end of a place: "/method:: unknown key" of a key "method:".
+inline bool has_scope(const std::string& message) {
+  for (std::size_t at = message.find("::"); at != std::string::npos;
+       at = message.find("::", at + 1))
+    if (message.compare(at, 3, ":: ") != 0) return true;
+  return false;
+}
+
 // No names of C++, no noise. `input`: what the user wrote, whose own words may be repeated.
 inline void require_words_for_users(const std::string& message, const std::string& input) {
-  for (const char* wrong : {"::", "0.000000", "-nan", "bad_alloc", "exception", "std"})
+  require(!has_scope(message) || has_scope(input), "\"::\" is in a message", message);
+  for (const char* wrong : {"0.000000", "-nan", "bad_alloc", "exception", "std"})
     require(message.find(wrong) == std::string::npos || input.find(wrong) != std::string::npos,
             std::string("\"") + wrong + "\" is in a message", message);
 }
