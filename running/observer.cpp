@@ -69,9 +69,11 @@ EnergySizes Observer::energy_sizes(const State& state) {
   if (H_of_.output_size() == 0) return {};
   // Coordinates are rounded by about so many of the least part of the largest of them, in each step.
   constexpr double roundings = 4.0 * std::numeric_limits<double>::epsilon();
+  // Next to such errors those of the evaluation itself are nothing.
+  constexpr double large_error = 1e-8;
   constexpr Index rounded_groups = 3;  // x, v, z
   const double* const* in = arguments(state);
-  const auto error_of_H = [&](bool next_to_largest) {
+  const auto error_of_H = [&](double error, bool next_to_largest) {
     std::vector<std::vector<Uncertain>> groups(static_cast<std::size_t>(H_of_.input_count()));
     std::vector<const Uncertain*> pointers;
     for (Index g = 0; g < H_of_.input_count(); ++g) {
@@ -81,7 +83,7 @@ EnergySizes Observer::energy_sizes(const State& state) {
       const double largest = size == 0 ? 0.0 : numbers.lpNorm<Eigen::Infinity>();
       for (const double number : numbers)
         group.emplace_back(number, g < rounded_groups
-                                       ? roundings * (next_to_largest ? largest : std::fabs(number))
+                                       ? error * (next_to_largest ? largest : std::fabs(number))
                                        : 0.0);
       pointers.push_back(group.data());
     }
@@ -89,7 +91,8 @@ EnergySizes Observer::energy_sizes(const State& state) {
     H_of_.taylor_with_jacobian(pointers.data(), 0, &H);
     return std::isfinite(H.error) ? H.error : 0.0;
   };
-  return {.terms = error_of_H(false) / roundings, .round_off = error_of_H(true)};
+  return {.terms = error_of_H(large_error, false) / large_error,
+          .round_off = error_of_H(roundings, true)};
 }
 
 const VectorXd& Observer::row(const State& state) {
