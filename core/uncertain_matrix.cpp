@@ -337,7 +337,7 @@ RankDecision decide_block(const UncertainMatrix& A) {
   if (is_settled()) return decision;
   consider(decided(A, equilibrate(heeding_errors(A), 0.0)));
   if (is_settled() || std::max(A.rows(), A.cols()) > dense_limit) return decision;
-  const RankDecision by_pivots = eliminated(level);
+  RankDecision by_pivots = eliminated(level);
   if (by_pivots.rank > decision.rank) return by_pivots;
   if (by_pivots.rank ==
       decision.rank) {  // each is evidence that these are numbers, and the rest is not
