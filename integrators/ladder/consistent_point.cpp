@@ -279,7 +279,8 @@ bool ConsistentPoint::is_contradiction(const ConsistentJet& jet) const {
   }
   with_F.value.makeCompressed();
   with_F.error.makeCompressed();
-  return decide_rank(with_F).rank > decide_rank(J).rank;
+  const RankDecision together = decide_rank(with_F);
+  return together.rank > decide_rank(J).rank && !together.ambiguous();
 }
 
 ConsistentJet ConsistentPoint::again(const ConsistentJet& jet) const {
