@@ -402,7 +402,8 @@ Zero least_zero(const LinearizableMap& map,
     // No step takes more from the objective than there is: one that promises to has lost its digits, and so
     // may the steps after it.
     const double most = 1.01 * 2.0 * goal.value / strength;
-    loses_digits = loses_digits || (delta.allFinite() && right.dot(delta) > most);
+    const bool is_finite = delta.size() > 0 && delta.allFinite();
+    loses_digits = loses_digits || (is_finite && right.dot(delta) > most);
     if (loses_digits && is_small(S)) delta = step_in_kernel(P, S, right);
     if (delta.size() == 0 || !delta.allFinite()) break;
 
