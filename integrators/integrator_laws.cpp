@@ -5,11 +5,11 @@
 #include <exception>
 #include <functional>
 #include <limits>
-#include <map>
 #include <optional>
 #include <stdexcept>
 
 #include "courant/core/rank_decision.hpp"
+#include "courant/integrators/order_measurement.hpp"
 #include "courant/integrators/step_energies.hpp"
 #include "courant/manifolds/measurement.hpp"
 #include "courant/structures/dirac_interconnection.hpp"
@@ -27,12 +27,14 @@ constexpr double kSameDifferential = 1e-7;
 constexpr double kSame = 1e-9;
 // What round-off leaves of a balance of energies.
 constexpr double kEnergy = 1e-12;
-// The order may be off by so much. Errors below the floor, next to the state, are round-off.
-constexpr double kOrder = 0.15, kFloor = 1e-12;
+// The order may be off by so much.
+constexpr double kOrder = 0.15;
 
-// So many times shorter steps are tried, each this part of the one before.
-constexpr int kShorter = 5;
-constexpr double kPart = 0.125;
+// An order is one of short steps: those of the setting may be too long for it where a system is stiff, and such a
+// system may not go back by more than its shortest time. Such parts of the step are tried.
+constexpr double kShorter[] = {0.125, 0.125 / 8, 0.125 / 64, 0.125 / 512, 0.125 / 4096};
+// And it is one of errors above round-off: where those of the setting are that, such multiples are.
+constexpr double kLonger[] = {8.0, 64.0};
 
 class IntegratorLaws {
  public:
@@ -43,11 +45,13 @@ class IntegratorLaws {
         options_(options),
         M_(*setting.system->manifold()),
         units_(integrator.coordinate_units()),
-        scale_(std::max(in_units(setting.initial.x).norm(), 1e-300)) {}
+        scale_(std::max(in_units(setting.initial.x).norm(), 1e-300)),
+        orders_(integrator, setting.initial,
+                [this](const State& a, const State& b) { return separation(a, b); }) {}
 
   IntegratorReport run() {
     attempt([&] { return gather_states(); });
-    report_.order = finite(attempt([&] { return measured_order(setting_.step); }));
+    report_.order = finite(attempt([&] { return orders_.errors(setting_.step).order; }));
     report_.asymmetry = attempt([&] { return asymmetry(); });
     order_law();
     symmetry_law();
@@ -106,59 +110,54 @@ class IntegratorLaws {
     return 0.0;
   }
 
-  // Slope of the distance between 2^k and 2^{k+1} steps over the time h. Infinite where the steps
-  // are exact, or so good that fewer than three errors are more than round-off. Several laws ask for it.
-  double measured_order(double h) {
-    if (const auto known = orders_.find(h); known != orders_.end()) return known->second;
-    return orders_[h] = measure_order(h);
-  }
-  double measure_order(double h) const {
-    std::vector<double> steps, errors;
-    State coarse = advanced(setting_.initial, h / 2.0, 2);
-    for (int count = 4; count <= 64; count *= 2) {
-      const State fine = advanced(setting_.initial, h / count, count);
-      steps.push_back(1.0 / count);
-      errors.push_back(separation(fine, coarse));
-      coarse = fine;
-    }
-    const auto above = std::ranges::count_if(errors, [](double error) { return error > kFloor; });
-    return above < 3 ? kInfinity : log_log_slope(steps, errors, kFloor);
-  }
-
   double asymmetry() const {
     const State there = advanced(setting_.initial, setting_.step, 1);
     return separation(advanced(there, -setting_.step, 1), setting_.initial);
   }
 
-  // The order measured with h next to the claim. With steps shorter than that of the setting it has to be
-  // the claim: on the way to the short ones it may be any. Infinite, which is exact, is a defect there, where
+  // The order measured with h next to the claim. With other steps than that of the setting it has to be
+  // the claim: on the way to short ones it may be any. Infinite, which is exact, is a defect there, where
   // it may be round-off, and of both_ways, where what is measured is to be seen.
-  double order_defect(double h, bool is_shorter) {
+  double order_defect(double h, bool is_other) {
     if (M_.dimension() == 0 || setting_.is_gauge) return 0.0;
-    const double order = measured_order(h);
-    const bool is_exactly = options_.both_ways || is_shorter;
+    const double order = orders_.errors(h).order;
+    const bool is_exactly = options_.both_ways || is_other;
     if (std::isinf(order)) return is_exactly ? kInfinity : 0.0;
     const double low = integrator_.order() - order;
     return is_exactly ? std::abs(low) : std::max(0.0, low);
   }
 
-  // The first of defect(h, is_shorter) that is none, or else the least: with the setting's step, and shorter
-  // ones. An order is one of short steps: those of the setting may be too long for it where a system is
-  // stiff, and such a system may not go back by more than its shortest time. Throws what the first one
-  // throws, if all do.
+  // Whether the order with the setting's step is.
+  bool is_hidden_by_round_off() {
+    try {
+      return orders_.errors(setting_.step).are_round_off;
+    } catch (const std::exception&) {
+      return false;
+    }
+  }
+
+  // The first of defect(h, is_other) that is none, or else the least: with the setting's step, and other
+  // ones. Throws what the first one throws, if all do.
   template <class Defect>
-  double with_short_steps(const Defect& defect) const {
-    double least = kInfinity, h = setting_.step;
+  double with_other_steps(const Defect& defect) {
+    double least = kInfinity;
     std::exception_ptr failure;
     bool is_measured = false;
-    for (int shorter = 0; shorter <= kShorter && !(least <= kOrder); ++shorter, h *= kPart) {
+    const auto try_step = [&](double h, bool is_other) {
       try {
-        least = std::min(least, defect(h, shorter > 0));
+        least = std::min(least, defect(h, is_other));
         is_measured = true;
       } catch (const std::exception&) {
         if (!failure) failure = std::current_exception();
       }
-    }
+    };
+    const double h = setting_.step;
+    try_step(h, false);
+    for (const double part : kShorter)
+      if (!(least <= kOrder)) try_step(part * h, true);
+    if (!(least <= kOrder) && is_hidden_by_round_off())
+      for (const double multiple : kLonger)
+        if (!(least <= kOrder)) try_step(multiple * h, true);
     if (!is_measured) std::rethrow_exception(failure);
     return least;
   }
@@ -169,9 +168,9 @@ class IntegratorLaws {
                         kOrder);
     measured.add(
         [&] {
-          return with_short_steps([&](double h, bool is_shorter) {
-            const double defect = order_defect(h, is_shorter);
-            if (is_shorter && defect <= kOrder) report_.order = measured_order(h);
+          return with_other_steps([&](double h, bool is_other) {
+            const double defect = order_defect(h, is_other);
+            if (is_other && defect <= kOrder) report_.order = orders_.errors(h).order;
             return defect;
           });
         },
@@ -181,7 +180,7 @@ class IntegratorLaws {
 
   void backward_law() {
     auto measured = law("P6 a step h < 0 goes back in time, with the order claimed", kOrder);
-    const auto defect = [&](double h, bool is_shorter) {
+    const auto defect = [&](double h, bool is_other) {
       const State before = advanced(setting_.initial, -h, 1);
       if (!(before.t - setting_.initial.t < 0.0) != (h < 0.0)) return kInfinity;
       // Forward again is where it came from, up to the error of the step.
@@ -189,9 +188,9 @@ class IntegratorLaws {
       if (!setting_.is_gauge &&
           separation(there, setting_.initial) > 0.5 * separation(before, setting_.initial) + kSame)
         return kInfinity;
-      return order_defect(-h, is_shorter);
+      return order_defect(-h, is_other);
     };
-    measured.add([&] { return with_short_steps(defect); }, where());
+    measured.add([&] { return with_other_steps(defect); }, where());
     add(measured);
   }
 
@@ -463,7 +462,7 @@ class IntegratorLaws {
   const VectorXd units_;  // in which numbers are compared, or empty
   double scale_;
   IntegratorReport report_;
-  std::map<double, double> orders_;  // by h
+  OrderMeasurement orders_;
   std::optional<Differential> differential_;
 };
 

@@ -38,7 +38,7 @@ struct IntegratorLawOptions {
 // What was measured, and the laws:
 //
 //   P1   the measured order is order(): within 0.15, from both sides if both_ways; with the step of the
-//        setting, or else with one that is shorter by up to 8⁵
+//        setting, or else with one that is shorter by up to 8⁵ or longer by up to 8²
 //   P2   Φ_{-h} ∘ Φ_h = id, if is_symmetric(); not so, if it is denied and both_ways
 //   P3   Φ_h*ω = ω on T M_f, if is_symplectic(); ω of the structure
 //   P4   Φ_h preserves D, if is_symplectic(): the forward image of D_x is D_y, where M_f is M

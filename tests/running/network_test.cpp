@@ -115,10 +115,8 @@ BOOST_AUTO_TEST_CASE(units_of_time_do_not_matter_to_many_unknowns) {
       };
       const VectorXd unit = end(1.0);
       BOOST_TEST(unit.norm() > 0.5);
-      // Held at what is measured: the projection of charges in a loop is 5e-7 off at 1e-12 s.
-      const double bound = has_loop && method == method_2("midpoint") ? 1e-5 : 1e-11;
       for (const double time : {1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 1e3, 1e6, 1e9, 1e12})
-        BOOST_TEST((end(time) - unit).norm() < bound, method << " moves by "
+        BOOST_TEST((end(time) - unit).norm() < 1e-12, method << " moves by "
                                                              << (end(time) - unit).norm()
                                                              << " where the unit is " << time);
     }
