@@ -13,6 +13,8 @@
 
 namespace courant {
 
+struct Units;
+
 // A one-step method Φ_h for one system, traced and compiled. Immutable; any number of steppers may
 // be at work at once.
 class Integrator {
@@ -31,9 +33,9 @@ class Integrator {
   // up to round-off. A claim about the method: others have this where the energy is quadratic, say.
   virtual bool has_exact_energy() const { return false; }
   virtual bool is_native() const = 0;  // whether compiled C code evaluates the step
-  // The sizes (N) of coordinates that are comparable to a step, where it is made in other units than
-  // those of the system; empty: numbers as they are.
-  virtual VectorXd coordinate_units() const { return {}; }
+  // In which numbers are comparable to a step, where it is made in other units than those of the system; null: as
+  // they are.
+  virtual const Units* units() const { return nullptr; }
 
   // The equations that a step solves, one after the other; none for a method that solves none, or has
   // no formulas to show.

@@ -94,7 +94,7 @@ class IntegratorInUnits::Differential final : public StepDifferential {
   MatrixXd do_images(const Step& step, const MatrixXd& V) const override {
     const Step measured = in_other_units(step, 1.0 / units_.time,
                                          [&](const State& state) { return units_.measure(state); });
-    const auto u = units_.coordinates.asDiagonal();
+    const auto u = units_.tangent.asDiagonal();
     return u * (*measured_)(measured, u.inverse() * V);
   }
 

@@ -8,15 +8,15 @@
 namespace courant {
 
 // A method of a SystemInUnits as a method of the system itself: states are measured, stepped and restored,
-// to the last bit. What the method promises holds in any units: the diagonal map between them is linear, and
-// the discretization maps of Rⁿ and T*Rⁿ commute with it.
+// to the last bit. What the method promises holds in any units: the map between them is a dilation of M, and
+// discretization maps commute with those.
 class IntegratorInUnits final : public WrappingIntegrator, public Programmed {
  public:
   // `method` is one of `system`; throws std::invalid_argument otherwise.
   IntegratorInUnits(const std::shared_ptr<const SystemInUnits>& system,
                     std::shared_ptr<const Integrator> method);
 
-  VectorXd coordinate_units() const override { return units_.coordinates; }
+  const Units* units() const override { return &units_; }
   StepProgram program() const override;
 
  private:

@@ -13,6 +13,7 @@
 #include "courant/integrators/step_energies.hpp"
 #include "courant/manifolds/measurement.hpp"
 #include "courant/structures/dirac_interconnection.hpp"
+#include "courant/structures/system_in_units.hpp"
 
 namespace courant {
 namespace {
@@ -44,7 +45,7 @@ class IntegratorLaws {
         setting_(setting),
         options_(options),
         M_(*setting.system->manifold()),
-        units_(integrator.coordinate_units()),
+        units_(integrator.units()),
         scale_(std::max(in_units(setting.initial.x).norm(), 1e-300)),
         orders_(integrator, setting.initial,
                 [this](const State& a, const State& b) { return separation(a, b); }) {}
@@ -89,13 +90,13 @@ class IntegratorLaws {
     return integrator_.advance(from, h, steps);
   }
   double separation(const State& a, const State& b) const {
-    const double apart = units_.size() > 0 ? in_units(a.x - b.x).norm() : M_.separation(a.x, b.x);
+    const double apart = units_ ? in_units(a.x - b.x).norm() : M_.separation(a.x, b.x);
     return apart / scale_;
   }
 
   // Numbers of steps that are made in other units are compared in those.
   VectorXd in_units(const VectorXd& x) const {
-    return units_.size() > 0 ? VectorXd(x.cwiseQuotient(units_)) : x;
+    return units_ ? VectorXd(x.cwiseQuotient(units_->coordinates)) : x;
   }
 
   double gather_states() {
@@ -221,7 +222,7 @@ class IntegratorLaws {
     const VectorXd& x = setting_.initial.x;
     const MatrixXd basis = M_.tangent_basis(x);
     MatrixXd directions = MatrixXd::Identity(basis.cols(), basis.cols());
-    if (units_.size() > 0) directions = units_.asDiagonal();
+    if (units_) directions = chart_units(*units_, M_, x).asDiagonal();
     const auto step_from = [&](const VectorXd& from) {
       State start = setting_.initial;
       start.x = from;
@@ -314,7 +315,7 @@ class IntegratorLaws {
     if (step && has_form())
       report_.symplecticity = attempt([&] { return symplecticity_defect(*step); });
     // The distance of two structures means nothing where numbers are far apart.
-    if (step && setting_.structure && setting_.conormals.rows() == 0 && units_.size() == 0)
+    if (step && setting_.structure && setting_.conormals.rows() == 0 && !units_)
       report_.preservation = attempt([&] { return preservation_defect(*step); });
     if (!claimed) return;
     auto symplectic = law("P3 Φ_h*ω = ω, as said", kSymplectic);
@@ -459,7 +460,7 @@ class IntegratorLaws {
   const IntegratorSetting& setting_;
   const IntegratorLawOptions& options_;
   const Manifold& M_;
-  const VectorXd units_;  // in which numbers are compared, or empty
+  const Units* units_;  // in which numbers are compared, or null
   double scale_;
   IntegratorReport report_;
   OrderMeasurement orders_;

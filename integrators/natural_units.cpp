@@ -17,24 +17,6 @@
 namespace courant {
 namespace {
 
-// A number for each of the Ñ entries: the same for entries that the projector mixes somewhere.
-std::vector<Index> blocks(const Manifold& M) {
-  std::vector<Index> block(static_cast<std::size_t>(M.tangent_dimension()));
-  std::iota(block.begin(), block.end(), Index{0});
-  if (M.dimension() == M.tangent_dimension()) return block;
-  std::mt19937 generator(1);
-  const MatrixXd projector = M.tangent_projector(M.random_point(generator));
-  for (Index i = 0; i < projector.rows(); ++i)
-    for (Index j = 0; j < i; ++j) {
-      if (std::abs(projector(i, j)) < 1e-12) continue;
-      const Index from = block[static_cast<std::size_t>(i)],
-                  to = block[static_cast<std::size_t>(j)];
-      for (Index& b : block)
-        if (b == from) b = to;
-    }
-  return block;
-}
-
 // Beyond so many rows and columns scales are powers of two: the linear system would take long.
 constexpr Index kExact = 500;
 // Entries below this, where rows and columns are levelled, are no units, unless all are to count.
@@ -136,6 +118,9 @@ class Arguments {
   VectorXd jacobian_;
 };
 
+// The unit of each of the n coordinates ξ, numbered, or Manifold::Dilations::none for a number without one.
+using Numbering = std::vector<Index>;
+
 // The units c of the columns (ξ, ξ', z), where those of ξ' are those of ξ divided by a unit of time T,
 // and r of the rows that minimise
 //
@@ -151,14 +136,18 @@ class Arguments {
 // what the equations connect stays open; it is no matter.
 VectorXd column_units(const SparseMatrixXd& magnitude, const NaturalScaling& natural, double least,
                       const VectorXd& constants, Arguments* arguments, const VectorXd& point,
-                      Index n, const VectorXd& reach) {
-  const Index m = magnitude.rows(), columns = magnitude.cols(), unknowns = m + columns - n + 1;
-  // log c = C s for the unknowns s: rows, ξ, z, T.
+                      const Numbering& numbering, const VectorXd& reach) {
+  const Index n = std::ssize(numbering), own = Manifold::Dilations::after(numbering);
+  const Index m = magnitude.rows(), columns = magnitude.cols(),
+              unknowns = m + own + columns - 2 * n + 1;
+  // log c = C s for the unknowns s: rows, units of ξ, z, T.
   MatrixXd C = MatrixXd::Zero(columns, unknowns);
-  for (Index j = 0; j < columns; ++j) {
-    C(j, m + (j < n ? j : j - n)) = 1.0;
-    if (j >= n && j < 2 * n) C(j, unknowns - 1) = -1.0;
+  for (Index j = 0; j < n; ++j) {
+    const Index unit = numbering[static_cast<std::size_t>(j)];
+    if (unit != Manifold::Dilations::none) C(j, m + unit) = C(n + j, m + unit) = 1.0;
+    C(n + j, unknowns - 1) = -1.0;
   }
+  for (Index j = 2 * n; j < columns; ++j) C(j, m + own + j - 2 * n) = 1.0;
   MatrixXd A = MatrixXd::Zero(unknowns, unknowns);
   VectorXd b = VectorXd::Zero(unknowns);
   for (Index j = 0; j < columns; ++j)
@@ -232,7 +221,8 @@ VectorXd constants_at(const DerivativeArray& array, const VectorXd& y, const Vec
 // Nothing tells the factor of units of what has no connection with any known size or constant, as of a second
 // particle at rest: that of its largest coordinate becomes that of the others.
 void align_components(VectorXd& units, const NaturalScaling& natural, const VectorXd& constants,
-                      Index n, const VectorXd& reach) {
+                      const Numbering& numbering, const VectorXd& reach) {
+  const Index n = std::ssize(numbering);
   std::vector<Index> columns = natural.column_component, rows = natural.row_component;
   const auto of = [](const std::vector<Index>& components, Index i) {
     return components[static_cast<std::size_t>(i)];
@@ -248,6 +238,9 @@ void align_components(VectorXd& units, const NaturalScaling& natural, const Vect
   for (Index j = 0; j < units.size(); ++j)
     if (reach[j] > 0.0) known[of(columns, j)] = 1.0;
   for (Index j = 0; j < n; ++j)
+    if (numbering[static_cast<std::size_t>(j)] == Manifold::Dilations::none)
+      known[of(columns, j)] = 1.0;
+  for (Index j = 0; j < n; ++j)
     largest[of(columns, j)] = std::max(largest[of(columns, j)], units[j]);
   const double size = known.cwiseProduct(largest).maxCoeff();
   if (!(size > 0.0)) return;
@@ -262,7 +255,7 @@ void align_components(VectorXd& units, const NaturalScaling& natural, const Vect
 // and zeros by parts of their units, which is why there are several rounds. Empty where those of all evidence do
 // not settle, as where a unit is made of nothing but itself.
 VectorXd units_near(const DerivativeArray& array, const VectorXd& y, const VectorXd& reach,
-                    Evidence evidence, Arguments* arguments) {
+                    const Numbering& numbering, Evidence evidence, Arguments* arguments) {
   constexpr double settled = 0.1;  // a small part of a power of two
   const bool is_all = evidence == Evidence::all;
   const int rounds = is_all ? 60 : 4;
@@ -284,11 +277,10 @@ VectorXd units_near(const DerivativeArray& array, const VectorXd& y, const Vecto
     const NaturalScaling natural({VectorXd::Zero(magnitude.rows()), magnitude}, reach, least,
                                  1e-10);
     const VectorXd before = std::exchange(
-        units, is_large
-                   ? natural.column_scale
-                   : column_units(magnitude, natural, least, constants, arguments,
-                                  is_all ? point_nearby() : VectorXd(), array.base_size(), reach));
-    if (is_all) align_components(units, natural, constants, array.base_size(), reach);
+        units, is_large ? natural.column_scale
+                        : column_units(magnitude, natural, least, constants, arguments,
+                                       arguments ? point_nearby() : VectorXd(), numbering, reach));
+    if (is_all) align_components(units, natural, constants, numbering, reach);
     if (array.has_constant_jacobian()) return units;
     if (is_all && round > 0 && (units.array() / before.array()).log().abs().maxCoeff() < settled)
       return units;
@@ -297,25 +289,60 @@ VectorXd units_near(const DerivativeArray& array, const VectorXd& y, const Vecto
   return is_all ? VectorXd() : units;
 }
 
+// Each coordinate has a unit of its own.
+Numbering each(const DerivativeArray& array) {
+  Numbering numbers(static_cast<std::size_t>(array.base_size()));
+  std::iota(numbers.begin(), numbers.end(), Index{0});
+  return numbers;
+}
+
+// Those of the dilations of M. Empty where a coordinate of the chart is along tangent vectors of several units.
+Numbering of_dilations(const Manifold& M, const DerivativeArray& array) {
+  constexpr double nothing = 1e-12;
+  const std::vector<Index> tangent = M.dilations().tangent;
+  const MatrixXd basis = array.basis().matrix();
+  Numbering numbers(static_cast<std::size_t>(basis.cols()));
+  for (Index j = 0; j < basis.cols(); ++j) {
+    Index largest = 0;
+    basis.col(j).cwiseAbs().maxCoeff(&largest);
+    const Index number = numbers[static_cast<std::size_t>(j)] =
+        tangent[static_cast<std::size_t>(largest)];
+    for (Index i = 0; i < basis.rows(); ++i)
+      if (std::abs(basis(i, j)) > nothing && tangent[static_cast<std::size_t>(i)] != number)
+        return {};
+  }
+  return numbers;
+}
+
+// Points and vectors are their own coordinates, as on Rⁿ, tori and their bundles.
+bool is_its_own_chart(const Manifold& M) {
+  return M.dimension() == M.ambient_dimension() && M.dimension() == M.tangent_dimension();
+}
+
 // Level 0 at a point, and the units of its unknowns (ξ, ξ', z).
 struct Level0 {
   DerivativeArray array;
   VectorXd y, units;  // no units where all evidence tells none
 
-  Level0(const std::shared_ptr<const ImplicitSystem>& system, const State& point, Evidence evidence)
+  // `numbering` of the coordinates of the chart; empty: each has a unit of its own.
+  Level0(const std::shared_ptr<const ImplicitSystem>& system, const State& point, Evidence evidence,
+         const std::function<Numbering(const DerivativeArray&)>& numbering)
       // The equations themselves: higher derivatives are not all determined, and what an iteration made
       // of those that are not has no units of its own.
       : array(system, point.t, point.x), y(array.jet(point.v, point.z)) {
     if (evidence == Evidence::all && array.has_exponentials()) return;
+    const Numbering numbers = numbering(array);
+    if (numbers.empty()) return;
     std::optional<Arguments> known;
-    if (evidence == Evidence::all) known.emplace(*system);
+    if (evidence == Evidence::all && is_its_own_chart(*system->manifold())) known.emplace(*system);
     Arguments* arguments = known ? &*known : nullptr;
     const VectorXd reach = known_sizes(array, y);
-    units = units_near(array, y, reach, evidence, arguments);
+    units = units_near(array, y, reach, numbers, evidence, arguments);
     if (units.size() == 0) return;
     const VectorXd seen = without_zeros(reach.cwiseQuotient(units)).cwiseProduct(units);
     if ((seen.array() > 0.0).count() < (reach.array() > 0.0).count())
-      units = units_near(array, y, (seen.array() > 0.0).select(reach, 0.0), evidence, arguments);
+      units = units_near(array, y, (seen.array() > 0.0).select(reach, 0.0), numbers, evidence,
+                         arguments);
   }
 };
 
@@ -326,12 +353,12 @@ VectorXd natural_units(const std::shared_ptr<const ImplicitSystem>& system,
   const Manifold& M = *system->manifold();
   const Index n = M.dimension(), size = M.tangent_dimension();
   if (ladder.point.x.size() == 0 || n == 0) return VectorXd::Ones(size);
-  const Level0 level(system, ladder.point, Evidence::typical);
+  const Level0 level(system, ladder.point, Evidence::typical, each);
   const DerivativeArray& array = level.array;
   const VectorXd units = level.units.head(n);
   if (n == size) return units;
   // The geometric mean over a block, weighted with what each basis vector has in it.
-  const std::vector<Index> block = blocks(M);
+  const std::vector<Index> block = M.mixed_components();
   VectorXd weight = VectorXd::Zero(size), logarithm = weight, result(size);
   for (Index i = 0; i < size; ++i)
     for (Index j = 0; j < n; ++j) {
@@ -349,11 +376,13 @@ VectorXd natural_units(const std::shared_ptr<const ImplicitSystem>& system,
 std::optional<Units> units_of_all_terms(const std::shared_ptr<const ImplicitSystem>& system,
                                         const State& point) {
   const Manifold& M = *system->manifold();
+  const Manifold::Dilations dilations = M.dilations();
   const Index unknowns = 2 * M.dimension() + system->auxiliary_size();
-  if (!SystemInUnits::has_units(M) || point.x.size() == 0 ||
+  if (Manifold::Dilations::after(dilations.point) == 0 || point.x.size() == 0 ||
       unknowns + system->equation_count() > kExact)
     return std::nullopt;
-  const Level0 level(system, point, Evidence::all);
+  const Level0 level(system, point, Evidence::all,
+                     [&](const DerivativeArray& array) { return of_dilations(M, array); });
   if (level.units.size() == 0) return std::nullopt;
   const SparseMatrixXd terms =
       magnitude_near(level.array, level.y, 0.1 * level.units, Evidence::all) *
@@ -362,11 +391,37 @@ std::optional<Units> units_of_all_terms(const std::shared_ptr<const ImplicitSyst
   for (Index j = 0; j < terms.outerSize(); ++j)
     for (SparseMatrixXd::InnerIterator it(terms, j); it; ++it)
       largest[it.row()] = std::max(largest[it.row()], it.value());
+  // Vectors and covectors stay what they are.
+  const std::vector<Index> mixed = M.mixed_components();
+  const Index entries = M.tangent_dimension();
+  for (Index first = 0; first < system->tangent_blocks() * entries; first += entries) {
+    VectorXd shared = VectorXd::Zero(entries);
+    for (Index i = 0; i < entries; ++i) {
+      double& size = shared[mixed[static_cast<std::size_t>(i)]];
+      size = std::max(size, largest[first + i]);
+    }
+    for (Index i = 0; i < entries; ++i)
+      largest[first + i] = shared[mixed[static_cast<std::size_t>(i)]];
+  }
   const auto power_of_two = [](double unit) {
     return unit > 0.0 && std::isfinite(unit) ? std::exp2(std::round(std::log2(unit))) : 1.0;
   };
   const Index n = level.array.base_size();
-  return Units{.coordinates = level.units.head(n).unaryExpr(power_of_two),
+  // By number; 1 of what none of the n coordinates has.
+  VectorXd unit = VectorXd::Ones(Manifold::Dilations::after(dilations.point));
+  const Numbering numbers = of_dilations(M, level.array);
+  for (Index j = 0; j < n; ++j)
+    if (const Index number = numbers[static_cast<std::size_t>(j)];
+        number != Manifold::Dilations::none)
+      unit[number] = power_of_two(level.units[j]);
+  const auto units_of = [&](const Numbering& of) {
+    VectorXd units(std::ssize(of));
+    for (std::size_t i = 0; i < of.size(); ++i)
+      units[static_cast<Index>(i)] = of[i] == Manifold::Dilations::none ? 1.0 : unit[of[i]];
+    return units;
+  };
+  return Units{.coordinates = units_of(dilations.point),
+               .tangent = units_of(dilations.tangent),
                .auxiliary = level.units.tail(system->auxiliary_size()).unaryExpr(power_of_two),
                .equations = largest.unaryExpr(power_of_two),
                .time = power_of_two(level.units[0] / level.units[n])};

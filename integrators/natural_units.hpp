@@ -26,7 +26,7 @@ VectorXd natural_units(const std::shared_ptr<const ImplicitSystem>& system,
 // exponentials are of has the size of 1. So those of a
 // momentum of 10⁻²⁴ beside a position of 10⁻⁶ are found; those of a leak that is small beside a current are,
 // too. To powers of two, of the equations the sizes of their largest terms. Empty where exponentials let
-// entries be of any size, where a unit is made of nothing but itself, where M has no units, and for systems of more than 500 equations and unknowns.
+// entries be of any size, where a unit is made of nothing but itself, where M has no dilations, and for systems of more than 500 equations and unknowns.
 std::optional<Units> units_of_all_terms(const std::shared_ptr<const ImplicitSystem>& system,
                                         const State& point);
 

@@ -33,7 +33,7 @@ class TransformedIntegrator final : public WrappingIntegrator {
   bool has_exact_energy() const override {
     return wrapped()->has_exact_energy() && !transformation_->has_time_in_energy();
   }
-  VectorXd coordinate_units() const override { return {}; }
+  const Units* units() const override { return nullptr; }
 
  private:
   class Trajectory;

@@ -17,7 +17,7 @@ class WrappingIntegrator : public Integrator {
   std::optional<bool> is_symplectic() const override { return wrapped_->is_symplectic(); }
   bool has_exact_energy() const override { return wrapped_->has_exact_energy(); }
   bool is_native() const override { return wrapped_->is_native(); }
-  VectorXd coordinate_units() const override { return wrapped_->coordinate_units(); }
+  const Units* units() const override { return wrapped_->units(); }
 
  protected:
   // A method of `system` by one of `wrapped_system`. Throws std::invalid_argument, which begins with

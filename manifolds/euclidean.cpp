@@ -1,5 +1,7 @@
 #include "courant/manifolds/euclidean.hpp"
 
+#include <numeric>
+
 namespace courant {
 
 Euclidean::Euclidean(Index dimension)
@@ -11,6 +13,12 @@ ExprMatrix Euclidean::do_frame(const ExprVector& x) const {
 
 ExprMatrix Euclidean::do_coframe(const ExprVector& x) const {
   return ExprMatrix::Identity(x.size(), x.size());
+}
+
+Manifold::Dilations Euclidean::do_dilations() const {
+  std::vector<Index> each(static_cast<std::size_t>(dimension()));
+  std::iota(each.begin(), each.end(), Index{0});
+  return {.point = each, .tangent = each, .fibre = each};
 }
 
 }  // namespace courant

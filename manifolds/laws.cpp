@@ -34,6 +34,7 @@ class ManifoldLaws {
             geodesics(),
             left_invariance(),
             velocities_along(),
+            dilations(),
             points_and_vectors()};
   }
 
@@ -280,6 +281,36 @@ class ManifoldLaws {
               return M_.point_defect(*unit) + relative(seen(s.x) - seen(*unit), seen(s.x));
             },
             describe("x", s.x));
+    return measured.result();
+  }
+
+  // With factors that differ for all of them.
+  LawResult dilations() const {
+    const Manifold::Dilations units = M_.dilations();
+    if (Manifold::Dilations::after(units.point) == 0) {
+      auto measured = law("M11 dilations() are not claimed", 0.0);
+      measured.add(0.0, "");
+      return measured.result();
+    }
+    const auto factors = [](const std::vector<Index>& of) {
+      VectorXd result(std::ssize(of));
+      for (std::size_t i = 0; i < of.size(); ++i)
+        result[static_cast<Index>(i)] =
+            of[i] == Manifold::Dilations::none ? 1.0 : 2.0 + 0.3 * static_cast<double>(of[i]);
+      return result;
+    };
+    const VectorXd d = factors(units.point), d_v = factors(units.tangent);
+    auto measured = law("M11 R(D x, D v) = D R(x, v) for dilations D", 1e-12);
+    for_vectors(samples_, [&](const LawSample& s, const VectorXd& v) {
+      measured.add(
+          [&] {
+            const VectorXd x = d.cwiseProduct(s.x), w = d_v.cwiseProduct(v);
+            const VectorXd expected = d.cwiseProduct(M_.retract(s.x, v));
+            return M_.point_defect(x) +
+                   M_.separation(M_.retract(x, w), expected) / (1.0 + expected.norm());
+          },
+          describe(s, v));
+    });
     return measured.result();
   }
 

@@ -1,7 +1,10 @@
 #include "courant/manifolds/manifold.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <random>
 #include <stdexcept>
 #include <typeinfo>
 
@@ -133,6 +136,50 @@ LinearMap<double> Manifold::tangent_basis(const VectorXd& x) const {
   // Zeros that are round-off become zeros: what is computed in the basis would see dependences that
   // are not there.
   return MatrixXd((basis.array().abs() < 1e-15).select(0.0, basis));
+}
+
+Index Manifold::Dilations::after(const std::vector<Index>& units) {
+  return units.empty() ? 0 : *std::ranges::max_element(units) + 1;
+}
+
+void Manifold::Dilations::append(const std::vector<Index>& units, Index first,
+                                 std::vector<Index>& all) {
+  for (const Index unit : units) all.push_back(unit == none ? none : first + unit);
+}
+
+Manifold::Dilations Manifold::dilations() const {
+  Dilations all = do_dilations();
+  check_size("dilations", "point", std::ssize(all.point), ambient_dimension_,
+             "ambient_dimension()");
+  check_size("dilations", "tangent", std::ssize(all.tangent), tangent_dimension_,
+             "tangent_dimension()");
+  check_size("dilations", "fibre", std::ssize(all.fibre), tangent_dimension_,
+             "tangent_dimension()");
+  return all;
+}
+
+Manifold::Dilations Manifold::do_dilations() const {
+  const auto points = static_cast<std::size_t>(ambient_dimension_);
+  const auto vectors = static_cast<std::size_t>(tangent_dimension_);
+  return {.point = std::vector<Index>(points, Dilations::none),
+          .tangent = std::vector<Index>(vectors, Dilations::none),
+          .fibre = std::vector<Index>(vectors, 0)};
+}
+
+// At a random point nothing that is mixed elsewhere is apart.
+std::vector<Index> Manifold::mixed_components() const {
+  std::vector<Index> first(static_cast<std::size_t>(tangent_dimension_));
+  std::iota(first.begin(), first.end(), Index{0});
+  if (dimension_ == tangent_dimension_) return first;
+  std::mt19937 generator(1);
+  const MatrixXd projector = tangent_projector(random_point(generator));
+  for (Index i = 0; i < projector.rows(); ++i)
+    for (Index j = 0; j < i; ++j) {
+      if (std::abs(projector(i, j)) < 1e-12) continue;
+      const Index a = first[static_cast<std::size_t>(i)], b = first[static_cast<std::size_t>(j)];
+      std::ranges::replace(first, std::max(a, b), std::min(a, b));
+    }
+  return first;
 }
 
 double Manifold::point_defect(const VectorXd& x) const {

@@ -34,6 +34,7 @@ namespace courant {
 //   M8  random_point, project and tangent_basis are on M  tangent_basis orthonormal, of n columns
 //   M9  R⁻¹(R(x, v), R(x, w)) is the same at every x      where unit() claims a group
 //   M10  velocity_along(x, v, s) = C(y) dy/ds             of the curve y = R(x, s v)
+//   M11  R(D x, D v) = D R(x, v)                          for the dilations D of dilations()
 //
 // Every formula is written once, on Expr; given numbers, the same functions return numbers
 // (constants fold). Reference: Absil, Mahony, Sepulchre, Optimization Algorithms on Matrix
@@ -43,6 +44,21 @@ namespace courant {
 // docs/tutorial-new-manifold.md.
 class Manifold {
  public:
+  // Dilations of M: what may be measured in a unit of its own, since multiplying it changes nothing of M. A
+  // position in Rⁿ, each coordinate by itself; no angle, and no point of a sphere.
+  struct Dilations {
+    static constexpr Index none = -1;
+    std::vector<Index> point;    // N: the number of the unit of each coordinate, or none
+    std::vector<Index> tangent;  // Ñ: those of the components of tangent vectors
+    // Ñ: of momenta, the same unit for those components that the maps of M mix. In TM and T*M these are free
+    // besides.
+    std::vector<Index> fibre;
+
+    // The number after those of a list, and a list at the end of another with its numbers counted from there.
+    static Index after(const std::vector<Index>& units);
+    static void append(const std::vector<Index>& units, Index first, std::vector<Index>& all);
+  };
+
   virtual ~Manifold() = default;
 
   const std::string& name() const { return name_; }  // with its parameters: "Sphere(2)"
@@ -119,8 +135,15 @@ class Manifold {
   // as there. Empty by default, which is always right; a claim that check_manifold measures (M9).
   std::optional<VectorXd> unit() const { return do_unit(); }
 
+  // Numbered from 0, those of fibre by themselves. By default M has none, and momenta have one unit, which is always
+  // right; a claim that check_manifold measures (M11).
+  Dilations dilations() const;
+
   // C(y) dy/ds of the curve y = R_x(s v), as a tangent vector at y; on expressions.
   ExprVector velocity_along(const ExprVector& x, const ExprVector& v, const Expr& s) const;
+
+  // A number below Ñ for each component of tangent vectors: the same for those that Π mixes somewhere.
+  std::vector<Index> mixed_components() const;
 
   // An orthonormal basis of T_xM in the tangent representation, Ñ × n; the identity where n = Ñ.
   // Constant where that holds.
@@ -169,6 +192,7 @@ class Manifold {
   virtual ExprVector do_inverse_retract(const ExprVector& x,
                                         const ExprVector& y) const;  // or has_inverse() → false
   virtual std::optional<VectorXd> do_unit() const { return std::nullopt; }
+  virtual Dilations do_dilations() const;
   // Where there is a shorter formula than the one by differentiation:
   virtual ExprVector do_velocity_along(const ExprVector& x, const ExprVector& v,
                                        const Expr& s) const {

@@ -162,4 +162,18 @@ VectorXd Product::do_random_point(std::mt19937& generator) const {
   return result;
 }
 
+Manifold::Dilations Product::do_dilations() const {
+  Dilations all;
+  Index units = 0, fibre_units = 0;
+  for (const auto& factor : factors_) {
+    const Dilations of = factor->dilations();
+    Dilations::append(of.point, units, all.point);
+    Dilations::append(of.tangent, units, all.tangent);
+    Dilations::append(of.fibre, fibre_units, all.fibre);
+    units = Dilations::after(all.point);
+    fibre_units = Dilations::after(all.fibre);
+  }
+  return all;
+}
+
 }  // namespace courant

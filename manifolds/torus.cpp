@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace courant {
 
@@ -26,6 +27,13 @@ double Torus::do_injectivity_radius(const VectorXd&) const { return std::numbers
 VectorXd Torus::do_random_point(std::mt19937& generator) const {
   std::uniform_real_distribution<double> angle(-std::numbers::pi, std::numbers::pi);
   return VectorXd::NullaryExpr(dimension(), [&] { return angle(generator); });
+}
+
+Manifold::Dilations Torus::do_dilations() const {
+  const std::vector<Index> angles(static_cast<std::size_t>(dimension()), Dilations::none);
+  std::vector<Index> each(angles.size());
+  std::iota(each.begin(), each.end(), Index{0});
+  return {.point = angles, .tangent = angles, .fibre = each};
 }
 
 }  // namespace courant

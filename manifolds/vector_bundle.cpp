@@ -139,4 +139,14 @@ VectorXd VectorBundle::do_random_point(std::mt19937& generator) const {
                                                    [&] { return normal(generator); }));
 }
 
+Manifold::Dilations VectorBundle::do_dilations() const {
+  Dilations all = base_->dilations();
+  const std::vector<Index> fibre = all.fibre;
+  const Index units = Dilations::after(all.point);
+  Dilations::append(fibre, units, all.point);
+  Dilations::append(fibre, units, all.tangent);
+  Dilations::append(fibre, Dilations::after(fibre), all.fibre);
+  return all;
+}
+
 }  // namespace courant

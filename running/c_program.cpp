@@ -226,6 +226,7 @@ class CProgram {
           "/* Powers of two, in which steps are made. */\nstatic const double coordinate_units[] "
           "= " +
           c_array(step_.units->coordinates) +
+          ";\nstatic const double velocity_units[] = " + c_array(step_.units->tangent) +
           ";\nstatic const double auxiliary_units[] = " + c_array(step_.units->auxiliary) + ";\n";
     all += "static const char heading[] = " + c_string(word_list(names, ",")) + ";\n\n";
     return all + "static long step_number = 0;\n\n";

@@ -121,8 +121,8 @@ bool has_no_start(const ConstraintLadder& ladder) {
   return ladder.verdict == Verdict::inconsistent || ladder.verdict == Verdict::not_reached;
 }
 
-// The ladder of a system whose numbers may be far apart: then that in natural units, and where it is not
-// the one in the units of the experiment, a doubt.
+// The ladder of a system whose numbers may be far apart: then that in natural units, and where that in the units of
+// the experiment has another verdict about a point, a doubt.
 class LadderSearch {
  public:
   LadderSearch(std::shared_ptr<const ImplicitSystem> system, const InitialGuess& guess,
@@ -161,7 +161,8 @@ class LadderSearch {
     ConstraintLadder ladder = restored(in_units_->run(measured_, there), *measured_);
     if (ladder.levels.empty()) return own;
     ladder.moved *= length_;
-    if (!are_alike(ladder, own))
+    // A search that ended without a point where numbers are far apart says nothing of the point that was found here.
+    if (!are_alike(ladder, own) && !has_no_start(own))
       ladder.doubts.push_back(
           "In the units of the experiment, in which numbers are far apart, the ladder is another "
           "one, " +

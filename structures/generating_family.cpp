@@ -1,5 +1,8 @@
 #include "courant/structures/generating_family.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <random>
 #include <stdexcept>
 
 #include "courant/core/derivative.hpp"
@@ -59,7 +62,33 @@ Expr Hamiltonian::do_value(const ExprVector& x, const ExprVector&, const Expr& t
 Lagrangian::Lagrangian(std::shared_ptr<const CotangentBundle> phase_space, Formula lagrangian)
     : GeneratingFamily(phase_space, phase_space ? phase_space->base()->tangent_dimension() : 0),
       phase_space_(std::move(phase_space)),
-      lagrangian_(std::move(lagrangian)) {}
+      lagrangian_(std::move(lagrangian)),
+      normal_masses_(typical_masses()) {}
+
+// For each component of w the largest |∂_w L| of some vectors w of length 1, over the components that are mixed with
+// it; to powers of two, and 1 where that is no number or 0.
+VectorXd Lagrangian::typical_masses() const {
+  const Manifold& Q = *phase_space_->base();
+  VectorXd masses = VectorXd::Ones(Q.tangent_dimension());
+  if (Q.dimension() == Q.tangent_dimension()) return masses;
+  const std::vector<Index> mixed = Q.mixed_components();
+  VectorXd largest = VectorXd::Zero(masses.size());
+  std::mt19937 generator(1);
+  for (int sample = 0; sample < 3; ++sample) {
+    const VectorXd q = Q.random_point(generator), at = Q.random_tangent(q, 1.0, generator);
+    Graph graph;
+    const ExprVector w = graph.variables("w", at.size());
+    const ExprVector momentum = gradient(lagrangian_(constants(q), w, 0.0), w);
+    const VectorXd p = values(substitute(momentum, w, constants(at))).cwiseAbs();
+    for (Index i = 0; i < p.size(); ++i)
+      if (double& size = largest[mixed[static_cast<std::size_t>(i)]]; std::isfinite(p[i]))
+        size = std::max(size, p[i]);
+  }
+  for (Index i = 0; i < masses.size(); ++i)
+    if (const double size = largest[mixed[static_cast<std::size_t>(i)]]; size > 0.0)
+      masses[i] = std::exp2(std::round(std::log2(size)));
+  return masses;
+}
 
 Expr Lagrangian::do_value(const ExprVector& x, const ExprVector& w, const Expr& t) const {
   const ExprVector q = phase_space_->position(x);
@@ -67,7 +96,9 @@ Expr Lagrangian::do_value(const ExprVector& x, const ExprVector& w, const Expr& 
   const Manifold& Q = *phase_space_->base();
   if (Q.dimension() == Q.tangent_dimension()) return p.dot(w) - lagrangian_(q, w, t);
   const ExprVector tangent = Q.tangent_projector(q) * w;
-  return p.dot(w) - lagrangian_(q, tangent, t) + 0.5 * (w - tangent).squaredNorm();
+  const ExprVector normal = w - tangent;
+  return p.dot(w) - lagrangian_(q, tangent, t) +
+         0.5 * normal.dot(normal_masses_.cast<Expr>().cwiseProduct(normal));
 }
 
 Expr Lagrangian::do_energy(const ExprVector& x, const ExprVector& w, const Expr& t) const {

@@ -88,8 +88,8 @@ class Hamiltonian final : public GeneratingFamily {
 };
 
 // 𝓛 = 𝓘_{TQ}⁻¹(Im dL) for a Lagrangian L: TQ → R, regular or singular, by E(q, p, w) = ⟨p, w⟩ -
-// L(q, w); k = Ñ_Q. Where n < Ñ there is ‖w - Π w‖²/2 besides, which says that w is tangent:
-// without it nothing would determine the rest of w. Its energy is ⟨∂_w L, w⟩ - L, which doesn't
+// L(q, w); k = Ñ_Q. Where n < Ñ there is ⟨w - Π w, μ (w - Π w)⟩/2 besides, with masses μ as those of L, which says
+// that w is tangent: without it nothing would determine the rest of w. Its energy is ⟨∂_w L, w⟩ - L, which doesn't
 // contain p: for L = ⟨α(q), w⟩ - H(q) it is H(q) on and off M_0.
 class Lagrangian final : public GeneratingFamily {
  public:
@@ -102,8 +102,11 @@ class Lagrangian final : public GeneratingFamily {
   Expr do_value(const ExprVector& x, const ExprVector& w, const Expr& t) const override;
   Expr do_energy(const ExprVector& x, const ExprVector& w, const Expr& t) const override;
   VectorXd do_parameter_guess(const VectorXd& x, const VectorXd& v) const override;
+  VectorXd typical_masses() const;
+
   std::shared_ptr<const CotangentBundle> phase_space_;
   Formula lagrangian_;
+  VectorXd normal_masses_;  // Ñ, the same for components that Π mixes
 };
 
 }  // namespace courant

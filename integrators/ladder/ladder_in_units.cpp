@@ -18,7 +18,10 @@ double unit_of(const std::string& name, const SystemInUnits& system) {
   if (const Index i = place(names.auxiliary, name); i >= 0) return units.auxiliary[i];
   if (name.ends_with('\''))
     if (const Index i = place(names.coordinates, name.substr(0, name.size() - 1)); i >= 0)
-      return units.coordinates[i] / units.time;
+      return units.tangent[i] / units.time;
+  // As velocities are called that are not those of a coordinate each.
+  for (Index i = 0; i < units.tangent.size(); ++i)
+    if (name == "v[" + std::to_string(i) + "]") return units.tangent[i] / units.time;
   return 1.0;
 }
 
@@ -35,13 +38,15 @@ ConstraintLadder restored(ConstraintLadder measured, const SystemInUnits& system
   ConstraintLadder ladder = std::move(measured);
   if (ladder.point.x.size() > 0) ladder.point = units.restore(ladder.point);
   // (ξ_0, ξ_1, z_0, ξ_2, z_1, …), coefficients of powers of time.
-  const Index n = units.coordinates.size(), m = units.auxiliary.size();
-  if (ladder.jet.size() >= n) ladder.jet.head(n).array() *= units.coordinates.array();
+  const Index n = system.manifold()->dimension(), m = units.auxiliary.size();
+  const VectorXd chart =
+      ladder.jet.size() >= n ? chart_units(units, *system.manifold(), ladder.point.x) : VectorXd();
+  if (ladder.jet.size() >= n) ladder.jet.head(n).array() *= chart.array();
   double power = 1.0;
   for (Index place = n; place + n + m <= ladder.jet.size(); place += n + m) {
     ladder.jet.segment(place + n, m).array() *= units.auxiliary.array() * power;
     power /= units.time;
-    ladder.jet.segment(place, n).array() *= units.coordinates.array() * power;
+    ladder.jet.segment(place, n).array() *= chart.array() * power;
   }
   for (Movement& move : ladder.moves) {
     const double unit = unit_of(move.name, system);
@@ -49,13 +54,13 @@ ConstraintLadder restored(ConstraintLadder measured, const SystemInUnits& system
     move.to *= unit;
   }
   for (PointConstraint& constraint : ladder.constraints) {
-    constraint.gradient.array() /= units.coordinates.array();
-    constraint.gradient_error.array() /= units.coordinates.array();
+    constraint.gradient.array() /= units.tangent.array();
+    constraint.gradient_error.array() /= units.tangent.array();
     restore(constraint.origin, units);
   }
   for (Combination& redundancy : ladder.redundancies) restore(redundancy, units);
-  if (ladder.gauge_directions.rows() == n)
-    ladder.gauge_directions = units.coordinates.asDiagonal() * ladder.gauge_directions;
+  if (ladder.gauge_directions.rows() == units.tangent.size())
+    ladder.gauge_directions = units.tangent.asDiagonal() * ladder.gauge_directions;
   return ladder;
 }
 

@@ -15,7 +15,7 @@ static void to_units(struct state *state) {
   int i;
   state->t /= time_unit;
   for (i = 0; i < COORDINATES; ++i) state->x[i] /= coordinate_units[i];
-  for (i = 0; i < VELOCITIES; ++i) state->v[i] = state->v[i] / coordinate_units[i] * time_unit;
+  for (i = 0; i < VELOCITIES; ++i) state->v[i] = state->v[i] / velocity_units[i] * time_unit;
   for (i = 0; i < AUXILIARIES; ++i) state->z[i] /= auxiliary_units[i];
 }
 
@@ -23,7 +23,7 @@ static void from_units(struct state *state) {
   int i;
   state->t *= time_unit;
   for (i = 0; i < COORDINATES; ++i) state->x[i] *= coordinate_units[i];
-  for (i = 0; i < VELOCITIES; ++i) state->v[i] = state->v[i] * coordinate_units[i] / time_unit;
+  for (i = 0; i < VELOCITIES; ++i) state->v[i] = state->v[i] * velocity_units[i] / time_unit;
   for (i = 0; i < AUXILIARIES; ++i) state->z[i] *= auxiliary_units[i];
 }
 #else

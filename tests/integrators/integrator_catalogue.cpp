@@ -414,6 +414,7 @@ void in_other_units(std::vector<IntegratorEntry>& table) {
       hamiltonian(M, [](V x, T t) { return 0.5 * square(x[1]) - cos(x[0]) - x[0] * cos(3.0 * t); });
   const auto measured = std::make_shared<SystemInUnits>(
       system, Units{.coordinates = Eigen::Vector2d(8.0, 0.25),
+                    .tangent = Eigen::Vector2d(8.0, 0.25),
                     .auxiliary = VectorXd::Ones(system->auxiliary_size()),
                     .equations = VectorXd::Constant(system->equation_count(), 2.0),
                     .time = 0.5});

@@ -49,6 +49,7 @@ std::shared_ptr<const SystemInUnits> measured(const std::shared_ptr<const Implic
                                               double q, double p, double T) {
   return std::make_shared<SystemInUnits>(
       system, Units{.coordinates = Eigen::Vector2d(q, p),
+                    .tangent = Eigen::Vector2d(q, p),
                     .auxiliary = VectorXd::Ones(system->auxiliary_size()),
                     .equations = VectorXd::Ones(system->equation_count()),
                     .time = T});
@@ -197,7 +198,8 @@ BOOST_AUTO_TEST_CASE(failures_are_told_in_the_units_of_the_system) {
         return ExprVector(ExprVector::Constant(1, v[0] - square(x[0])));
       });
   const auto there = std::make_shared<SystemInUnits>(
-      blow_up, Units{VectorXd::Constant(1, 4.0), VectorXd(0), VectorXd::Constant(1, 1.0), 0.125});
+      blow_up, Units{VectorXd::Constant(1, 4.0), VectorXd::Constant(1, 4.0), VectorXd(0),
+                     VectorXd::Constant(1, 1.0), 0.125});
   const IntegratorInUnits method(
       there, std::make_shared<DiscretizeFirst>(there, std::make_shared<Theta>(line)));
   try {

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "courant/manifolds/euclidean.hpp"
+#include "courant/structures/system_in_units.hpp"
 #include "courant/tests/integrators/example_systems.hpp"
 
 BOOST_AUTO_TEST_SUITE(wrapping_integrator)
@@ -31,11 +32,14 @@ class Promising final : public Integrator {
   std::optional<bool> is_symplectic() const override { return false; }
   bool has_exact_energy() const override { return true; }
   bool is_native() const override { return true; }
-  VectorXd coordinate_units() const override { return VectorXd::Constant(1, 8.0); }
+  const Units* units() const override { return &units_; }
 
  private:
   std::unique_ptr<Stepper> do_stepper() const override { return nullptr; }
   std::vector<StepFormulas> do_formulas() const override { return std::vector<StepFormulas>(3); }
+
+  Units units_{VectorXd::Constant(1, 8.0), VectorXd::Constant(1, 8.0), VectorXd(0),
+               VectorXd::Ones(1), 1.0};
 };
 
 class Wrapped final : public WrappingIntegrator {
@@ -63,7 +67,7 @@ BOOST_AUTO_TEST_CASE(promises_are_those_of_the_other_method) {
   BOOST_TEST((wrapped.is_symplectic() == false));
   BOOST_TEST(wrapped.has_exact_energy());
   BOOST_TEST(wrapped.is_native());
-  BOOST_TEST(wrapped.coordinate_units()[0] == 8.0);
+  BOOST_TEST(wrapped.units()->coordinates[0] == 8.0);
   BOOST_TEST(wrapped.formulas().size() == 3u);
 }
 

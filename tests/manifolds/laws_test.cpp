@@ -36,6 +36,7 @@ class Planted final : public Manifold {
     Index dimension = 2;
     std::optional<VectorXd> unit = std::nullopt;
     double velocity_factor = 1.0;
+    std::optional<Manifold::Dilations> dilations = std::nullopt;
   };
   explicit Planted(Parts parts)
       : Manifold("Planted", parts.dimension, 3, 3), parts_(std::move(parts)) {}
@@ -57,6 +58,9 @@ class Planted final : public Manifold {
   ExprVector do_constraint(const ExprVector& x) const override { return parts_.constraint(x); }
   double do_injectivity_radius(const VectorXd&) const override { return parts_.radius; }
   std::optional<VectorXd> do_unit() const override { return parts_.unit; }
+  Dilations do_dilations() const override {
+    return parts_.dilations.value_or(Manifold::do_dilations());
+  }
   ExprVector do_velocity_along(const ExprVector& x, const ExprVector& v,
                                const Expr& s) const override {
     return parts_.velocity_factor * differentiated_velocity(x, v, s);
@@ -282,6 +286,47 @@ BOOST_AUTO_TEST_CASE(m9_a_unit_that_is_none) {
     parts.unit = unit;
     BOOST_TEST(fails(parts, "M9"));
   }
+}
+
+// A sphere is not as large in another unit.
+BOOST_AUTO_TEST_CASE(m11_a_dilation_that_leaves_the_manifold) {
+  Planted::Parts parts;
+  parts.dilations = Manifold::Dilations{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  BOOST_TEST(fails(parts, "M11"));
+  parts.dilations = Manifold::Dilations{{-1, -1}, {-1, -1, -1}, {0, 0, 0}};
+  BOOST_CHECK_THROW(Planted(parts).dilations(), std::invalid_argument);
+}
+
+// Nor does a retraction that is not linear fit with units of its own for each coordinate, on the plane.
+BOOST_AUTO_TEST_CASE(m11_a_dilation_that_the_retraction_does_not_know) {
+  class Bent final : public Manifold {
+   public:
+    explicit Bent(double bend) : Manifold("Bent", 2, 2, 2), bend_(bend) {}
+
+   private:
+    ExprVector do_retract(const ExprVector& x, const ExprVector& v) const override {
+      ExprVector y = x + v;
+      y[1] += bend_ * square(v[0]);
+      return y;
+    }
+    ExprVector do_inverse_retract(const ExprVector& x, const ExprVector& y) const override {
+      ExprVector v = y - x;
+      v[1] -= bend_ * square(v[0]);
+      return v;
+    }
+    ExprMatrix do_frame(const ExprVector&) const override { return ExprMatrix::Identity(2, 2); }
+    ExprMatrix do_coframe(const ExprVector&) const override { return ExprMatrix::Identity(2, 2); }
+    Dilations do_dilations() const override { return {{0, 1}, {0, 1}, {0, 1}}; }
+    double bend_;
+  };
+  const auto failing = [](const Manifold& M) {
+    std::vector<std::string> laws;
+    for (const LawResult& result : check_manifold(M))
+      if (!result.passed()) laws.push_back(result.law.substr(0, 3));
+    return laws;
+  };
+  BOOST_TEST(failing(Bent(0.0)).empty());
+  BOOST_TEST((failing(Bent(0.3)) == std::vector<std::string>{"M11"}));
 }
 
 BOOST_AUTO_TEST_CASE(m10_a_velocity_that_is_not_that_of_the_curve) {

@@ -1,9 +1,12 @@
 #include "courant/manifolds/product.hpp"
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <numbers>
 
+#include "courant/manifolds/cotangent_bundle.hpp"
 #include "courant/manifolds/euclidean.hpp"
+#include "courant/manifolds/laws.hpp"
 #include "courant/manifolds/special_orthogonal3.hpp"
 #include "courant/manifolds/sphere.hpp"
 #include "courant/manifolds/torus.hpp"
@@ -36,6 +39,36 @@ BOOST_AUTO_TEST_CASE(separation_is_that_of_the_factors) {
   const Eigen::Vector2d x(0.0, 0.0);
   BOOST_TEST(M.separation(x, Eigen::Vector2d(2.0 * std::numbers::pi + 3.0, 4.0)) == 5.0,
              boost::test_tools::tolerance(1e-14));
+}
+
+// A point of a sphere has no unit, its momenta share one; angles have none, their momenta one each; positions in
+// the plane have one each, and so have their momenta. Bundles of bundles go on counting.
+BOOST_AUTO_TEST_CASE(units_are_those_of_the_factors) {
+  const auto M = std::make_shared<Product>(std::vector<std::shared_ptr<const Manifold>>{
+      std::make_shared<Sphere>(2), std::make_shared<Torus>(1), std::make_shared<Euclidean>(2)});
+  using Numbers = std::vector<Index>;
+  BOOST_TEST((M->dilations().point == Numbers{-1, -1, -1, -1, 0, 1}));
+  BOOST_TEST((M->dilations().tangent == Numbers{-1, -1, -1, -1, 0, 1}));
+  BOOST_TEST((M->dilations().fibre == Numbers{0, 0, 0, 1, 2, 3}));
+  const auto phase_space = std::make_shared<CotangentBundle>(M);
+  const Numbers units = {-1, -1, -1, -1, 0, 1, 2, 2, 2, 3, 4, 5};
+  BOOST_TEST((phase_space->dilations().point == units));
+  BOOST_TEST((phase_space->dilations().tangent == units));
+  BOOST_TEST((phase_space->dilations().fibre == Numbers{0, 0, 0, 1, 2, 3, 4, 4, 4, 5, 6, 7}));
+  BOOST_TEST((CotangentBundle(std::make_shared<SpecialOrthogonal3>()).dilations().point ==
+              Numbers{-1, -1, -1, -1, -1, -1, -1, -1, -1, 0, 0, 0}));
+  BOOST_TEST(std::ranges::all_of(check_manifold(*phase_space),
+                                 [](const LawResult& result) { return result.passed(); }));
+}
+
+// A sphere's three components, angles and positions one by one; of a group none are mixed.
+BOOST_AUTO_TEST_CASE(components_are_mixed_within_factors) {
+  using Numbers = std::vector<Index>;
+  const auto sphere = std::make_shared<Sphere>(2);
+  const Product M({std::make_shared<Torus>(1), sphere, std::make_shared<Euclidean>(2)});
+  BOOST_TEST((M.mixed_components() == Numbers{0, 1, 1, 1, 4, 5}));
+  BOOST_TEST((CotangentBundle(sphere).mixed_components() == Numbers{0, 0, 0, 3, 3, 3}));
+  BOOST_TEST((SpecialOrthogonal3().mixed_components() == Numbers{0, 1, 2}));
 }
 
 BOOST_AUTO_TEST_CASE(a_null_factor_is_an_error) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -164,6 +165,60 @@ BOOST_AUTO_TEST_CASE(molecules_in_si_units) {
   }
 }
 
+// On curved spaces, where points have no unit but momenta have: a dipole in a field from a right angle at rest, an
+// asymmetric molecule in a field, a rotor whose centre is on a spring that drives it, a pendulum by its angle.
+BOOST_AUTO_TEST_CASE(curved_molecules_in_si_units) {
+  const auto problem = [](const char* kind, double m, double l, double T) {
+    const std::string name = kind;
+    const double p = m * l * l / T;
+    Json system = {{"parameters",
+                    {{"I", m * l * l}, {"E", m * l * l / (T * T)}, {"m", m}, {"l", l}}}},
+         initial;
+    if (name == "dipole") {
+      system["type"] = "lagrangian";
+      system["manifold"] = "sphere";
+      system["coordinates"] = {"q[3]"};
+      system["lagrangian"] = "I*dot(q', q')/2 + E*q[2]";
+      initial = {{"q", {1, 0, 0}}, {"p_q", {0, 0, 0}}};
+    } else if (name == "molecule") {
+      system["type"] = "mechanical";
+      system["manifold"] = "so3";
+      system["coordinates"] = {"R[3][3]"};
+      system["metric"] = {"I", "2*I", "2.6*I"};
+      system["potential"] = "-E*(R[2][0] + 0.4*R[2][1])";
+      initial = {{"R", {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {"p_R", {0, 0, 0.7 * p}}};
+    } else if (name == "rotor") {
+      system["type"] = "lagrangian";
+      system["manifold"] = {{"type", "product"}, {"factors", {"sphere", "euclidean"}}};
+      system["coordinates"] = {"q[3]", "x"};
+      system["lagrangian"] = "I*dot(q', q')/2 + m*x'^2/2 - E*((x/l)^2/2 - 0.5*x/l*q[2] - 0.2*q[0])";
+      initial = {{"q", {0, 1, 0}}, {"x", 0}, {"p_q", {p, 0, 0}}, {"p_x", 0}};
+    } else {
+      system["type"] = "lagrangian";
+      system["manifold"] = "torus";
+      system["coordinates"] = {"a"};
+      system["lagrangian"] = "I*a'^2/2 + E*cos(a)";
+      initial = {{"a", "pi/2"}, {"p_a", 0}};
+    }
+    return test::problem({{"system", system}, {"initial", initial}});
+  };
+  const double m = 2e-26, l = 1e-10, T = 1e-13;
+  for (const auto& [kind, numbers] : {std::pair{"dipole", Index{3}},
+                                      {"molecule", Index{9}},
+                                      {"rotor", Index{3}},
+                                      {"pendulum", Index{1}}}) {
+    const test::Problem large = problem(kind, 1.0, 1.0, 1.0), small = problem(kind, m, l, T);
+    BOOST_TEST((small.ladder.verdict == Verdict::regular));
+    for (const Json& method : {kMethod1, kMethod2}) {
+      const VectorXd expected = large.end(method, 2.0, 80), found = small.end(method, 2.0 * T, 80);
+      BOOST_TEST_CONTEXT(kind << ", " << method) {
+        BOOST_TEST((expected - large.ladder.point.x).head(numbers).norm() > 0.1);
+        BOOST_TEST((found - expected).head(numbers).norm() < 1e-9);
+      }
+    }
+  }
+}
+
 // s = X + Z X''/(g - Z'').
 BOOST_AUTO_TEST_CASE(a_crane_from_rest) {
   const test::Problem problem = crane();
@@ -308,6 +363,49 @@ BOOST_AUTO_TEST_CASE(the_energy_of_a_satellite) {
   const double exact = 0.5 * speed * speed - GM / r;
   BOOST_TEST(std::fabs(H->initial - exact) < 1e-12 * std::fabs(exact));
   BOOST_TEST(std::fabs(H->final - exact) < 1e-8 * std::fabs(exact));
+}
+
+// An electron at rest in a Penning trap, and a rigid molecule of water that turns: searches in SI units, where
+// numbers are 10²⁰ apart, end without a point, and are no reason to doubt the one that is found in natural units.
+BOOST_AUTO_TEST_CASE(starts_in_si_units_are_certain) {
+  const test::Problem trap = test::problem(
+      {{"system",
+        {{"type", "lagrangian"},
+         {"parameters",
+          {{"m", 9.109e-31}, {"q", -1.602e-19}, {"B", 5.0}, {"U", -10.0}, {"d", 3.5e-3}}},
+         {"coordinates", {"x", "y", "z"}},
+         {"lagrangian",
+          "m*(x'^2 + y'^2 + z'^2)/2 + q*B*(x*y' - y*x')/2 - q*U*(2*z^2 - x^2 - y^2)/(2*d^2)"}}},
+       {"initial", {{"x", 1e-5}, {"y", 0}, {"z", 1e-5}, {"x'", 0}, {"y'", 0}, {"z'", 0}}}});
+  BOOST_TEST((trap.ladder.verdict == Verdict::regular));
+  BOOST_TEST(!trap.ladder.is_ambiguous());
+  const double axial = std::sqrt(2.0 * 1.602e-19 * 10.0 / (9.109e-31 * 3.5e-3 * 3.5e-3));
+  const double end = 1e-9;
+  const Json fourth = {{"type", "constrain-first"}, {"order", 4}};
+  BOOST_TEST(std::abs(trap.end(fourth, end, 1000)[2] / 1e-5 - std::cos(axial * end)) < 1e-9);
+
+  const double r = 0.9572e-10, half = 0.5 * 104.52 * std::numbers::pi / 180.0, w = 1e13;
+  const double a = r * std::sin(half), b = r * std::cos(half);
+  const Json water = {
+      {"system",
+       {{"type", "lagrangian"},
+        {"parameters", {{"M", 2.657e-26}, {"m", 1.674e-27}, {"r", r}, {"s", 2.0 * a}}},
+        {"coordinates", {"o[3]", "h[3]", "k[3]"}},
+        {"lagrangian", "(M*dot(o', o') + m*dot(h', h') + m*dot(k', k'))/2"},
+        {"holonomic",
+         {"dot(o - h, o - h) - r^2", "dot(o - k, o - k) - r^2", "dot(k - h, k - h) - s^2"}}}},
+      {"initial",
+       {{"o", {0, 0, 0}},
+        {"h", {a, b, 0}},
+        {"k", {-a, b, 0}},
+        {"o'", {0, 0, 0}},
+        {"h'", {0, 0, -w * a}},
+        {"k'", {0, 0, w * a}}}}};
+  const test::Problem molecule = test::problem(water);
+  BOOST_TEST((molecule.ladder.verdict == Verdict::regular));
+  BOOST_TEST(molecule.ladder.degrees_of_freedom == 12);
+  BOOST_TEST(!molecule.ladder.is_ambiguous());
+  BOOST_TEST(std::abs(molecule.end(fourth, 2e-13, 200)[3] / a - std::cos(w * 2e-13)) < 1e-8);
 }
 
 // An electron in a field of a tesla.

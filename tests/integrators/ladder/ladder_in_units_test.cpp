@@ -27,7 +27,7 @@ SystemPointer pendulum() {
 
 std::shared_ptr<const SystemInUnits> measured(const SystemPointer& system) {
   Units units;
-  units.coordinates = Eigen::Vector4d(2.0, 0.5, 4.0, 1.0);
+  units.coordinates = units.tangent = Eigen::Vector4d(2.0, 0.5, 4.0, 1.0);
   units.auxiliary = VectorXd::Constant(1, 8.0);
   units.equations = VectorXd(6);
   units.equations << 1.0, 2.0, 4.0, 0.25, 0.5, 16.0;
