@@ -244,6 +244,19 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
     singular.reason = std::move(singular.seen_once);
     singular.is_unanimous = false;
   }
+  const bool has_point = !ladder.levels.empty() && !ladder.levels.back().is_empty;
+  const bool is_known = !has_point || is_known_well(jet);
+  // Ranks that are proven from below by the bounds of errors and from above by the pattern of the equations need
+  // no points nearby; with full rank of all equations there is a zero, and no entry that could have been lost.
+  bool is_proven = false, is_full = false;
+  if (stopped && singular.reason.empty()) {
+    const LadderLevel& last = ladder.levels.back();
+    const bool is_doubtful =
+        !are_certain(ladder.levels) || !singular.is_compared || !last.is_solved || !is_known;
+    is_proven = is_doubtful && are_ranks_of_pattern(jet, ladder.levels);
+    is_full = is_proven && last.all.rank == last.all.rows;
+    if (singular.is_confirmed || is_full) confirm(ladder.levels);
+  }
   ladder.point = jet.array.state(jet.zero.y);
   ladder.jet = jet.zero.y;
   ladder.moved = consistent.distance(ladder.point.x);
@@ -259,16 +272,16 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
   if (stopped && singular.reason.empty())
     if (std::string doubt = asked_above(consistent, jet, ladder.levels); !doubt.empty())
       ladder.doubts.push_back(std::move(doubt));
-  if (!singular.is_compared)
+  if (!singular.is_compared && !is_proven)
     ladder.doubts.push_back("Too few points nearby could be compared with this one.");
   if (!singular.is_unanimous)
     ladder.doubts.push_back("In one direction the point does not look singular.");
   if (!has_converged) ladder.doubts.push_back("A search that does not converge says nothing.");
-  if (!ladder.levels.empty() && !ladder.levels.back().is_solved)
+  if (!ladder.levels.empty() && !ladder.levels.back().is_solved && !is_full)
     ladder.doubts.push_back(
         "The equations do not vanish at the point to round-off: their solutions may be singular "
         "there.");
-  if (ladder.levels.empty() || ladder.levels.back().is_empty) return ladder;
+  if (!has_point) return ladder;
   if (!is_same_rank_at(jet, ladder.levels, ladder.verdict == Verdict::rank_change))
     ladder.doubts.push_back(
         "The ranks are higher at the point as it was found: they are lower only if it is "
@@ -284,7 +297,7 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
     ladder.doubts.push_back(
         "The ranks at the point are lower than nearby by numbers that are hardly below their "
         "errors.");
-  if (!is_known_well(jet))
+  if (!is_known && !is_full)
     ladder.doubts.push_back(
         "The derivatives of the equations are not known well enough at the point to say which of "
         "them vanish.");
@@ -309,6 +322,10 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
     ladder.verdict = Verdict::rank_change;
     ladder.index = -1;
     ladder.reason = std::move(branches);
+    if (is_proven)
+      ladder.doubts.push_back(
+          "The ranks along the velocity that was found are those that the pattern of the equations "
+          "allows, and what else is known of the point leaves doubts.");
     return ladder;
   }
   count_differentiations_nearby(ladder, consistent, jet);

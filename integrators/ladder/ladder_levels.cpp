@@ -42,7 +42,8 @@ enum Group : Index { higher = 0, auxiliary = 1, velocity = 2, position = 3 };
 
 // The Jacobian at y, reduced: jets first, the point last.
 RowReduction reduced(const DerivativeArray& array, const VectorXd& y,
-                     const ComparableJacobian& units) {
+                     const ComparableJacobian& units,
+                     RowReduction::Pivots pivots = RowReduction::Pivots::sparse) {
   const Index n = array.base_size(), m = array.auxiliary_size(), r = array.equation_count();
   std::vector<Index> row_level, column_group;
   for (Index i = 0; i < array.row_count(array.level_of(y)); ++i) row_level.push_back(i / r);
@@ -51,7 +52,7 @@ RowReduction reduced(const DerivativeArray& array, const VectorXd& y,
                            : j < 2 * n     ? velocity
                            : j < 2 * n + m ? auxiliary
                                            : higher);
-  return RowReduction(units.scaled, row_level, column_group);
+  return RowReduction(units.scaled, row_level, column_group, pivots);
 }
 
 // Where elimination counts other ranks than the singular values, in words; empty where they agree.
@@ -70,6 +71,15 @@ std::string disagreement(const LadderLevel& level, const RowReduction& reduction
              std::to_string(decision->rank) + ".";
   }
   return "";
+}
+
+std::vector<std::string> disagreements(const std::vector<LadderLevel>& levels,
+                                       const RowReduction& reduction) {
+  std::vector<std::string> result;
+  for (const LadderLevel& level : levels)
+    if (std::string doubt = disagreement(level, reduction); !doubt.empty())
+      result.push_back(std::move(doubt));
+  return result;
 }
 
 std::vector<int> needed_differentiations(const RowReduction& reduction, Index equation_count,
@@ -134,9 +144,18 @@ std::vector<int> needed_differentiations(const DerivativeArray& array, const Vec
 
 void describe(ConstraintLadder& ladder, const DerivativeArray& array, const VectorXd& y,
               const VectorXd& uncertainty) {
+  constexpr Index dense_limit = 200;
   const Index n = array.base_size(), m = array.auxiliary_size(), r = array.equation_count();
   const ComparableJacobian units(array, y, uncertainty);
-  const RowReduction reduction = reduced(array, y, units);
+  RowReduction reduction = reduced(array, y, units);
+  std::vector<std::string> doubts = disagreements(ladder.levels, reduction);
+  if (!doubts.empty() && y.size() <= dense_limit) {
+    RowReduction careful = reduced(array, y, units, RowReduction::Pivots::largest);
+    if (disagreements(ladder.levels, careful).empty()) {
+      reduction = std::move(careful);
+      doubts.clear();
+    }
+  }
   const LinearMap<double>& basis = array.basis();
   const LinearMap<double> absolute_basis = absolute(basis);
 
@@ -156,9 +175,7 @@ void describe(ConstraintLadder& ladder, const DerivativeArray& array, const Vect
     ladder.redundancies.push_back(combination(row.multipliers, units.row_scale, r, factor));
   }
 
-  for (const LadderLevel& level : ladder.levels)
-    if (std::string doubt = disagreement(level, reduction); !doubt.empty())
-      ladder.doubts.push_back(std::move(doubt));
+  ladder.doubts.insert(ladder.doubts.end(), doubts.begin(), doubts.end());
 
   // The velocities that remain free, one for each column without pivot; columns in the chart.
   const std::vector<RowReduction::Row>& velocities = reduction.reduced_group(velocity);

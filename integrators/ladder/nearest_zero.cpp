@@ -376,11 +376,19 @@ Zero least_zero(const LinearizableMap& map,
   double shortest_step = std::numeric_limits<double>::infinity();
   int stalled = 0;
   bool loses_digits = false;
+  // A thousand times those of `at`. Where momenta are of no degree in velocities, as w / |w| is, entries vanish on the
+  // way to the nearest one, and units that follow them lead to velocities of 10¹⁷.
+  constexpr double most_growth = 1e3;
+  VectorXd largest_units;
   for (int iteration = 0; iteration < 50; ++iteration) {
     const Quadratic goal = objective(best.y);
     if (goal.value == 0.0) break;
-    const NaturalScaling scaling(map(best.y), best.reach);
-    const SparseMatrixXd& S = scaling.scaled;
+    const Linearization here = map(best.y);
+    NaturalScaling scaling(here, best.reach);
+    if (iteration == 0) largest_units = most_growth * scaling.column_scale;
+    scaling.column_scale = scaling.column_scale.cwiseMin(largest_units);
+    const SparseMatrixXd S =
+        scaling.row_scale.asDiagonal() * here.jacobian * scaling.column_scale.asDiagonal();
     const Index n = goal.gradient.size();
     const VectorXd units = scaling.column_scale.head(n);
     const SparseMatrixXd H = units.asDiagonal() * goal.hessian * units.asDiagonal();

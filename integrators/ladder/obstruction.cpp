@@ -7,8 +7,12 @@
 namespace courant {
 namespace {
 
-constexpr double kLast = 1.0 / 16.0;  // of a direction
+constexpr double kFirst = 1.0 / 4194304.0, kLast = 1.0 / 16.0;  // of a direction
+constexpr double kRatio = 4.0;                                  // from one look to the next
+constexpr double kLeastGrowth = 8.0;  // of all of F, which is quadratic along a tangent
 constexpr double kMeasurable = 1e3;   // times the bound of rounding errors
+constexpr double kBounded = 1e1;      // times that bound, a number is below something for certain
+constexpr double kRounded = 1e-12;    // of all of F: what rounding alone leaves of an unseen part
 constexpr double kSmall = 1e-1;       // of ε², in comparable units: less need not be seen
 
 }  // namespace
@@ -23,6 +27,13 @@ Obstruction::Obstruction(const Prolongation& array, const VectorXd& y, const Vec
   // Errors turn W by their part of the least singular value that counts, in radians.
   constexpr double least_turned = 1e-3;
   is_known_ = rank == 0 || at.scaled.error.norm() <= least_turned * svd.values[rank - 1];
+  // At y itself rounding is the only error, beside entries that were left out for theirs.
+  const SparseMatrixXd numbers =
+      at.row_scale.asDiagonal() * at_.jacobian * at.column_scale.asDiagonal();
+  const SparseMatrixXd rounding =
+      at.row_scale.asDiagonal() * at_.error * at.column_scale.asDiagonal();
+  const SparseMatrixXd left_out = numbers - at.scaled.value;
+  turned_ = rank == 0 ? 0.0 : (rounding.norm() + left_out.norm()) / svd.values[rank - 1];
   // Rows that a combination has nothing to do with may be 10²⁰ times as large.
   constexpr double round_off = 1e-14;
   unseen_ = svd.U.rightCols(svd.U.cols() - rank).transpose().unaryExpr([](double weight) {
@@ -56,26 +67,59 @@ bool Obstruction::is_small_along(const VectorXd& direction) const {
     const Linearization there = array_.linearize(y_ + epsilon * direction);
     const double g = (unseen * there.value).norm();
     const double noise = (unseen.cwiseAbs() * there.value_error).norm();
-    if (std::max(g, kMeasurable * noise) < least_seen(unseen, there, epsilon * direction, epsilon))
+    if (std::max(g, kBounded * noise) < least_seen(unseen, there, epsilon * direction, epsilon))
       return true;
   }
   return false;
 }
 
+bool Obstruction::is_square_along(const VectorXd& direction, double part) const {
+  constexpr double exact = 0.3;  // of a power
+  constexpr int needed = 4;
+  const VectorXd row_scale = row_scale_along(direction);
+  const MatrixXd unseen = unseen_ * row_scale.asDiagonal();
+  const Linearization last = array_.linearize(y_ + kLast * direction);
+  if (row_scale.cwiseProduct(last.value).norm() <
+      kMeasurable * row_scale.cwiseProduct(last.value_error).norm())
+    return false;
+  double before = 0.0, all_before = 0.0;
+  int squares = 0;
+  for (double epsilon = kFirst; epsilon <= kLast && squares < needed; epsilon *= kRatio) {
+    const VectorXd value = array_.residual(y_ + epsilon * direction);
+    const double g = (unseen * value).norm();
+    const double all = row_scale.cwiseProduct(value).norm();
+    const bool is_number = g > part * all;
+    const double power = std::log(g / before) / std::log(kRatio);
+    squares = is_number && before > 0.0 && std::fabs(power - 2.0) < exact &&
+                      all >= kLeastGrowth * all_before
+                  ? squares + 1
+                  : 0;
+    before = is_number ? g : 0.0;
+    all_before = all;
+  }
+  return squares == needed;
+}
+
 Obstruction::Answer Obstruction::is_seen_along(const VectorXd& direction) const {
   if (unseen_.rows() == 0) return Answer::no;
+  const Answer answer = by_bounds_along(direction);
+  if (answer != Answer::yes && is_square_along(direction, kBounded * turned_))
+    return Answer::likely;
+  return answer == Answer::no && is_square_along(direction, kRounded) ? Answer::unknown : answer;
+}
+
+Obstruction::Answer Obstruction::by_bounds_along(const VectorXd& direction) const {
   const VectorXd row_scale = row_scale_along(direction);
   const MatrixXd unseen = unseen_ * row_scale.asDiagonal();
   // From 10⁻⁷ of a unit, which may be a large one, to where functions bend away from their powers: g ~ ε²
   // is above round-off from 10⁻⁶ on, ε³ from 10⁻⁴. What looks like a power at three sizes is one.
-  constexpr double first = 1.0 / 4194304.0, ratio = 4.0, least_power = 2.5;
+  constexpr double least_power = 2.5;
   constexpr double negligible = 1e-13;  // next to the terms of g, in comparable units
-  constexpr double least_growth = 8.0;  // of all of F, which is quadratic along a tangent
   double before = 0.0, all_before = 0.0, weak_before = 0.0;
   int slow = 0, weak = 0;
-  bool is_tangent = true, is_visible = false;
+  bool is_tangent = true, is_visible = false, was_cubic = false;
   const auto seen = [&] { return is_tangent && is_known_ ? Answer::yes : Answer::unknown; };
-  for (double epsilon = first; epsilon <= kLast; epsilon *= ratio) {
+  for (double epsilon = kFirst; epsilon <= kLast; epsilon *= kRatio) {
     const VectorXd y = y_ + epsilon * direction;
     const Linearization there =
         array_.linearize(y, uncertainty_.cwiseMax(Prolongation::rounding(y)));
@@ -85,24 +129,27 @@ Obstruction::Answer Obstruction::is_seen_along(const VectorXd& direction) const 
     const double noise = (unseen.cwiseAbs() * there.value_error).norm();
     const double terms = (unseen.cwiseAbs() * there.value.cwiseAbs()).norm();
     const double all = row_scale.cwiseProduct(there.value).norm();
-    is_visible =
-        is_visible || kMeasurable * noise < least_seen(unseen, there, epsilon * direction, epsilon);
+    const double least = least_seen(unseen, there, epsilon * direction, epsilon);
+    is_visible = is_visible || kMeasurable * noise < least || std::max(g, kBounded * noise) < least;
     // Off the tangent space what J does not see is of second order everywhere.
     const bool is_measured = all > kMeasurable * row_noise;
-    if (all_before > 0.0 && is_measured && all < least_growth * all_before) return Answer::no;
+    if (all_before > 0.0 && is_measured && all < kLeastGrowth * all_before) return Answer::beside;
     all_before = is_measured ? all : 0.0;
     if (before > 0.0) {
-      if (std::log(g / before) >= least_power * std::log(ratio)) return Answer::no;
+      if (std::log(g / before) >= least_power * std::log(kRatio)) return Answer::no;
       is_tangent = is_tangent && is_measured;
       if (++slow == 2) return seen();
     }
     // Above the bound of its error g is not zero, though little is known of how it grows.
-    weak = weak_before > 0.0 && std::log(g / weak_before) < least_power * std::log(ratio) ? weak + 1
-                                                                                          : 0;
+    const bool is_weak =
+        weak_before > 0.0 && std::log(g / weak_before) < least_power * std::log(kRatio);
+    was_cubic = was_cubic || (weak_before > 0.0 && !is_weak);
+    weak = is_weak ? weak + 1 : 0;
     weak_before = g > noise && g > negligible * terms ? g : 0.0;
     if (before > 0.0 || (g > kMeasurable * noise && g > negligible * terms)) before = g;
   }
-  if (slow > 0) return seen();
+  // Two sizes alone, the last ones, tell no power where g was seen to be a cube before.
+  if (slow > 0 && !was_cubic) return seen();
   if (weak >= 2) return Answer::unknown;
   return is_visible || is_small_along(direction) ? Answer::no : Answer::unknown;
 }

@@ -22,8 +22,11 @@ class Obstruction {
               const SparseMatrixXd& magnitude);
 
   // yes: g falls like a power below 2.5 at the smallest three ε at which it is measurable, and all of F
-  // grows as along a tangent there. unknown: round-off hides either, or W is not known.
-  enum class Answer { no, yes, unknown };
+  // grows as along a tangent there. likely: the bounds are too large to tell, but the numbers are squares at
+  // five ε. unknown: round-off hides either, or W is not known, or the squares may be what errors of W make of
+  // all of F. beside: all of F grows as it does beside a
+  // tangent, where g is of second order everywhere.
+  enum class Answer { no, yes, likely, unknown, beside };
   Answer is_seen_along(const VectorXd& direction) const;
 
  private:
@@ -36,6 +39,11 @@ class Obstruction {
                     double epsilon) const;
   // Whether g is far below ε² in this direction, and above rounding errors.
   bool is_small_along(const VectorXd& direction) const;
+  // What the bounds of errors say.
+  Answer by_bounds_along(const VectorXd& direction) const;
+  // Whether the numbers themselves grow like ε² and are more than this part of all of F, which grows as along a
+  // tangent.
+  bool is_square_along(const VectorXd& direction, double part) const;
 
   const Prolongation& array_;
   VectorXd y_, uncertainty_, row_scale_;
@@ -43,6 +51,7 @@ class Obstruction {
   Linearization at_;                   // y
   SparseMatrixXd magnitude_of_empty_;  // of the rows that vanish at y alone
   bool is_known_ = true;               // W
+  double turned_ = 0.0;                // by how much rounding errors turn W, in radians
 };
 
 }  // namespace courant

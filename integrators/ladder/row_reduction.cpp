@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -17,10 +18,10 @@ using UncertainRow = std::vector<std::pair<Index, Uncertain>>;
 // What an elimination leaves where numbers cancel is zero if it is within the bound of its error. The
 // bound grows with every elimination, whether the error does or not: beyond this part of the largest
 // entry that the row was made of it says nothing.
-constexpr double relative_bound = 1e-6;
+constexpr double largest_relative_bound = 1e-6;
 
-bool is_zero(const Uncertain& entry, double scale) {
-  return std::fabs(entry.value) <= std::min(entry.error, relative_bound * scale);
+bool is_zero(const Uncertain& entry, double scale, double most) {
+  return !(std::fabs(entry.value) > std::min(entry.error, most * scale));
 }
 
 // a + factor · b; `scale` is the size of the entries that go into it.
@@ -47,9 +48,9 @@ std::vector<std::pair<Index, Number>> combined(const std::vector<std::pair<Index
 }
 
 // Entries that are zero are set to it, with their error, or left out where there is none.
-void clean(UncertainRow& row, double scale) {
+void clean(UncertainRow& row, double scale, double most) {
   for (auto& [column, entry] : row)
-    if (is_zero(entry, scale)) entry = {0.0, entry.error + std::fabs(entry.value)};
+    if (is_zero(entry, scale, most)) entry = {0.0, entry.error + std::fabs(entry.value)};
   std::erase_if(row, [](const auto& e) { return e.second.is_exactly(0.0); });
 }
 
@@ -90,8 +91,12 @@ class RowElimination {
   };
 
   RowElimination(const UncertainMatrix& A, const std::vector<Index>& row_level,
-                 const std::vector<Index>& column_group)
+                 const std::vector<Index>& column_group, RowReduction::Pivots pivots)
       : column_group_(column_group),
+        pivots_(pivots),
+        relative_bound_(pivots == RowReduction::Pivots::largest
+                            ? std::numeric_limits<double>::infinity()
+                            : largest_relative_bound),
         rows_(static_cast<std::size_t>(A.rows())),
         rows_of_column_(static_cast<std::size_t>(A.cols())) {
     for (Index j = 0; j < A.cols(); ++j) {
@@ -153,9 +158,11 @@ class RowElimination {
   }
 
   const std::vector<Working>& rows() const { return rows_; }
+  // The part of the largest number that went into a row up to which bounds count.
+  double relative_bound() const { return relative_bound_; }
 
  private:
-  // Better ones first: what fills in least, by the count of Markowitz; among equals the largest.
+  // Better ones first: what costs least; among equals the largest.
   struct Pivot {
     double cost, size;
     Index row, column;
@@ -175,16 +182,22 @@ class RowElimination {
         row_max = std::max(row_max, std::fabs(number.value));
     if (row_max == 0.0) return std::nullopt;
     std::optional<Pivot> best;
-    const auto row_count = static_cast<double>(working.entries.size());
     for (const auto& [column, number] : working.entries) {
       const double size = std::fabs(number.value);
       if (column_group_[static_cast<std::size_t>(column)] != g || size < 0.1 * row_max) continue;
-      const auto column_count =
-          static_cast<double>(rows_of_column_[static_cast<std::size_t>(column)].size());
-      const Pivot pivot = {(row_count - 1.0) * (column_count - 1.0), size, i, column};
+      const Pivot pivot = {cost(working.entries, column, number), size, i, column};
       if (!best || pivot < *best) best = pivot;
     }
     return best;
+  }
+
+  // How much it fills in, by the count of Markowitz; or whether its bound is more than a tenth of it.
+  double cost(const UncertainRow& row, Index column, const Uncertain& number) const {
+    constexpr double clear = 10.0;
+    if (pivots_ == RowReduction::Pivots::largest)
+      return std::fabs(number.value) >= clear * number.error ? 0.0 : 1.0;
+    const std::vector<Index>& rows = rows_of_column_[static_cast<std::size_t>(column)];
+    return (static_cast<double>(row.size()) - 1.0) * (static_cast<double>(rows.size()) - 1.0);
   }
 
   // Eliminates `column` from all rows that come later: of the level of the pivot or above. Returns
@@ -203,7 +216,7 @@ class RowElimination {
       target.scale = std::max(target.scale, std::fabs(factor.value) * pivot.scale);
       UncertainRow sum = combined(target.entries, factor, pivot.entries);
       std::erase_if(sum, [&](const auto& e) { return e.first == column; });
-      clean(sum, target.scale);
+      clean(sum, target.scale, relative_bound_);
       for (const auto& e : sum)
         if (entry(target.entries, e.first).is_exactly(0.0)) {
           rows_of_column_[static_cast<std::size_t>(e.first)].push_back(i);
@@ -230,13 +243,15 @@ class RowElimination {
   }
 
   const std::vector<Index>& column_group_;
+  RowReduction::Pivots pivots_;
+  double relative_bound_;
   std::vector<Working> rows_;
   std::vector<std::vector<Index>> rows_of_column_;  // those that have, or had, an entry there
 };
 
 // The same rows with the pivot columns of the other rows eliminated too, each with 1 in its pivot.
 std::vector<RowReduction::Row> reduced(std::vector<RowReduction::Row> rows,
-                                       std::vector<UncertainRow> entries) {
+                                       std::vector<UncertainRow> entries, double relative_bound) {
   // The rows that have, or had, an entry in the pivot column of a row.
   std::unordered_map<Index, std::vector<std::size_t>> rows_of_pivot;
   for (const RowReduction::Row& row : rows) rows_of_pivot[row.pivot];
@@ -262,7 +277,7 @@ std::vector<RowReduction::Row> reduced(std::vector<RowReduction::Row> rows,
         if (entry(entries[i], column).is_exactly(0.0)) note(column, i);
       entries[i] = combined(entries[i], -value, entries[p]);
       std::erase_if(entries[i], [&](const auto& e) { return e.first == rows[p].pivot; });
-      clean(entries[i], scale);
+      clean(entries[i], scale, relative_bound);
     }
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -276,7 +291,7 @@ std::vector<RowReduction::Row> reduced(std::vector<RowReduction::Row> rows,
 }  // namespace
 
 RowReduction::RowReduction(const UncertainMatrix& A, const std::vector<Index>& row_level,
-                           const std::vector<Index>& column_group) {
+                           const std::vector<Index>& column_group, Pivots pivots) {
   const Index levels =
       row_level.empty() ? 0 : 1 + *std::max_element(row_level.begin(), row_level.end());
   const Index groups =
@@ -285,7 +300,7 @@ RowReduction::RowReduction(const UncertainMatrix& A, const std::vector<Index>& r
   for (std::size_t i = 0; i < row_level.size(); ++i)
     rows_of_level[static_cast<std::size_t>(row_level[i])].push_back(static_cast<Index>(i));
 
-  RowElimination elimination(A, row_level, column_group);
+  RowElimination elimination(A, row_level, column_group, pivots);
   for (Index g = 0; g < groups; ++g) {
     std::vector<const RowElimination::Working*> found;
     for (const std::vector<Index>& candidates : rows_of_level)
@@ -298,7 +313,7 @@ RowReduction::RowReduction(const UncertainMatrix& A, const std::vector<Index>& r
       rows.back().errors = errors(working->entries);
       of_group.push_back(working->entries);
     }
-    reduced_groups_.push_back(reduced(rows, std::move(of_group)));
+    reduced_groups_.push_back(reduced(rows, std::move(of_group), elimination.relative_bound()));
   }
   for (const auto& working : elimination.rows())
     if (!working.done) zero_rows_.push_back(working.row);

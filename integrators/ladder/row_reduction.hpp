@@ -21,7 +21,8 @@ using SparseEntries = std::vector<std::pair<Index, double>>;
 // So the rows of level ≤ k are the reduction of these rows of A alone, and the rows whose pivot is
 // in group g or later are a basis of the combinations of the rows of A that are free of all columns
 // of groups < g: left null vectors of that part of A. Sparse rows are preferred as pivots
-// (Markowitz), with an entry of at least a tenth of the largest that the row has in the group.
+// (Markowitz), with an entry of at least a tenth of the largest that the row has in the group; or the
+// largest entry of all that are clearly above their bounds, which fills in more and makes the least errors.
 //
 // Entries carry bounds of their errors through the elimination, and those within them count as zero;
 // bounds beyond 10⁻⁶ of the largest number that went into a row say nothing. A should have comparable
@@ -38,8 +39,10 @@ class RowReduction {
     SparseEntries multipliers;  // by row of A
   };
 
+  enum class Pivots { sparse, largest };
+
   RowReduction(const UncertainMatrix& A, const std::vector<Index>& row_level,
-               const std::vector<Index>& column_group);
+               const std::vector<Index>& column_group, Pivots pivots = Pivots::sparse);
 
   // The rows with a pivot in this group, in the order in which they were found.
   const std::vector<Row>& group(Index g) const { return groups_[static_cast<std::size_t>(g)]; }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "courant/core/structural_rank.hpp"
+#include "courant/integrators/ladder/natural_scaling.hpp"
 #include "courant/integrators/ladder/obstruction.hpp"
 
 namespace courant {
@@ -20,7 +22,9 @@ struct Comparison {
   };
   Outcome outcome = Outcome::unknown;
   bool is_certain = true;
+  bool is_proven = true;        // at least, of ranks that are alike
   bool is_hidden = false;       // whether round-off hides if equations follow
+  bool is_beside = false;       // whether the direction, which is no tangent, does not tell
   std::string difference = "";  // in words
 };
 
@@ -46,6 +50,21 @@ Comparison compare(const std::vector<LadderLevel>& here, const std::vector<Ladde
   return result;
 }
 
+// Whether the bound of the errors proves the rank, and leaves nothing open. Bounds contain an estimate of how
+// far the zero is that is meant: for itself alone a decision asks for more.
+bool is_proven(const RankDecision& rank) {
+  constexpr double above = 1.25, below = 0.5;
+  return rank.above >= above && rank.below <= below;
+}
+
+bool are_proven(const std::vector<LadderLevel>& levels) {
+  return contradictions(levels).empty() &&
+         std::ranges::all_of(levels, [](const LadderLevel& level) {
+           return level.is_empty || (is_proven(level.all) && is_proven(level.without_tangent) &&
+                                     is_proven(level.without_point));
+         });
+}
+
 bool is_larger(const std::vector<LadderLevel>& there, const std::vector<LadderLevel>& here) {
   for (std::size_t k = 0; k < std::min(there.size(), here.size()); ++k)
     if (there[k].dim_M > here[k].dim_M) return true;
@@ -64,9 +83,29 @@ bool are_certain(const std::vector<LadderLevel>& levels) {
                       [](const LadderLevel& level) { return level.is_ambiguous(); });
 }
 
+void confirm(std::vector<LadderLevel>& levels) {
+  for (LadderLevel& level : levels)
+    for (RankDecision* rank : {&level.all, &level.without_tangent, &level.without_point})
+      if (is_proven(*rank)) rank->is_doubtful = false;
+}
+
+bool are_ranks_of_pattern(const ConsistentJet& at, const std::vector<LadderLevel>& levels) {
+  if (!are_proven(levels)) return false;
+  const SparseMatrixXd pattern = GenericScaling(at.array, at.zero.y, at.zero.reach).magnitude;
+  const Index n = at.array.base_size();
+  return std::ranges::all_of(levels, [&](const LadderLevel& level) {
+    const Index rows = at.array.row_count(level.k), columns = at.array.unknown_count(level.k);
+    const auto largest_from = [&](Index first) {
+      return structural_rank(pattern.block(0, first, rows, columns - first));
+    };
+    return level.all.rank == largest_from(0) && level.without_point.rank == largest_from(n) &&
+           level.without_tangent.rank == largest_from(2 * n);
+  });
+}
+
 Singularity singularity(const ConsistentPoint& consistent, const ConsistentJet& at,
                         const std::vector<LadderLevel>& levels, bool follow) {
-  if (at.array.has_constant_jacobian()) return {};
+  if (at.array.has_constant_jacobian()) return {.is_confirmed = true};
   using Outcome = Comparison::Outcome;
   constexpr Index dense_limit = 200;
   const bool is_small = at.zero.y.size() <= dense_limit;
@@ -82,15 +121,21 @@ Singularity singularity(const ConsistentPoint& consistent, const ConsistentJet& 
       const std::vector<LadderLevel> there = levels_at(near.jet);
       result = compare(levels, there);
       result.is_certain = are_certain(there);
+      result.is_proven = are_proven(there);
       if (result.outcome == Outcome::different) return result;
     }
     const auto seen = obstruction ? obstruction->is_seen_along(tangent) : Obstruction::Answer::no;
     if (seen == Obstruction::Answer::no) return result;
+    if (seen == Obstruction::Answer::beside) {
+      result.is_beside = true;
+      return result;
+    }
     if (seen == Obstruction::Answer::unknown) {
       result.is_hidden = true;
       return result;
     }
     return {.outcome = Outcome::different,
+            .is_certain = seen == Obstruction::Answer::yes,
             .difference =
                 "The equations have solutions in fewer directions than their linear parts: one of "
                 "the constraints has a vanishing gradient here."};
@@ -98,22 +143,25 @@ Singularity singularity(const ConsistentPoint& consistent, const ConsistentJet& 
   using Units = TangentDisplacement::Units;
   constexpr std::array units = {Units::own_sizes, Units::large_where_zero, Units::natural,
                                 Units::own_sizes, Units::large_where_zero};
-  int alike = 0, different = 0, compared = 0;
+  int alike = 0, nothing_hidden = 0, different = 0, compared = 0, proven = 0;
   bool is_hidden = false;
   std::string certain, uncertain;
   for (const Units unit : units) {
     const Comparison comparison = look_along(
         tangents.next(is_small || unit != Units::large_where_zero ? unit : Units::natural));
     is_hidden = is_hidden || comparison.is_hidden;
-    if (comparison.outcome == Outcome::alike && comparison.is_certain && !comparison.is_hidden)
+    if (comparison.outcome == Outcome::alike && comparison.is_certain && !comparison.is_hidden) {
       ++alike;
+      if (!comparison.is_beside) ++nothing_hidden;
+    }
     if (comparison.outcome == Outcome::alike || comparison.outcome == Outcome::lower) ++compared;
+    if (comparison.outcome == Outcome::alike && comparison.is_proven) ++proven;
     if (comparison.outcome == Outcome::different && !comparison.is_certain)
       uncertain = comparison.difference;
     if (comparison.outcome == Outcome::different && comparison.is_certain) {
       if (++different == 1) certain = comparison.difference;
     }
-    if (different == 3 || (alike == 2 && different == 0)) break;
+    if (different == 3 || (nothing_hidden == 2 && different == 0)) break;
   }
   // Ranks that hold at this instant only, as that of t at t = 0, are not those of a motion.
   if (at.array.depends_on_time() && different == 0) {
@@ -130,13 +178,14 @@ Singularity singularity(const ConsistentPoint& consistent, const ConsistentJet& 
     if (different == 2) return {.reason = certain};
   }
   // A singular point looks singular from everywhere: two directions in which nothing is hidden are enough.
-  if (is_hidden && alike < 2 && uncertain.empty())
+  if (is_hidden && nothing_hidden < 2 && uncertain.empty())
     uncertain =
         "Round-off hides whether the equations have solutions in all directions that their linear "
         "parts have, or a constraint has a vanishing gradient here.";
   const std::string& seen = certain.empty() ? uncertain : certain;
   if (different >= 2 && different > alike) return {.reason = certain, .is_unanimous = alike == 0};
-  return {.seen_once = seen, .is_compared = compared >= 2};
+  return {
+      .seen_once = seen, .is_compared = compared >= 2, .is_confirmed = seen.empty() && proven >= 2};
 }
 
 bool is_same_rank_at(const ConsistentJet& at, const std::vector<LadderLevel>& levels,

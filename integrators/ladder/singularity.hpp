@@ -15,12 +15,22 @@ std::vector<LadderLevel> levels_at(const ConsistentJet& jet);
 // Whether none of their ranks is doubtful, and they do not contradict each other.
 bool are_certain(const std::vector<LadderLevel>& levels);
 
+// Says so of ranks that the bound of their errors proves with little to spare, and of which it leaves nothing
+// open: those are not doubtful once points nearby have them too.
+void confirm(std::vector<LadderLevel>& levels);
+
+// Whether all ranks are proven at the point, and are the largest that equations with entries where those around
+// the point have some can have. Then they are constant around it, whatever points nearby may say, and numbers that
+// were lost in their errors make none of them larger.
+bool are_ranks_of_pattern(const ConsistentJet& at, const std::vector<LadderLevel>& levels);
+
 // What is singular at a zero of the derivative array.
 struct Singularity {
   std::string reason = "";     // in words; empty if nothing is
   std::string seen_once = "";  // the same, of one direction only
   bool is_unanimous = true;    // whether no direction says that nothing is
   bool is_compared = true;     // whether there were points nearby to compare with
+  bool is_confirmed = false;   // whether enough of them have the same ranks, proven there too
 };
 
 // Zeros of constant rank form a manifold whose tangent space is the kernel of the Jacobian: a point at

@@ -67,7 +67,8 @@ BOOST_AUTO_TEST_CASE(the_uncertainty_of_a_point_hides_nothing_behind_planted_zer
 
 // Starts that were wrong in silence: pivots that hid numbers in errors, scales that made errors large,
 // z² = 0 that round-off hides until its second derivative is asked, a rank of points that are hardly
-// known, directions that are tangents but for errors, equations that vanish where nothing tells their units.
+// known, directions that are tangents but for errors, equations that vanish where nothing tells their units,
+// directions beside the tangent space, squares below the bounds of their errors.
 BOOST_AUTO_TEST_CASE(hard_starts_are_right_or_doubted) {
   struct Hard {
     std::string system, kind;
@@ -77,6 +78,10 @@ BOOST_AUTO_TEST_CASE(hard_starts_are_right_or_doubted) {
   const auto scaled_round_off = [](const Problem& problem, std::mt19937& generator) {
     const Problem planted = with_planted_round_off(problem, generator);
     return scaled(planted, generator);
+  };
+  const auto transformed_round_off = [](const Problem& problem, std::mt19937& generator) {
+    const Problem planted = with_planted_round_off(problem, generator);
+    return transformed(planted, generator);
   };
   const auto permuted_products = [](const Problem& problem, std::mt19937& generator) {
     const Problem cancelled = with_cancelled_products(problem, generator);
@@ -96,6 +101,8 @@ BOOST_AUTO_TEST_CASE(hard_starts_are_right_or_doubted) {
       {"Cawley", "zeros", scaled, 4},
       {"Cawley", "first axis", scaled_products, 1},
       {"lemniscate at its node", "catalogued", scaled_products, 1},
+      {"Cawley", "right angle", scaled_round_off, 5},
+      {"Cawley", "SI units", transformed_round_off, 2},
   };
   const std::vector<KnownLadder> all = catalogue();
   for (const Hard& hard : table) {
