@@ -77,6 +77,8 @@ BOOST_AUTO_TEST_CASE(goes_on_from_its_memory_as_if_it_had_not_stopped) {
       whole.add(k, values(k));
       second.add(k, values(k));
     }
+    BOOST_TEST(whole.is_finite() == std::isfinite(special));
+    BOOST_TEST(second.is_finite() == whole.is_finite());
     const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
     for (Index i = 0; i < 3; ++i) {
       const QuantityRecord one = whole.record(i), other = second.record(i);
