@@ -57,10 +57,23 @@ constexpr double kGood = 0.01;
 // Relative changes that are round-off everywhere.
 constexpr double kLeast = 2.0 * std::numeric_limits<double>::epsilon();
 
+// As PairMaximum and PairSum, of single numbers.
+struct NumberMaximum {
+  void add(double number) { value_ = std::max(value_, number); }
+  double value() const { return value_; }
+  double value_ = 0.0;
+};
+struct NumberSum {
+  void add(double number) { value_ += number; }
+  double value() const { return value_; }
+  double value_ = 0.0;
+};
+
 // What became of some unknowns: their largest change, their largest size after it, and whether all changes are finite.
+template <class Largest, class Total>
 struct Movement {
-  PairMaximum changes, sizes;
-  PairSum total;
+  Largest changes, sizes;
+  Total total;
 
   template <class Numbers>
   void move(double* u, const Numbers& change) {
@@ -74,16 +87,19 @@ struct Movement {
 };
 
 // u_i ← u_i - change_i for begin ≤ i < end.
-void subtract(double* u, const double* change, Index begin, Index end, Movement& movement) {
+auto subtract(double* u, const double* change, Index begin, Index end) {
+  Movement<PairMaximum, PairSum> movement;
   for_each_pair(begin, end, [&]<class Numbers>(Index i, Numbers) {
     movement.move(u + i, read<Numbers>(change + i));
   });
+  return movement;
 }
 
 // The same for the unknowns at these places.
-void subtract(double* u, const double* change, const Index* places, Index begin, Index end,
-              Movement& movement) {
+auto subtract(double* u, const double* change, const Index* places, Index begin, Index end) {
+  Movement<NumberMaximum, NumberSum> movement;
   for (Index i = begin; i < end; ++i) movement.move(u + places[i], change[i]);
+  return movement;
 }
 
 // change = A F, u ← u - change, for a square A of n rows, without a way through memory. Returns the largest
@@ -95,7 +111,7 @@ double improve_small(const double* A, const double* F, double* u, double* change
   Vector sum = Vector::Zero();
   for (int j = 0; j < n; ++j) sum += columns.col(j) * F[j];
   Eigen::Map<Vector>{change} = sum;
-  Movement movement;
+  Movement<PairMaximum, PairSum> movement;
   for_each_pair(0, n, [&]<class Numbers>(Index i, Numbers) {
     movement.move(u + i, read<Numbers>(sum.data() + i));
   });
@@ -182,18 +198,17 @@ double Newton::improve(double* y, const double* scales) {
   double result = 0.0;
   bool is_finite = true;
   Index begin = 0;
-  for (std::size_t g = 0; g < ends_.size(); ++g) {
-    const Index end = ends_[g];
-    Movement movement;
+  for (std::size_t g = 0; g < ends_.size(); begin = ends_[g++]) {
+    const auto take = [&](const auto& movement) {
+      is_finite &= movement.is_finite();
+      const double size = std::max(scales[g], movement.sizes.value());
+      sizes_[static_cast<Index>(g)] = size;
+      result = std::max(result, relative(movement.changes.value(), size));
+    };
     if (is_contiguous_)
-      subtract(y + contained_.front(), step_.data(), begin, end, movement);
+      take(subtract(y + contained_.front(), step_.data(), begin, ends_[g]));
     else
-      subtract(y, step_.data(), contained_.data(), begin, end, movement);
-    begin = end;
-    is_finite &= movement.is_finite();
-    const double size = std::max(scales[g], movement.sizes.value());
-    sizes_[static_cast<Index>(g)] = size;
-    result = std::max(result, relative(movement.changes.value(), size));
+      take(subtract(y, step_.data(), contained_.data(), begin, ends_[g]));
   }
   return is_finite ? result : std::numeric_limits<double>::infinity();
 }
