@@ -40,6 +40,11 @@ RATIOS = [
      {"pendulum/native": "native", "pendulum/interpreter": "interpreter"}),
     ("constrained", "heavy top in R¹⁸, Method 2, h = 0.0025", "heavy_top_by_hand",
      {"heavy_top/native": "native", "heavy_top/interpreter": "interpreter"}),
+    *((
+        "whole_run", f"`courant run` of 10⁶ steps with `every: 1000`, {what}, next to the bare loop of these steps",
+        f"bare_loop/{name}", {f"run/{name}": "run"})
+      for name, what in (("method_1", "four vortices by Method 1"), ("method_2", "four vortices by Method 2"),
+                         ("body", "reduced rigid body on S²"))),
     ("chain", "10 masses between springs, 50 steps from a fresh start", "by_hand/10",
      {"generic/10": "interpreter"}),
     ("chain", "100 masses", "by_hand/100", {"generic/100": "interpreter"}),

@@ -8,6 +8,7 @@
 
 #include "courant/core/broyden_update.hpp"
 #include "courant/core/damped_newton.hpp"
+#include "courant/core/pairs.hpp"
 #include "courant/core/static_size.hpp"
 #include "courant/core/unknown_selection.hpp"
 
@@ -56,46 +57,49 @@ constexpr double kGood = 0.01;
 // Relative changes that are round-off everywhere.
 constexpr double kLeast = 2.0 * std::numeric_limits<double>::epsilon();
 
-// What became of some unknowns: their largest change, their largest size after it, the sum of all changes.
-struct Movement {
-  double largest = 0.0, size = 0.0, total = 0.0;
+// As PairMaximum and PairSum, of single numbers.
+struct NumberMaximum {
+  void add(double number) { value_ = std::max(value_, number); }
+  double value() const { return value_; }
+  double value_ = 0.0;
+};
+struct NumberSum {
+  void add(double number) { value_ += number; }
+  double value() const { return value_; }
+  double value_ = 0.0;
 };
 
-// u_i ← u_i - change_i for begin ≤ i < end, two at a time.
-Movement subtract(double* u, const double* change, Index begin, Index end) {
-  using Two = Eigen::Array2d;
-  Two largest = Two::Zero(), size = Two::Zero(), total = Two::Zero();
-  Index i = begin;
-  for (; i + 1 < end; i += 2) {
-    const Two step = Eigen::Map<const Two>(change + i), length = step.abs();
-    Eigen::Map<Two> two(u + i);
-    const Two moved = two - step;
-    two = moved;
-    largest = largest.max(length);
-    size = size.max(moved.abs());
-    total += length;
+// What became of some unknowns: their largest change, their largest size after it, and whether all changes are finite.
+template <class Largest, class Total>
+struct Movement {
+  Largest changes, sizes;
+  Total total;
+
+  template <class Numbers>
+  void move(double* u, const Numbers& change) {
+    const Numbers length = magnitude(change), moved = read<Numbers>(u) - change;
+    write(u, moved);
+    changes.add(length);
+    sizes.add(Numbers(magnitude(moved)));
+    total.add(length);
   }
-  Movement result{std::max(largest[0], largest[1]), std::max(size[0], size[1]),
-                  total[0] + total[1]};
-  if (i == end) return result;
-  u[i] -= change[i];
-  const double length = std::fabs(change[i]);
-  return {std::max(result.largest, length), std::max(result.size, std::fabs(u[i])),
-          result.total + length};
+  bool is_finite() const { return std::isfinite(total.value()); }
+};
+
+// u_i ← u_i - change_i for begin ≤ i < end.
+auto subtract(double* u, const double* change, Index begin, Index end) {
+  Movement<PairMaximum, PairSum> movement;
+  for_each_pair(begin, end, [&]<class Numbers>(Index i, Numbers) {
+    movement.move(u + i, read<Numbers>(change + i));
+  });
+  return movement;
 }
 
 // The same for the unknowns at these places.
-Movement subtract(double* u, const double* change, const Index* places, Index begin, Index end) {
-  Movement result;
-  for (Index i = begin; i < end; ++i) {
-    double& unknown = u[places[i]];
-    const double length = std::fabs(change[i]);
-    unknown -= change[i];
-    result.largest = std::max(result.largest, length);
-    result.size = std::max(result.size, std::fabs(unknown));
-    result.total += length;
-  }
-  return result;
+auto subtract(double* u, const double* change, const Index* places, Index begin, Index end) {
+  Movement<NumberMaximum, NumberSum> movement;
+  for (Index i = begin; i < end; ++i) movement.move(u + places[i], change[i]);
+  return movement;
 }
 
 // change = A F, u ← u - change, for a square A of n rows, without a way through memory. Returns the largest
@@ -107,11 +111,12 @@ double improve_small(const double* A, const double* F, double* u, double* change
   Vector sum = Vector::Zero();
   for (int j = 0; j < n; ++j) sum += columns.col(j) * F[j];
   Eigen::Map<Vector>{change} = sum;
-  const Vector moved = Eigen::Map<const Vector>(u) - sum;
-  Eigen::Map<Vector>{u} = moved;
-  const Vector length = sum.abs();
-  size = moved.abs().maxCoeff();
-  return std::isfinite(length.sum()) ? length.maxCoeff() : std::numeric_limits<double>::infinity();
+  Movement<PairMaximum, PairSum> movement;
+  for_each_pair(0, n, [&]<class Numbers>(Index i, Numbers) {
+    movement.move(u + i, read<Numbers>(sum.data() + i));
+  });
+  size = movement.sizes.value();
+  return movement.is_finite() ? movement.changes.value() : std::numeric_limits<double>::infinity();
 }
 
 // Of unknowns of this size; a block of scale 0 that ends at 0 has moved by all of itself.
@@ -191,47 +196,60 @@ double Newton::improve(double* y, const double* scales) {
   }
   solver_->solve(all_.data(), step_.data());
   double result = 0.0;
-  double total = 0.0;  // not finite if one of the changes is not
+  bool is_finite = true;
   Index begin = 0;
-  for (std::size_t g = 0; g < ends_.size(); ++g) {
-    const Index end = ends_[g];
-    const Movement movement = is_contiguous_
-                                  ? subtract(y + contained_.front(), step_.data(), begin, end)
-                                  : subtract(y, step_.data(), contained_.data(), begin, end);
-    begin = end;
-    total += movement.total;
-    const double size = std::max(scales[g], movement.size);
-    sizes_[static_cast<Index>(g)] = size;
-    result = std::max(result, relative(movement.largest, size));
+  for (std::size_t g = 0; g < ends_.size(); begin = ends_[g++]) {
+    const auto take = [&](const auto& movement) {
+      is_finite &= movement.is_finite();
+      const double size = std::max(scales[g], movement.sizes.value());
+      sizes_[static_cast<Index>(g)] = size;
+      result = std::max(result, relative(movement.changes.value(), size));
+    };
+    if (is_contiguous_)
+      take(subtract(y + contained_.front(), step_.data(), begin, ends_[g]));
+    else
+      take(subtract(y, step_.data(), contained_.data(), begin, ends_[g]));
   }
-  return std::isfinite(total) ? result : std::numeric_limits<double>::infinity();
+  return is_finite ? result : std::numeric_limits<double>::infinity();
 }
 
 // The kept inverse, by the last two changes, both made with it.
 void Newton::learn() {
-  Index i = 0;
-  for (std::size_t g = 0; g < ends_.size(); ++g) {
+  Index begin = 0;
+  for (std::size_t g = 0; g < ends_.size(); begin = ends_[g++]) {
     const double size = sizes_[static_cast<Index>(g)];
-    for (; i < ends_[g]; ++i) weighted_[i] = size > 0.0 ? before_[i] / size / size : 0.0;
+    if (!(size > 0.0)) {
+      weighted_.segment(begin, ends_[g] - begin).setZero();
+      continue;
+    }
+    for_each_pair(begin, ends_[g], [&]<class Numbers>(Index i, Numbers) {
+      write(weighted_.data() + i, Numbers(read<Numbers>(before_.data() + i) / size / size));
+    });
   }
   broyden_update(inverse_, before_, step_, weighted_);
+}
+
+// Σ_j |J_ij| size(j) for each equation i, by the Jacobian that was evaluated last.
+template <class Size>
+void Newton::sum_terms(const Size& size) {
+  magnitude_.setZero();
+  const Index rows = magnitude_.size();
+  const auto& row = function_.pattern_row();
+  const auto& column = function_.pattern_col();
+  for (std::size_t k = 0; k < row.size(); ++k)
+    magnitude_[row[k]] += std::fabs(all_[rows + static_cast<Index>(k)]) * size(column[k]);
 }
 
 // The largest part that a residual is of the terms J_ij y_j of its equation, or with `any` of the terms of any
 // equation. An unknown that is an increment belongs to a sum of the size of its block's scale.
 double Newton::unsolved_part(const double* y, const double* scales, bool any) {
-  magnitude_.setZero();
-  const Index rows = magnitude_.size();
-  const auto& row = function_.pattern_row();
-  const auto& column = function_.pattern_col();
-  for (std::size_t k = 0; k < row.size(); ++k) {
+  sum_terms([&](Index j) {
     std::size_t g = 0;
-    for (Index end = groups_[0]; column[k] >= end; end += groups_[++g]) {
+    for (Index end = groups_[0]; j >= end; end += groups_[++g]) {
     }
-    const double size = std::max(std::fabs(y[column[k]]), std::min(scales[g], scales[0]));
-    magnitude_[row[k]] += std::fabs(all_[rows + static_cast<Index>(k)]) * size;
-  }
-  if (any && rows > 0) magnitude_.setConstant(magnitude_.maxCoeff());
+    return std::max(std::fabs(y[j]), std::min(scales[g], scales[0]));
+  });
+  if (any && magnitude_.size() > 0) magnitude_.setConstant(magnitude_.maxCoeff());
   return largest_part(magnitude_);
 }
 
@@ -295,11 +313,7 @@ bool Newton::is_settled(const double* y, const double* const* in, bool fresh) {
   if (away <= kSameSlope && change * std::max(change, away) <= kStill) return true;
   if (!fresh) return false;
   function_.value_and_jacobian(in, all_.data());
-  magnitude_.setZero();
-  const auto& row = function_.pattern_row();
-  const auto& column = function_.pattern_col();
-  for (std::size_t k = 0; k < row.size(); ++k)
-    magnitude_[row[k]] += std::fabs(all_[magnitude_.size() + static_cast<Index>(k)] * y[column[k]]);
+  sum_terms([&](Index j) { return std::fabs(y[j]); });
   return largest_part(magnitude_) <= kHolds;
 }
 
@@ -464,7 +478,7 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
       if (learned)
         learn();
       else
-        before_ = step_;
+        before_.swap(step_);
     }
     previous = moved;
     ++compared;

@@ -84,6 +84,8 @@ class Newton {
   bool factorize(const double* const* in);
   double improve(double* y, const double* scales);
   void learn();
+  template <class Size>
+  void sum_terms(const Size& size);
   double unsolved_part(const double* y, const double* scales, bool any);
   double largest_part(const VectorXd& magnitude) const;
   bool sees_all() const;

@@ -14,6 +14,7 @@ DisplacementStepper::DisplacementStepper(std::string method,
       projection_(formulas.constraint),
       m_(this->system().auxiliary_size()),
       contained_(formulas.contained),
+      contains_all_(std::ssize(contained_) == manifold().ambient_dimension()),
       solver_(formulas.equations, {formulas.displacements, m_}, this->method(), formulas.whole,
               {.displacements = formulas.displacements, .h = formulas.h}),
       predictor_({formulas.displacements, m_}, solver_.predicted()),
@@ -21,6 +22,7 @@ DisplacementStepper::DisplacementStepper(std::string method,
       kept_(next_) {}
 
 double DisplacementStepper::size_of(const VectorXd& x) const {
+  if (contains_all_) return largest(x);
   double size = 0.0;
   for (const Index i : contained_) size = std::max(size, std::fabs(x[i]));
   return size > 0.0 ? size : largest(x);

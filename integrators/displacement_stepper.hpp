@@ -57,6 +57,7 @@ class DisplacementStepper : public Stepper {
   // The coordinates that the equations contain. Displacements are solved for next to these: a body that has
   // gone far in a space whose equations do not contain its place moves as one that has not.
   const std::vector<Index> contained_;
+  const bool contains_all_;
   StepSolver solver_;
   Predictor predictor_;
   VectorXd next_, kept_;  // what advance_ gives for the step that is made, and the last that stands

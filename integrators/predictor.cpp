@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <numeric>
+#include <type_traits>
 
 #include "courant/core/unknown_selection.hpp"
 
@@ -16,13 +18,6 @@ constexpr int kStepsBetweenChoices = 32;
 // part of what the best polynomial through all of them would have been.
 constexpr int kMaxAlternatingOrder = 4;
 constexpr double kMuchBetter = 0.25;
-
-// Two unknowns, or one.
-using Two = Eigen::Array2d;
-void read(const double* from, Two& to) { to = Eigen::Map<const Two>(from); }
-void read(const double* from, double& to) { to = *from; }
-void enlarge(Two& size, const Two& by) { size = size.max(by.abs()); }
-void enlarge(double& size, double by) { size = std::max(size, std::fabs(by)); }
 
 std::vector<Index> all_of(const std::vector<Index>& groups) {
   std::vector<Index> places(
@@ -60,33 +55,23 @@ void Predictor::extrapolate(const Group& group, int age, double* result) const {
   const double* const oldest = recorded(age + order * spacing - 1);
   const Index stride = spacing * history_.cols();
   const double* const weights = group.weights.data();
-  const auto sum = [&]<class Numbers>(Index i, Numbers* sums, int count, int width) {
+  // Of `count` times one or two unknowns.
+  const auto sum = [&]<class Numbers>(Index i, Numbers* sums, int count) {
+    constexpr Index width = std::same_as<Numbers, Pair> ? 2 : 1;
     const double* row = oldest + i;
-    Numbers number;
-    for (int k = 0; k < count; ++k) {
-      read(row + k * width, number);
-      sums[k] = weights[order - 1] * number;
-    }
+    for (int k = 0; k < count; ++k) sums[k] = weights[order - 1] * read<Numbers>(row + k * width);
     for (int j = order - 2; j >= 0; --j) {
       row += stride;
-      for (int k = 0; k < count; ++k) {
-        read(row + k * width, number);
-        sums[k] += weights[j] * number;
-      }
+      for (int k = 0; k < count; ++k) sums[k] += weights[j] * read<Numbers>(row + k * width);
     }
+    for (int k = 0; k < count; ++k) write(result + i + k * width, sums[k]);
   };
   Index i = group.begin;
   for (; i + 7 < group.end; i += 8) {
-    Two eight[4];
-    sum(i, eight, 4, 2);
-    for (int k = 0; k < 4; ++k) Eigen::Map<Two>(result + i + 2 * k) = eight[k];
+    Pair eight[4];
+    sum(i, eight, 4);
   }
-  for (; i + 1 < group.end; i += 2) {
-    Two two;
-    sum(i, &two, 1, 2);
-    Eigen::Map<Two>(result + i) = two;
-  }
-  if (i < group.end) sum(i, result + i, 1, 1);
+  for_each_pair(i, group.end, [&]<class Numbers>(Index k, Numbers one) { sum(k, &one, 1); });
 }
 
 void Predictor::predict(VectorXd& y) {
@@ -207,27 +192,32 @@ Predictor::Rule Predictor::best_rule(const Group& group) const {
 
 // What the rules of this spacing, of order 1 and so on, would have been wrong by for the newest unknowns.
 Predictor::Errors Predictor::errors(const Group& group, int spacing, int most) const {
-  std::array<Two, kMaxDegree + 1> of_two;
-  of_two.fill(Two::Zero());
   Errors result = {};
-  Index i = group.begin;
-  for (; i + 1 < group.end; i += 2) judge_orders(i, spacing, most, of_two.data());
-  if (i < group.end) judge_orders(i, spacing, most, result.data());
-  for (std::size_t k = 0; k < result.size(); ++k)
-    result[k] = std::max(result[k], of_two[k].maxCoeff());
+  const bool is_usual = spacing == 1 && count_ == kKept && most == kMaxDegree + 1;
+  std::array<PairMaximum, kMaxDegree + 1> largest;
+  for_each_pair(group.begin, group.end, [&]<class Numbers>(Index i, Numbers) {
+    if (is_usual)
+      judge_orders<Numbers>(i, std::integral_constant<int, 1>(),
+                            std::integral_constant<int, kKept>(),
+                            std::integral_constant<int, kMaxDegree + 1>(), largest.data());
+    else
+      judge_orders<Numbers>(i, spacing, count_, most, largest.data());
+  });
+  std::ranges::transform(largest, result.begin(), &PairMaximum::value);
   return result;
 }
 
-// Of the unknown i, or of i and i + 1.
-template <class Numbers>
-void Predictor::judge_orders(Index i, int spacing, int most, Numbers* largest) const {
+// Of the unknown i, or of i and i + 1. Where a history is full the compiler knows all numbers.
+template <class Numbers, class Spacing, class Count, class Most>
+void Predictor::judge_orders(Index i, Spacing spacing, Count count, Most most,
+                             PairMaximum* largest) const {
   Numbers differences[kKept];  // of the unknown that is so many steps old
-  for (int age = 0; age < count_; ++age) read(recorded(age) + i, differences[age]);
+  for (int age = 0; age < count; ++age) differences[age] = read<Numbers>(recorded(age) + i);
   for (int order = 1; order <= most; ++order) {
-    const int remaining = count_ - order * spacing;
+    const int remaining = count - order * spacing;
     for (int age = 0; age < remaining; ++age) differences[age] -= differences[age + spacing];
     for (int age = 0; age < std::min(remaining, kJudged); ++age)
-      enlarge(largest[order - 1], differences[age]);
+      largest[order - 1].add(Numbers(magnitude(differences[age])));
   }
 }
 

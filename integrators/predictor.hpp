@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "courant/core/expr.hpp"
+#include "courant/core/pairs.hpp"
 
 namespace courant {
 
@@ -91,8 +92,8 @@ class Predictor {
   void choose_rules();
   Rule best_rule(const Group& group) const;
   Errors errors(const Group& group, int spacing, int most) const;
-  template <class Numbers>
-  void judge_orders(Index i, int spacing, int most, Numbers* largest) const;
+  template <class Numbers, class Spacing, class Count, class Most>
+  void judge_orders(Index i, Spacing spacing, Count count, Most most, PairMaximum* largest) const;
   static void set_rule(Group& group, const Rule& rule);
 
   std::vector<Group> groups_;  // of places

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "courant/core/message.hpp"
+#include "courant/core/pairs.hpp"
 #include "courant/core/unknown_selection.hpp"
 
 namespace courant {
@@ -84,17 +85,13 @@ void StepSolver::keep() {
 bool StepSolver::is_as_predicted(double part, double size) const {
   if (size > 0.0 && size < kFewDigits) return true;
   const double least = kNoDisplacement * size;
-  using Two = Eigen::Array2d;
   bool result = true;
-  Index i = 0;
-  for (; i + 1 < usual_.size(); i += 2) {
-    const Two y = y_.segment<2>(i), change = (y - other_.segment<2>(i).array()).abs();
-    const Two bound = (part * y.abs().max(usual_.segment<2>(i).array())).max(least);
-    result &= (change[0] <= bound[0]) & (change[1] <= bound[1]);
-  }
-  if (i < usual_.size())
-    result &= std::fabs(y_[i] - other_[i]) <=
-              std::max(part * std::max(std::fabs(y_[i]), usual_[i]), least);
+  for_each_pair(0, usual_.size(), [&]<class Numbers>(Index i, Numbers) {
+    const Numbers y = read<Numbers>(y_.data() + i);
+    const Numbers change = magnitude(Numbers(y - read<Numbers>(other_.data() + i)));
+    const Numbers size = larger(Numbers(magnitude(y)), read<Numbers>(usual_.data() + i));
+    result &= is_at_most(change, larger(Numbers(part * size), least));
+  });
   return result;
 }
 
@@ -181,6 +178,12 @@ std::string StepSolver::surplus() const {
 
 double auxiliary_scale(double auxiliary, double state) { return 1e7 * auxiliary + 1e-3 * state; }
 
-double largest(const VectorXd& x) { return x.size() == 0 ? 0.0 : x.lpNorm<Eigen::Infinity>(); }
+double largest(const VectorXd& x) {
+  PairMaximum result;
+  for_each_pair(0, x.size(), [&]<class Numbers>(Index i, Numbers) {
+    result.add(Numbers(magnitude(read<Numbers>(x.data() + i))));
+  });
+  return result.value();
+}
 
 }  // namespace courant

@@ -72,6 +72,9 @@ class Stepper {
   // next step is made.
   const Step& last();
 
+  // The same without what is to be evaluated for it: of stage, effort and parts nothing is told.
+  const Step& ended() const { return *last_; }
+
   // The curve of the last step: Φ_{sh} of the state before, for 0 ≤ s ≤ 1. Of the method's order,
   // on M_f where the method is; each point costs what a step costs. Throws std::logic_error before
   // the first step, std::invalid_argument for s outside [0, 1], SolveError.

@@ -113,6 +113,7 @@ void Observer::measure(const State& state) {
 
 const VectorXd& Observer::compare(double t) {
   if (balance_) row_[*balance_] = account_->balance();
+  if (form_.size() == 0) return row_;
   const double* time[] = {&t};
   forms_.value(time, form_.data());
   const Index first = row_.size() - form_.size();

@@ -60,6 +60,8 @@ class Observer {
   const VectorXd& begin(const State& state);
   // Throws std::domain_error where something that is measured is not defined.
   const VectorXd& advance(const Step& step);
+  // Whether that takes the stage, the effort and the parts of a step.
+  bool needs_stages() const { return account_ || map_ || stage_.size() > 0; }
 
   // Of the steps so far; null where nothing asks for it: the system has no ports, no observable is at
   // a stage, and no bound of the imbalance is expected.

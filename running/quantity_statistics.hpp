@@ -13,6 +13,8 @@ namespace courant {
 class QuantityStatistics {
  public:
   void add(double t, const VectorXd& values);
+  // Whether all values so far were finite.
+  bool is_finite() const { return is_finite_; }
   bool empty() const { return memory_.count == 0.0; }
   QuantityRecord record(Index quantity) const;
 
@@ -26,10 +28,13 @@ class QuantityStatistics {
   };
   const Memory& memory() const { return memory_; }
   // Goes on as the statistics of the same quantities that had this memory.
-  void recall(Memory memory) { memory_ = std::move(memory); }
+  void recall(Memory memory);
 
  private:
+  void keep_undefined(const VectorXd& values);
+
   Memory memory_;
+  bool is_finite_ = true;
 };
 
 }  // namespace courant

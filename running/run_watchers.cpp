@@ -40,8 +40,10 @@ class Rows final : public RunWatcher {
 
 class Finiteness final : public RunWatcher {
  public:
-  Finiteness(std::optional<NotFinite>& found, Index count) : found_(found), count_(count) {}
+  Finiteness(std::optional<NotFinite>& found, Index count, const QuantityStatistics& statistics)
+      : found_(found), count_(count), statistics_(statistics) {}
   std::optional<RunEnd> watch(const RunMoment& moment) override {
+    if (statistics_.is_finite()) return std::nullopt;
     for (Index i = 0; i < count_ && !found_; ++i)
       if (!std::isfinite(moment.row[i]))
         found_ = NotFinite{.t = moment.t, .value = moment.row[i], .column = i};
@@ -51,6 +53,7 @@ class Finiteness final : public RunWatcher {
  private:
   std::optional<NotFinite>& found_;
   Index count_;
+  const QuantityStatistics& statistics_;
 };
 
 class RowsAtTimes final : public RunWatcher {
@@ -145,8 +148,9 @@ std::unique_ptr<RunWatcher> write_rows(TrajectoryWriter& writer,
   return std::make_unique<Rows>(writer, std::move(is_written), std::move(columns));
 }
 
-std::unique_ptr<RunWatcher> find_not_finite(std::optional<NotFinite>& found, Index count) {
-  return std::make_unique<Finiteness>(found, count);
+std::unique_ptr<RunWatcher> find_not_finite(std::optional<NotFinite>& found, Index count,
+                                            const QuantityStatistics& statistics) {
+  return std::make_unique<Finiteness>(found, count, statistics);
 }
 
 std::unique_ptr<RunWatcher> keep_rows(std::multimap<long, double> due,

@@ -35,12 +35,14 @@ std::unique_ptr<RunWatcher> write_rows(TrajectoryWriter& writer,
                                        std::function<bool(long k)> is_written,
                                        std::vector<Index> columns);
 
-// The first value that is not finite among the first `count` of a row goes into `found`.
+// The first value that is not finite among the first `count` of a row goes into `found`. `statistics`: of the same
+// rows, which have been told of each before.
 struct NotFinite {
   double t = 0.0, value = 0.0;
   Index column = 0;
 };
-std::unique_ptr<RunWatcher> find_not_finite(std::optional<NotFinite>& found, Index count);
+std::unique_ptr<RunWatcher> find_not_finite(std::optional<NotFinite>& found, Index count,
+                                            const QuantityStatistics& statistics);
 
 // rows[t] becomes the row after step k for the pairs (k, t) in `due`.
 std::unique_ptr<RunWatcher> keep_rows(std::multimap<long, double> due,

@@ -137,8 +137,8 @@ class RunUnderway {
     watchers_.push_back(keep_statistics(results_.statistics));
     watchers_.push_back(write_rows(
         rows_.file(), [this](long k) { return rows_.has_step(k); }, rows_.columns()));
-    watchers_.push_back(
-        find_not_finite(not_finite_, static_cast<Index>(observer_.written_count())));
+    watchers_.push_back(find_not_finite(not_finite_, static_cast<Index>(observer_.written_count()),
+                                        results_.statistics));
     if (experiment_.time && !clock_.is_transformed() && !experiment_.expect.times.empty()) {
       std::multimap<long, double> due;
       for (const double moment : experiment_.expect.times)
@@ -181,6 +181,9 @@ class RunUnderway {
     }
     return !end && !clock_.is_last();
   }
+
+  // Whether someone may ask what a step was evaluated at.
+  bool is_told_whole() const { return observer_.needs_stages() || !options_.watchers.empty(); }
 
   // Whether something is measured within steps.
   bool looks_into_steps() const {
@@ -296,7 +299,7 @@ class RunUnderway {
           if (clock_.is_transformed()) clock_.end_step(*stepper, state, k + 1);
           if (looks_into_steps()) elsewhere_.begin_step();
           rows_.write_between(*stepper, k + 1, elsewhere_);
-          going = goes_on(stepper->last(), k + 1);
+          going = goes_on(is_told_whole() ? stepper->last() : stepper->ended(), k + 1);
         }
         if (!going || k == time.steps) break;
         const Motion motion = stepper->motion();

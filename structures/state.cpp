@@ -3,6 +3,8 @@
 #include <cstring>
 #include <utility>
 
+#include "courant/core/pairs.hpp"
+
 namespace courant {
 namespace {
 
@@ -29,15 +31,8 @@ bool operator==(const State& a, const State& b) {
 }
 
 bool is_finite(const State& state) {
-  // 0 · ±∞ and 0 · NaN are NaN; two numbers at a time.
-  Eigen::Array2d sums = Eigen::Array2d::Zero();
-  for (const VectorXd* part : {&state.x, &state.v, &state.z, &state.carried}) {
-    Index i = 0;
-    for (; i + 1 < part->size(); i += 2)
-      sums += 0.0 * Eigen::Map<const Eigen::Array2d>(part->data() + i);
-    if (i < part->size()) sums[0] += 0.0 * (*part)[i];
-  }
-  return sums[0] + sums[1] == 0.0;
+  const auto holds_of = [](const VectorXd& part) { return are_finite(part.data(), part.size()); };
+  return holds_of(state.x) && holds_of(state.v) && holds_of(state.z) && holds_of(state.carried);
 }
 
 }  // namespace courant

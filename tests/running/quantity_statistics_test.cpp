@@ -37,16 +37,55 @@ BOOST_AUTO_TEST_CASE(a_single_value_has_no_slope) {
   BOOST_TEST(record.slope == 0.0);
 }
 
+// Of three quantities, two are looked at together.
 BOOST_AUTO_TEST_CASE(what_is_not_a_number_stays) {
-  for (const int position : {0, 1, 2}) {
-    QuantityStatistics statistics;
-    for (int k = 0; k < 3; ++k)
-      statistics.add(k,
-                     (VectorXd(2) << (k == position ? std::nan("") : 1.0 * k), 1.0 * k).finished());
-    BOOST_TEST(std::isnan(statistics.record(0).max));
-    BOOST_TEST(std::isnan(statistics.record(0).min));
-    BOOST_TEST(std::isnan(statistics.record(0).max_drift));
-    BOOST_TEST(statistics.record(1).max == 2.0);
+  for (const Index quantity : {0, 1, 2})
+    for (const int position : {0, 1, 2, 4}) {
+      QuantityStatistics statistics;
+      for (int k = 0; k < 6; ++k) {
+        VectorXd values = VectorXd::Constant(3, k == 3 ? -1.0 : k);
+        if (k == position) values[quantity] = std::nan("");
+        statistics.add(k, values);
+      }
+      for (Index i = 0; i < 3; ++i) {
+        const QuantityRecord record = statistics.record(i);
+        if (i == quantity) {
+          BOOST_TEST(std::isnan(record.max));
+          BOOST_TEST(std::isnan(record.min));
+          BOOST_TEST(std::isnan(record.max_drift));
+        } else {
+          BOOST_TEST(record.min == -1.0);
+          BOOST_TEST(record.max == 5.0);
+        }
+      }
+    }
+}
+
+BOOST_AUTO_TEST_CASE(goes_on_from_its_memory_as_if_it_had_not_stopped) {
+  for (const double special : {0.5, std::nan(""), HUGE_VAL}) {
+    QuantityStatistics whole, first;
+    const auto values = [&](int k) {
+      return (VectorXd(3) << 1.0 / k, k == 2 ? special : std::sin(k), k * k).finished();
+    };
+    for (int k = 1; k <= 5; ++k) {
+      whole.add(k, values(k));
+      first.add(k, values(k));
+    }
+    QuantityStatistics second;
+    second.recall(first.memory());
+    for (int k = 6; k <= 9; ++k) {
+      whole.add(k, values(k));
+      second.add(k, values(k));
+    }
+    BOOST_TEST(whole.is_finite() == std::isfinite(special));
+    BOOST_TEST(second.is_finite() == whole.is_finite());
+    const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+    for (Index i = 0; i < 3; ++i) {
+      const QuantityRecord one = whole.record(i), other = second.record(i);
+      BOOST_TEST(same(one.min, other.min));
+      BOOST_TEST(same(one.max, other.max));
+      BOOST_TEST(same(one.slope, other.slope));
+    }
   }
 }
 

@@ -293,7 +293,10 @@ BOOST_AUTO_TEST_CASE(watchers_are_told_of_every_state_and_may_end_the_run) {
     BOOST_TEST(first.rows[k][0] == run.trajectory.column(coordinate)[k]);
     BOOST_TEST(first.steps[k].after.x[0] == first.rows[k][0]);
     BOOST_TEST(first.times[k] == first.steps[k].after.t);
-    if (k > 0) BOOST_TEST((first.steps[k].before.x == first.steps[k - 1].after.x));
+    if (k == 0) continue;
+    const Step& step = first.steps[k];
+    BOOST_TEST((step.before.x == first.steps[k - 1].after.x));
+    BOOST_TEST((step.stage.x - 0.5 * (step.before.x + step.after.x)).norm() < 1e-14);
   }
 }
 
