@@ -59,7 +59,8 @@ class Planted final : public Manifold {
   double do_injectivity_radius(const VectorXd&) const override { return parts_.radius; }
   std::optional<VectorXd> do_unit() const override { return parts_.unit; }
   Dilations do_dilations() const override {
-    return parts_.dilations.value_or(Manifold::do_dilations());
+    const std::vector<Index> none(3, Dilations::none);
+    return parts_.dilations.value_or(Dilations{none, none, {0, 0, 0}});
   }
   ExprVector do_velocity_along(const ExprVector& x, const ExprVector& v,
                                const Expr& s) const override {
