@@ -139,10 +139,12 @@ Projector::MatrixFormula metric_of_lagrangian(const std::shared_ptr<const Implic
     }
     const Manifold& Q = *bundle->base();
     ExprMatrix g = -jacobian(gradient(E, w), w).dense();
-    // Across Q the family has -‖w - Π w‖²/2, where there is nothing to be moved.
-    if (Q.dimension() < Q.tangent_dimension())
-      g += 2.0 * (ExprMatrix::Identity(p.size(), p.size()) -
-                  Q.tangent_projector(bundle->position(y)).matrix());
+    // Across Q the family says that w is tangent, where there is nothing to be moved.
+    if (Q.dimension() < Q.tangent_dimension()) {
+      const ExprMatrix projector = Q.tangent_projector(bundle->position(y)).matrix();
+      g = (projector.transpose() * g * projector).eval();
+      g += ExprMatrix::Identity(p.size(), p.size()) - projector;
+    }
     ExprVector other(p.size() + lambda.size() + 1);
     other << p, lambda, t;
     const ExprVector entries = g.reshaped();
