@@ -85,7 +85,13 @@ LinearMap<Expr> Manifold::checked_coframe(const ExprVector& x) const {
 
 LinearMap<Expr> Manifold::checked_projector(const ExprVector& x) const {
   if (dimension_ == tangent_dimension_) return LinearMap<Expr>::identity(dimension_);
-  return checked_coframe(x) * checked_frame(x);
+  check_size("tangent_projector", "x", x.size(), ambient_dimension_, "ambient_dimension()");
+  return with_size(do_tangent_projector(x), name_, "tangent_projector", tangent_dimension_,
+                   tangent_dimension_);
+}
+
+ExprMatrix Manifold::do_tangent_projector(const ExprVector& x) const {
+  return (checked_coframe(x) * checked_frame(x)).matrix();
 }
 
 ExprVector Manifold::checked_constraint(const ExprVector& x) const {

@@ -193,6 +193,8 @@ class Manifold {
                                         const ExprVector& y) const;  // or has_inverse() → false
   virtual std::optional<VectorXd> do_unit() const { return std::nullopt; }
   virtual Dilations do_dilations() const;
+  // Π, where n < Ñ: C E, or what is equal on M and does not mix more off it.
+  virtual ExprMatrix do_tangent_projector(const ExprVector& x) const;
   // Where there is a shorter formula than the one by differentiation:
   virtual ExprVector do_velocity_along(const ExprVector& x, const ExprVector& v,
                                        const Expr& s) const {

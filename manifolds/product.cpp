@@ -96,6 +96,15 @@ ExprMatrix Product::do_frame(const ExprVector& x) const {
   return result;
 }
 
+ExprMatrix Product::do_tangent_projector(const ExprVector& x) const {
+  ExprMatrix result = ExprMatrix::Zero(tangent_dimension(), tangent_dimension());
+  for (std::size_t i = 0; i < factors_.size(); ++i) {
+    const ExprMatrix P = factors_[i]->tangent_projector(point_part(x, i)).matrix();
+    result.block(tangent_offset_[i], tangent_offset_[i], P.rows(), P.cols()) = P;
+  }
+  return result;
+}
+
 ExprMatrix Product::do_coframe(const ExprVector& x) const {
   ExprMatrix result = ExprMatrix::Zero(tangent_dimension(), ambient_dimension());
   for (std::size_t i = 0; i < factors_.size(); ++i) {

@@ -36,6 +36,7 @@ class Product final : public Manifold {
   bool do_has_identity_frame() const override;
   std::optional<VectorXd> do_unit() const override;
   Dilations do_dilations() const override;
+  ExprMatrix do_tangent_projector(const ExprVector& x) const override;
   ExprMatrix do_frame(const ExprVector& x) const override;
   ExprMatrix do_coframe(const ExprVector& x) const override;
   ExprVector do_constraint(const ExprVector& x) const override;

@@ -78,6 +78,17 @@ ExprMatrix VectorBundle::do_coframe(const ExprVector& x) const {
   return result;
 }
 
+// Without F dF(x; v) u below the diagonal, which is zero where u = F u. A momentum of 10⁶ that is normal by rounding, or
+// in a stage of a Runge–Kutta method, would make positions of momenta.
+ExprMatrix VectorBundle::do_tangent_projector(const ExprVector& x) const {
+  const Index n = base_->tangent_dimension();
+  const ExprMatrix F = fibre_projector(position(x)).matrix();
+  ExprMatrix result = ExprMatrix::Zero(2 * n, 2 * n);
+  result.topLeftCorner(n, n) = base_->tangent_projector(position(x)).matrix();
+  result.bottomRightCorner(n, n) = F * F;
+  return result;
+}
+
 ExprVector VectorBundle::do_constraint(const ExprVector& x) const {
   ExprVector on_base = base_->constraint(position(x));
   if (is_trivialised()) return on_base;

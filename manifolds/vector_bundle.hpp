@@ -57,6 +57,7 @@ class VectorBundle : public Manifold {
 
   bool do_has_identity_frame() const override { return base_->has_identity_frame(); }
   Dilations do_dilations() const override;
+  ExprMatrix do_tangent_projector(const ExprVector& x) const override;
   bool do_equals(const Manifold& other) const override {
     return *base_ == *static_cast<const VectorBundle&>(other).base_;
   }

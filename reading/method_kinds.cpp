@@ -9,6 +9,7 @@
 #include "courant/integrators/discrete_gradient.hpp"
 #include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/explicit_runge_kutta.hpp"
+#include "courant/integrators/integrator_in_units.hpp"
 #include "courant/integrators/maps/cayley_midpoint.hpp"
 #include "courant/integrators/maps/chordal.hpp"
 #include "courant/integrators/maps/cotangent_lift.hpp"
@@ -279,7 +280,18 @@ std::optional<MethodChoice> constrain_first(ObjectReader& object) {
                 ConstrainFirst::Options{.backend = in_units.backend});
           });
         };
-        return projector.is_of_units ? prepared_in_units(prepare, at) : prepare(at);
+        // Without constraints nothing is projected.
+        const bool is_free = at.ladder.degrees_of_freedom == at.system->manifold()->dimension();
+        if (projector.is_of_units || is_free) return prepared_in_units(prepare, at);
+        PreparedMethod method = prepare(at);
+        if (needed_units(at.system, at.ladder.point))
+          method.warning =
+              "The numbers of this system are far apart, and its steps are made with them as they "
+              "are, since "
+              "the projector has units of its own: changes of the small ones may be lost. Expected "
+              "the default "
+              "projector, or other units.";
+        return method;
       },
       [is_damped = *is_damped](const MethodSetting& at) {
         return !is_damped && at.ladder.degrees_of_freedom == at.system->manifold()->dimension();

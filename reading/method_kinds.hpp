@@ -41,6 +41,7 @@ struct PreparedMethod {
   // In transformed time: the method that makes the integrator's steps, whose laws are those of the extended
   // system.
   std::shared_ptr<const TransformedIntegrator> transformed = {};
+  std::string warning = {};  // what a run with it has to say; empty: nothing
 };
 
 // The choice of a method, before there is a system to make it for.

@@ -116,6 +116,7 @@ class RunUnderway {
                                        .backend = backend_,
                                        .vocabulary = &experiment_.model.vocabulary});
       results_.backend = method.integrator->is_native() ? "native" : "interpreter";
+      if (!method.warning.empty()) results_.warnings.push_back(method.warning);
       if (auto map = tangent_of_run(experiment_, ladder_, method))
         observer_.follow(*std::move(map));
       if (options_.on_method) options_.on_method(*method.integrator);

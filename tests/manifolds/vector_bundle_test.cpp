@@ -94,6 +94,21 @@ BOOST_AUTO_TEST_CASE(tangent_and_cotangent_differ_where_the_projector_is_not_sym
   BOOST_TEST(dual.point_defect(x) < 1e-14);
 }
 
+// Π is C E on T*S². Off it, where a momentum of 10⁶ has a normal part, it still makes no positions of momenta.
+BOOST_AUTO_TEST_CASE(the_projector_keeps_positions_and_momenta_apart) {
+  const CotangentBundle M(std::make_shared<Sphere>(2));
+  std::mt19937 generator(5);
+  const VectorXd on = M.random_point(generator);
+  const MatrixXd product = M.coframe(on).matrix() * M.frame(on).matrix();
+  BOOST_TEST((M.tangent_projector(on).matrix() - product).norm() < 1e-14);
+  VectorXd off = on;
+  off.tail(3) = 1e6 * (off.tail(3) + 1e-3 * on.head(3));
+  const MatrixXd projector = M.tangent_projector(off).matrix();
+  BOOST_TEST(projector.bottomLeftCorner(3, 3).norm() == 0.0);
+  BOOST_TEST(projector.topRightCorner(3, 3).norm() == 0.0);
+  BOOST_TEST((projector * projector - projector).norm() < 1e-13);
+}
+
 BOOST_AUTO_TEST_CASE(a_null_base_is_an_error) {
   BOOST_CHECK_THROW(TangentBundle(nullptr), std::invalid_argument);
   BOOST_CHECK_THROW(CotangentBundle(nullptr), std::invalid_argument);

@@ -12,16 +12,11 @@ using namespace courant;
 
 namespace {
 
-// Kepler's problem by momenta, prepared for a method that this JSON describes.
-PreparedMethod orbit(double m, double l, double T, const Json& method) {
+// Prepared for a method that this JSON describes, from coordinates that are held.
+PreparedMethod prepared(const Json& system_of, const Json& initial, const Json& method, double T) {
   const Experiment experiment = read_experiment(Json{
-      {"system",
-       {{"type", "mechanical"},
-        {"parameters", {{"m", m}, {"k", m * l * l * l / (T * T)}}},
-        {"coordinates", {"x", "y"}},
-        {"metric", "m"},
-        {"potential", "-k/sqrt(x^2 + y^2)"}}},
-      {"initial", {{"x", l}, {"y", 0}, {"p_x", 0}, {"p_y", m * l / T}}},
+      {"system", system_of},
+      {"initial", initial},
       {"method", method},
       {"time", {{"step", 0.01 * T}, {"end", T}}}}.dump());
   const auto& system = experiment.model.system;
@@ -33,6 +28,26 @@ PreparedMethod orbit(double m, double l, double T, const Json& method) {
                                      .step = 0.01 * T,
                                      .backend = Backend::interpreter,
                                      .vocabulary = &experiment.model.vocabulary});
+}
+
+// Kepler's problem by momenta.
+PreparedMethod orbit(double m, double l, double T, const Json& method) {
+  return prepared({{"type", "mechanical"},
+                   {"parameters", {{"m", m}, {"k", m * l * l * l / (T * T)}}},
+                   {"coordinates", {"x", "y"}},
+                   {"metric", "m"},
+                   {"potential", "-k/sqrt(x^2 + y^2)"}},
+                  {{"x", l}, {"y", 0}, {"p_x", 0}, {"p_y", m * l / T}}, method, T);
+}
+
+// A bead on a ring.
+PreparedMethod bead(double m, double l, double T, const Json& method) {
+  return prepared({{"type", "mechanical"},
+                   {"parameters", {{"m", m}, {"l", l}}},
+                   {"coordinates", {"x", "y"}},
+                   {"metric", "m"},
+                   {"holonomic", "(x/l)^2 + (y/l)^2 - 1"}},
+                  {{"x", l}, {"y", 0}, {"p_x", 0}, {"p_y", m * l / T}}, method, T);
 }
 
 bool is_in_units(const PreparedMethod& method) {
@@ -51,11 +66,19 @@ BOOST_AUTO_TEST_CASE(an_electron_is_moved_in_units) {
   BOOST_TEST(method.initial.x[0] == 1e-6);
 }
 
-// A projector that is nearest in given units is another one in others.
+// A projector that is nearest in given units is another one in others, which is said; without constraints it
+// projects nothing.
 BOOST_AUTO_TEST_CASE(a_metric_of_the_experiment_keeps_its_units) {
   const Json euclidean = {{"type", "constrain-first"},
                           {"projector", {{"type", "orthogonal"}, {"metric", "euclidean"}}}};
-  BOOST_TEST(!is_in_units(orbit(9.109e-31, 1e-6, 1e-12, euclidean)));
+  BOOST_TEST(is_in_units(orbit(9.109e-31, 1e-6, 1e-12, euclidean)));
+  const PreparedMethod small = bead(1e-8, 1.0, 1.0, euclidean);
+  BOOST_TEST(!is_in_units(small));
+  BOOST_TEST(small.warning.find("far apart") != std::string::npos);
+  BOOST_TEST(bead(1.0, 1.0, 1.0, euclidean).warning.empty());
+  const PreparedMethod usual = bead(1e-8, 1.0, 1.0, {{"type", "constrain-first"}});
+  BOOST_TEST(is_in_units(usual));
+  BOOST_TEST(usual.warning.empty());
 }
 
 BOOST_AUTO_TEST_SUITE_END()
