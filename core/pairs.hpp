@@ -41,7 +41,7 @@ inline Pair larger(const Pair& a, double b) { return a.max(b); }
 inline double larger(double a, double b) { return std::max(a, b); }
 inline Pair smaller(const Pair& a, const Pair& b) { return a.min(b); }
 inline double smaller(double a, double b) { return std::min(a, b); }
-inline bool is_at_most(const Pair& a, const Pair& b) { return (a[0] <= b[0]) & (a[1] <= b[1]); }
+inline bool is_at_most(const Pair& a, const Pair& b) { return (a <= b).all(); }
 inline bool is_at_most(double a, double b) { return a <= b; }
 
 // Σ of what is added, in two parts: even places and odd ones. A program in C that does the same gets the same
