@@ -252,8 +252,8 @@ void align_components(VectorXd& units, const NaturalScaling& natural, const Vect
 
 // Units of all unknowns of level 0, near the jet y. `reach`: their sizes, 0 where they are zero but for
 // round-off. What vanishes at y is as large as it is nearby: numbers differ by parts of their sizes,
-// and zeros by parts of their units, which is why there are several rounds. Empty where those of all evidence do
-// not settle, as where a unit is made of nothing but itself.
+// and zeros by parts of their units, which is why there are several rounds. Where those of all evidence do not settle,
+// as where a unit is made of nothing but itself, they are empty, or the first ones beside coordinates without a unit.
 VectorXd units_near(const DerivativeArray& array, const VectorXd& y, const VectorXd& reach,
                     const Numbering& numbering, Evidence evidence, Arguments* arguments) {
   constexpr double settled = 0.1;  // a small part of a power of two
@@ -263,7 +263,7 @@ VectorXd units_near(const DerivativeArray& array, const VectorXd& y, const Vecto
   const VectorXd at = (reach.array() > 0.0).select(y, 0.0);
   const VectorXd constants =
       is_all ? constants_at(array, at, reach) : VectorXd(VectorXd::Zero(array.equation_count()));
-  VectorXd moves = 0.1 * reach, units;
+  VectorXd moves = 0.1 * reach, units, first;
   // (x, v, z, t) a little away, where M has coordinates of its own.
   const auto point_nearby = [&] {
     VectorXd point(y.size() + 1);
@@ -281,12 +281,16 @@ VectorXd units_near(const DerivativeArray& array, const VectorXd& y, const Vecto
                         : column_units(magnitude, natural, least, constants, arguments,
                                        arguments ? point_nearby() : VectorXd(), numbering, reach));
     if (is_all) align_components(units, natural, constants, numbering, reach);
+    if (round == 0) first = units;
     if (array.has_constant_jacobian()) return units;
     if (is_all && round > 0 && (units.array() / before.array()).log().abs().maxCoeff() < settled)
       return units;
     moves = (reach.array() > 0.0).select(0.1 * reach, units);
   }
-  return is_all ? VectorXd() : units;
+  if (!is_all) return units;
+  // Of a body that nothing but its inertia acts on, rounds make velocities smaller and smaller. Where coordinates are
+  // numbers without a unit these tell enough at first.
+  return std::ranges::count(numbering, Manifold::Dilations::none) > 0 ? first : VectorXd();
 }
 
 // Each coordinate has a unit of its own.

@@ -166,7 +166,7 @@ BOOST_AUTO_TEST_CASE(molecules_in_si_units) {
 }
 
 // On curved spaces, where points have no unit but momenta have: a dipole in a field from a right angle at rest, an
-// asymmetric molecule in a field, a rotor whose centre is on a spring that drives it, a pendulum by its angle.
+// asymmetric molecule in a field, one that may not turn about an axis of its own, a rotor whose centre is on a spring that drives it, a pendulum by its angle.
 BOOST_AUTO_TEST_CASE(curved_molecules_in_si_units) {
   const auto problem = [](const char* kind, double m, double l, double T) {
     const std::string name = kind;
@@ -187,6 +187,14 @@ BOOST_AUTO_TEST_CASE(curved_molecules_in_si_units) {
       system["metric"] = {"I", "2*I", "2.6*I"};
       system["potential"] = "-E*(R[2][0] + 0.4*R[2][1])";
       initial = {{"R", {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {"p_R", {0, 0, 0.7 * p}}};
+    } else if (name == "suslov") {
+      system["type"] = "mechanical";
+      system["manifold"] = "so3";
+      system["coordinates"] = {"R[3][3]"};
+      system["metric"] = {"I", "2*I", "2.6*I"};
+      system["potential"] = "0";
+      system["nonholonomic"] = "v_R[0] + 0.5*v_R[2]";
+      initial = {{"R", {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {"p_R", {-0.5 * p, p, 2.6 * p}}};
     } else if (name == "rotor") {
       system["type"] = "lagrangian";
       system["manifold"] = {{"type", "product"}, {"factors", {"sphere", "euclidean"}}};
@@ -205,6 +213,7 @@ BOOST_AUTO_TEST_CASE(curved_molecules_in_si_units) {
   const double m = 2e-26, l = 1e-10, T = 1e-13;
   for (const auto& [kind, numbers] : {std::pair{"dipole", Index{3}},
                                       {"molecule", Index{9}},
+                                      {"suslov", Index{9}},
                                       {"rotor", Index{3}},
                                       {"pendulum", Index{1}}}) {
     const test::Problem large = problem(kind, 1.0, 1.0, 1.0), small = problem(kind, m, l, T);
