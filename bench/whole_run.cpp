@@ -62,7 +62,7 @@ courant::RunOptions into_folder() {
 void bare_loop(benchmark::State& state, std::string_view text) {
   const Experiment experiment = courant::read_experiment(text);
   const courant::ConstraintLadder ladder = courant::consistent_start(experiment);
-  const auto [integrator, initial, map, transformed] =
+  const courant::PreparedMethod method =
       experiment.method->prepare({.system = experiment.model.system,
                                   .ladder = ladder,
                                   .initial = ladder.point,
@@ -70,8 +70,8 @@ void bare_loop(benchmark::State& state, std::string_view text) {
                                   .backend = courant::Backend::native,
                                   .vocabulary = &experiment.model.vocabulary});
   for (auto _ : state) {
-    courant::State at = initial;
-    const auto stepper = integrator->stepper();
+    courant::State at = method.initial;
+    const auto stepper = method.integrator->stepper();
     for (long k = 1; k <= experiment.time->steps; ++k)
       stepper->step(at, experiment.time->step, experiment.time->time(k));
     benchmark::DoNotOptimize(at.x.data());
