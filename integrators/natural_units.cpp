@@ -326,26 +326,26 @@ bool is_its_own_chart(const Manifold& M) {
 // Level 0 at a point, and the units of its unknowns (ξ, ξ', z).
 struct Level0 {
   DerivativeArray array;
-  VectorXd y, units;  // no units where all evidence tells none
+  Numbering numbering;  // of the coordinates of the chart; without one there are no units
+  VectorXd y, units;    // no units where all evidence tells none
 
-  // `numbering` of the coordinates of the chart; empty: each has a unit of its own.
   Level0(const std::shared_ptr<const ImplicitSystem>& system, const State& point, Evidence evidence,
-         const std::function<Numbering(const DerivativeArray&)>& numbering)
+         const std::function<Numbering(const DerivativeArray&)>& numbering_of)
       // The equations themselves: higher derivatives are not all determined, and what an iteration made
       // of those that are not has no units of its own.
-      : array(system, point.t, point.x), y(array.jet(point.v, point.z)) {
-    if (evidence == Evidence::all && array.has_exponentials()) return;
-    const Numbering numbers = numbering(array);
-    if (numbers.empty()) return;
+      : array(system, point.t, point.x),
+        numbering(numbering_of(array)),
+        y(array.jet(point.v, point.z)) {
+    if (numbering.empty() || (evidence == Evidence::all && array.has_exponentials())) return;
     std::optional<Arguments> known;
     if (evidence == Evidence::all && is_its_own_chart(*system->manifold())) known.emplace(*system);
     Arguments* arguments = known ? &*known : nullptr;
     const VectorXd reach = known_sizes(array, y);
-    units = units_near(array, y, reach, numbers, evidence, arguments);
+    units = units_near(array, y, reach, numbering, evidence, arguments);
     if (units.size() == 0) return;
     const VectorXd seen = without_zeros(reach.cwiseQuotient(units)).cwiseProduct(units);
     if ((seen.array() > 0.0).count() < (reach.array() > 0.0).count())
-      units = units_near(array, y, (seen.array() > 0.0).select(reach, 0.0), numbers, evidence,
+      units = units_near(array, y, (seen.array() > 0.0).select(reach, 0.0), numbering, evidence,
                          arguments);
   }
 };
@@ -413,9 +413,8 @@ std::optional<Units> units_of_all_terms(const std::shared_ptr<const ImplicitSyst
   const Index n = level.array.base_size();
   // By number; 1 of what none of the n coordinates has.
   VectorXd unit = VectorXd::Ones(Manifold::Dilations::after(dilations.point));
-  const Numbering numbers = of_dilations(M, level.array);
   for (Index j = 0; j < n; ++j)
-    if (const Index number = numbers[static_cast<std::size_t>(j)];
+    if (const Index number = level.numbering[static_cast<std::size_t>(j)];
         number != Manifold::Dilations::none)
       unit[number] = power_of_two(level.units[j]);
   const auto units_of = [&](const Numbering& of) {

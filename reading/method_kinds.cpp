@@ -287,10 +287,8 @@ std::optional<MethodChoice> constrain_first(ObjectReader& object) {
         if (needed_units(at.system, at.ladder.point))
           method.warning =
               "The numbers of this system are far apart, and its steps are made with them as they "
-              "are, since "
-              "the projector has units of its own: changes of the small ones may be lost. Expected "
-              "the default "
-              "projector, or other units.";
+              "are, since the projector has units of its own: changes of the small ones may be "
+              "lost. Expected the default projector, or other units.";
         return method;
       },
       [is_damped = *is_damped](const MethodSetting& at) {

@@ -7,8 +7,8 @@
 
 namespace courant {
 
-void QuantityStatistics::add(double t, const VectorXd &values) {
-  auto &[count, initial, final, min, max, mean_t, variation, mean, covariation] = memory_;
+void QuantityStatistics::add(double t, const VectorXd& values) {
+  auto& [count, initial, final, min, max, mean_t, variation, mean, covariation] = memory_;
   if (empty()) {
     initial = min = max = values;
     mean = covariation = VectorXd::Zero(values.size());
@@ -20,8 +20,10 @@ void QuantityStatistics::add(double t, const VectorXd &values) {
   variation += from_mean * (t - mean_t);
   is_finite_ = is_finite_ && are_finite(values.data(), values.size());
   if (!is_finite_) keep_undefined(values);
-  double *const least = min.data(), *const most = max.data();
-  double *const means = mean.data(), *const products = covariation.data();
+  double* const least = min.data();
+  double* const most = max.data();
+  double* const means = mean.data();
+  double* const products = covariation.data();
   for_each_pair(0, values.size(),
                 [=, from = values.data(), is_finite = is_finite_]<class Numbers>(Index i, Numbers) {
                   const auto value = read<Numbers>(from + i), before = read<Numbers>(means + i);
@@ -36,8 +38,9 @@ void QuantityStatistics::add(double t, const VectorXd &values) {
 }
 
 // Least and greatest values, of which a NaN, old or new, wins.
-void QuantityStatistics::keep_undefined(const VectorXd &values) {
-  VectorXd &min = memory_.min, &max = memory_.max;
+void QuantityStatistics::keep_undefined(const VectorXd& values) {
+  VectorXd& min = memory_.min;
+  VectorXd& max = memory_.max;
   for (Index i = 0; i < values.size(); ++i) {
     if (!(values[i] >= min[i]) && !std::isnan(min[i])) min[i] = values[i];
     if (!(values[i] <= max[i]) && !std::isnan(max[i])) max[i] = values[i];
