@@ -223,9 +223,9 @@ void lagrange_d_alembert(const Nonholonomic& system, const State& start, long st
   record.add(0, 0.0, position, momentum);
   const Function forms("forms", {{"q", q}}, here.reshaped());
   for (long k = 1; k <= steps; ++k) {
-    const double* in[] = {unknown.data(), position.data(), momentum.data()};
+    const Inputs in(unknown.data(), {position.data(), momentum.data()});
     const double scales[] = {1.0, 1e7};
-    if (newton.solve(unknown.data(), in, scales).status != Newton::Status::converged) {
+    if (newton.solve(in, scales).status != Newton::Status::converged) {
       std::printf("| %s | Lagrange–d'Alembert | did not converge |\n", system.name.c_str());
       return;
     }

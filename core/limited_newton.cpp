@@ -22,35 +22,36 @@ LimitedNewton::LimitedNewton(Exponentials exponentials) : exponentials_(std::mov
   ContainedUnknowns contained(L);
   contained_ = std::move(contained.places);
   solver_ = linear_solver(contained.pattern);
-  in_.resize(static_cast<std::size_t>(L.input_count()));
   all_.resize(L.output_size() + L.nonzeros());
   step_.resize(std::ssize(contained_));
   held_.resize(exponentials_.count());
   arguments_.resize(exponentials_.count());
 }
 
-bool LimitedNewton::move(double* y, const double* const* in) {
+bool LimitedNewton::move(const Inputs& in) {
   const Function& L = exponentials_.linearized();
-  std::copy_n(in, in_.size() - 1, in_.begin());
-  in_.back() = held_.data();
-  L.value_and_jacobian(in_.data(), all_.data());
+  Inputs with_held = in;
+  with_held.add_parameter(held_.data());
+  L.value_and_jacobian(with_held.data(), all_.data());
   if (!all_.allFinite() || !solver_->factorize(all_.data() + L.output_size())) return false;
   solver_->solve(all_.data(), step_.data());
   for (std::size_t k = 0; k < contained_.size(); ++k)
-    y[contained_[k]] -= step_[static_cast<Index>(k)];
+    in.unknowns()[contained_[k]] -= step_[static_cast<Index>(k)];
   return step_.allFinite();
 }
 
-bool LimitedNewton::solve(double* y, const double* const* in) {
-  exponentials_.arguments().value(in, held_.data());
+bool LimitedNewton::solve(const Inputs& in) {
+  const Function& arguments = exponentials_.arguments();
+  in.require_count(arguments.input_count(), arguments.name());
+  arguments.value(in.data(), held_.data());
   held_ = held_.cwiseMin(kFarthest).cwiseMax(-kFarthest);
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
-    if (!held_.allFinite() || !move(y, in)) return false;
-    exponentials_.arguments().value(in, arguments_.data());
+    if (!held_.allFinite() || !move(in)) return false;
+    arguments.value(in.data(), arguments_.data());
     const bool is_settled = (arguments_ - held_).lpNorm<Eigen::Infinity>() <= kSettled;
     exponentials_.move(held_, arguments_);
     // Far down exponentials nothing may be left that determines y.
-    if (is_settled) return move(y, in) && solver_->is_determined();
+    if (is_settled) return move(in) && solver_->is_determined();
   }
   return false;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "courant/core/exponentials.hpp"
+#include "courant/core/inputs.hpp"
 #include "courant/core/linear_solver.hpp"
 
 namespace courant {
@@ -20,17 +21,16 @@ class LimitedNewton {
 
   const Exponentials& exponentials() const { return exponentials_; }
 
-  // From the arguments at y. in[0] is where y is read and written, in[1] … are the parameters.
-  // False, with y anywhere: it does not settle.
-  bool solve(double* y, const double* const* in);
+  // From the arguments at the unknowns y of `in`. False, with y anywhere: it does not settle. Throws as
+  // Newton::solve does.
+  bool solve(const Inputs& in);
 
  private:
-  bool move(double* y, const double* const* in);
+  bool move(const Inputs& in);
 
   Exponentials exponentials_;
   std::vector<Index> contained_;
   std::unique_ptr<LinearSolver> solver_;
-  std::vector<const double*> in_;
   VectorXd held_, arguments_, all_, step_;
 };
 

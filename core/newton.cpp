@@ -170,16 +170,14 @@ Newton::Newton(EquationSystem system, std::vector<Index> groups, const Options& 
     last_arguments_.resize(arguments_.size());
     at_matrix_.resize(arguments_.size());
     last_.resize(function_.input_size(0));
-    last_in_.resize(static_cast<std::size_t>(function_.input_count()));
   }
   if (!system_.is_reduced()) return;
-  in_.resize(static_cast<std::size_t>(function_.input_count()));
   kept_.resize(std::ssize(system_.kept()));
 }
 
-bool Newton::factorize(const double* const* in) {
-  function_.value_and_jacobian(in, all_.data());
-  if (limited_) system_.exponentials().arguments().value(in, at_matrix_.data());
+bool Newton::factorize(const Inputs& in) {
+  function_.value_and_jacobian(in.data(), all_.data());
+  if (limited_) system_.exponentials().arguments().value(in.data(), at_matrix_.data());
   factorized_ = solver_->factorize(all_.data() + function_.output_size());
   inverse_ = factorized_ ? solver_->inverse() : nullptr;
   return factorized_;
@@ -295,16 +293,17 @@ bool Newton::is_still(const double* y, const double* scales, bool fresh, double&
 // there: one of a point far up an exponential makes steps of any shortness. Or whether the equations hold next
 // to their terms at y, by the matrix there. Scales say nothing of this: voltages of diodes are measured by 10⁷ times
 // their size, next to which all of an exponential is round-off.
-bool Newton::is_settled(const double* y, const double* const* in, bool fresh) {
+bool Newton::is_settled(const Inputs& in, bool fresh) {
   if (!limited_) return true;
+  const double* const y = in[0];
   last_ = Eigen::Map<const VectorXd>(y, last_.size());
   for (std::size_t k = 0; k < contained_.size(); ++k)
     last_[contained_[k]] += step_[static_cast<Index>(k)];
-  std::copy_n(in, last_in_.size(), last_in_.begin());
-  last_in_[0] = last_.data();
+  Inputs last = in;
+  last.set_unknowns(last_.data());
   const Function& arguments = system_.exponentials().arguments();
-  arguments.value(in, arguments_.data());
-  arguments.value(last_in_.data(), last_arguments_.data());
+  arguments.value(in.data(), arguments_.data());
+  arguments.value(last.data(), last_arguments_.data());
   const auto differs = [&](const VectorXd& from) {
     return (arguments_.cwiseMax(kNothing) - from.cwiseMax(kNothing)).lpNorm<Eigen::Infinity>();
   };
@@ -312,7 +311,7 @@ bool Newton::is_settled(const double* y, const double* const* in, bool fresh) {
   // The matrix is wrong by about the change of the arguments since.
   if (away <= kSameSlope && change * std::max(change, away) <= kStill) return true;
   if (!fresh) return false;
-  function_.value_and_jacobian(in, all_.data());
+  function_.value_and_jacobian(in.data(), all_.data());
   sum_terms([&](Index j) { return std::fabs(y[j]); });
   return largest_part(magnitude_) <= kHolds;
 }
@@ -331,34 +330,35 @@ void Newton::settle(VectorXd& y, const VectorXd& y0) {
 }
 
 // What the equations that are left take: u in place of y.
-const double* const* Newton::take_kept(const double* y, const double* const* in) {
-  std::copy_n(in, in_.size(), in_.begin());
-  in_[0] = kept_.data();
+const Inputs& Newton::take_kept(const Inputs& in) {
+  in_ = in;
+  in_.set_unknowns(kept_.data());
   for (Index i = 0; i < kept_.size(); ++i)
-    kept_[i] = y[system_.kept()[static_cast<std::size_t>(i)]];
-  return in_.data();
+    kept_[i] = in[0][system_.kept()[static_cast<std::size_t>(i)]];
+  return in_;
 }
 
 // All unknowns by those that are kept.
 void Newton::give(double* y) { system_.unknowns().value(in_.data(), y); }
 
-Newton::Result Newton::solve(double* y, const double* const* in, const double* scales) {
-  if (!system_.is_reduced()) return solve_kept(y, in, scales);
-  const double* const* of_kept = take_kept(y, in);
-  Result result = solve_kept(kept_.data(), of_kept, scales);
-  give(y);
+Newton::Result Newton::solve(const Inputs& in, const double* scales) {
+  in.require_count(function_.input_count(), system_.name());
+  if (!system_.is_reduced()) return solve_kept(in, scales);
+  Result result = solve_kept(take_kept(in), scales);
+  give(in.unknowns());
   return result;
 }
 
-bool Newton::approach(double* y, const double* const* in, const double* scales) {
+bool Newton::approach(const Inputs& in, const double* scales) {
+  in.require_count(function_.input_count(), system_.name());
   const bool is_reduced = system_.is_reduced();
-  const double* const* of_kept = is_reduced ? take_kept(y, in) : in;
-  double* const u = is_reduced ? kept_.data() : y;
+  const Inputs& of_kept = is_reduced ? take_kept(in) : in;
+  double* const u = of_kept.unknowns();
   if (limited_) {
     last_ = Eigen::Map<const VectorXd>(u, last_.size());
-    if (limited_->solve(u, of_kept)) {
+    if (limited_->solve(of_kept)) {
       reset();
-      if (is_reduced) give(y);
+      if (is_reduced) give(in.unknowns());
       return true;
     }
     std::copy(last_.begin(), last_.end(), u);
@@ -380,7 +380,7 @@ bool Newton::approach(double* y, const double* const* in, const double* scales) 
   };
   equations.correct = [&](const VectorXd& at, VectorXd& correction) {
     move(at);
-    function_.value(of_kept, all_.data());
+    function_.value(of_kept.data(), all_.data());
     solver_->solve(all_.data(), correction.data());
     return correction.allFinite();
   };
@@ -390,12 +390,13 @@ bool Newton::approach(double* y, const double* const* in, const double* scales) 
   const bool arrived = damped_newton(equations, at);
   move(arrived ? at : start);
   reset();
-  if (arrived && is_reduced) give(y);
+  if (arrived && is_reduced) give(in.unknowns());
   return arrived;
 }
 
-Newton::Result Newton::solve_kept(double* y, const double* const* in, const double* scales) {
+Newton::Result Newton::solve_kept(const Inputs& in, const double* scales) {
   Result result;
+  double* const y = in.unknowns();
   const auto residual = all_.head(function_.output_size());
   double previous = std::numeric_limits<double>::infinity();
   double contraction = 0.0;
@@ -420,7 +421,7 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
   }
   while (result.iterations < options_.max_iterations) {
     ++result.iterations;
-    if (!evaluated) function_.value(in, all_.data());
+    if (!evaluated) function_.value(in.data(), all_.data());
     evaluated = false;
     moved = improve(y, scales);
     if (!std::isfinite(moved)) {
@@ -436,7 +437,7 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
         result.status = Status::singular;
         return result;
       }
-      if (!is_settled(y, in, fresh)) {
+      if (!is_settled(in, fresh)) {
         if (refactorize()) continue;
         result.status = Status::singular;
         return result;
@@ -448,7 +449,7 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
       contraction = moved / previous;
       if (contraction < 0.5 && previous <= kLongStep &&
           std::max(contraction, previous) * moved <= (1.0 - contraction) * options_.tolerance &&
-          accepted() && is_settled(y, in, fresh)) {
+          accepted() && is_settled(in, fresh)) {
         result.status = Status::converged;
         return result;
       }
@@ -460,7 +461,7 @@ Newton::Result Newton::solve_kept(double* y, const double* const* in, const doub
                                         : close || moved <= std::max(kLeast, 2 * round_off_));
       const bool slow = contraction > options_.slow && moved > 1e3 * options_.tolerance;
       if ((slow && !fresh) || (stalled && !rounded) ||
-          (rounded && (!is_still(y, scales, fresh, unsolved) || !is_settled(y, in, fresh)))) {
+          (rounded && (!is_still(y, scales, fresh, unsolved) || !is_settled(in, fresh)))) {
         if (!refactorize()) {
           result.status = Status::singular;
           return result;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "courant/core/equation_system.hpp"
+#include "courant/core/inputs.hpp"
 #include "courant/core/limited_newton.hpp"
 #include "courant/core/linear_solver.hpp"
 
@@ -49,14 +50,15 @@ class Newton {
   // block). Throws std::invalid_argument if they don't add up.
   Newton(EquationSystem system, std::vector<Index> groups, const Options& options);
 
-  // in[0] is where y is read and written; in[1] … are the parameters. scales[g]: a typical size of
-  // block g (its current values count too). On failure y holds the last iterate.
-  Result solve(double* y, const double* const* in, const double* scales);
+  // For the unknowns y and the parameters of `in`. scales[g]: a typical size of block g (its current values
+  // count too). On failure y holds the last iterate. Throws std::invalid_argument if `in` has not so many
+  // groups as the equations.
+  Result solve(const Inputs& in, const double* scales);
 
   // Moves y by damped steps to where solve() converges, from far away; see damped_newton(), which says what
   // is to be thought of the zero that is found. Arguments as of solve(). False, y as it was: it does not
   // get there.
-  bool approach(double* y, const double* const* in, const double* scales);
+  bool approach(const Inputs& in, const double* scales);
 
   // Where the last factorisation leaves unknowns open, takes them from y₀; others stay as predicted. Those
   // that solve() would have moved least from there are found again from there, while predictions of what
@@ -78,10 +80,10 @@ class Newton {
   bool is_determined() const { return solver_->is_determined(); }
 
  private:
-  Result solve_kept(double* u, const double* const* in, const double* scales);
-  const double* const* take_kept(const double* y, const double* const* in);
+  Result solve_kept(const Inputs& in, const double* scales);
+  const Inputs& take_kept(const Inputs& in);
   void give(double* y);
-  bool factorize(const double* const* in);
+  bool factorize(const Inputs& in);
   double improve(double* y, const double* scales);
   void learn();
   template <class Size>
@@ -90,7 +92,7 @@ class Newton {
   double largest_part(const VectorXd& magnitude) const;
   bool sees_all() const;
   bool is_solved(const double* y, const double* scales, bool fresh);
-  bool is_settled(const double* y, const double* const* in, bool fresh);
+  bool is_settled(const Inputs& in, bool fresh);
   bool is_still(const double* y, const double* scales, bool fresh, double& before);
 
   EquationSystem system_;
@@ -112,16 +114,15 @@ class Newton {
   bool factorized_ = false;
   double* inverse_ = nullptr;  // of the solver
   double round_off_ = 0.0;  // by how much iterates moved when they stalled with a new factorisation
-  std::vector<const double*> in_;
-  VectorXd kept_;  // unknowns
-  VectorXd all_;   // F and the entries of its Jacobian
+  Inputs in_;               // where the kept unknowns are, and the parameters
+  VectorXd kept_;           // unknowns
+  VectorXd all_;            // F and the entries of its Jacobian
   VectorXd step_, settled_;
   VectorXd sizes_;                        // of groups, at the last change
   VectorXd before_, weighted_;            // the change before, and in units of those sizes
   std::optional<LimitedNewton> limited_;  // where there are exponentials
   // Of those, at y, before the last change and where the matrix was made; y before the last change.
   VectorXd arguments_, last_arguments_, at_matrix_, last_;
-  std::vector<const double*> last_in_;
   VectorXd magnitude_, stalled_;  // of the terms that each equation is a sum of
 };
 

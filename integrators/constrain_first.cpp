@@ -93,11 +93,11 @@ class ConstrainFirst::Trajectory final : public Stepper {
       predictor_.predict(y);
       solver_.settle(start_);
     }
-    const double* in[] = {y.data(), before.x.data(), basis_.data(), projection_.directions().data(),
-                          &h,       &before.t};
+    const Inputs in(
+        y.data(), {before.x.data(), basis_.data(), projection_.directions().data(), &h, &before.t});
     const StepSolver::Attempt attempt{before.t, h};
     solver_.solve_connected(in, Projection::scales(before, h).data(), begin, attempt, statistics_);
-    method_.advance_.value(in, advanced_.data());
+    method_.advance_.value(in.data(), advanced_.data());
     const Index N = before.x.size();
     near_ = advanced_.head(N);
     if (!near_.allFinite())

@@ -70,12 +70,12 @@ void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& a
   y.tail(d_).setZero();
   guess_ = near_;
   if (is_explicit_) {
-    const double* in[] = {
-        y.data(), guess_.data(), basis_.data(), directions_.matrix().data(), near_.data(), &t};
+    const Inputs in(y.data(),
+                    {guess_.data(), basis_.data(), directions_.matrix().data(), near_.data(), &t});
     constexpr double unused[4] = {};
     solver_.solve(
         in, unused, [] {}, attempt, statistics);
-    method_.projected_.value(in, found_.data());
+    method_.projected_.value(in.data(), found_.data());
     return;
   }
   const double speed = goes_on ? largest_speed(before, y) : 0.0;
@@ -96,13 +96,13 @@ void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& a
     }
     aim(guess_, y, t);
     aimed_ = y;
-    const double* in[] = {
-        y.data(), guess_.data(), basis_.data(), directions_.matrix().data(), near_.data(), &t};
+    const Inputs in(y.data(),
+                    {guess_.data(), basis_.data(), directions_.matrix().data(), near_.data(), &t});
     const auto sizes = scales(before, attempt.h, largest(near_));
     const auto begin = [&] { y = start_; };
     const auto lands_nearby = [&] {
       solver_.solve(in, sizes.data(), begin, attempt, statistics);
-      method_.projected_.value(in, found_.data());
+      method_.projected_.value(in.data(), found_.data());
       return !goes_on || is_nearby(before, attempt.h * speed, sizes[0]);
     };
     if (!lands_nearby()) {
@@ -180,8 +180,7 @@ void ConstrainFirst::Projection::move_basis(const VectorXd& x, VectorXd& y) {
 // W at x, with columns near those of the last step, so that μ and the kept factorisations go on.
 void ConstrainFirst::Projection::aim(const VectorXd& x, const VectorXd& y, double t) {
   if (has_fixed_directions()) return;
-  const double* in[] = {y.data(), x.data(), basis_.data(), &t};
-  conormals_.move_to(in);
+  conormals_.move_to({.jets = y.data(), .origin = x.data(), .basis = basis_.data(), .t = &t});
   directions_.move_to(x, basis_.map(), conormals_.matrix());
 }
 

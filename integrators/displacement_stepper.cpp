@@ -28,8 +28,7 @@ double DisplacementStepper::size_of(const VectorXd& x) const {
   return size > 0.0 ? size : largest(x);
 }
 
-void DisplacementStepper::make_step(const double* const* in, const State& before, double h,
-                                    State& after) {
+void DisplacementStepper::make_step(const Inputs& in, const State& before, double h, State& after) {
   VectorXd& y = solver_.unknown();
   const auto begin = [&] {
     do_begin(before, h, y);
@@ -43,7 +42,7 @@ void DisplacementStepper::make_step(const double* const* in, const State& before
   const double scales[] = {size, auxiliary_scale(largest(before.z), size)};
   solver_.solve_connected(in, scales, begin, {before.t, h}, statistics_);
 
-  advance_.value(in, next_.data());
+  advance_.value(in.data(), next_.data());
   after.x = next_.head(before.x.size());
   after.v = next_.segment(before.x.size(), before.v.size());
   after.z = y.tail(m_);

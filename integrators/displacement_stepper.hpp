@@ -29,9 +29,10 @@ class DisplacementStepper : public Stepper {
   DisplacementStepper(std::string method, std::shared_ptr<const ImplicitSystem> system,
                       const Formulas& formulas);
 
-  // The place of y: the first of the inputs.
-  const double* unknown() { return solver_.unknown().data(); }
-  void make_step(const double* const* in, const State& before, double h, State& after);
+  // The place of y.
+  double* unknown() { return solver_.unknown().data(); }
+  // `in`: y, and the parameters of the equations.
+  void make_step(const Inputs& in, const State& before, double h, State& after);
   // What advance gave for the last step that stands.
   const VectorXd& kept() const { return kept_; }
   // No step before tells where the next one leads.

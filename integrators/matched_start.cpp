@@ -32,9 +32,8 @@ State matched_start(const ImplicitSystem& system, const DiscretizationMap& map,
   VectorXd solution(y.size());
   solution << initial.x.tail(n), initial.x.tail(n), initial.z;
   const double scale = largest(solution);
-  const double* in[] = {solution.data()};
   Newton newton(equations, {}, Newton::Options());
-  const Newton::Result result = newton.solve(solution.data(), in, &scale);
+  const Newton::Result result = newton.solve(Inputs(solution.data(), {}), &scale);
   // Redundant equations are solved by least squares: that they are solved has to be seen.
   const double residual = largest(equations({solution}));
   if (result.status != Newton::Status::converged || !(residual <= 1e-9 * (1.0 + largest(solution))))

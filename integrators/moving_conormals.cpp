@@ -67,10 +67,10 @@ MovingConormals::MovingConormals(Functions functions, Index n, Index d)
       covectors_(n, d),
       make_orthonormal_(d) {}
 
-void MovingConormals::move_to(const double* const* in) {
+void MovingConormals::move_to(const Point& point) {
   if (d_ == 0) return;
-  is_continued_ = is_found_ && continue_to(in);
-  if (!is_continued_) find(in);
+  is_continued_ = is_found_ && continue_to(point);
+  if (!is_continued_) find(point);
 }
 
 void MovingConormals::keep() {
@@ -103,20 +103,21 @@ void MovingConormals::forget() {
   conormals_.setZero();
 }
 
-bool MovingConormals::continue_to(const double* const* in) {
+bool MovingConormals::continue_to(const Point& point) {
   if (!is_moving_ && !predictor_.is_empty()) predictor_.predict(weights_);
   is_moving_ = true;
   const Index r = functions_.constraints.output_size();
   for (Index j = 0; j < d_; ++j) {
     double* w = weights_.data() + j * r;
     const double scale = kVanishing * weights_.segment(j * r, r).lpNorm<Eigen::Infinity>();
-    const double* all[] = {w, units_.col(j).data(), in[0], in[1], in[2], in[3], kept_.data()};
-    if (newton_.solve(w, all, &scale).status != Newton::Status::converged) {
+    const Inputs in(
+        w, {units_.col(j).data(), point.jets, point.origin, point.basis, point.t, kept_.data()});
+    if (newton_.solve(in, &scale).status != Newton::Status::converged) {
       newton_.reset();
       weights_.setZero();
       return false;
     }
-    functions_.conormal.value(all, covectors_.col(j).data());
+    functions_.conormal.value(in.data(), covectors_.col(j).data());
   }
   return make_orthonormal_(covectors_, conormals_);  // of C + N with CᵀN = 0
 }
@@ -160,7 +161,8 @@ MovingConormals::Core MovingConormals::core(const VectorXd& all) const {
   return result;
 }
 
-void MovingConormals::find(const double* const* in) {
+void MovingConormals::find(const Point& point) {
+  const double* in[] = {point.jets, point.origin, point.basis, point.t};
   const Function& f = functions_.constraints;
   VectorXd all(f.output_size() + f.nonzeros());
   f.value_and_jacobian(in, all.data());

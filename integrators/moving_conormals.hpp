@@ -25,7 +25,7 @@ class MovingConormals {
   struct Functions {
     // (ξ, ξ', …, z, …); x₀, basis, t  ↦  F, with Jacobian.
     Function constraints;
-    // w; e, (ξ, …), x₀, basis, C, t  ↦  (∂F/∂(ξ', …))ᵀ w, Cᵀ (∂F/∂ξ)ᵀ w - e, with Jacobian by w.
+    // w; e, (ξ, …), x₀, basis, t, C  ↦  (∂F/∂(ξ', …))ᵀ w, Cᵀ (∂F/∂ξ)ᵀ w - e, with Jacobian by w.
     EquationSystem equations;
     Function conormal;  // the same ↦ (∂F/∂ξ)ᵀ w
   };
@@ -35,9 +35,12 @@ class MovingConormals {
 
   MovingConormals(Functions functions, Index n, Index d);
 
-  // in: (ξ, ξ', …, z, …), x₀, basis, t. The last C is that of the last keep(), so that this can be
-  // repeated while a point is sought.
-  void move_to(const double* const* in);
+  // Where the inputs of Functions::constraints are.
+  struct Point {
+    const double *jets, *origin, *basis, *t;
+  };
+  // The last C is that of the last keep(), so that this can be repeated while a point is sought.
+  void move_to(const Point& point);
   void keep();
   void discard();  // back to what keep() left
   void forget();
@@ -56,8 +59,8 @@ class MovingConormals {
     std::vector<Index> rows, columns;
   };
   Core core(const VectorXd& all) const;
-  bool continue_to(const double* const* in);
-  void find(const double* const* in);
+  bool continue_to(const Point& point);
+  void find(const Point& point);
 
   Functions functions_;
   Index n_, d_;

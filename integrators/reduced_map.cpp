@@ -25,8 +25,7 @@ class ReducedMap::Trajectory final : public DisplacementStepper {
 
  private:
   void do_step(const State& before, double h, State& after) override {
-    const double* in[] = {unknown(), before.x.data(), &h, &before.t};
-    make_step(in, before, h, after);
+    make_step(Inputs(unknown(), {before.x.data(), &h, &before.t}), before, h, after);
   }
 
   void do_begin(const State& before, double h, VectorXd& y) override {

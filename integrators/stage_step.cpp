@@ -38,8 +38,7 @@ class StageStep::Trajectory final : public DisplacementStepper {
   }
 
   void do_step(const State& before, double h, State& after) override {
-    const double* in[] = {unknown(), before.x.data(), basis_.data(), &h, &before.t};
-    make_step(in, before, h, after);
+    make_step(Inputs(unknown(), {before.x.data(), basis_.data(), &h, &before.t}), before, h, after);
   }
 
   // The displacement of the velocity that is known, half of it where the middle point is sought.

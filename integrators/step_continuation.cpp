@@ -68,7 +68,6 @@ StepContinuation::StepContinuation(Function equations, const Layout& layout)
   ContainedUnknowns contained(equations_);
   contained_ = std::move(contained.places);
   solver_ = brief_linear_solver(contained.pattern);
-  in_.resize(static_cast<std::size_t>(equations_.input_count()));
   y_.resize(equations_.input_size(0));
   all_.resize(equations_.output_size() + equations_.nonzeros());
   step_.resize(static_cast<Index>(contained_.size()));
@@ -86,12 +85,9 @@ void StepContinuation::set(const VectorXd& u, double sigma, VectorXd& y) const {
   y.tail(layout_.shifts) *= sigma;
 }
 
-void StepContinuation::evaluate(double sigma, const double* const* in, bool with_jacobian) {
-  const double h = sigma * h_;
-  std::copy_n(in, in_.size(), in_.begin());
+void StepContinuation::evaluate(double sigma, bool with_jacobian) {
+  part_of_h_ = sigma * h_;
   set(u_, sigma, y_);
-  in_[0] = y_.data();
-  in_[static_cast<std::size_t>(layout_.h)] = &h;
   if (with_jacobian)
     equations_.value_and_jacobian(in_.data(), all_.data());
   else
@@ -119,12 +115,11 @@ double StepContinuation::largest_part(const VectorXd& change, double sigma, doub
   return std::isfinite(total) ? result : std::numeric_limits<double>::infinity();
 }
 
-bool StepContinuation::converges(double sigma, const double* const* in, double size, double near,
-                                 Result& result) {
+bool StepContinuation::converges(double sigma, double size, double near, Result& result) {
   double previous = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     ++result.iterations;
-    evaluate(sigma, in, true);
+    evaluate(sigma, true);
     if (!all_.allFinite() || !solver_->factorize(all_.data() + equations_.output_size()))
       return false;
     if (is_determined_ && !solver_->is_determined()) return false;
@@ -147,13 +142,13 @@ bool StepContinuation::converges(double sigma, const double* const* in, double s
     const int orientation = solver_->orientation();
     if (orientation * orientation_ < 0) return false;
     if (orientation_ == 0) orientation_ = orientation;
-    return u_.allFinite() && differentiate(sigma, in);
+    return u_.allFinite() && differentiate(sigma);
   }
   return false;
 }
 
 // Moves u_ by damped steps to where converges() may succeed.
-bool StepContinuation::approach(double sigma, const double* const* in, double size) {
+bool StepContinuation::approach(double sigma, double size) {
   const auto move = [&](const VectorXd& to) {
     for (std::size_t k = 0; k < contained_.size(); ++k)
       u_[contained_[k]] = to[static_cast<Index>(k)];
@@ -164,13 +159,13 @@ bool StepContinuation::approach(double sigma, const double* const* in, double si
       .linearize =
           [&](const VectorXd& at) {
             move(at);
-            evaluate(sigma, in, true);
+            evaluate(sigma, true);
             return all_.allFinite() && solver_->factorize(all_.data() + equations_.output_size());
           },
       .correct =
           [&](const VectorXd& at, VectorXd& correction) {
             move(at);
-            evaluate(sigma, in, false);
+            evaluate(sigma, false);
             solver_->solve(all_.data(), correction.data());
             for (std::size_t k = 0; k < contained_.size(); ++k)
               if (shrinks(contained_[k])) correction[static_cast<Index>(k)] /= sigma;
@@ -186,11 +181,11 @@ bool StepContinuation::approach(double sigma, const double* const* in, double si
 }
 
 // du/dσ at u_, with the matrix of the last iteration.
-bool StepContinuation::differentiate(double sigma, const double* const* in) {
+bool StepContinuation::differentiate(double sigma) {
   const Index rows = equations_.output_size();
-  evaluate(sigma * (1.0 + kDifference), in, false);
+  evaluate(sigma * (1.0 + kDifference), false);
   rate_ = all_.head(rows);
-  evaluate(sigma * (1.0 - kDifference), in, false);
+  evaluate(sigma * (1.0 - kDifference), false);
   rate_ -= all_.head(rows);
   if (!rate_.allFinite()) return false;
   rate_ /= 2.0 * kDifference * sigma;
@@ -205,7 +200,7 @@ bool StepContinuation::differentiate(double sigma, const double* const* in) {
 }
 
 // From the last point to u_, tangent_ at `next`, if both are on one arc.
-bool StepContinuation::reaches(double next, const double* const* in, double size, Result& result) {
+bool StepContinuation::reaches(double next, double size, Result& result) {
   const double length = next - point_.sigma;
   const bool is_far = std::max(next, point_.sigma) > kFar * std::min(next, point_.sigma);
   u_ = point_.u;
@@ -219,10 +214,10 @@ bool StepContinuation::reaches(double next, const double* const* in, double size
   predicted_ = u_;
   // Where unknowns are left open, as those of a gauge, the solutions of a step are a surface. What the
   // iteration takes of it need not be a curve with these tangents.
-  bool is_reached = converges(next, in, size, kNear, result);
+  bool is_reached = converges(next, size, kNear, result);
   if (!is_reached && !solver_->is_determined()) {
     u_ = point_.u;
-    is_reached = converges(next, in, size, kNear, result);
+    is_reached = converges(next, size, kNear, result);
   }
   if (!is_reached) return false;
   if (!solver_->is_determined()) return true;
@@ -242,9 +237,13 @@ bool StepContinuation::reaches(double next, const double* const* in, double size
   return sizes[2] <= std::max(kStraight, kOtherBend * std::max(sizes[0], sizes[1]));
 }
 
-StepContinuation::Result StepContinuation::follow(VectorXd& y, const double* const* in,
+StepContinuation::Result StepContinuation::follow(VectorXd& y, const Inputs& parameters,
                                                   double size) {
-  h_ = *in[layout_.h];
+  parameters.require_count(equations_.input_count(), equations_.name());
+  in_ = parameters;
+  in_.set_unknowns(y_.data());
+  h_ = *parameters[layout_.h];
+  in_.set_parameter(layout_.h, &part_of_h_);
   const VectorXd start = y;
   const double fastest = layout_.displacements == 0
                              ? 0.0
@@ -252,7 +251,7 @@ StepContinuation::Result StepContinuation::follow(VectorXd& y, const double* con
   const double seen = fastest > 0.0 ? kSeen * size / fastest : kFarthest;
   const double beginning = std::clamp(seen, kBeginning, kFarthest);
   u_ = start;
-  evaluate(1.0, in, true);
+  evaluate(1.0, true);
   is_determined_ = all_.allFinite() && solver_->factorize(all_.data() + equations_.output_size()) &&
                    solver_->is_determined();
   Result result;
@@ -260,10 +259,10 @@ StepContinuation::Result StepContinuation::follow(VectorXd& y, const double* con
                                  Attempt{false, true, beginning, kUnseen * seen},
                                  Attempt{false, false, kFarthest, kShortest},
                                  Attempt{false, false, kBeginning, kShortest}}) {
-    if (!begins(attempt, start, in, size, result)) continue;
+    if (!begins(attempt, start, size, result)) continue;
     // What begins where displacements are hardly seen may end in their round-off.
     const bool is_conclusive = attempt.leads_back && point_.sigma >= seen;
-    track(in, size, result);
+    track(size, result);
     result.begins_at_state = attempt.leads_back;
     set(point_.u, point_.sigma, y);
     if (result.arrived || is_conclusive) break;
@@ -273,36 +272,36 @@ StepContinuation::Result StepContinuation::follow(VectorXd& y, const double* con
 
 // Whether there is a first point, which is left in point_: a solution from which, if the attempt says
 // so, the curve leads on towards the state as its tangent tells.
-bool StepContinuation::begins(const Attempt& attempt, const VectorXd& start,
-                              const double* const* in, double size, Result& result) {
+bool StepContinuation::begins(const Attempt& attempt, const VectorXd& start, double size,
+                              Result& result) {
   constexpr double anywhere = std::numeric_limits<double>::infinity();
   vanishes_ = attempt.vanishes;
   for (double first = attempt.beginning; first > std::max(attempt.least, kShortest);
        first *= 0.125) {
     orientation_ = 0;
     u_ = start;
-    if (!converges(first, in, size, anywhere, result)) {
+    if (!converges(first, size, anywhere, result)) {
       orientation_ = 0;
       u_ = start;
-      if (!attempt.leads_back || !approach(first, in, size) ||
-          !converges(first, in, size, anywhere, result))
+      if (!attempt.leads_back || !approach(first, size) ||
+          !converges(first, size, anywhere, result))
         continue;
     }
     accept(first);
-    if (!attempt.leads_back || reaches(0.25 * first, in, size, result)) return true;
+    if (!attempt.leads_back || reaches(0.25 * first, size, result)) return true;
   }
   return false;
 }
 
 // From the first point up to σ = 1, or as far as there are arcs.
-void StepContinuation::track(const double* const* in, double size, Result& result) {
+void StepContinuation::track(double size, Result& result) {
   double length = 1.0;
   int arcs = 0;
   while (point_.sigma < 1.0) {
     const double sigma = point_.sigma;
     const double next = sigma + length >= 1.0 ? 1.0 : sigma + length;
     const long iterations = result.iterations;
-    if (reaches(next, in, size, result)) {
+    if (reaches(next, size, result)) {
       accept(next);
       ++arcs;
       length *= result.iterations - iterations <= 3 ? 3.0 : 1.5;

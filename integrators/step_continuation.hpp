@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "courant/core/function.hpp"
+#include "courant/core/inputs.hpp"
 #include "courant/core/linear_solver.hpp"
 
 namespace courant {
@@ -44,8 +45,9 @@ class StepContinuation {
     long iterations = 0;
   };
   // y: at first what is predicted for σ = 1 by the state alone, in the end y(1), or y(reached).
-  // `in` as for the equations; in[0] is not used. `size`: of the coordinates of the state.
-  Result follow(VectorXd& y, const double* const* in, double size);
+  // `parameters`: of the equations; the place of their unknowns is not used. `size`: of the coordinates of
+  // the state.
+  Result follow(VectorXd& y, const Inputs& parameters, double size);
 
  private:
   struct Point {
@@ -60,17 +62,16 @@ class StepContinuation {
     double beginning, least;
   };
 
-  bool begins(const Attempt& attempt, const VectorXd& start, const double* const* in, double size,
-              Result& result);
-  void track(const double* const* in, double size, Result& result);
-  bool reaches(double next, const double* const* in, double size, Result& result);
+  bool begins(const Attempt& attempt, const VectorXd& start, double size, Result& result);
+  void track(double size, Result& result);
+  bool reaches(double next, double size, Result& result);
   // Newton's method from u_, for σ. False: it does not contract, or its first change is more than
   // `near`.
-  bool converges(double sigma, const double* const* in, double size, double near, Result& result);
-  bool approach(double sigma, const double* const* in, double size);
-  bool differentiate(double sigma, const double* const* in);
+  bool converges(double sigma, double size, double near, Result& result);
+  bool approach(double sigma, double size);
+  bool differentiate(double sigma);
   void accept(double sigma);
-  void evaluate(double sigma, const double* const* in, bool with_jacobian);
+  void evaluate(double sigma, bool with_jacobian);
   void set(const VectorXd& u, double sigma, VectorXd& y) const;
   bool shrinks(Index i) const;
   double largest_part(const VectorXd& change, double sigma, double size) const;
@@ -79,12 +80,12 @@ class StepContinuation {
   Layout layout_;
   std::vector<Index> contained_;  // unknowns that the equations contain
   std::unique_ptr<LinearSolver> solver_;
-  std::vector<const double*> in_;
-  double h_ = 0.0;
-  int orientation_ = 0;        // of the curve so far
-  bool is_determined_ = true;  // whether the matrix of the step has full rank
-  bool vanishes_ = true;       // as in Attempt
-  Point point_;                // the last one
+  Inputs in_;                         // y_ and the parameters, with part_of_h_ for h
+  double h_ = 0.0, part_of_h_ = 0.0;  // σ h
+  int orientation_ = 0;               // of the curve so far
+  bool is_determined_ = true;         // whether the matrix of the step has full rank
+  bool vanishes_ = true;              // as in Attempt
+  Point point_;                       // the last one
   // Unknowns of this σ with displacements and shifts divided by σ, and their derivative by σ.
   VectorXd u_, tangent_;
   VectorXd predicted_;

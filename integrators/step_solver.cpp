@@ -116,7 +116,7 @@ bool StepSolver::is_same(double size) const {
 }
 
 // unknown() is what the state predicts; other_ is what the iteration found if it converged.
-void StepSolver::connect(bool converged, const double* const* in, const double* scales,
+void StepSolver::connect(bool converged, const Inputs& in, const double* scales,
                          const Attempt& attempt, SolverStatistics& statistics) {
   ++statistics.confirmations;
   const VectorXd start = y_;
@@ -126,7 +126,7 @@ void StepSolver::connect(bool converged, const double* const* in, const double* 
   statistics.iterations += iterations;
   statistics.factorizations += iterations;
   if (arrived && converged && is_same(scales[0])) {
-    y_ = other_;  // not by a swap: in[0] is the place of y_
+    y_ = other_;  // not by a swap: in.unknowns() is the place of y_
     return;
   }
   newton_.reset();

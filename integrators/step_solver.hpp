@@ -37,15 +37,15 @@ class StepSolver {
   // matrix left something open.
   bool needs_start() const { return !newton_.left().empty() || !newton_.is_determined(); }
 
-  // On return unknown() solves the equations; in[0] is its place. `begin` puts there what a second
+  // On return unknown(), whose place is in.unknowns(), solves the equations. `begin` puts there what a second
   // try begins with if the first fails, and a third one, by damped steps. `attempt` is named in the
   // message of a SolveError.
   struct Attempt {
     double time, h;
   };
   template <class Begin>
-  void solve(const double* const* in, const double* scales, const Begin& begin,
-             const Attempt& attempt, SolverStatistics& statistics) {
+  void solve(const Inputs& in, const double* scales, const Begin& begin, const Attempt& attempt,
+             SolverStatistics& statistics) {
     if (converges(in, scales, statistics)) return;
     ++statistics.failures;
     newton_.reset();
@@ -53,7 +53,7 @@ class StepSolver {
     if (converges(in, scales, statistics)) return;
     newton_.reset();
     begin();
-    if (newton_.approach(y_.data(), in, scales) && converges(in, scales, statistics)) return;
+    if (newton_.approach(in, scales) && converges(in, scales, statistics)) return;
     newton_.reset();
     fail(attempt);
   }
@@ -64,7 +64,7 @@ class StepSolver {
   // one arc nor, of few, one that ended where the velocity of the state pointed to, or none was. Else it is the one that StepContinuation finds;
   // `begin` puts into unknown() what the state alone predicts.
   template <class Begin>
-  void solve_connected(const double* const* in, const double* scales, const Begin& begin,
+  void solve_connected(const Inputs& in, const double* scales, const Begin& begin,
                        const Attempt& attempt, SolverStatistics& statistics) {
     if (!continuation_) return solve(in, scales, begin, attempt, statistics);
     other_.head(usual_.size()) = y_.head(usual_.size());
@@ -92,8 +92,8 @@ class StepSolver {
   void expect(const Motion& motion);
 
  private:
-  bool converges(const double* const* in, const double* scales, SolverStatistics& statistics) {
-    result_ = newton_.solve(y_.data(), in, scales);
+  bool converges(const Inputs& in, const double* scales, SolverStatistics& statistics) {
+    result_ = newton_.solve(in, scales);
     statistics.iterations += result_.iterations;
     statistics.factorizations += result_.factorizations;
     return result_.status == Newton::Status::converged;
@@ -105,8 +105,8 @@ class StepSolver {
   bool is_as_predicted(double part, double size) const;
   bool is_same(double size) const;
   bool is_straight(const VectorXd& start) const;
-  void connect(bool converged, const double* const* in, const double* scales,
-               const Attempt& attempt, SolverStatistics& statistics);
+  void connect(bool converged, const Inputs& in, const double* scales, const Attempt& attempt,
+               SolverStatistics& statistics);
   [[noreturn]] void fail(const Attempt& attempt) const;
   // Where there are more equations than unknowns: why they need not have a solution, and what to do.
   std::string surplus() const;

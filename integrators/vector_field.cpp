@@ -202,10 +202,10 @@ void VectorField::Evaluation::operator()(const State& state, VectorXd& rate) {
 // At rest an unknown that is 0 has no size, and its round-off never becomes small next to itself. The
 // equations know one: units in which their derivatives are comparable with 1, times the largest residual or
 // unknown in these.
-void VectorField::Evaluation::take_natural_sizes(const double* const* in) {
+void VectorField::Evaluation::take_natural_sizes(const Inputs& in) {
   const Function& F = field_.equations_.left();
   VectorXd all(F.output_size() + F.nonzeros());
-  F.value_and_jacobian(in, all.data());
+  F.value_and_jacobian(in.data(), all.data());
   if (!all.allFinite()) return;
   const auto units = equilibrate(F.dense_jacobian(all), kNoise);
   const double size = std::max(largest(units.row_scale.cwiseProduct(all.head(F.output_size()))),
@@ -215,32 +215,31 @@ void VectorField::Evaluation::take_natural_sizes(const double* const* in) {
 
 void VectorField::Evaluation::solve(const VectorXd& x, VectorXd& rate, double t) {
   const Manifold& M = *field_.formulas_.system->manifold();
-  const double* in[] = {y_.data(), x.data(), basis_.data(), &t};
-  auto result = newton_.solve(y_.data(), in, sizes_.data());
+  const Inputs in(y_.data(), {x.data(), basis_.data(), &t});
+  auto result = newton_.solve(in, sizes_.data());
   if (result.status != Newton::Status::converged) {
     newton_.reset();
     y_ = field_.formulas_.start;
     sizes_.setConstant(largest(y_));
-    result = newton_.solve(y_.data(), in, sizes_.data());
+    result = newton_.solve(in, sizes_.data());
   }
   if (result.status != Newton::Status::converged) {
     newton_.reset();
     y_ = field_.formulas_.start;
     take_natural_sizes(in);
-    result = newton_.solve(y_.data(), in, sizes_.data());
+    result = newton_.solve(in, sizes_.data());
   }
   if (result.status != Newton::Status::converged) {
     y_ = field_.formulas_.start;
     newton_.reset();
-    if (newton_.approach(y_.data(), in, sizes_.data()))
-      result = newton_.solve(y_.data(), in, sizes_.data());
+    if (newton_.approach(in, sizes_.data())) result = newton_.solve(in, sizes_.data());
   }
   if (result.status != Newton::Status::converged || !y_.allFinite())
     throw std::domain_error("VectorField::operator(): no velocity found at t = " + number_text(t) +
                             "; the state " + whereabouts(M, x) + ".");
   sizes_.head(y_.size()) = sizes_.head(y_.size()).cwiseMax(y_.cwiseAbs());
-  field_.rate_.value(in, out_.data());
-  field_.left_out_.value(in, left_out_.data());
+  field_.rate_.value(in.data(), out_.data());
+  field_.left_out_.value(in.data(), left_out_.data());
   rate = out_.head(x.size());
   v_ = out_.segment(x.size(), v_.size());
   z_ = out_.tail(z_.size());

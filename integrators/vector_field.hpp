@@ -78,7 +78,7 @@ class VectorField {
 
    private:
     void solve(const VectorXd& x, VectorXd& rate, double t);
-    void take_natural_sizes(const double* const* in);
+    void take_natural_sizes(const Inputs& in);
 
     const VectorField& field_;
     Newton newton_;

@@ -148,8 +148,8 @@ std::optional<VectorXd> DerivativeArray::beyond_exponentials(const VectorXd& y) 
   VectorXd rates(n + m);
   rates << y.segment(x_offset(1), n), y.segment(z_offset(0), m);
   const VectorXd xi = y.head(n), basis = basis_entries();
-  const double* in[] = {rates.data(), xi.data(), origin_.data(), basis.data(), &t_};
-  if (!LimitedNewton(of_rates_).solve(rates.data(), in)) return std::nullopt;
+  const Inputs in(rates.data(), {xi.data(), origin_.data(), basis.data(), &t_});
+  if (!LimitedNewton(of_rates_).solve(in)) return std::nullopt;
   VectorXd there = y;
   there.segment(x_offset(1), n) = rates.head(n);
   there.segment(z_offset(0), m) = rates.tail(m);

@@ -35,9 +35,9 @@ struct Solution {
 Solution solve(const EquationSystem& system, const VectorXd& start, const VectorXd& a) {
   Newton newton(system, {2, 3}, {});
   Solution solution{start, {}};
-  const double* in[] = {solution.y.data(), a.data()};
+  const Inputs in(solution.y.data(), {a.data()});
   const double scales[] = {1.0, 1.0};
-  solution.result = newton.solve(solution.y.data(), in, scales);
+  solution.result = newton.solve(in, scales);
   return solution;
 }
 

@@ -42,9 +42,9 @@ BOOST_AUTO_TEST_CASE(diodes_from_anywhere) {
       for (const double start : {-300.0, -1.0, 0.0, 0.6, 2.0, 100.0}) {
         LimitedNewton newton = two_diodes(resistance);
         VectorXd y = VectorXd::Constant(2, start);
-        const double* in[] = {y.data(), &voltage};
+        const Inputs in(y.data(), {&voltage});
         BOOST_TEST_CONTEXT(resistance << " Ohm, " << voltage << " V from " << start) {
-          BOOST_TEST_REQUIRE(newton.solve(y.data(), in));
+          BOOST_TEST_REQUIRE(newton.solve(in));
           const double expected = each(voltage, resistance);
           BOOST_TEST(std::abs(y[0] - expected) < 1e-6 * (1.0 + std::abs(expected)));
           BOOST_TEST(std::abs(y[1] - expected) < 1e-6 * (1.0 + std::abs(expected)));
@@ -57,8 +57,8 @@ BOOST_AUTO_TEST_CASE(no_zero_is_no_success) {
   const ExprVector y = graph.variables("y", 1);
   LimitedNewton newton(Exponentials("none", {{"y", y}}, ExprVector::Constant(1, exp(y[0]) + 1.0)));
   double at = 0.0;
-  const double* in[] = {&at};
-  BOOST_TEST(!newton.solve(&at, in));
+  const Inputs in(&at, {});
+  BOOST_TEST(!newton.solve(in));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -14,8 +14,8 @@ struct Problem {
   VectorXd y;
   double parameter = 0.0;
   Newton::Result solve(Newton& newton, double scale = 0.0) {
-    const double* in[] = {y.data(), &parameter};
-    return newton.solve(y.data(), in, &scale);
+    const Inputs in(y.data(), {&parameter});
+    return newton.solve(in, &scale);
   }
 };
 
@@ -157,8 +157,8 @@ BOOST_AUTO_TEST_CASE(unknowns_that_are_not_contained_stay) {
   problem.parameter = 1.0;
   Newton newton(problem.function, {1, 1, 2}, {});
   const double scales[] = {1.0, 1.0, 1.0};
-  const double* in[] = {problem.y.data(), &problem.parameter};
-  BOOST_TEST((newton.solve(problem.y.data(), in, scales).status == Newton::Status::converged));
+  const Inputs in(problem.y.data(), {&problem.parameter});
+  BOOST_TEST((newton.solve(in, scales).status == Newton::Status::converged));
   BOOST_TEST(newton.is_determined());
   const VectorXd& y = problem.y;
   BOOST_TEST(std::abs(y[0] + 0.1 * std::sin(y[2]) - 1.0) < 1e-15);
@@ -283,9 +283,9 @@ BOOST_AUTO_TEST_CASE(a_matrix_that_is_singular_up_to_round_off) {
   F << 0.1 * y[0] + 0.3 * y[1] - 0.4, 0.3 * y[0] + 0.9 * y[1] - 1.2;
   Newton newton(Function("dependent", {{"y", y}}, F, {.differentiate = {"y"}}), {}, {});
   VectorXd at = VectorXd{{1.5, 1.2}};
-  const double* in[] = {at.data()};
+  const Inputs in(at.data(), {});
   const double scale = 1.0;
-  BOOST_TEST((newton.solve(at.data(), in, &scale).status == Newton::Status::converged));
+  BOOST_TEST((newton.solve(in, &scale).status == Newton::Status::converged));
   BOOST_TEST(!newton.is_determined());
   // The nearest point of y₀ + 3 y₁ = 4 to (1.5, 1.2) is 1.1/10 (1, 3) away.
   BOOST_TEST(at[0] == 1.39, boost::test_tools::tolerance(1e-9));
@@ -300,9 +300,9 @@ BOOST_AUTO_TEST_CASE(blocks_of_different_sizes_are_all_found) {
   F << y[0] - 1e12, square(y[1]) - 2e-16;
   Newton newton(Function("blocks", {{"y", y}}, F, {.differentiate = {"y"}}), {1, 1}, {});
   VectorXd at = VectorXd{{9e11, 3e-8}};
-  const double* in[] = {at.data()};
+  const Inputs in(at.data(), {});
   const double scales[] = {1e12, 1e-8};
-  BOOST_TEST((newton.solve(at.data(), in, scales).status == Newton::Status::converged));
+  BOOST_TEST((newton.solve(in, scales).status == Newton::Status::converged));
   BOOST_TEST(at[0] == 1e12, boost::test_tools::tolerance(1e-14));
   BOOST_TEST(at[1] == std::sqrt(2.0) * 1e-8, boost::test_tools::tolerance(1e-14));
 }
@@ -318,9 +318,9 @@ BOOST_AUTO_TEST_CASE(a_small_residual_is_no_zero) {
   for (const double start : {1.01, 0.997, 1.0005, 0.99981}) {
     newton.reset();
     VectorXd at = VectorXd::Constant(2, start);
-    const double* in[] = {at.data()};
+    const Inputs in(at.data(), {});
     const double scale = 1.0;
-    BOOST_TEST((newton.solve(at.data(), in, &scale).status != Newton::Status::converged));
+    BOOST_TEST((newton.solve(in, &scale).status != Newton::Status::converged));
   }
 }
 
@@ -367,8 +367,8 @@ BOOST_AUTO_TEST_CASE(an_accidental_contraction_is_no_convergence) {
   VectorXd y = Eigen::Vector2d(1.0, 0.21);
   const double parameter = 0.0;
   const double scales[] = {1.0, 2e6};
-  const double* in[] = {y.data(), &parameter};
-  BOOST_TEST((newton.solve(y.data(), in, scales).status == Newton::Status::converged));
+  const Inputs in(y.data(), {&parameter});
+  BOOST_TEST((newton.solve(in, scales).status == Newton::Status::converged));
   BOOST_TEST(std::abs(y[1] - 0.2 / 1.009) < 1e-10);
 }
 
@@ -385,9 +385,9 @@ BOOST_AUTO_TEST_CASE(equal_steps_down_an_exponential_are_no_round_off) {
       problem.y << 1.0, 1.4;
       problem.parameter = given;
       Newton newton(problem.function, {1, 1}, {});
-      const double* in[] = {problem.y.data(), &problem.parameter};
+      const Inputs in(problem.y.data(), {&problem.parameter});
       const double scales[] = {1.0, scale};
-      if (newton.solve(problem.y.data(), in, scales).status != Newton::Status::converged) continue;
+      if (newton.solve(in, scales).status != Newton::Status::converged) continue;
       const double voltage = 0.025852 * std::log1p(given / 1e-12);
       BOOST_TEST(std::fabs(problem.y[1] - voltage) < 1e-9, problem.y[1] << " at scale " << scale);
     }
@@ -406,13 +406,13 @@ BOOST_AUTO_TEST_CASE(damped_steps_lead_to_where_it_converges) {
                   {});
     for (const double current : {1e-3, 0.3, 40.0}) {
       VectorXd at = Eigen::Vector2d(0.0, 1e-12);
-      const double* in[] = {at.data(), &current};
+      const Inputs in(at.data(), {&current});
       const double scale = 1e-5;
       newton.reset();
-      BOOST_TEST((newton.solve(at.data(), in, &scale).status != Newton::Status::converged));
+      BOOST_TEST((newton.solve(in, &scale).status != Newton::Status::converged));
       at = Eigen::Vector2d(0.0, 1e-12);
-      BOOST_TEST_REQUIRE(newton.approach(at.data(), in, &scale));
-      BOOST_TEST((newton.solve(at.data(), in, &scale).status == Newton::Status::converged));
+      BOOST_TEST_REQUIRE(newton.approach(in, &scale));
+      BOOST_TEST((newton.solve(in, &scale).status == Newton::Status::converged));
       BOOST_TEST(std::fabs(at[0] - thermal * std::log1p(current / saturation)) < 1e-13);
     }
   }
@@ -445,16 +445,16 @@ BOOST_AUTO_TEST_CASE(a_matrix_far_up_an_exponential_settles_nothing) {
     for (const double voltage : {5.0, -5.0, 0.3}) {
       Newton newton(system, {}, {});
       double at = first, before = first < 1.0 ? first : 1e9;
-      const double* in[] = {&at, &before};
+      const Inputs in(&at, {&before});
       const double size = 5e7;
-      newton.solve(&at, in, &size);  // keeps a matrix of where it ends
+      newton.solve(in, &size);  // keeps a matrix of where it ends
       before = voltage;
-      const bool converged = newton.solve(&at, in, &size).status == Newton::Status::converged;
+      const bool converged = newton.solve(in, &size).status == Newton::Status::converged;
       BOOST_TEST_CONTEXT(voltage << " V after " << first) {
         if (!converged) {
           at = 0.0;
-          BOOST_TEST_REQUIRE(newton.approach(&at, in, &size));
-          BOOST_TEST_REQUIRE((newton.solve(&at, in, &size).status == Newton::Status::converged));
+          BOOST_TEST_REQUIRE(newton.approach(in, &size));
+          BOOST_TEST_REQUIRE((newton.solve(in, &size).status == Newton::Status::converged));
         }
         const double current = (voltage - at) / resistance;
         BOOST_TEST(std::abs(saturation * std::expm1(at / scale) - current) <

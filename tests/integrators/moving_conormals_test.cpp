@@ -45,8 +45,7 @@ struct Pendulum {
   }
 
   void move(MovingConormals& conormals) const {
-    const double* in[] = {y.data(), x.data(), nullptr, &t};
-    conormals.move_to(in);
+    conormals.move_to({.jets = y.data(), .origin = x.data(), .basis = nullptr, .t = &t});
   }
 
   // How far C is from an orthonormal basis of the span.

@@ -25,8 +25,7 @@ struct Followed {
 
 Followed follow(StepContinuation& curve, double h, double prediction) {
   Followed followed{VectorXd::Constant(1, prediction), {}};
-  const double* in[] = {nullptr, &h};
-  followed.result = curve.follow(followed.y, in, 1.0);
+  followed.result = curve.follow(followed.y, Inputs(nullptr, {&h}), 1.0);
   return followed;
 }
 
