@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "courant/core/collected_terms.hpp"
 #include "courant/core/derivative.hpp"
 #include "courant/core/equilibration.hpp"
 #include "courant/core/expr_vectors.hpp"
@@ -324,7 +325,7 @@ ExprVector without_influence(const ExprVector& expressions, const ExprVector& un
 }  // namespace
 
 Elimination::Elimination(const ExprVector& F, const ExprVector& y, const Options& options)
-    : equations(F), unknowns(y) {
+    : equations(collected(F)), unknowns(y) {
   std::vector<int> coarseness = options.coarseness;
   if (coarseness.empty()) coarseness.assign(static_cast<std::size_t>(y.size()), 0);
   if (std::ssize(coarseness) != y.size())
@@ -333,7 +334,7 @@ Elimination::Elimination(const ExprVector& F, const ExprVector& y, const Options
         " entries, expected one for each of the " + std::to_string(y.size()) + " unknowns.");
   std::vector<bool> is_done(static_cast<std::size_t>(F.size()), false);
   std::vector<bool> is_given(static_cast<std::size_t>(y.size()), false);
-  const SparseExprMatrix J = jacobian(F, y);
+  const SparseExprMatrix J = jacobian(equations, y);
   Tableau tableau(J, options.never_zero, std::move(coarseness));
   for (auto taken = tableau.round(); !taken.empty(); taken = tableau.round()) {
     const auto count = static_cast<Index>(taken.size());
@@ -356,6 +357,9 @@ Elimination::Elimination(const ExprVector& F, const ExprVector& y, const Options
     equations = all.head(F.size());
     unknowns = all.tail(y.size());
   }
+  const ExprVector both = collected(joined(equations, unknowns));
+  equations = both.head(F.size());
+  unknowns = both.tail(y.size());
   for (Index i = 0; i < F.size(); ++i)
     if (!is_done[static_cast<std::size_t>(i)] && !equations[i].is_constant(0.0))
       remaining.push_back(i);

@@ -20,7 +20,8 @@ namespace courant {
 // The Jacobian of G is the Schur complement in that of F, so Newton's method makes the same iterates.
 //
 // A pivot a may be small next to the other coefficients of its equation, in comparable units, only if
-// y_j is in no other equation; so elimination loses no digits. Among those that are allowed the order is
+// y_j is in no other equation; so elimination loses no digits. Sums are written without terms that
+// meet, see collected(). Among those that are allowed the order is
 // Markowitz's: the one first whose removal couples fewest of the others (Duff, Erisman & Reid, Direct
 // Methods for Sparse Matrices, 2017, Section 7.2). Of many equations, pivots that would fill them are
 // left alone.
