@@ -37,11 +37,9 @@ bool update(double* A, const double* s, const double* r, const double* weighted,
 
 }  // namespace
 
-bool broyden_update(double* A, const VectorXd& s, const VectorXd& r, const VectorXd& weighted) {
-  const Index n = s.size();
-  return with_static_size(n, [&](auto size) {
-    return update<decltype(size)::value>(A, s.data(), r.data(), weighted.data(), n);
-  });
+bool broyden_update(double* A, const double* s, const double* r, const double* weighted, Index n) {
+  return with_static_size(
+      n, [&](auto size) { return update<decltype(size)::value>(A, s, r, weighted, n); });
 }
 
 }  // namespace courant

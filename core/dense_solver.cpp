@@ -6,6 +6,7 @@
 #include "courant/core/complete_orthogonal_decomposition.hpp"
 #include "courant/core/equilibration.hpp"
 #include "courant/core/regular_matrix.hpp"
+#include "courant/core/small_product.hpp"
 #include "courant/core/static_size.hpp"
 
 namespace courant {
@@ -26,12 +27,7 @@ void multiply(const MatrixXd& A, const double* b, double* x) {
   if constexpr (n == Eigen::Dynamic) {
     Eigen::Map<VectorXd>(x, A.rows()).noalias() = A * Eigen::Map<const VectorXd>(b, A.cols());
   } else {
-    // b number by number, as it has just been written: a packet would wait until that has reached the
-    // cache.
-    const Eigen::Map<const Eigen::Matrix<double, n, n>> columns(A.data());
-    Eigen::Matrix<double, n, 1> sum = Eigen::Matrix<double, n, 1>::Zero();
-    for (int j = 0; j < n; ++j) sum += columns.col(j) * b[j];
-    Eigen::Map<Eigen::Matrix<double, n, 1>>(x, n) = sum;
+    Eigen::Map<Eigen::Array<double, n, 1>>(x, n) = small_product<n>(A.data(), b);
   }
 }
 

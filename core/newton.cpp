@@ -8,8 +8,7 @@
 
 #include "courant/core/broyden_update.hpp"
 #include "courant/core/damped_newton.hpp"
-#include "courant/core/pairs.hpp"
-#include "courant/core/static_size.hpp"
+#include "courant/core/movement.hpp"
 #include "courant/core/unknown_selection.hpp"
 
 namespace courant {
@@ -27,13 +26,6 @@ constexpr double kRoundOff = 1e-9;
 constexpr double kShort = 1e-4;
 constexpr double kStagnant = 0.9;
 
-// The contraction from one step to the next says what error is left where both are short. The first step
-// on the way back from far away is shorter by as much as one went astray. A contraction below the length
-// of the step before is an accident: the matrix is at least as far away as that step was long, and may
-// have been exact for the unknowns that the sizes show. A multiplier of size 0.2, weighted as nearly
-// free, was left wrong by 3e-8 so.
-constexpr double kLongStep = 1e-2;
-
 // Round-off is measured with a new factorisation, and again when this has made it too small.
 constexpr double kForget = 0.998;
 
@@ -48,11 +40,6 @@ constexpr double kNothing = -30.0;
 constexpr double kStill = 1e-13;
 constexpr double kSameSlope = 1.0;
 constexpr double kHolds = 2e-14;
-
-// A change of this relative length is far enough above round-off that the next one tells what the matrix lacks.
-constexpr double kTeaches = 1e-12;
-// A matrix that contracts so well is kept as it is.
-constexpr double kGood = 0.01;
 
 // Relative changes that are round-off everywhere.
 constexpr double kLeast = 2.0 * std::numeric_limits<double>::epsilon();
@@ -69,26 +56,9 @@ struct NumberSum {
   double value_ = 0.0;
 };
 
-// What became of some unknowns: their largest change, their largest size after it, and whether all changes are finite.
-template <class Largest, class Total>
-struct Movement {
-  Largest changes, sizes;
-  Total total;
-
-  template <class Numbers>
-  void move(double* u, const Numbers& change) {
-    const Numbers length = magnitude(change), moved = read<Numbers>(u) - change;
-    write(u, moved);
-    changes.add(length);
-    sizes.add(Numbers(magnitude(moved)));
-    total.add(length);
-  }
-  bool is_finite() const { return std::isfinite(total.value()); }
-};
-
 // u_i ← u_i - change_i for begin ≤ i < end.
 auto subtract(double* u, const double* change, Index begin, Index end) {
-  Movement<PairMaximum, PairSum> movement;
+  PairMovement movement;
   for_each_pair(begin, end, [&]<class Numbers>(Index i, Numbers) {
     movement.move(u + i, read<Numbers>(change + i));
   });
@@ -100,28 +70,6 @@ auto subtract(double* u, const double* change, const Index* places, Index begin,
   Movement<NumberMaximum, NumberSum> movement;
   for (Index i = begin; i < end; ++i) movement.move(u + places[i], change[i]);
   return movement;
-}
-
-// change = A F, u ← u - change, for a square A of n rows, without a way through memory. Returns the largest
-// change, ∞ if one is not finite; `size`: the largest size of u.
-template <int n>
-double improve_small(const double* A, const double* F, double* u, double* change, double& size) {
-  using Vector = Eigen::Array<double, n, 1>;
-  const Eigen::Map<const Eigen::Array<double, n, n>> columns(A);
-  Vector sum = Vector::Zero();
-  for (int j = 0; j < n; ++j) sum += columns.col(j) * F[j];
-  Eigen::Map<Vector>{change} = sum;
-  Movement<PairMaximum, PairSum> movement;
-  for_each_pair(0, n, [&]<class Numbers>(Index i, Numbers) {
-    movement.move(u + i, read<Numbers>(sum.data() + i));
-  });
-  size = movement.sizes.value();
-  return movement.is_finite() ? movement.changes.value() : std::numeric_limits<double>::infinity();
-}
-
-// Of unknowns of this size; a block of scale 0 that ends at 0 has moved by all of itself.
-double relative(double change, double size) {
-  return change > 0.0 ? (size > 0.0 ? change / size : 1.0) : change;
 }
 
 }  // namespace
@@ -146,12 +94,7 @@ Newton::Newton(EquationSystem system, std::vector<Index> groups, const Options& 
   sizes_.setZero(std::ssize(ends_));
   while (group_ + 1 < ends_.size() && ends_[group_] == 0) ++group_;
   if (is_contiguous_ && ends_[group_] == ends_.back())
-    improve_ = with_static_size(std::ssize(contained_), [](auto n) -> Improve {
-      if constexpr (decltype(n)::value == Eigen::Dynamic)
-        return nullptr;
-      else
-        return &improve_small<decltype(n)::value>;
-    });
+    contraction_ = Contraction(std::ssize(contained_));
   std::vector<bool> is_contained(system_.kept().size());
   for (const Index place : contained_) is_contained[static_cast<std::size_t>(place)] = true;
   for (std::size_t k = 0; k < is_contained.size(); ++k)
@@ -183,14 +126,21 @@ bool Newton::factorize(const Inputs& in) {
   return factorized_;
 }
 
+Contraction::Workspace Newton::workspace(double* y) {
+  return {.inverse = inverse_,
+          .u = y + contained_.front(),
+          .residual = all_.data(),
+          .change = step_.data(),
+          .before = before_.data()};
+}
+
 // y ← y - A F. Returns the largest change of a block relative to its scale.
 double Newton::improve(double* y, const double* scales) {
-  if (improve_ != nullptr && inverse_ != nullptr) {
+  if (contraction_.is_available() && inverse_ != nullptr) {
     double& size = sizes_[static_cast<Index>(group_)];
-    const double change =
-        improve_(inverse_, all_.data(), y + contained_.front(), step_.data(), size);
+    const double change = contraction_.improve(workspace(y), size);
     size = std::max(scales[group_], size);
-    return relative(change, size);
+    return contraction::relative(change, size);
   }
   solver_->solve(all_.data(), step_.data());
   double result = 0.0;
@@ -201,7 +151,7 @@ double Newton::improve(double* y, const double* scales) {
       is_finite &= movement.is_finite();
       const double size = std::max(scales[g], movement.sizes.value());
       sizes_[static_cast<Index>(g)] = size;
-      result = std::max(result, relative(movement.changes.value(), size));
+      result = std::max(result, contraction::relative(movement.changes.value(), size));
     };
     if (is_contiguous_)
       take(subtract(y + contained_.front(), step_.data(), begin, ends_[g]));
@@ -224,7 +174,7 @@ void Newton::learn() {
       write(weighted_.data() + i, Numbers(read<Numbers>(before_.data() + i) / size / size));
     });
   }
-  broyden_update(inverse_, before_, step_, weighted_);
+  broyden_update(inverse_, before_.data(), step_.data(), weighted_.data(), step_.size());
 }
 
 // Σ_j |J_ij| size(j) for each equation i, by the Jacobian that was evaluated last.
@@ -399,7 +349,6 @@ Newton::Result Newton::solve_kept(const Inputs& in, const double* scales) {
   double* const y = in.unknowns();
   const auto residual = all_.head(function_.output_size());
   double previous = std::numeric_limits<double>::infinity();
-  double contraction = 0.0;
   bool fresh = false;      // A belongs to a point of this solve
   bool close = false;      // which a short change led to
   double unsolved = -1.0;  // where changes stalled before, if they did
@@ -419,11 +368,33 @@ Newton::Result Newton::solve_kept(const Inputs& in, const double* scales) {
     result.status = Status::singular;
     return result;
   }
-  while (result.iterations < options_.max_iterations) {
-    ++result.iterations;
-    if (!evaluated) function_.value(in.data(), all_.data());
-    evaluated = false;
-    moved = improve(y, scales);
+  // Most solves are over before anything else has to be looked at.
+  bool has_moved = false;
+  if (contraction_.is_available() && inverse_ != nullptr && !fresh && !limited_) {
+    const Contraction::Result quick = contraction_(function_, in, workspace(y),
+                                                   {.scale = scales[group_],
+                                                    .tolerance = options_.tolerance,
+                                                    .slow = options_.slow,
+                                                    .most = options_.max_iterations});
+    result.iterations = quick.iterations;
+    if (quick.has_converged) {
+      result.status = Status::converged;
+      return result;
+    }
+    sizes_[static_cast<Index>(group_)] = quick.size;
+    moved = quick.moved;
+    previous = quick.previous;
+    compared = quick.iterations - 1;
+    learned = quick.has_learned;
+    has_moved = true;
+  }
+  while (has_moved || result.iterations < options_.max_iterations) {
+    if (!has_moved) {
+      ++result.iterations;
+      if (!evaluated) function_.value(in.data(), all_.data());
+      moved = improve(y, scales);
+    }
+    evaluated = has_moved = false;
     if (!std::isfinite(moved)) {
       result.residuals.push_back(residual.size() == 0 ? 0.0 : residual.lpNorm<Eigen::Infinity>());
       return result;
@@ -446,20 +417,19 @@ Newton::Result Newton::solve_kept(const Inputs& in, const double* scales) {
       return result;
     }
     if (compared > 0) {
-      contraction = moved / previous;
-      if (contraction < 0.5 && previous <= kLongStep &&
-          std::max(contraction, previous) * moved <= (1.0 - contraction) * options_.tolerance &&
-          accepted() && is_settled(in, fresh)) {
+      const double part = moved / previous;
+      if (contraction::has_ended(moved, previous, options_.tolerance) && accepted() &&
+          is_settled(in, fresh)) {
         result.status = Status::converged;
         return result;
       }
       // With an old factorisation, changes that do not become smaller may come from its age.
-      const bool stalled = contraction > 0.5;
-      const bool stagnant = fresh && compared == 1 && contraction > kStagnant && moved <= kShort;
+      const bool stalled = part > 0.5;
+      const bool stagnant = fresh && compared == 1 && part > kStagnant && moved <= kShort;
       const bool rounded =
           stalled && (moved > kRoundOff ? stagnant || unsolved_part(y, scales, false) <= kRounded
                                         : close || moved <= std::max(kLeast, 2 * round_off_));
-      const bool slow = contraction > options_.slow && moved > 1e3 * options_.tolerance;
+      const bool slow = part > options_.slow && moved > 1e3 * options_.tolerance;
       if ((slow && !fresh) || (stalled && !rounded) ||
           (rounded && (!is_still(y, scales, fresh, unsolved) || !is_settled(in, fresh)))) {
         if (!refactorize()) {
@@ -475,7 +445,7 @@ Newton::Result Newton::solve_kept(const Inputs& in, const double* scales) {
       }
     }
     if (inverse_ != nullptr && !learned && !limited_) {
-      learned = compared > 0 && previous > kTeaches && moved > kGood * previous;
+      learned = compared > 0 && contraction::teaches(moved, previous);
       if (learned)
         learn();
       else

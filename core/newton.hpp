@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "courant/core/contraction.hpp"
 #include "courant/core/equation_system.hpp"
 #include "courant/core/inputs.hpp"
 #include "courant/core/limited_newton.hpp"
@@ -84,6 +85,7 @@ class Newton {
   const Inputs& take_kept(const Inputs& in);
   void give(double* y);
   bool factorize(const Inputs& in);
+  Contraction::Workspace workspace(double* y);
   double improve(double* y, const double* scales);
   void learn();
   template <class Size>
@@ -102,11 +104,8 @@ class Newton {
   std::vector<Index> contained_;  // kept unknowns that F contains, ascending
   std::vector<Index> ends_;       // of the groups, in contained_
   bool is_contiguous_ = false;    // contained_, without gaps
-  // Of improve() for a small inverse, where all unknowns that F contains are side by side in one group;
-  // else null.
-  using Improve = double (*)(const double* inverse, const double* F, double* u, double* change,
-                             double& size);
-  Improve improve_ = nullptr;
+  // Of a small inverse, where all unknowns that F contains are side by side in one group.
+  Contraction contraction_;
   std::size_t group_ = 0;  // the first one that F contains unknowns of
   Options options_;
   std::unique_ptr<LinearSolver>

@@ -129,15 +129,30 @@ static int factorize(struct newton *N, const double *const *in) {
   return N->is_factorized = 1;
 }
 
+/* x = A b, column by column; up to eight columns in two parts, even ones and odd ones. */
+static void multiply(const double *A, const double *b, double *x, int n) {
+  int i, j;
+  for (i = 0; i < n; ++i) {
+    double even = 0.0, odd = 0.0;
+    if (n > 8) {
+      for (j = 0; j < n; ++j) even += A[i + j * n] * b[j];
+      x[i] = even;
+      continue;
+    }
+    even = A[i] * b[0];
+    if (n > 1) odd = A[i + n] * b[1];
+    for (j = 2; j < n; ++j) *(j % 2 == 0 ? &even : &odd) += A[i + j * n] * b[j];
+    x[i] = n > 1 ? even + odd : even;
+  }
+}
+
 /* u <- u - A G. The largest change of a group relative to its scale. */
 static double improve(struct newton *N, const double *scales) {
   const struct equations *const of = N->of;
   const int n = of->size;
   double result = 0.0, total = 0.0;
-  int g, i = 0, j;
-  for (j = 0; j < n; ++j) N->change[j] = 0.0;
-  for (j = 0; j < n; ++j)
-    for (i = 0; i < n; ++i) N->change[i] += N->inverse[i + j * n] * N->all[j];
+  int g, i = 0;
+  multiply(N->inverse, N->all, N->change, n);
   for (g = 0, i = 0; g < of->groups; ++g) {
     double moved = 0.0, size = scales[g];
     for (; i < n && of->group[of->contained[i]] == g; ++i) {
@@ -277,8 +292,8 @@ static int iterate(struct newton *N, const double *const *in, const double *scal
     if (compared > 0) {
       int stalled, stagnant, rounded, slow, still;
       contraction = moved / previous;
-      if (contraction < 0.5 && previous <= 1e-2 &&
-          largest_of(contraction, previous) * moved <= (1.0 - contraction) * tolerance &&
+      if (moved < 0.5 * previous && previous <= 1e-2 &&
+          largest_of(moved, previous * previous) * moved <= (previous - moved) * tolerance &&
           is_settled(N, in, fresh))
         return 1;
       stalled = contraction > 0.5;

@@ -22,7 +22,10 @@ struct Changes {
     s = A * J * y;
     r = A * J * (y - s);
   }
-  bool update() { return courant::broyden_update(A.data(), s, r, weights.cwiseProduct(s)); }
+  bool update() {
+    const VectorXd weighted = weights.cwiseProduct(s);
+    return courant::broyden_update(A.data(), s.data(), r.data(), weighted.data(), s.size());
+  }
 
   MatrixXd J, A;
   VectorXd weights, s, r;
