@@ -45,6 +45,10 @@ BOOST_AUTO_TEST_CASE(instances_have_names_of_their_own) {
   BOOST_TEST(inside.at("r") != of.scope.at("r"));
   BOOST_TEST(of.circuit.value_of(inside.at("r"), 0) == 200.0);
   BOOST_TEST(of.circuit.value_of(of.scope.at("r"), 0) == 100.0);
+  // What comes before it means the own one too.
+  Scope other = of.scope;
+  of.parameters.define(other, "x2.", {{"half", "r/2", 7}, {"r", "30", 8}});
+  BOOST_TEST(of.circuit.value_of(other.at("half"), 0) == 15.0);
 }
 
 // e is a number in formulas, so a parameter of this name has another one.
