@@ -5,12 +5,12 @@
 set(courant_precompiled <Eigen/Core> <Eigen/SparseCore> <algorithm> <cmath> <functional> <memory> <random> <stdexcept>
     <string> <vector> <courant/core/function.hpp>)
 
-# How much a release optimises the rooms in which nothing is in an inner loop; the others have -O3. It takes a third to
-# half of the compiler's time.
-set(courant_optimisation_manifolds -O1)
-set(courant_optimisation_structures -O1)
-set(courant_optimisation_systems -O1)
-foreach(room reading plotting reporting cli tests)
+# How much a release optimises a room, but for what it lists as `in_steps`, which has -O3. It takes a third to half of the
+# compiler's time.
+foreach(room core manifolds structures integrators systems)
+  set(courant_optimisation_${room} -O1)
+endforeach()
+foreach(room reading running plotting reporting cli tests)
   set(courant_optimisation_${room} -Og)
 endforeach()
 
@@ -27,18 +27,19 @@ endfunction()
 # courant_precompile(<target> <room> <suffix> [<header>...])
 #
 # Uses precompiled headers in a target: those above and the given ones. GCC compiles by the optimisation that these were
-# compiled with, whatever its command line says, so the rooms that share them are optimised alike: core and integrators
-# have those of core; structures and systems those of manifolds; reporting those of reading, which have JSON too, as
-# running has. Tests have those of the tests of core and of reading (<suffix>: "_tests"). Plotting knows nothing but the standard library.
+# compiled with, whatever its command line says, so rooms that share them are optimised alike. What runs in steps has those
+# of core for that (<room>: "steps"); manifolds, structures, integrators and systems have those of core; running, reporting
+# and cli those of reading, which have JSON too. Tests have those of the tests of core and of reading (<suffix>: "_tests").
+# Plotting knows nothing but the standard library.
 function(courant_precompile target room suffix)
-  if(room STREQUAL core OR (room STREQUAL manifolds AND suffix STREQUAL ""))
+  if(target MATCHES "^courant_(core|core_steps|core_tests)$")
     target_precompile_headers(${target} PRIVATE ${courant_precompiled} ${ARGN})
-  elseif(room STREQUAL reading OR (room STREQUAL running AND suffix STREQUAL ""))
+  elseif(room STREQUAL reading)
     target_precompile_headers(${target} PRIVATE ${courant_precompiled} <nlohmann/json.hpp> ${ARGN})
   elseif(room MATCHES "^(running|reporting|cli)$")
     target_precompile_headers(${target} REUSE_FROM courant_reading${suffix})
-  elseif(room MATCHES "^(structures|systems)$" AND suffix STREQUAL "")
-    target_precompile_headers(${target} REUSE_FROM courant_manifolds)
+  elseif(room STREQUAL steps)
+    target_precompile_headers(${target} REUSE_FROM courant_core_steps)
   elseif(NOT room STREQUAL plotting)
     target_precompile_headers(${target} REUSE_FROM courant_core${suffix})
   endif()
@@ -46,26 +47,50 @@ endfunction()
 
 # courant_unite(<target>)
 #
-# Compiles a dozen sources of a target as one if COURANT_UNITY is on. Names in their unnamed namespaces must differ then;
-# those of a test are in its suite.
+# Compiles sixteen sources of a target as one if COURANT_UNITY is on, a dozen if they are optimised most or instrumented, which
+# takes memory. Names in their unnamed namespaces must differ then; those of a test are in its suite.
 function(courant_unite target)
   if(COURANT_UNITY)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+    set(batch 16)
+    if(target MATCHES "_steps$" OR COURANT_SANITIZE)
+      set(batch 12)
+    endif()
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
     # What is included, GCC takes for a header: there an unnamed namespace would make different types of one.
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
 endfunction()
 
+# courant_steps(<room> [PUBLIC <links>...] [PRIVATE <links>...])
+#
+# The part of the library courant_<room> that runs in every step, or that long preparations spend their time in: the
+# sources in ${in_steps}, with -O3.
+function(courant_steps room)
+  set(target courant_${room}_steps)
+  add_library(${target} OBJECT ${in_steps})
+  courant_settings(${target})
+  courant_precompile(${target} steps "")
+  courant_unite(${target})
+  target_include_directories(${target} PRIVATE ${PROJECT_BINARY_DIR}/include)
+  list(TRANSFORM courant_known_${room} PREPEND courant_ OUTPUT_VARIABLE known)
+  target_link_libraries(${target} PUBLIC ${known})
+  target_link_libraries(${target} ${ARGN})
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ${BUILD_SHARED_LIBS})
+  target_sources(courant_${room} PRIVATE $<TARGET_OBJECTS:${target}>)
+endfunction()
+
 # courant_library(<room> [PUBLIC <links>...] [PRIVATE <links>...])
 #
 # The library courant_<room> of all sources of this folder and its parts but those in ${left_out}, linked to the rooms
-# that it may know and to what is given, exported as Courant::<room>.
+# that it may know and to what is given, exported as Courant::<room>. See courant_steps for ${in_steps}.
 function(courant_library room)
   set(target courant_${room})
   file(GLOB sources CONFIGURE_DEPENDS *.cpp */*.cpp)
   file(GLOB headers CONFIGURE_DEPENDS *.hpp */*.hpp)
   list(TRANSFORM left_out PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
   list(REMOVE_ITEM sources ${left_out})
+  list(TRANSFORM in_steps PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  list(REMOVE_ITEM sources ${in_steps})
   if(NOT sources) # a folder may consist of headers alone
     set(sources ${CMAKE_CURRENT_BINARY_DIR}/headers_only.cpp)
     file(WRITE ${sources} "")
@@ -76,6 +101,9 @@ function(courant_library room)
   courant_optimise(${target} ${room})
   courant_precompile(${target} ${room} "")
   courant_unite(${target})
+  if(in_steps)
+    courant_steps(${room} ${ARGN})
+  endif()
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
@@ -104,13 +132,11 @@ function(courant_tests room)
   list(TRANSFORM left_out PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
   list(REMOVE_ITEM sources ${left_out})
   set(target courant_${room}_tests)
-  add_executable(${target} ${sources})
+  add_executable(${target} ${sources} $<TARGET_OBJECTS:courant_tests_main>)
   courant_settings(${target})
   courant_optimise(${target} tests)
   courant_precompile(${target} ${room} _tests <Eigen/Geometry> <boost/test/unit_test.hpp>)
   courant_unite(${target})
-  # The one file that defines BOOST_TEST_MODULE before it includes Boost.Test.
-  set_source_files_properties(${room}/main.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
   target_compile_definitions(${target} PRIVATE BOOST_TEST_DYN_LINK)
   target_link_libraries(${target} PRIVATE courant_${room} Boost::unit_test_framework)
 

@@ -7,7 +7,7 @@
 namespace courant {
 namespace {
 
-constexpr const char* kPower =
+constexpr const char* kPowerInC =
     "static double courant_power(int k, double base) {\n"
     "  unsigned exponent = k < 0 ? 0u - (unsigned)k : (unsigned)k;\n"
     "  double result = 1.0;\n"
@@ -55,7 +55,7 @@ std::string c_prelude(const std::string& source) {
   const std::size_t second = special.find("static double courant_arccos_factor(");
   if (calls("courant_stumpff(")) prelude += in_lines(special.substr(0, second)) + "\n";
   if (calls("courant_arccos_factor(")) prelude += in_lines(special.substr(second)) + "\n";
-  if (calls("courant_power(")) prelude += std::string(kPower) + "\n";
+  if (calls("courant_power(")) prelude += std::string(kPowerInC) + "\n";
   return prelude;
 }
 

@@ -10,6 +10,7 @@
 #include "courant/core/complete_orthogonal_decomposition.hpp"
 #include "courant/core/expr_vectors.hpp"
 #include "courant/core/function.hpp"
+#include "courant/core/power_of_two.hpp"
 #include "courant/core/subgraph.hpp"
 #include "courant/integrators/ladder/derivative_array.hpp"
 #include "courant/integrators/ladder/natural_scaling.hpp"
@@ -408,7 +409,7 @@ std::optional<Units> units_of_all_terms(const std::shared_ptr<const ImplicitSyst
       largest[first + i] = shared[mixed[static_cast<std::size_t>(i)]];
   }
   const auto power_of_two = [](double unit) {
-    return unit > 0.0 && std::isfinite(unit) ? std::exp2(std::round(std::log2(unit))) : 1.0;
+    return unit > 0.0 && std::isfinite(unit) ? nearest_power_of_two(unit) : 1.0;
   };
   const Index n = level.array.base_size();
   // By number; 1 of what none of the n coordinates has.

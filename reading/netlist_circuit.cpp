@@ -9,6 +9,7 @@
 #include "courant/core/formula.hpp"
 #include "courant/core/message.hpp"
 #include "courant/reading/netlist_names.hpp"
+#include "courant/reading/netlist_parameters.hpp"
 
 namespace courant::netlist {
 namespace {
@@ -34,7 +35,7 @@ class CircuitReader {
 
   NetlistCircuit read() {
     circuit_.values.add("t", 0.0);
-    define(global_, "", deck_.whole.parameters);
+    parameters_.define(global_, "", deck_.whole.parameters);
     if (deck_.transient)
       problems_.guard([&] { read_times(*deck_.transient); });
     else
@@ -62,62 +63,6 @@ class CircuitReader {
     int line;
   };
 
-  // ---- parameters ----
-
-  void define_one(Scope& scope, const std::string& prefix, const std::string& name,
-                  const std::string& formula, int line) {
-    const double value = circuit_.value_of(formula, line);
-    std::string global = identifier(prefix + name);
-    static const std::set<std::string> reserved = {"e", "pi", "h"};
-    for (bool added = false; !added;) {
-      try {
-        if (reserved.contains(global)) throw std::invalid_argument("");
-        circuit_.values.add(global, value);
-        added = true;
-      } catch (const std::invalid_argument&) {
-        global += "_";
-      }
-    }
-    circuit_.parameters[global] = written_value(formula);
-    circuit_.parameter_lines[global] = line;
-    scope[name] = global;
-  }
-
-  // Adds parameters to a scope, those first that the others need. The last value of a name counts;
-  // in it, the name itself is the one outside.
-  void define(Scope& scope, const std::string& prefix, const Assignments& list) {
-    std::map<std::string, const Assignment*> last;
-    for (const Assignment& assignment : list) last[assignment.name] = &assignment;
-    std::vector<const Assignment*> open;
-    for (const Assignment& assignment : list)
-      if (last[assignment.name] == &assignment) open.push_back(&assignment);
-    const Scope outside = scope;
-    for (const Assignment* assignment : open) scope.erase(assignment->name);
-    while (!open.empty()) {
-      std::vector<const Assignment*> left;
-      std::vector<LineError> errors;
-      for (const Assignment* assignment : open) {
-        try {
-          Scope known = scope;
-          if (const auto outer = outside.find(assignment->name); outer != outside.end())
-            known.insert(*outer);
-          define_one(scope, prefix, assignment->name,
-                     formula(assignment->value, known, assignment->line), assignment->line);
-        } catch (const LineError& error) {
-          errors.push_back(error);
-          left.push_back(assignment);
-        }
-      }
-      if (left.size() == open.size()) {
-        for (const LineError& error : errors) problems_.add(error.line, error.what);
-        // What uses them is right for all that is known.
-        for (const Assignment* assignment : left) scope[assignment->name] = "1";
-        return;
-      }
-      open = left;
-    }
-  }
-
   void read_times(const Card& card) {
     const int line = card.line->number;
     std::vector<double> values;
@@ -132,8 +77,6 @@ class CircuitReader {
     circuit_.times = {values[0], values[1]};
     if (values.size() > 3) circuit_.largest_step = values[3];
   }
-
-  // ---- nodes and elements ----
 
   std::size_t node(const std::string& name, const std::string& prefix, const NodeMap& map,
                    int line) {
@@ -350,10 +293,10 @@ class CircuitReader {
       if (std::none_of(part.header.begin(), part.header.end(),
                        [&](const Assignment& parameter) { return parameter.name == given.name; }))
         throw LineError{line, "the subcircuit " + name + " has no parameter " + given.name};
-      define_one(known, inside, given.name, formula(given.value, scope, line), line);
+      parameters_.define(known, inside, given.name, formula(given.value, scope, line), line);
     }
     defaults.insert(defaults.end(), part.parameters.begin(), part.parameters.end());
-    define(known, inside, defaults);
+    parameters_.define(known, inside, defaults);
     inside_.push_back(&part);
     expand(part, inside, inner, known);
     inside_.pop_back();
@@ -438,6 +381,7 @@ class CircuitReader {
   const Deck& deck_;
   LineProblems& problems_;
   NetlistCircuit circuit_;
+  NetlistParameters parameters_{circuit_, problems_};
   Scope global_;
   DifferentNames names_of_nodes_, names_of_elements_;
   std::map<std::string, Named> names_;  // of elements, by instance and lower case

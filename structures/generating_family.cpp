@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "courant/core/derivative.hpp"
+#include "courant/core/power_of_two.hpp"
 
 namespace courant {
 
@@ -86,7 +87,7 @@ VectorXd Lagrangian::typical_masses() const {
   }
   for (Index i = 0; i < masses.size(); ++i)
     if (const double size = largest[mixed[static_cast<std::size_t>(i)]]; size > 0.0)
-      masses[i] = std::exp2(std::round(std::log2(size)));
+      masses[i] = nearest_power_of_two(size);
   return masses;
 }
 

@@ -1,2 +1,0 @@
-#define BOOST_TEST_MODULE courant_integrators
-#include <boost/test/unit_test.hpp>

@@ -1,2 +1,0 @@
-#define BOOST_TEST_MODULE courant_manifolds
-#include <boost/test/unit_test.hpp>
