@@ -78,6 +78,10 @@ class Function {
   void taylor_with_jacobian(const Uncertain* const* in, Index order, Uncertain* out) const {
     all_->run_taylor(in, order, out);
   }
+  // With 113 bits.
+  void taylor_with_jacobian(const Quadruple* const* in, Index order, Quadruple* out) const {
+    all_->run_taylor(in, order, out);
+  }
 
   // The same with sizes checked (std::invalid_argument).
   VectorXd operator()(std::span<const VectorXd> in) const;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "courant/core/operation.hpp"
+#include "courant/core/quadruple.hpp"
 #include "courant/core/subgraph.hpp"
 #include "courant/core/taylor.hpp"
 
@@ -222,6 +223,10 @@ void Program::run_taylor(const double* const* in, Index order, double* out) cons
 }
 
 void Program::run_taylor(const Uncertain* const* in, Index order, Uncertain* out) const {
+  carry_out_taylor(in, order, out);
+}
+
+void Program::run_taylor(const Quadruple* const* in, Index order, Quadruple* out) const {
   carry_out_taylor(in, order, out);
 }
 

@@ -12,6 +12,8 @@
 
 namespace courant {
 
+class Quadruple;
+
 // The map (in_0, …, in_g) ↦ out of some expressions, for numbers and for truncated Taylor series.
 //
 // Immutable; evaluation may run in several threads at once and allocates nothing after the first
@@ -40,6 +42,8 @@ class Program {
   // The same with bounds of errors: those of the inputs, of constants (Uncertain::rounded) and of
   // every rounding on the way. The values are the same to the last bit.
   void run_taylor(const Uncertain* const* in, Index order, Uncertain* out) const;
+  // The same with 113 bits; constants are the doubles that they are.
+  void run_taylor(const Quadruple* const* in, Index order, Quadruple* out) const;
 
   // `void <symbol>(const double *const *in, double *out)` in C, which gives the same bits as run().
   std::string c_source(const std::string& symbol) const;

@@ -5,25 +5,32 @@
 #include <vector>
 
 #include "courant/core/operation.hpp"
+#include "courant/core/quadruple.hpp"
 #include "courant/core/uncertain.hpp"
 
 namespace courant::taylor {
 namespace {
 
-// What series are made of, numbers or numbers with bounds of their errors, and the functions that
+// What series are made of, numbers of 53 or 113 bits or numbers with bounds of their errors, and the functions that
 // recurrences start from.
 double value_of(double a) { return a; }
 double value_of(const Uncertain& a) { return a.value; }
+double value_of(const Quadruple& a) { return static_cast<double>(a); }
 bool vanishes(double a) { return a == 0.0; }
 bool vanishes(const Uncertain& a) { return a.is_exactly(0.0); }
+bool vanishes(const Quadruple& a) { return a == 0.0; }
 bool is_nonzero(double a) { return a != 0.0; }
 bool is_nonzero(const Uncertain& a) { return a.is_nonzero(); }
+bool is_nonzero(const Quadruple& a) { return !(a == 0.0); }
 double function(Op op, double a) { return evaluate(op, 0, a, 0.0, 0.0); }
 Uncertain function(Op op, const Uncertain& a) { return evaluate(op, a); }
+Quadruple function(Op op, const Quadruple& a) { return evaluate(op, a); }
 double power(double a, double p) { return std::pow(a, p); }
 Uncertain power(const Uncertain& a, const Uncertain& p) { return pow(a, p); }
+Quadruple power(const Quadruple& a, const Quadruple& p) { return pow(a, p); }
 double angle(double y, double x) { return std::atan2(y, x); }
 Uncertain angle(const Uncertain& y, const Uncertain& x) { return atan2(y, x); }
+Quadruple angle(const Quadruple& y, const Quadruple& x) { return atan2(y, x); }
 
 template <class T>
 void multiply(Index K, const T* a, const T* b, T* out) {
@@ -177,17 +184,18 @@ void compose(Index K, const T* a, const T* f, T* out, T* scratch) {
 }
 
 // (-1)ʲ c_k⁽ʲ⁾(s) / j! = G_{j,k} = Σ_i (i+j over j) (-s)ⁱ / (2i+2j+k)!, by summing that.
-double stumpff_series(Index j, std::int32_t k, double s) {
+template <class T>
+T stumpff_series(Index j, std::int32_t k, const T& s) {
   const double first = static_cast<double>(2 * j + k);
-  double term = 1.0;
-  for (double n = 2.0; n <= first; ++n) term /= n;
-  double sum = 0.0;
+  T term = 1.0;
+  for (double n = 2.0; n <= first; ++n) term = term / n;
+  T sum = 0.0;
   for (double i = 0.0; i < 400.0; ++i) {
-    const double next = sum + term;
+    const T next = sum + term;
     if (next == sum && i > 0.0) break;
     sum = next;
     const double n = first + 2.0 * i;
-    term *= -s * (i + 1.0 + static_cast<double>(j)) / ((i + 1.0) * (n + 1.0) * (n + 2.0));
+    term = term * (-s * (i + 1.0 + static_cast<double>(j)) / ((i + 1.0) * (n + 1.0) * (n + 2.0)));
   }
   return sum;
 }
@@ -238,6 +246,14 @@ void stumpff_derivatives(Index K, std::int32_t k, const Uncertain& s, Uncertain*
   }
 }
 
+// By the series alone, which loses four digits up to 64.
+void stumpff_derivatives(Index K, std::int32_t k, const Quadruple& s, Quadruple* f) {
+  for (Index j = 0; j <= K; ++j) {
+    f[j] = value_of(s) < 64.0 ? stumpff_series(j, k, s) : std::numeric_limits<double>::quiet_NaN();
+    if (j % 2 != 0) f[j] = -f[j];
+  }
+}
+
 // f[j] = g_k⁽ʲ⁾(c) / j! of arccos_factor.
 void arccos_factor_derivatives(Index K, std::int32_t k, double c, double* f) {
   double factorial = 1.0;
@@ -255,6 +271,10 @@ void arccos_factor_derivatives(Index K, std::int32_t k, const Uncertain& c, Unce
     f[j] = {value[at], static_cast<double>(j + 1) * std::fabs(value[at + 1]) * c.error +
                            64.0 * Uncertain::unit * std::fabs(value[at])};
   }
+}
+
+void arccos_factor_derivatives(Index K, std::int32_t /*k*/, const Quadruple& /*c*/, Quadruple* f) {
+  std::fill(f, f + K + 1, Quadruple(std::numeric_limits<double>::quiet_NaN()));
 }
 
 template <class T>
@@ -425,6 +445,11 @@ void apply(Op op, std::int32_t k, Index K, const double* a, const double* b, con
 
 void apply(Op op, std::int32_t k, Index K, const Uncertain* a, const Uncertain* b,
            const Uncertain* c, Uncertain* out, Uncertain* scratch) {
+  carry_out(op, k, K, a, b, c, out, scratch);
+}
+
+void apply(Op op, std::int32_t k, Index K, const Quadruple* a, const Quadruple* b,
+           const Quadruple* c, Quadruple* out, Quadruple* scratch) {
   carry_out(op, k, K, a, b, c, out, scratch);
 }
 

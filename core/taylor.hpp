@@ -6,6 +6,10 @@
 #include "courant/core/expr.hpp"
 #include "courant/core/uncertain.hpp"
 
+namespace courant {
+class Quadruple;
+}
+
 namespace courant::taylor {
 
 // A series Σ_i a_i tⁱ, i = 0 … K, is an array of K+1 coefficients a_i = (dⁱa/dtⁱ)(0) / i!.
@@ -20,6 +24,9 @@ void apply(Op op, std::int32_t k, Index order, const double* a, const double* b,
 // The same with bounds of errors; the values are the same to the last bit.
 void apply(Op op, std::int32_t k, Index order, const Uncertain* a, const Uncertain* b,
            const Uncertain* c, Uncertain* out, Uncertain* scratch);
+// The same with 113 bits; NaN for arccos_factor, and for stumpff beyond 64.
+void apply(Op op, std::int32_t k, Index order, const Quadruple* a, const Quadruple* b,
+           const Quadruple* c, Quadruple* out, Quadruple* scratch);
 
 inline Index scratch_size(Index order) { return 3 * (order + 1); }
 

@@ -119,7 +119,7 @@ std::string asked_above(const ConsistentPoint& consistent, const ConsistentJet& 
     return "No point of " + place +
            " was found, though equations follow from others up to the level before.";
   const std::vector<LadderLevel> there = levels_at(above);
-  if (!there.back().is_solved || !are_certain(there))
+  if ((!there.back().is_solved || !are_certain(there)) && !refined_with(above, there))
     return "What is known at " + place +
            " leaves open whether equations that follow from others do so there.";
   if (const std::string changed = change(levels, there); !changed.empty()) return changed;
@@ -245,7 +245,7 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
     singular.is_unanimous = false;
   }
   const bool has_point = !ladder.levels.empty() && !ladder.levels.back().is_empty;
-  const bool is_known = !has_point || is_known_well(jet);
+  bool is_known = !has_point || is_known_well(jet);
   // Ranks that are proven from below by the bounds of errors and from above by the pattern of the equations need
   // no points nearby; with full rank of all equations there is a zero, and no entry that could have been lost.
   bool is_proven = false, is_full = false;
@@ -256,6 +256,18 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
     is_proven = is_doubtful && are_ranks_of_pattern(jet, ladder.levels);
     is_full = is_proven && last.all.rank == last.all.rows;
     if (singular.is_confirmed || is_full) confirm(ladder.levels);
+  }
+  const bool is_rank_change = !singular.reason.empty();
+  bool is_refined = false;
+  bool is_same_rank = !has_point || is_same_rank_at(jet, ladder.levels, is_rank_change);
+  // What 53 bits leave open of the ranks at the point, 113 may settle.
+  if (has_point && stopped && !is_rank_change && contradictions(ladder.levels).empty() &&
+      !(is_known && is_same_rank && are_certain(ladder.levels)) &&
+      refined_with(jet, ladder.levels)) {
+    is_known = is_same_rank = is_refined = true;
+    for (LadderLevel& level : ladder.levels)
+      for (RankDecision* rank : {&level.all, &level.without_tangent, &level.without_point})
+        rank->is_doubtful = false;
   }
   ladder.point = jet.array.state(jet.zero.y);
   ladder.jet = jet.zero.y;
@@ -282,7 +294,7 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
         "The equations do not vanish at the point to round-off: their solutions may be singular "
         "there.");
   if (!has_point) return ladder;
-  if (!is_same_rank_at(jet, ladder.levels, ladder.verdict == Verdict::rank_change))
+  if (!is_same_rank)
     ladder.doubts.push_back(
         "The ranks are higher at the point as it was found: they are lower only if it is "
         "elsewhere, "
@@ -322,10 +334,10 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
     ladder.verdict = Verdict::rank_change;
     ladder.index = -1;
     ladder.reason = std::move(branches);
-    if (is_proven)
+    if (is_proven || is_refined)
       ladder.doubts.push_back(
-          "The ranks along the velocity that was found are those that the pattern of the equations "
-          "allows, and what else is known of the point leaves doubts.");
+          "The ranks along the velocity that was found are proven, and what else is known of the "
+          "point leaves doubts.");
     return ladder;
   }
   count_differentiations_nearby(ladder, consistent, jet);

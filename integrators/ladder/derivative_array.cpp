@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <vector>
 
 #include "courant/core/derivative.hpp"
 #include "courant/core/expr_vectors.hpp"
 #include "courant/core/limited_newton.hpp"
+#include "courant/core/quadruple.hpp"
 #include "courant/core/subgraph.hpp"
 #include "courant/integrators/ladder/local_formulation.hpp"
 
@@ -26,6 +28,7 @@ class SeriesTable {
   }
   Number* data() { return numbers_.data(); }
   const Number* data() const { return numbers_.data(); }
+  const std::vector<Number>& numbers() const { return numbers_; }
 
  private:
   Index width_;
@@ -200,9 +203,34 @@ VectorXd DerivativeArray::do_residual(const VectorXd& y, Index k) const {
   return value;
 }
 
+// add(row, column, coefficient) for each term of an entry of the Jacobian of level k, from the series of F and of
+// its Jacobian.
+template <class Number, class Add>
+void DerivativeArray::each_entry(const std::vector<Number>& coefficients, Index k,
+                                 const Add& add) const {
+  const Index n = base_size(), r = equation_count();
+  for (Index e = 0; e < equations_.nonzeros(); ++e) {
+    const Index equation = equations_.pattern_row()[static_cast<std::size_t>(e)];
+    const Index variable = equations_.pattern_col()[static_cast<std::size_t>(e)];
+    const Number* series = coefficients.data() + (r + e) * (k + 1);
+    for (Index i = 0; i <= k; ++i) {
+      for (Index j = 0; j <= i; ++j) {
+        const Number& coefficient = series[i - j];
+        const Index row = i * r + equation;
+        if (variable < n)
+          add(row, x_offset(j) + variable, coefficient);
+        else if (variable < 2 * n)
+          add(row, x_offset(j + 1) + variable - n, static_cast<double>(j + 1) * coefficient);
+        else
+          add(row, z_offset(j) + variable - 2 * n, coefficient);
+      }
+    }
+  }
+}
+
 Linearization DerivativeArray::do_linearize(const VectorXd& y, const VectorXd& uncertainty,
                                             Index k) const {
-  const Index n = base_size(), r = equation_count();
+  const Index r = equation_count();
   const Arguments<Uncertain> in(
       *this, k, basis_entries(), [&](Index j) { return Uncertain(y[j], uncertainty[j]); },
       Uncertain::rounded, direction);
@@ -219,24 +247,37 @@ Linearization DerivativeArray::do_linearize(const VectorXd& y, const VectorXd& u
     }
   }
   UncertainEntries entries;
-  for (Index e = 0; e < equations_.nonzeros(); ++e) {
-    const Index equation = equations_.pattern_row()[static_cast<std::size_t>(e)];
-    const Index variable = equations_.pattern_col()[static_cast<std::size_t>(e)];
-    for (Index i = 0; i <= k; ++i) {
-      for (Index j = 0; j <= i; ++j) {
-        const Uncertain& coefficient = series(r + e, i - j);
-        const Index row = i * r + equation;
-        if (variable < n)
-          entries.add(row, x_offset(j) + variable, coefficient);
-        else if (variable < 2 * n)
-          entries.add(row, x_offset(j + 1) + variable - n,
-                      static_cast<double>(j + 1) * coefficient);
-        else
-          entries.add(row, z_offset(j) + variable - 2 * n, coefficient);
-      }
-    }
-  }
+  each_entry(series.numbers(), k, [&](Index row, Index column, const Uncertain& coefficient) {
+    entries.add(row, column, coefficient);
+  });
   entries.fill(result, row_count(k), y.size());
+  return result;
+}
+
+Linearization DerivativeArray::linearize(const std::vector<Quadruple>& y) const {
+  const Index r = equation_count(), k = level_of(VectorXd::Zero(std::ssize(y)));
+  const auto as_it_is = [](double number) { return Quadruple(number); };
+  const Arguments<Quadruple> in(
+      *this, k, basis_entries(), [&](Index j) { return y[static_cast<std::size_t>(j)]; }, as_it_is,
+      as_it_is);
+  SeriesTable<Quadruple> series(r + equations_.nonzeros(), k);
+  equations_.taylor_with_jacobian(in.pointers().data(), k, series.data());
+
+  Linearization result;
+  result.value.resize(row_count(k));
+  for (Index i = 0; i <= k; ++i)
+    for (Index e = 0; e < r; ++e) result.value[i * r + e] = static_cast<double>(series(e, i));
+  // Terms of one entry cancel, so that they are added before they are rounded.
+  std::map<std::pair<Index, Index>, Quadruple> sums;
+  each_entry(series.numbers(), k, [&](Index row, Index column, const Quadruple& coefficient) {
+    sums[{row, column}] += coefficient;
+  });
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const auto& [place, sum] : sums)
+    entries.emplace_back(static_cast<int>(place.first), static_cast<int>(place.second),
+                         static_cast<double>(sum));
+  result.jacobian.resize(row_count(k), std::ssize(y));
+  result.jacobian.setFromTriplets(entries.begin(), entries.end());
   return result;
 }
 

@@ -44,6 +44,10 @@ class DerivativeArray final : public Prolongation {
   // The jet of level 0 with ξ_0 = 0 that has the tangent vector v (Ñ) and z (m); empty vectors are
   // zero.
   VectorXd jet(const VectorXd& v, const VectorXd& z) const;
+  // F^[k](y) and its Jacobian, computed with 113 bits and rounded, without bounds of errors: t, x₀ and B are the
+  // doubles that they are.
+  Linearization linearize(const std::vector<Quadruple>& y) const;
+  using Prolongation::linearize;
   // y with zeros appended, or cut, to level k.
   VectorXd resized(const VectorXd& y, Index k) const;
 
@@ -69,6 +73,8 @@ class DerivativeArray final : public Prolongation {
   Linearization do_linearize(const VectorXd& y, const VectorXd& uncertainty,
                              Index k) const override;
   VectorXd do_residual(const VectorXd& y, Index k) const override;
+  template <class Number, class Add>
+  void each_entry(const std::vector<Number>& coefficients, Index k, const Add& add) const;
   void move_to(double t, const VectorXd& x0);
   VectorXd basis_entries() const;  // column by column; empty where the basis is the identity
 

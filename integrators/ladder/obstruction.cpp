@@ -18,8 +18,8 @@ constexpr double kSmall = 1e-1;       // of ε², in comparable units: less need
 }  // namespace
 
 Obstruction::Obstruction(const Prolongation& array, const VectorXd& y, const VectorXd& uncertainty,
-                         Index rank, const SparseMatrixXd& magnitude)
-    : array_(array), y_(y), uncertainty_(uncertainty) {
+                         Index rank, const SparseMatrixXd& magnitude, double blurred)
+    : array_(array), y_(y), uncertainty_(uncertainty), blurred_(blurred) {
   const ComparableJacobian at(array, y, uncertainty);
   at_ = array.linearize(y);
   const SingularValueDecomposition svd = singular_value_decomposition(MatrixXd(at.scaled.value));
@@ -62,11 +62,13 @@ double Obstruction::least_seen(const MatrixXd& unseen, const Linearization& ther
 // The bounds of errors say what the zero that is meant, which is a little elsewhere, may make of g. The
 // numbers themselves have rounding errors alone: where they are far below ε², nothing is hidden.
 bool Obstruction::is_small_along(const VectorXd& direction) const {
-  const MatrixXd unseen = unseen_ * row_scale_along(direction).asDiagonal();
+  const VectorXd row_scale = row_scale_along(direction);
+  const MatrixXd unseen = unseen_ * row_scale.asDiagonal();
   for (double epsilon = kLast; epsilon > kLast / 100.0; epsilon *= 0.25) {
     const Linearization there = array_.linearize(y_ + epsilon * direction);
     const double g = (unseen * there.value).norm();
-    const double noise = (unseen.cwiseAbs() * there.value_error).norm();
+    const double noise = (unseen.cwiseAbs() * there.value_error).norm() +
+                         blurred_ * row_scale.cwiseProduct(there.value).norm();
     if (std::max(g, kBounded * noise) < least_seen(unseen, there, epsilon * direction, epsilon))
       return true;
   }
@@ -88,7 +90,7 @@ bool Obstruction::is_square_along(const VectorXd& direction, double part) const 
     const VectorXd value = array_.residual(y_ + epsilon * direction);
     const double g = (unseen * value).norm();
     const double all = row_scale.cwiseProduct(value).norm();
-    const bool is_number = g > part * all;
+    const bool is_number = g > std::max(part, kBounded * blurred_) * all;
     const double power = std::log(g / before) / std::log(kRatio);
     squares = is_number && before > 0.0 && std::fabs(power - 2.0) < exact &&
                       all >= kLeastGrowth * all_before
@@ -126,9 +128,9 @@ Obstruction::Answer Obstruction::by_bounds_along(const VectorXd& direction) cons
     if (!there.value.allFinite()) return Answer::no;
     const double g = (unseen * there.value).norm();
     const double row_noise = row_scale.cwiseProduct(there.value_error).norm();
-    const double noise = (unseen.cwiseAbs() * there.value_error).norm();
-    const double terms = (unseen.cwiseAbs() * there.value.cwiseAbs()).norm();
     const double all = row_scale.cwiseProduct(there.value).norm();
+    const double noise = (unseen.cwiseAbs() * there.value_error).norm() + blurred_ * all;
+    const double terms = (unseen.cwiseAbs() * there.value.cwiseAbs()).norm();
     const double least = least_seen(unseen, there, epsilon * direction, epsilon);
     is_visible = is_visible || kMeasurable * noise < least || std::max(g, kBounded * noise) < least;
     // Off the tangent space what J does not see is of second order everywhere.

@@ -17,9 +17,10 @@ namespace courant {
 class Obstruction {
  public:
   // `rank`: of the Jacobian at y; `magnitude`: what its entries are around y. Dense: for up to a few hundred
-  // unknowns.
+  // unknowns. `blurred`: the part of all of F that W, which has 53 bits, may mix into what it does not see. It counts
+  // where F is known better than that.
   Obstruction(const Prolongation& array, const VectorXd& y, const VectorXd& uncertainty, Index rank,
-              const SparseMatrixXd& magnitude);
+              const SparseMatrixXd& magnitude, double blurred = 0.0);
 
   // yes: g falls like a power below 2.5 at the smallest three ε at which it is measurable, and all of F
   // grows as along a tangent there. likely: the bounds are too large to tell, but the numbers are squares at
@@ -51,7 +52,8 @@ class Obstruction {
   Linearization at_;                   // y
   SparseMatrixXd magnitude_of_empty_;  // of the rows that vanish at y alone
   bool is_known_ = true;               // W
-  double turned_ = 0.0;                // by how much rounding errors turn W, in radians
+  double blurred_ = 0.0;
+  double turned_ = 0.0;  // by how much rounding errors turn W, in radians
 };
 
 }  // namespace courant

@@ -83,6 +83,20 @@ bool are_certain(const std::vector<LadderLevel>& levels) {
                       [](const LadderLevel& level) { return level.is_ambiguous(); });
 }
 
+std::optional<RefinedArray> refined_with(const ConsistentJet& at,
+                                         const std::vector<LadderLevel>& levels) {
+  std::optional<RefinedArray> refined = RefinedArray::at(at.array, at.zero);
+  if (!refined) return std::nullopt;
+  const std::vector<LadderLevel> exact = ladder_levels(*refined, at.zero.y, at.zero.uncertainty);
+  const bool is_alike =
+      std::ranges::equal(exact, levels, [](const LadderLevel& a, const LadderLevel& b) {
+        return a.is_solved && a.all.rank == b.all.rank &&
+               a.without_tangent.rank == b.without_tangent.rank &&
+               a.without_point.rank == b.without_point.rank;
+      });
+  return is_alike && are_certain(exact) ? std::move(refined) : std::nullopt;
+}
+
 void confirm(std::vector<LadderLevel>& levels) {
   for (LadderLevel& level : levels)
     for (RankDecision* rank : {&level.all, &level.without_tangent, &level.without_point})
@@ -114,6 +128,23 @@ Singularity singularity(const ConsistentPoint& consistent, const ConsistentJet& 
   if (follow && is_small)
     obstruction.emplace(at.array, at.zero.y, at.zero.uncertainty, levels.back().all.rank,
                         tangents.magnitude());
+  // What round-off hides may be seen with more digits.
+  constexpr double blurred = 1e-13;
+  std::optional<RefinedArray> refined;
+  std::optional<Obstruction> refined_obstruction;
+  bool is_refined = false;
+  const auto seen_along = [&](const VectorXd& tangent) {
+    using Answer = Obstruction::Answer;
+    const Answer answer = obstruction ? obstruction->is_seen_along(tangent) : Answer::no;
+    if (answer != Answer::unknown) return answer;
+    if (!is_refined && (refined = refined_with(at, levels)))
+      refined_obstruction.emplace(*refined, at.zero.y, at.zero.uncertainty, levels.back().all.rank,
+                                  tangents.magnitude(), blurred);
+    is_refined = true;
+    return refined_obstruction && refined_obstruction->is_seen_along(tangent) == Answer::no
+               ? Answer::no
+               : answer;
+  };
   const auto look_along = [&](const VectorXd& tangent) -> Comparison {
     const auto near = consistent.find_displaced(at, 1e-3 * tangent, tangents.magnitude());
     Comparison result;
@@ -124,7 +155,7 @@ Singularity singularity(const ConsistentPoint& consistent, const ConsistentJet& 
       result.is_proven = are_proven(there);
       if (result.outcome == Outcome::different) return result;
     }
-    const auto seen = obstruction ? obstruction->is_seen_along(tangent) : Obstruction::Answer::no;
+    const auto seen = seen_along(tangent);
     if (seen == Obstruction::Answer::no) return result;
     if (seen == Obstruction::Answer::beside) {
       result.is_beside = true;

@@ -6,6 +6,7 @@
 
 #include "courant/integrators/ladder/consistent_point.hpp"
 #include "courant/integrators/ladder/ladder_levels.hpp"
+#include "courant/integrators/ladder/refined_array.hpp"
 
 namespace courant {
 
@@ -14,6 +15,11 @@ std::vector<LadderLevel> levels_at(const ConsistentJet& jet);
 
 // Whether none of their ranks is doubtful, and they do not contradict each other.
 bool are_certain(const std::vector<LadderLevel>& levels);
+
+// The array of the jet to 113 bits, if that has the ranks of the levels, none of them doubtful: what 53 bits leave
+// open of this point may then be asked there.
+std::optional<RefinedArray> refined_with(const ConsistentJet& at,
+                                         const std::vector<LadderLevel>& levels);
 
 // Says so of ranks that the bound of their errors proves with little to spare, and of which it leaves nothing
 // open: those are not doubtful once points nearby have them too.

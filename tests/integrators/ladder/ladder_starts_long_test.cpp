@@ -109,7 +109,7 @@ BOOST_AUTO_TEST_CASE(ten_starts_of_every_system_in_eight_variants) {
   if (variants != usual_variants || !system.empty() || !kind.empty() || only >= 0) return;
   BOOST_TEST(counted.ladders == 4320);
   BOOST_TEST(counted.wrong <= 105);
-  BOOST_TEST(counted.ambiguous <= 43);
+  BOOST_TEST(counted.ambiguous <= 36);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
