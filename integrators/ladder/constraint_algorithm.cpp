@@ -330,10 +330,14 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
   ladder.index = last.k - 1;
   ladder.verdict = ladder.gauge_dimension == 0 ? Verdict::regular : Verdict::gauge;
   describe(ladder, jet.array, jet.zero.y, jet.zero.uncertainty);
-  if (std::string branches = branching(consistent, jet, ladder); !branches.empty()) {
+  if (Branching branches = branching(consistent, jet, ladder); !branches.reason.empty()) {
     ladder.verdict = Verdict::rank_change;
     ladder.index = -1;
-    ladder.reason = std::move(branches);
+    ladder.reason = std::move(branches.reason);
+    if (!branches.is_confirmed)
+      ladder.doubts.push_back(
+          "Points next to this one, from which another velocity leads here, are no zeros with more "
+          "digits.");
     if (is_proven || is_refined)
       ladder.doubts.push_back(
           "The ranks along the velocity that was found are proven, and what else is known of the "

@@ -44,6 +44,13 @@ std::optional<RefinedArray> RefinedArray::at(const DerivativeArray& array, const
   return std::nullopt;
 }
 
+VectorXd RefinedArray::correction() const {
+  VectorXd result(std::ssize(correction_));
+  for (Index j = 0; j < result.size(); ++j)
+    result[j] = static_cast<double>(correction_[static_cast<std::size_t>(j)]);
+  return result;
+}
+
 std::vector<Quadruple> RefinedArray::refined(const VectorXd& y) const {
   std::vector<Quadruple> result(correction_.begin(), correction_.begin() + y.size());
   for (Index j = 0; j < y.size(); ++j) result[static_cast<std::size_t>(j)] += y[j];

@@ -20,6 +20,8 @@ class RefinedArray final : public Prolongation {
   // operation has no 113 bits, and for more than 200 unknowns. `array` must live as long.
   static std::optional<RefinedArray> at(const DerivativeArray& array, const Zero& zero);
 
+  VectorXd correction() const;  // δ, rounded
+
   bool has_constant_jacobian() const override { return array_->has_constant_jacobian(); }
 
  private:

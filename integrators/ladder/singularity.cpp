@@ -256,13 +256,13 @@ bool has_clear_cuts(const std::vector<LadderLevel>& levels) {
   });
 }
 
-std::string branching(const ConsistentPoint& consistent, const ConsistentJet& at,
-                      const ConstraintLadder& ladder) {
+Branching branching(const ConsistentPoint& consistent, const ConsistentJet& at,
+                    const ConstraintLadder& ladder) {
   constexpr Index dense_limit = 200;
   constexpr double away = 0.05;  // of a displacement: its part across M_{k+1}
   constexpr int directions = 4, needed = 2;
   const std::vector<LadderLevel>& levels = ladder.levels;
-  if (at.array.has_constant_jacobian() || at.zero.y.size() > dense_limit) return "";
+  if (at.array.has_constant_jacobian() || at.zero.y.size() > dense_limit) return {};
   const Index n = at.array.base_size(), top = at.array.level_of(at.zero.y);
   const VectorXd here = at.zero.y.head(n);
   for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
@@ -281,6 +281,7 @@ std::string branching(const ConsistentPoint& consistent, const ConsistentJet& at
       });
     };
     int met = 0, compared = 0;
+    bool is_confirmed = true;
     for (int direction = 0; direction < directions && compared < needed; ++direction) {
       ConsistentJet near =
           consistent.find_displaced(lower, 1e-3 * tangents.next(), tangents.magnitude()).jet;
@@ -291,6 +292,12 @@ std::string branching(const ConsistentPoint& consistent, const ConsistentJet& at
         near = consistent.find_at(near, near.zero.y.head(n));
       }
       if (!near.zero.found) break;
+      // Errors may hide that a point across has no velocity: with more digits the zero moves back, or is none.
+      if (const auto refined = RefinedArray::at(near.array, near.zero); !refined)
+        is_confirmed = false;
+      else if (!is_across(at.array.basis() *
+                          (near.zero.y.head(n) + refined->correction().head(n) - here)))
+        break;
       const ConsistentJet back = consistent.find_at(near, here);
       if (!back.zero.found) break;
       const std::vector<LadderLevel> there = levels_at(back);
@@ -298,11 +305,12 @@ std::string branching(const ConsistentPoint& consistent, const ConsistentJet& at
       ++met;
     }
     if (met < needed) continue;
-    return "Solutions branch here: M_" + std::to_string(k + 1) + " has dimension " +
-           std::to_string(levels[k + 1].dim_M) +
-           " along the velocity of the point, and more along another one.";
+    return {.reason = "Solutions branch here: M_" + std::to_string(k + 1) + " has dimension " +
+                      std::to_string(levels[k + 1].dim_M) +
+                      " along the velocity of the point, and more along another one.",
+            .is_confirmed = is_confirmed};
   }
-  return "";
+  return {};
 }
 
 }  // namespace courant

@@ -69,7 +69,11 @@ bool has_clear_cuts(const std::vector<LadderLevel>& levels);
 // have no velocity. If they have one, and it leads back to another velocity of the point along which the sets
 // are larger, another curve leads through the point: as at the turning points of θ'²/2 = cos θ, where both rest
 // and motion solve the equations. Up to 200 unknowns.
-std::string branching(const ConsistentPoint& consistent, const ConsistentJet& at,
-                      const ConstraintLadder& ladder);
+struct Branching {
+  std::string reason = "";
+  bool is_confirmed = true;  // whether the points next to it are zeros with 113 bits too
+};
+Branching branching(const ConsistentPoint& consistent, const ConsistentJet& at,
+                    const ConstraintLadder& ladder);
 
 }  // namespace courant
