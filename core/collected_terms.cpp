@@ -189,7 +189,8 @@ class Collector {
     Sum sum;
     std::vector<Part> open = {{head, 1.0}};
     while (!open.empty()) {
-      const auto [at, factor] = open.back();
+      const std::size_t at = open.back().at;
+      const double factor = open.back().factor;
       open.pop_back();
       const Node& node = this->node(at);
       if (at != head && (is_head_[at] || !is_linear(node))) {
