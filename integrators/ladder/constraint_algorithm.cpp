@@ -265,9 +265,7 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
       !(is_known && is_same_rank && are_certain(ladder.levels)) &&
       refined_with(jet, ladder.levels)) {
     is_known = is_same_rank = is_refined = true;
-    for (LadderLevel& level : ladder.levels)
-      for (RankDecision* rank : {&level.all, &level.without_tangent, &level.without_point})
-        rank->is_doubtful = false;
+    settle(ladder.levels);
   }
   ladder.point = jet.array.state(jet.zero.y);
   ladder.jet = jet.zero.y;

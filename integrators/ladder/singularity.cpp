@@ -57,6 +57,13 @@ bool is_proven(const RankDecision& rank) {
   return rank.above >= above && rank.below <= below;
 }
 
+template <class IsSure>
+void clear_doubts(std::vector<LadderLevel>& levels, const IsSure& is_sure) {
+  for (LadderLevel& level : levels)
+    for (RankDecision* rank : {&level.all, &level.without_tangent, &level.without_point})
+      if (is_sure(*rank)) rank->is_doubtful = false;
+}
+
 bool are_proven(const std::vector<LadderLevel>& levels) {
   return contradictions(levels).empty() &&
          std::ranges::all_of(levels, [](const LadderLevel& level) {
@@ -97,10 +104,10 @@ std::optional<RefinedArray> refined_with(const ConsistentJet& at,
   return is_alike && are_certain(exact) ? std::move(refined) : std::nullopt;
 }
 
-void confirm(std::vector<LadderLevel>& levels) {
-  for (LadderLevel& level : levels)
-    for (RankDecision* rank : {&level.all, &level.without_tangent, &level.without_point})
-      if (is_proven(*rank)) rank->is_doubtful = false;
+void confirm(std::vector<LadderLevel>& levels) { clear_doubts(levels, is_proven); }
+
+void settle(std::vector<LadderLevel>& levels) {
+  clear_doubts(levels, [](const RankDecision&) { return true; });
 }
 
 bool are_ranks_of_pattern(const ConsistentJet& at, const std::vector<LadderLevel>& levels) {

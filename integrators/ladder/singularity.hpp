@@ -24,6 +24,8 @@ std::optional<RefinedArray> refined_with(const ConsistentJet& at,
 // Says so of ranks that the bound of their errors proves with little to spare, and of which it leaves nothing
 // open: those are not doubtful once points nearby have them too.
 void confirm(std::vector<LadderLevel>& levels);
+// No rank is doubtful any more: they are those that more digits give.
+void settle(std::vector<LadderLevel>& levels);
 
 // Whether all ranks are proven at the point, and are the largest that equations with entries where those around
 // the point have some can have. Then they are constant around it, whatever points nearby may say, and numbers that
@@ -64,15 +66,17 @@ bool is_lower_where_given(const ConsistentPoint& consistent, const ConsistentJet
 // those that count are far from it.
 bool has_clear_cuts(const std::vector<LadderLevel>& levels);
 
-// Why solutions branch at the point of a ladder that has an index, in words; empty if nothing says so.
+// Why solutions branch at a point.
+struct Branching {
+  std::string reason = "";   // in words; empty if nothing says so
+  bool is_confirmed = true;  // whether the points next to it are zeros with 113 bits too
+};
+
+// Whether solutions branch at the point of a ladder that has an index.
 // Where M_{k+1} has fewer dimensions than M_k, points of M_k next to it that its constraints leave out should
 // have no velocity. If they have one, and it leads back to another velocity of the point along which the sets
 // are larger, another curve leads through the point: as at the turning points of θ'²/2 = cos θ, where both rest
 // and motion solve the equations. Up to 200 unknowns.
-struct Branching {
-  std::string reason = "";
-  bool is_confirmed = true;  // whether the points next to it are zeros with 113 bits too
-};
 Branching branching(const ConsistentPoint& consistent, const ConsistentJet& at,
                     const ConstraintLadder& ladder);
 
