@@ -54,6 +54,12 @@ std::vector<std::string> flags(std::size_t source_size) {
                                      "-w",
                                      "-fPIC",
                                      "-shared"};
+#if defined(__x86_64__) && defined(__GNUC__)
+  // Instructions with a place of their own for the result, of which the baseline has none: up to a third fewer. They
+  // round alike. Vectors stay short: long ones need more shuffles than they save.
+  if (__builtin_cpu_supports("avx"))
+    result.insert(result.end(), {"-mavx", "-mprefer-vector-width=128"});
+#endif
   for (const char* name : {"exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh",
                            "cosh", "tanh", "pow", "atan2"})
     result.push_back(std::string("-fno-builtin-") + name);
