@@ -34,6 +34,12 @@ inline Numbers read(const double* from) {
 inline void write(double* to, const Pair& numbers) { Eigen::Map<Pair>{to} = numbers; }
 inline void write(double* to, double number) { *to = number; }
 
+// to = from, `count` numbers; without the call that an assignment of Eigen is, which takes longer than a few numbers.
+inline void copy_pairs(const double* from, Index count, double* to) {
+  for_each_pair(0, count,
+                [&]<class Numbers>(Index i, Numbers) { write(to + i, read<Numbers>(from + i)); });
+}
+
 inline Pair magnitude(const Pair& numbers) { return numbers.abs(); }
 inline double magnitude(double number) { return std::fabs(number); }
 inline Pair larger(const Pair& a, const Pair& b) { return a.max(b); }

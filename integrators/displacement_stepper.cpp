@@ -43,9 +43,13 @@ void DisplacementStepper::make_step(const Inputs& in, const State& before, doubl
   solver_.solve_connected(in, scales, begin, {before.t, h}, statistics_);
 
   advance_.value(in.data(), next_.data());
-  after.x = next_.head(before.x.size());
-  after.v = next_.segment(before.x.size(), before.v.size());
-  after.z = y.tail(m_);
+  const auto take = [](const double* numbers, Index count, VectorXd& to) {
+    to.resize(count);
+    copy_pairs(numbers, count, to.data());
+  };
+  take(next_.data(), before.x.size(), after.x);
+  take(next_.data() + before.x.size(), before.v.size(), after.v);
+  take(y.data() + (y.size() - m_), m_, after.z);
   projection_.apply(after.x);
 }
 

@@ -126,7 +126,7 @@ void Stepper::make_step(State& state, double h, double end, const Stepper* from)
   std::swap(last_, trial_);
   has_stepped_ = true;
   has_stage_ = false;
-  state = last_->after;
+  state.take(last_->after);
 }
 
 const Step& Stepper::last() {

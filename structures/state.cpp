@@ -1,6 +1,7 @@
 #include "courant/structures/state.hpp"
 
-#include <cstring>
+#include <bit>
+#include <cstdint>
 #include <utility>
 
 #include "courant/core/pairs.hpp"
@@ -8,11 +9,14 @@
 namespace courant {
 namespace {
 
-// Whether they are the same numbers, bit by bit: a NaN is the same as itself.
+// Whether they are the same numbers, bit by bit: a NaN is the same as itself. In a loop, since most have a few entries,
+// and a call of a function costs more.
 bool same(const VectorXd& a, const VectorXd& b) {
-  return a.size() == b.size() &&
-         (a.size() == 0 || std::memcmp(a.data(), b.data(),
-                                       static_cast<std::size_t>(a.size()) * sizeof(double)) == 0);
+  if (a.size() != b.size()) return false;
+  std::uint64_t different = 0;
+  for (Index i = 0; i < a.size(); ++i)
+    different |= std::bit_cast<std::uint64_t>(a[i]) ^ std::bit_cast<std::uint64_t>(b[i]);
+  return different == 0;
 }
 
 }  // namespace
@@ -23,6 +27,18 @@ void State::swap(State& other) {
   v.swap(other.v);
   z.swap(other.z);
   carried.swap(other.carried);
+}
+
+void State::take(const State& other) {
+  const auto copy = [](const VectorXd& from, VectorXd& to) {
+    to.resize(from.size());
+    copy_pairs(from.data(), from.size(), to.data());
+  };
+  t = other.t;
+  copy(other.x, x);
+  copy(other.v, v);
+  copy(other.z, z);
+  copy(other.carried, carried);
 }
 
 bool operator==(const State& a, const State& b) {

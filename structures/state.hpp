@@ -18,6 +18,8 @@ struct State {
   VectorXd carried = {};
 
   void swap(State& other);
+  // *this = other, quicker for states of a few numbers.
+  void take(const State& other);
 };
 
 // Whether all numbers are the same, bit by bit.
