@@ -14,45 +14,70 @@ namespace {
 
 constexpr double kLargest = std::numeric_limits<double>::max();
 
-// change = A F, u ← u - change.
 template <int n>
-[[gnu::always_inline]] inline double improve_by(const Contraction::Workspace& at, double& size) {
-  using Vector = Eigen::Array<double, n, 1>;
-  const Vector change = small_product<n>(at.inverse, at.residual);
-  Eigen::Map<Vector>{at.change} = change;
+using Numbers = Eigen::Array<double, n, 1>;
+
+// u ← u - change.
+template <int n>
+[[gnu::always_inline]] inline PairMovement subtract(double* u, const Numbers<n>& change) {
   PairMovement movement;
-  for_each_pair(0, n, [&]<class Numbers>(Index i, Numbers) {
-    movement.move(at.u + i, read<Numbers>(change.data() + i));
+  for_each_pair(0, n, [&]<class Part>(Index i, Part) {
+    movement.move(u + i, read<Part>(change.data() + i));
   });
-  size = movement.sizes.value();
+  return movement;
+}
+
+double largest_change(const PairMovement& movement) {
   return movement.is_finite() ? movement.changes.value() : std::numeric_limits<double>::infinity();
 }
 
 template <int n>
+double improve_by(const Contraction::Workspace& at, double& size) {
+  const Numbers<n> change = small_product<n>(at.inverse, at.residual);
+  Eigen::Map<Numbers<n>>{at.change} = change;
+  const PairMovement movement = subtract<n>(at.u, change);
+  size = movement.sizes.value();
+  return largest_change(movement);
+}
+
+// What is looked at in every iteration is in variables of its own: the compiler cannot know that F does not
+// write to the workspace, and would read places and numbers again and again.
+template <int n>
 Contraction::Result iterate_by(const Function& F, const Inputs& in,
                                const Contraction::Workspace& at,
                                const Contraction::Limits& limits) {
-  Contraction::Result result;
-  double& previous = result.previous;
-  for (;;) {
-    ++result.iterations;
-    F.value(in.data(), at.residual);
-    const double change = improve_by<n>(at, result.size);
-    const double size = result.size = std::max(limits.scale, result.size);
-    const double moved = result.moved = contraction::relative(change, size);
-    const bool is_first = result.iterations == 1;
-    result.has_converged = moved <= limits.tolerance ||
-                           (!is_first && contraction::has_ended(moved, previous, limits.tolerance));
-    const double most = is_first ? kLargest : limits.slow * previous;
-    if (result.has_converged || !(moved <= most) || result.iterations >= limits.most) return result;
-    if (!result.has_learned) {
-      if (!is_first && contraction::teaches(moved, previous)) {
-        result.has_learned = true;
-        double weighted[n];
-        for (int i = 0; i < n; ++i) weighted[i] = at.before[i] / size / size;
-        broyden_update(at.inverse, at.before, at.change, weighted, n);
+  const auto [inverse, u, residual, change_at, before] = at;
+  const auto [scale, tolerance, slow, most] = limits;
+  const double* const* const numbers = in.data();
+  double moved = 0.0, previous = 0.0, size = 0.0;
+  bool has_learned = false;
+  for (int iteration = 1;; ++iteration) {
+    F.value_with_held(numbers, residual);
+    const Numbers<n> change = small_product<n>(inverse, residual);
+    const PairMovement movement = subtract<n>(u, change);
+    size = std::max(scale, movement.sizes.value());
+    moved = contraction::relative(largest_change(movement), size);
+    const bool is_first = iteration == 1;
+    const bool has_converged =
+        moved <= tolerance || (!is_first && contraction::has_ended(moved, previous, tolerance));
+    const double longest = is_first ? kLargest : slow * previous;
+    if (has_converged || !(moved <= longest) || iteration >= most) {
+      Eigen::Map<Numbers<n>>{change_at} = change;
+      return {.has_converged = has_converged,
+              .iterations = iteration,
+              .moved = moved,
+              .previous = previous,
+              .size = size,
+              .has_learned = has_learned};
+    }
+    if (!has_learned) {
+      has_learned = !is_first && contraction::teaches(moved, previous);
+      if (has_learned) {
+        const double unit = 1.0 / size;
+        const Numbers<n> weighted = Eigen::Map<const Numbers<n>>(before) * unit * unit;
+        broyden_update(inverse, before, change.data(), weighted.data(), n);
       } else {
-        std::copy_n(at.change, n, at.before);
+        Eigen::Map<Numbers<n>>{before} = change;
       }
     }
     previous = moved;

@@ -44,7 +44,7 @@ inline double relative(double change, double size) {
 class Contraction {
  public:
   struct Workspace {
-    double* inverse;  // A, column by column
+    double* inverse;  // A, column by column, aligned as matrices of Eigen are
     double* u;
     double* residual;         // F
     double *change, *before;  // the last change; the one before, until A has learned
@@ -70,6 +70,7 @@ class Contraction {
   // Whether there are loops for so many.
   bool is_available() const { return iterate_ != nullptr; }
 
+  // `in`: with what F holds as the last group, see Function::hold.
   // Iterates until the changes have ended or contract badly, one is not finite, or there were as many as may be.
   Result operator()(const Function& F, const Inputs& in, const Workspace& at,
                     const Limits& limits) const {

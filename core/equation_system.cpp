@@ -11,8 +11,9 @@ EquationSystem::EquationSystem(const std::string& name, const std::vector<Functi
   const ExprVector& y = inputs[0].variables;
   const std::string unknown = inputs[0].name;
   if (!options.eliminates) {
-    *this = EquationSystem(Function(name, inputs, equations,
-                                    {.differentiate = {unknown}, .backend = options.backend}));
+    *this = EquationSystem(
+        Function(name, inputs, equations,
+                 {.differentiate = {unknown}, .varying = {unknown}, .backend = options.backend}));
     exponentials_ = Exponentials(name, inputs, equations);
     return;
   }
@@ -22,7 +23,7 @@ EquationSystem::EquationSystem(const std::string& name, const std::vector<Functi
   std::vector<Function::Input> left = inputs;
   left[0].variables = y(kept_);
   left_ = Function(name, left, elimination.equations,
-                   {.differentiate = {unknown}, .backend = options.backend});
+                   {.differentiate = {unknown}, .varying = {unknown}, .backend = options.backend});
   exponentials_ = Exponentials(name, left, elimination.equations);
   if (is_reduced())
     unknowns_ =

@@ -33,7 +33,7 @@ class EquationSystem {
   bool is_native() const { return left_.is_native(); }
   bool is_reduced() const { return !pivots_.empty(); }
 
-  // u; p ↦ G, with the Jacobian by u.
+  // u; p ↦ G, with the Jacobian by u; what p alone determines can be held.
   const Function& left() const { return left_; }
   // u; p ↦ y, all of it; nothing unless is_reduced().
   const Function& unknowns() const { return unknowns_; }

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "courant/core/derivative.hpp"
+#include "courant/core/held_part.hpp"
 
 namespace courant {
 namespace {
@@ -11,6 +12,25 @@ namespace {
 // Outside these the compiler costs more than it saves; it takes about 0.1 to 0.2 ms an instruction.
 constexpr Index kNativeMinimum = 4;
 constexpr Index kNativeMaximum = 10'000;
+
+// The variables of the groups with these names; `option` is named in the error.
+std::vector<Expr> variables(const std::string& function, const std::vector<Function::Input>& inputs,
+                            const std::vector<std::string>& names, const char* option) {
+  std::vector<Expr> result;
+  for (const std::string& wanted : names) {
+    const auto found =
+        std::ranges::find(inputs, wanted, [](const Function::Input& i) { return i.name; });
+    if (found == inputs.end())
+      throw std::invalid_argument("Function(" + function + "): " + option + " names \"" + wanted +
+                                  "\", which is no input group.");
+    result.insert(result.end(), found->variables.begin(), found->variables.end());
+  }
+  return result;
+}
+
+ExprVector as_vector(const std::vector<Expr>& expressions) {
+  return Eigen::Map<const ExprVector>(expressions.data(), static_cast<Index>(expressions.size()));
+}
 
 bool is_worthwhile(Index instructions) {
   return instructions >= kNativeMinimum && instructions <= kNativeMaximum;
@@ -26,19 +46,11 @@ Function::Function(const std::string& name, const std::vector<Input>& inputs,
     groups.push_back(input.variables);
     sizes_.push_back(input.variables.size());
   }
-  std::vector<Expr> by;
-  for (const std::string& wanted : options.differentiate) {
-    const auto found = std::find_if(inputs.begin(), inputs.end(),
-                                    [&](const Input& i) { return i.name == wanted; });
-    if (found == inputs.end())
-      throw std::invalid_argument("Function(" + name + "): differentiate names \"" + wanted +
-                                  "\", which is no input group.");
-    by.insert(by.end(), found->variables.begin(), found->variables.end());
-  }
+  const std::vector<Expr> by = variables(name, inputs, options.differentiate, "differentiate");
+  const std::vector<Expr> varying = variables(name, inputs, options.varying, "varying");
   ExprVector all = outputs;
   if (!by.empty()) {
-    SparseExprMatrix j = courant::jacobian(
-        outputs, Eigen::Map<ExprVector>(by.data(), static_cast<Index>(by.size())));
+    SparseExprMatrix j = courant::jacobian(outputs, as_vector(by));
     cols_ = j.cols;
     pattern_row_ = std::move(j.row);
     pattern_col_ = std::move(j.col);
@@ -47,29 +59,54 @@ Function::Function(const std::string& name, const std::vector<Input>& inputs,
   }
   value_ = std::make_shared<const Program>(groups, outputs);
   all_ = by.empty() ? value_ : std::make_shared<const Program>(groups, all);
+  run_value_ = value_;
+  run_all_ = all_;
 
-  if (options.backend.kind() == Backend::Kind::interpreter) return;
-  const bool automatic = options.backend.kind() == Backend::Kind::automatic;
-  const auto compiler = options.backend.compiler();
-  if (automatic && !compiler->is_available()) return;
+  const Backend alone = options.backend.together();
+  const bool is_alone = options.backend.module() == nullptr;
+  const Backend& backend = is_alone ? alone : options.backend;
+  ExprVector held(0);
+  if (!varying.empty() && is_worthwhile(value_->instruction_count()))
+    held = held_part(outputs, as_vector(varying));
+  if (is_worthwhile(Program(groups, held).instruction_count())) {
+    held_ = std::make_shared<const Function>(name + ", held", inputs, held,
+                                             Options{.backend = backend});
+    run_value_ = std::make_shared<const Program>(groups, outputs, held, Program::Order::grouped);
+    run_all_ = by.empty()
+                   ? run_value_
+                   : std::make_shared<const Program>(groups, all, held, Program::Order::grouped);
+  } else {
+    held.resize(0);
+  }
+  add_native(groups, outputs, all, held, backend);
+  if (is_alone) alone.compile();
+}
+
+void Function::add_native(const std::vector<ExprVector>& groups, const ExprVector& outputs,
+                          const ExprVector& all, const ExprVector& held, const Backend& backend) {
+  if (backend.kind() == Backend::Kind::interpreter) return;
+  const bool automatic = backend.kind() == Backend::Kind::automatic;
+  if (automatic && !backend.compiler()->is_available()) return;
   // A Jacobian is many times as long as the value, and seldom asked for: Newton's method keeps its
   // factorisations.
   const bool compile_all = !automatic || is_worthwhile(all_->instruction_count());
   if (!compile_all && !is_worthwhile(value_->instruction_count())) return;
   const auto compiled = [&](const ExprVector& results) {
-    return Program(groups, results, Program::Order::as_made);
+    return Program(groups, results, held, Program::Order::as_made);
   };
-  const auto add_to = [&](NativeModule& module) {
-    const Program jacobian = compile_all ? compiled(all) : Program();
-    native_ = module.add(compiled(outputs), compile_all ? &jacobian : nullptr);
-  };
-  if (options.backend.module() != nullptr) {
-    add_to(*options.backend.module());
-    return;
-  }
-  const Backend alone = options.backend.together();
-  add_to(*alone.module());
-  alone.compile();
+  const Program jacobian = compile_all ? compiled(all) : Program();
+  native_ = backend.module()->add(compiled(outputs), compile_all ? &jacobian : nullptr);
+}
+
+void Function::hold_and_run(const double* const* in, double* out, bool with_jacobian) const {
+  thread_local std::vector<double> held;
+  thread_local std::vector<const double*> groups;
+  if (std::ssize(held) < held_size()) held.resize(static_cast<std::size_t>(held_size()));
+  groups.assign(in, in + input_count());
+  groups.push_back(held.data());
+  hold(in, held.data());
+  with_jacobian ? value_and_jacobian_with_held(groups.data(), out)
+                : value_with_held(groups.data(), out);
 }
 
 const std::shared_ptr<const NativeModule::Entry>& Function::interpreted() {

@@ -29,12 +29,14 @@ class Function {
   };
   struct Options {
     std::vector<std::string> differentiate = {};  // names of input groups; empty: no Jacobian
+    // Names of the groups that change while the others stay, see hold(); empty: nothing is held.
+    std::vector<std::string> varying = {};
     Backend backend = Backend::interpreter;
   };
 
   Function() = default;
   // Throws std::invalid_argument if an output depends on a variable that is in no group, or
-  // `differentiate` names no group.
+  // `differentiate` or `varying` names no group.
   Function(const std::string& name, const std::vector<Input>& inputs, const ExprVector& outputs,
            const Options& options);
   Function(const std::string& name, const std::vector<Input>& inputs, const ExprVector& outputs)
@@ -55,15 +57,32 @@ class Function {
   Index instruction_count() const { return value_->instruction_count(); }
 
   // The inner loop: in[g] points to the n_g numbers of group g; nothing is checked, nothing
-  // allocated.
+  // allocated (with held parts after the first call of a thread).
   void value(const double* const* in, double* out) const {  // out: m
-    const auto native = native_->value.load(std::memory_order_acquire);
-    native != nullptr ? native(in, out) : value_->run(in, out);
+    held_ == nullptr ? value_with_held(in, out) : hold_and_run(in, out, false);
   }
   void value_and_jacobian(const double* const* in,
                           double* out) const {  // out: m values, then nonzeros() entries of J
+    held_ == nullptr ? value_and_jacobian_with_held(in, out) : hold_and_run(in, out, true);
+  }
+
+  // The same in two parts, for many values of the groups that are `varying`:
+  //
+  //   f.hold(in, held);                                what the other groups alone determine: held_size() numbers
+  //   f.value_with_held(in, out);  …                   in: one group more, the last: held
+  //
+  // The bits are those of value(). Where nothing is held a group more does no harm.
+  Index held_size() const { return held_ == nullptr ? 0 : held_->output_size(); }
+  void hold(const double* const* in, double* held) const {
+    if (held_ != nullptr) held_->value(in, held);
+  }
+  void value_with_held(const double* const* in, double* out) const {
+    const auto native = native_->value.load(std::memory_order_acquire);
+    native != nullptr ? native(in, out) : run_value_->run(in, out);
+  }
+  void value_and_jacobian_with_held(const double* const* in, double* out) const {
     const auto native = native_->value_and_jacobian.load(std::memory_order_acquire);
-    native != nullptr ? native(in, out) : all_->run(in, out);
+    native != nullptr ? native(in, out) : run_all_->run(in, out);
   }
   // J as a matrix, from what value_and_jacobian has put out.
   MatrixXd dense_jacobian(const VectorXd& out) const;
@@ -98,6 +117,9 @@ class Function {
 
  private:
   static const std::shared_ptr<const NativeModule::Entry>& interpreted();
+  void hold_and_run(const double* const* in, double* out, bool with_jacobian) const;
+  void add_native(const std::vector<ExprVector>& groups, const ExprVector& outputs,
+                  const ExprVector& all, const ExprVector& held, const Backend& backend);
   std::vector<const double*> pointers(std::span<const VectorXd> in) const;
 
   std::string name_;
@@ -108,6 +130,9 @@ class Function {
   std::vector<Index> pattern_col_;
   std::shared_ptr<const Program> value_ = std::make_shared<const Program>();
   std::shared_ptr<const Program> all_ = value_;  // value and Jacobian
+  std::shared_ptr<const Function> held_;         // of the same inputs; null: nothing is held
+  // The programs that are run, and native_: those with what is held as a last group of inputs.
+  std::shared_ptr<const Program> run_value_ = value_, run_all_ = value_;
   std::shared_ptr<const NativeModule::Entry> native_ = interpreted();
 };
 

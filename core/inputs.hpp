@@ -44,6 +44,9 @@ class Inputs {
     places_[count_ - 1] = numbers;
   }
 
+  // Without the last group.
+  void drop_parameter() { --count_; }
+
   // Throws std::invalid_argument that names `equations` unless it takes so many groups.
   void require_count(Index groups, const std::string& equations) const {
     if (groups != count())

@@ -114,12 +114,12 @@ Newton::Newton(EquationSystem system, std::vector<Index> groups, const Options& 
     at_matrix_.resize(arguments_.size());
     last_.resize(function_.input_size(0));
   }
-  if (!system_.is_reduced()) return;
-  kept_.resize(std::ssize(system_.kept()));
+  held_.resize(function_.held_size());
+  if (system_.is_reduced()) kept_.resize(std::ssize(system_.kept()));
 }
 
 bool Newton::factorize(const Inputs& in) {
-  function_.value_and_jacobian(in.data(), all_.data());
+  function_.value_and_jacobian_with_held(in.data(), all_.data());
   if (limited_) system_.exponentials().arguments().value(in.data(), at_matrix_.data());
   factorized_ = solver_->factorize(all_.data() + function_.output_size());
   inverse_ = factorized_ ? solver_->inverse() : nullptr;
@@ -170,8 +170,9 @@ void Newton::learn() {
       weighted_.segment(begin, ends_[g] - begin).setZero();
       continue;
     }
+    const double unit = 1.0 / size;
     for_each_pair(begin, ends_[g], [&]<class Numbers>(Index i, Numbers) {
-      write(weighted_.data() + i, Numbers(read<Numbers>(before_.data() + i) / size / size));
+      write(weighted_.data() + i, Numbers(read<Numbers>(before_.data() + i) * unit * unit));
     });
   }
   broyden_update(inverse_, before_.data(), step_.data(), weighted_.data(), step_.size());
@@ -261,7 +262,7 @@ bool Newton::is_settled(const Inputs& in, bool fresh) {
   // The matrix is wrong by about the change of the arguments since.
   if (away <= kSameSlope && change * std::max(change, away) <= kStill) return true;
   if (!fresh) return false;
-  function_.value_and_jacobian(in.data(), all_.data());
+  function_.value_and_jacobian_with_held(in.data(), all_.data());
   sum_terms([&](Index j) { return std::fabs(y[j]); });
   return largest_part(magnitude_) <= kHolds;
 }
@@ -279,34 +280,40 @@ void Newton::settle(VectorXd& y, const VectorXd& y0) {
   for (std::size_t k = 0; k < contained_.size(); ++k) y[place(k)] = settled_[static_cast<Index>(k)];
 }
 
-// What the equations that are left take: u in place of y.
+// What the equations that are left take: u in place of y, and what they hold.
 const Inputs& Newton::take_kept(const Inputs& in) {
+  in.require_count(function_.input_count(), system_.name());
   in_ = in;
-  in_.set_unknowns(kept_.data());
-  for (Index i = 0; i < kept_.size(); ++i)
-    kept_[i] = in[0][system_.kept()[static_cast<std::size_t>(i)]];
+  if (system_.is_reduced()) {
+    in_.set_unknowns(kept_.data());
+    for (Index i = 0; i < kept_.size(); ++i)
+      kept_[i] = in[0][system_.kept()[static_cast<std::size_t>(i)]];
+  }
+  if (held_.size() > 0) {
+    function_.hold(in_.data(), held_.data());
+    in_.add_parameter(held_.data());
+  }
   return in_;
 }
 
 // All unknowns by those that are kept.
 void Newton::give(double* y) { system_.unknowns().value(in_.data(), y); }
 
-Newton::Result Newton::solve(const Inputs& in, const double* scales) {
-  in.require_count(function_.input_count(), system_.name());
-  if (!system_.is_reduced()) return solve_kept(in, scales);
-  Result result = solve_kept(take_kept(in), scales);
-  give(in.unknowns());
-  return result;
+const Newton::Result& Newton::solve(const Inputs& in, const double* scales) {
+  result_.status = solve_kept(take_kept(in), scales);
+  if (system_.is_reduced()) give(in.unknowns());
+  return result_;
 }
 
 bool Newton::approach(const Inputs& in, const double* scales) {
-  in.require_count(function_.input_count(), system_.name());
+  const Inputs& of_kept = take_kept(in);
   const bool is_reduced = system_.is_reduced();
-  const Inputs& of_kept = is_reduced ? take_kept(in) : in;
   double* const u = of_kept.unknowns();
   if (limited_) {
     last_ = Eigen::Map<const VectorXd>(u, last_.size());
-    if (limited_->solve(of_kept)) {
+    Inputs without_held = of_kept;
+    if (held_.size() > 0) without_held.drop_parameter();
+    if (limited_->solve(without_held)) {
       reset();
       if (is_reduced) give(in.unknowns());
       return true;
@@ -330,7 +337,7 @@ bool Newton::approach(const Inputs& in, const double* scales) {
   };
   equations.correct = [&](const VectorXd& at, VectorXd& correction) {
     move(at);
-    function_.value(of_kept.data(), all_.data());
+    function_.value_with_held(of_kept.data(), all_.data());
     solver_->solve(all_.data(), correction.data());
     return correction.allFinite();
   };
@@ -344,8 +351,10 @@ bool Newton::approach(const Inputs& in, const double* scales) {
   return arrived;
 }
 
-Newton::Result Newton::solve_kept(const Inputs& in, const double* scales) {
-  Result result;
+Newton::Status Newton::solve_kept(const Inputs& in, const double* scales) {
+  Result& result = result_;
+  result.iterations = result.factorizations = 0;
+  result.residuals.clear();
   double* const y = in.unknowns();
   const auto residual = all_.head(function_.output_size());
   double previous = std::numeric_limits<double>::infinity();
@@ -364,10 +373,7 @@ Newton::Result Newton::solve_kept(const Inputs& in, const double* scales) {
     evaluated = true;
     return factorize(in);
   };
-  if (!factorized_ && !refactorize()) {
-    result.status = Status::singular;
-    return result;
-  }
+  if (!factorized_ && !refactorize()) return Status::singular;
   // Most solves are over before anything else has to be looked at.
   bool has_moved = false;
   if (contraction_.is_available() && inverse_ != nullptr && !fresh && !limited_) {
@@ -377,10 +383,7 @@ Newton::Result Newton::solve_kept(const Inputs& in, const double* scales) {
                                                     .slow = options_.slow,
                                                     .most = options_.max_iterations});
     result.iterations = quick.iterations;
-    if (quick.has_converged) {
-      result.status = Status::converged;
-      return result;
-    }
+    if (quick.has_converged) return Status::converged;
     sizes_[static_cast<Index>(group_)] = quick.size;
     moved = quick.moved;
     previous = quick.previous;
@@ -391,13 +394,13 @@ Newton::Result Newton::solve_kept(const Inputs& in, const double* scales) {
   while (has_moved || result.iterations < options_.max_iterations) {
     if (!has_moved) {
       ++result.iterations;
-      if (!evaluated) function_.value(in.data(), all_.data());
+      if (!evaluated) function_.value_with_held(in.data(), all_.data());
       moved = improve(y, scales);
     }
     evaluated = has_moved = false;
     if (!std::isfinite(moved)) {
       result.residuals.push_back(residual.size() == 0 ? 0.0 : residual.lpNorm<Eigen::Infinity>());
-      return result;
+      return Status::diverged;
     }
     // Least squares of a matrix of this solve are at their least, but that may be no solution.
     const auto accepted = [&] { return is_solved(y, scales, fresh); };
@@ -405,23 +408,19 @@ Newton::Result Newton::solve_kept(const Inputs& in, const double* scales) {
       if (!accepted()) {
         if (fresh) break;
         if (refactorize()) continue;
-        result.status = Status::singular;
-        return result;
+        return Status::singular;
       }
       if (!is_settled(in, fresh)) {
         if (refactorize()) continue;
-        result.status = Status::singular;
-        return result;
+        return Status::singular;
       }
-      result.status = Status::converged;
-      return result;
+      return Status::converged;
     }
     if (compared > 0) {
       const double part = moved / previous;
       if (contraction::has_ended(moved, previous, options_.tolerance) && accepted() &&
           is_settled(in, fresh)) {
-        result.status = Status::converged;
-        return result;
+        return Status::converged;
       }
       // With an old factorisation, changes that do not become smaller may come from its age.
       const bool stalled = part > 0.5;
@@ -433,15 +432,13 @@ Newton::Result Newton::solve_kept(const Inputs& in, const double* scales) {
       if ((slow && !fresh) || (stalled && !rounded) ||
           (rounded && (!is_still(y, scales, fresh, unsolved) || !is_settled(in, fresh)))) {
         if (!refactorize()) {
-          result.status = Status::singular;
-          return result;
+          return Status::singular;
         }
         continue;
       }
       if (rounded) {
         round_off_ = close && moved <= kRoundOff ? moved : kForget * round_off_;
-        result.status = Status::converged;
-        return result;
+        return Status::converged;
       }
     }
     if (inverse_ != nullptr && !learned && !limited_) {
@@ -455,7 +452,7 @@ Newton::Result Newton::solve_kept(const Inputs& in, const double* scales) {
     ++compared;
   }
   result.residuals.push_back(residual.size() == 0 ? 0.0 : residual.lpNorm<Eigen::Infinity>());
-  return result;
+  return Status::diverged;
 }
 
 }  // namespace courant

@@ -54,7 +54,10 @@ class Newton {
   // For the unknowns y and the parameters of `in`. scales[g]: a typical size of block g (its current values
   // count too). On failure y holds the last iterate. Throws std::invalid_argument if `in` has not so many
   // groups as the equations.
-  Result solve(const Inputs& in, const double* scales);
+  // The result is valid until the next solve().
+  const Result& solve(const Inputs& in, const double* scales);
+
+  const Result& result() const { return result_; }  // of the last solve
 
   // Moves y by damped steps to where solve() converges, from far away; see damped_newton(), which says what
   // is to be thought of the zero that is found. Arguments as of solve(). False, y as it was: it does not
@@ -81,7 +84,7 @@ class Newton {
   bool is_determined() const { return solver_->is_determined(); }
 
  private:
-  Result solve_kept(const Inputs& in, const double* scales);
+  Status solve_kept(const Inputs& in, const double* scales);
   const Inputs& take_kept(const Inputs& in);
   void give(double* y);
   bool factorize(const Inputs& in);
@@ -113,8 +116,10 @@ class Newton {
   bool factorized_ = false;
   double* inverse_ = nullptr;  // of the solver
   double round_off_ = 0.0;  // by how much iterates moved when they stalled with a new factorisation
-  Inputs in_;               // where the kept unknowns are, and the parameters
+  Inputs in_;               // where the kept unknowns are, the parameters, and what is held
   VectorXd kept_;           // unknowns
+  VectorXd held_;           // what parameters alone determine of the equations
+  Result result_;           // of the last solve
   VectorXd all_;            // F and the entries of its Jacobian
   VectorXd step_, settled_;
   VectorXd sizes_;                        // of groups, at the last change

@@ -49,16 +49,17 @@ void schedule(const Subgraph& subgraph, std::size_t begin, std::size_t end,
   const auto operation = [&](std::size_t at) -> const Node& {
     return subgraph.graph().node(subgraph.nodes()[at]);
   };
+  const auto count = [&](std::size_t at) { return subgraph.operand_count(subgraph.nodes()[at]); };
   for (std::size_t at = begin; at < end; ++at) {
     const Node& node = operation(at);
     const std::uint32_t operand[] = {node.a, node.b, node.c};
-    for (int i = 0; i < arity(node.op); ++i) {
+    for (int i = 0; i < count(at); ++i) {
       const std::size_t from = subgraph.position(operand[i]);
-      if (from < begin || arity(operation(from).op) == 0) continue;
+      if (from < begin || count(from) == 0) continue;
       ++missing[at - begin];
       uses.push_back({at, std::exchange(first_use[from - begin], uses.size())});
     }
-    if (arity(node.op) > 0 && missing[at - begin] == 0) ready[{node.op, node.k}].push_back(at);
+    if (count(at) > 0 && missing[at - begin] == 0) ready[{node.op, node.k}].push_back(at);
   }
 
   for (;;) {
@@ -103,8 +104,9 @@ constexpr auto loops(std::index_sequence<op...>) {
 
 }  // namespace
 
-Program::Program(std::span<const ExprVector> inputs, const ExprVector& outputs, Order order) {
-  const Subgraph subgraph(outputs);
+Program::Program(std::span<const ExprVector> inputs, const ExprVector& outputs,
+                 const ExprVector& held, Order order) {
+  const Subgraph subgraph(outputs, held);
   const Graph& graph = subgraph.graph();
   const auto& nodes = subgraph.nodes();
   std::vector<std::uint32_t> slot(nodes.size(), kAbsent);
@@ -138,6 +140,12 @@ Program::Program(std::span<const ExprVector> inputs, const ExprVector& outputs, 
       loads_.push_back({target, static_cast<std::uint32_t>(g), static_cast<std::uint32_t>(j)});
     }
   }
+  for (Index j = 0; j < held.size(); ++j) {
+    if (!subgraph.contains(held[j])) continue;
+    slot[subgraph.position(held[j])] = next;
+    loads_.push_back(
+        {next++, static_cast<std::uint32_t>(inputs.size()), static_cast<std::uint32_t>(j)});
+  }
   for (std::size_t at = 0; at < nodes.size(); ++at)
     if (slot[at] == kAbsent && graph.node(nodes[at]).op == Op::variable)
       throw std::invalid_argument("Program: the variable " + graph.name(nodes[at]) +
@@ -148,7 +156,7 @@ Program::Program(std::span<const ExprVector> inputs, const ExprVector& outputs, 
   for (const std::uint32_t index : nodes) {
     const Node& node = graph.node(index);
     const std::uint32_t operand[] = {node.a, node.b, node.c};
-    for (int i = 0; i < arity(node.op); ++i) ++reads[subgraph.position(operand[i])];
+    for (int i = 0; i < subgraph.operand_count(index); ++i) ++reads[subgraph.position(operand[i])];
   }
   for (const Expr& output : outputs)
     if (!output.is_constant()) ++reads[subgraph.position(output)];
@@ -166,7 +174,7 @@ Program::Program(std::span<const ExprVector> inputs, const ExprVector& outputs, 
     for (int i = 0; i < arity(node.op); ++i) {
       const std::size_t from = subgraph.position(operand[i]);
       source[i] = slot[from];
-      if (--reads[from] == 0 && arity(graph.node(operand[i]).op) > 0)
+      if (--reads[from] == 0 && subgraph.operand_count(operand[i]) > 0)
         free_slots.push_back(source[i]);
     }
     instructions_.push_back({slot[at], source[0], source[1], source[2]});

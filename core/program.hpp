@@ -28,7 +28,12 @@ class Program {
 
   // Throws std::invalid_argument if the outputs contain a variable that is in no input group.
   Program(std::span<const ExprVector> inputs, const ExprVector& outputs,
-          Order order = Order::grouped);
+          Order order = Order::grouped)
+      : Program(inputs, outputs, ExprVector(0), order) {}
+  // The same where the values of these expressions, which are no constants, are one group of inputs more, the last
+  // one, and are not worked out.
+  Program(std::span<const ExprVector> inputs, const ExprVector& outputs, const ExprVector& held,
+          Order order);
 
   Index output_size() const { return static_cast<Index>(outputs_.size()); }
   Index instruction_count() const { return static_cast<Index>(instructions_.size()); }

@@ -11,7 +11,7 @@ constexpr std::uint64_t bit(std::uint32_t node) { return std::uint64_t{1} << (no
 
 }  // namespace
 
-Subgraph::Subgraph(const ExprVector& roots) {
+Subgraph::Subgraph(const ExprVector& roots, const ExprVector& leaves) {
   std::uint32_t last = 0;
   for (const Expr& root : roots) {
     if (root.is_constant()) continue;
@@ -23,6 +23,12 @@ Subgraph::Subgraph(const ExprVector& roots) {
   }
   if (graph_.is_none()) return;
 
+  for (const Expr& leaf : leaves) {
+    if (leaf.is_constant() || !(leaf.graph() == graph_))
+      throw std::invalid_argument("Subgraph: a leaf is no node of the graph of the roots.");
+    if (leaf.node() / 64 >= leaves_.size()) leaves_.resize(leaf.node() / 64 + 1, 0);
+    leaves_[leaf.node() / 64] |= bit(leaf.node());
+  }
   members_.assign(last / 64 + 1, 0);
   for (const Expr& root : roots)
     if (!root.is_constant()) members_[root.node() / 64] |= bit(root.node());
@@ -34,9 +40,10 @@ Subgraph::Subgraph(const ExprVector& roots) {
     while (const std::uint64_t left = members_[word] & unseen) {
       const auto top = static_cast<std::uint32_t>(std::bit_width(left)) - 1;
       unseen = (std::uint64_t{1} << top) - 1;
-      const Node& node = graph_.node(static_cast<std::uint32_t>(64 * word) + top);
+      const std::uint32_t index = static_cast<std::uint32_t>(64 * word) + top;
+      const Node& node = graph_.node(index);
       const std::uint32_t operand[] = {node.a, node.b, node.c};
-      for (int i = 0; i < arity(node.op); ++i) members_[operand[i] / 64] |= bit(operand[i]);
+      for (int i = 0; i < operand_count(index); ++i) members_[operand[i] / 64] |= bit(operand[i]);
       ++count;
     }
   }

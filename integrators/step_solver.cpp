@@ -147,22 +147,23 @@ void StepSolver::connect(bool converged, const Inputs& in, const double* scales,
 }
 
 void StepSolver::fail(const Attempt& attempt) const {
-  if (result_.status == Newton::Status::singular)
+  const Newton::Result& result = newton_.result();
+  if (result.status == Newton::Status::singular)
     throw SolveError(SolveError::Reason::singular, method_, attempt.time, attempt.h,
                      "has a matrix that is not finite; the state is at or near a singular point.",
-                     result_.residuals);
-  if (result_.status == Newton::Status::converged)
+                     result.residuals);
+  if (result.status == Newton::Status::converged)
     throw SolveError(SolveError::Reason::disconnected, method_, attempt.time, attempt.h,
                      "has a solution that cannot be followed from the state, and may be a wrong "
                      "one; the step is too large, or the state is at or near a singular point.");
   const std::string why = surplus();
   throw SolveError(
       SolveError::Reason::diverged, method_, attempt.time, attempt.h,
-      "did not converge in " + std::to_string(result_.iterations) + " iterations, residual " +
-          number_text(result_.residuals.empty() ? 0.0 : result_.residuals.back()) +
+      "did not converge in " + std::to_string(result.iterations) + " iterations, residual " +
+          number_text(result.residuals.empty() ? 0.0 : result.residuals.back()) +
           (why.empty() ? "; the step is too large, or the state comes near a singular point."
                        : ". " + why),
-      result_.residuals);
+      result.residuals);
 }
 
 std::string StepSolver::surplus() const {

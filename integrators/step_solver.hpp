@@ -70,7 +70,7 @@ class StepSolver {
     other_.head(usual_.size()) = y_.head(usual_.size());
     const bool converged = converges(in, scales, statistics);
     is_good_ = converged && is_as_predicted(allowed(), scales[0]);
-    if (is_good_ && (is_trusted_ || result_.factorizations == 0)) return;
+    if (is_good_ && (is_trusted_ || newton_.result().factorizations == 0)) return;
     other_ = y_;
     begin();
     connect(converged, in, scales, attempt, statistics);
@@ -93,10 +93,10 @@ class StepSolver {
 
  private:
   bool converges(const Inputs& in, const double* scales, SolverStatistics& statistics) {
-    result_ = newton_.solve(in, scales);
-    statistics.iterations += result_.iterations;
-    statistics.factorizations += result_.factorizations;
-    return result_.status == Newton::Status::converged;
+    const Newton::Result& result = newton_.solve(in, scales);
+    statistics.iterations += result.iterations;
+    statistics.factorizations += result.factorizations;
+    return result.status == Newton::Status::converged;
   }
   // The part of its size that a displacement may differ from its prediction by.
   double allowed() const {
@@ -120,7 +120,6 @@ class StepSolver {
   static constexpr double kExpected = 0.25;
 
   Newton newton_;
-  Newton::Result result_;
   VectorXd y_;
   VectorXd other_;  // the prediction, or another solution
   std::optional<StepContinuation> continuation_;

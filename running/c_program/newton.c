@@ -192,7 +192,7 @@ static void learn(struct newton *N, const double *scales) {
     const int begin = i;
     for (; i < n && of->group[of->contained[i]] == g; ++i)
       size = largest_of(size, fabs(N->u[of->contained[i]]));
-    for (j = begin; j < i; ++j) weighted[j] = size > 0.0 ? N->before[j] / size / size : 0.0;
+    for (j = begin; j < i; ++j) weighted[j] = size > 0.0 ? N->before[j] * (1.0 / size) * (1.0 / size) : 0.0;
   }
   length = dot(weighted, N->before, n);
   along = dot(weighted, N->change, n);
