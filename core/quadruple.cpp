@@ -1,47 +1,103 @@
 #include "courant/core/quadruple.hpp"
 
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <limits>
+#include <new>
+#include <type_traits>
+
 namespace courant {
 
+using BinaryFloat = boost::multiprecision::cpp_bin_float_quad;
+
+struct Quadruple::Number {
+  BinaryFloat value;
+};
+
+Quadruple::Quadruple(const Number& number) {
+  static_assert(sizeof(Number) <= sizeof(number_) && alignof(Number) <= alignof(Quadruple) &&
+                std::is_trivially_destructible_v<Number>);
+  ::new (number_.data()) Number(number);
+}
+
+const Quadruple::Number& Quadruple::number() const {
+  return *std::launder(reinterpret_cast<const Number*>(number_.data()));
+}
+
+Quadruple::Quadruple(double number) : Quadruple(Number{BinaryFloat(number)}) {}
+
+Quadruple::Quadruple(const Quadruple& other) : Quadruple(other.number()) {}
+
+Quadruple& Quadruple::operator=(const Quadruple& other) {
+  ::new (number_.data()) Number(Number(other.number()));
+  return *this;
+}
+
+Quadruple::operator double() const { return static_cast<double>(number().value); }
+
+Quadruple operator-(const Quadruple& a) { return Quadruple(Quadruple::Number{-a.number().value}); }
+
+Quadruple operator+(const Quadruple& a, const Quadruple& b) {
+  return Quadruple(Quadruple::Number{a.number().value + b.number().value});
+}
+
+Quadruple operator-(const Quadruple& a, const Quadruple& b) {
+  return Quadruple(Quadruple::Number{a.number().value - b.number().value});
+}
+
+Quadruple operator*(const Quadruple& a, const Quadruple& b) {
+  return Quadruple(Quadruple::Number{a.number().value * b.number().value});
+}
+
+Quadruple operator/(const Quadruple& a, const Quadruple& b) {
+  return Quadruple(Quadruple::Number{a.number().value / b.number().value});
+}
+
+bool operator==(const Quadruple& a, const Quadruple& b) {
+  return a.number().value == b.number().value;
+}
+
 Quadruple evaluate(Op op, const Quadruple& a) {
-  const auto value = [&]() -> Quadruple::Number {
+  const auto value = [op, &number = a.number().value]() -> BinaryFloat {
     switch (op) {
       case Op::sqrt:
-        return sqrt(a.number_);
+        return sqrt(number);
       case Op::exp:
-        return exp(a.number_);
+        return exp(number);
       case Op::log:
-        return log(a.number_);
+        return log(number);
       case Op::sin:
-        return sin(a.number_);
+        return sin(number);
       case Op::cos:
-        return cos(a.number_);
+        return cos(number);
       case Op::tan:
-        return tan(a.number_);
+        return tan(number);
       case Op::asin:
-        return asin(a.number_);
+        return asin(number);
       case Op::acos:
-        return acos(a.number_);
+        return acos(number);
       case Op::atan:
-        return atan(a.number_);
+        return atan(number);
       case Op::sinh:
-        return sinh(a.number_);
+        return sinh(number);
       case Op::cosh:
-        return cosh(a.number_);
+        return cosh(number);
       case Op::tanh:
-        return tanh(a.number_);
+        return tanh(number);
       default:
-        return std::numeric_limits<Quadruple::Number>::quiet_NaN();
+        return std::numeric_limits<BinaryFloat>::quiet_NaN();
     }
   };
-  return Quadruple(value());
+  return Quadruple(Quadruple::Number{value()});
 }
 
 Quadruple pow(const Quadruple& a, const Quadruple& p) {
-  return Quadruple(boost::multiprecision::pow(a.number_, p.number_));
+  return Quadruple(
+      Quadruple::Number{boost::multiprecision::pow(a.number().value, p.number().value)});
 }
 
 Quadruple atan2(const Quadruple& y, const Quadruple& x) {
-  return Quadruple(boost::multiprecision::atan2(y.number_, x.number_));
+  return Quadruple(
+      Quadruple::Number{boost::multiprecision::atan2(y.number().value, x.number().value)});
 }
 
 }  // namespace courant

@@ -1,7 +1,8 @@
 // Quadruple: a number of 113 bits, for what double cannot tell from round-off.
 #pragma once
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <array>
+#include <cstddef>
 
 #include "courant/core/expr.hpp"
 
@@ -11,28 +12,21 @@ namespace courant {
 // stand; 0.1 is the double next to a tenth.
 class Quadruple {
  public:
-  Quadruple() = default;
-  Quadruple(double number)
-      : number_(number) {}  // NOLINT: numbers are what formulas are written with
+  Quadruple() : Quadruple(0.0) {}
+  Quadruple(double number);  // NOLINT: numbers are what formulas are written with
+  Quadruple(const Quadruple& other);
+  Quadruple& operator=(const Quadruple& other);
 
-  explicit operator double() const { return static_cast<double>(number_); }
+  explicit operator double() const;
 
   Quadruple& operator+=(const Quadruple& b) { return *this = *this + b; }
   Quadruple& operator-=(const Quadruple& b) { return *this = *this - b; }
-  friend Quadruple operator-(const Quadruple& a) { return Quadruple(-a.number_); }
-  friend Quadruple operator+(const Quadruple& a, const Quadruple& b) {
-    return Quadruple(a.number_ + b.number_);
-  }
-  friend Quadruple operator-(const Quadruple& a, const Quadruple& b) {
-    return Quadruple(a.number_ - b.number_);
-  }
-  friend Quadruple operator*(const Quadruple& a, const Quadruple& b) {
-    return Quadruple(a.number_ * b.number_);
-  }
-  friend Quadruple operator/(const Quadruple& a, const Quadruple& b) {
-    return Quadruple(a.number_ / b.number_);
-  }
-  friend bool operator==(const Quadruple& a, const Quadruple& b) { return a.number_ == b.number_; }
+  friend Quadruple operator-(const Quadruple& a);
+  friend Quadruple operator+(const Quadruple& a, const Quadruple& b);
+  friend Quadruple operator-(const Quadruple& a, const Quadruple& b);
+  friend Quadruple operator*(const Quadruple& a, const Quadruple& b);
+  friend Quadruple operator/(const Quadruple& a, const Quadruple& b);
+  friend bool operator==(const Quadruple& a, const Quadruple& b);
 
   // op(a) for a unary operation of libm or sqrt; NaN where it is not defined, or is none of them.
   friend Quadruple evaluate(Op op, const Quadruple& a);
@@ -44,10 +38,11 @@ class Quadruple {
   static constexpr double finer = 1152921504606846976.0;
 
  private:
-  using Number = boost::multiprecision::cpp_bin_float_quad;
-  explicit Quadruple(const Number& number) : number_(number) {}
+  struct Number;  // that of Boost.Multiprecision, whose headers only the source has to read
+  explicit Quadruple(const Number& number);
+  const Number& number() const;
 
-  Number number_ = 0;
+  alignas(16) std::array<std::byte, 32> number_;
 };
 
 Quadruple evaluate(Op op, const Quadruple& a);

@@ -1,11 +1,10 @@
 #include "courant/integrators/open_jets.hpp"
 
 #include <algorithm>
-#include <boost/graph/adjacency_list.hpp>
-#include <boost/graph/max_cardinality_matching.hpp>
 #include <cmath>
 
 #include "courant/core/equilibration.hpp"
+#include "courant/core/matching.hpp"
 #include "courant/core/qr_decomposition.hpp"
 #include "courant/core/rank_decision.hpp"
 #include "courant/core/regular_matrix.hpp"
@@ -24,22 +23,18 @@ constexpr double kSurelyOpen = 1e-3;
 class Incidence {
  public:
   explicit Incidence(const Function& F) : rows_of_(places(F)) {
-    using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS>;
-    const auto columns = rows_of_.size();
-    Graph graph(columns + static_cast<std::size_t>(F.output_size()));
+    std::vector<PatternEntry> entries;
     for (std::size_t k = 0; k < F.pattern_row().size(); ++k) {
-      const auto row = static_cast<std::size_t>(F.pattern_row()[k]);
-      const auto column = static_cast<std::size_t>(F.pattern_col()[k]);
-      rows_of_[column].push_back(F.pattern_row()[k]);
-      boost::add_edge(column, columns + row, graph);
+      const Index row = F.pattern_row()[k], column = F.pattern_col()[k];
+      rows_of_[static_cast<std::size_t>(column)].push_back(row);
+      entries.push_back({row, column});
     }
-    std::vector<boost::graph_traits<Graph>::vertex_descriptor> mate(boost::num_vertices(graph));
-    boost::edmonds_maximum_cardinality_matching(graph, mate.data());
-    const auto none = boost::graph_traits<Graph>::null_vertex();
-    for (std::size_t column = 0; column < columns; ++column)
-      if (mate[column] == none) alone_.push_back(static_cast<Index>(column));
-    for (std::size_t row = columns; row < mate.size(); ++row)
-      column_of_.push_back(mate[row] == none ? -1 : static_cast<Index>(mate[row]));
+    column_of_ = largest_matching(F.output_size(), F.input_size(0), entries);
+    std::vector<bool> is_matched(rows_of_.size(), false);
+    for (const Index column : column_of_)
+      if (column >= 0) is_matched[static_cast<std::size_t>(column)] = true;
+    for (std::size_t column = 0; column < rows_of_.size(); ++column)
+      if (!is_matched[column]) alone_.push_back(static_cast<Index>(column));
   }
 
   // Columns of a largest matching that no row is left for.

@@ -1,11 +1,10 @@
 #include "courant/integrators/stepper.hpp"
 
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <cstdint>
 #include <stdexcept>
 #include <utility>
 
+#include "courant/core/bracketed_root.hpp"
 #include "courant/core/message.hpp"
 
 namespace courant {
@@ -18,7 +17,7 @@ constexpr double kNearSteps = 16.0;
 
 // The share of a step that goes with a time is found to this length of its bracket, which is round-off.
 constexpr double kShortestBracket = 4e-16;
-constexpr std::uintmax_t kMostEvaluations = 100;
+constexpr unsigned kMostEvaluations = 100;
 
 void check_size(const std::string& method, const char* part, Index size, Index expected,
                 bool may_be_empty) {
@@ -163,10 +162,9 @@ double Stepper::share_at(double t) {
                                 " to " + number_text(after) + ".");
   const double linear = (t - before) / (after - before);
   if (step.rate == 1.0 || t == before || t == after) return linear;
-  std::uintmax_t evaluations = kMostEvaluations;
-  const auto [low, high] = boost::math::tools::toms748_solve(
-      [&](double s) { return between(s).t - t; }, 0.0, 1.0, before - t, after - t,
-      [](double a, double b) { return b - a <= kShortestBracket; }, evaluations);
+  const auto [low, high] =
+      bracketed_root([&](double s) { return between(s).t - t; }, {0.0, 1.0}, before - t, after - t,
+                     kShortestBracket, kMostEvaluations);
   return std::fabs(between(low).t - t) <= std::fabs(between(high).t - t) ? low : high;
 }
 

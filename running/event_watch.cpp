@@ -1,12 +1,11 @@
 #include "courant/running/event_watch.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <cstdint>
 #include <stdexcept>
 #include <utility>
 
+#include "courant/core/bracketed_root.hpp"
 #include "courant/core/message.hpp"
 
 namespace courant {
@@ -16,7 +15,7 @@ namespace {
 constexpr double kBracket = 4e-16;
 
 // Bracketing takes some ten evaluations; bisection alone would take 52.
-constexpr std::uintmax_t kMaxEvaluations = 100;
+constexpr unsigned kMaxEvaluations = 100;
 
 RunEnd cannot_locate(const RunMoment& moment, const std::exception& error) {
   return {RunStatus::failed, "An event between t = " + number_text(moment.step.before.t) +
@@ -94,10 +93,7 @@ EventWatch::Zero EventWatch::locate(std::size_t event, double before, const RunM
     }
     return row[column];
   };
-  std::uintmax_t evaluations = kMaxEvaluations;
-  boost::math::tools::toms748_solve(
-      value, 0.0, 1.0, before, after,
-      [](double low, double high) { return high - low <= kBracket; }, evaluations);
+  bracketed_root(value, {0.0, 1.0}, before, after, kBracket, kMaxEvaluations);
   return nearest;
 }
 
