@@ -9,6 +9,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "courant/core/products.hpp"
+
 namespace courant {
 
 using Eigen::Index;
