@@ -1,12 +1,8 @@
 #include "courant/integrators/explicit_runge_kutta.hpp"
 
-#include <boost/numeric/odeint/algebra/vector_space_algebra.hpp>
-#include <boost/numeric/odeint/external/eigen/eigen_resize.hpp>
-#include <boost/numeric/odeint/stepper/explicit_generic_rk.hpp>
-#include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
-#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
-#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
+#include <optional>
 #include <stdexcept>
+#include <vector>
 
 #include "courant/core/message.hpp"
 #include "courant/integrators/vector_field_differential.hpp"
@@ -14,65 +10,67 @@
 namespace courant {
 namespace {
 
-namespace odeint = boost::numeric::odeint;
-using Algebra = odeint::vector_space_algebra;
-template <int stages, int order>
-using Generic =
-    odeint::explicit_generic_rk<stages, order, VectorXd, double, VectorXd, double, Algebra>;
+using Row = std::vector<std::optional<double>>;
 
-// The 13 stages of the method of order 8, as odeint has them.
+// The 13 stages of Fehlberg's method of order 7(8), of which the weights are those of order 8.
 StepProgram::Explicit fehlberg_tableau() {
-  StepProgram::Explicit tableau;
-  const odeint::rk78_coefficients_c<double> times;
-  tableau.times.assign(times.begin(), times.end());
-  const auto add_row = [&](const auto& row) { tableau.rows.emplace_back(row.begin(), row.end()); };
-  add_row(odeint::rk78_coefficients_a1<double>());
-  add_row(odeint::rk78_coefficients_a2<double>());
-  add_row(odeint::rk78_coefficients_a3<double>());
-  add_row(odeint::rk78_coefficients_a4<double>());
-  add_row(odeint::rk78_coefficients_a5<double>());
-  add_row(odeint::rk78_coefficients_a6<double>());
-  add_row(odeint::rk78_coefficients_a7<double>());
-  add_row(odeint::rk78_coefficients_a8<double>());
-  add_row(odeint::rk78_coefficients_a9<double>());
-  add_row(odeint::rk78_coefficients_a10<double>());
-  add_row(odeint::rk78_coefficients_a11<double>());
-  add_row(odeint::rk78_coefficients_a12<double>());
-  add_row(odeint::rk78_coefficients_b<double>());
-  return tableau;
+  return {.times = {0.0, 2.0 / 27.0, 1.0 / 9.0, 1.0 / 6.0, 5.0 / 12.0, 1.0 / 2.0, 5.0 / 6.0,
+                    1.0 / 6.0, 2.0 / 3.0, 1.0 / 3.0, 1.0, 0.0, 1.0},
+          .rows = {{2.0 / 27.0},
+                   {1.0 / 36.0, 1.0 / 12.0},
+                   {1.0 / 24.0, 0.0, 1.0 / 8.0},
+                   {5.0 / 12.0, 0.0, -25.0 / 16.0, 25.0 / 16.0},
+                   {1.0 / 20.0, 0.0, 0.0, 1.0 / 4.0, 1.0 / 5.0},
+                   {-25.0 / 108.0, 0.0, 0.0, 125.0 / 108.0, -65.0 / 27.0, 125.0 / 54.0},
+                   {31.0 / 300.0, 0.0, 0.0, 0.0, 61.0 / 225.0, -2.0 / 9.0, 13.0 / 900.0},
+                   {2.0, 0.0, 0.0, -53.0 / 6.0, 704.0 / 45.0, -107.0 / 9.0, 67.0 / 90.0, 3.0},
+                   {-91.0 / 108.0, 0.0, 0.0, 23.0 / 108.0, -976.0 / 135.0, 311.0 / 54.0,
+                    -19.0 / 60.0, 17.0 / 6.0, -1.0 / 12.0},
+                   {2383.0 / 4100.0, 0.0, 0.0, -341.0 / 164.0, 4496.0 / 1025.0, -301.0 / 82.0,
+                    2133.0 / 4100.0, 45.0 / 82.0, 45.0 / 164.0, 18.0 / 41.0},
+                   {3.0 / 205.0, 0.0, 0.0, 0.0, 0.0, -6.0 / 41.0, -3.0 / 205.0, -3.0 / 41.0,
+                    3.0 / 41.0, 6.0 / 41.0, 0.0},
+                   {-1777.0 / 4100.0, 0.0, 0.0, -341.0 / 164.0, 4496.0 / 1025.0, -289.0 / 82.0,
+                    2193.0 / 4100.0, 51.0 / 82.0, 33.0 / 164.0, 12.0 / 41.0, 0.0, 1.0},
+                   {0.0, 0.0, 0.0, 0.0, 0.0, 34.0 / 105.0, 9.0 / 35.0, 9.0 / 35.0, 9.0 / 280.0,
+                    9.0 / 280.0, 0.0, 41.0 / 840.0, 41.0 / 840.0}}};
 }
 
-// The explicit midpoint rule by its tableau: c = (0, ½), a₂₁ = ½, b = (0, 1).
-class Midpoint : public Generic<2, 2> {
- public:
-  Midpoint()
-      : Generic<2, 2>(coef_a_type(boost::array<double, 1>{{0.5}}), {{0.0, 1.0}}, {{0.0, 0.5}}) {}
-};
-
-template <class Method>
 class Trajectory final : public Stepper {
  public:
-  Trajectory(std::shared_ptr<const VectorField> field, const std::string& name)
-      : Stepper(name, field->system()), field_(std::move(field)), evaluate_(*field_) {}
+  Trajectory(std::shared_ptr<const VectorField> field, const std::string& name,
+             StepProgram::Explicit tableau)
+      : Stepper(name, field->system()),
+        field_(std::move(field)),
+        evaluate_(*field_),
+        tableau_(std::move(tableau)),
+        rates_(tableau_.times.size()) {}
 
  private:
   // The method may keep the rate at the end of its last step for the next one.
   void do_prepare(State& state, double) override {
-    method_ = Method();
+    knows_rate_ = false;
     evaluate_.start(state);
   }
 
   bool do_keeps_to_manifold() const override { return false; }
 
   void do_step(const State& before, double h, State& after) override {
-    const auto rate = [&](const VectorXd& x, VectorXd& dx, double t) {
-      evaluate_(x, dx, t);
+    const auto evaluate = [&](const VectorXd& x, double t, VectorXd& rate) {
+      rate.resize(x.size());
+      evaluate_(x, rate, t);
       stage_.t = t;
       stage_.x = x;
     };
-    after.x = before.x;
     try {
-      method_.do_step(rate, after.x, before.t, h);
+      if (!knows_rate_) evaluate(before.x, before.t, rates_[0]);
+      for (std::size_t i = 1; i < rates_.size(); ++i) {
+        combine(before.x, h, tableau_.rows[i - 1], x_);
+        evaluate(x_, before.t + tableau_.times[i] * h, rates_[i]);
+      }
+      combine(before.x, h, tableau_.rows.back(), after.x);
+      knows_rate_ = tableau_.keeps_rate;
+      if (knows_rate_) evaluate(after.x, before.t + h, rates_[0]);
     } catch (const std::domain_error& error) {
       throw SolveError(SolveError::Reason::singular, method(), before.t, h,
                        "cannot be made: " + without_place(error.what()));
@@ -81,27 +79,37 @@ class Trajectory final : public Stepper {
     after.z = stage_.z = evaluate_.z();
   }
 
+  // sum = x + h Σ row_j K_j, one term after the other.
+  void combine(const VectorXd& x, double h, const Row& row, VectorXd& sum) const {
+    sum = x;
+    for (std::size_t j = 0; j < row.size(); ++j)
+      if (row[j]) sum += (h * *row[j]) * rates_[j];
+  }
+
   void do_keep(const State&, const State&) override {
     evaluate_.keep();
     kept_stage_.swap(stage_);
   }
   void do_stage(Step& step) const override { step.stage = kept_stage_; }
   void do_discard() override {
-    method_ = Method();
+    knows_rate_ = false;
     evaluate_.discard();
   }
   void do_forget() override {
-    method_ = Method();
+    knows_rate_ = false;
     evaluate_.forget();
   }
   std::unique_ptr<Stepper> do_fresh() const override {
-    return std::make_unique<Trajectory>(field_, method());
+    return std::make_unique<Trajectory>(field_, method(), tableau_);
   }
 
   std::shared_ptr<const VectorField> field_;
   VectorField::Evaluation evaluate_;
-  Method method_;
-  State stage_, kept_stage_;  // of the step that is made, and of the last that stands
+  StepProgram::Explicit tableau_;
+  std::vector<VectorXd> rates_;  // K_i
+  bool knows_rate_ = false;      // whether K_0 is that of the next step already
+  VectorXd x_;                   // where a stage is evaluated
+  State stage_, kept_stage_;     // of the step that is made, and of the last that stands
 };
 
 }  // namespace
@@ -137,7 +145,6 @@ int ExplicitRungeKutta::order() const {
   return 8;
 }
 
-// What odeint's classes have in them.
 StepProgram::Explicit ExplicitRungeKutta::tableau() const {
   StepProgram::Explicit tableau;
   switch (kind_) {
@@ -219,23 +226,7 @@ std::shared_ptr<const StepDifferential> ExplicitRungeKutta::do_differential() co
 }
 
 std::unique_ptr<Stepper> ExplicitRungeKutta::do_stepper() const {
-  switch (kind_) {
-    case Kind::midpoint:
-      return std::make_unique<Trajectory<Midpoint>>(field_, name());
-    case Kind::classical:
-      return std::make_unique<
-          Trajectory<odeint::runge_kutta4<VectorXd, double, VectorXd, double, Algebra>>>(field_,
-                                                                                         name());
-    case Kind::dormand_prince:
-      return std::make_unique<
-          Trajectory<odeint::runge_kutta_dopri5<VectorXd, double, VectorXd, double, Algebra>>>(
-          field_, name());
-    case Kind::fehlberg:
-      break;
-  }
-  return std::make_unique<
-      Trajectory<odeint::runge_kutta_fehlberg78<VectorXd, double, VectorXd, double, Algebra>>>(
-      field_, name());
+  return std::make_unique<Trajectory>(field_, name(), tableau());
 }
 
 }  // namespace courant

@@ -7,7 +7,7 @@
 
 namespace courant {
 
-// Boost.Odeint's methods on ẋ = E(x) v(x, t) in the ambient space of the manifold; what geometric
+// Explicit methods on ẋ = E(x) v(x, t) in the ambient space of the manifold; what geometric
 // methods are compared with. They keep neither M_f nor the manifold: how far they leave them is
 // part of the comparison.
 class ExplicitRungeKutta final : public Integrator, public Programmed {
