@@ -47,14 +47,25 @@ endfunction()
 
 # courant_unite(<target>)
 #
-# Compiles sixteen sources of a target as one if COURANT_UNITY is on, a dozen if they are optimised most or instrumented, which
-# takes memory. Names in their unnamed namespaces must differ then; those of a test are in its suite.
+# Compiles up to thirty-two sources of a target as one if COURANT_UNITY is on, in batches of one size. That takes 1.5 GB, so
+# there are sixteen where each processor has less than 3 GB; a dozen if they are instrumented, which takes more. Names in their
+# unnamed namespaces must differ then; those of a test are in its suite.
+cmake_host_system_information(RESULT courant_processors QUERY NUMBER_OF_LOGICAL_CORES)
 function(courant_unite target)
   if(COURANT_UNITY)
-    set(batch 16)
-    if(target MATCHES "_steps$" OR COURANT_SANITIZE)
-      set(batch 12)
+    math(EXPR memory_of_each "${memory} / ${courant_processors}")
+    if(COURANT_SANITIZE)
+      set(most 12)
+    elseif(memory_of_each LESS 3000)
+      set(most 16)
+    else()
+      set(most 32)
     endif()
+    get_target_property(sources ${target} SOURCES)
+    list(FILTER sources INCLUDE REGEX "\\.cpp$")
+    list(LENGTH sources count)
+    math(EXPR batches "(${count} + ${most} - 1) / ${most}")
+    math(EXPR batch "(${count} + ${batches} - 1) / ${batches}")
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
     # What is included, GCC takes for a header: there an unnamed namespace would make different types of one.
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)

@@ -9,7 +9,7 @@
 namespace courant {
 namespace {
 
-constexpr std::size_t kMostElements = 40, kMostTerms = 60, kMostPairs = 300;
+constexpr std::size_t kMostInBasis = 40, kMostTerms = 60, kMostPairs = 300;
 
 bool is_polynomial(const Polynomial& a) {
   return std::ranges::all_of(a, [](const auto& term) {
@@ -109,7 +109,7 @@ bool PolynomialRelations::comes_first(const Monomial& a, const Monomial& b) cons
 bool PolynomialRelations::add(const Polynomial& polynomial) {
   std::deque<Polynomial> waiting = {polynomial};
   bool is_new = false;
-  while (!waiting.empty() && basis_.size() < kMostElements) {
+  while (!waiting.empty() && basis_.size() < kMostInBasis) {
     const Polynomial next = remainder(waiting.front());
     waiting.pop_front();
     if (next.empty() || next.size() > kMostTerms) continue;

@@ -31,7 +31,7 @@ std::optional<long> count(const Json& object, const char* key) {
   if (found == object.end() || !found->is_number()) return std::nullopt;
   return found->get<long>();
 }
-std::string text(const Json& object, const char* key) { return object.value(key, ""); }
+std::string text_at(const Json& object, const char* key) { return object.value(key, ""); }
 const Json& part(const Json& object, const char* key, const Json& otherwise) {
   const auto found = object.find(key);
   return found == object.end() ? otherwise : *found;
@@ -142,14 +142,14 @@ Json to_json(const RunSummary& summary) {
 RunSummary read_run_summary(const Json& json) {
   if (const auto defect = summary_defect(json)) throw std::invalid_argument(*defect);
   const Json nothing = Json::object();
-  RunSummary summary{.id = text(json, "id"),
-                     .status = read_status(text(json, "status")),
-                     .message = text(json, "message"),
-                     .title = text(json, "title"),
-                     .system = text(json, "system"),
-                     .method = text(json, "method"),
+  RunSummary summary{.id = text_at(json, "id"),
+                     .status = read_status(text_at(json, "status")),
+                     .message = text_at(json, "message"),
+                     .title = text_at(json, "title"),
+                     .system = text_at(json, "system"),
+                     .method = text_at(json, "method"),
                      .steps = count(json, "steps").value_or(0),
-                     .backend = text(json, "backend"),
+                     .backend = text_at(json, "backend"),
                      .wall_seconds = number(json, "wall_seconds"),
                      .steps_per_second = number(json, "steps_per_second")};
   if (json.contains("ladder")) summary.ladder = read_ladder(json.at("ladder"));
@@ -168,7 +168,7 @@ RunSummary read_run_summary(const Json& json) {
   for (const auto& [name, symmetry] : part(json, "symmetries", nothing).items())
     summary.symmetries.emplace_back(
         name, RunSummary::Symmetry{.is_conserved = symmetry.at("conserved").get<bool>(),
-                                   .remark = text(symmetry, "remark")});
+                                   .remark = text_at(symmetry, "remark")});
   for (const auto& [name, event] : part(json, "events", nothing).items())
     summary.events.emplace_back(name, RunSummary::Event{.count = count(event, "count").value_or(0),
                                                         .first = number(event, "first"),
@@ -186,7 +186,7 @@ RunSummary read_run_summary(const Json& json) {
   }
   for (const Json& expectation : part(json, "expectations", nothing))
     summary.expectations.push_back({.pointer = {},
-                                    .description = text(expectation, "description"),
+                                    .description = text_at(expectation, "description"),
                                     .passed = expectation.at("passed").get<bool>(),
                                     .value = part(expectation, "value", Json()),
                                     .bound = part(expectation, "bound", Json()),
