@@ -61,3 +61,11 @@ build_in() {
   quietly "$dir/configure.log" cmake -S "$root" -B "$dir" "${options[@]}"
   quietly "$dir/build.log" cmake --build "$dir" --target "$target" --parallel "$(nproc)"
 }
+
+# build_command <target>: builds it in $build, without the tests where nothing is configured yet: these need packages
+# of their own, and scripts/test turns them on.
+build_command() {
+  local options=()
+  [ -f "$build/CMakeCache.txt" ] || options=(-D COURANT_BUILD_TESTS=OFF)
+  build_in "$build" "$1" "${options[@]}"
+}
