@@ -6,14 +6,12 @@
 #include <functional>
 #include <limits>
 #include <optional>
-#include <stdexcept>
 
-#include "courant/core/rank_decision.hpp"
-#include "courant/integrators/order_measurement.hpp"
-#include "courant/integrators/step_energies.hpp"
+#include "courant/integrators/claimed_order.hpp"
+#include "courant/integrators/energy_imbalance.hpp"
+#include "courant/integrators/measured_differential.hpp"
+#include "courant/integrators/state_separation.hpp"
 #include "courant/manifolds/measurement.hpp"
-#include "courant/structures/dirac_interconnection.hpp"
-#include "courant/structures/system_in_units.hpp"
 
 namespace courant {
 namespace {
@@ -24,18 +22,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // know differentials no better.
 constexpr double kSymplectic = 1e-8;
 constexpr double kSameDifferential = 1e-7;
-// Two ways to the same state: they differ by what Newton's method leaves and by round-off.
-constexpr double kSame = 1e-9;
+constexpr double kSame = StateSeparation::kSame;
 // What round-off leaves of a balance of energies.
 constexpr double kEnergy = 1e-12;
-// The order may be off by so much.
-constexpr double kOrder = 0.15;
-
-// An order is one of short steps: those of the setting may be too long for it where a system is stiff, and such a
-// system may not go back by more than its shortest time. Such parts of the step are tried.
-constexpr double kShorter[] = {0.125, 0.125 / 8, 0.125 / 64, 0.125 / 512, 0.125 / 4096};
-// And it is one of errors above round-off: where those of the setting are that, such multiples are.
-constexpr double kLonger[] = {8.0, 64.0};
 
 class IntegratorLaws {
  public:
@@ -45,14 +34,12 @@ class IntegratorLaws {
         setting_(setting),
         options_(options),
         M_(*setting.system->manifold()),
-        units_(integrator.units()),
-        scale_(std::max(in_units(setting.initial.x).norm(), 1e-300)),
-        orders_(integrator, setting.initial,
-                [this](const State& a, const State& b) { return separation(a, b); }) {}
+        separation_(M_, integrator.units(), setting.initial.x),
+        order_(integrator, setting, options, separation_) {}
 
   IntegratorReport run() {
     attempt([&] { return gather_states(); });
-    report_.order = finite(attempt([&] { return orders_.errors(setting_.step).order; }));
+    report_.order = finite(attempt([&] { return order_.order(); }));
     report_.asymmetry = attempt([&] { return asymmetry(); });
     order_law();
     symmetry_law();
@@ -89,16 +76,6 @@ class IntegratorLaws {
   State advanced(const State& from, double h, int steps) const {
     return integrator_.advance(from, h, steps);
   }
-  double separation(const State& a, const State& b) const {
-    const double apart = units_ ? in_units(a.x - b.x).norm() : M_.separation(a.x, b.x);
-    return apart / scale_;
-  }
-
-  // Numbers of steps that are made in other units are compared in those.
-  VectorXd in_units(const VectorXd& x) const {
-    return units_ ? VectorXd(x.cwiseQuotient(units_->coordinates)) : x;
-  }
-
   double gather_states() {
     const auto stepper = integrator_.stepper();
     State state = setting_.initial;
@@ -106,92 +83,34 @@ class IntegratorLaws {
       stepper->step(state, setting_.step);
       report_.states.push_back(state.x);
       // A system that starts at zero has the size of where it goes.
-      if (setting_.initial.x.isZero(0.0)) scale_ = std::max(scale_, in_units(state.x).norm());
+      if (setting_.initial.x.isZero(0.0)) separation_.include(state.x);
     }
     return 0.0;
   }
 
   double asymmetry() const {
     const State there = advanced(setting_.initial, setting_.step, 1);
-    return separation(advanced(there, -setting_.step, 1), setting_.initial);
-  }
-
-  // The order measured with h next to the claim. With other steps than that of the setting it has to be
-  // the claim: on the way to short ones it may be any. Infinite, which is exact, is a defect there, where
-  // it may be round-off, and of both_ways, where what is measured is to be seen.
-  double order_defect(double h, bool is_other) {
-    if (M_.dimension() == 0 || setting_.is_gauge) return 0.0;
-    const double order = orders_.errors(h).order;
-    const bool is_exactly = options_.both_ways || is_other;
-    if (std::isinf(order)) return is_exactly ? kInfinity : 0.0;
-    const double low = integrator_.order() - order;
-    return is_exactly ? std::abs(low) : std::max(0.0, low);
-  }
-
-  // Whether the order with the setting's step is.
-  bool is_hidden_by_round_off() {
-    try {
-      return orders_.errors(setting_.step).are_round_off;
-    } catch (const std::exception&) {
-      return false;
-    }
-  }
-
-  // The first of defect(h, is_other) that is none, or else the least: with the setting's step, and other
-  // ones. Throws what the first one throws, if all do.
-  template <class Defect>
-  double with_other_steps(const Defect& defect) {
-    double least = kInfinity;
-    std::exception_ptr failure;
-    bool is_measured = false;
-    const auto try_step = [&](double h, bool is_other) {
-      try {
-        least = std::min(least, defect(h, is_other));
-        is_measured = true;
-      } catch (const std::exception&) {
-        if (!failure) failure = std::current_exception();
-      }
-    };
-    const double h = setting_.step;
-    try_step(h, false);
-    for (const double part : kShorter)
-      if (!(least <= kOrder)) try_step(part * h, true);
-    if (!(least <= kOrder) && is_hidden_by_round_off())
-      for (const double multiple : kLonger)
-        if (!(least <= kOrder)) try_step(multiple * h, true);
-    if (!is_measured) std::rethrow_exception(failure);
-    return least;
+    return separation_(advanced(there, -setting_.step, 1), setting_.initial);
   }
 
   void order_law() {
     auto measured = law("P1 measured order is order() = " + std::to_string(integrator_.order()) +
                             (options_.both_ways ? "" : " or more"),
-                        kOrder);
+                        ClaimedOrder::kTolerance);
     measured.add(
         [&] {
-          return with_other_steps([&](double h, bool is_other) {
-            const double defect = order_defect(h, is_other);
-            if (is_other && defect <= kOrder) report_.order = orders_.errors(h).order;
-            return defect;
-          });
+          const ClaimedOrder::Defect defect = order_.defect();
+          if (defect.order) report_.order = defect.order;
+          return defect.value;
         },
         where());
     add(measured);
   }
 
   void backward_law() {
-    auto measured = law("P6 a step h < 0 goes back in time, with the order claimed", kOrder);
-    const auto defect = [&](double h, bool is_other) {
-      const State before = advanced(setting_.initial, -h, 1);
-      if (!(before.t - setting_.initial.t < 0.0) != (h < 0.0)) return kInfinity;
-      // Forward again is where it came from, up to the error of the step.
-      const State there = advanced(before, h, 1);
-      if (!setting_.is_gauge &&
-          separation(there, setting_.initial) > 0.5 * separation(before, setting_.initial) + kSame)
-        return kInfinity;
-      return order_defect(-h, is_other);
-    };
-    measured.add([&] { return with_other_steps(defect); }, where());
+    auto measured =
+        law("P6 a step h < 0 goes back in time, with the order claimed", ClaimedOrder::kTolerance);
+    measured.add([&] { return order_.backward_defect(); }, where());
     add(measured);
   }
 
@@ -207,57 +126,10 @@ class IntegratorLaws {
     }
   }
 
-  // One step from the initial point, y = Φ_h(x), with TΦ_h on T M_f: the columns of `image` are the
-  // images of those of `tangent`, in the bases of T_xM and T_yM.
-  struct Differential {
-    VectorXd y;
-    MatrixXd tangent, image;
-  };
   // That of a step of the setting, which several laws ask for.
-  const Differential& differential() {
-    if (!differential_) differential_ = differential(setting_.step);
+  const MeasuredDifferential& differential() {
+    if (!differential_) differential_.emplace(integrator_, setting_, separation_.scale());
     return *differential_;
-  }
-  Differential differential(double h) const {
-    const VectorXd& x = setting_.initial.x;
-    const MatrixXd basis = M_.tangent_basis(x);
-    MatrixXd directions = MatrixXd::Identity(basis.cols(), basis.cols());
-    if (units_) directions = chart_units(*units_, M_, x).asDiagonal();
-    const auto step_from = [&](const VectorXd& from) {
-      State start = setting_.initial;
-      start.x = from;
-      return advanced(start, h, 1).x;
-    };
-    Differential result;
-    result.tangent = directions;
-    if (setting_.conormals.rows() > 0)
-      result.tangent *= kernel(setting_.conormals * basis * directions, {.data_error = 1e-9});
-    result.y = step_from(x);
-    const MatrixXd back = M_.tangent_basis(result.y).transpose() * M_.coframe(result.y);
-    const double epsilon = 1e-3 * scale_;
-    result.image.resize(basis.cols(), result.tangent.cols());
-    for (Index k = 0; k < result.tangent.cols(); ++k) {
-      const VectorXd direction = basis * result.tangent.col(k);
-      const auto at = [&](double s) {
-        return step_from(M_.retract(x, VectorXd(s * epsilon * direction)));
-      };
-      const VectorXd velocity =
-          (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * epsilon);
-      result.image.col(k) = back * velocity;
-    }
-    return result;
-  }
-
-  // The same by the method's own StepDifferential.
-  MatrixXd exact_image(const StepDifferential& differential, const MatrixXd& tangent) const {
-    const auto stepper = integrator_.stepper();
-    stepper->tell_parts();
-    State state = setting_.initial;
-    stepper->step(state, setting_.step);
-    const VectorXd& x = setting_.initial.x;
-    const MatrixXd directions = M_.frame(x) * (M_.tangent_basis(x) * tangent);
-    return M_.tangent_basis(state.x).matrix().transpose() *
-           (M_.coframe(state.x) * differential(stepper->last(), directions));
   }
 
   void differential_law() {
@@ -266,57 +138,24 @@ class IntegratorLaws {
     measured.add(
         [&] {
           const auto exact = integrator_.differential();
-          if (!exact) return 0.0;
-          const Differential& step = differential();
-          const MatrixXd image = exact_image(*exact, step.tangent);
-          return (image - step.image).norm() / std::max(image.norm(), 1e-300);
+          return exact ? differential().defect(*exact) : 0.0;
         },
         where());
     add(measured);
   }
 
-  // ω_D at x as a matrix in the basis of T_xM.
-  MatrixXd form_at(const VectorXd& x) const {
-    const auto [F, omega] = setting_.structure->linear(x).form();
-    return F * omega * F.transpose();
-  }
-
-  double symplecticity_defect(const Differential& step) const {
-    const auto& [y, tangent, image] = step;
-    const MatrixXd before = tangent.transpose() * form_at(setting_.initial.x) * tangent;
-    const MatrixXd after = image.transpose() * form_at(y) * image;
-    if (before.size() == 0 || before.norm() == 0.0)
-      throw std::domain_error("the form vanishes on the constraint set");
-    return (after - before).norm() / before.norm();
-  }
-
-  double preservation_defect(const Differential& step) const {
-    const auto& [y, tangent, image] = step;
-    const DiracStructure& D = *setting_.structure;
-    return distance(forward_image(image * tangent.transpose(), D.linear(setting_.initial.x)),
-                    D.linear(y));
-  }
-
-  // The structure is the graph of a symplectic form.
-  bool has_form() const {
-    const Index n = M_.dimension();
-    if (!setting_.structure || n == 0) return false;
-    const PairedSubspace D = setting_.structure->fibre(setting_.initial.x);
-    return D.is_dirac() && D.vector_range().cols() == n && D.covector_range().cols() == n;
-  }
-
   void symplecticity_laws() {
     const bool claimed = integrator_.is_symplectic().value_or(false);
-    const Differential* step = nullptr;
+    const MeasuredDifferential* step = nullptr;
     attempt([&] {
       step = &differential();
       return 0.0;
     });
-    if (step && has_form())
-      report_.symplecticity = attempt([&] { return symplecticity_defect(*step); });
+    if (step && has_symplectic_form(setting_))
+      report_.symplecticity = attempt([&] { return step->symplecticity_defect(); });
     // The distance of two structures means nothing where numbers are far apart.
-    if (step && setting_.structure && setting_.conormals.rows() == 0 && !units_)
-      report_.preservation = attempt([&] { return preservation_defect(*step); });
+    if (step && setting_.structure && setting_.conormals.rows() == 0 && !integrator_.units())
+      report_.preservation = attempt([&] { return step->preservation_defect(); });
     if (!claimed) return;
     auto symplectic = law("P3 Φ_h*ω = ω, as said", kSymplectic);
     if (report_.symplecticity)
@@ -343,7 +182,7 @@ class IntegratorLaws {
           for (int i = 0; i < 20; ++i) {
             const State again = advanced(state, setting_.step, 1);
             stepper->step(state, setting_.step);
-            worst = std::max(worst, separation(again, state));
+            worst = std::max(worst, separation_(again, state));
           }
           return worst;
         },
@@ -369,7 +208,7 @@ class IntegratorLaws {
                 stepper->step(next, setting_.step);
                 if (setting_.is_gauge) continue;
                 const State again = advanced(before, setting_.step, 1);
-                if (!(separation(next, again) <= kSame)) return kInfinity;
+                if (!(separation_(next, again) <= kSame)) return kInfinity;
                 continue;
               }
               return is_finite(state) ? 0.0 : kInfinity;
@@ -389,8 +228,8 @@ class IntegratorLaws {
           State bare = setting_.initial;
           bare.v.resize(0);
           bare.z.resize(0);
-          return separation(advanced(bare, setting_.step, 1),
-                            advanced(setting_.initial, setting_.step, 1));
+          return separation_(advanced(bare, setting_.step, 1),
+                             advanced(setting_.initial, setting_.step, 1));
         },
         where());
     add(measured);
@@ -415,43 +254,14 @@ class IntegratorLaws {
     add(measured);
   }
 
-  // Next to the greatest energies that take part in a step: H at both ends and what moves.
-  double imbalance(double h) const {
-    const auto system = std::dynamic_pointer_cast<const EnergySystem>(setting_.system);
-    if (!system || !system->has_explicit_energy())
-      throw std::domain_error("the system has no energy that is a function on M");
-    const StepEnergies energies(system);
-    const auto stepper = integrator_.stepper();
-    stepper->tell_parts();
-    State state = setting_.initial;
-    stepper->prepare(state, h);
-    // Multipliers do not count in H.
-    const auto H = [&](State at) {
-      at.z.setZero();
-      return energies.energy(at);
-    };
-    double worst = 0.0, size = 0.0;
-    // Back in time a system with losses does not go far.
-    const int steps = h * setting_.step > 0.0 ? 20 : 5;
-    for (int k = 0; k < steps; ++k) {
-      stepper->step(state, h);
-      const Step& step = stepper->last();
-      const StepEnergies::Energies through = energies(step);
-      const double before = H(step.before), after = H(step.after);
-      size = std::max(size, std::abs(before) + std::abs(after) + through.moved);
-      const double defect = std::abs(after - before - through.supply() + through.loss());
-      if (!(defect <= worst)) worst = defect;
-    }
-    return size > 0.0 ? worst / size : worst;
-  }
-
   void energy_law() {
-    report_.imbalance = attempt([&] { return imbalance(setting_.step); });
+    report_.imbalance =
+        attempt([&] { return energy_imbalance(integrator_, setting_, setting_.step); });
     if (!integrator_.has_exact_energy()) return;
     auto measured =
         law("P10 H changes by what is supplied less what is dissipated, as said", kEnergy);
     for (const double factor : {1.0, -0.1, 1e-3})
-      measured.add([&] { return imbalance(factor * setting_.step); },
+      measured.add([&] { return energy_imbalance(integrator_, setting_, factor * setting_.step); },
                    "steps of " + describe("h", VectorXd::Constant(1, factor * setting_.step)));
     add(measured);
   }
@@ -460,11 +270,10 @@ class IntegratorLaws {
   const IntegratorSetting& setting_;
   const IntegratorLawOptions& options_;
   const Manifold& M_;
-  const Units* units_;  // in which numbers are compared, or null
-  double scale_;
+  StateSeparation separation_;
+  ClaimedOrder order_;
   IntegratorReport report_;
-  OrderMeasurement orders_;
-  std::optional<Differential> differential_;
+  std::optional<MeasuredDifferential> differential_;
 };
 
 }  // namespace
