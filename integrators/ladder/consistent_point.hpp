@@ -3,7 +3,7 @@
 
 #include "courant/integrators/ladder/constraint_algorithm.hpp"
 #include "courant/integrators/ladder/derivative_array.hpp"
-#include "courant/integrators/ladder/nearest_zero.hpp"
+#include "courant/integrators/ladder/least_zero.hpp"
 
 namespace courant {
 

@@ -2,7 +2,7 @@
 
 #include "courant/integrators/ladder/chain_array.hpp"
 #include "courant/integrators/ladder/ladder_levels.hpp"
-#include "courant/integrators/ladder/nearest_zero.hpp"
+#include "courant/integrators/ladder/least_zero.hpp"
 
 namespace courant {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "courant/integrators/ladder/damped_inverse.hpp"
 #include "courant/integrators/ladder/derivative_array.hpp"
 #include "courant/integrators/ladder/natural_scaling.hpp"
-#include "courant/integrators/ladder/nearest_zero.hpp"
 #include "courant/integrators/ladder/row_reduction.hpp"
 
 namespace courant {

@@ -1,34 +1,12 @@
 // Zeros of maps with more unknowns than conditions, or the reverse, near a given point.
 #pragma once
 
-#include <functional>
 #include <vector>
 
+#include "courant/integrators/ladder/mobility.hpp"
 #include "courant/integrators/ladder/natural_scaling.hpp"
 
 namespace courant {
-
-// What to move by preference.
-struct Mobility {
-  VectorXd cost;  // of a step by one natural unit of each unknown: a step δ minimises ‖cost ∘ δ‖
-                  // among those that do as well
-  Index frozen = 0;               // so many leading unknowns do not move at all
-  VectorXd typical = VectorXd();  // sizes |y_j| below which a change of y_j is round-off in the
-                                  // map; may be 0
-  VectorXd offset = VectorXd();   // sizes of what the map adds to leading unknowns
-  double noise = 1e-11;           // natural units below which what is left of an unknown is noise
-  // The generic magnitude of the derivatives around the start, where it is known; may be empty.
-  SparseMatrixXd magnitude = SparseMatrixXd();
-  // Whether derivatives grow as those of exp (v/25 mV) do: they are measured by what they are at each point, not
-  // around it, and steps are as short as they have to be for derivatives to stay of their size. Heeded
-  // for up to 200 unknowns.
-  bool has_exponentials = false;
-  // Whether y may be gone to, as the domain of a chart allows; empty: anything may.
-  std::function<bool(const VectorXd& y)> admits = {};
-};
-
-// Whether F and its derivatives are.
-bool is_finite(const Linearization& at);
 
 // A zero y of a map, or where its search ended: found starts as false.
 struct Zero {
@@ -64,21 +42,5 @@ Zero find_zero(const LinearizableMap& map, const VectorXd& start, const Mobility
 // Whether every |F_i| is small next to the terms that it is the sum of, which the bound of its rounding error tells.
 // Units that a search met on its way, as those of 3 V across a diode, do not enter.
 bool is_met(const Linearization& at);
-
-// A function to make least: its value, gradient and (Gauss–Newton) Hessian by the first unknowns.
-struct Quadratic {
-  double value;
-  VectorXd gradient;
-  SparseMatrixXd hessian;
-};
-
-// From the zero `at`, the zero nearby with the least value of the objective: tangential Newton
-// steps, each brought back by find_zero, halved while they do not lead downhill.
-Zero least_zero(const LinearizableMap& map,
-                const std::function<Quadratic(const VectorXd& y)>& objective, const Zero& at,
-                const Mobility& mobility);
-
-// The part of `direction` in the kernel of S, orthogonal to the rest.
-VectorXd kernel_part(const SparseMatrixXd& S, const VectorXd& direction);
 
 }  // namespace courant

@@ -8,6 +8,14 @@
 
 namespace courant {
 
+bool is_finite(const Linearization& at) {
+  if (!at.value.allFinite()) return false;
+  for (Index j = 0; j < at.jacobian.outerSize(); ++j)
+    for (SparseMatrixXd::InnerIterator it(at.jacobian, j); it; ++it)
+      if (!std::isfinite(it.value())) return false;
+  return true;
+}
+
 void UncertainEntries::add(Index row, Index column, const Uncertain& entry) {
   if (!entry.is_exactly(0.0)) entries_.push_back({row, column, entry});
 }

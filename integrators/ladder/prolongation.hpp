@@ -21,6 +21,9 @@ struct Linearization {
   SparseMatrixXd error = SparseMatrixXd();
 };
 
+// Whether F and its derivatives are.
+bool is_finite(const Linearization& at);
+
 // The Jacobian of a Linearization from its numbers as they come; those of one place add up.
 class UncertainEntries {
  public:

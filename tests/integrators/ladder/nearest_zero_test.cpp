@@ -66,30 +66,4 @@ BOOST_AUTO_TEST_CASE(what_a_step_leaves_of_an_unknown_is_zero) {
   BOOST_TEST(std::abs(zero.y[0] - 0.7) < 1e-15);
 }
 
-// p = w / (w₀² - w₁²)^½, the momenta of a relativistic particle: those nearest to 0 are (1, 0), and w is as long as
-// one likes. Entries that vanish on the way choose no units of w.
-BOOST_AUTO_TEST_CASE(velocities_that_do_not_matter_stay) {
-  const auto map = [](const VectorXd& y) {
-    const double p0 = y[0], p1 = y[1], w0 = y[2], w1 = y[3], s = std::sqrt(w0 * w0 - w1 * w1);
-    MatrixXd J(2, 4);
-    J << 1, 0, w1 * w1 / (s * s * s), -w0 * w1 / (s * s * s), 0, 1, w0 * w1 / (s * s * s),
-        -w0 * w0 / (s * s * s);
-    const VectorXd value = vector({p0 - w0 / s, p1 - w1 / s});
-    return linear(J, value, 4 * unit * vector({p0 + w0 / s, std::fabs(p1) + std::fabs(w1) / s}));
-  };
-  const auto squared = [](const VectorXd& y) {
-    SparseMatrixXd identity(2, 2);
-    identity.setIdentity();
-    return Quadratic{0.5 * y.head(2).squaredNorm(), y.head(2), identity};
-  };
-  Mobility mobility;
-  mobility.cost = vector({1, 1, 0.03, 0.03});
-  const Zero given = find_zero(map, vector({1.2, 0.5, 1.3, 0.5}), mobility);
-  BOOST_TEST_REQUIRE(given.found);
-  const Zero least = least_zero(map, squared, given, mobility);
-  BOOST_TEST(std::abs(least.y[0] - 1.0) < 1e-9);
-  BOOST_TEST(std::abs(least.y[1]) < 1e-4);
-  BOOST_TEST(std::abs(least.y[2]) < 1e6);
-}
-
 BOOST_AUTO_TEST_SUITE_END()
