@@ -3,7 +3,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "courant/integrators/ladder/singularity.hpp"
+#include "courant/integrators/ladder/level_certainty.hpp"
 #include "ladder_catalogue.hpp"
 
 BOOST_AUTO_TEST_SUITE(refined_array_test)
