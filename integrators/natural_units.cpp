@@ -7,13 +7,11 @@
 #include <random>
 #include <utility>
 
-#include "courant/core/complete_orthogonal_decomposition.hpp"
-#include "courant/core/expr_vectors.hpp"
-#include "courant/core/function.hpp"
 #include "courant/core/power_of_two.hpp"
-#include "courant/core/subgraph.hpp"
+#include "courant/integrators/dimensionless_arguments.hpp"
 #include "courant/integrators/ladder/derivative_array.hpp"
 #include "courant/integrators/ladder/natural_scaling.hpp"
+#include "courant/integrators/unit_equations.hpp"
 
 namespace courant {
 namespace {
@@ -55,128 +53,24 @@ VectorXd known_sizes(const DerivativeArray& array, const VectorXd& y) {
   return sizes;
 }
 
-// What sines and exponentials are of, as functions of (x, v, z, t): of the size of 1.
-class Arguments {
- public:
-  explicit Arguments(const ImplicitSystem& system) {
-    Graph graph;
-    const ExprVector x = graph.variables("x", system.manifold()->ambient_dimension()),
-                     v = graph.variables("v", system.manifold()->tangent_dimension()),
-                     z = graph.variables("z", system.auxiliary_size());
-    const Expr t = graph.variable("t");
-    const Subgraph nodes(system.residual(x, v, z, t));
-    std::vector<Expr> found;
-    for (const std::uint32_t node : nodes.nodes())
-      if (is_of_numbers(nodes.graph().node(node).op))
-        found.push_back(nodes.graph().expression(nodes.graph().node(node).a));
-    std::ranges::sort(found, {}, [](const Expr& a) { return a.node(); });
-    found.erase(std::unique(found.begin(), found.end()), found.end());
-    if (found.empty()) return;
-    const ExprVector y = joined(x, v, z, ExprVector::Constant(1, t));
-    values_ = Function("arguments", {{"y", y}},
-                       Eigen::Map<const ExprVector>(found.data(), std::ssize(found)),
-                       {.differentiate = {"y"}});
-    jacobian_.resize(values_.output_size() + values_.nonzeros());
-  }
+using Numbering = UnitNumbering;
 
-  // Adds Σ (log |∂w/∂y_j| + log c_j)² over the arguments w, to A and b with A s = b where log c = C s; the last
-  // of s is that of T.
-  void add_to(MatrixXd& A, VectorXd& b, const MatrixXd& C, const VectorXd& y) {
-    if (jacobian_.size() == 0) return;
-    const double* in[] = {y.data()};
-    values_.value_and_jacobian(in, jacobian_.data());
-    for (std::size_t k = 0; k < values_.pattern_row().size(); ++k) {
-      const double slope = std::fabs(jacobian_[values_.output_size() + static_cast<Index>(k)]);
-      if (!(slope > 0.0 && std::isfinite(slope))) continue;
-      const Index j = values_.pattern_col()[k];
-      const VectorXd term =
-          j < C.rows() ? VectorXd(C.row(j)) : VectorXd(VectorXd::Unit(C.cols(), C.cols() - 1));
-      A += term * term.transpose();
-      b -= std::log(slope) * term;
-    }
-  }
-
- private:
-  static bool is_of_numbers(Op op) {
-    switch (op) {
-      case Op::exp:
-      case Op::sin:
-      case Op::cos:
-      case Op::tan:
-      case Op::asin:
-      case Op::acos:
-      case Op::atan:
-      case Op::sinh:
-      case Op::cosh:
-      case Op::tanh:
-        return true;
-      default:
-        return false;
-    }
-  }
-
-  Function values_;
-  VectorXd jacobian_;
-};
-
-// The unit of each of the n coordinates ξ, numbered, or Manifold::Dilations::none for a number without one.
-using Numbering = std::vector<Index>;
-
-// The units c of the columns (ξ, ξ', z), where those of ξ' are those of ξ divided by a unit of time T,
-// and r of the rows that minimise
-//
-//   Σ (log r_i + log |a_ij| + log c_j)² + Σ (log r_i + log |b_i|)²
-//
-// over the entries, and over what the equations contain besides where that is not 0: the weight of a body
-// at rest tells T. `arguments` of functions of numbers add theirs at the point (x, v, z, t). Of what that
-// leaves open, which is T where no equation says it, it is
-//
-//   Σ (log c_j - log |y_j|)²
-//
-// that is least, over what is known to differ from zero: reach[j] > 0. A common factor of the units of
-// what the equations connect stays open; it is no matter.
+// The units of the columns of this magnitude by UnitEquations: entries that are at least `least` in these natural
+// units, what the equations contain besides where that is not 0, and the arguments of functions at the point
+// (x, v, z, t).
 VectorXd column_units(const SparseMatrixXd& magnitude, const NaturalScaling& natural, double least,
-                      const VectorXd& constants, Arguments* arguments, const VectorXd& point,
-                      const Numbering& numbering, const VectorXd& reach) {
-  const Index n = std::ssize(numbering), own = Manifold::Dilations::after(numbering);
-  const Index m = magnitude.rows(), columns = magnitude.cols(),
-              unknowns = m + own + columns - 2 * n + 1;
-  // log c = C s for the unknowns s: rows, units of ξ, z, T.
-  MatrixXd C = MatrixXd::Zero(columns, unknowns);
-  for (Index j = 0; j < n; ++j) {
-    const Index unit = numbering[static_cast<std::size_t>(j)];
-    if (unit != Manifold::Dilations::none) C(j, m + unit) = C(n + j, m + unit) = 1.0;
-    C(n + j, unknowns - 1) = -1.0;
-  }
-  for (Index j = 2 * n; j < columns; ++j) C(j, m + own + j - 2 * n) = 1.0;
-  MatrixXd A = MatrixXd::Zero(unknowns, unknowns);
-  VectorXd b = VectorXd::Zero(unknowns);
-  for (Index j = 0; j < columns; ++j)
-    for (SparseMatrixXd::InnerIterator it(magnitude, j); it; ++it) {
-      if (natural.row_scale[it.row()] * it.value() * natural.column_scale[j] < least) continue;
-      VectorXd term = C.row(j);
-      term[it.row()] = 1.0;
-      A += term * term.transpose();
-      b -= std::log(it.value()) * term;
-    }
-  for (Index i = 0; i < m; ++i) {
-    if (!(constants[i] > 0.0)) continue;
-    A(i, i) += 1.0;
-    b[i] -= std::log(constants[i]);
-  }
-  if (arguments) arguments->add_to(A, b, C, point);
-  const CompleteOrthogonalDecomposition normal(A, 1e-12);
-  VectorXd s = normal.solve(b);
-  const MatrixXd open = normal.Q().rightCols(unknowns - normal.rank());
-  std::vector<Index> known;
-  for (Index j = 0; j < columns; ++j)
-    if (reach[j] > 0.0) known.push_back(j);
-  if (open.cols() > 0 && !known.empty()) {
-    const VectorXd size = reach(known).array().log();
-    const MatrixXd K = C(known, Eigen::all);
-    s += open * CompleteOrthogonalDecomposition(K * open, 1e-12).solve(size - K * s);
-  }
-  return (C * s).array().exp();
+                      const VectorXd& constants, const DimensionlessArguments* arguments,
+                      const VectorXd& point, const Numbering& numbering, const VectorXd& reach) {
+  UnitEquations equations(numbering, magnitude.rows(), magnitude.cols());
+  for (Index j = 0; j < magnitude.cols(); ++j)
+    for (SparseMatrixXd::InnerIterator it(magnitude, j); it; ++it)
+      if (!(natural.row_scale[it.row()] * it.value() * natural.column_scale[j] < least))
+        equations.add_entry(it.row(), j, it.value());
+  for (Index i = 0; i < constants.size(); ++i)
+    if (constants[i] > 0.0) equations.add_constant(i, constants[i]);
+  if (arguments)
+    for (const auto& [unknown, size] : arguments->slopes(point)) equations.add_slope(unknown, size);
+  return equations.columns(reach);
 }
 
 // What tells units.
@@ -256,7 +150,8 @@ void align_components(VectorXd& units, const NaturalScaling& natural, const Vect
 // and zeros by parts of their units, which is why there are several rounds. Where those of all evidence do not settle,
 // as where a unit is made of nothing but itself, they are empty, or the first ones beside coordinates without a unit.
 VectorXd units_near(const DerivativeArray& array, const VectorXd& y, const VectorXd& reach,
-                    const Numbering& numbering, Evidence evidence, Arguments* arguments) {
+                    const Numbering& numbering, Evidence evidence,
+                    const DimensionlessArguments* arguments) {
   constexpr double settled = 0.1;  // a small part of a power of two
   const bool is_all = evidence == Evidence::all;
   const int rounds = is_all ? 60 : 4;
@@ -338,9 +233,9 @@ struct Level0 {
         numbering(numbering_of(array)),
         y(array.jet(point.v, point.z)) {
     if (numbering.empty() || (evidence == Evidence::all && array.has_exponentials())) return;
-    std::optional<Arguments> known;
+    std::optional<DimensionlessArguments> known;
     if (evidence == Evidence::all && is_its_own_chart(*system->manifold())) known.emplace(*system);
-    Arguments* arguments = known ? &*known : nullptr;
+    const DimensionlessArguments* arguments = known ? &*known : nullptr;
     const VectorXd reach = known_sizes(array, y);
     units = units_near(array, y, reach, numbering, evidence, arguments);
     if (units.size() == 0) return;
