@@ -169,22 +169,6 @@ BOOST_AUTO_TEST_CASE(submanifolds_by_equations) {
                  "coordinates are 3");
 }
 
-BOOST_AUTO_TEST_CASE(maps_are_those_of_the_factors) {
-  const Json sphere = motion("sphere", {"x[3]"}, "0");
-  const Json rotations = motion("so3", {"R[3][3]"}, "0");
-  const Json both =
-      motion({{"type", "product"}, {"factors", {"so3", "euclidean"}}}, {"R[3][3]", "s"}, "0");
-  BOOST_TEST(map_of("exponential", sphere) == "CotangentLift(Theta(0.5))");
-  BOOST_TEST(map_of("chordal", sphere) == "CotangentLift(Chordal)");
-  BOOST_TEST(map_of("cayley", rotations) == "CotangentLift(CayleyMidpoint)");
-  BOOST_TEST(map_of("cayley", both).starts_with("CotangentLift(Product"));
-  BOOST_CHECK_THROW(map_of("cayley", sphere), std::invalid_argument);
-  BOOST_CHECK_THROW(map_of("chordal", both), std::invalid_argument);
-  BOOST_CHECK_THROW(
-      map_of("exponential", motion({{"type", "so3"}, {"retraction", "cayley"}}, {"R[3][3]"}, "0")),
-      std::invalid_argument);
-}
-
 BOOST_AUTO_TEST_SUITE_END()
 
 }  // namespace courant
