@@ -6,22 +6,18 @@
 #include <span>
 #include <sstream>
 
-#include "courant/core/derivative.hpp"
 #include "courant/core/message.hpp"
 #include "courant/integrators/integrator_laws.hpp"
 #include "courant/integrators/ladder/ladder_laws.hpp"
 #include "courant/integrators/maps/laws.hpp"
 #include "courant/integrators/transformed_integrator.hpp"
-#include "courant/integrators/vector_field.hpp"
-#include "courant/manifolds/measurement.hpp"
 #include "courant/running/consistent_start.hpp"
+#include "courant/running/measured_invariants.hpp"
+#include "courant/running/momentum_drifts.hpp"
+#include "courant/running/structure_description.hpp"
 #include "courant/running/symmetry_check.hpp"
-#include "courant/structures/closed_port_hamiltonian.hpp"
 #include "courant/structures/dirac_system.hpp"
-#include "courant/structures/integrability.hpp"
 #include "courant/structures/laws.hpp"
-#include "courant/structures/open_port_hamiltonian.hpp"
-#include "courant/structures/rank_profile.hpp"
 
 namespace courant {
 namespace {
@@ -29,21 +25,10 @@ namespace {
 using StructurePointer = std::shared_ptr<const DiracStructure>;
 
 constexpr double symplectic_bound = 1e-8;
-// A momentum that a method keeps changes in so many steps by what their equations are solved to, 1e-14
-// or so of its terms each; one that it does not keep by its truncation error.
-constexpr Index kMomentumSteps = 20;
+// A momentum that a method keeps changes by less (momentum_drifts).
 constexpr double kKept = 1e-11;
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-
-Json rows(const MatrixXd& matrix) {
-  Json json = Json::array();
-  for (Index i = 0; i < matrix.rows(); ++i) {
-    const VectorXd row = matrix.row(i);
-    json.push_back(std::vector<double>(row.begin(), row.end()));
-  }
-  return json;
-}
 
 // "S1 dim D = n" is law S1, statement dim D = n. Of retractions M1 and M2 are (R1) and (R2) of
 // Definition 4.1, and have these names.
@@ -92,8 +77,9 @@ class Check {
     add_laws(checks, "manifold", check_manifold(manifold_));
     for (const auto& [name, structure] : this->structures()) {
       add_laws(checks, "structure", check_structure(*structure, points_));
-      add_laws(checks, "structure", proposition_7_1(*structure));
-      structures.push_back(describe(name, *structure));
+      add_laws(checks, "structure", proposition_7_1(*structure, points_));
+      structures.push_back(
+          structure_description(name, *structure, points_, system_.names().coordinates));
     }
     add_laws(checks, "family", family_laws());
     for (const SymmetryFinding& finding : symmetries_)
@@ -135,13 +121,6 @@ class Check {
     return result;
   }
 
-  Json point(const VectorXd& x) const {
-    Json json = Json::object();
-    const auto& names = system_.names().coordinates;
-    for (Index i = 0; i < x.size(); ++i) json[names[static_cast<std::size_t>(i)]] = x[i];
-    return json;
-  }
-
   // Of the submanifold 𝓛, at the consistent initial point.
   std::vector<LawResult> family_laws() const {
     const auto* system = dynamic_cast<const DiracSystem*>(&system_);
@@ -149,78 +128,6 @@ class Check {
     if (!system || ladder_.verdict == Verdict::inconsistent || !point.z.allFinite()) return {};
     const FamilyPoint at{point.x, point.z.head(system->family()->parameter_size()), point.t};
     return check_generating_family(*system->family(), std::span(&at, 1));
-  }
-
-  // Of port-Hamiltonian structures.
-  std::vector<LawResult> proposition_7_1(const DiracStructure& structure) const {
-    const bool open = dynamic_cast<const OpenPortHamiltonian*>(&structure) != nullptr;
-    if (!open && !dynamic_cast<const ClosedPortHamiltonian*>(&structure)) return {};
-    LawMeasurement law(structure.name(),
-                       open ? "7.1 coisotropic, and Dirac only where B = 0 (1 where not)"
-                            : "7.1 Dirac (1 where not)",
-                       0.0);
-    for (const VectorXd& x : points_)
-      law.add(
-          [&] {
-            const PairedSubspace D = structure.fibre(x);
-            const bool no_input = fibre_ranks(structure, x).ports == 0;
-            const bool holds = open ? D.is_coisotropic() && D.is_dirac() == no_input : D.is_dirac();
-            return holds ? 0.0 : 1.0;
-          },
-          courant::describe("x", x));
-    return {law.result()};
-  }
-
-  Json describe(const std::string& name, const DiracStructure& structure) const {
-    const VectorXd& x = points_.front();
-    const PairedSubspace D = structure.fibre(x);
-    const RankProfile ranks = rank_profile(structure, points_);
-    const FibreRanks& here = ranks.at.front();
-    const bool dirac = D.is_dirac();
-    Json json{{"name", structure.name()},
-              {"ports", name},
-              {"dimension", D.dimension()},
-              {"manifold_dimension", manifold_.dimension()},
-              {"rank_of_F", here.vector_range},
-              {"isotropic", D.is_isotropic()},
-              {"isotropy_defect", D.isotropy_defect()},
-              {"coisotropic", D.is_coisotropic()},
-              {"coisotropy_defect", D.coisotropy_defect()},
-              {"dirac", dirac},
-              {"claims_dirac", structure.is_dirac()},
-              {"kind", Json()},
-              {"rank_of_form", Json()},
-              {"casimirs", Json()},
-              {"pair", Json()},
-              {"integrable", Json()},
-              {"integrability_defect", Json()},
-              {"integrability", ""},
-              {"not_integrable_at", Json()},
-              {"rank_jumps_at", Json::array()},
-              {"gap", ranks.generic.gap}};
-    for (const std::size_t i : ranks.jumps) json["rank_jumps_at"].push_back(point(points_[i]));
-    if (!dirac) {
-      json["integrability"] = "not defined: D is not a Dirac structure";
-      return json;
-    }
-    const LinearDirac linear(D);
-    const auto [F, omega] = linear.form();
-    json["kind"] = linear.kind();
-    json["rank_of_form"] = here.rank_of_form();
-    json["casimirs"] = here.casimirs();
-    json["pair"] = {{"F", rows(F)}, {"omega", rows(omega)}};
-    const IntegrabilitySurvey survey = integrability(structure, points_);
-    if (survey.undefined == survey.points) {
-      json["integrability"] = "not defined: " + survey.worst.undefined;
-      return json;
-    }
-    json["integrable"] = survey.integrable();
-    json["integrability_defect"] = survey.worst.defect;
-    json["integrability"] = "Courant's condition at " +
-                            std::to_string(survey.points - survey.undefined) + " of " +
-                            std::to_string(survey.points) + " points";
-    if (!survey.integrable()) json["not_integrable_at"] = point(survey.worst.x);
-    return json;
   }
 
   Json check_method(Json& checks) {
@@ -259,7 +166,8 @@ class Check {
     states_ = report.states;
     if (transformed)
       for (VectorXd& x : states_) x = VectorXd(x(transformed->transformation()->places().point));
-    measure_momenta(*method->integrator, method->initial);
+    if (!symmetries_.empty())
+      momentum_drifts_ = momentum_drifts(experiment_, *method->integrator, method->initial);
     add_laws(checks, "method", report.laws);
     const auto json_of = [](const std::optional<double>& value) {
       return value ? number(*value) : Json();
@@ -285,45 +193,6 @@ class Check {
             .conormals = ladder.conormals(),
             .is_gauge = ladder.gauge_dimension > 0,
             .structure = time.extended()->structure()};
-  }
-
-  // How far the method takes each momentum from its first value in some steps, next to the terms it
-  // is the sum of.
-  void measure_momenta(const Integrator& integrator, State state) {
-    if (symmetries_.empty()) return;
-    Graph graph;
-    const ExprVector x = graph.variables("x", manifold_.ambient_dimension());
-    const auto count = static_cast<Index>(experiment_.symmetries.size());
-    ExprVector outputs(2 * count);
-    for (Index i = 0; i < count; ++i) {
-      const Symmetry& symmetry = experiment_.symmetries[static_cast<std::size_t>(i)].symmetry;
-      const CotangentBundle& T = *symmetry.phase_space();
-      const ExprVector q = T.position(x), p = T.momentum(x);
-      const ExprVector xi = T.base()->coframe(q) * symmetry.field(q);
-      outputs[2 * i] = symmetry.momentum(x);
-      outputs[2 * i + 1] = 0.0;
-      for (Index k = 0; k < p.size(); ++k) outputs[2 * i + 1] += abs(p[k] * xi[k]);
-    }
-    const Function momenta("momenta", {{"x", x}}, outputs);
-    MatrixXd values(2 * count, kMomentumSteps + 1);
-    try {
-      const auto stepper = integrator.stepper();
-      const double start = state.t, h = experiment_.time->step;
-      for (Index k = 0; k <= kMomentumSteps; ++k) {
-        if (k == 0)
-          stepper->prepare(state, h);
-        else
-          stepper->step(state, h, start + static_cast<double>(k) * h);
-        values.col(k) = momenta({state.x});
-      }
-    } catch (const SolveError&) {  // told by the laws of the method
-      return;
-    }
-    momentum_drifts_ = VectorXd(count);
-    for (Index i = 0; i < count; ++i) {
-      const double drift = (values.row(2 * i).array() - values(2 * i, 0)).abs().maxCoeff();
-      (*momentum_drifts_)[i] = drift == 0.0 ? 0.0 : drift / values.row(2 * i + 1).maxCoeff();
-    }
   }
 
   Json symmetries() const {
@@ -357,64 +226,13 @@ class Check {
     return defect ? Json(*defect <= symplectic_bound) : Json();
   }
 
-  // d/dt of the energy and of the observables of x alone, along S_f, at the points of M_f that the
-  // first steps reach.
   Json invariants() const {
     Json json = Json::array();
-    if (ladder_.verdict != Verdict::regular) return json;
-    Graph graph;
-    const ExprVector x = graph.variables("x", manifold_.ambient_dimension());
-    const ExprVector v = graph.variables("v", manifold_.tangent_dimension());
-    const ExprVector z = graph.variables("z", system_.auxiliary_size());
-    const Expr t = graph.variable("t");
-    std::vector<std::pair<std::string, Expr>> quantities;
-    if (const auto energy = system_.energy(x, z, t)) quantities.emplace_back("H", *energy);
-    for (const DeclaredSymmetry& declared : experiment_.symmetries)
-      quantities.emplace_back(declared.name, declared.symmetry.momentum(x));
-    const SymbolTable symbols = experiment_.model.symbols(x, v, z, t);
-    for (const Observable& observable : experiment_.observe)
-      if (!observable.uses_energies)
-        quantities.emplace_back(observable.name, evaluate(observable.formula, symbols));
-    if (quantities.empty()) return json;
-
-    ExprVector outputs(3 * static_cast<Index>(quantities.size()));
-    const ExprVector velocity = manifold_.frame(x) * v;
-    for (std::size_t i = 0; i < quantities.size(); ++i) {
-      const Expr& quantity = quantities[i].second;
-      const ExprVector slope = gradient(quantity, x);
-      Expr rate = 0.0, size = 0.0, other = 0.0;
-      for (Index k = 0; k < x.size(); ++k) {
-        rate += slope[k] * velocity[k];
-        size += abs(slope[k] * velocity[k]);
-      }
-      for (const Expr& d : gradient(quantity, v)) other += abs(d);
-      for (const Expr& d : gradient(quantity, z)) other += abs(d);
-      other += abs(gradient(quantity, ExprVector::Constant(1, t))[0]);
-      outputs.segment(3 * static_cast<Index>(i), 3) << rate, size, other;
-    }
-    const Function function(
-        "invariants", {{"x", x}, {"v", v}, {"z", z}, {"t", ExprVector::Constant(1, t)}}, outputs);
-    const VectorField field(experiment_.model.system, ladder_, Backend::interpreter);
-    VectorField::Evaluation evaluation(field);
-    VectorXd rate(x.size());
-    MatrixXd worst = MatrixXd::Zero(3, static_cast<Index>(quantities.size()));
-    std::vector<VectorXd> points{ladder_.point.x};
-    points.insert(points.end(), states_.begin(), states_.end());
-    for (const VectorXd& at : points) {
-      evaluation(at, rate, experiment_.start());
-      const VectorXd values = function(
-          {at, evaluation.v(), evaluation.z(), VectorXd::Constant(1, experiment_.start())});
-      worst = worst.cwiseMax(values.cwiseAbs().reshaped(3, worst.cols()));
-    }
-    for (std::size_t i = 0; i < quantities.size(); ++i) {
-      const auto k = static_cast<Index>(i);
-      // What depends on v, z or t changes with them too: nothing is said of it.
-      if (!(worst(2, k) == 0.0)) continue;
-      json.push_back({{"name", quantities[i].first},
-                      {"rate", number(worst(0, k))},
-                      {"scale", number(worst(1, k))},
-                      {"invariant", worst(0, k) <= 1e-9 * worst(1, k) + 1e-14}});
-    }
+    for (const MeasuredInvariant& of : measured_invariants(experiment_, ladder_, states_))
+      json.push_back({{"name", of.name},
+                      {"rate", number(of.rate)},
+                      {"scale", number(of.scale)},
+                      {"invariant", of.is_invariant}});
     return json;
   }
 
