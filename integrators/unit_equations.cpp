@@ -6,6 +6,12 @@
 #include "courant/manifolds/manifold.hpp"
 
 namespace courant {
+namespace {
+
+// Parts of vectors of length 1 below this are rounding errors of their decomposition.
+constexpr double kRoundOff = 1e-9;
+
+}  // namespace
 
 UnitEquations::UnitEquations(const UnitNumbering& numbering, Index rows, Index columns)
     : rows_(rows) {
@@ -51,7 +57,10 @@ VectorXd UnitEquations::columns(const VectorXd& sizes) const {
   if (open.cols() > 0 && !known.empty()) {
     const VectorXd size = sizes(known).array().log();
     const MatrixXd K = C_(known, Eigen::all);
-    s += open * CompleteOrthogonalDecomposition(K * open, 1e-12).solve(size - K * s);
+    // Next to columns of length 1: what is open may have nothing to do with what is known.
+    const MatrixXd seen =
+        (K * open).unaryExpr([](double part) { return std::fabs(part) > kRoundOff ? part : 0.0; });
+    s += open * CompleteOrthogonalDecomposition(seen, 1e-12).solve(size - K * s);
   }
   return (C_ * s).array().exp();
 }

@@ -172,6 +172,25 @@ BOOST_AUTO_TEST_CASE(what_is_at_rest_has_the_units_of_what_moves) {
     BOOST_TEST(std::fabs(std::log2(units->coordinates[i + 1] / units->coordinates[i])) <= 1.0);
 }
 
+// The gate of an inverter carries no current, and no other equation contains that one: its unit is 1, not a quotient of
+// rounding errors.
+BOOST_AUTO_TEST_CASE(the_unit_of_what_nothing_tells_is_one) {
+  const double C = 1e-13, k = 1e-4, supply = 3.3, threshold = 0.7;
+  const auto line = std::make_shared<Euclidean>(1);
+  // x the charge at the output; z the currents of the supply and of the gate, the voltages of both channels, the
+  // potentials of gate and output.
+  const auto inverter = std::make_shared<examples::FormulaSystem>(
+      line, 6, 7, [=](const ExprVector& x, const ExprVector& v, const ExprVector& z, const Expr&) {
+        const Expr below = supply - z[5], open = supply - z[4] - threshold;
+        const Expr i = k * select(below < open, 2.0 * open * below - square(below), square(open));
+        return ExprVector{{z[0] + i, z[1], v[0] - i, x[0] / C - z[2], x[0] / C + z[3] - supply,
+                           z[4], x[0] / C - z[5]}};
+      });
+  const auto units = needed_units(inverter, {.x = VectorXd::Constant(1, supply * C)});
+  BOOST_TEST_REQUIRE(units.has_value());
+  BOOST_TEST(units->auxiliary[1] == 1.0);
+}
+
 // What sines are of has no unit: q is an angle, and p an angular momentum of 10⁻⁴⁰.
 BOOST_AUTO_TEST_CASE(arguments_of_sines_are_numbers) {
   const double inertia = 1e-48, T = 1e-8;
