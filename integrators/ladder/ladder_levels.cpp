@@ -236,11 +236,20 @@ TangentDisplacement::TangentDisplacement(const Prolongation& array, const Vector
   jacobian_ = scaling.row_scale.asDiagonal() * at.jacobian;
 }
 
-VectorXd TangentDisplacement::next(Units of) {
-  constexpr double vanishing = 1e-10, far = 6.0;
+VectorXd TangentDisplacement::random() {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  const VectorXd direction =
-      VectorXd::NullaryExpr(units_.size(), [&] { return uniform(generator_); });
+  return VectorXd::NullaryExpr(units_.size(), [&] { return uniform(generator_); });
+}
+
+VectorXd TangentDisplacement::next() {
+  const VectorXd direction = random();
+  return units_.cwiseProduct(
+      kernel_part(SparseMatrixXd(jacobian_ * units_.asDiagonal()), direction));
+}
+
+VectorXd TangentDisplacement::next_at_zero(Units of) {
+  constexpr double vanishing = 1e-10, far = 6.0, round_off = 1e-14;
+  const VectorXd direction = random();
   std::uniform_real_distribution<double> exponent(0.0, far);
   VectorXd units = units_;
   for (Index j = 0; j < units.size() && of != Units::natural; ++j) {
@@ -248,7 +257,12 @@ VectorXd TangentDisplacement::next(Units of) {
     if (of == Units::own_sizes && !vanishes) units[j] = std::min(units_[j], sizes_[j]);
     if (of == Units::large_where_zero && vanishes) units[j] *= std::pow(10.0, exponent(generator_));
   }
-  return units.cwiseProduct(kernel_part(SparseMatrixXd(jacobian_ * units.asDiagonal()), direction));
+  const SparseMatrixXd S = jacobian_ * units.asDiagonal();
+  // The second time takes away what rounding has left of the first.
+  const VectorXd part = kernel_part(S, kernel_part(S, direction));
+  const double least = round_off * direction.norm();
+  return units.cwiseProduct(
+      part.unaryExpr([&](double entry) { return std::fabs(entry) > least ? entry : 0.0; }));
 }
 
 }  // namespace courant

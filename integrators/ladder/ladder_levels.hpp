@@ -47,7 +47,11 @@ class TangentDisplacement {
     own_sizes,         // but none larger than the unknown itself, unless that vanishes
     large_where_zero,  // but up to a million times as large for each unknown that vanishes
   };
-  VectorXd next(Units units = Units::natural);
+  // In natural units. Where y is no zero, even what rounding leaves of an entry may lead to one.
+  VectorXd next();
+  // Where y is a zero: to round-off of J δ = 0, and without entries that are round-off. Of an entry of 10⁻¹⁶ nothing
+  // bends but by rounding, and a direction that is 10⁻¹³ off has numbers of its own at 10³ units.
+  VectorXd next_at_zero(Units units);
   // The generic magnitude of the Jacobian at y.
   const SparseMatrixXd& magnitude() const { return magnitude_; }
   // That of time: of a coordinate by that of its velocity, in the geometric mean.
@@ -56,6 +60,8 @@ class TangentDisplacement {
   double size(const VectorXd& delta) const { return delta.cwiseQuotient(units_).norm(); }
 
  private:
+  VectorXd random();
+
   std::mt19937 generator_;
   VectorXd units_, sizes_;
   double time_unit_ = 1.0;

@@ -156,7 +156,7 @@ Singularity singularity(const ConsistentPoint& consistent, const ConsistentJet& 
   Votes votes;
   for (const Units unit : units) {
     const VectorXd tangent =
-        tangents.next(is_small || unit != Units::large_where_zero ? unit : Units::natural);
+        tangents.next_at_zero(is_small || unit != Units::large_where_zero ? unit : Units::natural);
     votes.count(compare_along(tangent, consistent, at, levels, tangents.magnitude(), obstruction));
     if (votes.are_decided()) break;
   }

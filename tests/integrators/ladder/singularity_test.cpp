@@ -66,4 +66,43 @@ BOOST_AUTO_TEST_CASE(a_relativistic_particle_at_rest) {
   BOOST_TEST(std::abs(found.point.x[3]) < 1.0 + 1e-6);
 }
 
+// (1, 0) moves along (0, 1), so that the directions of the circle and of its velocity have zeros that rounding fills.
+BOOST_AUTO_TEST_CASE(what_repeats_itself_is_not_singular_along_an_axis) {
+  for (const double again : {0.0, 3.0}) {
+    const auto rotation = flat(2, 0, again == 0.0 ? 3 : 4, [again](V x, V v, V, T) {
+      const Expr radius = square(x[0]) + square(x[1]) - 1;
+      return again == 0.0 ? equations({v[0] + x[1], v[1] - x[0], radius})
+                          : equations({v[0] + x[1], v[1] - x[0], radius, again * radius});
+    });
+    const ConstraintLadder found = ladder(rotation, at({1.0, 0.0}));
+    BOOST_TEST(to_string(found.verdict) == to_string(Verdict::regular));
+    BOOST_TEST(!found.is_ambiguous());
+  }
+}
+
+// Two times and two dimensions of space: x² = x·p = p² = 0 generate motions that nothing determines, and each of the
+// three follows from the others when it is differentiated.
+BOOST_AUTO_TEST_CASE(what_repeats_itself_is_not_singular_in_far_units) {
+  const auto two_times = flat(8, 3, 11, [](V x, V v, V z, T) {
+    const auto square_of = [&](int i) {
+      return square(x[i + 2]) + square(x[i + 3]) - square(x[i]) - square(x[i + 1]);
+    };
+    ExprVector F(11);
+    F[9] = 0.0;
+    for (int i = 0; i < 4; ++i) {
+      const double sign = i < 2 ? -1.0 : 1.0;
+      F[i] = v[i] - z[1] * x[i] - sign * z[2] * x[i + 4];
+      F[i + 4] = v[i + 4] + sign * z[0] * x[i] + z[1] * x[i + 4];
+      F[9] += x[i] * x[i + 4];
+    }
+    F[8] = square_of(0);
+    F[10] = square_of(4);
+    return F;
+  });
+  const ConstraintLadder found = ladder(two_times, at({1, 0, 1, 0, 0, 1, 0, 1}));
+  BOOST_TEST(to_string(found.verdict) == to_string(Verdict::gauge));
+  BOOST_TEST(found.gauge_dimension == 3);
+  BOOST_TEST(!found.is_ambiguous());
+}
+
 BOOST_AUTO_TEST_SUITE_END()
