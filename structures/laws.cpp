@@ -201,8 +201,14 @@ std::vector<LawResult> check_generating_family(const GeneratingFamily& family,
           // A density that falls by half in 10⁻³ needs short steps. They are believed where they are as much better
           // as they are of a function without kinks: by 10⁶ each.
           constexpr double kSmooth = 1e-3;
+          // An energy of 10³³ J changes by less than its rounding on short steps. Of these 10⁻¹⁶ of it have to be less than
+          // 10⁻¹⁰ of the derivative.
+          constexpr double kRounded = 1e-6;
+          const double least =
+              kRounded * std::fabs(value({at.x, at.lambda, time})[0]) / (1.0 + expected.norm());
           double defect = std::numeric_limits<double>::infinity();
-          for (const double step : {1e-2, 1e-3, 1e-4}) {
+          for (const double usual : {1e-2, 1e-3, 1e-4}) {
+            const double step = std::max(usual, least);
             for (Index j = 0; j < n + k; ++j) {
               const auto moved = [&](double s) {
                 VectorXd y = at.x, mu = at.lambda;

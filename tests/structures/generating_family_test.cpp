@@ -192,6 +192,17 @@ BOOST_AUTO_TEST_CASE(laws_reject_what_is_planted) {
   BOOST_TEST(!passes(Cubic(1.0, 1e-3), near_a_kink, "G1"));
 }
 
+// The Earth around the Sun in SI units: on steps of 10⁻² m an energy of 10³³ J changes by its rounding.
+BOOST_AUTO_TEST_CASE(laws_hold_where_energies_are_large) {
+  const auto M = std::make_shared<CotangentBundle>(std::make_shared<Euclidean>(2));
+  const double m = 5.97e24, GM = 1.327e20;
+  const Hamiltonian kepler(M, [=](const ExprVector& x, const Expr&) {
+    return (square(x[2]) + square(x[3])) / (2.0 * m) - GM * m / sqrt(square(x[0]) + square(x[1]));
+  });
+  const FamilyPoint perihelion{Eigen::Vector4d(1.471e11, 0.0, 0.0, 3.0287e4 * m), VectorXd(0)};
+  BOOST_TEST(passes(kepler, perihelion, "G1"));
+}
+
 BOOST_AUTO_TEST_CASE(claims_of_a_family_and_of_its_system) {
   const auto M = std::make_shared<CotangentBundle>(std::make_shared<Euclidean>(1));
   const auto lagrangian = std::make_shared<Lagrangian>(
