@@ -126,6 +126,7 @@ CFunctions::Unknowns CFunctions::add(const Equations& of) {
   most_entries_ = std::max(most_entries_, jacobian.values.size());
   most_arguments_ = std::max(most_arguments_, arguments.size());
   Unknowns result;
+  result.has_exponentials = arguments.size() > 0;
   for (Index k = 0; k < std::ssize(kept); ++k)
     (std::ranges::binary_search(contained, k) ? result.sought : result.left)
         .push_back(kept[static_cast<std::size_t>(k)]);

@@ -27,9 +27,11 @@ class CFunctions {
     std::vector<Index> groups;
     const Elimination::Options* elimination = nullptr;
   };
-  // As of Newton: the unknowns that the iteration begins with, and those that it leaves as they are.
+  // As of Newton: the unknowns that the iteration begins with, and those that it leaves as they are. Whether
+  // exponentials are of them.
   struct Unknowns {
     std::vector<Index> sought, left;
+    bool has_exponentials = false;
   };
   Unknowns add(const Equations& equations);
 

@@ -110,15 +110,13 @@ class CProgram {
     }
     if (step_.solve) {
       const StepProgram::Solve& solve = *step_.solve;
-      const std::vector<Index> sought =
-          functions_
-              .add({.symbol = "step",
-                    .inputs = solve.formulas.inputs,
-                    .equations = solve.formulas.equations,
-                    .groups = groups(),
-                    .elimination =
-                        solve.formulas.eliminates ? &solve.formulas.elimination : nullptr})
-              .sought;
+      const auto [sought, left, has_exponentials] = functions_.add(
+          {.symbol = "step",
+           .inputs = solve.formulas.inputs,
+           .equations = solve.formulas.equations,
+           .groups = groups(),
+           .elimination = solve.formulas.eliminates ? &solve.formulas.elimination : nullptr});
+      has_exponentials_ = has_exponentials;
       for (Index i = 0; i < solve.formulas.inputs[0].variables.size(); ++i)
         if (std::ranges::find(sought, i) != sought.end() ||
             (!solve.is_affine && i < solve.displacements))
@@ -133,7 +131,7 @@ class CProgram {
     rows_.add_functions(functions_);
   }
   void add_projection(const StepProgram::Solve::Projection& of) {
-    const auto [sought, left] = functions_.add(
+    const auto [sought, left, has_exponentials] = functions_.add(
         {.symbol = "projection",
          .inputs = of.formulas.inputs,
          .equations = of.formulas.equations,
@@ -271,6 +269,7 @@ class CProgram {
         c_define("PARTS", std::ssize(step_.substeps)) +
         c_define("MOST_PREDICTED", std::max(unknowns, velocities_)) +
         c_define("LOOKS_AT_STEPS", solve.is_affine ? 0 : 1) +
+        c_define("HAS_EXPONENTIALS", has_exponentials_ ? 1 : 0) +
         c_define("MEASURES_STEPS", rows_.measures_steps() ? 1 : 0);
     if (!projects) all += contained_coordinates(solve.formulas.contained(1));
     if (projects)
@@ -286,6 +285,7 @@ class CProgram {
         "/* A step is made of steps of these parts of it. */\nstatic const double parts[PARTS] = " +
         c_array(Eigen::Map<const VectorXd>(step_.substeps.data(), std::ssize(step_.substeps))) +
         ";\n\n" + nearby_parts("near_stage", 0.5) + nearby_parts("near_end", 1.0) + rows_.parts();
+    if (has_exponentials_) all += text::approach();
     for (const std::string_view part :
          {projects ? text::projected() : text::displaced(), text::looks(),
           projects ? text::projected_part() : text::displaced_part(), text::step()})
@@ -348,6 +348,7 @@ class CProgram {
   Index coordinates_, velocities_;
   CFunctions functions_;
   std::vector<Index> predicted_, ends_predicted_;
+  bool has_exponentials_ = false;  // the equations of a step
 };
 
 }  // namespace

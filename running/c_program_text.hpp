@@ -7,6 +7,7 @@ namespace courant::c_program_text {
 
 std::string_view numbers();
 std::string_view newton();
+std::string_view approach();
 std::string_view field();
 std::string_view predictor();
 std::string_view displaced();

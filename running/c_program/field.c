@@ -24,8 +24,17 @@ static void start_field(struct field *F, const struct state *state) {
 
 static void evaluate_field(struct field *F, const double *x, double t) {
   const double *in[INPUTS] = {F->y, x, NULL, &t};
-  int i;
-  if (!solve(&F->newton, F->y, in, F->sizes)) fail("has a velocity that is not found at once");
+  int i, is_found = solve(&F->newton, F->y, in, F->sizes);
+  if (!is_found) {
+    /* From where the run begins, all unknowns measured alike. */
+    forget_matrix(&F->newton);
+    for (i = 0; i < FIELD_UNKNOWNS; ++i) {
+      F->y[i] = field_start[i];
+      F->sizes[i] = largest(field_start, FIELD_UNKNOWNS);
+    }
+    is_found = solve(&F->newton, F->y, in, F->sizes);
+  }
+  if (!is_found) fail("has a velocity that is not found");
   for (i = 0; i < FIELD_UNKNOWNS; ++i) {
     if (!isfinite(F->y[i])) fail("has a velocity that is not finite");
     F->sizes[i] = largest_of(F->sizes[i], fabs(F->y[i]));

@@ -162,29 +162,29 @@ BOOST_AUTO_TEST_CASE(the_head_explains_the_program) {
 }
 
 // A diode begins to conduct within a step, which Newton's method does not solve at once: the program goes along smaller
-// steps to its solution, as a run goes along its curve, and both end on the same state up to round-off.
-BOOST_AUTO_TEST_CASE(a_step_is_made_in_a_second_attempt) {
-  Json experiment = experiment_named("network_rectifier");
-  experiment["time"] = {{"step", 1e-4}, {"end", 1e-2}};
-  experiment.erase("expect");
-  const TemporaryFolder folder;
-  const CRun program = run_c(folder, experiment);
-  BOOST_TEST(program.compiler == "");
-  BOOST_TEST(program.status == 0, program.err);
-  BOOST_TEST(program.err.find("is made in a second attempt") != std::string::npos, program.err);
-  std::istringstream left(program.out), right(rows_of_run(folder, experiment));
-  std::string a, b;
-  std::getline(left, a);
-  std::getline(right, b);
-  int numbers = 0;
-  double apart = 0.0, size = 0.0;
-  while (std::getline(left, a, ',') && std::getline(right, b, ',')) {
-    apart = std::max(apart, std::fabs(std::stod(a) - std::stod(b)));
-    size = std::max(size, std::fabs(std::stod(a)));
-    ++numbers;
-  }
-  BOOST_TEST(numbers > 60);
-  BOOST_TEST(apart < 1e-12 * size);
+// steps to its solution, as a run goes along its curve, and both end on the same bits. A velocity is not found at once
+// either, at rest with transistors.
+BOOST_AUTO_TEST_CASE(steps_and_velocities_are_found_in_second_attempts) {
+  Json rectifier = experiment_named("network_rectifier");
+  rectifier.erase("expect");
+  rectifier["time"]["end"] = 0.0109;  // from 0.01076 on it blocks
+  check_same_bytes("rectifier that blocks", rectifier);
+  rectifier["time"] = {{"step", 1e-4}, {"end", 1e-2}};
+  check_same_bytes("rectifier in long steps", rectifier);
+  Json amplifier = experiment_named("network_transistor_amplifier");
+  amplifier.erase("expect");
+  amplifier["time"]["end"] = 4e-3;
+  check_same_bytes("amplifier", amplifier);
+}
+
+// What looks at exponentials is written where there are some.
+BOOST_AUTO_TEST_CASE(programs_hold_what_they_may_need) {
+  const auto approaches = [](const Json& experiment) {
+    return c_program(read_experiment(experiment.dump())).find("static int approach(") !=
+           std::string::npos;
+  };
+  BOOST_TEST(approaches(experiment_named("network_rectifier")));
+  BOOST_TEST(!approaches(oscillator));
 }
 
 // A step that needs more than Newton's method ends the program before its row.
