@@ -49,6 +49,14 @@ RATIOS = [
      {"generic/10": "interpreter"}),
     ("chain", "100 masses", "by_hand/100", {"generic/100": "interpreter"}),
     ("chain", "1,000 masses", "by_hand/1000", {"generic/1000": "interpreter"}),
+    *((
+        "large_systems", f"{what} with {states:,} states by Method 1, next to KLU's factors and solution of the matrix of "
+        "a step, ordering and pivots kept", f"{name}/factors_and_solution/{states}",
+        {f"{name}/interpreter/{states}": "interpreter",
+         **({f"{name}/native/{states}": "native"} if states == 1000 else {}),
+         f"{name}/solution/{states}": "solution alone", f"{name}/by_hand/{states}": "by hand (Thomas)"})
+      for name, what in (("chain", "chain of masses"), ("line", "LC line"))
+      for states in (1000, 10000, 100000)),
 ]
 
 # Experiments and the number of steps of the shorter run.

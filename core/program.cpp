@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdlib>
+#include <limits>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -95,6 +98,50 @@ void carry_out(std::int32_t k, const Instruction* begin, const Instruction* end,
     w[i->target] = evaluate(op, k, w[i->a], w[i->b], w[i->c]);
 }
 
+// Fewer instructions are carried out one by one.
+constexpr std::size_t kLeastEven = 8;
+
+bool has_even_loop(Op op) {
+  return op == Op::negate || op == Op::add || op == Op::subtract || op == Op::multiply ||
+         op == Op::divide;
+}
+
+// `count` results of operands that are so many slots apart, without instructions to be read. The order is that of the
+// instructions: a result may be an operand of a later one.
+template <Op op, int stride_a, int stride_b>
+void carry_out_evenly(std::size_t count, const double* a, const double* b, double* target) {
+  const auto n = static_cast<std::ptrdiff_t>(count);
+  for (std::ptrdiff_t i = 0; i < n; ++i)
+    target[i] = evaluate(op, 0, a[i * stride_a], b[i * stride_b], 0.0);
+}
+
+template <Op op>
+void carry_out_evenly(int stride_a, int stride_b, std::size_t count, const double* a,
+                      const double* b, double* target) {
+  using Loop = void (*)(std::size_t, const double*, const double*, double*);
+  constexpr Loop loops[3][3] = {
+      {carry_out_evenly<op, -1, -1>, carry_out_evenly<op, -1, 0>, carry_out_evenly<op, -1, 1>},
+      {carry_out_evenly<op, 0, -1>, carry_out_evenly<op, 0, 0>, carry_out_evenly<op, 0, 1>},
+      {carry_out_evenly<op, 1, -1>, carry_out_evenly<op, 1, 0>, carry_out_evenly<op, 1, 1>}};
+  loops[stride_a + 1][stride_b + 1](count, a, b, target);
+}
+
+void carry_out_evenly(Op op, int stride_a, int stride_b, std::size_t count, const double* a,
+                      const double* b, double* target) {
+  switch (op) {
+    case Op::negate:
+      return carry_out_evenly<Op::negate>(stride_a, stride_b, count, a, b, target);
+    case Op::add:
+      return carry_out_evenly<Op::add>(stride_a, stride_b, count, a, b, target);
+    case Op::subtract:
+      return carry_out_evenly<Op::subtract>(stride_a, stride_b, count, a, b, target);
+    case Op::multiply:
+      return carry_out_evenly<Op::multiply>(stride_a, stride_b, count, a, b, target);
+    default:
+      return carry_out_evenly<Op::divide>(stride_a, stride_b, count, a, b, target);
+  }
+}
+
 // One loop for each operation.
 template <class Instruction, std::size_t... op>
 constexpr auto loops(std::index_sequence<op...>) {
@@ -181,10 +228,76 @@ Program::Program(std::span<const ExprVector> inputs, const ExprVector& outputs,
     runs_.back().end = instructions_.size();
   }
   slots_ = next;
+  find_stretches();
 
   auto constant_output = constant_outputs.begin();
   for (const Expr& output : outputs)
     outputs_.push_back(output.is_constant() ? *constant_output++ : slot[subgraph.position(output)]);
+}
+
+// The even stretch that instructions [begin, end) of a run are, or one that is not. Where results go down the
+// workspace, the last one comes first: no operand is a result of another of these instructions then.
+Program::Stretch Program::even_stretch(std::size_t begin, std::size_t end, const Run& run) const {
+  Stretch result;
+  result.op = run.op;
+  result.k = run.k;
+  result.end = end;
+  if (end - begin < kLeastEven || !has_even_loop(run.op)) return result;
+  const Instruction &first = instructions_[begin], &next = instructions_[begin + 1],
+                    &last = instructions_[end - 1];
+  const auto stride = [](std::uint32_t from, std::uint32_t to) {
+    return static_cast<std::int64_t>(to) - from;
+  };
+  const std::int64_t target = stride(first.target, next.target);
+  std::int64_t a = stride(first.a, next.a), b = stride(first.b, next.b);
+  if (std::abs(target) != 1 || std::abs(a) > 1 || std::abs(b) > 1) return result;
+  const Instruction& lowest = target > 0 ? first : last;
+  if (target < 0) {
+    const auto is_apart = [&](std::uint32_t from, std::uint32_t to) {
+      return std::max(from, to) < last.target || std::min(from, to) > first.target;
+    };
+    const auto is_safe = [&](std::uint32_t from, std::uint32_t to) {
+      return is_apart(from, to) || (from == first.target && to == last.target);
+    };
+    if (!is_safe(first.a, last.a) || (arity(run.op) > 1 && !is_safe(first.b, last.b)))
+      return result;
+    a = -a;
+    b = -b;
+  }
+  result.is_even = true;
+  result.target = lowest.target;
+  result.a = lowest.a;
+  result.b = lowest.b;
+  result.stride_a = static_cast<std::int8_t>(a);
+  result.stride_b = static_cast<std::int8_t>(b);
+  return result;
+}
+
+void Program::find_stretches() {
+  std::size_t begin = 0;
+  const auto step = [&](std::size_t i) {
+    const Instruction &from = instructions_[i - 1], &to = instructions_[i];
+    return std::array{to.target - from.target, to.a - from.a, to.b - from.b};
+  };
+  for (const Run& run : runs_) {
+    const auto add = [&](const Stretch& stretch) {
+      const bool goes_on = !stretch.is_even && begin > 0 && !stretches_.back().is_even &&
+                           stretches_.back().op == run.op && stretches_.back().k == run.k;
+      if (goes_on)
+        stretches_.back().end = stretch.end;
+      else
+        stretches_.push_back(stretch);
+    };
+    while (begin < run.end) {
+      std::size_t end = begin + 1;
+      while (end < run.end && step(end) == step(begin + 1)) ++end;
+      Stretch stretch = even_stretch(begin, end, run);
+      // The last one may belong to the next stretch.
+      if (!stretch.is_even) stretch.end = std::max(begin + 1, end - 1);
+      add(stretch);
+      begin = stretch.end;
+    }
+  }
 }
 
 void Program::run(const double* const* in, double* out) const {
@@ -193,9 +306,13 @@ void Program::run(const double* const* in, double* out) const {
   std::copy(constants_.begin(), constants_.end(), w);
   for (const Load& load : loads_) w[load.slot] = in[load.group][load.index];
   const Instruction* begin = instructions_.data();
-  for (const Run& run : runs_) {
-    const Instruction* end = instructions_.data() + run.end;
-    loop[static_cast<std::size_t>(run.op)](run.k, begin, end, w);
+  for (const Stretch& x : stretches_) {
+    const Instruction* end = instructions_.data() + x.end;
+    if (x.is_even)
+      carry_out_evenly(x.op, x.stride_a, x.stride_b, static_cast<std::size_t>(end - begin), w + x.a,
+                       w + x.b, w + x.target);
+    else
+      loop[static_cast<std::size_t>(x.op)](x.k, begin, end, w);
     begin = end;
   }
   for (const std::uint32_t slot : outputs_) *out++ = w[slot];

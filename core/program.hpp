@@ -63,9 +63,23 @@ class Program {
     std::int32_t k;
     std::size_t end;
   };
+  // What run() carries out at once, up to `end`: instructions of a run one by one, or as many that go through the
+  // workspace evenly, each operand of the next one `strides` slots after that of the one before, results side by
+  // side from `target` on.
+  struct Stretch {
+    Op op = Op::constant;
+    std::int32_t k = 0;
+    std::size_t end = 0;
+    bool is_even = false;
+    std::uint32_t target = 0, a = 0, b = 0;
+    std::int8_t stride_a = 0, stride_b = 0;
+  };
   struct Load {
     std::uint32_t slot, group, index;
   };
+
+  void find_stretches();
+  Stretch even_stretch(std::size_t begin, std::size_t end, const Run& run) const;
 
   template <class Number>
   void carry_out_taylor(const Number* const* in, Index order, Number* out) const;
@@ -76,6 +90,7 @@ class Program {
   std::vector<Load> loads_;
   std::vector<Instruction> instructions_;
   std::vector<Run> runs_;
+  std::vector<Stretch> stretches_;
   std::vector<std::uint32_t> outputs_;
   std::size_t slots_ = 0;
 };
