@@ -25,7 +25,8 @@ constexpr double kDataError = 2e-14;
 template <int n>
 void multiply(const MatrixXd& A, const double* b, double* x) {
   if constexpr (n == Eigen::Dynamic) {
-    Eigen::Map<VectorXd>(x, A.rows()).noalias() = A * Eigen::Map<const VectorXd>(b, A.cols());
+    Eigen::Map<VectorXd>(x, A.rows()).noalias() =
+        A.operator*(Eigen::Map<const VectorXd>(b, A.cols()));
   } else {
     Eigen::Map<Eigen::Array<double, n, 1>>(x, n) = small_product<n>(A.data(), b);
   }

@@ -11,6 +11,9 @@ namespace courant {
 // known at run time are calls of these functions. They are evaluated at once, by the same kernels, so
 // that A * x may be assigned to x. Products of other operands (fixed sizes, diagonals, multiples) are
 // Eigen's.
+//
+// Each call allocates its result. What runs in every step names the operator of Eigen, by the same
+// kernels into numbers that are there already: y.noalias() = A.operator*(x).
 
 namespace products {
 

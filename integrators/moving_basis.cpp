@@ -71,7 +71,7 @@ void MovingBasis::coordinates_of(const VectorXd& v, Eigen::Ref<VectorXd> coordin
   if (basis_.is_identity())
     coordinates = v;
   else
-    coordinates.noalias() = basis_.entries().transpose() * v;
+    coordinates.noalias() = basis_.entries().transpose().operator*(v);
 }
 
 }  // namespace courant

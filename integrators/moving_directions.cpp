@@ -40,7 +40,7 @@ void MovingDirections::move_to(const VectorXd& x, const LinearMap<double>& basis
 }
 
 bool MovingDirections::continues(const MatrixXd& conormals) {
-  turned_.noalias() = V_ * combination_;
+  turned_.noalias() = V_.operator*(combination_);
   return make_orthonormal_(turned_, W_) && is_complement(conormals);
 }
 

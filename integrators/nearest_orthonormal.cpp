@@ -18,7 +18,7 @@ bool inverse_root(const Square& E, Square& root, Square& power, Square& next) {
   double size = defect * defect;  // ‖E‖²ʲ
   for (int j = 2; size > 1e-32; ++j, size *= defect) {
     coefficient *= 1.0 - 0.5 / j;
-    next.noalias() = power * E;
+    next.noalias() = power.operator*(E);
     power.swap(next);
     root += coefficient * power;
   }
@@ -35,9 +35,9 @@ bool NearestOrthonormal::find(const MatrixXd& P, MatrixXd& B, Workspace& workspa
   if constexpr (n == Eigen::Dynamic) {
     auto& [E, root, power, next] = workspace;
     E.setIdentity(P.cols(), P.cols());
-    E.noalias() -= P.transpose() * P;
+    E.noalias() -= P.transpose().operator*(P);
     if (!inverse_root(E, root, power, next)) return false;
-    B.noalias() = P * root;
+    B.noalias() = P.operator*(root);
   } else {
     using Row = Eigen::Matrix<double, 1, n>;
     Eigen::Matrix<double, n, n> E, root, power, next;
