@@ -15,7 +15,7 @@ ExprVector CotangentBundle::torsion(const ExprVector& q, const ExprVector& p,
   const ExprVector at = graph.variables("q", Q.ambient_dimension());
   const ExprVector momentum = graph.variables("p", size);
   const ExprVector velocity = graph.variables("v", size);
-  const ExprMatrix E = Q.frame(at);
+  const LinearMap<Expr> E = Q.frame(at);  // the identity of Rⁿ takes no memory
   const ExprVector covector = Q.coframe(at).transpose() * momentum;  // Cᵀp, for fixed p
   const ExprVector ambient_velocity = E * velocity;
   const ExprVector along = tangent(covector, at, ambient_velocity);     // (dC(E v))ᵀ p

@@ -57,6 +57,13 @@ BOOST_AUTO_TEST_CASE(the_canonical_form_in_frames_is_that_of_the_ambient_space) 
   }
 }
 
+// A matrix of its size would not fit into memory.
+BOOST_AUTO_TEST_CASE(a_flat_space_of_many_dimensions_has_no_torsion) {
+  const Index n = 100000;
+  const CotangentBundle M(std::make_shared<Euclidean>(n));
+  BOOST_TEST(torsion(M, VectorXd::Ones(2 * n), VectorXd::Ones(n)).isZero(0.0));
+}
+
 BOOST_AUTO_TEST_CASE(torsion_of_the_left_trivialisation_is_minus_the_bracket) {
   const CotangentBundle M(std::make_shared<SpecialOrthogonal3>());
   std::mt19937 generator(3);
