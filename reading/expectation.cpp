@@ -271,7 +271,7 @@ Json dimensions(const ConstraintLadder& ladder) {
   return list;
 }
 
-std::string in_words(const Json& value) {
+std::string value_in_words(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
@@ -283,7 +283,7 @@ void expect_equal(const JsonReader& key, const std::string& description, const O
         if (!record.ladder) return result;
         result.value = value(*record.ladder);
         result.passed = result.value == bound;
-        result.finding = "is " + in_words(result.value) + "; expected " + in_words(bound);
+        result.finding = "is " + value_in_words(result.value) + "; expected " + value_in_words(bound);
         return result;
       });
 }
