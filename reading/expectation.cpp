@@ -277,15 +277,15 @@ std::string value_in_words(const Json& value) {
 
 void expect_equal(const JsonReader& key, const std::string& description, const ObjectReader& entry,
                   std::function<Json(const ConstraintLadder&)> value, const Reading& reading) {
-  reading.expectations.checks.push_back(
-      [=, bound = key.value(), pointer = entry.place().pointer()](const RunRecord& record) {
-        ExpectationResult result{pointer, description, false, nullptr, bound, kNotKnown};
-        if (!record.ladder) return result;
-        result.value = value(*record.ladder);
-        result.passed = result.value == bound;
-        result.finding = "is " + value_in_words(result.value) + "; expected " + value_in_words(bound);
-        return result;
-      });
+  reading.expectations.checks.push_back([=, bound = key.value(), pointer = entry.place().pointer()](
+                                            const RunRecord& record) {
+    ExpectationResult result{pointer, description, false, nullptr, bound, kNotKnown};
+    if (!record.ladder) return result;
+    result.value = value(*record.ladder);
+    result.passed = result.value == bound;
+    result.finding = "is " + value_in_words(result.value) + "; expected " + value_in_words(bound);
+    return result;
+  });
 }
 
 bool is_dimension_list(const JsonReader& key) {
