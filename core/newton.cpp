@@ -283,6 +283,7 @@ void Newton::settle(VectorXd& y, const VectorXd& y0) {
 // What the equations that are left take: u in place of y, and what they hold.
 const Inputs& Newton::take_kept(const Inputs& in) {
   in.require_count(function_.input_count(), system_.name());
+  if (!system_.is_reduced() && held_.size() == 0) return in;
   in_ = in;
   if (system_.is_reduced()) {
     in_.set_unknowns(kept_.data());
