@@ -92,8 +92,10 @@ std::vector<std::size_t> schedule(const Subgraph& subgraph, Program::Order wante
   return order;
 }
 
+// Flat: in a large translation unit GCC would leave evaluate() a call with a choice among all operations.
 template <Op op, class Instruction>
-void carry_out(std::int32_t k, const Instruction* begin, const Instruction* end, double* w) {
+[[gnu::flatten]] void carry_out(std::int32_t k, const Instruction* begin, const Instruction* end,
+                                double* w) {
   for (const Instruction* i = begin; i != end; ++i)
     w[i->target] = evaluate(op, k, w[i->a], w[i->b], w[i->c]);
 }
@@ -109,7 +111,8 @@ bool has_even_loop(Op op) {
 // `count` results of operands that are so many slots apart, without instructions to be read. The order is that of the
 // instructions: a result may be an operand of a later one.
 template <Op op, int stride_a, int stride_b>
-void carry_out_evenly(std::size_t count, const double* a, const double* b, double* target) {
+[[gnu::flatten]] void carry_out_evenly(std::size_t count, const double* a, const double* b,
+                                       double* target) {
   const auto n = static_cast<std::ptrdiff_t>(count);
   for (std::ptrdiff_t i = 0; i < n; ++i)
     target[i] = evaluate(op, 0, a[i * stride_a], b[i * stride_b], 0.0);
