@@ -68,7 +68,7 @@ Function::Function(const std::string& name, const std::vector<Input>& inputs,
   ExprVector held(0);
   if (!varying.empty() && is_worthwhile(value_->instruction_count()))
     held = held_part(outputs, as_vector(varying));
-  if (is_worthwhile(Program(groups, held).instruction_count())) {
+  if (held.size() > 0 && is_worthwhile(Program(groups, held).instruction_count())) {
     held_ = std::make_shared<const Function>(name + ", held", inputs, held,
                                              Options{.backend = backend});
     run_value_ = std::make_shared<const Program>(groups, outputs, held, Program::Order::grouped);
