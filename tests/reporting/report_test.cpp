@@ -7,6 +7,7 @@
 
 #include "../plotting/parsed_markup.hpp"
 #include "courant/reporting/report_script.hpp"
+#include "courant/running/output_file.hpp"
 #include "some_runs.hpp"
 
 BOOST_AUTO_TEST_SUITE(report)
