@@ -53,6 +53,8 @@ struct Operation {
     }
   }
 
+  bool is_square() const { return node.op == Op::multiply && node.a == node.b; }
+
   Node node;
   int count;
   Expr value;
@@ -174,6 +176,26 @@ class Adjoint {
   Expr needed_ = 0.0;
 };
 
+// weight ∂(operation)/∂(operand i). A known weight over a is one operation, and one rounding.
+Expr weighted(const Expr& weight, const Operation& operation, int i) {
+  if (operation.node.op == Op::log && weight.is_constant()) return weight / operation.operand[0];
+  return weight * partial(operation, i);
+}
+
+// 2 a, with the 2 in a factor or dividend that is known: no rounding, and one product less.
+Expr doubled(const Expr& a) {
+  if (a.is_constant()) return 2.0 * a.value();
+  const Node& node = a.graph().node(a.node());
+  if (node.op == Op::divide)
+    if (const Expr known = a.graph().expression(node.a); known.is_constant())
+      return 2.0 * known.value() / a.graph().expression(node.b);
+  if (node.op == Op::multiply)
+    for (const auto& [factor, other] : {std::pair(node.a, node.b), std::pair(node.b, node.a)})
+      if (const Expr known = a.graph().expression(factor); known.is_constant())
+        return 2.0 * known.value() * a.graph().expression(other);
+  return 2.0 * a;
+}
+
 using Row = std::vector<std::pair<Index, Expr>>;  // sorted by column
 
 // The union of two rows: combine(entry or 0, entry or 0) in each column.
@@ -226,10 +248,12 @@ ExprVector pull_back(const ExprVector& y, const ExprVector& x, const ExprVector&
                                               logical_and(here.needed(), chosen->condition));
       adjoint[operation.at[chosen->otherwise]].add(
           here.weight(), logical_and(here.needed(), logical_not(chosen->condition)));
+    } else if (operation.is_square()) {
+      adjoint[operation.at[0]].add(doubled(here.weight()) * operation.operand[0], here.needed());
     } else {
       for (int i = 0; i < operation.count; ++i)
         if (!operation.operand[i].is_constant())
-          adjoint[operation.at[i]].add(here.weight() * partial(operation, i), here.needed());
+          adjoint[operation.at[i]].add(weighted(here.weight(), operation, i), here.needed());
     }
   }
   return result;

@@ -92,9 +92,11 @@ Newton::Newton(EquationSystem system, std::vector<Index> groups, const Options& 
   is_contiguous_ =
       !contained_.empty() && contained_.back() - contained_.front() + 1 == std::ssize(contained_);
   sizes_.setZero(std::ssize(ends_));
+  moved_.setZero(std::ssize(ends_));
   while (group_ + 1 < ends_.size() && ends_[group_] == 0) ++group_;
-  if (is_contiguous_ && ends_[group_] == ends_.back())
-    contraction_ = Contraction(std::ssize(contained_));
+  is_explicit_ = contained_.empty() && function_.output_size() == 0;
+  is_one_group_ = ends_[group_] == ends_.back();
+  if (is_contiguous_ && is_one_group_) contraction_ = Contraction(std::ssize(contained_));
   std::vector<bool> is_contained(system_.kept().size());
   for (const Index place : contained_) is_contained[static_cast<std::size_t>(place)] = true;
   for (std::size_t k = 0; k < is_contained.size(); ++k)
@@ -145,13 +147,18 @@ double Newton::improve(double* y, const double* scales) {
   solver_->solve(all_.data(), step_.data());
   double result = 0.0;
   bool is_finite = true;
+  slowest_ = 0.0;
   Index begin = 0;
   for (std::size_t g = 0; g < ends_.size(); begin = ends_[g++]) {
     const auto take = [&](const auto& movement) {
       is_finite &= movement.is_finite();
       const double size = std::max(scales[g], movement.sizes.value());
       sizes_[static_cast<Index>(g)] = size;
-      result = std::max(result, contraction::relative(movement.changes.value(), size));
+      double& moved = moved_[static_cast<Index>(g)];
+      const double before = moved;
+      moved = contraction::relative(movement.changes.value(), size);
+      if (moved > kLeast && !is_one_group_) slowest_ = std::max(slowest_, moved / before);
+      result = std::max(result, moved);
     };
     if (is_contiguous_)
       take(subtract(y + contained_.front(), step_.data(), begin, ends_[g]));
@@ -301,7 +308,8 @@ const Inputs& Newton::take_kept(const Inputs& in) {
 void Newton::give(double* y) { system_.unknowns().value(in_.data(), y); }
 
 const Newton::Result& Newton::solve(const Inputs& in, const double* scales) {
-  result_.status = solve_kept(take_kept(in), scales);
+  const Inputs& of_kept = take_kept(in);
+  result_.status = is_explicit_ ? Status::converged : solve_kept(of_kept, scales);
   if (system_.is_reduced()) give(in.unknowns());
   return result_;
 }
@@ -419,7 +427,8 @@ Newton::Status Newton::solve_kept(const Inputs& in, const double* scales) {
     }
     if (compared > 0) {
       const double part = moved / previous;
-      if (contraction::has_ended(moved, previous, options_.tolerance) && accepted() &&
+      if (contraction::has_ended(moved, previous, options_.tolerance) &&
+          contraction::has_ended_everywhere(moved, slowest_, options_.tolerance) && accepted() &&
           is_settled(in, fresh)) {
         return Status::converged;
       }

@@ -106,10 +106,12 @@ class Newton {
   std::vector<Index> groups_;     // their sizes among those
   std::vector<Index> contained_;  // kept unknowns that F contains, ascending
   std::vector<Index> ends_;       // of the groups, in contained_
+  bool is_explicit_ = false;      // there is nothing to solve
   bool is_contiguous_ = false;    // contained_, without gaps
   // Of a small inverse, where all unknowns that F contains are side by side in one group.
   Contraction contraction_;
-  std::size_t group_ = 0;  // the first one that F contains unknowns of
+  std::size_t group_ = 0;      // the first one that F contains unknowns of
+  bool is_one_group_ = false;  // that has all of them
   Options options_;
   std::unique_ptr<LinearSolver>
       solver_;  // for a row an equation, a column an unknown of contained_
@@ -123,6 +125,8 @@ class Newton {
   VectorXd all_;            // F and the entries of its Jacobian
   VectorXd step_, settled_;
   VectorXd sizes_;                        // of groups, at the last change
+  VectorXd moved_;                        // the last changes of groups, relative to those
+  double slowest_ = 0.0;                  // of several groups, see has_ended_everywhere()
   VectorXd before_, weighted_;            // the change before, and in units of those sizes
   std::optional<LimitedNewton> limited_;  // where there are exponentials
   // Of those, at y, before the last change and where the matrix was made; y before the last change.

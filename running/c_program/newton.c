@@ -27,6 +27,7 @@ struct newton {
   double u[MOST_UNKNOWNS];
   double all[MOST_SIZE + MOST_ENTRIES]; /* G and the entries of its Jacobian */
   double change[MOST_SIZE];
+  double moved[MOST_SIZE]; /* of each group that the equations contain unknowns of: the largest change, relative to its size */
   double before[MOST_SIZE]; /* the change before, until this solve taught something */
   double at_matrix[MOST_ARGUMENTS]; /* of exponentials, where the Jacobian is that of */
   double inverse[MOST_SIZE * MOST_SIZE]; /* column by column */
@@ -146,15 +147,18 @@ static void multiply(const double *A, const double *b, double *x, int n) {
   }
 }
 
-/* u <- u - A G. The largest change of a group relative to its scale. */
-static double improve(struct newton *N, const double *scales) {
+/* u <- u - A G. The largest change of a group relative to its scale; and of several groups that move by more than
+   round-off, the contraction of the one that contracts worst. */
+static double improve(struct newton *N, const double *scales, double *slowest) {
   const struct equations *const of = N->of;
   const int n = of->size;
   double result = 0.0, total = 0.0;
-  int g, i = 0;
+  int g, i = 0, group = 0;
+  *slowest = 0.0;
   multiply(N->inverse, N->all, N->change, n);
   for (g = 0, i = 0; g < of->groups; ++g) {
     double moved = 0.0, size = scales[g];
+    const int begin = i;
     for (; i < n && of->group[of->contained[i]] == g; ++i) {
       double *const unknown = N->u + of->contained[i];
       const double change = fabs(N->change[i]);
@@ -163,7 +167,11 @@ static double improve(struct newton *N, const double *scales) {
       size = largest_of(size, fabs(*unknown));
       total += change;
     }
-    if (moved > 0.0) result = largest_of(result, size > 0.0 ? moved / size : 1.0);
+    if (i == begin) continue;
+    if (moved > 0.0) moved = size > 0.0 ? moved / size : 1.0;
+    if (moved > 2.0 * DBL_EPSILON && i - begin < n) *slowest = largest_of(*slowest, moved / N->moved[group]);
+    N->moved[group++] = moved;
+    result = largest_of(result, moved);
   }
   return isfinite(total) ? result : INFINITY;
 }
@@ -266,7 +274,7 @@ static int is_settled(struct newton *N, const double *const *in, int fresh) {
    only move by round-off. Zero if that fails. */
 static int iterate(struct newton *N, const double *const *in, const double *scales) {
   const double tolerance = 1e-17, round_off = 1e-9, brief = 1e-4;
-  double previous = INFINITY, contraction, moved = INFINITY;
+  double previous = INFINITY, contraction, slowest, moved = INFINITY;
   int iteration, i, learned = 0, compared = 0;
   int fresh = 0; /* A belongs to a point of this solve */
   int close = 0; /* which a short change led to */
@@ -279,7 +287,7 @@ static int iterate(struct newton *N, const double *const *in, const double *scal
   for (iteration = 0; iteration < 60; ++iteration) {
     if (!evaluated) N->of->value(in, N->all);
     evaluated = 0;
-    moved = improve(N, scales);
+    moved = improve(N, scales, &slowest);
     if (!isfinite(moved)) return 0;
     if (moved <= tolerance) {
       if (is_settled(N, in, fresh)) return 1;
@@ -294,6 +302,7 @@ static int iterate(struct newton *N, const double *const *in, const double *scal
       contraction = moved / previous;
       if (moved < 0.5 * previous && previous <= 1e-2 &&
           largest_of(moved, previous * previous) * moved <= (previous - moved) * tolerance &&
+          slowest * moved <= (1.0 - slowest) * tolerance &&
           is_settled(N, in, fresh))
         return 1;
       stalled = contraction > 0.5;

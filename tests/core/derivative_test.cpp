@@ -168,6 +168,20 @@ BOOST_AUTO_TEST_CASE(operations_are_differentiated_to_third_order) {
   }
 }
 
+// The 2 of a square costs nothing where a factor is known.
+BOOST_AUTO_TEST_CASE(gradients_of_squares_have_one_product) {
+  const Graph graph;
+  const ExprVector x = graph.variables("x", 2);
+  const Expr squares = 1.5 * (x[0] * x[0]) + x[1] * x[1] / 4.0;
+  const ExprVector slope = gradient(squares, x);
+  BOOST_TEST((slope[0] == 3.0 * x[0]));
+  BOOST_TEST((slope[1] == 0.5 * x[1]));
+  const Expr distance = x[0] * x[0] + x[1] * x[1];
+  const ExprVector pull = gradient(0.75 * log(distance), x);
+  BOOST_TEST((pull[0] == 1.5 / distance * x[0]));
+  BOOST_TEST((gradient(x[0] * x[0] * x[1], x)[0] == 2.0 * x[1] * x[0]));
+}
+
 BOOST_AUTO_TEST_CASE(whole_powers_have_all_derivatives_at_zero) {
   Graph graph;
   const ExprVector x = graph.variables("x", 1);

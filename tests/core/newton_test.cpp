@@ -372,6 +372,28 @@ BOOST_AUTO_TEST_CASE(an_accidental_contraction_is_no_convergence) {
   BOOST_TEST(std::abs(y[1] - 0.2 / 1.009) < 1e-10);
 }
 
+// A velocity that is measured for its increment, and a multiplier, each with a part of the other that the matrix
+// does not know. The multiplier's error of 7e-12 is 1e-12 of the velocity after one change, nothing next to the
+// scale, and after another 4e-14 of the multiplier.
+BOOST_AUTO_TEST_CASE(an_error_that_changes_groups_is_no_convergence) {
+  const Problem problem = make(2, [](const ExprVector& y, const Expr& part) {
+    ExprVector F(2);
+    F << y[0] - 0.14 * part * y[1], y[1] + 0.04 * part * y[0] - 1.0;
+    return F;
+  });
+  Newton newton(problem.function, {1, 1}, {});
+  VectorXd y = Eigen::Vector2d(0.0, 1.0);
+  double part = 0.0;
+  const double scales[] = {400.0, 1.0};
+  const Inputs in(y.data(), {&part});
+  BOOST_TEST((newton.solve(in, scales).status == Newton::Status::converged));
+  part = 1.0;
+  const double multiplier = 1.0 / 1.0056;
+  y << 0.14 * (multiplier + 7e-12), multiplier + 7e-12;
+  BOOST_TEST((newton.solve(in, scales).status == Newton::Status::converged));
+  BOOST_TEST(std::abs(y[1] - multiplier) < 2e-15);
+}
+
 // Down the flank of an exponential all of Newton's steps are 26 mV. Measured by 10⁸ V they are as small
 // as round-off, and as equal.
 BOOST_AUTO_TEST_CASE(equal_steps_down_an_exponential_are_no_round_off) {
