@@ -43,9 +43,9 @@ double improve_by(const Contraction::Workspace& at, double& size) {
 // What is looked at in every iteration is in variables of its own: the compiler cannot know that F does not
 // write to the workspace, and would read places and numbers again and again.
 template <int n>
-Contraction::Result iterate_by(const Function& F, const Inputs& in,
-                               const Contraction::Workspace& at,
-                               const Contraction::Limits& limits) {
+[[gnu::always_inline]] inline Contraction::Result iterate_by(const Function& F, const Inputs& in,
+                                                             const Contraction::Workspace& at,
+                                                             const Contraction::Limits& limits) {
   const auto [inverse, u, residual, change_at, before] = at;
   const auto [scale, tolerance, slow, most] = limits;
   const double* const* const numbers = in.data();
@@ -84,13 +84,40 @@ Contraction::Result iterate_by(const Function& F, const Inputs& in,
   }
 }
 
+using Iterate = decltype(&iterate_by<1>);
+
+template <int n>
+[[gnu::flatten]] Contraction::Result iterate(const Function& F, const Inputs& in,
+                                             const Contraction::Workspace& at,
+                                             const Contraction::Limits& limits) {
+  return iterate_by<n>(F, in, at, limits);
+}
+
+#if defined(__x86_64__) && defined(__GNUC__)
+// The same with instructions of three operands, which are a fifth fewer.
+template <int n>
+[[gnu::target("avx"), gnu::flatten]] Contraction::Result iterate_with_avx(
+    const Function& F, const Inputs& in, const Contraction::Workspace& at,
+    const Contraction::Limits& limits) {
+  return iterate_by<n>(F, in, at, limits);
+}
+
+bool has_avx() { return __builtin_cpu_supports("avx") != 0; }
+#else
+template <int n>
+constexpr Iterate iterate_with_avx = nullptr;
+
+constexpr bool has_avx() { return false; }
+#endif
+
 }  // namespace
 
-Contraction::Contraction(Index count) {
-  with_static_size(count, [this](auto size) {
+Contraction::Contraction(Index count, Instructions instructions) {
+  const bool may_use_avx = instructions == Instructions::best && has_avx();
+  with_static_size(count, [&](auto size) {
     constexpr int n = decltype(size)::value;
     if constexpr (n != Eigen::Dynamic) {
-      iterate_ = &iterate_by<n>;
+      iterate_ = may_use_avx ? iterate_with_avx<n> : &iterate<n>;
       improve_ = &improve_by<n>;
     }
     return 0;

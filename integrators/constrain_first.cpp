@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "courant/core/message.hpp"
+#include "courant/core/pairs.hpp"
 #include "courant/core/qr_decomposition.hpp"
 #include "courant/integrators/constrain_first_projection.hpp"
 #include "courant/integrators/constrain_first_trace.hpp"
@@ -47,7 +48,8 @@ class ConstrainFirst::Trajectory final : public Stepper {
         basis_(manifold(), method.basis_),
         projection_(method_, basis_),
         near_(manifold().ambient_dimension()),
-        advanced_(method.advance_.output_size()) {}
+        advanced_(method.advance_.output_size()),
+        kept_(advanced_) {}
 
  private:
   // Onto M_f, where (v, z) and the jets are found.
@@ -58,7 +60,8 @@ class ConstrainFirst::Trajectory final : public Stepper {
     basis_.coordinates_of(state.v, y.segment(n_, n_));
     y.segment(method_.blocks_ * n_, state.z.size()) = state.z;
     const VectorXd x = state.x;
-    projection_.project(x, {state, {state.t, h}, state.t, 0.0, false}, statistics_);
+    const VectorXd no_shift = VectorXd::Zero(d_);
+    projection_.project(x, {state, {state.t, h}, state.t, no_shift, false}, statistics_);
     accept(x);
     projection_.take(state);
   }
@@ -98,16 +101,15 @@ class ConstrainFirst::Trajectory final : public Stepper {
     const StepSolver::Attempt attempt{before.t, h};
     solver_.solve_connected(in, Projection::scales(before, h).data(), begin, attempt, statistics_);
     method_.advance_.value(in.data(), advanced_.data());
-    const Index N = before.x.size();
-    near_ = advanced_.head(N);
-    if (!near_.allFinite())
+    copy_pairs(advanced_.data(), near_.size(), near_.data());
+    if (!are_finite(near_.data(), near_.size()))
       throw SolveError(SolveError::Reason::left_domain, method(), before.t, h,
                        "leads to a state that is not finite.");
     round_off_projection_.apply(near_);
 
-    projection_.unknown() = y;
+    projection_.begin_with(y);
     try {
-      projection_.project(near_, {before, attempt, after.t, y.tail(d_).norm(), true}, statistics_);
+      projection_.project(near_, {before, attempt, after.t, y.tail(d_), true}, statistics_);
     } catch (const std::domain_error& error) {
       throw SolveError(SolveError::Reason::singular, method(), before.t, h,
                        "cannot be projected: " + without_place(error.what()));
@@ -123,14 +125,16 @@ class ConstrainFirst::Trajectory final : public Stepper {
     solver_.keep();
     projection_.record();
     accept(before.x);
-    stage_ = advanced_.tail(before.x.size() + before.v.size());
-    stage_z_ = solver_.unknown().segment(method_.blocks_ * n_, before.z.size());
+    kept_.swap(advanced_);
+    stage_z_.resize(before.z.size());
+    copy_pairs(solver_.unknown().data() + method_.blocks_ * n_, stage_z_.size(), stage_z_.data());
   }
 
   void do_stage(Step& step) const override {
     step.stage.t = step.before.t + method_.map_->stage_time() * step.h;
-    step.stage.x = stage_.head(step.before.x.size());
-    step.stage.v = stage_.tail(step.before.v.size());
+    const Index N = step.before.x.size();
+    step.stage.x = kept_.segment(N, N);
+    step.stage.v = kept_.tail(step.before.v.size());
     step.stage.z = stage_z_;
   }
 
@@ -173,7 +177,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
   Projection projection_;
   VectorXd start_;  // what the state alone predicts
   VectorXd near_, advanced_;
-  VectorXd stage_, stage_z_;  // (x̄, v) and z of the last step that stands
+  VectorXd kept_, stage_z_;  // what was advanced, and z, of the last step that stands
 };
 
 ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "courant/core/pairs.hpp"
+
 namespace courant {
 namespace {
 
@@ -30,8 +32,10 @@ ConstrainFirst::Projection::Projection(const ConstrainFirst& method, MovingBasis
       d_(method.codimension_),
       rest_((method.blocks_ - 2) * n_ + method.auxiliaries_),
       solver_(method.projection_, {n_, n_, rest_, d_}, method.name() + " (projection)"),
-      is_explicit_(solver_.is_explicit() && has_fixed_directions() &&
+      is_explicit_(solver_.is_explicit() && method.projection_.left().output_size() == 0 &&
+                   has_fixed_directions() &&
                    n_ == method.system()->manifold()->tangent_dimension()),
+      gives_all_(is_explicit_ && std::ssize(solver_.found()) == solver_.unknown().size()),
       end_(predicted_groups(method, solver_.unknown().size()),
            method.fixed_directions_.size() > 0 ? solver_.predicted() : solver_.found()),
       shift_({method.system()->manifold()->tangent_dimension()}),
@@ -39,6 +43,7 @@ ConstrainFirst::Projection::Projection(const ConstrainFirst& method, MovingBasis
       conormals_(method.conormals_, n_, d_),
       directions_(*method.projector_, n_, d_),
       jets_(VectorXd::Zero(solver_.unknown().size())),
+      given_(jets_),
       start_(jets_),
       near_(method.system()->manifold()->ambient_dimension()),
       guess_(near_.size()),
@@ -61,23 +66,35 @@ std::array<double, 4> ConstrainFirst::Projection::scales(const State& before, do
   return {size, size / std::fabs(h), auxiliary_scale(largest(before.z), size), size};
 }
 
-void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& approach,
-                                         SolverStatistics& statistics) {
-  const auto& [before, attempt, t, far, goes_on] = approach;
-  near_ = near;
-  VectorXd& y = solver_.unknown();
+// ξ and μ
+void ConstrainFirst::Projection::clear_places(VectorXd& y) const {
   y.head(n_).setZero();
   y.tail(d_).setZero();
-  guess_ = near_;
+}
+
+const VectorXd& ConstrainFirst::Projection::jets() {
+  clear_places(jets_);
+  return jets_;
+}
+
+void ConstrainFirst::Projection::begin_with(const VectorXd& y) {
+  if (!gives_all_) copy_pairs(y.data(), y.size(), solver_.unknown().data());
+}
+
+void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& approach,
+                                         SolverStatistics& statistics) {
+  const auto& [before, attempt, t, from_M_f, goes_on] = approach;
+  VectorXd& y = gives_all_ ? given_ : solver_.unknown();
+  if (!gives_all_) clear_places(y);
   if (is_explicit_) {
-    const Inputs in(y.data(),
-                    {guess_.data(), basis_.data(), directions_.matrix().data(), near_.data(), &t});
-    constexpr double unused[4] = {};
-    solver_.solve(
-        in, unused, [] {}, attempt, statistics);
-    method_.projected_.value(in.data(), found_.data());
+    const double* const in[] = {
+        y.data(), near.data(), basis_.data(), directions_.matrix().data(), near.data(), &t};
+    method_.projection_.unknowns().value(in, y.data());
+    method_.projected_.value(in, found_.data());
     return;
   }
+  near_ = near;
+  guess_ = near_;
   const double speed = goes_on ? largest_speed(before, y) : 0.0;
   if (goes_on && !shift_.is_empty()) {
     shift_.predict(shifted_);
@@ -120,7 +137,7 @@ void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& a
     // P does not depend on W once x no longer moves with it. Where steps begin, x moves with W not
     // at all; but the next one begins along W.
     if (iteration == 0) {
-      const double distance = std::max(y.tail(d_).norm(), far);
+      const double distance = std::max(y.tail(d_).norm(), from_M_f.norm());
       const double change = std::max(moved, size * jet_change(aimed_, y));
       if (goes_on && kSafety * turning_ * distance * change <= kTolerance * size) return;
     } else {
@@ -198,9 +215,12 @@ void ConstrainFirst::Projection::record() {
 
 void ConstrainFirst::Projection::take(State& state) const {
   const Index N = near_.size();
-  state.x = found_.head(N);
-  state.v = found_.segment(N, state.v.size());
-  state.z = found_.tail(state.z.size());
+  state.x.resize(N);
+  const double* from = found_.data();
+  for (VectorXd* part : {&state.x, &state.v, &state.z}) {
+    copy_pairs(from, part->size(), part->data());
+    from += part->size();
+  }
 }
 
 bool ConstrainFirst::Projection::accept(const VectorXd& x) {
@@ -213,15 +233,16 @@ bool ConstrainFirst::Projection::accept(const VectorXd& x) {
     directions_.keep();
     conormals_.keep();
   }
-  guess_ = found_.head(x.size());  // a vector that is there: nothing is allocated
+  copy_pairs(found_.data(), guess_.size(), guess_.data());
   if (!basis_.move_to(guess_)) is_turned_ = true;
   basis_.keep();
   const bool goes_on = !is_turned_;
   if (is_turned_) forget_motion();
   is_turned_ = false;
-  jets_ = solver_.unknown();
-  jets_.head(n_).setZero();
-  jets_.tail(d_).setZero();
+  if (gives_all_)
+    jets_.swap(given_);
+  else
+    copy_pairs(solver_.unknown().data(), jets_.size(), jets_.data());
   return goes_on;
 }
 

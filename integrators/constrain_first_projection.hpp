@@ -29,15 +29,17 @@ class ConstrainFirst::Projection {
   struct Approach {
     const State& before;
     StepSolver::Attempt attempt;
-    double t;      // at its end
-    double far;    // how far the point is from M_f
-    bool goes_on;  // whether this is a step like the last ones
+    double t;                             // at its end
+    Eigen::Ref<const VectorXd> from_M_f;  // μ of the step: how far the point is from M_f
+    bool goes_on;                         // whether this is a step like the last ones
   };
   // The state that P takes `near` to, from unknown(). The basis and W are left at it. Throws SolveError,
   // and std::domain_error as Projector::directions does.
   void project(const VectorXd& near, const Approach& approach, SolverStatistics& statistics);
   // (ξ, ξ', …, z, …, μ), ξ and μ without meaning before project().
   VectorXd& unknown() { return solver_.unknown(); }
+  // unknown() = y, as far as it matters what is there before project().
+  void begin_with(const VectorXd& y);
   void take(State& state) const;  // what was found
 
   // What the next projection starts from is what was found.
@@ -58,7 +60,7 @@ class ConstrainFirst::Projection {
   void forget();
 
   // Of the last accept(): (ξ, ξ', …, z, …, μ) with ξ and μ zero; and W there, or what project() left.
-  const VectorXd& jets() const { return jets_; }
+  const VectorXd& jets();
   const MatrixXd& directions() const { return directions_.matrix(); }
 
   // Of the groups of unknowns ξ, ξ', the rest, and μ. `besides`: a size of coordinates other than those
@@ -68,6 +70,7 @@ class ConstrainFirst::Projection {
   static std::vector<Index> predicted_groups(const ConstrainFirst& method, Index unknowns);
 
  private:
+  void clear_places(VectorXd& y) const;
   double largest_speed(const State& before, const VectorXd& y);
   bool is_nearby(const State& before, double path, double size) const;
   double jet_change(const VectorXd& from, const VectorXd& to) const;
@@ -79,6 +82,7 @@ class ConstrainFirst::Projection {
   Index n_, d_, rest_;
   StepSolver solver_;
   bool is_explicit_;  // formulas give what is found: nothing is foreseen
+  bool gives_all_;    // and that is all there is
   Predictor end_;     // of its unknowns; of all that are found where W depends on them
   Predictor shift_;   // of the vector at near_ that leads to x
   MovingBasis& basis_;
@@ -88,7 +92,9 @@ class ConstrainFirst::Projection {
   // ‖ΔW‖ / ‖Δx‖ of the last steps; unknown before the first
   double turning_ = std::numeric_limits<double>::infinity();
   MatrixXd vectors_;
-  VectorXd jets_, start_, aimed_, near_, guess_, foreseen_, shifted_, corrected_, found_, velocity_;
+  VectorXd jets_;   // of the last accept(), with any ξ and μ
+  VectorXd given_;  // what formulas gave since
+  VectorXd start_, aimed_, near_, guess_, foreseen_, shifted_, corrected_, found_, velocity_;
 };
 
 }  // namespace courant

@@ -12,7 +12,7 @@
 namespace courant {
 namespace {
 
-constexpr int kStepsBetweenChoices = 32;
+constexpr int kStepsBetweenChoices = 64;
 
 // Every second unknown is extrapolated up to this order, where that would have been wrong by less than this
 // part of what the best polynomial through all of them would have been.

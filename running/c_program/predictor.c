@@ -1,6 +1,6 @@
 /* ---- prediction ---------------------------------------------------------------------------------------- */
 
-enum { KEPT = 12, DEGREES = 8, ALTERNATING_ORDERS = 4, JUDGED = 3, STEPS_BETWEEN_CHOICES = 32 };
+enum { KEPT = 12, DEGREES = 8, ALTERNATING_ORDERS = 4, JUDGED = 3, STEPS_BETWEEN_CHOICES = 64 };
 
 /* Places in y, each in one of two groups. */
 struct places {

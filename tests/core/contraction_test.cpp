@@ -34,8 +34,10 @@ struct Problem {
     A = LuDecomposition(J).inverse() + wrong * random_matrix(n, n, 3);
   }
 
-  Contraction::Result solve(double tolerance = 1e-17, int most = 60) {
-    const Contraction contraction(n);
+  Contraction::Result solve(
+      double tolerance = 1e-17, int most = 60,
+      Contraction::Instructions instructions = Contraction::Instructions::best) {
+    const Contraction contraction(n, instructions);
     BOOST_TEST_REQUIRE(contraction.is_available());
     return contraction(function, Inputs(u.data(), {J.data(), b.data()}), workspace(),
                        {.scale = 1.0, .tolerance = tolerance, .slow = 0.2, .most = most});
@@ -72,6 +74,19 @@ BOOST_AUTO_TEST_CASE(finds_the_root_for_each_size) {
   BOOST_TEST(!Contraction(0).is_available());
   BOOST_TEST(!Contraction(9).is_available());
   BOOST_TEST(!Contraction().is_available());
+}
+
+// Programs in C are compiled without the instructions of one processor, and runs go on where others ended.
+BOOST_AUTO_TEST_CASE(all_instructions_give_the_same_bits) {
+  for (Index n = 1; n <= 8; ++n) {
+    Problem best(n, 0.1), plain(n, 0.1);
+    const Contraction::Result of_best = best.solve(1e-15);
+    const Contraction::Result of_plain = plain.solve(1e-15, 60, Contraction::Instructions::plain);
+    BOOST_TEST(of_best.iterations == of_plain.iterations);
+    BOOST_TEST(of_best.has_learned == of_plain.has_learned);
+    BOOST_TEST((best.u.array() == plain.u.array()).all());
+    BOOST_TEST((best.A.array() == plain.A.array()).all());
+  }
 }
 
 // One change is A F to the last bit of another order of sums.

@@ -283,11 +283,12 @@ BOOST_AUTO_TEST_CASE(few_iterations_to_the_result_of_a_fresh_start) {
     BOOST_TEST(static_cast<double>(stepper->statistics().iterations - before) / 1000 < 12.0,
                system->manifold()->name());
     BOOST_TEST(stepper->statistics().failures == 0);
-    for (int k = 0; k < 20; ++k) {
+    // Of 2,000 steps on the sphere two in a thousand differ by more than 3e-15, the most by 7e-15.
+    for (int k = 0; k < 100; ++k) {
       const State a = method.advance(state, h);
       stepper->step(state, h);
       const State& b = state;
-      BOOST_TEST((a.x - b.x).lpNorm<Eigen::Infinity>() < 3e-15 * b.x.lpNorm<Eigen::Infinity>());
+      BOOST_TEST((a.x - b.x).lpNorm<Eigen::Infinity>() < 1e-14 * b.x.lpNorm<Eigen::Infinity>());
       BOOST_TEST((a.z - b.z).lpNorm<Eigen::Infinity>() < 1e-12 * (1.0 + b.z.norm()));
     }
   }
