@@ -73,17 +73,19 @@ class PairMaximum {
   Pair parts_ = Pair::Zero();
 };
 
-// Whether all of them are: 0 · ±∞ and 0 · NaN are NaN. In several sums, which do not wait for each other.
+// Whether all of them are: 0 · ±∞ and 0 · NaN are NaN. Many are added up in several sums, which do not wait for each other.
 inline bool are_finite(const double* numbers, Index count) {
   PairSum sum;
-  Pair sums[4] = {Pair::Zero(), Pair::Zero(), Pair::Zero(), Pair::Zero()};
   Index i = 0;
-  for (; i + 7 < count; i += 8)
-    for (Index k = 0; k < 4; ++k) sums[k] += 0.0 * read<Pair>(numbers + i + 2 * k);
+  if (count >= 8) {
+    Pair sums[4] = {Pair::Zero(), Pair::Zero(), Pair::Zero(), Pair::Zero()};
+    for (; i + 7 < count; i += 8)
+      for (Index k = 0; k < 4; ++k) sums[k] += 0.0 * read<Pair>(numbers + i + 2 * k);
+    sum.add(Pair((sums[0] + sums[1]) + (sums[2] + sums[3])));
+  }
   for_each_pair(i, count, [&]<class Numbers>(Index k, Numbers) {
     sum.add(Numbers(0.0 * read<Numbers>(numbers + k)));
   });
-  sum.add(Pair((sums[0] + sums[1]) + (sums[2] + sums[3])));
   return sum.value() == 0.0;
 }
 

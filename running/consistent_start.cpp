@@ -1,5 +1,6 @@
 #include "courant/running/consistent_start.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -60,6 +61,42 @@ void check_finite(const Experiment& experiment, const InitialGuess& guess) {
     }
 }
 
+// The coordinates that are not given and change along a direction on M_f along which no given one changes; none
+// if what is given of (v, z) may tell these directions apart.
+std::vector<Index> free_coordinates(const Manifold& M, const ConstraintLadder& ladder,
+                                    const InitialValues& initial) {
+  const LinearMap<double> basis = M.tangent_basis(ladder.point.x);
+  const LinearMap<double> motion = M.frame(ladder.point.x) * basis;
+  MatrixXd conditions = ladder.conormals() * basis;
+  const std::vector<Index> given = indices(initial.x.given);
+  // On Rⁿ directions are coordinates: those that are given, and those that no conormal contains, need no matrix.
+  std::vector<Index> sought, free;
+  if (motion.is_identity()) {
+    for (Index i = 0; i < motion.cols(); ++i)
+      if (!initial.x.given[i]) (conditions.col(i).isZero(0.0) ? free : sought).push_back(i);
+    conditions = conditions(Eigen::all, sought).eval();
+  } else {
+    const Index count = conditions.rows();
+    conditions.conservativeResize(count + std::ssize(given), Eigen::NoChange);
+    conditions.bottomRows(std::ssize(given)) = motion.entries()(given, Eigen::all);
+    sought = indices(!initial.x.given);
+  }
+  const MatrixXd directions =
+      sought.empty() ? MatrixXd() : kernel(conditions, {.data_error = 1e-9});
+  if (std::ssize(free) + directions.cols() <=
+      initial.velocity.given.count() + initial.z.given.count())
+    return {};
+  for (std::size_t k = 0; k < sought.size(); ++k) {
+    const auto row = static_cast<Index>(k);
+    const double length = motion.is_identity()
+                              ? directions.row(row).norm()
+                              : (motion.entries().row(sought[k]) * directions).norm();
+    if (length > 1e-6) free.push_back(sought[k]);
+  }
+  std::sort(free.begin(), free.end());
+  return free;
+}
+
 // Names of coordinates that are not given and that neither M_f nor the given velocities and
 // unknowns determine.
 std::vector<std::string> undetermined(const Experiment& experiment,
@@ -67,23 +104,11 @@ std::vector<std::string> undetermined(const Experiment& experiment,
   if (ladder.verdict != Verdict::regular && ladder.verdict != Verdict::gauge) return {};
   const InitialValues& initial = experiment.initial;
   if (initial.x.given.all() || experiment.model.starts_at_zero) return {};
-  const Manifold& M = *experiment.model.system->manifold();
-  const LinearMap<double> basis = M.tangent_basis(ladder.point.x);
-  const MatrixXd conormals = ladder.conormals() * basis;
-  const MatrixXd motion = M.frame(ladder.point.x) * basis;
-  const std::vector<Index> given = indices(initial.x.given);
-  // The directions on M_f along which no given value changes.
-  MatrixXd conditions(conormals.rows() + static_cast<Index>(given.size()), basis.cols());
-  conditions.topRows(conormals.rows()) = conormals;
-  for (std::size_t i = 0; i < given.size(); ++i)
-    conditions.row(conormals.rows() + static_cast<Index>(i)) = motion.row(given[i]);
-  const MatrixXd free = motion * kernel(conditions, {.data_error = 1e-9});
-  if (free.cols() <= initial.velocity.given.count() + initial.z.given.count()) return {};
-  std::vector<std::string> names;
+  const std::vector<Index> free =
+      free_coordinates(*experiment.model.system->manifold(), ladder, initial);
   const auto& coordinates = experiment.model.system->names().coordinates;
-  for (Index i = 0; i < free.rows(); ++i)
-    if (!initial.x.given[i] && free.row(i).norm() > 1e-6)
-      names.push_back(coordinates[static_cast<std::size_t>(i)]);
+  std::vector<std::string> names;
+  for (const Index i : free) names.push_back(coordinates[static_cast<std::size_t>(i)]);
   return names;
 }
 

@@ -14,7 +14,8 @@ void QuantityStatistics::add(double t, const VectorXd& values) {
     mean = covariation = VectorXd::Zero(values.size());
   }
   count += 1.0;
-  final = values;
+  final.resize(values.size());
+  copy_pairs(values.data(), values.size(), final.data());
   const double from_mean = t - mean_t, share = 1.0 / count;
   mean_t += from_mean * share;
   variation += from_mean * (t - mean_t);

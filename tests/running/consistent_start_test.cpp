@@ -345,6 +345,19 @@ BOOST_AUTO_TEST_CASE(what_is_missing_is_found_where_it_is_determined) {
              missing);
 }
 
+// Without a matrix of all coordinates, which took more memory than there is.
+BOOST_AUTO_TEST_CASE(what_is_missing_of_many_coordinates_is_told) {
+  const std::string many = std::to_string(20'000);
+  Json experiment = {{"system",
+                      {{"type", "hamiltonian"},
+                       {"coordinates", {"r[" + many + "]"}},
+                       {"hamiltonian", "p_r[0]^2/2 + r[0]^2"}}},
+                     {"initial", {{"r[0]", 1}}}};
+  BOOST_TEST(problem(experiment) ==
+             "/initial: nothing determines r[1], r[2], r[3], r[4], r[5], …; expected more initial "
+             "values");
+}
+
 BOOST_AUTO_TEST_CASE(velocities_determine_momenta) {
   const Json experiment = {
       {"system",

@@ -7,7 +7,7 @@
 
 namespace courant {
 
-BOOST_AUTO_TEST_SUITE(manifold_orders)
+BOOST_AUTO_TEST_SUITE(manifold_orders_long)
 
 using test::method_1, test::method_2;
 
