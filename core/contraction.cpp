@@ -47,7 +47,7 @@ template <int n>
                                                              const Contraction::Workspace& at,
                                                              const Contraction::Limits& limits) {
   const auto [inverse, u, residual, change_at, before] = at;
-  const auto [scale, tolerance, slow, most] = limits;
+  const auto [scale, tolerance, slow, most, is_exact] = limits;
   const double* const* const numbers = in.data();
   double moved = 0.0, previous = 0.0, size = 0.0;
   bool has_learned = false;
@@ -59,7 +59,8 @@ template <int n>
     moved = contraction::relative(largest_change(movement), size);
     const bool is_first = iteration == 1;
     const bool has_converged =
-        moved <= tolerance || (!is_first && contraction::has_ended(moved, previous, tolerance));
+        moved <= tolerance || (is_first ? is_exact && moved <= contraction::kForeseen
+                                        : contraction::has_ended(moved, previous, tolerance));
     const double longest = is_first ? kLargest : slow * previous;
     if (has_converged || !(moved <= longest) || iteration >= most) {
       Eigen::Map<Numbers<n>>{change_at} = change;

@@ -259,6 +259,39 @@ ExprVector pull_back(const ExprVector& y, const ExprVector& x, const ExprVector&
   return result;
 }
 
+bool is_affine(const ExprVector& y, const ExprVector& x) {
+  const Subgraph subgraph(y);
+  const auto index = indices("is_affine", x, subgraph);
+  std::vector<char> contains(subgraph.size(), 0);  // an x
+  for (std::size_t at = 0; at < subgraph.size(); ++at) {
+    if (index[at] != kNoIndex) contains[at] = 1;
+    const Operation operation(subgraph, at);
+    bool of[3] = {};
+    for (int i = 0; i < operation.count; ++i)
+      of[i] = !operation.operand[i].is_constant() && contains[operation.at[i]] != 0;
+    if (!of[0] && !of[1] && !of[2]) continue;
+    contains[at] = 1;
+    switch (operation.node.op) {
+      case Op::negate:
+      case Op::add:
+      case Op::subtract:
+        break;
+      case Op::multiply:
+        if (of[0] && of[1]) return false;
+        break;
+      case Op::divide:
+        if (of[1]) return false;
+        break;
+      case Op::select:
+        if (of[0]) return false;
+        break;
+      default:
+        return false;
+    }
+  }
+  return true;
+}
+
 ExprVector tangent(const ExprVector& y, const ExprVector& x, const ExprVector& dx) {
   check_size("tangent", "dx", dx.size(), x.size());
   const Subgraph subgraph(y);

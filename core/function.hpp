@@ -52,6 +52,10 @@ class Function {
   Index nonzeros() const { return static_cast<Index>(pattern_row_.size()); }
   const std::vector<Index>& pattern_row() const { return pattern_row_; }
   const std::vector<Index>& pattern_col() const { return pattern_col_; }
+  // Whether the outputs are affine in what they are differentiated by, see is_affine().
+  bool is_affine() const { return is_affine_; }
+  // The input groups that the entries depend on, ascending.
+  const std::vector<Index>& jacobian_groups() const { return jacobian_groups_; }
 
   bool is_native() const { return native_->value != nullptr; }
   Index instruction_count() const { return value_->instruction_count(); }
@@ -128,6 +132,8 @@ class Function {
   Index cols_ = 0;
   std::vector<Index> pattern_row_;
   std::vector<Index> pattern_col_;
+  std::vector<Index> jacobian_groups_;
+  bool is_affine_ = false;
   std::shared_ptr<const Program> value_ = std::make_shared<const Program>();
   std::shared_ptr<const Program> all_ = value_;  // value and Jacobian
   std::shared_ptr<const Function> held_;         // of the same inputs; null: nothing is held

@@ -116,11 +116,28 @@ Newton::Newton(EquationSystem system, std::vector<Index> groups, const Options& 
     at_matrix_.resize(arguments_.size());
     last_.resize(function_.input_size(0));
   }
+  const std::vector<Index>& groups_of_matrix = function_.jacobian_groups();
+  if (function_.is_affine() && function_.output_size() == step_.size() &&
+      std::ranges::all_of(groups_of_matrix,
+                          [&](Index g) { return function_.input_size(g) == 1; })) {
+    matrix_of_ = groups_of_matrix;
+    at_factorization_.setZero(std::ssize(groups_of_matrix));
+  }
   held_.resize(function_.held_size());
   if (system_.is_reduced()) kept_.resize(std::ssize(system_.kept()));
 }
 
+bool Newton::has_exact_matrix(const Inputs& in) const {
+  if (!matrix_of_) return false;
+  for (std::size_t k = 0; k < matrix_of_->size(); ++k)
+    if (*in[(*matrix_of_)[k]] != at_factorization_[static_cast<Index>(k)]) return false;
+  return true;
+}
+
 bool Newton::factorize(const Inputs& in) {
+  if (matrix_of_)
+    for (std::size_t k = 0; k < matrix_of_->size(); ++k)
+      at_factorization_[static_cast<Index>(k)] = *in[(*matrix_of_)[k]];
   function_.value_and_jacobian_with_held(in.data(), all_.data());
   if (limited_) system_.exponentials().arguments().value(in.data(), at_matrix_.data());
   factorized_ = solver_->factorize(all_.data() + function_.output_size());
@@ -383,6 +400,7 @@ Newton::Status Newton::solve_kept(const Inputs& in, const double* scales) {
     return factorize(in);
   };
   if (!factorized_ && !refactorize()) return Status::singular;
+  const bool is_exact = has_exact_matrix(in);
   // Most solves are over before anything else has to be looked at.
   bool has_moved = false;
   if (contraction_.is_available() && inverse_ != nullptr && !fresh && !limited_) {
@@ -390,7 +408,8 @@ Newton::Status Newton::solve_kept(const Inputs& in, const double* scales) {
                                                    {.scale = scales[group_],
                                                     .tolerance = options_.tolerance,
                                                     .slow = options_.slow,
-                                                    .most = options_.max_iterations});
+                                                    .most = options_.max_iterations,
+                                                    .is_exact = is_exact});
     result.iterations = quick.iterations;
     if (quick.has_converged) return Status::converged;
     sizes_[static_cast<Index>(group_)] = quick.size;
@@ -425,6 +444,8 @@ Newton::Status Newton::solve_kept(const Inputs& in, const double* scales) {
       }
       return Status::converged;
     }
+    if (is_exact && compared == 0 && moved <= contraction::kForeseen && accepted())
+      return Status::converged;
     if (compared > 0) {
       const double part = moved / previous;
       if (contraction::has_ended(moved, previous, options_.tolerance) &&

@@ -88,6 +88,7 @@ class Newton {
   const Inputs& take_kept(const Inputs& in);
   void give(double* y);
   bool factorize(const Inputs& in);
+  bool has_exact_matrix(const Inputs& in) const;
   Contraction::Workspace workspace(double* y);
   double improve(double* y, const double* scales);
   void learn();
@@ -117,6 +118,10 @@ class Newton {
       solver_;  // for a row an equation, a column an unknown of contained_
   bool factorized_ = false;
   double* inverse_ = nullptr;  // of the solver
+  // Where the equations are affine: groups of one number each that their matrix is made of, and these numbers when it
+  // was factorised.
+  std::optional<std::vector<Index>> matrix_of_;
+  VectorXd at_factorization_;
   double round_off_ = 0.0;  // by how much iterates moved when they stalled with a new factorisation
   Inputs in_;               // where the kept unknowns are, the parameters, and what is held
   VectorXd kept_;           // unknowns

@@ -69,4 +69,15 @@ std::size_t Subgraph::position(std::uint32_t node) const {
   return before_[word] + static_cast<std::size_t>(std::popcount(members_[word] & (bit(node) - 1)));
 }
 
+std::vector<Index> contained_groups(const ExprVector& expressions,
+                                    const std::vector<ExprVector>& groups) {
+  const Subgraph all(expressions);
+  std::vector<Index> result;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    if (std::any_of(groups[g].begin(), groups[g].end(),
+                    [&](const Expr& variable) { return all.contains(variable); }))
+      result.push_back(static_cast<Index>(g));
+  return result;
+}
+
 }  // namespace courant

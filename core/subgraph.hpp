@@ -48,4 +48,8 @@ class Subgraph {
   std::vector<std::uint32_t> nodes_;
 };
 
+// Those of some groups of variables that the expressions contain a variable of, ascending.
+std::vector<Index> contained_groups(const ExprVector& expressions,
+                                    const std::vector<ExprVector>& groups);
+
 }  // namespace courant

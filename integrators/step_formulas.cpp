@@ -64,12 +64,7 @@ std::vector<Index> StepFormulas::contained(std::size_t group) const {
   return result;
 }
 
-bool StepFormulas::is_affine() const {
-  const ExprVector& y = inputs[0].variables;
-  const Subgraph matrix(jacobian(equations, y).values);
-  return std::none_of(y.begin(), y.end(),
-                      [&](const Expr& unknown) { return matrix.contains(unknown); });
-}
+bool StepFormulas::is_affine() const { return courant::is_affine(equations, inputs[0].variables); }
 
 std::string derivative_name(const std::string& name, Index order) {
   return name + std::string(static_cast<std::size_t>(order), '\'');

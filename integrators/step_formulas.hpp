@@ -30,8 +30,7 @@ struct StepFormulas {
   Function whole() const;
   // The variables of a group that equations contain, by their number in it, ascending.
   std::vector<Index> contained(std::size_t group) const;
-  // Whether F is affine in y, no unknown standing in its Jacobian: then it has one solution at most, if
-  // its matrix is regular.
+  // Whether F is affine in y: then it has one solution at most, if its matrix is regular.
   bool is_affine() const;
 };
 

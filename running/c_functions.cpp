@@ -8,6 +8,7 @@
 #include "courant/core/exponentials.hpp"
 #include "courant/core/message.hpp"
 #include "courant/core/program.hpp"
+#include "courant/core/subgraph.hpp"
 
 namespace courant {
 namespace {
@@ -95,6 +96,14 @@ CFunctions::Unknowns CFunctions::add(const Equations& of) {
   if (arguments.size() > 0)
     add(of.symbol + "_arguments", inputs, arguments, "what exponentials in them are of");
 
+  std::vector<ExprVector> groups;
+  for (const Function::Input& input : inputs) groups.push_back(input.variables);
+  const std::vector<Index> matrix_of = contained_groups(jacobian.values, groups);
+  const bool has_constant_matrix =
+      is_affine(equations, inputs[0].variables) && std::ranges::all_of(matrix_of, [&](Index g) {
+        return groups[static_cast<std::size_t>(g)].size() == 1;
+      });
+
   std::vector<Index> group, column;
   for (const Index place : kept) {
     Index g = 0, end = of.groups.empty() ? y.size() : of.groups[0];
@@ -112,14 +121,18 @@ CFunctions::Unknowns CFunctions::add(const Equations& of) {
   array("row", jacobian.row);
   array("column", jacobian.col);
   array("contained_column", column);
+  if (has_constant_matrix && !matrix_of.empty()) array("matrix_of", matrix_of);
   const auto number = [](Index value) { return std::to_string(value) + ", "; };
   const auto name = [&](const char* what) { return of.symbol + "_" + what; };
   source_ += "static const struct equations " + of.symbol + "_equations = {\n  " + number(size) +
              number(std::ssize(kept)) + number(std::max<Index>(1, std::ssize(of.groups))) +
-             number(jacobian.values.size()) + number(arguments.size()) + "\n  " + name("kept") +
+             number(jacobian.values.size()) + number(arguments.size()) +
+             number(has_constant_matrix ? std::ssize(matrix_of) : -1) + "\n  " + name("kept") +
              ", " + name("contained") + ", " + name("group") + ",\n  " + name("row") + ", " +
-             name("column") + ", " + name("contained_column") + ",\n  " + name("residual") + ", " +
-             name("jacobian") + ", " + (is_reduced ? name("unknowns") : "NULL") + ", " +
+             name("column") + ", " + name("contained_column") + ", " +
+             (has_constant_matrix && !matrix_of.empty() ? name("matrix_of") : "NULL") + ",\n  " +
+             name("residual") + ", " + name("jacobian") + ", " +
+             (is_reduced ? name("unknowns") : "NULL") + ", " +
              (arguments.size() == 0 ? "NULL" : name("arguments")) + "};\n\n";
   most_unknowns_ = std::max(most_unknowns_, y.size());
   most_size_ = std::max(most_size_, size);

@@ -10,10 +10,12 @@ struct equations {
   int groups;           /* of unknowns that are measured by one scale */
   int entries;          /* of the Jacobian */
   int exponentials;     /* in G, by what they are of */
+  int matrix_numbers;   /* that dG/du is made of; -1 unless G is affine and they are parameters */
   const int *kept_at;   /* places in y */
   const int *contained; /* places in u of the unknowns that the equations contain */
   const int *group;     /* of each of u */
   const int *row, *column, *contained_column; /* of each entry, in u and among those that are contained */
+  const int *matrix_of; /* groups of those numbers, one in each */
   map *value, *value_and_jacobian;
   map *unknowns;  /* u; p -> y, or NULL where all are kept */
   map *arguments; /* u; p -> what exponentials are of, or NULL where there are none */
@@ -29,6 +31,7 @@ struct newton {
   double change[MOST_SIZE];
   double moved[MOST_SIZE]; /* of each group that the equations contain unknowns of: the largest change, relative to its size */
   double before[MOST_SIZE]; /* the change before, until this solve taught something */
+  double of_matrix[INPUTS]; /* the numbers that it is made of, where G is affine */
   double at_matrix[MOST_ARGUMENTS]; /* of exponentials, where the Jacobian is that of */
   double inverse[MOST_SIZE * MOST_SIZE]; /* column by column */
 };
@@ -101,6 +104,7 @@ static int factorize(struct newton *N, const double *const *in) {
   N->is_factorized = 0;
   N->of->value_and_jacobian(in, N->all);
   if (N->of->exponentials > 0) N->of->arguments(in, N->at_matrix);
+  for (k = 0; k < N->of->matrix_numbers; ++k) N->of_matrix[k] = *in[N->of->matrix_of[k]];
   for (k = 0; k < n * n; ++k) A[k] = 0.0;
   for (k = 0; k < N->of->entries; ++k) {
     if (!isfinite(N->all[n + k])) return 0;
@@ -270,12 +274,20 @@ static int is_settled(struct newton *N, const double *const *in, int fresh) {
   return largest_part(N, magnitude) <= 2e-14;
 }
 
+/* Whether A is the inverse of the matrix of affine equations. */
+static int is_exact(const struct newton *N, const double *const *in) {
+  int k;
+  for (k = 0; k < N->of->matrix_numbers; ++k)
+    if (*in[N->of->matrix_of[k]] != N->of_matrix[k]) return 0;
+  return N->of->matrix_numbers >= 0;
+}
+
 /* Iterates to round-off: until changes are so small, or contract so well, that nothing is left, or until they
    only move by round-off. Zero if that fails. */
 static int iterate(struct newton *N, const double *const *in, const double *scales) {
   const double tolerance = 1e-17, round_off = 1e-9, brief = 1e-4;
   double previous = INFINITY, contraction, slowest, moved = INFINITY;
-  int iteration, i, learned = 0, compared = 0;
+  int iteration, i, exact, learned = 0, compared = 0;
   int fresh = 0; /* A belongs to a point of this solve */
   int close = 0; /* which a short change led to */
   double unsolved = -1.0, first[MOST_SIZE]; /* where changes stalled before, and first */
@@ -284,6 +296,7 @@ static int iterate(struct newton *N, const double *const *in, const double *scal
     fresh = evaluated = 1;
     if (!factorize(N, in)) return 0;
   }
+  exact = is_exact(N, in);
   for (iteration = 0; iteration < 60; ++iteration) {
     if (!evaluated) N->of->value(in, N->all);
     evaluated = 0;
@@ -297,6 +310,8 @@ static int iterate(struct newton *N, const double *const *in, const double *scal
       if (!factorize(N, in)) return 0;
       continue;
     }
+    /* What affine equations are left with after a short change is nothing next to the rounding of their residual. */
+    if (exact && compared == 0 && moved <= 1e-3) return 1;
     if (compared > 0) {
       int stalled, stagnant, rounded, slow, still;
       contraction = moved / previous;

@@ -39,8 +39,9 @@ struct Problem {
       Contraction::Instructions instructions = Contraction::Instructions::best) {
     const Contraction contraction(n, instructions);
     BOOST_TEST_REQUIRE(contraction.is_available());
-    return contraction(function, Inputs(u.data(), {J.data(), b.data()}), workspace(),
-                       {.scale = 1.0, .tolerance = tolerance, .slow = 0.2, .most = most});
+    return contraction(
+        function, Inputs(u.data(), {J.data(), b.data()}), workspace(),
+        {.scale = 1.0, .tolerance = tolerance, .slow = 0.2, .most = most, .is_exact = false});
   }
   Contraction::Workspace workspace() {
     return {.inverse = A.data(),

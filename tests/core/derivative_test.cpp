@@ -295,6 +295,20 @@ BOOST_AUTO_TEST_CASE(gradients_nest) {
   BOOST_TEST((at(slope, x, Eigen::Vector2d(a, b)) - 2.0 * H * g).norm() < 1e-14);
 }
 
+BOOST_AUTO_TEST_CASE(affine_maps_are_told_from_others) {
+  const Graph graph;
+  const ExprVector x = graph.variables("x", 2), p = graph.variables("p", 2);
+  const auto is_affine_in_x = [&](const Expr& y) {
+    return is_affine(ExprVector::Constant(1, y), x);
+  };
+  for (const Expr& y : {Expr(2.0), exp(p[0]), x[0] - sin(p[0]) * x[1] / p[1] + 3.0, -(x[0] + p[0]),
+                        select(p[0] < 0.0, x[0], 2.0 * x[1])})
+    BOOST_TEST(is_affine_in_x(y), y);
+  for (const Expr& y : {x[0] * x[1], p[0] / x[0], sin(x[1]), abs(x[0]), sign(x[0]), pow(x[0], 2),
+                        select(x[0] < 0.0, p[0], p[1]), min(x[0], p[0]), p[0] + x[1] * exp(x[0])})
+    BOOST_TEST(!is_affine_in_x(y), y);
+}
+
 BOOST_AUTO_TEST_CASE(substitution_replaces_all_at_once) {
   Graph graph, other;
   const ExprVector x = graph.variables("x", 2), u = other.variables("u", 2);

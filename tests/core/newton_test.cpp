@@ -372,6 +372,62 @@ BOOST_AUTO_TEST_CASE(an_accidental_contraction_is_no_convergence) {
   BOOST_TEST(std::abs(y[1] - 0.2 / 1.009) < 1e-10);
 }
 
+// y = A(h) y + b: a short change by the matrix of this h is the only one. That of another h, and a jump that no
+// derivative shows, take more.
+BOOST_AUTO_TEST_CASE(affine_equations_are_solved_by_one_short_change) {
+  for (const Index n : {3, 12}) {  // in a loop of its own, and not
+    const Graph graph;
+    const ExprVector y = graph.variables("y", n), h = graph.variables("h", 1),
+                     b = graph.variables("b", 1);
+    const auto solver = [&](const Expr& jump) {
+      ExprVector F(n);
+      for (Index i = 0; i < n; ++i)
+        F[i] = y[i] - b[0] * (1.0 + 0.1 * static_cast<double>(i)) + 0.3 * h[0] * y[(i + 1) % n];
+      F[0] += jump;
+      const EquationSystem system("affine", {{"y", y}, {"h", h}, {"b", b}}, F,
+                                  {.eliminates = false});
+      return Newton(system, {n}, {});
+    };
+    VectorXd at = VectorXd::Zero(n);
+    double step = 1.0, right = 1.0;
+    const double scale = 1.0;
+    const Inputs in(at.data(), {&step, &right});
+    const auto defect = [&] {
+      double result = 0.0;
+      for (Index i = 0; i < n; ++i)
+        result = std::max(result, std::fabs(at[i] - right * (1.0 + 0.1 * static_cast<double>(i)) +
+                                            0.3 * step * at[(i + 1) % n]));
+      return result;
+    };
+    const auto iterations = [&](Newton& newton) {
+      BOOST_TEST((newton.solve(in, &scale).status == Newton::Status::converged));
+      return newton.result().iterations;
+    };
+    Newton newton = solver(0.0);
+    iterations(newton);
+    right += 1e-7;
+    BOOST_TEST(iterations(newton) == 1);
+    BOOST_TEST(defect() < 2e-15);
+    right += 5e-3;
+    BOOST_TEST(iterations(newton) == 2);
+    step += 1e-7;
+    BOOST_TEST(iterations(newton) > 1);
+    BOOST_TEST(defect() < 2e-15);
+
+    // From just below the jump of y₀ to behind it.
+    step = 1.0, right = 1.0;
+    at.setZero();
+    Newton plain = solver(0.0);
+    iterations(plain);
+    const double place = at[0] + 1e-8;
+    Newton jumping = solver(1e-3 * select(y[0] < place, Expr(0.0), Expr(1.0)));
+    iterations(jumping);
+    right += 1e-7;
+    jumping.solve(in, &scale);
+    BOOST_TEST(jumping.result().iterations > 1);
+  }
+}
+
 // A velocity that is measured for its increment, and a multiplier, each with a part of the other that the matrix
 // does not know. The multiplier's error of 7e-12 is 1e-12 of the velocity after one change, nothing next to the
 // scale, and after another 4e-14 of the multiplier.

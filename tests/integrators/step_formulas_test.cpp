@@ -68,6 +68,7 @@ BOOST_AUTO_TEST_CASE(linear_systems_have_affine_steps) {
       force([](const Expr& q, const Expr& t) { return sin(t) - (2.0 + cos(t)) * q; }).is_affine());
   BOOST_TEST(!force([](const Expr& q, const Expr&) { return -q - pow(q, 3); }).is_affine());
   BOOST_TEST(!force([](const Expr& q, const Expr&) { return -abs(q); }).is_affine());
+  BOOST_TEST(!force([](const Expr& q, const Expr&) { return -q - 0.1 * sign(q); }).is_affine());
 }
 
 BOOST_AUTO_TEST_CASE(an_explanation_names_what_goes_and_what_stays) {
