@@ -32,6 +32,7 @@ BOOST_AUTO_TEST_CASE(large_ones_have_sparse_factors) {
   const Index n = 300;
   SparseMatrixXd S(1, n);
   for (Index j = 0; j < n; ++j) S.insert(0, j) = 1.0;
+  S.makeCompressed();
   BOOST_TEST(!is_factored_dense(S));
   const VectorXd step = DampedInverse(S, VectorXd::Ones(n), 0.0).step(VectorXd{{-300.0}});
   BOOST_TEST((step - VectorXd::Ones(n)).norm() < 1e-6);
