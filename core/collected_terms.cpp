@@ -2,125 +2,33 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
+#include "courant/core/power_of_two.hpp"
 #include "courant/core/subgraph.hpp"
+#include "courant/core/sum_of_terms.hpp"
 
 namespace courant {
 namespace {
 
-// A coefficient below this part of what it was added up from is round-off.
-constexpr double kRoundOff = 1e-15;
-
 // Shared sums of more terms than this are not taken apart, nor are those of longer sums.
 constexpr std::size_t kMostTerms = 32;
 
-struct Term {
-  Expr atom;
-  double coefficient, magnitude;  // what it was added up from
-};
-
-// Σ c_k a_k + c_0. Operations are counted as they will be written.
-class Sum {
- public:
-  void add(const Expr& atom, double coefficient) {
-    if (atom.is_constant()) {
-      constant_ += coefficient * atom.value();
-      return;
-    }
-    const auto [place, is_new] = places_.try_emplace(atom.node(), terms_.size());
-    if (is_new) {
-      terms_.push_back({atom, coefficient, std::fabs(coefficient)});
-      return;
-    }
-    has_met_ = true;
-    Term& term = terms_[place->second];
-    term.coefficient += coefficient;
-    term.magnitude += std::fabs(coefficient);
-  }
-
-  void add(const Sum& other, double factor) {
-    for (const Term& term : other.terms_) add(term.atom, factor * term.coefficient);
-    constant_ += factor * other.constant_;
-  }
-
-  // The same with a term that is a sum taken apart.
-  Sum with_apart(const Expr& atom, const Sum& sum) const {
-    Sum result;
-    result.constant_ = constant_;
-    for (const Term& term : terms_)
-      if (term.atom.node() == atom.node())
-        result.add(sum, term.coefficient);
-      else
-        result.add(term.atom, term.coefficient);
-    return result;
-  }
-
-  void drop_zeros() {
-    std::erase_if(terms_, [](const Term& term) {
-      return std::fabs(term.coefficient) <= kRoundOff * term.magnitude;
-    });
-    places_.clear();
-    for (std::size_t k = 0; k < terms_.size(); ++k) places_[terms_[k].atom.node()] = k;
-  }
-
-  bool has_met() const { return has_met_; }
-  const std::vector<Term>& terms() const { return terms_; }
-
-  std::size_t operations() const {
-    std::size_t count = terms_.size() + (constant_ != 0.0 ? 1 : 0);
-    if (count > 0) --count;
-    if (terms_.empty()) return count;
-    const double common = common_factor();
-    if (common != 1.0) ++count;
-    for (const Term& term : terms_)
-      if (std::fabs(term.coefficient / common) != 1.0) ++count;
-    return terms_[first()].coefficient / common == -1.0 ? count + 1 : count;
-  }
-
-  // c (a_1 - a_2 + …) where all coefficients but the constant have one size.
-  Expr expression() const {
-    if (terms_.empty()) return constant_;
-    const double common = common_factor();
-    const std::size_t first = this->first();
-    Expr sum = terms_[first].coefficient / common * terms_[first].atom;
-    for (std::size_t k = 0; k < terms_.size(); ++k) {
-      if (k == first) continue;
-      const double c = terms_[k].coefficient / common;
-      sum = c > 0.0 ? sum + c * terms_[k].atom : sum - (-c) * terms_[k].atom;
-    }
-    return common * sum + constant_;
-  }
-
- private:
-  // The term to begin with: the first that is added.
-  std::size_t first() const {
-    const auto added = std::ranges::find_if(
-        terms_, [](double c) { return c > 0.0; }, &Term::coefficient);
-    return added == terms_.end() ? 0 : static_cast<std::size_t>(added - terms_.begin());
-  }
-
-  // That of all coefficients, with the sign of the first; 1 where they have several sizes.
-  double common_factor() const {
-    const double c = terms_[first()].coefficient;
-    const bool is_common = terms_.size() > 1 && std::ranges::all_of(terms_, [&](const Term& term) {
-                             return std::fabs(term.coefficient) == std::fabs(c);
-                           });
-    return is_common && std::fabs(c) != 1.0 ? c : 1.0;
-  }
-
-  std::vector<Term> terms_;  // in the order in which they came
-  std::unordered_map<std::uint32_t, std::size_t> places_;
-  double constant_ = 0.0;
-  bool has_met_ = false;
-};
-
 class Collector {
  public:
-  explicit Collector(const ExprVector& roots)
-      : subgraph_(roots), image_(subgraph_.size()), is_head_(subgraph_.size(), false) {
+  // Without `varying` everything varies, and products stay.
+  Collector(const ExprVector& roots, const ExprVector* varying)
+      : subgraph_(roots),
+        image_(subgraph_.size()),
+        is_head_(subgraph_.size(), false),
+        varies_(subgraph_.size(), varying == nullptr) {
+    if (varying != nullptr) find_varying(*varying);
     find_heads(roots);
+    if (varying != nullptr) chains_.resize(subgraph_.size());
     for (std::size_t at = 0; at < subgraph_.size(); ++at) {
       const Node& node = this->node(at);
       const int count = arity(node.op);
@@ -132,7 +40,9 @@ class Collector {
       Expr images[3];
       for (int k = 0; k < count; ++k) images[k] = image_[subgraph_.position(operands[k])];
       image_[at] = apply(node.op, node.k, images[0], images[1], images[2]);
-      if (is_head_[at] && is_linear(node)) collect(at);
+      if (!varies_[at] || !is_linear(node)) continue;
+      if (!chains_.empty() && is_product(node)) join_chain(at);
+      if (is_head_[at]) collect(at);
     }
   }
 
@@ -147,7 +57,67 @@ class Collector {
   }
   double number(std::uint32_t operand) const { return subgraph_.graph().constant(operand); }
 
-  // A sum, or a number times something.
+  bool is_known(std::uint32_t operand) const { return !varies_[subgraph_.position(operand)]; }
+
+  // c f a as several operations: a power of two, at most one known factor, and the rest.
+  struct Chain {
+    double number = 1.0;
+    Expr factor = 1.0, atom = 0.0;
+    int length = 0;
+  };
+
+  static bool is_product(const Node& node) {
+    return node.op == Op::negate || node.op == Op::multiply || node.op == Op::divide;
+  }
+  // Of a product that is linear: the operand, and what stands before it.
+  std::pair<std::uint32_t, Expr> split(const Node& node) const {
+    const auto known = [&](std::uint32_t operand) {
+      return is_number(operand) ? Expr(number(operand)) : image_[subgraph_.position(operand)];
+    };
+    if (node.op == Op::negate) return {node.a, -1.0};
+    if (node.op == Op::divide) return {node.a, 1.0 / known(node.b)};
+    const bool is_second = is_number(node.b) || (!is_number(node.a) && is_known(node.b));
+    return is_second ? std::pair(node.a, known(node.b)) : std::pair(node.b, known(node.a));
+  }
+  // One operation with what varies instead of all, with the same bits.
+  void join_chain(std::size_t at) {
+    const auto [operand, before] = split(node(at));
+    const bool is_number = before.is_constant();
+    if (is_number ? !is_power_of_two(before.value()) : node(at).op == Op::divide) return;
+    const std::size_t place = subgraph_.position(operand);
+    Chain chain = chains_[place];
+    if (chain.length == 0 || (!is_number && !chain.factor.is_constant()))
+      chain = {.atom = image_[place]};
+    ++chain.length;
+    if (is_number)
+      chain.number *= before.value();
+    else
+      chain.factor = before;
+    if (chain.length > 1) image_[at] = chain.number * chain.factor * chain.atom;
+    chains_[at] = std::move(chain);
+  }
+
+  // Not a number.
+  bool has_known_factor(const Node& node) const {
+    const auto is_factor = [&](std::uint32_t operand) {
+      return is_known(operand) && !is_number(operand);
+    };
+    return (node.op == Op::multiply && (is_factor(node.a) || is_factor(node.b))) ||
+           (node.op == Op::divide && is_factor(node.b));
+  }
+
+  void find_varying(const ExprVector& varying) {
+    for (const Expr& variable : varying)
+      if (subgraph_.contains(variable)) varies_[subgraph_.position(variable)] = true;
+    for (std::size_t at = 0; at < subgraph_.size(); ++at) {
+      const Node& node = this->node(at);
+      const std::uint32_t operands[] = {node.a, node.b, node.c};
+      for (int k = 0; k < arity(node.op); ++k)
+        if (!is_known(operands[k])) varies_[at] = true;
+    }
+  }
+
+  // A sum, or something times a number or what is known beforehand.
   bool is_linear(const Node& node) const {
     switch (node.op) {
       case Op::negate:
@@ -155,9 +125,9 @@ class Collector {
       case Op::subtract:
         return true;
       case Op::multiply:
-        return is_number(node.a) || is_number(node.b);
+        return is_number(node.a) || is_number(node.b) || is_known(node.a) != is_known(node.b);
       case Op::divide:
-        return is_number(node.b) && number(node.b) != 0.0;
+        return is_number(node.b) ? number(node.b) != 0.0 : is_known(node.b) && !is_known(node.a);
       default:
         return false;
     }
@@ -178,61 +148,129 @@ class Collector {
     }
     for (const Expr& root : roots)
       if (!root.is_constant()) is_head_[subgraph_.position(root)] = true;
+    // Products with what is known that stand in such a product: (a + (b + c/h)/h)/h keeps its parentheses, inside of
+    // which terms may cancel.
+    std::vector<bool> is_inside(subgraph_.size(), false);
+    for (std::size_t at = subgraph_.size(); at-- > 0;) {
+      const Node& node = this->node(at);
+      if (!varies_[at] || !is_linear(node)) continue;
+      if (is_inside[at] && has_known_factor(node)) is_head_[at] = true;
+      const std::uint32_t operands[] = {node.a, node.b, node.c};
+      for (int k = 0; k < arity(node.op); ++k)
+        is_inside[subgraph_.position(operands[k])] =
+            has_known_factor(node) || (is_inside[at] && !is_head_[at]);
+    }
   }
 
-  // The sum that a head is, down to the next heads and to what is no sum; `operations`: how many it takes.
-  Sum sum_of(std::size_t head, std::size_t& operations) const {
-    struct Part {
-      std::size_t at;
-      double factor;
-    };
-    Sum sum;
-    std::vector<Part> open = {{head, 1.0}};
+  // A place in the tree of sums and products that a head is, down to the next heads and to what is no sum.
+  struct Place {
+    std::size_t at, parent;
+    double number;  // what stands before it
+    Expr factor;
+    bool is_head = false, is_leaf = false;
+    bool meets = false;    // a leaf there has an equal one
+    std::size_t size = 1;  // of its own tree
+  };
+
+  // Each before what it is made of, the first operand before the second.
+  std::vector<Place> places_of(std::size_t head) const {
+    std::vector<Place>
+        open = {{.at = head, .parent = 0, .number = 1.0, .factor = 1.0, .is_head = true}},
+        places;
     while (!open.empty()) {
-      const std::size_t at = open.back().at;
-      const double factor = open.back().factor;
+      Place place = std::move(open.back());
       open.pop_back();
-      const Node& node = this->node(at);
-      if (at != head && (is_head_[at] || !is_linear(node))) {
-        sum.add(image_[at], factor);
-        continue;
-      }
-      ++operations;
+      const Node& node = this->node(place.at);
+      place.is_leaf = !place.is_head && (is_head_[place.at] || !is_linear(node));
       const auto part = [&](std::uint32_t operand, double times) {
-        open.push_back({subgraph_.position(operand), factor * times});
+        open.push_back({.at = subgraph_.position(operand),
+                        .parent = places.size(),
+                        .number = place.number * times,
+                        .factor = place.factor});
       };
-      switch (node.op) {
-        case Op::negate:
-          part(node.a, -1.0);
-          break;
-        case Op::multiply:
-          if (is_number(node.a))
-            part(node.b, number(node.a));
-          else
-            part(node.a, number(node.b));
-          break;
-        case Op::divide:
-          part(node.a, 1.0 / number(node.b));
-          break;
-        default:  // the first operand is looked at first
-          part(node.b, node.op == Op::add ? 1.0 : -1.0);
-          part(node.a, 1.0);
+      if (!place.is_leaf && is_product(node)) {
+        const auto [operand, before] = split(node);
+        part(operand, before.is_constant() ? before.value() : 1.0);
+        if (!before.is_constant()) open.back().factor = place.factor * before;
+      } else if (!place.is_leaf) {
+        part(node.b, node.op == Op::add ? 1.0 : -1.0);
+        part(node.a, 1.0);
       }
+      places.push_back(std::move(place));
+    }
+    // How many leaves there are of each atom, or of sums with it that may be taken apart.
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> leaves;
+    const auto for_each_atom = [&](const Place& leaf, const auto& visit) {
+      if (image_[leaf.at].is_constant()) return;
+      const std::uint32_t factor = node_number(leaf.factor), atom = node_number(image_[leaf.at]);
+      visit(leaves[{factor, atom}]);
+      if (const auto known = sums_.find(atom); known != sums_.end() && may_be_apart(known->second))
+        for (const SumOfTerms::Term& term : known->second.terms())
+          visit(leaves[{leaf.factor.is_constant() ? node_number(term.factor) : factor,
+                        node_number(term.atom)}]);
+    };
+    for (const Place& place : places)
+      if (place.is_leaf) for_each_atom(place, [](std::size_t& count) { ++count; });
+    for (std::size_t i = places.size(); i-- > 1;) {
+      Place& place = places[i];
+      if (place.is_leaf) for_each_atom(place, [&](std::size_t count) { place.meets |= count > 1; });
+      places[place.parent].size += place.size;
+      if (place.meets) places[place.parent].meets = true;
+    }
+    return places;
+  }
+
+  static bool may_be_apart(const SumOfTerms& sum) { return sum.terms().size() <= kMostTerms; }
+  bool stays(const Place& place) const {
+    return place.is_leaf || (!place.is_head && !place.meets && !is_product(node(place.at)));
+  }
+
+  // What a head is. A sum none of whose terms meets another one stays in its parentheses, where terms may cancel, as in
+  // I (exp(v) - 1).
+  SumOfTerms sum_of(const std::vector<Place>& places) const {
+    SumOfTerms sum;
+    for (std::size_t i = 0; i < places.size();) {
+      const Place& place = places[i];
+      const bool is_atom = stays(place);
+      if (is_atom) sum.add(place.number, place.factor, image_[place.at], varies_[place.at]);
+      i += is_atom ? place.size : 1;
     }
     sum.drop_zeros();
     return sum;
   }
+  // All terms of it.
+  SumOfTerms whole_sum_of(const std::vector<Place>& places) const {
+    SumOfTerms sum;
+    for (const Place& place : places)
+      if (place.is_leaf) sum.add(place.number, place.factor, image_[place.at], varies_[place.at]);
+    sum.drop_zeros();
+    return sum;
+  }
+  // How many operations with what varies it takes, but for those in sums that stay.
+  std::size_t operations_of(const std::vector<Place>& places) const {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < places.size();) {
+      const Place& place = places[i];
+      const bool is_atom = stays(place);
+      if (!is_atom && varies_[place.at]) ++count;
+      i += is_atom ? place.size : 1;
+    }
+    return count;
+  }
 
   void collect(std::size_t head) {
-    std::size_t before = 0;
-    Sum sum = sum_of(head, before);
+    const std::vector<Place> places = places_of(head);
+    const std::size_t before = operations_of(places);
+    SumOfTerms sum = sum_of(places);
     bool has_met = sum.has_met();
     for (bool is_apart = true; is_apart && sum.terms().size() <= kMostTerms;) {
       is_apart = false;
-      for (const Term& term : sum.terms()) {
+      for (const SumOfTerms::Term& term : sum.terms()) {
+        if (!term.varies) continue;
         const auto known = sums_.find(term.atom.node());
-        if (known == sums_.end() || known->second.terms().size() > kMostTerms) continue;
-        Sum apart = sum.with_apart(term.atom, known->second);
+        if (known == sums_.end() || !may_be_apart(known->second)) continue;
+        if (!term.factor.is_constant() && known->second.has_factors()) continue;
+        SumOfTerms apart = sum.with_apart(term.atom, known->second);
         if (!apart.has_met()) continue;
         apart.drop_zeros();
         if (apart.operations() > std::min(before, sum.operations())) continue;
@@ -241,20 +279,31 @@ class Collector {
         break;
       }
     }
-    if (has_met && sum.operations() <= before) image_[head] = sum.expression();
-    if (!image_[head].is_constant()) sums_.try_emplace(image_[head].node(), std::move(sum));
+    const bool is_better = has_met && sum.is_exact() && sum.operations() <= before;
+    if (is_better) {
+      image_[head] = sum.expression();
+      if (!chains_.empty()) chains_[head] = {};
+    }
+    if (!image_[head].is_constant())
+      sums_.try_emplace(image_[head].node(), is_better ? std::move(sum) : whole_sum_of(places));
   }
 
   Subgraph subgraph_;
   std::vector<Expr> image_;
-  std::vector<bool> is_head_;
-  std::unordered_map<std::uint32_t, Sum> sums_;  // by the nodes of images
+  std::vector<bool> is_head_, varies_;
+  std::vector<Chain> chains_;
+  std::unordered_map<std::uint32_t, SumOfTerms> sums_;  // by the nodes of images
 };
 
 }  // namespace
 
 ExprVector collected(const ExprVector& expressions) {
-  const Collector collector(expressions);
+  const Collector collector(expressions, nullptr);
+  return expressions.unaryExpr([&](const Expr& a) { return collector(a); });
+}
+
+ExprVector collected(const ExprVector& expressions, const ExprVector& varying) {
+  const Collector collector(expressions, &varying);
   return expressions.unaryExpr([&](const Expr& a) { return collector(a); });
 }
 

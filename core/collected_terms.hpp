@@ -17,4 +17,13 @@ namespace courant {
 // Takes a time that is linear in the size of the expressions.
 ExprVector collected(const ExprVector& expressions);
 
+// The same for many values of the variables `varying`; what the others determine is evaluated once, and only operations
+// with what varies count. So terms meet that have the same known factor, and powers of two in a row with such a factor become one with it:
+//
+//   d/h + y - (x - d)/h        (2/h) (d - x/2) + y      for d and y that vary
+//   h ((y/2)/(-4))             (-h/8) y
+//
+// Sums of terms with one factor stay in their parentheses, as terms may cancel there.
+ExprVector collected(const ExprVector& expressions, const ExprVector& varying);
+
 }  // namespace courant

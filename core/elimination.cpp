@@ -357,9 +357,8 @@ Elimination::Elimination(const ExprVector& F, const ExprVector& y, const Options
     equations = all.head(F.size());
     unknowns = all.tail(y.size());
   }
-  const ExprVector both = collected(joined(equations, unknowns));
-  equations = both.head(F.size());
-  unknowns = both.tail(y.size());
+  equations = collected(equations, y);
+  unknowns = collected(unknowns, variables_of(unknowns));
   for (Index i = 0; i < F.size(); ++i)
     if (!is_done[static_cast<std::size_t>(i)] && !equations[i].is_constant(0.0))
       remaining.push_back(i);

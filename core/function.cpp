@@ -5,7 +5,6 @@
 
 #include "courant/core/derivative.hpp"
 #include "courant/core/held_part.hpp"
-#include "courant/core/subgraph.hpp"
 
 namespace courant {
 namespace {
@@ -55,8 +54,8 @@ Function::Function(const std::string& name, const std::vector<Input>& inputs,
     cols_ = j.cols;
     pattern_row_ = std::move(j.row);
     pattern_col_ = std::move(j.col);
-    jacobian_groups_ = contained_groups(j.values, groups);
-    is_affine_ = courant::is_affine(outputs, as_vector(by));
+    if (std::ssize(by) == sizes_[0] && options.differentiate[0] == inputs[0].name)
+      matrix_numbers_ = MatrixNumbers(outputs, j.values, groups);
     all.resize(outputs.size() + j.values.size());
     all << outputs, j.values;
   }

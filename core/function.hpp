@@ -9,6 +9,7 @@
 
 #include "courant/core/backend.hpp"
 #include "courant/core/expr.hpp"
+#include "courant/core/matrix_numbers.hpp"
 #include "courant/core/native_module.hpp"
 #include "courant/core/program.hpp"
 
@@ -52,10 +53,8 @@ class Function {
   Index nonzeros() const { return static_cast<Index>(pattern_row_.size()); }
   const std::vector<Index>& pattern_row() const { return pattern_row_; }
   const std::vector<Index>& pattern_col() const { return pattern_col_; }
-  // Whether the outputs are affine in what they are differentiated by, see is_affine().
-  bool is_affine() const { return is_affine_; }
-  // The input groups that the entries depend on, ascending.
-  const std::vector<Index>& jacobian_groups() const { return jacobian_groups_; }
+  // What its entries are made of, where it is by the first group alone.
+  const MatrixNumbers& matrix_numbers() const { return matrix_numbers_; }
 
   bool is_native() const { return native_->value != nullptr; }
   Index instruction_count() const { return value_->instruction_count(); }
@@ -132,8 +131,7 @@ class Function {
   Index cols_ = 0;
   std::vector<Index> pattern_row_;
   std::vector<Index> pattern_col_;
-  std::vector<Index> jacobian_groups_;
-  bool is_affine_ = false;
+  MatrixNumbers matrix_numbers_;
   std::shared_ptr<const Program> value_ = std::make_shared<const Program>();
   std::shared_ptr<const Program> all_ = value_;  // value and Jacobian
   std::shared_ptr<const Function> held_;         // of the same inputs; null: nothing is held

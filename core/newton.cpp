@@ -34,11 +34,7 @@ constexpr double kRounded = 16.0 * std::numeric_limits<double>::epsilon();
 // Above these, after iterations that do not move any more, something is not solved.
 constexpr double kSolved = 1e-9;
 
-// Where the equations have exponentials: arguments below which these are nothing; what an error of arguments is
-// that is round-off; a change that a matrix is of use over; and the part of their terms that residuals may be else.
-constexpr double kNothing = -30.0;
-constexpr double kStill = 1e-13;
-constexpr double kSameSlope = 1.0;
+// Next to their terms, where the equations have exponentials that are not settled.
 constexpr double kHolds = 2e-14;
 
 // Relative changes that are round-off everywhere.
@@ -110,36 +106,18 @@ Newton::Newton(EquationSystem system, std::vector<Index> groups, const Options& 
   magnitude_.resize(function_.output_size());
   stalled_.resize(function_.output_size());
   if (system_.exponentials().count() > 0) {
+    exponentials_.emplace(system_.exponentials());
     limited_.emplace(system_.exponentials());
-    arguments_.resize(system_.exponentials().count());
-    last_arguments_.resize(arguments_.size());
-    at_matrix_.resize(arguments_.size());
-    last_.resize(function_.input_size(0));
   }
-  const std::vector<Index>& groups_of_matrix = function_.jacobian_groups();
-  if (function_.is_affine() && function_.output_size() == step_.size() &&
-      std::ranges::all_of(groups_of_matrix,
-                          [&](Index g) { return function_.input_size(g) == 1; })) {
-    matrix_of_ = groups_of_matrix;
-    at_factorization_.setZero(std::ssize(groups_of_matrix));
-  }
+  if (function_.output_size() == step_.size()) matrix_numbers_ = function_.matrix_numbers();
   held_.resize(function_.held_size());
   if (system_.is_reduced()) kept_.resize(std::ssize(system_.kept()));
 }
 
-bool Newton::has_exact_matrix(const Inputs& in) const {
-  if (!matrix_of_) return false;
-  for (std::size_t k = 0; k < matrix_of_->size(); ++k)
-    if (*in[(*matrix_of_)[k]] != at_factorization_[static_cast<Index>(k)]) return false;
-  return true;
-}
-
 bool Newton::factorize(const Inputs& in) {
-  if (matrix_of_)
-    for (std::size_t k = 0; k < matrix_of_->size(); ++k)
-      at_factorization_[static_cast<Index>(k)] = *in[(*matrix_of_)[k]];
+  matrix_numbers_.keep(in);
   function_.value_and_jacobian_with_held(in.data(), all_.data());
-  if (limited_) system_.exponentials().arguments().value(in.data(), at_matrix_.data());
+  if (exponentials_) exponentials_->keep(in);
   factorized_ = solver_->factorize(all_.data() + function_.output_size());
   inverse_ = factorized_ ? solver_->inverse() : nullptr;
   return factorized_;
@@ -264,30 +242,14 @@ bool Newton::is_still(const double* y, const double* scales, bool fresh, double&
   return !falls;
 }
 
-// Whether the last change left the arguments of exponentials where they were, by a matrix that was made near
-// there: one of a point far up an exponential makes steps of any shortness. Or whether the equations hold next
-// to their terms at y, by the matrix there. Scales say nothing of this: voltages of diodes are measured by 10⁷ times
-// their size, next to which all of an exponential is round-off.
+// Whether what exponentials are of does not change any more, or else the equations hold next to their terms at y, by the
+// matrix there. Scales say nothing of this: voltages of diodes are measured by 10⁷ times their size, next to which all of
+// an exponential is round-off.
 bool Newton::is_settled(const Inputs& in, bool fresh) {
-  if (!limited_) return true;
-  const double* const y = in[0];
-  last_ = Eigen::Map<const VectorXd>(y, last_.size());
-  for (std::size_t k = 0; k < contained_.size(); ++k)
-    last_[contained_[k]] += step_[static_cast<Index>(k)];
-  Inputs last = in;
-  last.set_unknowns(last_.data());
-  const Function& arguments = system_.exponentials().arguments();
-  arguments.value(in.data(), arguments_.data());
-  arguments.value(last.data(), last_arguments_.data());
-  const auto differs = [&](const VectorXd& from) {
-    return (arguments_.cwiseMax(kNothing) - from.cwiseMax(kNothing)).lpNorm<Eigen::Infinity>();
-  };
-  const double change = differs(last_arguments_), away = differs(at_matrix_);
-  // The matrix is wrong by about the change of the arguments since.
-  if (away <= kSameSlope && change * std::max(change, away) <= kStill) return true;
+  if (!exponentials_ || exponentials_->is_settled(in, contained_, step_)) return true;
   if (!fresh) return false;
   function_.value_and_jacobian_with_held(in.data(), all_.data());
-  sum_terms([&](Index j) { return std::fabs(y[j]); });
+  sum_terms([y = in[0]](Index j) { return std::fabs(y[j]); });
   return largest_part(magnitude_) <= kHolds;
 }
 
@@ -336,7 +298,7 @@ bool Newton::approach(const Inputs& in, const double* scales) {
   const bool is_reduced = system_.is_reduced();
   double* const u = of_kept.unknowns();
   if (limited_) {
-    last_ = Eigen::Map<const VectorXd>(u, last_.size());
+    const VectorXd from = Eigen::Map<const VectorXd>(u, function_.input_size(0));
     Inputs without_held = of_kept;
     if (held_.size() > 0) without_held.drop_parameter();
     if (limited_->solve(without_held)) {
@@ -344,7 +306,7 @@ bool Newton::approach(const Inputs& in, const double* scales) {
       if (is_reduced) give(in.unknowns());
       return true;
     }
-    std::copy(last_.begin(), last_.end(), u);
+    std::copy(from.begin(), from.end(), u);
   }
   DampedEquations equations;
   Index begin = 0;
@@ -400,10 +362,10 @@ Newton::Status Newton::solve_kept(const Inputs& in, const double* scales) {
     return factorize(in);
   };
   if (!factorized_ && !refactorize()) return Status::singular;
-  const bool is_exact = has_exact_matrix(in);
+  const bool is_exact = matrix_numbers_.are_kept(in);
   // Most solves are over before anything else has to be looked at.
   bool has_moved = false;
-  if (contraction_.is_available() && inverse_ != nullptr && !fresh && !limited_) {
+  if (contraction_.is_available() && inverse_ != nullptr && !fresh && !exponentials_) {
     const Contraction::Result quick = contraction_(function_, in, workspace(y),
                                                    {.scale = scales[group_],
                                                     .tolerance = options_.tolerance,
@@ -472,7 +434,7 @@ Newton::Status Newton::solve_kept(const Inputs& in, const double* scales) {
         return Status::converged;
       }
     }
-    if (inverse_ != nullptr && !learned && !limited_) {
+    if (inverse_ != nullptr && !learned && !exponentials_) {
       learned = compared > 0 && contraction::teaches(moved, previous);
       if (learned)
         learn();

@@ -6,6 +6,7 @@
 
 #include "courant/core/contraction.hpp"
 #include "courant/core/equation_system.hpp"
+#include "courant/core/exponential_watch.hpp"
 #include "courant/core/inputs.hpp"
 #include "courant/core/limited_newton.hpp"
 #include "courant/core/linear_solver.hpp"
@@ -88,7 +89,6 @@ class Newton {
   const Inputs& take_kept(const Inputs& in);
   void give(double* y);
   bool factorize(const Inputs& in);
-  bool has_exact_matrix(const Inputs& in) const;
   Contraction::Workspace workspace(double* y);
   double improve(double* y, const double* scales);
   void learn();
@@ -117,11 +117,8 @@ class Newton {
   std::unique_ptr<LinearSolver>
       solver_;  // for a row an equation, a column an unknown of contained_
   bool factorized_ = false;
-  double* inverse_ = nullptr;  // of the solver
-  // Where the equations are affine: groups of one number each that their matrix is made of, and these numbers when it
-  // was factorised.
-  std::optional<std::vector<Index>> matrix_of_;
-  VectorXd at_factorization_;
+  double* inverse_ = nullptr;     // of the solver
+  MatrixNumbers matrix_numbers_;  // of the last factorisation
   double round_off_ = 0.0;  // by how much iterates moved when they stalled with a new factorisation
   Inputs in_;               // where the kept unknowns are, the parameters, and what is held
   VectorXd kept_;           // unknowns
@@ -129,13 +126,13 @@ class Newton {
   Result result_;           // of the last solve
   VectorXd all_;            // F and the entries of its Jacobian
   VectorXd step_, settled_;
-  VectorXd sizes_;                        // of groups, at the last change
-  VectorXd moved_;                        // the last changes of groups, relative to those
-  double slowest_ = 0.0;                  // of several groups, see has_ended_everywhere()
-  VectorXd before_, weighted_;            // the change before, and in units of those sizes
-  std::optional<LimitedNewton> limited_;  // where there are exponentials
-  // Of those, at y, before the last change and where the matrix was made; y before the last change.
-  VectorXd arguments_, last_arguments_, at_matrix_, last_;
+  VectorXd sizes_;              // of groups, at the last change
+  VectorXd moved_;              // the last changes of groups, relative to those
+  double slowest_ = 0.0;        // of several groups, see has_ended_everywhere()
+  VectorXd before_, weighted_;  // the change before, and in units of those sizes
+  // Where there are exponentials.
+  std::optional<ExponentialWatch> exponentials_;
+  std::optional<LimitedNewton> limited_;
   VectorXd magnitude_, stalled_;  // of the terms that each equation is a sum of
 };
 

@@ -60,15 +60,8 @@ bool PolynomialReduction::apply(const Polynomial& relation, Polynomial& sum) {
                                  [](const auto& term) { return !term.first.empty(); });
   if (lead == relation.end()) return false;
   for (const auto& [monomial, c] : sum) {
+    if (!divides(lead->first, monomial)) continue;
     const Monomial multiplier = product(monomial, lead->first, -1);
-    // The lead must divide the monomial.
-    bool divides = true;
-    for (const auto& [factor, exponent] : lead->first) {
-      const auto found = std::find_if(monomial.begin(), monomial.end(),
-                                      [f = factor](const auto& e) { return e.first == f; });
-      divides = divides && found != monomial.end() && found->second >= exponent;
-    }
-    if (!divides) continue;
     const double scale = c / lead->second;
     bool all = true;
     for (const auto& [term, coefficient] : relation) {

@@ -17,15 +17,6 @@ bool is_polynomial(const Polynomial& a) {
   });
 }
 
-bool divides(const Monomial& a, const Monomial& b) {
-  auto at = b.begin();
-  for (const auto& [factor, power] : a) {
-    while (at != b.end() && at->first < factor) ++at;
-    if (at == b.end() || at->first != factor || at->second < power) return false;
-  }
-  return true;
-}
-
 bool have_common_factors(const Monomial& a, const Monomial& b) {
   return std::ranges::any_of(a, [&](const auto& power) {
     return std::ranges::any_of(b, [&](const auto& q) { return q.first == power.first; });
@@ -39,6 +30,15 @@ Monomial least_common_multiple(const Monomial& a, const Monomial& b) {
 }
 
 }  // namespace
+
+bool divides(const Monomial& a, const Monomial& b) {
+  auto at = b.begin();
+  for (const auto& [factor, power] : a) {
+    while (at != b.end() && at->first < factor) ++at;
+    if (at == b.end() || at->first != factor || at->second < power) return false;
+  }
+  return true;
+}
 
 int total_degree(const Monomial& monomial) {
   int sum = 0;

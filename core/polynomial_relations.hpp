@@ -1,6 +1,7 @@
 // Polynomials modulo relations.
 #pragma once
 
+#include <boost/container/small_vector.hpp>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -8,12 +9,15 @@
 
 namespace courant {
 
-// Factors by their number, increasing, each with its power (not 0).
-using Monomial = std::vector<std::pair<int, int>>;
+// Factors by their number, increasing, each with its power (not 0). Few have more than four.
+using Monomial = boost::container::small_vector<std::pair<int, int>, 4>;
 using Polynomial = std::map<Monomial, double>;  // no coefficient is 0
 
 // a b, or a/b for sign = -1.
 Monomial product(const Monomial& a, const Monomial& b, int sign = 1);
+
+// Whether b has every factor of a, to no lower power.
+bool divides(const Monomial& a, const Monomial& b);
 
 // The sum of its powers.
 int total_degree(const Monomial& monomial);

@@ -1,14 +1,15 @@
 #include "courant/running/c_functions.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 #include "courant/core/c_prelude.hpp"
 #include "courant/core/derivative.hpp"
 #include "courant/core/exponentials.hpp"
+#include "courant/core/matrix_numbers.hpp"
 #include "courant/core/message.hpp"
 #include "courant/core/program.hpp"
-#include "courant/core/subgraph.hpp"
 
 namespace courant {
 namespace {
@@ -96,13 +97,9 @@ CFunctions::Unknowns CFunctions::add(const Equations& of) {
   if (arguments.size() > 0)
     add(of.symbol + "_arguments", inputs, arguments, "what exponentials in them are of");
 
-  std::vector<ExprVector> groups;
-  for (const Function::Input& input : inputs) groups.push_back(input.variables);
-  const std::vector<Index> matrix_of = contained_groups(jacobian.values, groups);
-  const bool has_constant_matrix =
-      is_affine(equations, inputs[0].variables) && std::ranges::all_of(matrix_of, [&](Index g) {
-        return groups[static_cast<std::size_t>(g)].size() == 1;
-      });
+  const std::optional<std::vector<Index>> matrix_of =
+      MatrixNumbers(equations, jacobian.values, variables_of(inputs)).groups();
+  const bool has_numbers = matrix_of && !matrix_of->empty();
 
   std::vector<Index> group, column;
   for (const Index place : kept) {
@@ -121,18 +118,17 @@ CFunctions::Unknowns CFunctions::add(const Equations& of) {
   array("row", jacobian.row);
   array("column", jacobian.col);
   array("contained_column", column);
-  if (has_constant_matrix && !matrix_of.empty()) array("matrix_of", matrix_of);
+  if (has_numbers) array("matrix_of", *matrix_of);
   const auto number = [](Index value) { return std::to_string(value) + ", "; };
   const auto name = [&](const char* what) { return of.symbol + "_" + what; };
   source_ += "static const struct equations " + of.symbol + "_equations = {\n  " + number(size) +
              number(std::ssize(kept)) + number(std::max<Index>(1, std::ssize(of.groups))) +
              number(jacobian.values.size()) + number(arguments.size()) +
-             number(has_constant_matrix ? std::ssize(matrix_of) : -1) + "\n  " + name("kept") +
-             ", " + name("contained") + ", " + name("group") + ",\n  " + name("row") + ", " +
+             number(matrix_of ? std::ssize(*matrix_of) : -1) + "\n  " + name("kept") + ", " +
+             name("contained") + ", " + name("group") + ",\n  " + name("row") + ", " +
              name("column") + ", " + name("contained_column") + ", " +
-             (has_constant_matrix && !matrix_of.empty() ? name("matrix_of") : "NULL") + ",\n  " +
-             name("residual") + ", " + name("jacobian") + ", " +
-             (is_reduced ? name("unknowns") : "NULL") + ", " +
+             (has_numbers ? name("matrix_of") : "NULL") + ",\n  " + name("residual") + ", " +
+             name("jacobian") + ", " + (is_reduced ? name("unknowns") : "NULL") + ", " +
              (arguments.size() == 0 ? "NULL" : name("arguments")) + "};\n\n";
   most_unknowns_ = std::max(most_unknowns_, y.size());
   most_size_ = std::max(most_size_, size);

@@ -70,6 +70,40 @@ BOOST_FIXTURE_TEST_CASE(other_expressions_stay, Variables) {
   }
 }
 
+// A diode beside two resistors: the current of the diode stays a difference that is nothing for small voltages.
+BOOST_FIXTURE_TEST_CASE(parentheses_without_terms_that_meet_stay, Variables) {
+  BOOST_TEST(text((x - p) / 8.0 + 1e-14 * (exp(x / 0.025) - 1.0) + x / 4.0) ==
+             "0.375*x - 0.125*p + 1e-14*(exp(x/0.025) - 1)");
+  const Expr q = d + h;
+  BOOST_TEST(to_string(collected(vector({q * q, (q + 2.0) - d + 3.0 * (y - 2.0)}))[1]) ==
+             "h + 3*(y - 2) + 2");
+}
+
+// With d and y that vary, and p, h, x that are known.
+BOOST_FIXTURE_TEST_CASE(known_parts_are_put_together, Variables) {
+  const auto of = [&](const Expr& a) {
+    return to_string(collected(ExprVector::Constant(1, a), vector({d, y}))[0]);
+  };
+  BOOST_TEST(of(h * ((y / 2.0) / (-4.0)) - p) == "-0.125*h*y - p");
+  BOOST_TEST(of(-2.0 * (0.25 * sin(d))) == "-0.5*sin(d)");
+  BOOST_TEST(of(-(d / 2.0) / (-0.5)) == "d");
+  BOOST_TEST(of((0.5 * d / h + sin(y)) / 0.5 - (p + x - d) / h) ==
+             "2*1/h*(d - 0.5*(p + x)) + 2*sin(y)");
+  BOOST_TEST(of(d / h + y - (x - d) / h) == "2*1/h*(d - x/2) + y");
+  // Not 3/h, which is rounded once more in each step.
+  BOOST_TEST(of(d / h + y - (x - 2.0 * d) / h) == "d/h + y - (x - 2*d)/h");
+  // Terms that may cancel keep their parentheses, and what cancels its order.
+  const Expr difference = (exp(p) - 1.0) * h;
+  for (const Expr& a : {h * (d - x) + p * d, (d + (y + (x - d) / h) / p) / h,
+                        0.3 * (exp(d) - 1.0) + 0.7 * (exp(y) - 1.0), difference + d,
+                        3.0 * (2.0 * sin(d)), 2.0 * ((d + y) / h), p * (h * d)})
+    BOOST_TEST(collected(ExprVector::Constant(1, a), vector({d, y}))[0].node() == a.node(), a);
+  // Known, or without terms that meet.
+  for (const Expr& a :
+       {p * x - (p + 2.0 * x), h * (d + y) - p, p + d - y / h, 2.0 * d - 3.0 * sin(y)})
+    BOOST_TEST(collected(ExprVector::Constant(1, a), vector({d, y}))[0].node() == a.node());
+}
+
 // Of many random expressions the values stay, to round-off, and programs become shorter. (One may grow by an operation that
 // several sums shared.)
 BOOST_AUTO_TEST_CASE(values_stay_and_programs_become_shorter) {

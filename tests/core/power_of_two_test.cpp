@@ -27,4 +27,11 @@ BOOST_AUTO_TEST_CASE(all_sizes_are_near_a_power) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(are_told_from_other_numbers) {
+  for (const double power : {1.0, -0.5, 1024.0, 0x1p-1070, -0x1p900})
+    BOOST_TEST(is_power_of_two(power));
+  for (const double other : {0.0, 3.0, -0.75, 1.0 + 0x1p-52, HUGE_VAL, std::nan("")})
+    BOOST_TEST(!is_power_of_two(other));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

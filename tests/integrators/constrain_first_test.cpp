@@ -284,13 +284,17 @@ BOOST_AUTO_TEST_CASE(few_iterations_to_the_result_of_a_fresh_start) {
                system->manifold()->name());
     BOOST_TEST(stepper->statistics().failures == 0);
     // Of 2,000 steps on the sphere two in a thousand differ by more than 3e-15, the most by 7e-15.
+    int farther = 0;
     for (int k = 0; k < 100; ++k) {
       const State a = method.advance(state, h);
       stepper->step(state, h);
       const State& b = state;
-      BOOST_TEST((a.x - b.x).lpNorm<Eigen::Infinity>() < 1e-14 * b.x.lpNorm<Eigen::Infinity>());
+      const double apart = (a.x - b.x).lpNorm<Eigen::Infinity>() / b.x.lpNorm<Eigen::Infinity>();
+      if (apart >= 3e-15) ++farther;
+      BOOST_TEST(apart < 1e-14);
       BOOST_TEST((a.z - b.z).lpNorm<Eigen::Infinity>() < 1e-12 * (1.0 + b.z.norm()));
     }
+    BOOST_TEST(farther <= 1, system->manifold()->name());
   }
 }
 
