@@ -20,8 +20,7 @@ void MatrixNumbers::keep(const Inputs& in) {
   for (std::size_t k = 0; k < kept_.size(); ++k) kept_[k] = *in[(*groups_)[k]];
 }
 
-bool MatrixNumbers::are_kept(const Inputs& in) const {
-  if (!groups_) return false;
+bool MatrixNumbers::agree(const Inputs& in) const {
   for (std::size_t k = 0; k < kept_.size(); ++k)
     if (*in[(*groups_)[k]] != kept_[k]) return false;
   return true;

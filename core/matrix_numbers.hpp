@@ -24,9 +24,11 @@ class MatrixNumbers {
   // The matrix is made with these parameters.
   void keep(const Inputs& in);
   // Whether it would be the same with these. False where nothing is known.
-  bool are_kept(const Inputs& in) const;
+  bool are_kept(const Inputs& in) const { return groups_ && agree(in); }
 
  private:
+  bool agree(const Inputs& in) const;
+
   std::optional<std::vector<Index>> groups_;
   std::vector<double> kept_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -32,6 +33,24 @@ Polynomial PolynomialReduction::plus(const Polynomial& a, const Polynomial& b, d
   return reduced(std::move(result));
 }
 
+void PolynomialReduction::assume(Polynomial relation) {
+  std::set<int> factors;
+  for (const auto& [monomial, c] : relation)
+    for (const auto& [factor, exponent] : monomial) factors.insert(factor);
+  factors_.emplace_back(factors.begin(), factors.end());
+  relations_.push_back(std::move(relation));
+}
+
+// Whether a polynomial contains all of these.
+bool PolynomialReduction::may_apply(const std::vector<int>& factors, const Polynomial& sum) {
+  return std::ranges::all_of(factors, [&](int factor) {
+    return std::ranges::any_of(sum, [&](const auto& term) {
+      return std::ranges::any_of(term.first,
+                                 [&](const auto& power) { return power.first == factor; });
+    });
+  });
+}
+
 Polynomial PolynomialReduction::reduced(Polynomial polynomial) {
   if (remainders_) polynomial = remainders_->remainder(std::move(polynomial));
   if (polynomial.size() > options_.most_terms)
@@ -45,7 +64,7 @@ Polynomial PolynomialReduction::reduced(Polynomial polynomial) {
   while (changed) {
     changed = false;
     for (std::size_t i = 0; i < relations; ++i)
-      if (apply(relations_[i], polynomial)) changed = true;
+      if (may_apply(factors_[i], polynomial) && apply(relations_[i], polynomial)) changed = true;
     for (const auto& [sine, cosine] : circles_) {
       const Polynomial circle{{{{sine, 2}}, 1.0}, {{{cosine, 2}}, 1.0}, {Monomial{}, -1.0}};
       if (apply(circle, polynomial)) changed = true;

@@ -30,7 +30,7 @@ class PolynomialReduction {
   explicit PolynomialReduction(Options options) : options_(options) {}
 
   // From now on the relation holds.
-  void assume(Polynomial relation) { relations_.push_back(std::move(relation)); }
+  void assume(Polynomial relation);
   // What follows from all relations so far holds too: polynomials become their remainders
   // (PolynomialRelations), and no relation is applied by itself any more.
   void conclude(MonomialOrder order) { remainders_.emplace(relations_, order); }
@@ -49,12 +49,14 @@ class PolynomialReduction {
 
  private:
   void count(std::size_t terms);
+  static bool may_apply(const std::vector<int>& factors, const Polynomial& sum);
   bool apply(const Polynomial& relation, Polynomial& sum);
 
   Options options_;
   std::size_t work_ = 0;
   Circles circles_;
   std::vector<Polynomial> relations_;
+  std::vector<std::vector<int>> factors_;  // of each, ascending
   std::optional<PolynomialRelations> remainders_;
 };
 
