@@ -90,6 +90,7 @@ BOOST_FIXTURE_TEST_CASE(known_parts_are_put_together, Variables) {
   BOOST_TEST(of((0.5 * d / h + sin(y)) / 0.5 - (p + x - d) / h) ==
              "2*1/h*(d - 0.5*(p + x)) + 2*sin(y)");
   BOOST_TEST(of(d / h + y - (x - d) / h) == "2*1/h*(d - x/2) + y");
+  BOOST_TEST(of(d / h + (d + (y + x / h) / p) / h) == "2*1/h*(d + 0.5*(y + x/h)/p)");
   // Not 3/h, which is rounded once more in each step.
   BOOST_TEST(of(d / h + y - (x - 2.0 * d) / h) == "d/h + y - (x - 2*d)/h");
   // Terms that may cancel keep their parentheses, and what cancels its order.
