@@ -180,6 +180,7 @@ BOOST_AUTO_TEST_CASE(gradients_of_squares_have_one_product) {
   const ExprVector pull = gradient(0.75 * log(distance), x);
   BOOST_TEST((pull[0] == 1.5 / distance * x[0]));
   BOOST_TEST((gradient(x[0] * x[0] * x[1], x)[0] == 2.0 * x[1] * x[0]));
+  BOOST_TEST((gradient(x[0] * x[0] * (1.5 * x[1]), x)[0] == 3.0 * x[1] * x[0]));
 }
 
 BOOST_AUTO_TEST_CASE(whole_powers_have_all_derivatives_at_zero) {
@@ -305,7 +306,8 @@ BOOST_AUTO_TEST_CASE(affine_maps_are_told_from_others) {
                         select(p[0] < 0.0, x[0], 2.0 * x[1])})
     BOOST_TEST(is_affine_in_x(y), y);
   for (const Expr& y : {x[0] * x[1], p[0] / x[0], sin(x[1]), abs(x[0]), sign(x[0]), pow(x[0], 2),
-                        select(x[0] < 0.0, p[0], p[1]), min(x[0], p[0]), p[0] + x[1] * exp(x[0])})
+                        select(x[0] < 0.0, p[0], p[1]), select(x[0], p[0], p[1]), min(x[0], p[0]),
+                        p[0] + x[1] * exp(x[0])})
     BOOST_TEST(!is_affine_in_x(y), y);
 }
 
