@@ -25,8 +25,8 @@ class Collector {
       : subgraph_(roots),
         image_(subgraph_.size()),
         is_head_(subgraph_.size(), false),
-        varies_(subgraph_.size(), varying == nullptr) {
-    if (varying != nullptr) find_varying(*varying);
+        varies_(varying == nullptr ? std::vector<bool>(subgraph_.size(), true)
+                                   : contains_any(subgraph_, *varying)) {
     find_heads(roots);
     if (varying != nullptr) chains_.resize(subgraph_.size());
     for (std::size_t at = 0; at < subgraph_.size(); ++at) {
@@ -104,17 +104,6 @@ class Collector {
     };
     return (node.op == Op::multiply && (is_factor(node.a) || is_factor(node.b))) ||
            (node.op == Op::divide && is_factor(node.b));
-  }
-
-  void find_varying(const ExprVector& varying) {
-    for (const Expr& variable : varying)
-      if (subgraph_.contains(variable)) varies_[subgraph_.position(variable)] = true;
-    for (std::size_t at = 0; at < subgraph_.size(); ++at) {
-      const Node& node = this->node(at);
-      const std::uint32_t operands[] = {node.a, node.b, node.c};
-      for (int k = 0; k < arity(node.op); ++k)
-        if (!is_known(operands[k])) varies_[at] = true;
-    }
   }
 
   // A sum, or something times a number or what is known beforehand.
@@ -225,16 +214,20 @@ class Collector {
     return place.is_leaf || (!place.is_head && !place.meets && !is_product(node(place.at)));
   }
 
+  // Without what is in the sums that stay.
+  template <class Visit>
+  void for_each_open(const std::vector<Place>& places, const Visit& visit) const {
+    for (std::size_t i = 0; i < places.size(); i += stays(places[i]) ? places[i].size : 1)
+      visit(places[i]);
+  }
+
   // What a head is. A sum none of whose terms meets another one stays in its parentheses, where terms may cancel, as in
   // I (exp(v) - 1).
   SumOfTerms sum_of(const std::vector<Place>& places) const {
     SumOfTerms sum;
-    for (std::size_t i = 0; i < places.size();) {
-      const Place& place = places[i];
-      const bool is_atom = stays(place);
-      if (is_atom) sum.add(place.number, place.factor, image_[place.at], varies_[place.at]);
-      i += is_atom ? place.size : 1;
-    }
+    for_each_open(places, [&](const Place& place) {
+      if (stays(place)) sum.add(place.number, place.factor, image_[place.at], varies_[place.at]);
+    });
     sum.drop_zeros();
     return sum;
   }
@@ -249,12 +242,9 @@ class Collector {
   // How many operations with what varies it takes, but for those in sums that stay.
   std::size_t operations_of(const std::vector<Place>& places) const {
     std::size_t count = 0;
-    for (std::size_t i = 0; i < places.size();) {
-      const Place& place = places[i];
-      const bool is_atom = stays(place);
-      if (!is_atom && varies_[place.at]) ++count;
-      i += is_atom ? place.size : 1;
-    }
+    for_each_open(places, [&](const Place& place) {
+      if (!stays(place) && varies_[place.at]) ++count;
+    });
     return count;
   }
 

@@ -10,17 +10,14 @@ ExprVector held_part(const ExprVector& outputs, const ExprVector& varying) {
   const Subgraph subgraph(outputs);
   const Graph& graph = subgraph.graph();
   const auto& nodes = subgraph.nodes();
-  std::vector<bool> varies(nodes.size(), false), is_held(nodes.size(), false);
-  for (const Expr& variable : varying)
-    if (subgraph.contains(variable)) varies[subgraph.position(variable)] = true;
+  const std::vector<bool> varies = contains_any(subgraph, varying);
+  std::vector<bool> is_held(nodes.size(), false);
   const auto hold = [&](std::size_t at) {
     if (!varies[at] && arity(graph.node(nodes[at]).op) > 0) is_held[at] = true;
   };
   for (std::size_t at = 0; at < nodes.size(); ++at) {
     const Node& node = graph.node(nodes[at]);
     const std::uint32_t operand[] = {node.a, node.b, node.c};
-    for (int i = 0; i < arity(node.op); ++i)
-      if (varies[subgraph.position(operand[i])]) varies[at] = true;
     for (int i = 0; varies[at] && i < arity(node.op); ++i) hold(subgraph.position(operand[i]));
   }
   for (const Expr& output : outputs)

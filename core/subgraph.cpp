@@ -69,6 +69,20 @@ std::size_t Subgraph::position(std::uint32_t node) const {
   return before_[word] + static_cast<std::size_t>(std::popcount(members_[word] & (bit(node) - 1)));
 }
 
+std::vector<bool> contains_any(const Subgraph& subgraph, const ExprVector& varying) {
+  const auto& nodes = subgraph.nodes();
+  std::vector<bool> result(nodes.size(), false);
+  for (const Expr& variable : varying)
+    if (subgraph.contains(variable)) result[subgraph.position(variable)] = true;
+  for (std::size_t at = 0; at < nodes.size(); ++at) {
+    const Node& node = subgraph.graph().node(nodes[at]);
+    const std::uint32_t operand[] = {node.a, node.b, node.c};
+    for (int i = 0; i < subgraph.operand_count(nodes[at]); ++i)
+      if (result[subgraph.position(operand[i])]) result[at] = true;
+  }
+  return result;
+}
+
 std::vector<Index> contained_groups(const ExprVector& expressions,
                                     const std::vector<ExprVector>& groups) {
   const Subgraph all(expressions);

@@ -48,6 +48,9 @@ class Subgraph {
   std::vector<std::uint32_t> nodes_;
 };
 
+// Of each node, by its position, whether a variable of `varying` is in it.
+std::vector<bool> contains_any(const Subgraph& subgraph, const ExprVector& varying);
+
 // Those of some groups of variables that the expressions contain a variable of, ascending.
 std::vector<Index> contained_groups(const ExprVector& expressions,
                                     const std::vector<ExprVector>& groups);
