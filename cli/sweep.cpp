@@ -8,10 +8,10 @@
 
 #include "courant/cli/experiment_file.hpp"
 #include "courant/cli/text.hpp"
+#include "courant/core/parallel.hpp"
 #include "courant/reporting/figure_file.hpp"
 #include "courant/reporting/sweep_figure.hpp"
 #include "courant/running/output_file.hpp"
-#include "courant/running/parallel.hpp"
 
 namespace courant::cli {
 namespace {

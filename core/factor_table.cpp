@@ -22,23 +22,37 @@ bool FactorTable::is_before(int a, int b) const {
   return of_a.text < of_b.text;
 }
 
-FactorTable::Terms FactorTable::in_descending_order(const Polynomial& sum) const {
+FactorTable::Terms FactorTable::with_sorted_factors(const Polynomial& sum) const {
   Terms terms(sum.begin(), sum.end());
   for (auto& [monomial, c] : terms)
     std::ranges::sort(monomial,
                       [this](const auto& a, const auto& b) { return is_before(a.first, b.first); });
-  std::ranges::stable_sort(terms, [this](const auto& a, const auto& b) {
-    if (const int of_a = total_degree(a.first), of_b = total_degree(b.first); of_a != of_b)
-      return of_a > of_b;
-    // x² before x y before y².
-    for (std::size_t i = 0; i < a.first.size() && i < b.first.size(); ++i) {
-      if (a.first[i].first != b.first[i].first)
-        return is_before(a.first[i].first, b.first[i].first);
-      if (a.first[i].second != b.first[i].second) return a.first[i].second > b.first[i].second;
-    }
-    return a.first.size() > b.first.size();
-  });
   return terms;
+}
+
+// x² before x y before y².
+bool FactorTable::is_above(const Monomial& a, const Monomial& b) const {
+  if (const int of_a = total_degree(a), of_b = total_degree(b); of_a != of_b) return of_a > of_b;
+  for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) {
+    if (a[i].first != b[i].first) return is_before(a[i].first, b[i].first);
+    if (a[i].second != b[i].second) return a[i].second > b[i].second;
+  }
+  return a.size() > b.size();
+}
+
+FactorTable::Terms FactorTable::in_descending_order(const Polynomial& sum) const {
+  Terms terms = with_sorted_factors(sum);
+  std::ranges::stable_sort(
+      terms, [this](const auto& a, const auto& b) { return is_above(a.first, b.first); });
+  return terms;
+}
+
+std::pair<Monomial, double> FactorTable::first_in_order(const Polynomial& sum) const {
+  Terms terms = with_sorted_factors(sum);
+  return std::move(*std::ranges::min_element(terms, [this](const auto& a, const auto& b) {
+    const bool is_a_positive = a.second > 0.0, is_b_positive = b.second > 0.0;
+    return is_a_positive != is_b_positive ? is_a_positive : is_above(a.first, b.first);
+  }));
 }
 
 FactorTable::Terms FactorTable::in_order(const Polynomial& sum) const {

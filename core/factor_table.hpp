@@ -33,12 +33,16 @@ class FactorTable {
   Terms in_descending_order(const Polynomial& sum) const;
   // The same with a positive term in front, if there is one.
   Terms in_order(const Polynomial& sum) const;
+  // The first of them. Not of 0.
+  std::pair<Monomial, double> first_in_order(const Polynomial& sum) const;
 
   // Throws std::length_error where it has more than a thousand characters.
   std::string text(const Polynomial& sum) const;
 
  private:
   bool is_before(int a, int b) const;
+  Terms with_sorted_factors(const Polynomial& sum) const;
+  bool is_above(const Monomial& a, const Monomial& b) const;  // both sorted
   std::string text(const Monomial& monomial, double size) const;
 
   std::deque<Factor> factors_;

@@ -8,27 +8,37 @@
 namespace courant {
 namespace {
 
+// The lower power of each factor; what stands in one of them only has the power 0 in the other.
+Monomial lower_powers(const Monomial& a, const Monomial& b) {
+  Monomial lower;
+  const auto add = [&](int factor, int power) {
+    if (power != 0) lower.emplace_back(factor, power);
+  };
+  auto i = a.begin();
+  auto j = b.begin();
+  while (i != a.end() || j != b.end()) {
+    if (j == b.end() || (i != a.end() && i->first < j->first)) {
+      add(i->first, std::min(i->second, 0));
+      ++i;
+    } else if (i == a.end() || j->first < i->first) {
+      add(j->first, std::min(j->second, 0));
+      ++j;
+    } else {
+      add(i->first, std::min(i->second, j->second));
+      ++i, ++j;
+    }
+  }
+  return lower;
+}
+
 Monomial common_monomial(const Polynomial& polynomial) {
   Monomial common = polynomial.begin()->first;
-  for (const auto& [monomial, c] : polynomial) {
-    std::map<int, int> powers(monomial.begin(), monomial.end());
-    Monomial least;
-    for (const auto& [factor, exponent] : common) {
-      const auto found = powers.find(factor);
-      const int other = found == powers.end() ? 0 : found->second;
-      if (const int both = std::min(exponent, other); both != 0) least.emplace_back(factor, both);
-      if (found != powers.end()) powers.erase(found);
-    }
-    for (const auto& [factor, exponent] : powers)
-      if (exponent < 0) least.emplace_back(factor, exponent);
-    std::sort(least.begin(), least.end());
-    common = least;
-  }
+  for (const auto& [monomial, c] : polynomial) common = lower_powers(common, monomial);
   return common;
 }
 
 double common_number(const Polynomial& polynomial, const FactorTable& factors) {
-  const double lead = factors.in_order(polynomial).front().second;
+  const double lead = factors.first_in_order(polynomial).second;
   double smallest = lead, largest = lead;
   for (const auto& [monomial, c] : polynomial) {
     if (std::fabs(c) < std::fabs(smallest)) smallest = std::copysign(c, lead);

@@ -23,6 +23,12 @@ std::pair<Monomial, double> highest(const Polynomial& polynomial) {
       polynomial, [](const auto& a, const auto& b) { return is_above(b.first, a.first); });
 }
 
+const Monomial& lowest(const Polynomial& polynomial) {
+  return std::ranges::max_element(
+             polynomial, [](const auto& a, const auto& b) { return is_above(a.first, b.first); })
+      ->first;
+}
+
 int power_of(int factor, const Monomial& monomial) {
   const auto found =
       std::ranges::find(monomial, factor, [](const auto& power) { return power.first; });
@@ -76,6 +82,8 @@ Polynomial with_sines(Polynomial polynomial, const Circles& circles) {
 std::optional<Polynomial> quotient(Polynomial a, const Polynomial& b, const Circles& circles) {
   constexpr int most_steps = 100;
   if (b.empty()) return std::nullopt;
+  // The lowest term of a product is that of the lowest ones.
+  if (circles.empty() && !a.empty() && !divides(lowest(b), lowest(a))) return std::nullopt;
   const auto [lead, scale] = highest(b);
   Polynomial result;
   for (int steps = 0; !a.empty(); ++steps) {

@@ -129,20 +129,37 @@ void carry_out_evenly(int stride_a, int stride_b, std::size_t count, const doubl
   loops[stride_a + 1][stride_b + 1](count, a, b, target);
 }
 
-void carry_out_evenly(Op op, int stride_a, int stride_b, std::size_t count, const double* a,
-                      const double* b, double* target) {
+// The same with results that go down the workspace, where one of them may be an operand that came before.
+template <Op op>
+[[gnu::flatten]] void carry_out_downwards(int stride_a, int stride_b, std::size_t count,
+                                          const double* a, const double* b, double* target) {
+  for (; count > 0; --count, a += stride_a, b += stride_b, --target)
+    *target = evaluate(op, 0, *a, *b, 0.0);
+}
+
+// Calls loop<op>().
+template <class Loop>
+void with_even_operation(Op op, const Loop& loop) {
   switch (op) {
     case Op::negate:
-      return carry_out_evenly<Op::negate>(stride_a, stride_b, count, a, b, target);
+      return loop.template operator()<Op::negate>();
     case Op::add:
-      return carry_out_evenly<Op::add>(stride_a, stride_b, count, a, b, target);
+      return loop.template operator()<Op::add>();
     case Op::subtract:
-      return carry_out_evenly<Op::subtract>(stride_a, stride_b, count, a, b, target);
+      return loop.template operator()<Op::subtract>();
     case Op::multiply:
-      return carry_out_evenly<Op::multiply>(stride_a, stride_b, count, a, b, target);
+      return loop.template operator()<Op::multiply>();
     default:
-      return carry_out_evenly<Op::divide>(stride_a, stride_b, count, a, b, target);
+      return loop.template operator()<Op::divide>();
   }
+}
+
+// Returns where the copy ends. Of few numbers without a call.
+double* copy(const double* from, std::uint32_t count, double* to) {
+  constexpr std::uint32_t kFew = 8;
+  if (count > kFew) return std::copy_n(from, count, to);
+  for (std::uint32_t i = 0; i < count; ++i) *to++ = *from++;
+  return to;
 }
 
 // One loop for each operation.
@@ -187,14 +204,13 @@ Program::Program(std::span<const ExprVector> inputs, const ExprVector& outputs,
       std::uint32_t& target = slot[subgraph.position(variable)];
       if (target != kAbsent) fail(", which is an input already; expected each variable once.");
       target = next++;
-      loads_.push_back({target, static_cast<std::uint32_t>(g), static_cast<std::uint32_t>(j)});
+      load(target, g, j);
     }
   }
   for (Index j = 0; j < held.size(); ++j) {
     if (!subgraph.contains(held[j])) continue;
     slot[subgraph.position(held[j])] = next;
-    loads_.push_back(
-        {next++, static_cast<std::uint32_t>(inputs.size()), static_cast<std::uint32_t>(j)});
+    load(next++, inputs.size(), j);
   }
   for (std::size_t at = 0; at < nodes.size(); ++at)
     if (slot[at] == kAbsent && graph.node(nodes[at]).op == Op::variable)
@@ -236,10 +252,29 @@ Program::Program(std::span<const ExprVector> inputs, const ExprVector& outputs,
   auto constant_output = constant_outputs.begin();
   for (const Expr& output : outputs)
     outputs_.push_back(output.is_constant() ? *constant_output++ : slot[subgraph.position(output)]);
+  for (const std::uint32_t from : outputs_) {
+    if (!stores_.empty() && stores_.back().slot + stores_.back().count == from)
+      ++stores_.back().count;
+    else
+      stores_.push_back({from, 1});
+  }
+}
+
+// Numbers that are side by side in a group and in the workspace are one load.
+void Program::load(std::uint32_t slot, std::size_t group, Index index) {
+  const auto g = static_cast<std::uint32_t>(group), i = static_cast<std::uint32_t>(index);
+  if (!loads_.empty()) {
+    Load& last = loads_.back();
+    if (last.group == g && last.slot + last.count == slot && last.index + last.count == i) {
+      ++last.count;
+      return;
+    }
+  }
+  loads_.push_back({slot, g, i, 1});
 }
 
 // The even stretch that instructions [begin, end) of a run are, or one that is not. Where results go down the
-// workspace, the last one comes first: no operand is a result of another of these instructions then.
+// workspace, the last one comes first if no operand is a result of another of these instructions.
 Program::Stretch Program::even_stretch(std::size_t begin, std::size_t end, const Run& run) const {
   Stretch result;
   result.op = run.op;
@@ -254,20 +289,20 @@ Program::Stretch Program::even_stretch(std::size_t begin, std::size_t end, const
   const std::int64_t target = stride(first.target, next.target);
   std::int64_t a = stride(first.a, next.a), b = stride(first.b, next.b);
   if (std::abs(target) != 1 || std::abs(a) > 1 || std::abs(b) > 1) return result;
-  const Instruction& lowest = target > 0 ? first : last;
-  if (target < 0) {
-    const auto is_apart = [&](std::uint32_t from, std::uint32_t to) {
-      return std::max(from, to) < last.target || std::min(from, to) > first.target;
-    };
-    const auto is_safe = [&](std::uint32_t from, std::uint32_t to) {
-      return is_apart(from, to) || (from == first.target && to == last.target);
-    };
-    if (!is_safe(first.a, last.a) || (arity(run.op) > 1 && !is_safe(first.b, last.b)))
-      return result;
+  const auto is_apart = [&](std::uint32_t from, std::uint32_t to) {
+    return std::max(from, to) < last.target || std::min(from, to) > first.target;
+  };
+  const auto is_safe = [&](std::uint32_t from, std::uint32_t to) {
+    return is_apart(from, to) || (from == first.target && to == last.target);
+  };
+  const bool is_turned =
+      target < 0 && is_safe(first.a, last.a) && (arity(run.op) == 1 || is_safe(first.b, last.b));
+  const Instruction& lowest = is_turned ? last : first;
+  if (is_turned) {
     a = -a;
     b = -b;
   }
-  result.is_even = true;
+  result.stride = static_cast<std::int8_t>(is_turned ? 1 : target);
   result.target = lowest.target;
   result.a = lowest.a;
   result.b = lowest.b;
@@ -284,7 +319,7 @@ void Program::find_stretches() {
   };
   for (const Run& run : runs_) {
     const auto add = [&](const Stretch& stretch) {
-      const bool goes_on = !stretch.is_even && begin > 0 && !stretches_.back().is_even &&
+      const bool goes_on = stretch.stride == 0 && begin > 0 && stretches_.back().stride == 0 &&
                            stretches_.back().op == run.op && stretches_.back().k == run.k;
       if (goes_on)
         stretches_.back().end = stretch.end;
@@ -296,7 +331,7 @@ void Program::find_stretches() {
       while (end < run.end && step(end) == step(begin + 1)) ++end;
       Stretch stretch = even_stretch(begin, end, run);
       // The last one may belong to the next stretch.
-      if (!stretch.is_even) stretch.end = std::max(begin + 1, end - 1);
+      if (stretch.stride == 0) stretch.end = std::max(begin + 1, end - 1);
       add(stretch);
       begin = stretch.end;
     }
@@ -307,18 +342,22 @@ void Program::run(const double* const* in, double* out) const {
   constexpr auto loop = loops<Instruction>(std::make_index_sequence<kOpCount>());
   double* w = workspace<double>(slots_);
   std::copy(constants_.begin(), constants_.end(), w);
-  for (const Load& load : loads_) w[load.slot] = in[load.group][load.index];
+  for (const auto& [slot, group, index, count] : loads_) copy(in[group] + index, count, w + slot);
   const Instruction* begin = instructions_.data();
   for (const Stretch& x : stretches_) {
     const Instruction* end = instructions_.data() + x.end;
-    if (x.is_even)
-      carry_out_evenly(x.op, x.stride_a, x.stride_b, static_cast<std::size_t>(end - begin), w + x.a,
-                       w + x.b, w + x.target);
-    else
+    const auto count = static_cast<std::size_t>(end - begin);
+    if (x.stride == 0)
       loop[static_cast<std::size_t>(x.op)](x.k, begin, end, w);
+    else
+      with_even_operation(x.op, [&]<Op op>() {
+        (x.stride > 0 ? carry_out_evenly<op> : carry_out_downwards<op>)(x.stride_a, x.stride_b,
+                                                                        count, w + x.a, w + x.b,
+                                                                        w + x.target);
+      });
     begin = end;
   }
-  for (const std::uint32_t slot : outputs_) *out++ = w[slot];
+  for (const auto& [slot, count] : stores_) out = copy(w + slot, count, out);
 }
 
 template <class Number>
@@ -332,7 +371,7 @@ void Program::carry_out_taylor(const Number* const* in, Index order, Number* out
     w[i * width] = constant_number<Number>(constants_[i]);
   }
   for (const Load& load : loads_)
-    std::copy_n(in[load.group] + load.index * width, width, w + load.slot * width);
+    std::copy_n(in[load.group] + load.index * width, load.count * width, w + load.slot * width);
   std::size_t i = 0;
   for (const Run& run : runs_)
     for (; i < run.end; ++i) {
@@ -340,10 +379,7 @@ void Program::carry_out_taylor(const Number* const* in, Index order, Number* out
       taylor::apply(run.op, run.k, order, w + x.a * width, w + x.b * width, w + x.c * width,
                     w + x.target * width, scratch);
     }
-  for (const std::uint32_t slot : outputs_) {
-    std::copy_n(w + slot * width, width, out);
-    out += width;
-  }
+  for (const auto& [slot, count] : stores_) out = std::copy_n(w + slot * width, count * width, out);
 }
 
 void Program::run_taylor(const double* const* in, Index order, double* out) const {

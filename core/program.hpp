@@ -64,20 +64,25 @@ class Program {
     std::size_t end;
   };
   // What run() carries out at once, up to `end`: instructions of a run one by one, or as many that go through the
-  // workspace evenly, each operand of the next one `strides` slots after that of the one before, results side by
-  // side from `target` on.
+  // workspace evenly, operands and results of the next one so many slots after those of the one before.
   struct Stretch {
     Op op = Op::constant;
     std::int32_t k = 0;
     std::size_t end = 0;
-    bool is_even = false;
     std::uint32_t target = 0, a = 0, b = 0;
+    std::int8_t stride = 0;  // of results, 1 or -1; 0: one by one
     std::int8_t stride_a = 0, stride_b = 0;
   };
+  // `count` numbers of a group, from `index` on, go to as many slots, from `slot` on.
   struct Load {
-    std::uint32_t slot, group, index;
+    std::uint32_t slot, group, index, count;
+  };
+  // The next `count` outputs are what is in as many slots, from `slot` on.
+  struct Store {
+    std::uint32_t slot, count;
   };
 
+  void load(std::uint32_t slot, std::size_t group, Index index);
   void find_stretches();
   Stretch even_stretch(std::size_t begin, std::size_t end, const Run& run) const;
 
@@ -91,7 +96,8 @@ class Program {
   std::vector<Instruction> instructions_;
   std::vector<Run> runs_;
   std::vector<Stretch> stretches_;
-  std::vector<std::uint32_t> outputs_;
+  std::vector<std::uint32_t> outputs_;  // slot by slot
+  std::vector<Store> stores_;           // the same
   std::size_t slots_ = 0;
 };
 

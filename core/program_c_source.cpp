@@ -108,11 +108,14 @@ std::string Program::c_source(const std::string& symbol) const {
   constexpr std::size_t kPart = 125;
   const bool whole = std::max(instructions_.size(), outputs_.size()) <= kWhole;
   const std::size_t size = whole ? kWhole : kPart;
-  const std::size_t first_value = constants_.size() + loads_.size();
+  const std::size_t first_value =
+      loads_.empty() ? constants_.size() : std::size_t{loads_.back().slot} + loads_.back().count;
   std::vector<std::string> name(slots_);
   for (std::size_t i = 0; i < constants_.size(); ++i) name[i] = exact(constants_[i]);
   for (const Load& load : loads_)
-    name[load.slot] = "in[" + std::to_string(load.group) + "][" + std::to_string(load.index) + "]";
+    for (std::uint32_t i = 0; i < load.count; ++i)
+      name[load.slot + i] =
+          "in[" + std::to_string(load.group) + "][" + std::to_string(load.index + i) + "]";
   for (std::size_t slot = first_value; slot < slots_; ++slot)
     name[slot] = "v" + std::to_string(slot - first_value);
   const auto kept = [&](std::size_t slot) {

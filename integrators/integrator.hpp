@@ -49,10 +49,12 @@ class Integrator {
 
   // Φ_h applied `count` times, by a stepper of its own. Throws as Stepper::step does.
   State advance(State state, double h, long count = 1) const {
+    if (count < 1) return state;
     const auto workspace = stepper();
     const double start = state.t;
-    for (long k = 1; k <= count; ++k) workspace->step(state, h, start + static_cast<double>(k) * h);
-    return state;
+    workspace->step(state, h, start + h);
+    for (long k = 2; k <= count; ++k) workspace->go_on(h, start + static_cast<double>(k) * h);
+    return workspace->ended().after;
   }
 
  protected:

@@ -101,6 +101,20 @@ void Stepper::make_step(State& state, double h, double end, const Stepper* from)
     trial_->before = state;
     take_up(trial_->before, h, from);
   }
+  make_prepared_step(goes_on, h, end);
+  state.take(last_->after);
+}
+
+void Stepper::go_on(double h, double end) {
+  if (!std::isfinite(h) || h == 0.0) refuse(h);
+  if (!is_prepared_)
+    throw std::logic_error(method_ +
+                           ": go_on: no state has been prepared; expected a step before.");
+  make_prepared_step(true, h, end);
+}
+
+// From last_->after if it goes on, else from trial_->before.
+void Stepper::make_prepared_step(bool goes_on, double h, double end) {
   if (has_stepped_ && h != last_->h) do_change_step();
   State& before = goes_on ? last_->after : trial_->before;
   State& after = trial_->after;
@@ -109,7 +123,7 @@ void Stepper::make_step(State& state, double h, double end, const Stepper* from)
   try {
     do_step(before, h, after);
     if (!is_finite(after))
-      throw SolveError(SolveError::Reason::left_domain, method_, state.t, h,
+      throw SolveError(SolveError::Reason::left_domain, method_, before.t, h,
                        "leads to a state that is not finite.");
   } catch (...) {
     do_discard();
@@ -125,7 +139,6 @@ void Stepper::make_step(State& state, double h, double end, const Stepper* from)
   std::swap(last_, trial_);
   has_stepped_ = true;
   has_stage_ = false;
-  state.take(last_->after);
 }
 
 const Step& Stepper::last() {

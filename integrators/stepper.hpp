@@ -68,6 +68,11 @@ class Stepper {
   // found again.
   void step_from(const Stepper& other, State& state, double h, double end);
 
+  // A step from where the last one ended, or from what was prepared, which need not be told again: ended() says
+  // where it leads. The same step. Throws std::logic_error where nothing was prepared since the beginning or
+  // forget(), and as step().
+  void go_on(double h, double end);
+
   // The last step; before the first one, `after` is the state that was prepared. Valid until the
   // next step is made.
   const Step& last();
@@ -164,6 +169,7 @@ class Stepper {
   void check(const State& state) const;
   void take_up(State& state, double h, const Stepper* from = nullptr);
   void make_step(State& state, double h, double end, const Stepper* from);
+  void make_prepared_step(bool goes_on, double h, double end);
   bool is_near_last(const State& state) const;
 
   std::string method_;

@@ -19,6 +19,7 @@
 #include "courant/running/run_failure.hpp"
 #include "courant/running/run_folder.hpp"
 #include "courant/running/run_results.hpp"
+#include "courant/running/run_steps.hpp"
 #include "courant/running/run_watchers.hpp"
 #include "courant/running/symmetry_check.hpp"
 #include "courant/running/tangent_of_run.hpp"
@@ -28,6 +29,9 @@ namespace courant {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+// Fewer steps are made while a thread begins.
+constexpr long kWorthAThread = 1000;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -263,58 +267,46 @@ class RunUnderway {
     if (ladder_watch_ && checkpoint.ladder_watch) ladder_watch_->recall(*checkpoint.ladder_watch);
   }
 
-  // What is not in the state is forgotten. The checkpoint is the same for those who made the steps
-  // before and for those who begin with it.
-  void begin_epoch(Stepper& stepper, const State& state, const Motion& motion) {
-    stepper.forget();
-    stepper.expect(motion);
-    observer_.restart(state);
-  }
+  // Whether nobody needs more of a step than where it ended.
+  bool may_make_ahead() const { return options_.ahead && !is_told_whole() && !looks_into_steps(); }
 
   // All steps, or those after a checkpoint.
   void integrate(const PreparedMethod& method, const std::optional<Checkpoint>& from,
                  CheckpointKeeper& keeper) {
     const TimeSpan& time = *experiment_.time;
-    const long epoch = experiment_.output.epoch;
-    const auto stepper = method.integrator->stepper();
-    if (observer_.account() || observer_.tangent_map()) stepper->tell_parts();
-    State state = from ? from->state : method.initial;
-    long k = from ? from->k : 0;
-    if (event_watch_)
-      event_watch_->set_curve(*stepper, [this](const Step& part) -> const VectorXd& {
-        return elsewhere_.row_within(part);
-      });
+    RunSteps::Start start{.state = method.initial};
+    if (from) start = {.k = from->k, .state = from->state, .motion = from->motion};
+    const bool ahead = may_make_ahead() && time.steps - start.k >= kWorthAThread;
+    RunSteps steps(*method.integrator, time, experiment_.output.epoch, std::move(start), ahead);
+    if (!ahead) look_at(steps.stepper());
     const auto begin = Clock::now();
     try {
       bool going = true;
-      if (from) {
-        begin_epoch(*stepper, state, from->motion);
-      } else {
-        stepper->prepare(state, time.step);
-        going = goes_on(stepper->last(), 0);
-      }
-      while (going && k < time.steps) {
-        const long end = time.steps - k > epoch ? k + epoch : time.steps;
-        for (; going && k < end; ++k) {
-          stepper->step(state, time.step, time.time(k + 1));
-          if (clock_.is_transformed()) clock_.end_step(*stepper, state, k + 1);
-          if (looks_into_steps()) elsewhere_.begin_step();
-          rows_.write_between(*stepper, k + 1, elsewhere_);
-          going = goes_on(is_told_whole() ? stepper->last() : stepper->ended(), k + 1);
-        }
-        if (!going || k == time.steps) break;
-        const Motion motion = stepper->motion();
-        begin_epoch(*stepper, state, motion);
-        keeper.keep(checkpoint(k, state, motion, stepper->statistics(), seconds_since(begin)));
+      steps.begin();
+      if (from)
+        observer_.restart(from->state);
+      else
+        going = goes_on(ahead ? steps.ended() : steps.stepper().last(), 0);
+      while (going && steps.k() < time.steps) {
+        steps.next();
+        if (looks_into_steps()) look_into(steps);
+        going = goes_on(is_told_whole() ? steps.stepper().last() : steps.ended(), steps.k());
+        if (!going || !steps.is_epoch_over()) continue;
+        // What is not in the state is forgotten. The checkpoint is the same for those who made the steps
+        // before and for those who begin with it.
+        const Motion motion = steps.end_epoch();
+        observer_.restart(steps.state());
+        keeper.keep(
+            checkpoint(steps.k(), steps.state(), motion, steps.statistics(), seconds_since(begin)));
       }
     } catch (const SolveError& error) {
-      fail(failure_in_words(error, experiment_, ladder_, state) +
+      fail(failure_in_words(error, experiment_, ladder_, steps.state()) +
            (ladder_watch_ ? ladder_watch_->decline() : ""));
     } catch (const std::domain_error& error) {
       fail((results_.steps == 0 ? "/method: " : "") + without_place(error.what()));
     }
     results_.wall_seconds += seconds_since(begin);
-    results_.solver = results_.solver + stepper->statistics();
+    results_.solver = results_.solver + steps.statistics();
     if (results_.status == RunStatus::completed && not_finite_) {
       results_.status = RunStatus::not_finite;
       results_.message = observer_.names()[static_cast<std::size_t>(not_finite_->column)] + " is " +
@@ -324,7 +316,21 @@ class RunUnderway {
     if (energy_watch_ && !energy_watch_->finding().empty())
       results_.warnings.push_back(energy_watch_->finding());
     else if (results_.status == RunStatus::completed)
-      warn_of_end(method, state);
+      warn_of_end(method, steps.state());
+  }
+
+  void look_at(Stepper& stepper) {
+    if (observer_.account() || observer_.tangent_map()) stepper.tell_parts();
+    if (event_watch_)
+      event_watch_->set_curve(stepper, [this](const Step& part) -> const VectorXd& {
+        return elsewhere_.row_within(part);
+      });
+  }
+
+  void look_into(RunSteps& steps) {
+    if (clock_.is_transformed()) clock_.end_step(steps.stepper(), steps.state(), steps.k());
+    elsewhere_.begin_step();
+    rows_.write_between(steps.stepper(), steps.k(), elsewhere_);
   }
 
   void warn_of_end(const PreparedMethod& method, const State& end) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "courant/core/parallel.hpp"
 #include "courant/reading/experiment.hpp"
 #include "courant/running/run_folder.hpp"
 #include "courant/running/run_summary.hpp"
@@ -24,6 +25,9 @@ struct RunOptions {
   std::function<void(const Integrator&)> on_method = {};  // once it is made ready
   std::function<void(const Progress&)> on_progress;       // some ten times a second
   std::vector<RunWatcher*> watchers = {};                 // are told of every state too
+  // Whether a thread of its own may make steps ahead of what is done with them, see RunSteps. All else is done, and
+  // all of these are called, in the thread that called run().
+  bool ahead = core_count() > 1;
   // A run that goes on: after which step, at which time; 0 from its start.
   std::function<void(long k, double t)> on_resume = {};
   // At least so much time from one checkpoint on the disk to the next.

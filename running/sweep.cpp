@@ -8,12 +8,12 @@
 #include <new>
 
 #include "courant/core/message.hpp"
+#include "courant/core/parallel.hpp"
 #include "courant/core/word_list.hpp"
 #include "courant/reading/experiment.hpp"
 #include "courant/running/comma_separated.hpp"
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/ladder_report.hpp"
-#include "courant/running/parallel.hpp"
 #include "courant/running/runner.hpp"
 
 namespace courant {
@@ -155,7 +155,8 @@ Json run_of_case(const SweepCase& one, const std::filesystem::path& folder, Back
                                               .backend = backend,
                                               .stop = stop,
                                               .on_ladder = {},
-                                              .on_progress = {}});
+                                              .on_progress = {},
+                                              .ahead = false});  // other cases run meanwhile
   const RunSummary& summary = outcome.summary;
   std::string message = outcome.message;
   const auto failures = std::ranges::count_if(

@@ -6,6 +6,7 @@
 
 #include "courant/core/derivative.hpp"
 #include "courant/core/normal_form.hpp"
+#include "courant/core/parallel.hpp"
 #include "courant/core/simplified.hpp"
 #include "courant/core/subgraph.hpp"
 
@@ -141,11 +142,17 @@ class EquationReduction {
   std::string written_equation(const Expr& function) const {
     return short_enough(simplified_equation(function, given(function)));
   }
-  // Of unknown u (velocities first) in x and t; empty if others are left in it.
-  std::string solution(Index u) {
-    if (!is_function_of_the_point(u)) return "";
+  // Of some unknowns (velocities first) in x and t; empty if others are left in one.
+  std::vector<std::string> solutions(const std::vector<Index>& of) {
     const Simplification on_solutions{on_points_.relations, constraints_};
-    return short_enough(simplified(reduced(unknowns_[u]), on_solutions));
+    std::vector<Expr> functions;
+    for (const Index u : of) functions.push_back(reduced(unknowns_[u]));
+    std::vector<std::string> texts(of.size());
+    in_parallel(of.size(), core_count(), [&](std::size_t i) {
+      if (solved_[static_cast<std::size_t>(of[i])] && !has_unknown(functions[i]))
+        texts[i] = short_enough(simplified(functions[i], on_solutions));
+    });
+    return texts;
   }
   bool is_function_of_the_point(Index u) {
     return solved_[static_cast<std::size_t>(u)] && !has_unknown(reduced(unknowns_[u]));
@@ -276,13 +283,14 @@ class Derivation {
       if (contradicted_) break;
     }
     if (ladder_.index >= 0) elimination_.constraints();
-    for (std::size_t j = 0; j < ladder_.determined.size(); ++j) {
-      if (!ladder_.determined[j]) continue;
-      const auto unknown = static_cast<Index>(j);
-      if (std::string formula = elimination_.solution(elimination_.velocity_count() + unknown);
-          !formula.empty())
-        result_.values.push_back({unknown, std::move(formula)});
-    }
+    std::vector<Index> determined;
+    for (std::size_t j = 0; j < ladder_.determined.size(); ++j)
+      if (ladder_.determined[j])
+        determined.push_back(elimination_.velocity_count() + static_cast<Index>(j));
+    const std::vector<std::string> formulas = elimination_.solutions(determined);
+    for (std::size_t i = 0; i < formulas.size(); ++i)
+      if (!formulas[i].empty())
+        result_.values.push_back({determined[i] - elimination_.velocity_count(), formulas[i]});
     return result_;
   }
 
@@ -354,13 +362,16 @@ class Derivation {
 
   // Those that are functions of the point from this level on.
   void add_velocities(Index level) {
+    std::vector<Index> told;
     for (Index u = 0; u < elimination_.velocity_count(); ++u) {
       const auto i = static_cast<std::size_t>(u);
       if (is_told_[i] || !elimination_.is_function_of_the_point(u)) continue;
       is_told_[i] = true;
-      if (std::string formula = elimination_.solution(u); !formula.empty())
-        result_.velocities.push_back({u, level, std::move(formula)});
+      told.push_back(u);
     }
+    const std::vector<std::string> formulas = elimination_.solutions(told);
+    for (std::size_t i = 0; i < formulas.size(); ++i)
+      if (!formulas[i].empty()) result_.velocities.push_back({told[i], level, formulas[i]});
   }
 
   const ConstraintLadder& ladder_;

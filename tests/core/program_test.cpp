@@ -4,6 +4,8 @@
 #include <random>
 #include <vector>
 
+#include "courant/core/expr_vectors.hpp"
+
 BOOST_AUTO_TEST_SUITE(programs)
 
 using namespace courant;
@@ -76,6 +78,51 @@ BOOST_AUTO_TEST_CASE(even_stretches_give_what_formulas_say) {
   const std::vector<ExprVector> inputs = {x};
   const VectorXd out = run(Program(inputs, outputs), {at});
   for (Index i = 0; i < n; ++i) BOOST_TEST_REQUIRE(out[n - 1 - i] == 0.5 * at[i] - at[(i + 1) % n]);
+}
+
+// What is side by side is read and written at once: with gaps, from several groups, values that are written twice,
+// and for numbers of several coefficients.
+BOOST_AUTO_TEST_CASE(inputs_and_outputs_find_their_places) {
+  const Index n = 40;
+  const Graph graph;
+  const ExprVector x = graph.variables("x", n), y = graph.variables("y", n);
+  const VectorXd at_x = random_vector(n, 4), at_y = random_vector(n, 5);
+  std::vector<Expr> outputs;
+  std::vector<double> expected;
+  for (Index i = 0; i < n; ++i) {
+    if (i % 7 == 3) continue;  // not read
+    outputs.push_back(x[i]);
+    expected.push_back(at_x[i]);
+    if (i % 5 == 2) {
+      outputs.push_back(y[n - 1 - i] + 1.0);
+      expected.push_back(at_y[n - 1 - i] + 1.0);
+      outputs.push_back(outputs[outputs.size() / 2]);
+      expected.push_back(expected[expected.size() / 2]);
+      outputs.push_back(2.5);
+      expected.push_back(2.5);
+    }
+  }
+  const ExprVector all = Eigen::Map<const ExprVector>(outputs.data(), std::ssize(outputs));
+  const std::vector<ExprVector> inputs = {y, x};
+  const Program program(inputs, all);
+  const VectorXd out = run(program, {at_y, at_x});
+  BOOST_TEST(std::vector<double>(out.begin(), out.end()) == expected,
+             boost::test_tools::per_element());
+
+  // x + s, y + 2 s.
+  VectorXd series_x(2 * n), series_y(2 * n), series(2 * out.size());
+  for (Index i = 0; i < n; ++i) {
+    series_x.segment(2 * i, 2) << at_x[i], 1.0;
+    series_y.segment(2 * i, 2) << at_y[i], 2.0;
+  }
+  const double* places[] = {series_y.data(), series_x.data()};
+  program.run_taylor(places, 1, series.data());
+  for (Index i = 0; i < out.size(); ++i) {
+    const Expr& output = all[i];
+    const double slope = output.is_constant() ? 0.0 : depends(all.segment(i, 1), x) ? 1.0 : 2.0;
+    BOOST_TEST(series[2 * i] == out[i]);
+    BOOST_TEST(series[2 * i + 1] == slope);
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

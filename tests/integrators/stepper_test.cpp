@@ -240,6 +240,35 @@ BOOST_AUTO_TEST_CASE(w3_a_failed_step_leaves_no_trace) {
   }
 }
 
+// The state is that of the stepper: the same steps, also after one that could not be made.
+BOOST_AUTO_TEST_CASE(steps_that_go_on_need_not_be_told_where) {
+  for (const Case& at : cases()) {
+    BOOST_TEST_CONTEXT(at.name) {
+      const auto stepper = at.method->stepper(), told = at.method->stepper();
+      BOOST_CHECK_THROW(stepper->go_on(at.h, at.h), std::logic_error);
+      State state = at.start, prepared = at.start;
+      stepper->prepare(prepared, at.h);
+      const auto both = [&](double h, double end) {
+        told->step(state, h, end);
+        stepper->go_on(h, end);
+        BOOST_TEST_REQUIRE((stepper->ended().after == state));
+      };
+      for (int k = 1; k <= 12; ++k) both(at.h, at.start.t + k * at.h);
+      BOOST_TEST((at.method->advance(at.start, at.h, 12) == state));
+      BOOST_TEST((at.method->advance(at.start, at.h, 0) == at.start));
+      for (int k = 0; k < 5; ++k) both(0.5 * at.h, state.t + 0.5 * at.h);
+      BOOST_CHECK_THROW(told->step(state, 1e200), SolveError);
+      BOOST_CHECK_THROW(stepper->go_on(1e200, 1e200), SolveError);
+      BOOST_CHECK_THROW(stepper->go_on(0.0, 1.0), std::invalid_argument);
+      BOOST_TEST((stepper->ended().after == state));
+      for (int k = 0; k < 3; ++k) both(at.h, state.t + at.h);
+      BOOST_TEST(stepper->statistics().steps == 20);
+      stepper->forget();
+      BOOST_CHECK_THROW(stepper->go_on(at.h, at.h), std::logic_error);
+    }
+  }
+}
+
 // Between its ends the curve is as good as the ends are, and where they are.
 BOOST_AUTO_TEST_CASE(the_curve_of_the_last_step) {
   for (const Case& at : cases()) {

@@ -1,4 +1,4 @@
-#include "courant/running/parallel.hpp"
+#include "courant/core/parallel.hpp"
 
 #include <atomic>
 #include <boost/test/unit_test.hpp>

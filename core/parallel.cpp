@@ -1,4 +1,4 @@
-#include "courant/running/parallel.hpp"
+#include "courant/core/parallel.hpp"
 
 #include <algorithm>
 #include <atomic>
