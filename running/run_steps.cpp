@@ -1,10 +1,14 @@
 #include "courant/running/run_steps.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <chrono>
 #include <exception>
+#include <iterator>
+#include <memory>
+#include <stop_token>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -55,7 +59,7 @@ class RunSteps::Ahead {
         seen_(start.k),
         step_{.h = time.step, .after = start.state},
         thread_([this, &integrator, &time, epoch,
-                 start = std::move(start)](const std::stop_token& stop) mutable {
+                 start = std::move(start)](const std::stop_token& stop) {
           try {
             make_all(integrator, time, epoch, start, stop);
           } catch (...) {
@@ -117,10 +121,12 @@ class RunSteps::Ahead {
   }
 
   // What step k will be written to has been read by the other core. Asked for in time, it comes while steps are made.
+  // The states of large systems, whose steps are long, would drive out what these need.
   void fetch(long k) const {
-    constexpr std::size_t line = 64 / sizeof(double);
+    constexpr std::size_t line = 64 / sizeof(double), most = 16 * line;
     const double* const numbers = &numbers_[place(k) * size_];
-    for (std::size_t i = 0; i < size_; i += line) __builtin_prefetch(numbers + i, 1);
+    for (std::size_t i = 0; i < std::min(size_, most); i += line)
+      __builtin_prefetch(numbers + i, 1);
     __builtin_prefetch(&statistics_[place(k)], 1);
   }
 
