@@ -30,14 +30,8 @@ FactorTable::Terms FactorTable::with_sorted_factors(const Polynomial& sum) const
   return terms;
 }
 
-// x² before x y before y².
 bool FactorTable::is_above(const Monomial& a, const Monomial& b) const {
-  if (const int of_a = total_degree(a), of_b = total_degree(b); of_a != of_b) return of_a > of_b;
-  for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) {
-    if (a[i].first != b[i].first) return is_before(a[i].first, b[i].first);
-    if (a[i].second != b[i].second) return a[i].second > b[i].second;
-  }
-  return a.size() > b.size();
+  return leads(a, b, [this](int of_a, int of_b) { return is_before(of_a, of_b); });
 }
 
 FactorTable::Terms FactorTable::in_descending_order(const Polynomial& sum) const {

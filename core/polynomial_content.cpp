@@ -8,32 +8,10 @@
 namespace courant {
 namespace {
 
-// The lower power of each factor; what stands in one of them only has the power 0 in the other.
-Monomial lower_powers(const Monomial& a, const Monomial& b) {
-  Monomial lower;
-  const auto add = [&](int factor, int power) {
-    if (power != 0) lower.emplace_back(factor, power);
-  };
-  auto i = a.begin();
-  auto j = b.begin();
-  while (i != a.end() || j != b.end()) {
-    if (j == b.end() || (i != a.end() && i->first < j->first)) {
-      add(i->first, std::min(i->second, 0));
-      ++i;
-    } else if (i == a.end() || j->first < i->first) {
-      add(j->first, std::min(j->second, 0));
-      ++j;
-    } else {
-      add(i->first, std::min(i->second, j->second));
-      ++i, ++j;
-    }
-  }
-  return lower;
-}
-
 Monomial common_monomial(const Polynomial& polynomial) {
   Monomial common = polynomial.begin()->first;
-  for (const auto& [monomial, c] : polynomial) common = lower_powers(common, monomial);
+  for (const auto& [monomial, c] : polynomial)
+    common = combined(common, monomial, [](int a, int b) { return std::min(a, b); });
   return common;
 }
 

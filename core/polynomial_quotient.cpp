@@ -1,6 +1,7 @@
 #include "courant/core/polynomial_quotient.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "courant/core/written_number.hpp"
@@ -8,25 +9,17 @@
 namespace courant {
 namespace {
 
-// By degree, then by the factors with the smallest numbers: products keep this order.
-bool is_above(const Monomial& a, const Monomial& b) {
-  if (const int of_a = total_degree(a), of_b = total_degree(b); of_a != of_b) return of_a > of_b;
-  for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) {
-    if (a[i].first != b[i].first) return a[i].first < b[i].first;
-    if (a[i].second != b[i].second) return a[i].second > b[i].second;
-  }
-  return a.size() > b.size();
+// Products keep this order.
+bool is_above(const Polynomial::value_type& a, const Polynomial::value_type& b) {
+  return leads(a.first, b.first, std::less<int>());
 }
 
 std::pair<Monomial, double> highest(const Polynomial& polynomial) {
-  return *std::ranges::max_element(
-      polynomial, [](const auto& a, const auto& b) { return is_above(b.first, a.first); });
+  return *std::ranges::min_element(polynomial, is_above);
 }
 
 const Monomial& lowest(const Polynomial& polynomial) {
-  return std::ranges::max_element(
-             polynomial, [](const auto& a, const auto& b) { return is_above(a.first, b.first); })
-      ->first;
+  return std::ranges::max_element(polynomial, is_above)->first;
 }
 
 int power_of(int factor, const Monomial& monomial) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <deque>
 #include <functional>
+#include <ranges>
 #include <set>
 
 namespace courant {
@@ -24,9 +25,7 @@ bool have_common_factors(const Monomial& a, const Monomial& b) {
 }
 
 Monomial least_common_multiple(const Monomial& a, const Monomial& b) {
-  std::map<int, int> powers(a.begin(), a.end());
-  for (const auto& [factor, power] : b) powers[factor] = std::max(powers[factor], power);
-  return {powers.begin(), powers.end()};
+  return combined(a, b, [](int of_a, int of_b) { return std::max(of_a, of_b); });
 }
 
 }  // namespace
@@ -55,22 +54,7 @@ void add_term(Polynomial& polynomial, const Monomial& monomial, double c) {
 }
 
 Monomial product(const Monomial& a, const Monomial& b, int sign) {
-  Monomial result;
-  auto i = a.begin();
-  auto j = b.begin();
-  while (i != a.end() || j != b.end()) {
-    if (j == b.end() || (i != a.end() && i->first < j->first)) {
-      result.push_back(*i++);
-    } else if (i == a.end() || j->first < i->first) {
-      result.emplace_back(j->first, sign * j->second);
-      ++j;
-    } else {
-      if (const int power = i->second + sign * j->second; power != 0)
-        result.emplace_back(i->first, power);
-      ++i, ++j;
-    }
-  }
-  return result;
+  return combined(a, b, [sign](int of_a, int of_b) { return of_a + sign * of_b; });
 }
 
 PolynomialRelations::PolynomialRelations(const std::vector<Polynomial>& relations,
@@ -91,17 +75,9 @@ int PolynomialRelations::eliminated_degree(const Monomial& monomial) const {
 bool PolynomialRelations::comes_first(const Monomial& a, const Monomial& b) const {
   const int first_of_a = eliminated_degree(a), first_of_b = eliminated_degree(b);
   if (first_of_a != first_of_b) return first_of_a > first_of_b;
-  const int of_a = total_degree(a), of_b = total_degree(b);
-  if (of_a != of_b) return of_a > of_b;
-  const auto first = [](auto i, auto end, auto j, auto j_end, auto before) {
-    for (; i != end && j != j_end; ++i, ++j) {
-      if (i->first != j->first) return before(i->first, j->first);
-      if (i->second != j->second) return i->second > j->second;
-    }
-    return i != end;
-  };
-  return order_.backwards ? first(a.rbegin(), a.rend(), b.rbegin(), b.rend(), std::greater<int>())
-                          : first(a.begin(), a.end(), b.begin(), b.end(), std::less<int>());
+  return order_.backwards
+             ? leads(std::views::reverse(a), std::views::reverse(b), std::greater<int>())
+             : leads(a, b, std::less<int>());
 }
 
 // Its remainder becomes an element; what that makes reducible is added once more. False where

@@ -13,6 +13,30 @@ namespace courant {
 using Monomial = boost::container::small_vector<std::pair<int, int>, 4>;
 using Polynomial = std::map<Monomial, double>;  // no coefficient is 0
 
+// For each factor of a or b the power that combine(its power in a, its power in b) says, 0 where it is in one of them only.
+template <class Combine>
+Monomial combined(const Monomial& a, const Monomial& b, const Combine& combine) {
+  Monomial result;
+  const auto add = [&](int factor, int power) {
+    if (power != 0) result.emplace_back(factor, power);
+  };
+  auto i = a.begin();
+  auto j = b.begin();
+  while (i != a.end() || j != b.end()) {
+    if (j == b.end() || (i != a.end() && i->first < j->first)) {
+      add(i->first, combine(i->second, 0));
+      ++i;
+    } else if (i == a.end() || j->first < i->first) {
+      add(j->first, combine(0, j->second));
+      ++j;
+    } else {
+      add(i->first, combine(i->second, j->second));
+      ++i, ++j;
+    }
+  }
+  return result;
+}
+
 // a b, or a/b for sign = -1.
 Monomial product(const Monomial& a, const Monomial& b, int sign = 1);
 
@@ -21,6 +45,25 @@ bool divides(const Monomial& a, const Monomial& b);
 
 // The sum of its powers.
 int total_degree(const Monomial& monomial);
+
+// Whether a leads b: by degree, then by the factors, which both have in the order `before`, those with high powers
+// first: x² before x y before y².
+template <class Factors, class Before>
+bool leads(const Factors& a, const Factors& b, const Before& before) {
+  const auto degree = [](const Factors& factors) {
+    int sum = 0;
+    for (const auto& [factor, power] : factors) sum += power;
+    return sum;
+  };
+  if (const int of_a = degree(a), of_b = degree(b); of_a != of_b) return of_a > of_b;
+  auto i = a.begin();
+  auto j = b.begin();
+  for (; i != a.end() && j != b.end(); ++i, ++j) {
+    if (i->first != j->first) return before(i->first, j->first);
+    if (i->second != j->second) return i->second > j->second;
+  }
+  return i != a.end();
+}
 
 // Adds c times a monomial. Coefficients that cancel leave round-off: 1e-13 of what was added is zero.
 void add_term(Polynomial& polynomial, const Monomial& monomial, double c);

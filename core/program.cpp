@@ -250,9 +250,10 @@ Program::Program(std::span<const ExprVector> inputs, const ExprVector& outputs,
   find_stretches();
 
   auto constant_output = constant_outputs.begin();
-  for (const Expr& output : outputs)
-    outputs_.push_back(output.is_constant() ? *constant_output++ : slot[subgraph.position(output)]);
-  for (const std::uint32_t from : outputs_) {
+  outputs_ = outputs.size();
+  for (const Expr& output : outputs) {
+    const std::uint32_t from =
+        output.is_constant() ? *constant_output++ : slot[subgraph.position(output)];
     if (!stores_.empty() && stores_.back().slot + stores_.back().count == from)
       ++stores_.back().count;
     else

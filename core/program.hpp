@@ -35,7 +35,7 @@ class Program {
   Program(std::span<const ExprVector> inputs, const ExprVector& outputs, const ExprVector& held,
           Order order);
 
-  Index output_size() const { return static_cast<Index>(outputs_.size()); }
+  Index output_size() const { return outputs_; }
   Index instruction_count() const { return static_cast<Index>(instructions_.size()); }
 
   // out[i] = i-th output; in[g][j] = j-th number of group g.
@@ -96,8 +96,8 @@ class Program {
   std::vector<Instruction> instructions_;
   std::vector<Run> runs_;
   std::vector<Stretch> stretches_;
-  std::vector<std::uint32_t> outputs_;  // slot by slot
-  std::vector<Store> stores_;           // the same
+  std::vector<Store> stores_;
+  Index outputs_ = 0;
   std::size_t slots_ = 0;
 };
 

@@ -106,7 +106,10 @@ std::string Program::c_source(const std::string& symbol) const {
   // in w the values that later ones need; v are the values within a part.
   constexpr std::size_t kWhole = 1000;
   constexpr std::size_t kPart = 125;
-  const bool whole = std::max(instructions_.size(), outputs_.size()) <= kWhole;
+  std::vector<std::uint32_t> outputs;
+  for (const auto& [slot, count] : stores_)
+    for (std::uint32_t i = 0; i < count; ++i) outputs.push_back(slot + i);
+  const bool whole = std::max(instructions_.size(), outputs.size()) <= kWhole;
   const std::size_t size = whole ? kWhole : kPart;
   const std::size_t first_value =
       loads_.empty() ? constants_.size() : std::size_t{loads_.back().slot} + loads_.back().count;
@@ -123,17 +126,17 @@ std::string Program::c_source(const std::string& symbol) const {
   };
 
   std::vector<std::string> parts;  // the last one first
-  for (std::size_t end = outputs_.size(), begin = 0; end > 0; end = begin) {
+  for (std::size_t end = outputs.size(), begin = 0; end > 0; end = begin) {
     begin = (end - 1) / size * size;
     std::string part;
     for (std::size_t i = begin; i < end; ++i)
       part += "  out[" + std::to_string(i) +
-              "] = " + (outputs_[i] < first_value ? name[outputs_[i]] : kept(outputs_[i])) + ";\n";
+              "] = " + (outputs[i] < first_value ? name[outputs[i]] : kept(outputs[i])) + ";\n";
     parts.push_back(part);
   }
 
   std::vector<bool> live(slots_, false);  // read after the instruction that is looked at
-  for (const std::uint32_t slot : outputs_) live[slot] = true;
+  for (const std::uint32_t slot : outputs) live[slot] = true;
   auto run = runs_.rbegin();
   for (std::size_t end = instructions_.size(), begin = 0; end > 0; end = begin) {
     begin = (end - 1) / size * size;

@@ -130,44 +130,36 @@ class RunSteps::Ahead {
     __builtin_prefetch(&statistics_[place(k)], 1);
   }
 
+  void publish(RunSteps& steps) {
+    const std::size_t at = place(steps.k());
+    write(steps.reached(), &numbers_[at * size_]);
+    statistics_[at] = steps.statistics();
+    if (steps.is_epoch_over()) motions_[at] = steps.end_epoch();
+    made_.store(steps.k() + 1, std::memory_order_release);
+    fetch(steps.k() + 2);
+  }
+
   void make_all(const Integrator& integrator, const TimeSpan& time, long epoch, Start start,
                 const std::stop_token& stop) {
-    auto& [k, state, motion] = start;
-    const auto stepper = integrator.stepper();
+    RunSteps steps(integrator, time, epoch, std::move(start), false);
     try {
-      start_at(*stepper, time.step, start);
-      make_room(state, time.steps - k);
-      write(state, &numbers_[place(k) * size_]);
-      made_.store(k + 1, std::memory_order_release);
-      long seen = k, end = k + epoch;
-      bool begins = true;  // an epoch
-      while (k < time.steps && !stop.stop_requested()) {
-        if (k + 1 - seen >= room_) {
+      steps.begin();
+      make_room(steps.state(), time.steps - steps.k());
+      publish(steps);
+      long seen = steps.k();
+      while (steps.k() < time.steps && !stop.stop_requested()) {
+        if (steps.k() + 1 - seen >= room_) {
           wait_for([&] {
             seen = seen_.load(std::memory_order_acquire);
-            return k + 1 - seen < room_ || stop.stop_requested();
+            return steps.k() + 1 - seen < room_ || stop.stop_requested();
           });
           continue;
         }
-        ++k;
-        if (begins)
-          stepper->step(state, time.step, time.time(k));
-        else
-          stepper->go_on(time.step, time.time(k));
-        begins = false;
-        write(stepper->ended().after, &numbers_[place(k) * size_]);
-        statistics_[place(k)] = stepper->statistics();
-        if (k == end && k < time.steps) {
-          state = stepper->ended().after;
-          motions_[place(k)] = begin_epoch(*stepper);
-          end += epoch;
-          begins = true;
-        }
-        made_.store(k + 1, std::memory_order_release);
-        fetch(k + 2);
+        steps.next();
+        publish(steps);
       }
     } catch (...) {
-      failed_ = stepper->statistics();
+      failed_ = steps.statistics();
       throw;
     }
   }
@@ -213,14 +205,24 @@ void RunSteps::begin() {
 void RunSteps::next() {
   if (ahead_)
     ahead_->take(k_ + 1);
+  else if (goes_on_)
+    stepper_->go_on(time_.step, time_.time(k_ + 1));
   else
     stepper_->step(start_.state, time_.step, time_.time(k_ + 1));
+  goes_on_ = true;
   ++k_;
 }
 
 const Step& RunSteps::ended() const { return ahead_ ? ahead_->step() : stepper_->ended(); }
 
-State& RunSteps::state() { return ahead_ ? ahead_->step().after : start_.state; }
+const State& RunSteps::reached() const { return goes_on_ ? stepper_->ended().after : start_.state; }
+
+State& RunSteps::state() {
+  if (ahead_) return ahead_->step().after;
+  start_.state = reached();
+  goes_on_ = false;
+  return start_.state;
+}
 
 const SolverStatistics& RunSteps::statistics() const {
   return ahead_ ? ahead_->statistics() : stepper_->statistics();
@@ -228,7 +230,9 @@ const SolverStatistics& RunSteps::statistics() const {
 
 Motion RunSteps::end_epoch() {
   end_ += epoch_;
-  return ahead_ ? ahead_->end_epoch(k_) : begin_epoch(*stepper_);
+  if (ahead_) return ahead_->end_epoch(k_);
+  state();
+  return begin_epoch(*stepper_);
 }
 
 }  // namespace courant

@@ -37,6 +37,7 @@ class RunSteps {
   // That step, without what it was evaluated at, and where it ended; valid until next(). Before the first one, where
   // that begins. `before` is where the step before ended, maybe prepared once more.
   const Step& ended() const;
+  // Where the next step begins, which may be moved where steps are not made ahead.
   State& state();
   // Of the steps up to that one, and of an attempt that next() failed with.
   const SolverStatistics& statistics() const;
@@ -52,12 +53,17 @@ class RunSteps {
  private:
   class Ahead;
 
+  // state() of steps that are not made ahead, to be read.
+  const State& reached() const;
+
   const TimeSpan& time_;
   const long epoch_;
   long k_, end_;                      // that of the epoch
   std::unique_ptr<Stepper> stepper_;  // of these one is null
   std::unique_ptr<Ahead> ahead_;
-  Start start_;  // its state goes on, where steps are not made ahead
+  Start start_;  // its state goes on, where steps are not made ahead,
+  bool goes_on_ =
+      false;  // but where the next step begins at the end of the last one, which nobody has asked for
 };
 
 }  // namespace courant

@@ -286,7 +286,7 @@ class RunUnderway {
       if (from)
         observer_.restart(from->state);
       else
-        going = goes_on(ahead ? steps.ended() : steps.stepper().last(), 0);
+        going = goes_on(steps.ended(), 0);
       while (going && steps.k() < time.steps) {
         steps.next();
         if (looks_into_steps()) look_into(steps);

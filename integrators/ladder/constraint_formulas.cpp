@@ -142,15 +142,15 @@ class EquationReduction {
   std::string written_equation(const Expr& function) const {
     return short_enough(simplified_equation(function, given(function)));
   }
-  // Of some unknowns (velocities first) in x and t; empty if others are left in one.
+  // Of some unknowns (velocities first) that are functions of the point, in x and t. Their expressions are made before
+  // the threads begin, in one order.
   std::vector<std::string> solutions(const std::vector<Index>& of) {
     const Simplification on_solutions{on_points_.relations, constraints_};
     std::vector<Expr> functions;
     for (const Index u : of) functions.push_back(reduced(unknowns_[u]));
     std::vector<std::string> texts(of.size());
     in_parallel(of.size(), core_count(), [&](std::size_t i) {
-      if (solved_[static_cast<std::size_t>(of[i])] && !has_unknown(functions[i]))
-        texts[i] = short_enough(simplified(functions[i], on_solutions));
+      texts[i] = short_enough(simplified(functions[i], on_solutions));
     });
     return texts;
   }
@@ -284,9 +284,11 @@ class Derivation {
     }
     if (ladder_.index >= 0) elimination_.constraints();
     std::vector<Index> determined;
-    for (std::size_t j = 0; j < ladder_.determined.size(); ++j)
-      if (ladder_.determined[j])
-        determined.push_back(elimination_.velocity_count() + static_cast<Index>(j));
+    for (std::size_t j = 0; j < ladder_.determined.size(); ++j) {
+      const Index u = elimination_.velocity_count() + static_cast<Index>(j);
+      if (ladder_.determined[j] && elimination_.is_function_of_the_point(u))
+        determined.push_back(u);
+    }
     const std::vector<std::string> formulas = elimination_.solutions(determined);
     for (std::size_t i = 0; i < formulas.size(); ++i)
       if (!formulas[i].empty())

@@ -29,6 +29,20 @@ BOOST_AUTO_TEST_CASE(factors_stand_in_the_order_of_the_variables) {
   BOOST_TEST(table.text({}) == "0");
 }
 
+BOOST_AUTO_TEST_CASE(the_first_term_is_that_of_the_text) {
+  FactorTable table;
+  const int y = table.number({.text = "y", .variable = 2});
+  const int x = table.number({.text = "x", .variable = 1});
+  for (const double a : {-2.0, 2.0})
+    for (const double b : {-3.0, 3.0})
+      for (const double c : {-1.0, 1.0}) {
+        const Polynomial sum = {{{{y, 2}}, a}, {{{y, 1}, {x, 1}}, b}, {{{x, 1}}, c}, {{}, -4.0}};
+        const auto first = table.first_in_order(sum);
+        BOOST_TEST((first == table.in_order(sum).front()));
+        BOOST_TEST((first.second > 0.0) == (a > 0.0 || b > 0.0 || c > 0.0));
+      }
+}
+
 BOOST_AUTO_TEST_CASE(long_texts_are_refused) {
   FactorTable table;
   Polynomial sum;

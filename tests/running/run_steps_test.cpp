@@ -97,6 +97,23 @@ BOOST_AUTO_TEST_CASE(steps_that_are_made_ahead_are_the_same) {
   }
 }
 
+// A state that is moved between two steps is where the next one begins, whoever asked for it before.
+BOOST_AUTO_TEST_CASE(a_state_may_be_moved_between_steps) {
+  const Prepared prepared(oscillator);
+  const auto stepper = prepared.method.integrator->stepper();
+  RunSteps steps = prepared.steps(1L << 30, false);
+  steps.begin();
+  State state = prepared.method.initial;
+  stepper->prepare(state, prepared.experiment.time->step);
+  for (long k = 1; k <= 30; ++k) {
+    if (k % 5 == 0) state.x[0] = steps.state().x[0] += 0.125;
+    if (k % 7 == 0) BOOST_TEST((steps.state() == state));
+    steps.next();
+    stepper->step(state, prepared.experiment.time->step, prepared.experiment.time->time(k));
+    BOOST_TEST((steps.ended().after == state));
+  }
+}
+
 // What goes on from a checkpoint makes the steps of the run that wrote it.
 BOOST_AUTO_TEST_CASE(a_start_after_an_epoch_goes_on) {
   const Prepared prepared(pendulum);
