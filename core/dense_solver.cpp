@@ -5,6 +5,7 @@
 
 #include "courant/core/complete_orthogonal_decomposition.hpp"
 #include "courant/core/equilibration.hpp"
+#include "courant/core/pairs.hpp"
 #include "courant/core/regular_matrix.hpp"
 #include "courant/core/small_product.hpp"
 #include "courant/core/static_size.hpp"
@@ -34,8 +35,9 @@ void multiply(const MatrixXd& A, const double* b, double* x) {
 
 }  // namespace
 
-DenseSolver::DenseSolver(const MatrixPattern& pattern)
+DenseSolver::DenseSolver(const MatrixPattern& pattern, Keeps keeps)
     : pattern_(pattern),
+      keeps_(keeps),
       A_(pattern.rows, pattern.columns),
       scaled_(pattern.rows, pattern.columns),
       row_(pattern.rows),
@@ -60,6 +62,13 @@ void DenseSolver::pseudo_invert(const Equilibration<MatrixXd>& S) {
   if (!determined_) open_ = MatrixXd::Identity(A_.cols(), A_.cols()) - inverse_ * A_;
 }
 
+void DenseSolver::do_solve(const double* b, double* x) {
+  if (!has_factors_) return multiply_(inverse_, b, x);
+  for (Index i = 0; i < row_.size(); ++i) x[i] = row_[i] * b[i];
+  lu_.solve(x);
+  for (Index i = 0; i < column_.size(); ++i) x[i] *= column_[i];
+}
+
 void DenseSolver::do_settle(double* x, const double* x0) {
   if (determined_) return;
   Eigen::Map<VectorXd> settled(x, open_.cols());
@@ -70,22 +79,28 @@ bool DenseSolver::do_factorize(const double* entries) {
   A_.setZero();
   for (std::size_t k = 0; k < pattern_.row.size(); ++k)
     A_(pattern_.row[k], pattern_.column[k]) = entries[k];
-  determined_ = false;
+  determined_ = has_factors_ = false;
   orientation_ = 0;
-  if (!A_.allFinite()) return false;
+  if (!are_finite(A_.data(), A_.size())) return false;
   if (A_.size() == 0) return determined_ = true;
 
-  if (A_.rows() == A_.cols()) {
+  const bool is_square = A_.rows() == A_.cols();
+  if (is_square) {
     equilibrate_by_powers();
-    determined_ = invert(scaled_, row_, column_, kRegular);
+    if (decompose(scaled_, kRegular)) {
+      has_factors_ = keeps_ == Keeps::factors;
+      if (has_factors_) return true;
+      invert(row_, column_);
+    }
   }
   if (!determined_) {
     const Equilibration<MatrixXd> S = equilibrate(A_, kNoise);
-    determined_ =
-        A_.rows() == A_.cols() && invert(S.scaled, S.row_scale, S.column_scale, kSingular);
-    if (!determined_) pseudo_invert(S);
+    if (is_square && decompose(S.scaled, kSingular))
+      invert(S.row_scale, S.column_scale);
+    else
+      pseudo_invert(S);
   }
-  return inverse_.allFinite();
+  return are_finite(inverse_.data(), inverse_.size());
 }
 
 // Both kinds of units, twice: rows by columns in units of their own, and columns by such rows. Loops, since
@@ -95,34 +110,56 @@ void DenseSolver::equilibrate_by_powers() {
   row_.setOnes();
   column_.setOnes();
   scaled_ = A_;
+  double* const row = row_.data();
+  double* const largest = largest_.data();
   for (int sweep = 0; sweep < 2; ++sweep) {
     largest_.setZero();
     for (Index j = 0; j < n; ++j) {
-      double size = 0.0;
-      for (Index i = 0; i < n; ++i) size = std::max(size, std::fabs(scaled_(i, j)));
-      regular_matrix::scale_to_one(size, column_[j]);
-      for (Index i = 0; i < n; ++i) {
-        scaled_(i, j) = A_(i, j) * column_[j];
-        largest_[i] = std::max(largest_[i], std::fabs(row_[i] * scaled_(i, j)));
-      }
+      const double* const from = A_.data() + j * n;
+      double* const to = scaled_.data() + j * n;
+      PairMaximum size;
+      for_each_pair(0, n, [&]<class Numbers>(Index i, Numbers) {
+        size.add(Numbers(magnitude(read<Numbers>(to + i))));
+      });
+      regular_matrix::scale_to_one(size.value(), column_[j]);
+      const double unit = column_[j];
+      for_each_pair(0, n, [&]<class Numbers>(Index i, Numbers) {
+        const Numbers scaled = read<Numbers>(from + i) * unit;
+        write(to + i, scaled);
+        write(largest + i, larger(read<Numbers>(largest + i),
+                                  Numbers(magnitude(Numbers(read<Numbers>(row + i) * scaled)))));
+      });
     }
-    for (Index i = 0; i < n; ++i) regular_matrix::scale_to_one(largest_[i], row_[i]);
-    for (Index j = 0; j < n; ++j)
-      for (Index i = 0; i < n; ++i) scaled_(i, j) *= row_[i];
+    for (Index i = 0; i < n; ++i) regular_matrix::scale_to_one(largest[i], row[i]);
+    for (Index j = 0; j < n; ++j) {
+      double* const to = scaled_.data() + j * n;
+      for_each_pair(0, n, [&]<class Numbers>(Index i, Numbers) {
+        write(to + i, Numbers(read<Numbers>(to + i) * read<Numbers>(row + i)));
+      });
+    }
   }
 }
 
-// The inverse of A, where S = diag(row) A diag(column), unless its pivots are too small.
-bool DenseSolver::invert(const MatrixXd& S, const VectorXd& row, const VectorXd& column,
-                         double least_ratio) {
+// The factors of S, unless its pivots are too small.
+bool DenseSolver::decompose(const MatrixXd& S, double least_ratio) {
   lu_.compute(S);
-  if (!(lu_.pivot_ratio() > least_ratio)) return false;
+  determined_ = lu_.pivot_ratio() > least_ratio;
+  if (determined_) orientation_ = lu_.orientation();
+  return determined_;
+}
+
+// The inverse of A, where the factors are those of diag(row) A diag(column).
+void DenseSolver::invert(const VectorXd& row, const VectorXd& column) {
   lu_.inverse(inverse_);
-  for (Index j = 0; j < inverse_.cols(); ++j)
-    for (Index i = 0; i < inverse_.rows(); ++i)
-      inverse_(i, j) = column[i] * inverse_(i, j) * row[j];
-  orientation_ = lu_.orientation();
-  return true;
+  const Index n = inverse_.rows();
+  for (Index j = 0; j < n; ++j) {
+    double* const entries = inverse_.data() + j * n;
+    const double unit = row[j];
+    for_each_pair(0, n, [&]<class Numbers>(Index i, Numbers) {
+      write(entries + i,
+            Numbers(read<Numbers>(column.data() + i) * read<Numbers>(entries + i) * unit));
+    });
+  }
 }
 
 }  // namespace courant

@@ -42,25 +42,50 @@ int factorize(double* A, Index size, Index* rows) {
   return sign;
 }
 
-// X = U⁻¹ L⁻¹ P, column by column, each by axpys in the order of the factors: little matrices are done in
-// less time than by blocks.
+// X = U⁻¹ L⁻¹ P. The entries of a row are found side by side, which none of them waits for; each has the order of operations
+// of a column by itself.
 template <int n>
 void invert(const double* factors, Index size, const Index* rows, double* X) {
   if constexpr (n != Eigen::Dynamic) size = n;
-  std::fill_n(X, size * size, 0.0);
-  for (Index i = 0; i < size; ++i) X[i + rows[i] * size] = 1.0;
-  for (Index j = 0; j < size; ++j) {
-    double* const x = X + j * size;
-    for (Index k = 0; k < size; ++k) {
-      const double* const factor = factors + k * size;
-      for (Index i = k + 1; i < size; ++i) x[i] -= factor[i] * x[k];
-    }
-    for (Index k = size; k-- > 0;) {
-      const double* const factor = factors + k * size;
-      x[k] /= factor[k];
-      for (Index i = 0; i < k; ++i) x[i] -= factor[i] * x[k];
-    }
+  constexpr Index most = n == Eigen::Dynamic ? kPlain : Index{n};
+  alignas(16) double Y[most * most];  // U⁻¹ L⁻¹, row by row
+  std::fill_n(Y, size * size, 0.0);
+  const auto subtract = [](double* y, double factor, const double* from, Index count) {
+    for (Index j = 0; j < count; ++j) y[j] -= factor * from[j];
+  };
+  for (Index k = 0; k < size; ++k) {
+    const double* const factor = factors + k * size;
+    Y[k * size + k] = 1.0;
+    for (Index i = k + 1; i < size; ++i) subtract(Y + i * size, factor[i], Y + k * size, k + 1);
   }
+  for (Index k = size; k-- > 0;) {
+    const double* const factor = factors + k * size;
+    double* const y = Y + k * size;
+    for (Index j = 0; j < size; ++j) y[j] /= factor[k];
+    for (Index i = 0; i < k; ++i) subtract(Y + i * size, factor[i], y, size);
+  }
+  for (Index j = 0; j < size; ++j) {
+    double* const x = X + rows[j] * size;
+    for (Index i = 0; i < size; ++i) x[i] = Y[i * size + j];
+  }
+}
+
+// b ← U⁻¹ L⁻¹ P b.
+template <int n>
+void solve_by_factors(const double* factors, Index size, const Index* rows, double* b) {
+  if constexpr (n != Eigen::Dynamic) size = n;
+  double x[n == Eigen::Dynamic ? kPlain : Index{n}];
+  for (Index i = 0; i < size; ++i) x[i] = b[rows[i]];
+  for (Index k = 0; k < size; ++k) {
+    const double* const factor = factors + k * size;
+    for (Index i = k + 1; i < size; ++i) x[i] -= factor[i] * x[k];
+  }
+  for (Index k = size; k-- > 0;) {
+    const double* const factor = factors + k * size;
+    x[k] /= factor[k];
+    for (Index i = 0; i < k; ++i) x[i] -= factor[i] * x[k];
+  }
+  std::copy_n(x, size, b);
 }
 
 }  // namespace
@@ -109,6 +134,14 @@ MatrixXd LuDecomposition::solve(const Eigen::Ref<const MatrixXd>& B) const {
   factors_.triangularView<Eigen::UnitLower>().solveInPlace(result);
   factors_.triangularView<Eigen::Upper>().solveInPlace(result);
   return result;
+}
+
+void LuDecomposition::solve(double* b) const {
+  if (size() <= kPlain)
+    with_static_size(size(), [](auto n) { return &solve_by_factors<decltype(n)::value>; })(
+        factors_.data(), size(), rows_.data(), b);
+  else
+    Eigen::Map<VectorXd>(b, size()) = solve(Eigen::Map<const VectorXd>(b, size()));
 }
 
 void LuDecomposition::inverse(MatrixXd& result) const {

@@ -33,6 +33,7 @@ class LuDecomposition {
 
   // A⁻¹ B, B of size n × k.
   MatrixXd solve(const Eigen::Ref<const MatrixXd>& B) const;
+  void solve(double* b) const;  // b ← A⁻¹ b, n numbers; allocates nothing up to 63 rows
   MatrixXd inverse() const;
   void inverse(MatrixXd& result) const;  // allocates nothing up to 63 rows, if it has the size
 

@@ -261,7 +261,6 @@ void ConstrainFirst::Projection::learn_from(const Projection& other,
   if (times == 0.0 || is_explicit_) return;
   end_.learn_from(other.end_, times_of(times, ratio, 0));
   shift_.learn_from(other.shift_, VectorXd::Constant(shifted_.size(), times * (ratio * ratio)));
-  conormals_.learn_from(other.conormals_, times);
 }
 
 // Steps end off M_f by what goes like their squares.

@@ -1,12 +1,17 @@
 #include "courant/integrators/moving_conormals.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "courant/core/complete_orthogonal_decomposition.hpp"
 #include "courant/core/derivative.hpp"
+#include "courant/core/elimination.hpp"
 #include "courant/core/equilibration.hpp"
+#include "courant/core/expr_vectors.hpp"
 
 namespace courant {
 namespace {
@@ -16,12 +21,20 @@ namespace {
 // large: they are errors of data too, and choose no units.
 constexpr double kDataError = 2e-12;
 
-// w is as good as its first error times the contraction when it has moved by no more than this, and
-// counts for x only times the distance from M_f.
-constexpr double kConormalTolerance = 1e-13;
+// What is left of an equation, relative to its largest term, where least squares meet it.
+constexpr double kMet = 1e-9;
 
-// Equations whose terms are below this part of w times their coefficients are solved by round-off.
-constexpr double kVanishing = 1e-4;
+// The first m rows of a matrix, and those after them; entries stay in order.
+std::pair<MatrixPattern, MatrixPattern> parts(const SparseExprMatrix& matrix, Index m) {
+  MatrixPattern first{.rows = m, .columns = matrix.cols, .row = {}, .column = {}}, second = first;
+  second.rows = matrix.rows - m;
+  for (std::size_t k = 0; k < matrix.row.size(); ++k) {
+    MatrixPattern& part = matrix.row[k] < m ? first : second;
+    part.row.push_back(matrix.row[k] < m ? matrix.row[k] : matrix.row[k] - m);
+    part.column.push_back(matrix.col[k]);
+  }
+  return {first, second};
+}
 
 }  // namespace
 
@@ -44,13 +57,18 @@ MovingConormals::Functions MovingConormals::trace(const Graph& graph, const Expr
   const ExprVector along =
       Eigen::Map<const ExprMatrix>(entries.data(), n, d).transpose() * conormal - unit;
   equations.insert(equations.end(), along.begin(), along.end());
-  inputs.insert(inputs.begin(), {{"w", w}, {"unit", unit}});
+  const Elimination elimination(Eigen::Map<ExprVector>(equations.data(), std::ssize(equations)), w,
+                                {});
+  const ExprVector u = w(elimination.kept);
+  const ExprVector found =
+      joined(elimination.equations, substitute(conormal, w, elimination.unknowns));
+  const SparseExprMatrix by_u = jacobian(found, u), by_unit = jacobian(found, unit);
+  const Index m = elimination.equations.size();
+  std::tie(result.A, result.P) = parts(by_u, m);
+  std::tie(result.B, result.Q) = parts(by_unit, m);
   inputs.push_back({"C", entries});
-  result.equations =
-      EquationSystem("conormal equations", inputs,
-                     Eigen::Map<ExprVector>(equations.data(), static_cast<Index>(equations.size())),
-                     {.backend = backend});
-  result.conormal = Function("conormal", inputs, conormal, {.backend = backend});
+  result.matrices = Function("conormal equations", inputs, joined(by_u.values, by_unit.values),
+                             {.backend = backend});
   return result;
 }
 
@@ -58,68 +76,72 @@ MovingConormals::MovingConormals(Functions functions, Index n, Index d)
     : functions_(std::move(functions)),
       n_(n),
       d_(d),
-      newton_(functions_.equations, {}, {.tolerance = kConormalTolerance}),
-      predictor_({d * functions_.constraints.output_size()}),
+      solver_(brief_linear_solver(functions_.A)),
       conormals_(MatrixXd::Zero(n, d)),
       kept_(conormals_),
-      units_(MatrixXd::Identity(d, d)),
-      weights_(VectorXd::Zero(d * functions_.constraints.output_size())),
+      entries_(functions_.matrices.output_size()),
+      given_(functions_.A.rows, d),
+      weights_(functions_.A.columns),
       covectors_(n, d),
       make_orthonormal_(d) {}
 
 void MovingConormals::move_to(const Point& point) {
   if (d_ == 0) return;
-  is_continued_ = is_found_ && continue_to(point);
-  if (!is_continued_) find(point);
+  if (!is_found_ || !continue_to(point)) find(point);
 }
 
 void MovingConormals::keep() {
   kept_ = conormals_;
   is_found_ = true;
-  is_moving_ = false;
-  if (!is_continued_) return;
-  if (!newton_.is_determined()) predictor_.limit_degree(Predictor::kUndetermined);
-  predictor_.record(weights_);
 }
 
-void MovingConormals::discard() {
-  conormals_ = kept_;
-  is_moving_ = is_continued_ = false;
-}
+void MovingConormals::discard() { conormals_ = kept_; }
 
 void MovingConormals::take_over(const MovingConormals& other) {
   kept_ = conormals_ = other.kept_;
   is_found_ = other.is_found_;
-  is_continued_ = is_moving_ = false;
-  if (predictor_.is_empty()) weights_ = other.weights_;
 }
 
 void MovingConormals::forget() {
-  is_found_ = is_continued_ = is_moving_ = false;
-  newton_.reset();
-  predictor_.forget();
-  weights_.setZero();
+  is_found_ = false;
   kept_.setZero();
   conormals_.setZero();
 }
 
 bool MovingConormals::continue_to(const Point& point) {
-  if (!is_moving_ && !predictor_.is_empty()) predictor_.predict(weights_);
-  is_moving_ = true;
-  const Index r = functions_.constraints.output_size();
+  const auto& [constraints, matrices, A, P, B, Q] = functions_;
+  const double* in[] = {point.jets, point.origin, point.basis, point.t, kept_.data()};
+  matrices.value(in, entries_.data());
+  const double* entry = entries_.data() + A.row.size();
+  if (!solver_->factorize(entries_.data())) return false;
+  const double* const of_P = entry;
+  entry += P.row.size();
+  given_.setZero();
+  for (std::size_t k = 0; k < B.row.size(); ++k) given_(B.row[k], B.column[k]) = -*entry++;
+  covectors_.setZero();
+  for (std::size_t k = 0; k < Q.row.size(); ++k) covectors_(Q.row[k], Q.column[k]) = *entry++;
+  const bool is_regular = solver_->is_determined() && A.rows == A.columns;
   for (Index j = 0; j < d_; ++j) {
-    double* w = weights_.data() + j * r;
-    const double scale = kVanishing * weights_.segment(j * r, r).lpNorm<Eigen::Infinity>();
-    const Inputs in(
-        w, {units_.col(j).data(), point.jets, point.origin, point.basis, point.t, kept_.data()});
-    if (newton_.solve(in, &scale).status != Newton::Status::converged) {
-      newton_.reset();
-      weights_.setZero();
-      return false;
-    }
-    functions_.conormal.value(in.data(), covectors_.col(j).data());
+    solver_->solve(given_.col(j).data(), weights_.data());
+    if (!is_regular && !is_met(j)) return false;
+    double* const covector = covectors_.col(j).data();
+    for (std::size_t k = 0; k < P.row.size(); ++k)
+      covector[P.row[k]] += of_P[k] * weights_[P.column[k]];
   }
   return make_orthonormal_(covectors_, conormals_);  // of C + N with CᵀN = 0
+}
+
+// Whether least squares for u_j solve its equations.
+bool MovingConormals::is_met(Index j) const {
+  const MatrixPattern& A = functions_.A;
+  VectorXd left = -given_.col(j);
+  double largest = given_.col(j).lpNorm<Eigen::Infinity>();
+  for (std::size_t k = 0; k < A.row.size(); ++k) {
+    const double term = entries_[static_cast<Index>(k)] * weights_[A.column[k]];
+    left[A.row[k]] += term;
+    largest = std::max(largest, std::fabs(term));
+  }
+  return left.lpNorm<Eigen::Infinity>() <= kMet * largest;
 }
 
 // Where an unknown besides ξ is in one equation alone, no combination that is free of it contains this

@@ -1,11 +1,12 @@
 // The conormals of M_f along a trajectory.
 #pragma once
 
+#include <memory>
 #include <vector>
 
-#include "courant/core/newton.hpp"
+#include "courant/core/function.hpp"
+#include "courant/core/linear_solver.hpp"
 #include "courant/integrators/nearest_orthonormal.hpp"
-#include "courant/integrators/predictor.hpp"
 
 namespace courant {
 
@@ -15,19 +16,22 @@ namespace courant {
 //
 //   c = (∂F/∂ξ)ᵀ w,   (∂F/∂(ξ', …, z, …))ᵀ w = 0
 //
-// Those at the next point are the solutions with Nᵀ c = e_1, …, e_d for the last N, found by
-// Newton's method with a kept factorisation from an extrapolation of the last w, and made
-// orthonormal. Where that fails, and at the first point, by QR decomposition. One object a
-// trajectory; nothing is allocated but by QR decompositions.
+// Those at the next point are the solutions with Nᵀ c = e_1, …, e_d for the last N. These are linear equations in w;
+// where one gives an entry of w explicitly, with a coefficient that is a number, both are taken out, which leaves
+//
+//   A u_j + B e_j = 0,   c_j = P u_j + Q e_j,   j = 1, …, d
+//
+// with matrices of the point, and the c_j are made orthonormal. Where that fails, and at the first point, they are found by
+// QR decomposition. One object a trajectory; nothing is allocated by steps where A is small and regular.
 class MovingConormals {
  public:
   // Traced once for all trajectories.
   struct Functions {
     // (ξ, ξ', …, z, …); x₀, basis, t  ↦  F, with Jacobian.
     Function constraints;
-    // w; e, (ξ, …), x₀, basis, t, C  ↦  (∂F/∂(ξ', …))ᵀ w, Cᵀ (∂F/∂ξ)ᵀ w - e, with Jacobian by w.
-    EquationSystem equations;
-    Function conormal;  // the same ↦ (∂F/∂ξ)ᵀ w
+    // (ξ, …), x₀, basis, t, C  ↦  the entries of A, P, B and Q.
+    Function matrices;
+    MatrixPattern A, P, B, Q;
   };
   // `jets`: the variables (ξ, ξ', …, z, …), the first n of them ξ; `parameters`: x₀, basis, t.
   static Functions trace(const Graph& graph, const ExprVector& F, const ExprVector& jets, Index n,
@@ -46,10 +50,6 @@ class MovingConormals {
   void forget();
   // Goes on from where the other one was at its last keep().
   void take_over(const MovingConormals& other);
-  // As of Predictor.
-  void learn_from(const MovingConormals& other, double times) {
-    predictor_.learn_from(other.predictor_, VectorXd::Constant(weights_.size(), times));
-  }
   const MatrixXd& matrix() const { return conormals_; }
 
  private:
@@ -60,16 +60,17 @@ class MovingConormals {
   };
   Core core(const VectorXd& all) const;
   bool continue_to(const Point& point);
+  bool is_met(Index j) const;
   void find(const Point& point);
 
   Functions functions_;
   Index n_, d_;
-  Newton newton_;
-  Predictor predictor_;
-  bool is_found_ = false, is_continued_ = false, is_moving_ = false;
+  std::unique_ptr<LinearSolver> solver_;
+  bool is_found_ = false;
   MatrixXd conormals_, kept_;
-  MatrixXd units_;    // e_1, …, e_d
-  VectorXd weights_;  // w_1, …, w_d
+  VectorXd entries_;  // of the matrices, one after the other
+  MatrixXd given_;    // -B
+  VectorXd weights_;  // u_j
   MatrixXd covectors_;
   NearestOrthonormal make_orthonormal_;
 };

@@ -41,7 +41,20 @@ void MovingDirections::move_to(const VectorXd& x, const LinearMap<double>& basis
 
 bool MovingDirections::continues(const MatrixXd& conormals) {
   turned_.noalias() = V_.operator*(combination_);
-  return make_orthonormal_(turned_, W_) && is_complement(conormals);
+  if (!make_orthonormal_(turned_, W_)) {
+    project_kept();
+    if (!make_orthonormal_(turned_, W_)) return false;
+  }
+  return is_complement(conormals);
+}
+
+// V K nearest to the W that was kept, by the normal equations: whatever rounding makes of K, V K is in the span of V.
+void MovingDirections::project_kept() {
+  next_.noalias() = V_.transpose().operator*(V_);
+  gram_.compute(next_);
+  next_.noalias() = V_.transpose().operator*(kept_);
+  combination_ = gram_.solve(next_);
+  turned_.noalias() = V_.operator*(combination_);
 }
 
 bool MovingDirections::is_complement(const MatrixXd& conormals) const {

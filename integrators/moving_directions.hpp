@@ -1,6 +1,7 @@
 // The directions of a projector along a trajectory.
 #pragma once
 
+#include "courant/core/lu_decomposition.hpp"
 #include "courant/integrators/nearest_orthonormal.hpp"
 #include "courant/integrators/projector.hpp"
 
@@ -30,6 +31,7 @@ class MovingDirections {
 
  private:
   bool continues(const MatrixXd& conormals);
+  void project_kept();
   bool is_complement(const MatrixXd& conormals) const;
 
   const Projector& projector_;
@@ -38,6 +40,7 @@ class MovingDirections {
   MatrixXd V_, combination_;  // K
   MatrixXd turned_;           // V K, nearly orthonormal
   MatrixXd next_;
+  LuDecomposition gram_;  // of VᵀV
   NearestOrthonormal make_orthonormal_;
 };
 

@@ -42,6 +42,41 @@ BOOST_AUTO_TEST_CASE(regular_systems_of_every_size) {
   }
 }
 
+// With factors in the place of an inverse the solutions are the same to round-off; what is singular or not square has a
+// pseudo-inverse either way.
+BOOST_AUTO_TEST_CASE(factors_say_what_an_inverse_does) {
+  std::mt19937 generator(5);
+  std::normal_distribution<double> normal;
+  for (const Index n : {1, 2, 5, 8, 9, 20, 70}) {
+    const VectorXd unit =
+        VectorXd::NullaryExpr(n, [&] { return std::pow(10.0, 3.0 * normal(generator)); });
+    const MatrixXd A =
+        MatrixXd::NullaryExpr(n, n, [&] { return normal(generator); }) * unit.asDiagonal();
+    const VectorXd x = unit.cwiseInverse().cwiseProduct(
+        VectorXd::NullaryExpr(n, [&] { return normal(generator); }));
+    DenseSolver by_factors(full(n, n), DenseSolver::Keeps::factors), by_inverse(full(n, n));
+    for (DenseSolver* solver : {&by_factors, &by_inverse}) {
+      BOOST_TEST_REQUIRE(solver->factorize(A.data()));
+      BOOST_TEST(solver->is_determined());
+      BOOST_TEST((unit.asDiagonal() * (solution(*solver, A * x, n) - x)).norm() < 1e-10);
+    }
+    BOOST_TEST(by_factors.orientation() == by_inverse.orientation());
+    BOOST_TEST((by_factors.inverse() == nullptr));
+    BOOST_TEST((by_inverse.inverse() != nullptr));
+    if (n == 1) continue;
+
+    MatrixXd singular = A;
+    singular.row(n - 1) = singular.row(0);
+    BOOST_TEST_REQUIRE(by_factors.factorize(singular.data()));
+    BOOST_TEST(!by_factors.is_determined());
+    BOOST_TEST((by_factors.inverse() == nullptr));
+    const VectorXd b = singular * x;
+    BOOST_TEST((singular * solution(by_factors, b, n) - b).norm() < 1e-9 * b.norm());
+    BOOST_TEST_REQUIRE(by_factors.factorize(A.data()));  // and back
+    BOOST_TEST((unit.asDiagonal() * (solution(by_factors, A * x, n) - x)).norm() < 1e-10);
+  }
+}
+
 // Rows of very different units, one of them said twice; the second unknown is in no equation.
 BOOST_AUTO_TEST_CASE(redundant_and_undetermined_systems) {
   const MatrixPattern pattern{.rows = 3, .columns = 3, .row = {0, 1, 2, 2}, .column = {0, 0, 0, 2}};

@@ -11,12 +11,15 @@ BOOST_AUTO_TEST_SUITE(lu_decomposition)
 using namespace courant;
 
 BOOST_AUTO_TEST_CASE(solves_and_inverts) {
-  for (const Index n : {0, 1, 2, 5, 40}) {
+  for (const Index n : {0, 1, 2, 5, 40, 80}) {
     const MatrixXd A = random_matrix(n, n, 1), B = random_matrix(n, 3, 2);
     const LuDecomposition lu(A);
     const double bound = 1e-11 * (1.0 + A.norm());
     BOOST_TEST((A * lu.solve(B) - B).norm() < bound);
     BOOST_TEST((A * lu.inverse() - MatrixXd::Identity(n, n)).norm() < bound);
+    VectorXd x = B.col(0);
+    lu.solve(x.data());
+    BOOST_TEST((A * x - B.col(0)).norm() < bound);
   }
 }
 

@@ -14,7 +14,8 @@ namespace {
 // A pendulum of length 1 in the plane, ξ = (q, v): q' = v, v' = λ q - (0, 1), and the length, twice
 // differentiated. M_f: |q| = 1, q·v = 0, with the conormals (q, 0) and (v, q).
 struct Pendulum {
-  Pendulum() {
+  // `repeats`: with the length once more, and its sum with another equation.
+  explicit Pendulum(bool repeats = false) {
     Graph graph;
     const ExprVector jets = graph.variables("y", 13);  // ξ, ξ', ξ'', λ
     const ExprVector x0 = graph.variables("x0", 4), t = graph.variables("t", 1);
@@ -25,6 +26,11 @@ struct Pendulum {
     F << dq - v, rate.tail(2) - jets[12] * q, dot(q, q) - 1.0, dot(q, dq),
         dot(dq, dq) + dot(q, ddq), ddq - rate.tail(2);
     F[3] += 1.0;
+    if (repeats) {
+      F.conservativeResize(11);
+      F[9] = 3.0 * F[4];
+      F[10] = F[4] + 2.0 * F[6];
+    }
     functions = MovingConormals::trace(graph, F, jets, 4, 2,
                                        {{"x0", x0}, {"basis", ExprVector(0)}, {"t", t}},
                                        Backend::interpreter);
@@ -78,6 +84,22 @@ BOOST_AUTO_TEST_CASE(follow_a_curve) {
     BOOST_TEST((conormals.matrix() - C).norm() < 1e-12);
     conormals.keep();
     before = C;
+  }
+}
+
+// Equations that say nothing new leave open which combinations give the conormals, not the conormals.
+BOOST_AUTO_TEST_CASE(follow_a_curve_with_redundant_equations) {
+  Pendulum pendulum(true);
+  MovingConormals conormals(pendulum.functions, 4, 2);
+  MatrixXd before;
+  for (int k = 0; k < 200; ++k) {
+    const double angle = 1.2 * std::cos(0.02 * k);
+    pendulum.place(angle, -0.9 * std::sin(0.02 * k) + 0.1 * angle);
+    pendulum.move(conormals);
+    BOOST_TEST(pendulum.defect(conormals.matrix()) < 1e-12);
+    if (k > 0) BOOST_TEST((conormals.matrix() - before).norm() < 0.06);
+    conormals.keep();
+    before = conormals.matrix();
   }
 }
 

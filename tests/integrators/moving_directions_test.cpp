@@ -47,6 +47,21 @@ class Stretched final : public Projector {
   }
 };
 
+// In units that are far apart.
+class Uneven final : public Projector {
+ public:
+  Uneven() : Projector("uneven") {}
+  bool is_always_complement() const override { return true; }
+  mutable int asked = 0;
+
+ private:
+  MatrixXd do_directions(const VectorXd&, const LinearMap<double>&,
+                         const MatrixXd& conormals) const override {
+    ++asked;
+    return Eigen::Vector4d(1e-3, 1e-3, 1.0, 1.0).asDiagonal() * conormals;
+  }
+};
+
 // No complement where x_0 = 0: (0, 0, 1, 0) is tangent there.
 class Vanishing final : public Projector {
  public:
@@ -88,6 +103,24 @@ BOOST_AUTO_TEST_CASE(span_those_of_the_projector) {
       BOOST_TEST((directions.matrix() - W).norm() < 1e-13);
       directions.keep();
     }
+  }
+}
+
+// Where units are far apart a small turn of the conormals changes what the projector gives by much. It is carried along all
+// the same: the projector is asked once for each point, not once more for directions that are looked at afresh.
+BOOST_AUTO_TEST_CASE(are_carried_along_in_units_that_are_far_apart) {
+  const Uneven uneven;
+  MovingDirections directions(uneven, 4, 2);
+  for (int k = 0; k < 200; ++k) {
+    const Place place(0.3 + 0.02 * k);
+    const int before = uneven.asked;
+    directions.move_to(place.x, kIdentity, place.conormals);
+    if (k > 0) BOOST_TEST(uneven.asked == before + 1);
+    const MatrixXd& W = directions.matrix();
+    BOOST_TEST(orthonormality(W) < 1e-13);
+    const MatrixXd exact = uneven.directions(place.x, kIdentity, place.conormals);
+    BOOST_TEST((onto(W) - onto(exact)).norm() < 1e-9);
+    directions.keep();
   }
 }
 
