@@ -1,11 +1,13 @@
-# Parts of SuiteSparse as targets: find_package(SuiteSparse REQUIRED COMPONENTS SPQR KLU) gives SuiteSparse::SPQR and
-# SuiteSparse::KLU. These are also their names where SuiteSparse brings its own CMake packages (7.4 and later); Debian 12
+# Parts of SuiteSparse as targets: find_package(SuiteSparse REQUIRED COMPONENTS SPQR KLU AMD CAMD) gives SuiteSparse::SPQR,
+# SuiteSparse::KLU and so on. These are also their names where SuiteSparse brings its own CMake packages (7.4 and later); Debian 12
 # has 5.12, which does not.
 
 # Of each part: its header, and the library that its own needs besides.
 set(SuiteSparse_header_SPQR SuiteSparseQR.hpp)
 set(SuiteSparse_needed_SPQR cholmod)
 set(SuiteSparse_header_KLU klu.h)
+set(SuiteSparse_header_AMD amd.h)
+set(SuiteSparse_header_CAMD camd.h)
 
 foreach(part IN LISTS SuiteSparse_FIND_COMPONENTS)
   find_package(${part} CONFIG QUIET)

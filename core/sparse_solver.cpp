@@ -84,6 +84,7 @@ bool SparseSolver::do_factorize(const double* entries) {
       scale(A_, row_scale_, column_scale_, scaled_);
       is_sparse_ = is_regular(kSingular);
     }
+    has_units_ = (row_scale_.array() != 1.0).any() || (column_scale_.array() != 1.0).any();
     if (is_sparse_) return true;
   }
   if (!dense_) dense_ = std::make_unique<DenseSolver>(pattern_);
@@ -93,7 +94,12 @@ bool SparseSolver::do_factorize(const double* entries) {
 void SparseSolver::do_solve(const double* b, double* x) {
   if (!is_sparse_) return dense_->solve(b, x);
   Eigen::Map<VectorXd> result(x, column_scale_.size());
-  result = row_scale_.cwiseProduct(Eigen::Map<const VectorXd>(b, row_scale_.size()));
+  const Eigen::Map<const VectorXd> given(b, row_scale_.size());
+  if (!has_units_) {  // passes over large vectors are as dear as factors
+    result = given;
+    return lu_->solve(x);
+  }
+  result = row_scale_.cwiseProduct(given);
   lu_->solve(x);
   result.array() *= column_scale_.array();
 }

@@ -39,6 +39,7 @@ class SparseSolver final : public LinearSolver {
   std::unique_ptr<SparseLu> lu_;  // of square matrices
   std::unique_ptr<DenseSolver> dense_;
   bool is_sparse_ = false;  // the last matrix is solved with lu_
+  bool has_units_ = false;  // other than 1, of rows or columns
 };
 
 }  // namespace courant
