@@ -49,7 +49,7 @@ const NetworkDomain thermal{"thermal", "s_", "T_", "temperature_"};
 // would take long.
 Expr NetworkWords::value(const WrittenFormula& formula, const NetworkVariables& variables) const {
   const auto names = names_used(formula.text);
-  SymbolTable symbols = vocabulary.symbols_of(names, {.x = variables.x(), .t = variables.t()});
+  SymbolTable symbols = vocabulary.symbols_of(names, variables.x(), variables.t());
   for (const std::string& name : names) {
     if (symbols.find(name)) continue;
     if (const auto current = currents.find(name); current != currents.end())
@@ -61,7 +61,7 @@ Expr NetworkWords::value(const WrittenFormula& formula, const NetworkVariables& 
 }
 
 Expr NetworkWords::value(const WrittenFormula& formula, const ExprVector& x, const Expr& t) const {
-  return evaluate(formula, vocabulary.symbols_of(names_used(formula.text), {.x = x, .t = t}));
+  return evaluate(formula, vocabulary.symbols_of(names_used(formula.text), x, t));
 }
 
 ElementReader::ElementReader(ObjectReader& object, const NetworkSite& site)

@@ -207,22 +207,20 @@ SymbolTable Vocabulary::symbols(const Arguments& arguments) const {
   return symbols;
 }
 
-SymbolTable Vocabulary::symbols_of(const std::vector<std::string>& names,
-                                   const Arguments& arguments) const {
+SymbolTable Vocabulary::symbols_of(const std::vector<std::string>& names, const ExprVector& x,
+                                   const Expr& t) const {
   const auto is_one_of = [&](const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
   for (const Definition& definition : definitions)
-    if (is_one_of(definition.name)) return symbols(arguments);
+    if (is_one_of(definition.name)) return symbols({.x = x, .t = t});
   SymbolTable symbols;
   for (const auto& [name, symbol] : parameters)
     if (is_one_of(name)) symbols.add(name, symbol.shape, symbol.values);
-  if (arguments.t) {
-    symbols.add("t", *arguments.t);
-    for (const auto& [name, table] : tables)
-      if (is_one_of(name)) symbols.add(name, table.at(*arguments.t));
-  }
-  if (arguments.x) coordinates.add_to(symbols, *arguments.x, names);
+  symbols.add("t", t);
+  for (const auto& [name, table] : tables)
+    if (is_one_of(name)) symbols.add(name, table.at(t));
+  coordinates.add_to(symbols, x, names);
   return symbols;
 }
 

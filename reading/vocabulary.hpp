@@ -84,9 +84,10 @@ struct Vocabulary {
   // Throws FormulaError if a definition is wrong, std::invalid_argument if a name repeats or a size
   // is wrong.
   SymbolTable symbols(const Arguments& arguments) const;
-  // The part of it that formulas of these names need, and maybe more: quick where there are many
-  // coordinates and the names are few. Without velocities and unknowns.
-  SymbolTable symbols_of(const std::vector<std::string>& names, const Arguments& arguments) const;
+  // The part of it that formulas of x, t and these names need, and maybe more: quick where there are many
+  // coordinates and the names are few.
+  SymbolTable symbols_of(const std::vector<std::string>& names, const ExprVector& x,
+                         const Expr& t) const;
 };
 
 // The declarations of an array such as ["x", "r[n][3]"] are appended to `names`; `taken` has the

@@ -135,9 +135,9 @@ struct FourBar {
   }
   static std::vector<Choice> choices() {
     return {{"Method 2", {{"type", "constrain-first"}}, 500},
-            {"Method 2, order 4", {{"type", "constrain-first"}, {"order", 4}}, 128},
-            {"Method 2, order 6", {{"type", "constrain-first"}, {"order", 6}}, 128},
-            {"Method 2, order 8", {{"type", "constrain-first"}, {"order", 8}}, 128}};
+            {"Method 2, order 4", {{"type", "constrain-first"}, {"order", 4}}, 256},
+            {"Method 2, order 6", {{"type", "constrain-first"}, {"order", 6}}, 192},
+            {"Method 2, order 8", {{"type", "constrain-first"}, {"order", 8}}, 192}};
   }
 
  private:

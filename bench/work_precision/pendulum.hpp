@@ -70,8 +70,8 @@ struct Pendulum {
   static std::vector<Choice> choices() {
     return {{"Method 2", {{"type", "constrain-first"}}, 500},
             {"Method 2, order 4", {{"type", "constrain-first"}, {"order", 4}}, 64},
-            {"Method 2, order 6", {{"type", "constrain-first"}, {"order", 6}}, 64},
-            {"Method 2, order 8", {{"type", "constrain-first"}, {"order", 8}}, 64}};
+            {"Method 2, order 6", {{"type", "constrain-first"}, {"order", 6}}, 40},
+            {"Method 2, order 8", {{"type", "constrain-first"}, {"order", 8}}, 32}};
   }
 };
 

@@ -123,7 +123,8 @@ BOOST_AUTO_TEST_CASE(units_do_not_make_a_matrix_singular) {
   }
 }
 
-// An equation that is said twice, an unknown in no equation, more equations than unknowns.
+// An equation that is said twice, an unknown in no equation, more equations than unknowns, and potentials of a ring of
+// conductances, whose last pivot is round-off.
 BOOST_AUTO_TEST_CASE(what_is_not_regular_is_solved_as_dense_solver_does) {
   std::mt19937 generator(4);
   const Index n = 30;
@@ -136,7 +137,15 @@ BOOST_AUTO_TEST_CASE(what_is_not_regular_is_solved_as_dense_solver_does) {
     if (twice.pattern.row[k] == 0) twice.add(1, twice.pattern.column[k], 2.0 * twice.entries[k]);
   tall.pattern.rows = n + 1;
   tall.add(n, 0, 1.0);
-  for (const Sparse& A : {twice, missing, tall}) {
+  Sparse ring{{.rows = n, .columns = n, .row = {}, .column = {}}, {}};
+  const VectorXd conductance = random_vector(n, generator).cwiseAbs().array() + 0.1;
+  for (Index i = 0; i < n; ++i) {
+    const Index next = (i + 1) % n;
+    ring.add(i, i, conductance[i] + conductance[next]);
+    ring.add(i, next, -conductance[next]);
+    ring.add(next, i, -conductance[next]);
+  }
+  for (const Sparse& A : {twice, missing, tall, ring}) {
     SparseSolver sparse(A.pattern);
     DenseSolver dense(A.pattern);
     const bool is_tall = A.pattern.rows > n;
