@@ -47,28 +47,24 @@ MovingConormals::Functions MovingConormals::trace(const Graph& graph, const Expr
   inputs.insert(inputs.end(), parameters.begin(), parameters.end());
   result.constraints = Function("constraints", inputs, F, {.differentiate = {"y"}});
   const ExprVector w = graph.variables("w", F.size());
-  const ExprVector unit = graph.variables("unit", d);
   const ExprVector entries = graph.variables("C", n * d);
   const ExprVector pulled = pull_back(F, jets, w);
   const ExprVector conormal = pulled.head(n);
   std::vector<Expr> equations;
   for (const Expr& component : pulled.tail(pulled.size() - n))
     if (!component.is_constant() || component.value() != 0.0) equations.push_back(component);
+  // The last d equations: their coefficients contain C, so that none of them gives an entry of w.
   const ExprVector along =
-      Eigen::Map<const ExprMatrix>(entries.data(), n, d).transpose() * conormal - unit;
+      Eigen::Map<const ExprMatrix>(entries.data(), n, d).transpose() * conormal;
   equations.insert(equations.end(), along.begin(), along.end());
   const Elimination elimination(Eigen::Map<ExprVector>(equations.data(), std::ssize(equations)), w,
                                 {});
-  const ExprVector u = w(elimination.kept);
-  const ExprVector found =
-      joined(elimination.equations, substitute(conormal, w, elimination.unknowns));
-  const SparseExprMatrix by_u = jacobian(found, u), by_unit = jacobian(found, unit);
-  const Index m = elimination.equations.size();
-  std::tie(result.A, result.P) = parts(by_u, m);
-  std::tie(result.B, result.Q) = parts(by_unit, m);
+  const SparseExprMatrix both =
+      jacobian(joined(elimination.equations, substitute(conormal, w, elimination.unknowns)),
+               w(elimination.kept));
+  std::tie(result.A, result.P) = parts(both, elimination.equations.size());
   inputs.push_back({"C", entries});
-  result.matrices = Function("conormal equations", inputs, joined(by_u.values, by_unit.values),
-                             {.backend = backend});
+  result.matrices = Function("conormal equations", inputs, both.values, {.backend = backend});
   return result;
 }
 
@@ -80,7 +76,7 @@ MovingConormals::MovingConormals(Functions functions, Index n, Index d)
       conormals_(MatrixXd::Zero(n, d)),
       kept_(conormals_),
       entries_(functions_.matrices.output_size()),
-      given_(functions_.A.rows, d),
+      given_(functions_.A.rows),
       weights_(functions_.A.columns),
       covectors_(n, d),
       make_orthonormal_(d) {}
@@ -109,21 +105,18 @@ void MovingConormals::forget() {
 }
 
 bool MovingConormals::continue_to(const Point& point) {
-  const auto& [constraints, matrices, A, P, B, Q] = functions_;
+  const auto& [constraints, matrices, A, P] = functions_;
   const double* in[] = {point.jets, point.origin, point.basis, point.t, kept_.data()};
   matrices.value(in, entries_.data());
-  const double* entry = entries_.data() + A.row.size();
   if (!solver_->factorize(entries_.data())) return false;
-  const double* const of_P = entry;
-  entry += P.row.size();
-  given_.setZero();
-  for (std::size_t k = 0; k < B.row.size(); ++k) given_(B.row[k], B.column[k]) = -*entry++;
-  covectors_.setZero();
-  for (std::size_t k = 0; k < Q.row.size(); ++k) covectors_(Q.row[k], Q.column[k]) = *entry++;
+  const double* const of_P = entries_.data() + A.row.size();
   const bool is_regular = solver_->is_determined() && A.rows == A.columns;
+  covectors_.setZero();
   for (Index j = 0; j < d_; ++j) {
-    solver_->solve(given_.col(j).data(), weights_.data());
-    if (!is_regular && !is_met(j)) return false;
+    given_.setZero();
+    given_[A.rows - d_ + j] = 1.0;
+    solver_->solve(given_.data(), weights_.data());
+    if (!is_regular && !is_met()) return false;
     double* const covector = covectors_.col(j).data();
     for (std::size_t k = 0; k < P.row.size(); ++k)
       covector[P.row[k]] += of_P[k] * weights_[P.column[k]];
@@ -132,10 +125,10 @@ bool MovingConormals::continue_to(const Point& point) {
 }
 
 // Whether least squares for u_j solve its equations.
-bool MovingConormals::is_met(Index j) const {
+bool MovingConormals::is_met() const {
   const MatrixPattern& A = functions_.A;
-  VectorXd left = -given_.col(j);
-  double largest = given_.col(j).lpNorm<Eigen::Infinity>();
+  VectorXd left = -given_;
+  double largest = 1.0;
   for (std::size_t k = 0; k < A.row.size(); ++k) {
     const double term = entries_[static_cast<Index>(k)] * weights_[A.column[k]];
     left[A.row[k]] += term;

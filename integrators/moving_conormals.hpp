@@ -19,7 +19,7 @@ namespace courant {
 // Those at the next point are the solutions with Nᵀ c = e_1, …, e_d for the last N. These are linear equations in w;
 // where one gives an entry of w explicitly, with a coefficient that is a number, both are taken out, which leaves
 //
-//   A u_j + B e_j = 0,   c_j = P u_j + Q e_j,   j = 1, …, d
+//   A u_j = (0, e_j),   c_j = P u_j,   j = 1, …, d
 //
 // with matrices of the point, and the c_j are made orthonormal. Where that fails, and at the first point, they are found by
 // QR decomposition. One object a trajectory; nothing is allocated by steps where A is small and regular.
@@ -29,9 +29,9 @@ class MovingConormals {
   struct Functions {
     // (ξ, ξ', …, z, …); x₀, basis, t  ↦  F, with Jacobian.
     Function constraints;
-    // (ξ, …), x₀, basis, t, C  ↦  the entries of A, P, B and Q.
+    // (ξ, …), x₀, basis, t, C  ↦  the entries of A and P.
     Function matrices;
-    MatrixPattern A, P, B, Q;
+    MatrixPattern A, P;
   };
   // `jets`: the variables (ξ, ξ', …, z, …), the first n of them ξ; `parameters`: x₀, basis, t.
   static Functions trace(const Graph& graph, const ExprVector& F, const ExprVector& jets, Index n,
@@ -60,7 +60,7 @@ class MovingConormals {
   };
   Core core(const VectorXd& all) const;
   bool continue_to(const Point& point);
-  bool is_met(Index j) const;
+  bool is_met() const;
   void find(const Point& point);
 
   Functions functions_;
@@ -69,7 +69,7 @@ class MovingConormals {
   bool is_found_ = false;
   MatrixXd conormals_, kept_;
   VectorXd entries_;  // of the matrices, one after the other
-  MatrixXd given_;    // -B
+  VectorXd given_;    // (0, e_j)
   VectorXd weights_;  // u_j
   MatrixXd covectors_;
   NearestOrthonormal make_orthonormal_;

@@ -1,5 +1,6 @@
 #include "courant/integrators/moving_directions.hpp"
 
+#include <Eigen/Geometry>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
@@ -106,15 +107,16 @@ BOOST_AUTO_TEST_CASE(span_those_of_the_projector) {
   }
 }
 
-// Where units are far apart a small turn of the conormals changes what the projector gives by much. It is carried along all
+// Where units are far apart a small turn of the conormals, in their own span too, changes what the projector gives by much. It is carried along all
 // the same: the projector is asked once for each point, not once more for directions that are looked at afresh.
 BOOST_AUTO_TEST_CASE(are_carried_along_in_units_that_are_far_apart) {
   const Uneven uneven;
   MovingDirections directions(uneven, 4, 2);
   for (int k = 0; k < 200; ++k) {
     const Place place(0.3 + 0.02 * k);
+    const MatrixXd conormals = place.conormals * Eigen::Rotation2Dd(0.05 * k).toRotationMatrix();
     const int before = uneven.asked;
-    directions.move_to(place.x, kIdentity, place.conormals);
+    directions.move_to(place.x, kIdentity, conormals);
     if (k > 0) BOOST_TEST(uneven.asked == before + 1);
     const MatrixXd& W = directions.matrix();
     BOOST_TEST(orthonormality(W) < 1e-13);
