@@ -4,7 +4,6 @@
 #include <cmath>
 #include <deque>
 #include <functional>
-#include <ranges>
 #include <set>
 
 namespace courant {
@@ -75,9 +74,8 @@ int PolynomialRelations::eliminated_degree(const Monomial& monomial) const {
 bool PolynomialRelations::comes_first(const Monomial& a, const Monomial& b) const {
   const int first_of_a = eliminated_degree(a), first_of_b = eliminated_degree(b);
   if (first_of_a != first_of_b) return first_of_a > first_of_b;
-  return order_.backwards
-             ? leads(std::views::reverse(a), std::views::reverse(b), std::greater<int>())
-             : leads(a, b, std::less<int>());
+  return order_.backwards ? leads(a.rbegin(), a.rend(), b.rbegin(), b.rend(), std::greater<int>())
+                          : leads(a, b, std::less<int>());
 }
 
 // Its remainder becomes an element; what that makes reducible is added once more. False where

@@ -46,23 +46,25 @@ bool divides(const Monomial& a, const Monomial& b);
 // The sum of its powers.
 int total_degree(const Monomial& monomial);
 
-// Whether a leads b: by degree, then by the factors, which both have in the order `before`, those with high powers
-// first: x² before x y before y².
-template <class Factors, class Before>
-bool leads(const Factors& a, const Factors& b, const Before& before) {
-  const auto degree = [](const Factors& factors) {
+// Whether the monomial from a to a_end leads that from b to b_end: by degree, then by the factors, which both have in the
+// order `before`, those with high powers first: x² before x y before y².
+template <class Iterator, class Before>
+bool leads(Iterator a, Iterator a_end, Iterator b, Iterator b_end, const Before& before) {
+  const auto degree = [](Iterator i, Iterator end) {
     int sum = 0;
-    for (const auto& [factor, power] : factors) sum += power;
+    for (; i != end; ++i) sum += i->second;
     return sum;
   };
-  if (const int of_a = degree(a), of_b = degree(b); of_a != of_b) return of_a > of_b;
-  auto i = a.begin();
-  auto j = b.begin();
-  for (; i != a.end() && j != b.end(); ++i, ++j) {
-    if (i->first != j->first) return before(i->first, j->first);
-    if (i->second != j->second) return i->second > j->second;
+  if (const int of_a = degree(a, a_end), of_b = degree(b, b_end); of_a != of_b) return of_a > of_b;
+  for (; a != a_end && b != b_end; ++a, ++b) {
+    if (a->first != b->first) return before(a->first, b->first);
+    if (a->second != b->second) return a->second > b->second;
   }
-  return i != a.end();
+  return a != a_end;
+}
+template <class Before>
+bool leads(const Monomial& a, const Monomial& b, const Before& before) {
+  return leads(a.begin(), a.end(), b.begin(), b.end(), before);
 }
 
 // Adds c times a monomial. Coefficients that cancel leave round-off: 1e-13 of what was added is zero.
