@@ -70,6 +70,7 @@ STEPS = {
     "pendulum_cartesian": 1000,
     "heavy_top_constrained": 1000,
     "nonholonomic_particle": 1000,
+    "four_bar": 1000,
     "network_rlc": 1000,
 }
 
