@@ -28,6 +28,11 @@ class Function {
     std::string name;
     ExprVector variables;
   };
+  // What a function is traced from.
+  struct Formulas {
+    std::vector<Input> inputs;
+    ExprVector outputs = ExprVector(0);
+  };
   struct Options {
     std::vector<std::string> differentiate = {};  // names of input groups; empty: no Jacobian
     // Names of the groups that change while the others stay, see hold(); empty: nothing is held.
@@ -42,6 +47,8 @@ class Function {
            const Options& options);
   Function(const std::string& name, const std::vector<Input>& inputs, const ExprVector& outputs)
       : Function(name, inputs, outputs, Options()) {}
+  Function(const std::string& name, const Formulas& of, const Options& options)
+      : Function(name, of.inputs, of.outputs, options) {}
 
   const std::string& name() const { return name_; }
   Index input_count() const { return static_cast<Index>(sizes_.size()); }

@@ -12,9 +12,7 @@
 namespace courant {
 namespace {
 
-// Up to this size by plain loops, whose order of operations programs in C repeat (c_program): they cost
-// about as much as blocks do. Beyond it by blocks.
-constexpr Index kPlain = 63;
+constexpr Index kPlain = LuDecomposition::kPlain;
 
 // P A = L U in place, for n rows or (Eigen::Dynamic) `size`: row i of P A is row rows[i] of A. The sign of P.
 template <int n>

@@ -18,6 +18,10 @@ using Eigen::VectorXd;
 // comparable size.
 class LuDecomposition {
  public:
+  // Up to so many rows by plain loops, whose order of operations programs in C repeat (c_program): they cost about as
+  // much as blocks do. Beyond them by blocks.
+  static constexpr Index kPlain = 63;
+
   LuDecomposition() = default;  // of the 0 × 0 matrix
   // Throws std::invalid_argument if A is not square.
   explicit LuDecomposition(const Eigen::Ref<const MatrixXd>& A) { compute(A); }

@@ -218,10 +218,12 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
       "corrected shift", {{"near", trace.near}, {"s", trace.s}, {"x0", trace.x0}, {"x", trace.x}},
       trace.corrected, compiled);
   const bool is_never_aimed = codimension_ == 0 || fixed_directions_.size() > 0;
-  conormals_ = MovingConormals::trace(
-      trace.step.graph, trace.constraints, trace.jets, M.dimension(), codimension_,
-      {{"x0", trace.x0}, {"basis", trace.basis_entries}, {"t", trace.t}},
-      is_never_aimed ? Backend::interpreter : backend);
+  conormals_ = {trace.conormals(), is_never_aimed ? Backend::interpreter : backend};
+  if (!is_never_aimed) {
+    references_ = MovingConormals::references(M.tangent_basis(ladder.point.x) *
+                                              orthonormalized(ladder.conormals().transpose()));
+    span_ = Function("directions", projector_->span_formulas(M, codimension_), compiled);
+  }
   basis_ = MovingBasis::projection(M, backend);
   constraint_ = RoundOffProjection::constraint(M, backend);
   backend.compile();
@@ -234,15 +236,10 @@ std::vector<StepFormulas> ConstrainFirst::do_formulas() const {
 
 StepProgram ConstrainFirst::program() const {
   const Manifold& M = *system()->manifold();
-  check_program_space(name(), M);
-  if (codimension_ > 0 && fixed_directions_.size() == 0)
-    throw std::invalid_argument(
-        name() +
-        " projects along directions that change from point to point, which are not among the "
-        "formulas of a step; expected the momentum projector, or a system without constraints");
   const Trace trace(*this);
   StepProgram program{.method = name()};
   program.solve = {.formulas = trace.step,
+                   .space = SpaceFormulas(M),
                    .is_affine = trace.step.is_affine(),
                    .tangent_blocks = trace.blocks,
                    .displacements = M.dimension(),
@@ -262,6 +259,12 @@ StepProgram ConstrainFirst::program() const {
                            {{"near", trace.near}, {"s", trace.s}, {"x0", trace.x0}, {"x", trace.x}},
                        .shifted = trace.shifted,
                        .corrected = trace.corrected}};
+  if (codimension_ > 0 && fixed_directions_.size() == 0)
+    program.solve->projection->turning = StepProgram::Solve::Projection::Turning{
+        .conormals = trace.conormals(),
+        .references = references_,
+        .span = projector_->span_formulas(M, codimension_),
+        .is_always_complement = projector_->is_always_complement()};
   return program;
 }
 

@@ -51,7 +51,6 @@ class ConstrainFirst final : public Integrator, public Programmed {
     return std::nullopt;
   }
   bool is_native() const override { return equations_.is_native(); }
-  // For projections along directions that are the same at every x.
   StepProgram program() const override;
 
  private:
@@ -86,7 +85,9 @@ class ConstrainFirst final : public Integrator, public Programmed {
   Function shift_;       // (near, s) ↦ R_near(Π s)
   Function corrected_shift_;  // (near, s, x₀, x) ↦ what leads to x if s leads to x₀, to first order
   MovingConormals::Functions conormals_;
-  MatrixXd fixed_directions_;  // W, where it is the same at every x; else empty
+  std::vector<MatrixXd> references_;  // of the conormals, the first those at the ladder's point
+  Function span_;                     // of MovingDirections
+  MatrixXd fixed_directions_;         // W, where it is the same at every x; else empty
 };
 
 }  // namespace courant

@@ -99,9 +99,12 @@ class ConstrainFirst::Differential final : public StepDifferential {
   MatrixXd shifts(const VectorXd& x, double t, const VectorField::Evaluation& evaluation) const {
     const MatrixXd basis = evaluation.basis().matrix();
     if (method_.fixed_directions_.size() > 0) return basis * method_.fixed_directions_;
-    return basis * method_.projector_->directions(
-                       x, evaluation.basis(),
-                       differential_.conormals(place(x, t, evaluation), method_.codimension_));
+    const MatrixXd C = differential_.conormals(place(x, t, evaluation), method_.codimension_);
+    MatrixXd V = C;
+    if (method_.span_.output_size() > 0)
+      V = method_.span_({x, evaluation.basis().entries().reshaped(), C.reshaped()})
+              .reshaped(C.rows(), C.cols());
+    return basis * method_.projector_->orthonormal_directions(V, evaluation.basis(), C);
   }
 
   // T P: images in T_xM_f, at the state, of ambient velocities at y, which P takes to its x.

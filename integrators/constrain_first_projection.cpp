@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "courant/core/pairs.hpp"
+#include "courant/core/plain_products.hpp"
 
 namespace courant {
 namespace {
@@ -40,8 +41,8 @@ ConstrainFirst::Projection::Projection(const ConstrainFirst& method, MovingBasis
            method.fixed_directions_.size() > 0 ? solver_.predicted() : solver_.found()),
       shift_({method.system()->manifold()->tangent_dimension()}),
       basis_(basis),
-      conormals_(method.conormals_, n_, d_),
-      directions_(*method.projector_, n_, d_),
+      conormals_(method.conormals_, n_, d_, method.references_),
+      directions_(*method.projector_, method.span_, n_, d_),
       jets_(VectorXd::Zero(solver_.unknown().size())),
       given_(jets_),
       start_(jets_),
@@ -49,6 +50,7 @@ ConstrainFirst::Projection::Projection(const ConstrainFirst& method, MovingBasis
       guess_(near_.size()),
       shifted_(VectorXd::Zero(method.system()->manifold()->tangent_dimension())),
       corrected_(shifted_),
+      vectors_(shifted_.size(), method.blocks_),
       found_(method.projected_.output_size()),
       velocity_(n_) {}
 
@@ -137,7 +139,9 @@ void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& a
     // P does not depend on W once x no longer moves with it. Where steps begin, x moves with W not
     // at all; but the next one begins along W.
     if (iteration == 0) {
-      const double distance = std::max(y.tail(d_).norm(), from_M_f.norm());
+      const double distance = std::sqrt(
+          std::max(plain_product(y.data() + (y.size() - d_), y.data() + (y.size() - d_), d_),
+                   plain_product(from_M_f.data(), from_M_f.data(), d_)));
       const double change = std::max(moved, size * jet_change(aimed_, y));
       if (goes_on && kSafety * turning_ * distance * change <= kTolerance * size) return;
     } else {
@@ -187,11 +191,13 @@ double ConstrainFirst::Projection::jet_change(const VectorXd& from, const Vector
 // The same vectors in the basis at x.
 void ConstrainFirst::Projection::move_basis(const VectorXd& x, VectorXd& y) {
   if (n_ == method_.system()->manifold()->tangent_dimension()) return;
-  vectors_.noalias() =
-      basis_.map().entries() * y.head(method_.blocks_ * n_).reshaped(n_, method_.blocks_);
+  const MatrixXd& B = basis_.map().entries();
+  const Index size = B.rows();
+  plain_product(B.data(), size, y.data(), n_, method_.blocks_, vectors_.data());
   if (!basis_.move_to(x)) is_turned_ = true;
-  y.head(method_.blocks_ * n_).reshaped(n_, method_.blocks_).noalias() =
-      basis_.map().entries().transpose() * vectors_;
+  for (Index k = 0; k < method_.blocks_; ++k)
+    for (Index j = 0; j < n_; ++j)
+      y[k * n_ + j] = plain_product(B.data() + j * size, vectors_.data() + k * size, size);
 }
 
 // W at x, with columns near those of the last step, so that μ and the kept factorisations go on.
@@ -225,9 +231,10 @@ void ConstrainFirst::Projection::take(State& state) const {
 
 bool ConstrainFirst::Projection::accept(const VectorXd& x) {
   if (!has_fixed_directions()) {
-    const double moved = (found_.head(x.size()) - x).norm();
+    const double moved = plain_distance(found_.data(), x.data(), x.size());
     if (directions_.is_kept() && moved > 1e-7 * largest(x)) {
-      const double turning = (directions_.matrix() - directions_.kept()).norm() / moved;
+      const MatrixXd& W = directions_.matrix();
+      const double turning = plain_distance(W.data(), directions_.kept().data(), W.size()) / moved;
       turning_ = std::isfinite(turning_) ? std::max(turning, 0.9 * turning_) : turning;
     }
     directions_.keep();

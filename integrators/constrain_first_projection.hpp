@@ -91,10 +91,11 @@ class ConstrainFirst::Projection {
   bool is_turned_ = false;       // the basis was made afresh
   // ‖ΔW‖ / ‖Δx‖ of the last steps; unknown before the first
   double turning_ = std::numeric_limits<double>::infinity();
-  MatrixXd vectors_;
   VectorXd jets_;   // of the last accept(), with any ξ and μ
   VectorXd given_;  // what formulas gave since
-  VectorXd start_, aimed_, near_, guess_, foreseen_, shifted_, corrected_, found_, velocity_;
+  VectorXd start_, aimed_, near_, guess_, foreseen_, shifted_, corrected_;
+  MatrixXd vectors_;  // tangent vectors, while the basis moves
+  VectorXd found_, velocity_;
 };
 
 }  // namespace courant

@@ -103,11 +103,16 @@ void ConstrainFirst::Trace::describe(const ConstrainFirst& method, const LocalFo
                            ExprVector::Zero(std::ssize(open.unknowns)));
 }
 
+MovingConormals::Formulas ConstrainFirst::Trace::conormals() const {
+  return MovingConormals::trace(step.graph, constraints, jets, dimension, codimension,
+                                {{"x0", x0}, {"basis", basis_entries}, {"t", t}});
+}
+
 ConstrainFirst::Trace::Trace(const ConstrainFirst& method) {
   const ImplicitSystem& S = *method.system();
   const DiscretizationMap& map = *method.map_;
   const Manifold& M = *S.manifold();
-  const Index n = M.dimension(), d = method.codimension_;
+  const Index n = dimension = M.dimension(), d = codimension = method.codimension_;
   const Graph& graph = step.graph;
   x0 = graph.variables("x0", M.ambient_dimension());
   const LinearMap<Expr> basis = basis_variables(graph, M);

@@ -19,6 +19,9 @@ struct ConstrainFirst::Trace {
   ExprVector constraints, jets;                 // S_f, and its unknowns (ξ, ξ', …, z, …)
   std::vector<std::string> constraint_names;
   ExprVector advanced, projected, shifted, corrected;
+  Index dimension, codimension;
+
+  MovingConormals::Formulas conormals() const;
 
  private:
   void describe(const ConstrainFirst& method, const LocalFormulation& local);

@@ -178,7 +178,11 @@ StepProgram::Explicit ExplicitRungeKutta::tableau() const {
 }
 
 StepProgram ExplicitRungeKutta::program() const {
-  check_program_space(name(), *system()->manifold());
+  const SpaceFormulas space(*system()->manifold());
+  if (space.has_basis() || space.has_equations())
+    throw std::invalid_argument(name() + " leaves " + system()->manifold()->name() +
+                                ", where its steps are known as formulas to no program; expected a "
+                                "system on Rⁿ or a torus");
   StepProgram program{.method = name()};
   program.explicit_steps = tableau();
   return program;

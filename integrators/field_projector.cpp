@@ -18,14 +18,13 @@ FieldProjector::FieldProjector(const Manifold& manifold, Index count, const Matr
                                 size_text(V.rows(), V.cols()) + "; expected " +
                                 size_text(manifold.tangent_dimension(), count) +
                                 ", a tangent vector of " + manifold.name() + " a column.");
-  const ExprVector entries = V.reshaped();
-  is_constant_ = !depends(entries, x);
-  fields_ = Function("fields", {{"x", x}}, entries);
+  is_constant_ = !depends(ExprVector(V.reshaped()), x);
+  fields_ = fields;
 }
 
-MatrixXd FieldProjector::do_directions(const VectorXd& x, const LinearMap<double>& basis,
-                                       const MatrixXd&) const {
-  return basis.transpose() * MatrixXd(fields_({x}).reshaped(basis.rows(), count_));
+ExprMatrix FieldProjector::do_directions(const ExprVector& x, const LinearMap<Expr>& tangents,
+                                         const ExprMatrix&) const {
+  return tangents * fields_(x);
 }
 
 }  // namespace courant

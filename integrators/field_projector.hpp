@@ -23,12 +23,12 @@ class FieldProjector final : public Projector {
   }
 
  private:
-  MatrixXd do_directions(const VectorXd& x, const LinearMap<double>& basis,
-                         const MatrixXd& conormals) const override;
+  ExprMatrix do_directions(const ExprVector& x, const LinearMap<Expr>& tangents,
+                           const ExprMatrix& conormals) const override;
 
   Index count_;
   bool is_constant_ = false;
-  Function fields_;  // x ↦ V, by columns
+  MatrixFormula fields_;
 };
 
 }  // namespace courant

@@ -2,16 +2,7 @@
 
 #include <stdexcept>
 
-#include "courant/core/qr_decomposition.hpp"
-
 namespace courant {
-namespace {
-
-// Constraints of which this part of a unit covector is left at fixed t hold time alone: known to half
-// of the digits it would be round-off.
-constexpr double kLeastPart = 1e-8;
-
-}  // namespace
 
 FixedTimeProjector::FixedTimeProjector(std::shared_ptr<const Projector> projector,
                                        std::shared_ptr<const Manifold> manifold)
@@ -24,22 +15,17 @@ FixedTimeProjector::FixedTimeProjector(std::shared_ptr<const Projector> projecto
     throw std::invalid_argument("FixedTimeProjector::FixedTimeProjector: the manifold is null.");
 }
 
-MatrixXd FixedTimeProjector::do_directions(const VectorXd& x, const LinearMap<double>& basis,
-                                           const MatrixXd& conormals) const {
-  const VectorXd point = x.head(manifold_->ambient_dimension());
-  const LinearMap<double> own = manifold_->tangent_basis(point);
-  const Index size = manifold_->tangent_dimension(), d = conormals.cols();
-  const MatrixXd covectors = (basis * conormals).topRows(size);
-  const auto qr = QrDecomposition::pivoted(own.transpose() * covectors);
-  const VectorXd pivots = qr.diagonal().cwiseAbs();
-  if (pivots.size() < d || (d > 0 && !(pivots[d - 1] > kLeastPart)))
-    throw std::domain_error(
-        "FixedTimeProjector::directions: a constraint holds time alone; expected constraints of "
-        "the "
-        "point at each time.");
-  MatrixXd moves = MatrixXd::Zero(basis.rows(), d);
-  moves.topRows(size) = own * projector_->directions(point, own, qr.Q(d));
-  return basis.transpose() * moves;
+// Of T_(x,t)(M × R) the part of T_xM, and of covectors there what they say at the time t.
+ExprMatrix FixedTimeProjector::do_directions(const ExprVector& x, const LinearMap<Expr>& tangents,
+                                             const ExprMatrix& conormals) const {
+  const Index size = manifold_->tangent_dimension();
+  const LinearMap<Expr> of_point =
+      tangents.is_identity() ? LinearMap<Expr>::identity(size)
+                             : LinearMap<Expr>(tangents.entries().topLeftCorner(size, size));
+  ExprMatrix moves = ExprMatrix::Zero(conormals.rows(), conormals.cols());
+  moves.topRows(size) =
+      projector_->span(x.head(manifold_->ambient_dimension()), of_point, conormals.topRows(size));
+  return moves;
 }
 
 }  // namespace courant

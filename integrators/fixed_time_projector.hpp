@@ -18,8 +18,11 @@ class FixedTimeProjector final : public Projector {
   }
 
  private:
-  MatrixXd do_directions(const VectorXd& x, const LinearMap<double>& basis,
-                         const MatrixXd& conormals) const override;
+  ExprMatrix do_directions(const ExprVector& x, const LinearMap<Expr>& tangents,
+                           const ExprMatrix& conormals) const override;
+  std::string do_advice() const override {
+    return "Are there constraints of time alone? Expected constraints of the point at each time.";
+  }
 
   std::shared_ptr<const Projector> projector_;
   std::shared_ptr<const Manifold> manifold_;

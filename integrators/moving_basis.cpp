@@ -1,31 +1,19 @@
 #include "courant/integrators/moving_basis.hpp"
 
-#include "courant/core/singular_value_decomposition.hpp"
-#include "courant/integrators/ladder/local_formulation.hpp"
+#include <algorithm>
+
+#include "courant/core/plain_products.hpp"
+#include "courant/core/range_basis.hpp"
+#include "courant/integrators/space_formulas.hpp"
 
 namespace courant {
-namespace {
-
-// The cosine below which tangent spaces are taken as orthogonal.
-constexpr double kRightAngle = 1e-2;
-
-}  // namespace
 
 Function MovingBasis::projection(const Manifold& manifold, Backend backend) {
-  Graph graph;
-  const ExprVector x = graph.variables("x", manifold.ambient_dimension());
-  const LinearMap<Expr> basis = basis_variables(graph, manifold);
-  const ExprVector entries = basis_parameters(basis);
-  const ExprVector projected =
-      entries.size() == 0
-          ? entries
-          : ExprVector((manifold.tangent_projector(x) * basis).entries().reshaped());
-  return Function("basis", {{"x", x}, {"basis", entries}}, projected, {.backend = backend});
+  return Function("basis", SpaceFormulas(manifold).basis, {.backend = backend});
 }
 
 MovingBasis::MovingBasis(const Manifold& manifold, Function projection)
-    : manifold_(manifold),
-      projection_(std::move(projection)),
+    : projection_(std::move(projection)),
       basis_(projection_.output_size() == 0
                  ? LinearMap<double>::identity(manifold.dimension())
                  : LinearMap<double>(
@@ -36,25 +24,32 @@ MovingBasis::MovingBasis(const Manifold& manifold, Function projection)
 
 bool MovingBasis::move_to(const VectorXd& x) {
   if (projection_.output_size() == 0) return true;
-  if (!is_set_) {
-    basis_ = manifold_.tangent_basis(x);
-    is_set_ = true;
-    ++times_made_;
-    return false;
+  if (is_set_) {
+    const double* in[] = {x.data(), data()};
+    projection_.value(in, projected_.data());
+    if (make_orthonormal_(projected_, basis_.entries())) return true;
+    if (make_orthonormal_.from_afar(projected_, basis_.entries())) return true;
   }
-  const double* in[] = {x.data(), data()};
-  projection_.value(in, projected_.data());
-  if (make_orthonormal_(projected_, basis_.entries())) return true;
-  if (projected_.allFinite()) {
-    const auto [values, U, V] = singular_value_decomposition(projected_);
-    if (values.minCoeff() > kRightAngle * values.maxCoeff()) {
-      basis_.entries() = U.leftCols(V.cols()) * V.transpose();
-      return true;
-    }
-  }
-  basis_ = manifold_.tangent_basis(x);
+  make_afresh(x);
+  is_set_ = true;
   ++times_made_;
   return false;
+}
+
+// From Π(x), as many of its columns at once as B has.
+void MovingBasis::make_afresh(const VectorXd& x) {
+  MatrixXd& B = basis_.entries();
+  const Index size = B.rows(), n = B.cols();
+  MatrixXd projector(size, size);
+  const double* in[] = {x.data(), data()};
+  for (Index first = 0; first < size; first += n) {
+    const Index count = std::min(n, size - first);
+    B.setZero();
+    for (Index j = 0; j < count; ++j) B(first + j, j) = 1.0;
+    projection_.value(in, projected_.data());
+    projector.middleCols(first, count) = projected_.leftCols(count);
+  }
+  B = range_basis(std::move(projector), n);
 }
 
 bool MovingBasis::take_over(const MovingBasis& other) {
@@ -68,10 +63,13 @@ bool MovingBasis::take_over(const MovingBasis& other) {
 }
 
 void MovingBasis::coordinates_of(const VectorXd& v, Eigen::Ref<VectorXd> coordinates) const {
-  if (basis_.is_identity())
+  if (basis_.is_identity()) {
     coordinates = v;
-  else
-    coordinates.noalias() = basis_.entries().transpose().operator*(v);
+    return;
+  }
+  const MatrixXd& B = basis_.entries();
+  for (Index j = 0; j < B.cols(); ++j)
+    coordinates[j] = plain_product(B.data() + j * B.rows(), v.data(), B.rows());
 }
 
 }  // namespace courant

@@ -9,7 +9,8 @@ namespace courant {
 
 // An orthonormal basis B of T_xM (Ñ × n) that turns as little as possible while x moves: the last
 // one projected to the new tangent space, made orthonormal by its polar factor. What was factorised
-// or extrapolated in it stays good, which a basis made afresh at every point would spoil.
+// or extrapolated in it stays good, which a basis made afresh at every point would spoil. Programs in C
+// find the same, to the last bit.
 //
 // Nothing is computed or stored where n = Ñ: B is the identity. Nothing is allocated by move_to, but for
 // points far apart. One object a trajectory.
@@ -38,7 +39,8 @@ class MovingBasis {
   const double* data() const { return basis_.entries().data(); }
 
  private:
-  const Manifold& manifold_;
+  void make_afresh(const VectorXd& x);
+
   Function projection_;
   LinearMap<double> basis_, kept_;
   MatrixXd projected_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "courant/core/elimination.hpp"
 #include "courant/core/equilibration.hpp"
 #include "courant/core/expr_vectors.hpp"
+#include "courant/core/plain_products.hpp"
+#include "courant/core/qr_decomposition.hpp"
 
 namespace courant {
 namespace {
@@ -23,6 +26,9 @@ constexpr double kDataError = 2e-12;
 
 // What is left of an equation, relative to its largest term, where least squares meet it.
 constexpr double kMet = 1e-9;
+
+// Where one of so many, which have nothing to do with each other, is at right angles to the conormals, another is not.
+constexpr int kReferences = 3;
 
 // The first m rows of a matrix, and those after them; entries stay in order.
 std::pair<MatrixPattern, MatrixPattern> parts(const SparseExprMatrix& matrix, Index m) {
@@ -38,14 +44,20 @@ std::pair<MatrixPattern, MatrixPattern> parts(const SparseExprMatrix& matrix, In
 
 }  // namespace
 
-MovingConormals::Functions MovingConormals::trace(const Graph& graph, const ExprVector& F,
-                                                  const ExprVector& jets, Index n, Index d,
-                                                  const std::vector<Function::Input>& parameters,
-                                                  Backend backend) {
-  Functions result;
+MovingConormals::Functions::Functions(const Formulas& of, Backend backend)
+    : constraints("constraints", of.constraints,
+                  {.differentiate = {of.constraints.inputs.front().name}}),
+      matrices("conormal equations", of.matrices, {.backend = backend}),
+      A(of.A),
+      P(of.P) {}
+
+MovingConormals::Formulas MovingConormals::trace(const Graph& graph, const ExprVector& F,
+                                                 const ExprVector& jets, Index n, Index d,
+                                                 const std::vector<Function::Input>& parameters) {
+  Formulas result;
   std::vector<Function::Input> inputs = {{"y", jets}};
   inputs.insert(inputs.end(), parameters.begin(), parameters.end());
-  result.constraints = Function("constraints", inputs, F, {.differentiate = {"y"}});
+  result.constraints = {inputs, F};
   const ExprVector w = graph.variables("w", F.size());
   const ExprVector entries = graph.variables("C", n * d);
   const ExprVector pulled = pull_back(F, jets, w);
@@ -64,15 +76,30 @@ MovingConormals::Functions MovingConormals::trace(const Graph& graph, const Expr
                w(elimination.kept));
   std::tie(result.A, result.P) = parts(both, elimination.equations.size());
   inputs.push_back({"C", entries});
-  result.matrices = Function("conormal equations", inputs, both.values, {.backend = backend});
+  result.matrices = {inputs, both.values};
   return result;
 }
 
-MovingConormals::MovingConormals(Functions functions, Index n, Index d)
+std::vector<MatrixXd> MovingConormals::references(const MatrixXd& at_point) {
+  std::vector<MatrixXd> result = {at_point};
+  std::mt19937 generator(1);
+  // Those of the standard are the same everywhere, distributions are not.
+  const auto number = [&] {
+    return static_cast<double>(generator()) / static_cast<double>(std::mt19937::max()) - 0.5;
+  };
+  for (int k = 1; k < kReferences; ++k)
+    result.push_back(
+        orthonormalized(MatrixXd::NullaryExpr(at_point.rows(), at_point.cols(), number)));
+  return result;
+}
+
+MovingConormals::MovingConormals(Functions functions, Index n, Index d,
+                                 std::vector<MatrixXd> references)
     : functions_(std::move(functions)),
       n_(n),
       d_(d),
       solver_(brief_linear_solver(functions_.A)),
+      references_(std::move(references)),
       conormals_(MatrixXd::Zero(n, d)),
       kept_(conormals_),
       entries_(functions_.matrices.output_size()),
@@ -83,7 +110,19 @@ MovingConormals::MovingConormals(Functions functions, Index n, Index d)
 
 void MovingConormals::move_to(const Point& point) {
   if (d_ == 0) return;
-  if (!is_found_ || !continue_to(point)) find(point);
+  if (is_found_ ? continue_to(point, kept_) : start_at(point)) return;
+  find(point);
+}
+
+// From a reference, in the basis at this point.
+bool MovingConormals::start_at(const Point& point) {
+  return std::ranges::any_of(references_, [&](const MatrixXd& reference) {
+    const Index size = reference.rows();
+    if (size == n_) return continue_to(point, reference);
+    MatrixXd from(n_, d_);
+    multiply_transposed_plainly(Eigen::Map<const MatrixXd>(point.basis, size, n_), reference, from);
+    return continue_to(point, from);
+  });
 }
 
 void MovingConormals::keep() {
@@ -104,9 +143,9 @@ void MovingConormals::forget() {
   conormals_.setZero();
 }
 
-bool MovingConormals::continue_to(const Point& point) {
+bool MovingConormals::continue_to(const Point& point, const MatrixXd& from) {
   const auto& [constraints, matrices, A, P] = functions_;
-  const double* in[] = {point.jets, point.origin, point.basis, point.t, kept_.data()};
+  const double* in[] = {point.jets, point.origin, point.basis, point.t, from.data()};
   matrices.value(in, entries_.data());
   if (!solver_->factorize(entries_.data())) return false;
   const double* const of_P = entries_.data() + A.row.size();
@@ -121,7 +160,8 @@ bool MovingConormals::continue_to(const Point& point) {
     for (std::size_t k = 0; k < P.row.size(); ++k)
       covector[P.row[k]] += of_P[k] * weights_[P.column[k]];
   }
-  return make_orthonormal_(covectors_, conormals_);  // of C + N with CᵀN = 0
+  return make_orthonormal_(covectors_, conormals_) ||  // of C + N with CᵀN = 0
+         make_orthonormal_.from_afar(covectors_, conormals_);
 }
 
 // Whether least squares for u_j solve its equations.

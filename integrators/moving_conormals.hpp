@@ -21,23 +21,34 @@ namespace courant {
 //
 //   A u_j = (0, e_j),   c_j = P u_j,   j = 1, …, d
 //
-// with matrices of the point, and the c_j are made orthonormal. Where that fails, and at the first point, they are found by
-// QR decomposition. One object a trajectory; nothing is allocated by steps where A is small and regular.
+// with matrices of the point, and the c_j are made orthonormal. The first N is near a reference, covectors at
+// another point, or near any others where that one is at right angles. Where that fails too they are found by QR
+// decomposition. Programs in C find the same, to the last bit, where A is small and regular. One object a trajectory;
+// nothing is allocated by steps there.
 class MovingConormals {
  public:
-  // Traced once for all trajectories.
-  struct Functions {
-    // (ξ, ξ', …, z, …); x₀, basis, t  ↦  F, with Jacobian.
-    Function constraints;
+  struct Formulas {
+    // (ξ, ξ', …, z, …); x₀, basis, t  ↦  F.
+    Function::Formulas constraints;
     // (ξ, …), x₀, basis, t, C  ↦  the entries of A and P.
-    Function matrices;
+    Function::Formulas matrices;
+    MatrixPattern A, P;
+  };
+  // Traced once for all trajectories, the constraints with their Jacobian.
+  struct Functions {
+    Functions() = default;
+    Functions(const Formulas& of, Backend backend);
+    Function constraints, matrices;
     MatrixPattern A, P;
   };
   // `jets`: the variables (ξ, ξ', …, z, …), the first n of them ξ; `parameters`: x₀, basis, t.
-  static Functions trace(const Graph& graph, const ExprVector& F, const ExprVector& jets, Index n,
-                         Index d, const std::vector<Function::Input>& parameters, Backend backend);
+  static Formulas trace(const Graph& graph, const ExprVector& F, const ExprVector& jets, Index n,
+                        Index d, const std::vector<Function::Input>& parameters);
 
-  MovingConormals(Functions functions, Index n, Index d);
+  // `references`: of d covectors (Ñ × d) each, orthonormal; or none.
+  MovingConormals(Functions functions, Index n, Index d, std::vector<MatrixXd> references = {});
+  // Those at a point (Ñ × d), and some others that have nothing to do with the system.
+  static std::vector<MatrixXd> references(const MatrixXd& at_point);
 
   // Where the inputs of Functions::constraints are.
   struct Point {
@@ -59,7 +70,8 @@ class MovingConormals {
     std::vector<Index> rows, columns;
   };
   Core core(const VectorXd& all) const;
-  bool continue_to(const Point& point);
+  bool continue_to(const Point& point, const MatrixXd& from);
+  bool start_at(const Point& point);
   bool is_met() const;
   void find(const Point& point);
 
@@ -67,6 +79,7 @@ class MovingConormals {
   Index n_, d_;
   std::unique_ptr<LinearSolver> solver_;
   bool is_found_ = false;
+  const std::vector<MatrixXd> references_;
   MatrixXd conormals_, kept_;
   VectorXd entries_;  // of the matrices, one after the other
   VectorXd given_;    // (0, e_j)

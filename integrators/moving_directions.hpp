@@ -8,13 +8,14 @@
 namespace courant {
 
 // An orthonormal basis W (n × d) of the directions of a projector that turns little while x moves:
-// with V(x) what the projector gives and W = V K at the last point, the orthonormal basis nearest to
-// V K at the next. Where that is far from orthonormal, and at the first point, W is that of
-// Projector::directions(). One object a trajectory.
+// with V(x) what the projector spans and W = V K at the last point, the orthonormal basis nearest to
+// V K at the next. The first W is the one nearest to the conormals. Where such a basis is far from V K, W is that of
+// Projector::directions(). Programs in C find the same, to the last bit. One object a trajectory.
 class MovingDirections {
  public:
-  // `projector` outlives this object. d = 0 is allowed.
-  MovingDirections(const Projector& projector, Index n, Index d);
+  // `projector` outlives this object; `span`: its span_formulas(), traced once for all trajectories. d = 0 is
+  // allowed.
+  MovingDirections(const Projector& projector, Function span, Index n, Index d);
 
   // W at x, near that of the last keep(), so that this can be repeated while a point is sought.
   // Arguments and errors as of Projector::directions().
@@ -27,20 +28,24 @@ class MovingDirections {
 
   const MatrixXd& matrix() const { return W_; }
   bool is_kept() const { return is_kept_; }
+  // Whether the last move_to() needed no Projector::directions().
+  bool is_continued() const { return is_continued_; }
   const MatrixXd& kept() const { return kept_; }  // the W of keep()
 
  private:
   bool continues(const MatrixXd& conormals);
-  void project_kept();
-  bool is_complement(const MatrixXd& conormals) const;
+  bool is_nearest_to(const MatrixXd& matrix);
+  void project(const MatrixXd& matrix);
+  bool is_complement(const MatrixXd& conormals);
 
   const Projector& projector_;
+  Function span_;
   bool is_kept_ = false, is_continued_ = false;
   MatrixXd W_, kept_;
   MatrixXd V_, combination_;  // K
   MatrixXd turned_;           // V K, nearly orthonormal
-  MatrixXd next_;
-  LuDecomposition gram_;  // of VᵀV
+  MatrixXd before_, next_;
+  LuDecomposition factors_;  // of VᵀV, and of CᵀW
   NearestOrthonormal make_orthonormal_;
 };
 

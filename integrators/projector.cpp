@@ -8,10 +8,10 @@
 #include "courant/core/derivative.hpp"
 #include "courant/core/expr_vectors.hpp"
 #include "courant/core/linear_algebra.hpp"
-#include "courant/core/lu_decomposition.hpp"
 #include "courant/core/message.hpp"
 #include "courant/core/qr_decomposition.hpp"
 #include "courant/core/singular_value_decomposition.hpp"
+#include "courant/integrators/ladder/local_formulation.hpp"
 #include "courant/structures/dirac_system.hpp"
 
 namespace courant {
@@ -21,26 +21,27 @@ namespace {
 // projecting would lose more than half of the digits.
 constexpr double kTransversality = 1e-8;
 
-// x ↦ a matrix of that size; empty if there is no formula.
-Function compiled(const char* name, const Manifold& manifold,
-                  const Projector::MatrixFormula& formula, Index size) {
+// The formula, if it gives a matrix of that size.
+Projector::MatrixFormula checked(const char* name, const Manifold& manifold,
+                                 const Projector::MatrixFormula& formula, Index size) {
   if (!formula) return {};
   Graph graph;
-  const ExprVector x = graph.variables("x", manifold.ambient_dimension());
-  const ExprMatrix matrix = formula(x);
+  const ExprMatrix matrix = formula(graph.variables("x", manifold.ambient_dimension()));
   if (matrix.rows() != size || matrix.cols() != size)
     throw std::invalid_argument(std::string(name) + ": metric is " +
                                 size_text(matrix.rows(), matrix.cols()) + "; expected " +
                                 size_text(size, size) + ".");
-  return Function("metric", {{"x", x}}, matrix.reshaped());
+  return formula;
 }
 
-MatrixXd value_at(const Function& metric, const VectorXd& x, Index size) {
-  return metric({x}).reshaped(size, size);
-}
-
-MatrixXd rows_of(const MatrixXd& matrix, const std::vector<Index>& rows) {
-  return matrix(rows, Eigen::all);
+// The w with wᵀ G v = α v for all tangent v, for the columns α: tangent vectors, since the equations across T_xM are those
+// of 1 - Π alone, next to `across`, which is of the size of G.
+ExprMatrix raised(const ExprMatrix& G, const ExprMatrix& across, const LinearMap<Expr>& tangents,
+                  const ExprMatrix& covectors) {
+  if (tangents.is_identity()) return solve(G, covectors);
+  const ExprMatrix& P = tangents.entries();
+  const ExprMatrix Q = ExprMatrix::Identity(P.rows(), P.cols()) - P;
+  return solve(ExprMatrix(P.transpose() * G * P + Q.transpose() * across * Q), covectors);
 }
 
 // How much two subspaces of the same dimension, one of vectors and one of covectors, see of each
@@ -173,60 +174,78 @@ Projector::Projector(std::string name, VectorXd units)
                                   number_text(unit) + "; expected positive numbers.");
 }
 
-MatrixXd Projector::span(const VectorXd& x, const LinearMap<double>& basis,
-                         const MatrixXd& conormals) const {
-  MatrixXd W = do_directions(x, basis, conormals);
-  if (W.rows() != conormals.rows() || W.cols() != conormals.cols())
+ExprMatrix Projector::span(const ExprVector& x, const LinearMap<Expr>& basis,
+                           const ExprMatrix& conormals) const {
+  const ExprMatrix covectors = basis * conormals;
+  const ExprMatrix V = do_directions(x, basis * basis.transpose(), covectors);
+  if (V.rows() != covectors.rows() || V.cols() != covectors.cols())
     throw std::invalid_argument("Projector(" + name_ + ")::do_directions: the result is " +
-                                size_text(W.rows(), W.cols()) + "; expected " +
-                                size_text(conormals.rows(), conormals.cols()) +
-                                ", dim M × (dim M - dim M_f).");
-  return W;
+                                size_text(V.rows(), V.cols()) + "; expected " +
+                                size_text(covectors.rows(), covectors.cols()) +
+                                ", tangent vectors × (dim M - dim M_f).");
+  return basis.transpose() * V;
+}
+
+Function::Formulas Projector::span_formulas(const Manifold& manifold, Index codimension) const {
+  if (is_orthogonal() || codimension == 0) return {};
+  Graph graph;
+  const Index n = manifold.dimension();
+  const ExprVector x = graph.variables("x", manifold.ambient_dimension());
+  const LinearMap<Expr> basis = basis_variables(graph, manifold);
+  const ExprVector C = graph.variables("C", n * codimension);
+  const ExprMatrix V = span(x, basis, C.reshaped(n, codimension));
+  return {{{"x", x}, {"basis", basis_parameters(basis)}, {"C", C}}, V.reshaped()};
 }
 
 MatrixXd Projector::directions(const VectorXd& x, const LinearMap<double>& basis,
                                const MatrixXd& conormals) const {
+  return orthonormal_directions(values(span(constants(x), constants(basis), constants(conormals))),
+                                basis, conormals);
+}
+
+MatrixXd Projector::orthonormal_directions(const MatrixXd& V, const LinearMap<double>& basis,
+                                           const MatrixXd& conormals) const {
   const Index d = conormals.cols();
   if (d == 0) return conormals;
-  const MatrixXd W = span(x, basis, conormals);
   // Pairings of vectors with covectors do not depend on units, but lengths do: both are looked at
   // as numbers of the order of 1. Of B with n < Ñ the coordinates have the units of its entries.
   double sine;
   if (units_.size() == 0) {
-    sine = least_pairing(W, conormals);
+    sine = least_pairing(V, conormals);
   } else {
     const VectorXd size =  // of coordinates
         basis.is_identity()
             ? units_
             : VectorXd((basis.entries().cwiseAbs2().transpose() * units_.cwiseAbs2()).cwiseSqrt());
-    sine = least_pairing(size.cwiseInverse().asDiagonal() * W, size.asDiagonal() * conormals);
+    sine = least_pairing(size.cwiseInverse().asDiagonal() * V, size.asDiagonal() * conormals);
   }
   if (!(sine > kTransversality)) {
     throw std::domain_error("Projector(" + name_ +
                             ")::directions: the directions of the projector \"" + name_ +
                             "\" meet T_xM_f, sine of the angle " + number_text(sine) +
-                            "; expected a complement of it. Use the orthogonal projector.");
+                            "; expected a complement of it. " + do_advice());
   }
-  return QrDecomposition::pivoted(W.colwise().normalized()).Q(d);
+  return QrDecomposition::pivoted(V.colwise().normalized()).Q(d);
 }
 
 OrthogonalProjector::OrthogonalProjector(const Manifold& manifold, const MatrixFormula& metric)
     : Projector("orthogonal"),
-      metric_(compiled("OrthogonalProjector::OrthogonalProjector", manifold, metric,
-                       manifold.tangent_dimension())) {}
+      metric_(checked("OrthogonalProjector::OrthogonalProjector", manifold, metric,
+                      manifold.tangent_dimension())) {}
 
-MatrixXd OrthogonalProjector::do_directions(const VectorXd& x, const LinearMap<double>& basis,
-                                            const MatrixXd& conormals) const {
-  if (is_orthogonal()) return conormals;
-  const Index size = basis.rows();
-  if (metric_.output_size() > 0) {
-    const MatrixXd G = basis.transpose() * value_at(metric_, x, size) * basis;
-    return LuDecomposition(G).solve(conormals);
+ExprMatrix OrthogonalProjector::do_directions(const ExprVector& x, const LinearMap<Expr>& tangents,
+                                              const ExprMatrix& conormals) const {
+  if (metric_) {
+    const ExprMatrix G = metric_(x);
+    const Index size = G.rows();
+    const Expr scale = G.trace() / static_cast<double>(std::max<Index>(size, 1));
+    return raised(G, ExprMatrix(ExprMatrix::Identity(size, size) * scale), tangents, conormals);
   }
-  if (basis.is_identity()) return units().cwiseAbs2().asDiagonal() * conormals;
-  const MatrixXd& B = basis.entries();
-  const MatrixXd G = B.transpose() * units().cwiseAbs2().cwiseInverse().asDiagonal() * B;
-  return LuDecomposition(G).solve(conormals);
+  if (units().size() == 0) return conormals;
+  const VectorXd squares = units().cwiseAbs2();
+  if (tangents.is_identity()) return constants(squares).asDiagonal() * conormals;
+  const ExprMatrix G = constants(MatrixXd(squares.cwiseInverse().asDiagonal()));
+  return raised(G, G, tangents, conormals);
 }
 
 MomentumProjector::MomentumProjector(const std::shared_ptr<const CotangentBundle>& phase_space,
@@ -241,8 +260,8 @@ MomentumProjector::MomentumProjector(const Manifold& manifold, std::vector<Index
     : Projector("momentum", std::move(units)),
       momenta_(std::move(momenta)),
       momentum_dimension_(static_cast<Index>(momenta_.size())),
-      metric_(compiled("MomentumProjector::MomentumProjector", manifold, metric,
-                       static_cast<Index>(momenta_.size()))) {
+      metric_(checked("MomentumProjector::MomentumProjector", manifold, metric,
+                      static_cast<Index>(momenta_.size()))) {
   for (const Index i : momenta_)
     if (i < 0 || i >= manifold.tangent_dimension())
       throw std::invalid_argument("MomentumProjector::MomentumProjector: a momentum is entry " +
@@ -264,15 +283,17 @@ Projector::MatrixFormula MomentumProjector::kinetic_metric(
   return metric ? metric : metric_of_lagrangian(system, momenta, x);
 }
 
-MatrixXd MomentumProjector::do_directions(const VectorXd& x, const LinearMap<double>& basis,
-                                          const MatrixXd& conormals) const {
-  const MatrixXd momentum_basis = rows_of(basis.matrix(), momenta_);
-  MatrixXd covectors = momentum_basis * conormals;  // β: vectors at q
-  if (metric_.output_size() > 0)
-    covectors = value_at(metric_, x, covectors.rows()) * covectors;
+// Π g β for the momentum parts β of the conormals.
+ExprMatrix MomentumProjector::do_directions(const ExprVector& x, const LinearMap<Expr>& tangents,
+                                            const ExprMatrix& conormals) const {
+  ExprMatrix moved = conormals(momenta_, Eigen::all);
+  if (metric_)
+    moved = (metric_(x) * moved).eval();
   else if (units().size() > 0)
-    covectors = units()(momenta_).cwiseAbs2().asDiagonal() * covectors;
-  return momentum_basis.transpose() * covectors;
+    moved = (constants(VectorXd(units()(momenta_).cwiseAbs2())).asDiagonal() * moved).eval();
+  ExprMatrix vectors = ExprMatrix::Zero(conormals.rows(), conormals.cols());
+  vectors(momenta_, Eigen::all) = moved;
+  return tangents * vectors;
 }
 
 }  // namespace courant

@@ -25,10 +25,10 @@ namespace courant {
 //   J2  the span of W(x) does not depend on the bases of T_xM and of the conormals
 //   J3  the claims is_orthogonal() and has_constant_directions() hold
 //
-// Immutable. To subclass: override do_directions.
+// Immutable. To subclass: override do_directions, formulas of the point and of the conormals there.
 class Projector {
  public:
-  // A matrix of formulas of the point.
+  // A matrix of formulas of the point. A projector keeps those that it is made of.
   using MatrixFormula = std::function<ExprMatrix(const ExprVector& x)>;
 
   virtual ~Projector() = default;
@@ -43,14 +43,22 @@ class Projector {
   // Whether W(x) is a complement of T_xM_f for any M_f, as seen in the units.
   virtual bool is_always_complement() const { return is_orthogonal(); }
 
-  // An orthonormal W(x). x: N; basis: Ñ × n, orthonormal; conormals: n × d, an orthonormal basis of
-  // the annihilator of T_xM_f in the coordinates of that basis. Throws std::domain_error if the
-  // directions are no complement of T_xM_f, as seen in the units.
+  // Vectors that span W(x), n × d, neither orthonormal nor asked whether they are a complement: Bᵀ V for the V of
+  // do_directions, on expressions. x: N; basis: B, Ñ × n, orthonormal; conormals: C, n × d, independent and in the
+  // coordinates of that basis. Throws std::invalid_argument if V has another size.
+  ExprMatrix span(const ExprVector& x, const LinearMap<Expr>& basis,
+                  const ExprMatrix& conormals) const;
+  // (x, B, C) ↦ these vectors, column by column. Nothing where W is C.
+  Function::Formulas span_formulas(const Manifold& manifold, Index codimension) const;
+
+  // An orthonormal W(x) with the span of V, which is what span() gives for this basis and these conormals, an orthonormal
+  // basis of the annihilator of T_xM_f. Throws std::domain_error if it is no complement of T_xM_f, as seen in
+  // the units.
+  MatrixXd orthonormal_directions(const MatrixXd& V, const LinearMap<double>& basis,
+                                  const MatrixXd& conormals) const;
+  // The same at the point x.
   MatrixXd directions(const VectorXd& x, const LinearMap<double>& basis,
                       const MatrixXd& conormals) const;
-  // The same directions as they come, n × d, neither orthonormal nor asked whether they are a complement:
-  // for those who carry W along.
-  MatrixXd span(const VectorXd& x, const LinearMap<double>& basis, const MatrixXd& conormals) const;
 
  protected:
   // `units`: typical sizes of the Ñ numbers of a tangent vector, all positive, or empty for 1.
@@ -59,15 +67,19 @@ class Projector {
   const VectorXd& units() const { return units_; }
 
  private:
-  virtual MatrixXd do_directions(const VectorXd& x, const LinearMap<double>& basis,
-                                 const MatrixXd& conormals) const = 0;
+  // Tangent vectors at x (Ñ × d) that span the directions. tangents: Π, the orthogonal projector onto T_xM, the identity
+  // where n = Ñ; conormals: d covectors at x (Ñ × d), independent, with C = Πᵀ C.
+  virtual ExprMatrix do_directions(const ExprVector& x, const LinearMap<Expr>& tangents,
+                                   const ExprMatrix& conormals) const = 0;
+  // May override: what to do where the directions meet T_xM_f.
+  virtual std::string do_advice() const { return "Use the orthogonal projector."; }
 
   std::string name_;
   VectorXd units_;
 };
 
 // The nearest point in a metric G on T_xM, in the tangent representation (Ñ × Ñ): W is G-orthogonal
-// to T_xM_f, BᵀGB W = C for conormals C. Moves onto any M_f; the default.
+// to T_xM_f, Πᵀ G W = C for conormals C. Moves onto any M_f; the default.
 //
 // G is the Euclidean one; or diag(1/u²) for units u, where a point counts as near if it is so next
 // to what is typical of each coordinate, and nothing depends on units of measurement; or given.
@@ -77,14 +89,14 @@ class OrthogonalProjector final : public Projector {
   explicit OrthogonalProjector(VectorXd units) : Projector("orthogonal", std::move(units)) {}
   // G by formulas; symmetric and positive definite on T_xM.
   OrthogonalProjector(const Manifold& manifold, const MatrixFormula& metric);
-  bool is_orthogonal() const override { return metric_.output_size() == 0 && units().size() == 0; }
-  bool is_always_complement() const override { return metric_.output_size() == 0; }
+  bool is_orthogonal() const override { return !metric_ && units().size() == 0; }
+  bool is_always_complement() const override { return !metric_; }
 
  private:
-  MatrixXd do_directions(const VectorXd& x, const LinearMap<double>& basis,
-                         const MatrixXd& conormals) const override;
+  ExprMatrix do_directions(const ExprVector& x, const LinearMap<Expr>& tangents,
+                           const ExprMatrix& conormals) const override;
 
-  Function metric_;  // x ↦ G, or empty
+  MatrixFormula metric_;  // x ↦ G, or empty
 };
 
 // For points (q, p): q stays, p moves as little as possible in the metric g^{ij} (Section 8.2; for
@@ -116,12 +128,12 @@ class MomentumProjector final : public Projector {
   }
 
  private:
-  MatrixXd do_directions(const VectorXd& x, const LinearMap<double>& basis,
-                         const MatrixXd& conormals) const override;
+  ExprMatrix do_directions(const ExprVector& x, const LinearMap<Expr>& tangents,
+                           const ExprMatrix& conormals) const override;
 
   std::vector<Index> momenta_;
   Index momentum_dimension_;
-  Function metric_;  // x ↦ g, or empty
+  MatrixFormula metric_;  // x ↦ g, or empty
 };
 
 }  // namespace courant

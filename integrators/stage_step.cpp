@@ -198,13 +198,13 @@ StepFormulas StageStep::formulas() const { return Trace(*this).formulas; }
 
 StepProgram StageStep::program() const {
   const Manifold& M = *system_->manifold();
-  check_program_space(name_, M);
   Trace trace(*this);
   const ExprVector x0 = trace.formulas.inputs[1].variables;
   const ExprVector x1 = trace.formulas.graph.variables("x1", M.ambient_dimension());
   const bool has_inverse = map_->has_inverse();
   StepProgram program{.method = name_};
   program.solve = {.formulas = trace.formulas,
+                   .space = SpaceFormulas(M),
                    .is_affine = trace.formulas.is_affine(),
                    .tangent_blocks = trace.tangent_blocks,
                    .displacements = trace.tangent_blocks * M.dimension(),

@@ -14,13 +14,4 @@ StepProgram step_program(const Integrator& method) {
                               "constrain-first, discrete-gradient, rk2, rk4, dopri5 or rkf78");
 }
 
-void check_program_space(const std::string& method, const Manifold& M) {
-  Graph graph;
-  const bool has_equations = M.constraint(graph.variables("x", M.ambient_dimension())).size() > 0;
-  if (!has_equations && M.dimension() == M.tangent_dimension()) return;
-  throw std::invalid_argument(method + " on " + M.name() +
-                              " keeps its points there and turns a basis along, which is not "
-                              "among the formulas of a step; expected a system on Rⁿ or a torus");
-}
-
 }  // namespace courant

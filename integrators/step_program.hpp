@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "courant/integrators/moving_conormals.hpp"
+#include "courant/integrators/space_formulas.hpp"
 #include "courant/integrators/step_formulas.hpp"
 #include "courant/integrators/vector_field.hpp"
 #include "courant/structures/system_in_units.hpp"
@@ -19,13 +21,15 @@ class Integrator;
 //             the same with a projection after it                             ConstrainFirst
 //   explicit  a tableau of evaluations of a VectorField                       ExplicitRungeKutta
 //
-// For spaces without equations of their own, whose tangent vectors need no basis: Rⁿ and tori.
+// Where the space has equations of its own x₁ is kept to them as RoundOffProjection does, and where tangent vectors need
+// a basis it is that of MovingBasis.
 struct StepProgram {
   std::string method;
 
-  // y = (displacements, z); inputs y, x₀, basis (none), h, t.
+  // y = (displacements, z); inputs y, x₀, basis, h, t.
   struct Solve {
     StepFormulas formulas;
+    SpaceFormulas space;
     bool is_affine = false;  // no step is looked at by continuation
     Index tangent_blocks = 1;
     Index displacements = 0, auxiliaries = 0;
@@ -36,15 +40,24 @@ struct StepProgram {
     double stage_time = 0.0;                    // of h
     bool stage_is_advanced = false;
 
-    // Where steps end on M_f, along directions that are the same everywhere: y = (ξ, ξ', …, z, …, μ), in the
-    // inputs W after the basis, advanced = (R_d⁺, x̄, v).
+    // Where steps end on M_f: y = (ξ, ξ', …, z, …, μ), in the inputs W after the basis, advanced = (R_d⁺, x̄, v).
     struct Projection {
-      StepFormulas formulas;  // inputs y, x of the chart, basis (none), W, near, t
+      StepFormulas formulas;  // inputs y, x of the chart, basis, W, near, t
       Index shifts = 0;       // the size of μ
       ExprVector projected;   // the same inputs ↦ x, v, z
       std::vector<Function::Input> shift_inputs, correction_inputs;  // near, s; near, s, x₀, x
       ExprVector shifted;                                            // R_near(s)
       ExprVector corrected;  // what leads to x if s leads to x₀
+
+      // Where W changes from point to point: as MovingConormals and MovingDirections find it. Elsewhere it is numbers in
+      // the formulas.
+      struct Turning {
+        MovingConormals::Formulas conormals;
+        std::vector<MatrixXd> references;
+        Function::Formulas span;  // of the projector
+        bool is_always_complement = false;
+      };
+      std::optional<Turning> turning = {};
     };
     std::optional<Projection> projection = {};
   };
@@ -73,9 +86,6 @@ class Programmed {
   // Throws std::invalid_argument, with what is the matter, for steps that a StepProgram does not describe.
   virtual StepProgram program() const = 0;
 };
-
-// Throws std::invalid_argument unless a StepProgram describes steps on this space.
-void check_program_space(const std::string& method, const Manifold& M);
 
 // That of a method that has one. Throws std::invalid_argument as program() does.
 StepProgram step_program(const Integrator& method);

@@ -91,12 +91,23 @@ VectorFieldFormulas::VectorFieldFormulas(std::shared_ptr<const ImplicitSystem> o
   const Elimination elimination(all(given), y, {});
   for (const Elimination::Pivot& pivot : elimination.pivots)
     is_explicit[static_cast<std::size_t>(given[static_cast<std::size_t>(pivot.equation)])] = true;
-  for (Index i = 0; i < all.size(); ++i)
-    // On curved spaces the coefficients of velocities in a structure are numbers on M alone.
-    if (!is_explicit[static_cast<std::size_t>(i)] && i >= of_structure) preference[i] *= 0.1;
   // Of many equations those that give unknowns explicitly are kept, and independent ones are looked
   // for among what is left of the others: the decomposition is dense.
   constexpr Index many = 500;
+  // What has coefficients that are the same everywhere comes before what has not: at a start without rotation a ball
+  // that rolls seems to tell its angular velocity as well as its momentum does, and no more after a quarter turn.
+  std::vector<bool> varies(static_cast<std::size_t>(all.size()), false);
+  if (y.size() <= many) {
+    const SparseExprMatrix slopes = jacobian(all, y);
+    const std::vector<bool> depends_on_x = each_depends(slopes.values, x);
+    for (std::size_t k = 0; k < slopes.row.size(); ++k)
+      if (depends_on_x[k]) varies[static_cast<std::size_t>(slopes.row[k])] = true;
+  }
+  for (Index i = of_structure; i < all.size(); ++i) {
+    // On curved spaces the coefficients of velocities in a structure are numbers on M alone.
+    if (!is_explicit[static_cast<std::size_t>(i)]) preference[i] *= 0.1;
+    if (varies[static_cast<std::size_t>(i)]) preference[i] *= 0.1;
+  }
   std::vector<Index> kept, candidates;
   for (Index i = 0; i < all.size(); ++i)
     (y.size() > many && is_explicit[static_cast<std::size_t>(i)] ? kept : candidates).push_back(i);
@@ -166,6 +177,7 @@ VectorField::Evaluation::Evaluation(const VectorField& field)
 
 void VectorField::Evaluation::start(const State& state) {
   sizes_.setZero();
+  explained_ = 0.0;
   basis_.move_to(state.x);
   y_ = field_.formulas_.start;
   const Manifold& M = *field_.formulas_.system->manifold();
@@ -183,6 +195,7 @@ void VectorField::Evaluation::discard() {
 
 void VectorField::Evaluation::forget() {
   sizes_.setZero();
+  explained_ = 0.0;
   newton_.reset();
   basis_.forget();
   kept_ = y_ = field_.formulas_.start;
@@ -213,33 +226,76 @@ void VectorField::Evaluation::take_natural_sizes(const Inputs& in) {
   sizes_.head(y_.size()) = size * units.column_scale;
 }
 
+// Whether F is what rounding leaves of its terms at y_, whatever the sizes were that a solver was told.
+bool VectorField::Evaluation::holds(const Function& F, const Inputs& in) const {
+  constexpr double solved = 1e-9;
+  VectorXd all(F.output_size() + F.nonzeros()), terms = VectorXd::Zero(F.output_size());
+  F.value_and_jacobian(in.data(), all.data());
+  for (std::size_t k = 0; k < F.pattern_row().size(); ++k)
+    terms[F.pattern_row()[k]] +=
+        std::fabs(all[F.output_size() + static_cast<Index>(k)] * y_[F.pattern_col()[k]]);
+  return largest(all.head(F.output_size())) <= solved * largest(terms);
+}
+
+// By the equations that were chosen at the ladder's point.
+bool VectorField::Evaluation::is_solved(const Inputs& in) {
+  const auto converges = [&] {
+    return newton_.solve(in, sizes_.data()).status == Newton::Status::converged;
+  };
+  // What is found by a matrix that sees some directions only has to hold.
+  const auto is_found_again = [&](const auto& prepare) {
+    newton_.reset();
+    y_ = field_.formulas_.start;
+    return prepare() && converges() &&
+           (newton_.is_determined() || holds(field_.equations_.left(), in));
+  };
+  return converges() || is_found_again([&] {
+           sizes_.setConstant(largest(y_));
+           return true;
+         }) ||
+         is_found_again([&] {
+           take_natural_sizes(in);
+           return true;
+         }) ||
+         is_found_again([&] { return newton_.approach(in, sizes_.data()); });
+}
+
+// Where those are dependent, all equations tell the velocity, on M_f.
+bool VectorField::Evaluation::is_solved_by_all(const Inputs& in, bool is_solved) {
+  const VectorFieldFormulas& of = field_.formulas_;
+  if (of.left_out.size() == 0) return is_solved;
+  if (!all_)
+    all_ = Function("vector field", of.inputs, joined(of.equations, of.left_out),
+                    {.differentiate = {of.inputs[0].name}});
+  if (is_solved && holds(*all_, in)) return true;
+  const VectorXd found = y_;
+  y_ = of.start;
+  const VectorXd sizes = VectorXd::Constant(sizes_.size(), largest(y_));
+  Newton newton(*all_, std::vector<Index>(static_cast<std::size_t>(y_.size()), 1), {});
+  if (newton.solve(in, sizes.data()).status == Newton::Status::converged && holds(*all_, in))
+    return true;
+  y_ = found;
+  return is_solved;
+}
+
 void VectorField::Evaluation::solve(const VectorXd& x, VectorXd& rate, double t) {
   const Manifold& M = *field_.formulas_.system->manifold();
   const Inputs in(y_.data(), {x.data(), basis_.data(), &t});
-  auto result = newton_.solve(in, sizes_.data());
-  if (result.status != Newton::Status::converged) {
-    newton_.reset();
-    y_ = field_.formulas_.start;
-    sizes_.setConstant(largest(y_));
-    result = newton_.solve(in, sizes_.data());
+  const auto violation = [&] {
+    field_.left_out_.value(in.data(), left_out_.data());
+    return largest(left_out_);
+  };
+  constexpr double growth = 4.0;
+  bool is_found = is_solved(in);
+  if (!is_found || !newton_.is_determined() || violation() > growth * explained_) {
+    is_found = is_solved_by_all(in, is_found);
+    explained_ = std::max(explained_, violation());
   }
-  if (result.status != Newton::Status::converged) {
-    newton_.reset();
-    y_ = field_.formulas_.start;
-    take_natural_sizes(in);
-    result = newton_.solve(in, sizes_.data());
-  }
-  if (result.status != Newton::Status::converged) {
-    y_ = field_.formulas_.start;
-    newton_.reset();
-    if (newton_.approach(in, sizes_.data())) result = newton_.solve(in, sizes_.data());
-  }
-  if (result.status != Newton::Status::converged || !y_.allFinite())
+  if (!is_found || !y_.allFinite())
     throw std::domain_error("VectorField::operator(): no velocity found at t = " + number_text(t) +
                             "; the state " + whereabouts(M, x) + ".");
   sizes_.head(y_.size()) = sizes_.head(y_.size()).cwiseMax(y_.cwiseAbs());
   field_.rate_.value(in.data(), out_.data());
-  field_.left_out_.value(in.data(), left_out_.data());
   rate = out_.head(x.size());
   v_ = out_.segment(x.size(), v_.size());
   z_ = out_.tail(z_.size());

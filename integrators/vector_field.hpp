@@ -1,6 +1,8 @@
 // VectorField: S_f as the graph of a vector field.
 #pragma once
 
+#include <optional>
+
 #include "courant/core/function.hpp"
 #include "courant/core/newton.hpp"
 #include "courant/integrators/ladder/constraint_ladder.hpp"
@@ -33,7 +35,8 @@ struct VectorFieldFormulas {
 // Off M_f, where the stages of a Runge–Kutta method fall, it is an extension of the field: as many
 // independent equations for (v, z, jets) as there are such unknowns are kept, chosen at the
 // ladder's point; those that hold x alone, the constraints, are not used. What they leave is the
-// violation of the constraints at x.
+// violation of the constraints at x. Where those that are kept have become dependent all equations are solved, which
+// succeeds on M_f.
 class VectorField {
  public:
   using Freedom = VectorFieldFormulas::Freedom;
@@ -79,10 +82,16 @@ class VectorField {
    private:
     void solve(const VectorXd& x, VectorXd& rate, double t);
     void take_natural_sizes(const Inputs& in);
+    bool holds(const Function& F, const Inputs& in) const;
+    bool is_solved(const Inputs& in);
+    bool is_solved_by_all(const Inputs& in, bool is_solved);
 
     const VectorField& field_;
     Newton newton_;
+    std::optional<Function> all_;  // all equations of y, once they were asked for
     VectorXd y_, kept_, out_, v_, z_, left_out_;
+    // The largest of left_out that is no fault of the equations that are kept.
+    double explained_ = 0.0;
     VectorXd sizes_;  // the largest that each of y_ was; one entry where there is no y_
     MovingBasis basis_;
   };

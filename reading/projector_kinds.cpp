@@ -112,7 +112,7 @@ ProjectorPointer weighted(const std::vector<NamedValue>& weights, const MethodSe
   VectorXd w = VectorXd::Ones(manifold->ambient_dimension());
   for (const NamedValue& weight : weights)
     for (const Index i : entries(weight.name, weight.pointer, at)) w[i] = weight.value;
-  return std::make_shared<OrthogonalProjector>(*manifold, [&](const ExprVector& x) {
+  return std::make_shared<OrthogonalProjector>(*manifold, [manifold, w](const ExprVector& x) {
     const ExprMatrix E = manifold->frame(x);
     return ExprMatrix(E.transpose() * constants(w).asDiagonal() * E);
   });

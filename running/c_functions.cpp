@@ -7,6 +7,8 @@
 #include "courant/core/c_prelude.hpp"
 #include "courant/core/derivative.hpp"
 #include "courant/core/exponentials.hpp"
+#include "courant/core/expr_vectors.hpp"
+#include "courant/core/lu_decomposition.hpp"
 #include "courant/core/matrix_numbers.hpp"
 #include "courant/core/message.hpp"
 #include "courant/core/program.hpp"
@@ -14,8 +16,10 @@
 namespace courant {
 namespace {
 
-// LuDecomposition factorises matrices up to this size without blocks, in an order that C repeats.
-constexpr Index kMostSize = 63;
+constexpr Index kMostSize = LuDecomposition::kPlain;
+
+// A compiler takes a minute for as many.
+constexpr Index kMostInstructions = 300'000;
 
 std::vector<ExprVector> variables_of(const std::vector<Function::Input>& inputs) {
   std::vector<ExprVector> groups;
@@ -57,8 +61,27 @@ std::string braces(const Numbers& numbers, const Text& text) {
 void CFunctions::add(const std::string& symbol, const std::vector<Function::Input>& inputs,
                      const ExprVector& outputs, const std::string& comment) {
   const Program program(variables_of(inputs), outputs);
+  if (program.instruction_count() > kMostInstructions)
+    throw std::invalid_argument("has a formula of " + std::to_string(program.instruction_count()) +
+                                " operations, which takes a compiler hours; expected at most " +
+                                std::to_string(kMostInstructions));
   source_ += "/* " + c_comment(comment) + ";  " + inputs_text(inputs) + " */\n" +
              program.c_source(symbol) + "\n";
+}
+
+void CFunctions::add_zeros(const std::string& symbol, const Function::Formulas& of,
+                           const std::string& comment) {
+  const SparseExprMatrix jacobian = courant::jacobian(of.outputs, of.inputs[0].variables);
+  add(symbol + "_residual", of.inputs, of.outputs, comment);
+  add(symbol + "_jacobian", of.inputs, joined(of.outputs, jacobian.values),
+      "the same, then the entries of their Jacobian");
+  const auto array = [&](const char* name, const std::vector<Index>& numbers) {
+    source_ += "static const int " + symbol + "_" + name + "[] = " + c_array(numbers) + ";\n";
+  };
+  array("row", jacobian.row);
+  array("column", jacobian.col);
+  source_ +=
+      "enum { " + symbol + "_entries = " + std::to_string(jacobian.values.size()) + " };\n\n";
 }
 
 CFunctions::Unknowns CFunctions::add(const Equations& of) {

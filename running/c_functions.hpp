@@ -17,6 +17,11 @@ class CFunctions {
   void add(const std::string& symbol, const std::vector<Function::Input>& inputs,
            const ExprVector& outputs, const std::string& comment);
 
+  // `symbol_residual` and `symbol_jacobian`, which gives the residual and the entries of its Jacobian, with the arrays
+  // symbol_row and symbol_column of their places and their number symbol_entries.
+  void add_zeros(const std::string& symbol, const Function::Formulas& of,
+                 const std::string& comment);
+
   // `static const struct equations symbol`, by what is left after elimination. `names` of the unknowns,
   // `groups` as of Newton; `options` null: nothing is eliminated. Throws std::invalid_argument, saying what
   // the matter is, unless they are square and of a size that Newton's method in C takes.

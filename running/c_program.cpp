@@ -52,6 +52,7 @@ class CProgram {
     const Manifold& M = *system_.manifold();
     coordinates_ = M.ambient_dimension();
     velocities_ = M.tangent_dimension();
+    dimension_ = M.dimension();
   }
 
   std::string source() {
@@ -110,6 +111,7 @@ class CProgram {
     }
     if (step_.solve) {
       const StepProgram::Solve& solve = *step_.solve;
+      add_space(solve.space);
       const auto [sought, left, has_exponentials] = functions_.add(
           {.symbol = "step",
            .inputs = solve.formulas.inputs,
@@ -130,6 +132,47 @@ class CProgram {
     }
     rows_.add_functions(functions_);
   }
+  void add_space(const SpaceFormulas& space) {
+    if (space.has_basis())
+      functions_.add("on_tangent_space", space.basis.inputs, space.basis.outputs,
+                     "a basis projected to the tangent space");
+    if (space.has_equations())
+      functions_.add_zeros("space", space.constraint, "the equations of the space");
+  }
+  void add_turning(const StepProgram::Solve::Projection::Turning& of) {
+    const MatrixPattern& A = of.conormals.A;
+    if (!has_plain_factors(A))
+      throw std::invalid_argument(
+          "solves " + std::to_string(A.rows) + " equations for " + std::to_string(A.columns) +
+          " unknowns, by least squares or sparse factors, for directions that change from point to "
+          "point; expected fewer, or directions that do not change");
+    functions_.add("conormal_matrices", of.conormals.matrices.inputs, of.conormals.matrices.outputs,
+                   "the matrices of the equations for covectors that annihilate what is tangent to "
+                   "the constraints");
+    if (of.span.outputs.size() > 0)
+      functions_.add("span", of.span.inputs, of.span.outputs,
+                     "vectors along which points are projected");
+  }
+  std::string turning_sizes(const StepProgram::Solve::Projection::Turning& of) const {
+    const auto& [constraints, matrices, A, P] = of.conormals;
+    std::vector<Index> row = A.row, column = A.column;
+    row.insert(row.end(), P.row.begin(), P.row.end());
+    column.insert(column.end(), P.column.begin(), P.column.end());
+    VectorXd references(0);
+    for (const MatrixXd& reference : of.references) {
+      references.conservativeResize(references.size() + reference.size());
+      references.tail(reference.size()) = reference.reshaped();
+    }
+    return c_define("CONORMAL_SIZE", A.rows) + c_define("CONORMAL_OF_A", std::ssize(A.row)) +
+           c_define("CONORMAL_ENTRIES", std::ssize(row)) +
+           c_define("HAS_SPAN", of.span.outputs.size() > 0 ? 1 : 0) +
+           c_define("IS_ALWAYS_COMPLEMENT", of.is_always_complement ? 1 : 0) +
+           "static const int conormal_row[] = " + c_array(row) +
+           ";\nstatic const int conormal_column[] = " + c_array(column) +
+           ";\n/* Covectors near which those of the first point are looked for. */\n" +
+           c_define("REFERENCES", std::ssize(of.references)) +
+           "static const double references[] = " + c_array(references) + ";\n";
+  }
   void add_projection(const StepProgram::Solve::Projection& of) {
     const auto [sought, left, has_exponentials] = functions_.add(
         {.symbol = "projection",
@@ -138,7 +181,8 @@ class CProgram {
          .groups = groups(),
          .elimination = of.formulas.eliminates ? &of.formulas.elimination : nullptr});
     ends_predicted_ = sought;
-    if (of.shifts == 0) {  // then all unknowns that are found are predicted
+    if (of.turning) add_turning(*of.turning);
+    if (of.shifts == 0 || of.turning) {  // then all unknowns that are found are predicted
       ends_predicted_.clear();
       for (Index i = 0; i < of.formulas.inputs[0].variables.size(); ++i)
         if (!std::ranges::binary_search(left, i)) ends_predicted_.push_back(i);
@@ -270,11 +314,23 @@ class CProgram {
         c_define("MOST_PREDICTED", std::max(unknowns, velocities_)) +
         c_define("LOOKS_AT_STEPS", solve.is_affine ? 0 : 1) +
         c_define("HAS_EXPONENTIALS", has_exponentials_ ? 1 : 0) +
-        c_define("MEASURES_STEPS", rows_.measures_steps() ? 1 : 0);
+        c_define("MEASURES_STEPS", rows_.measures_steps() ? 1 : 0) +
+        c_define("HAS_BASIS", solve.space.has_basis() ? 1 : 0) +
+        c_define("SPACE_EQUATIONS", solve.space.constraint.outputs.size());
+    const bool turns = projects && solve.projection->turning;
+    if (projects)
+      all += c_define("TURNS", turns ? 1 : 0) +
+             "#define IS_EXPLICIT (projection_equations.size == 0 && !TURNS && !HAS_BASIS)\n";
+    const bool makes_orthonormal = solve.space.has_basis() || turns;
+    if (makes_orthonormal)
+      all +=
+          c_define("DIMENSION", dimension_) +
+          c_define("MOST_COLUMNS", solve.space.has_basis() ? dimension_ : solve.projection->shifts);
     if (!projects) all += contained_coordinates(solve.formulas.contained(1));
     if (projects)
       all += c_define("SHIFTS", solve.projection->shifts) +
              c_define("DIRECTIONS", n * solve.projection->shifts);
+    if (turns) all += turning_sizes(*solve.projection->turning);
     all += "\n" + std::string(text::predictor()) + places("step", predicted_, tangent);
     if (projects) {
       std::vector<Index> shift;
@@ -286,6 +342,11 @@ class CProgram {
         c_array(Eigen::Map<const VectorXd>(step_.substeps.data(), std::ssize(step_.substeps))) +
         ";\n\n" + nearby_parts("near_stage", 0.5) + nearby_parts("near_end", 1.0) + rows_.parts();
     if (has_exponentials_) all += text::approach();
+    if (makes_orthonormal || solve.space.has_equations()) all += text::scalar_product();
+    if (solve.space.has_equations()) all += text::round_off();
+    if (makes_orthonormal) all += text::orthonormal();
+    if (solve.space.has_basis()) all += text::basis();
+    if (turns) all += text::turning();
     for (const std::string_view part :
          {projects ? text::projected() : text::displaced(), text::looks(),
           projects ? text::projected_part() : text::displaced_part(), text::step()})
@@ -345,7 +406,7 @@ class CProgram {
   const StepProgram step_;
   const ObservedQuantities observed_;
   const CRows rows_;
-  Index coordinates_, velocities_;
+  Index coordinates_, velocities_, dimension_;
   CFunctions functions_;
   std::vector<Index> predicted_, ends_predicted_;
   bool has_exponentials_ = false;  // the equations of a step

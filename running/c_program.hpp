@@ -17,8 +17,8 @@ namespace courant {
 // program with status 3: what a run does then (damped steps, continuation, least squares) is not in it.
 //
 // Throws ExperimentError, with the pointer, for what no such program can be written for: steps that a StepProgram
-// does not describe (orthogonal projections, curved spaces), equations that leave something undetermined, more than 63 unknowns in one matrix, rows
-// between steps.
+// does not describe (those of the reduced map), equations that leave something undetermined, more than 63 unknowns in
+// one matrix, rows between steps.
 std::string c_program(const Experiment& experiment);
 
 }  // namespace courant

@@ -1,4 +1,10 @@
 static void forget_looks(struct stepper *S) {
+#if HAS_BASIS
+  /* A basis that is made afresh has other coordinates. */
+  const double size = largest(S->usual, DISPLACEMENTS);
+  int i;
+  for (i = 0; i < DISPLACEMENTS; ++i) S->usual[i] = size;
+#endif
   S->newton.of = &step_equations;
   forget_matrix(&S->newton);
   forget_steps(&S->predictor, &step_places);

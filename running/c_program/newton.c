@@ -55,8 +55,14 @@ static double scaled_to_one(double size, double scale) {
   return size > 0.0 ? ldexp(scale, -ilogb(size)) : scale;
 }
 
+static void exchange(double *x, int i, int j) {
+  const double number = x[i];
+  x[i] = x[j];
+  x[j] = number;
+}
+
 /* P S = L U in place, with the same exchanges in the rows of X. The ratio of the least pivot to the largest. */
-static double factor(double *S, double *X, int n) {
+static double factor(double *S, double *X, int n, int columns) {
   double least = INFINITY, most = 0.0;
   int i, j, k, pivot;
   for (k = 0; k < n; ++k) {
@@ -64,13 +70,8 @@ static double factor(double *S, double *X, int n) {
     for (i = k + 1; i < n; ++i)
       if (fabs(S[i + k * n]) > fabs(S[pivot + k * n])) pivot = i;
     if (S[pivot + k * n] == 0.0) return 0.0;
-    for (j = 0; pivot != k && j < n; ++j) {
-      const double s = S[k + j * n], x = X[k + j * n];
-      S[k + j * n] = S[pivot + j * n];
-      S[pivot + j * n] = s;
-      X[k + j * n] = X[pivot + j * n];
-      X[pivot + j * n] = x;
-    }
+    for (j = 0; pivot != k && j < n; ++j) exchange(S + j * n, k, pivot);
+    for (j = 0; pivot != k && j < columns; ++j) exchange(X + j * n, k, pivot);
     for (i = k + 1; i < n; ++i) S[i + k * n] /= S[k + k * n];
     for (j = k + 1; j < n; ++j)
       for (i = k + 1; i < n; ++i) S[i + j * n] -= S[i + k * n] * S[k + j * n];
@@ -81,9 +82,9 @@ static double factor(double *S, double *X, int n) {
 }
 
 /* X <- U^-1 L^-1 X */
-static void substitute(const double *LU, double *X, int n) {
+static void substitute(const double *LU, double *X, int n, int columns) {
   int i, j, k;
-  for (j = 0; j < n; ++j) {
+  for (j = 0; j < columns; ++j) {
     double *const x = X + j * n;
     for (k = 0; k < n; ++k)
       for (i = k + 1; i < n; ++i) x[i] -= LU[i + k * n] * x[k];
@@ -94,22 +95,9 @@ static void substitute(const double *LU, double *X, int n) {
   }
 }
 
-/* The inverse of the Jacobian, by rows and columns of comparable size. Zero if it is singular, or nearly so. */
-static int factorize(struct newton *N, const double *const *in) {
-  static double A[MOST_SIZE * MOST_SIZE], S[MOST_SIZE * MOST_SIZE];
-  double row[MOST_SIZE], column[MOST_SIZE];
-  const int n = N->of->size;
+/* S = diag(row) A diag(column), with rows and columns of comparable size. */
+static void equilibrate(const double *A, double *S, double *row, double *column, int n) {
   int i, j, k, sweep;
-  ++N->factorizations;
-  N->is_factorized = 0;
-  N->of->value_and_jacobian(in, N->all);
-  if (N->of->exponentials > 0) N->of->arguments(in, N->at_matrix);
-  for (k = 0; k < N->of->matrix_numbers; ++k) N->of_matrix[k] = *in[N->of->matrix_of[k]];
-  for (k = 0; k < n * n; ++k) A[k] = 0.0;
-  for (k = 0; k < N->of->entries; ++k) {
-    if (!isfinite(N->all[n + k])) return 0;
-    A[N->of->row[k] + N->of->contained_column[k] * n] = N->all[n + k];
-  }
   for (i = 0; i < n; ++i) row[i] = column[i] = 1.0;
   for (k = 0; k < n * n; ++k) S[k] = A[k];
   for (sweep = 0; sweep < 2; ++sweep) {
@@ -122,10 +110,29 @@ static int factorize(struct newton *N, const double *const *in) {
     for (j = 0; j < n; ++j)
       for (i = 0; i < n; ++i) S[i + j * n] = row[i] * A[i + j * n] * column[j];
   }
+}
+
+/* The inverse of the Jacobian, by rows and columns of comparable size. Zero if it is singular, or nearly so. */
+static int factorize(struct newton *N, const double *const *in) {
+  static double A[MOST_SIZE * MOST_SIZE], S[MOST_SIZE * MOST_SIZE];
+  double row[MOST_SIZE], column[MOST_SIZE];
+  const int n = N->of->size;
+  int i, j, k;
+  ++N->factorizations;
+  N->is_factorized = 0;
+  N->of->value_and_jacobian(in, N->all);
+  if (N->of->exponentials > 0) N->of->arguments(in, N->at_matrix);
+  for (k = 0; k < N->of->matrix_numbers; ++k) N->of_matrix[k] = *in[N->of->matrix_of[k]];
+  for (k = 0; k < n * n; ++k) A[k] = 0.0;
+  for (k = 0; k < N->of->entries; ++k) {
+    if (!isfinite(N->all[n + k])) return 0;
+    A[N->of->row[k] + N->of->contained_column[k] * n] = N->all[n + k];
+  }
+  equilibrate(A, S, row, column, n);
   for (k = 0; k < n * n; ++k) N->inverse[k] = 0.0;
   for (i = 0; i < n; ++i) N->inverse[i + i * n] = 1.0;
-  if (!(factor(S, N->inverse, n) > 1e-7)) return 0;
-  substitute(S, N->inverse, n);
+  if (!(factor(S, N->inverse, n, n) > 1e-7)) return 0;
+  substitute(S, N->inverse, n, n);
   for (j = 0; j < n; ++j)
     for (i = 0; i < n; ++i) {
       N->inverse[i + j * n] = column[i] * N->inverse[i + j * n] * row[j];

@@ -17,11 +17,28 @@ struct stepper {
   double jets[UNKNOWNS + 1]; /* velocities, z and their derivatives at the state */
   double near[COORDINATES + 1], foreseen[COORDINATES + 1], shifted[VELOCITIES + 1];
   double found[COORDINATES + VELOCITIES + AUXILIARIES + 1];
+#if HAS_BASIS
+  struct basis basis; /* at the state */
+  int is_turned;      /* it was made afresh */
+#endif
+#if TURNS
+  struct directions directions;
+#endif
 };
 
-static const double directions[DIRECTIONS + 1] = {0}; /* those of the projection are numbers in its formulas */
+#if HAS_BASIS
+#define BASIS S->basis.entries
+#else
+#define BASIS NULL
+#endif
 
-#define STEP_INPUTS(y, state, h) {y, (state)->x, NULL, directions, h, &(state)->t}
+#if TURNS
+#define ALONG S->directions.W
+#else
+static const double ALONG[DIRECTIONS + 1] = {0}; /* they are numbers in the formulas */
+#endif
+
+#define STEP_INPUTS(y, state, h) {y, (state)->x, BASIS, ALONG, h, &(state)->t}
 
 /* What the state alone predicts. */
 static void begin(const struct stepper *S, const struct state *before, double h, double *y) {

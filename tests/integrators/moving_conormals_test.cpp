@@ -31,9 +31,9 @@ struct Pendulum {
       F[9] = 3.0 * F[4];
       F[10] = F[4] + 2.0 * F[6];
     }
-    functions = MovingConormals::trace(graph, F, jets, 4, 2,
-                                       {{"x0", x0}, {"basis", ExprVector(0)}, {"t", t}},
-                                       Backend::interpreter);
+    functions = {MovingConormals::trace(graph, F, jets, 4, 2,
+                                        {{"x0", x0}, {"basis", ExprVector(0)}, {"t", t}}),
+                 Backend::interpreter};
   }
 
   // At an angle, with its rate. Sets x and the jets.
@@ -90,6 +90,25 @@ BOOST_AUTO_TEST_CASE(follow_a_curve) { follow_a_curve_of(Pendulum()); }
 
 // Equations that say nothing new leave open which combinations give the conormals, not the conormals.
 BOOST_AUTO_TEST_CASE(follow_a_curve_with_redundant_equations) { follow_a_curve_of(Pendulum(true)); }
+
+// The first ones are nearest to a reference, at whatever point that is; where it is at right angles, to another one.
+BOOST_AUTO_TEST_CASE(begin_near_a_reference) {
+  Pendulum pendulum;
+  pendulum.place(0.3, 0.0);
+  const auto references = MovingConormals::references(orthonormalized(pendulum.exact));
+  BOOST_TEST_REQUIRE(references.size() >= 2u);
+  const auto is_nearest = [&](const MatrixXd& C, const MatrixXd& to) {
+    const MatrixXd seen = C.transpose() * to;
+    return std::abs(seen(0, 1) - seen(1, 0)) < 1e-12;
+  };
+  for (const double angle : {0.3, 0.4, 1.2, 0.3 + 0.5 * M_PI}) {
+    pendulum.place(angle, 0.0);
+    MovingConormals conormals(pendulum.functions, 4, 2, references);
+    pendulum.move(conormals);
+    BOOST_TEST(pendulum.defect(conormals.matrix()) < 1e-12, angle);
+    BOOST_TEST(is_nearest(conormals.matrix(), references[angle > 1.5 ? 1 : 0]), angle);
+  }
+}
 
 BOOST_AUTO_TEST_CASE(jump) {
   Pendulum pendulum;

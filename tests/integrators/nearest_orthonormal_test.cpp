@@ -35,6 +35,35 @@ BOOST_AUTO_TEST_CASE(is_the_polar_factor) {
       }
 }
 
+// From afar too, whatever the size of P, but not where a direction is lost.
+BOOST_AUTO_TEST_CASE(is_the_polar_factor_from_afar) {
+  std::mt19937 generator(2);
+  std::normal_distribution<double> normal;
+  const auto random = [&](Index rows, Index columns) {
+    return MatrixXd(MatrixXd::NullaryExpr(rows, columns, [&] { return normal(generator); }));
+  };
+  for (const Index columns : {1, 2, 3, 10})
+    for (const Index rows : {columns, columns + 2})
+      for (const double least : {1e-3, 0.1, 0.9})
+        for (const double size : {1e-6, 1.0, 1e8}) {
+          VectorXd values = VectorXd::LinSpaced(columns, 1.0, least);
+          const MatrixXd U = orthonormalized(random(rows, columns)),
+                         V = orthonormalized(random(columns, columns));
+          MatrixXd B = MatrixXd::Zero(rows, columns);
+          NearestOrthonormal nearest(columns);
+          BOOST_TEST_REQUIRE(nearest.from_afar(size * U * values.asDiagonal() * V.transpose(), B));
+          BOOST_TEST((B - U * V.transpose()).norm() < 1e-13 / least,
+                     rows << " × " << columns << ", " << least << ", " << size);
+        }
+  NearestOrthonormal nearest(2);
+  MatrixXd P = MatrixXd::Identity(3, 2), B = P;
+  P(1, 1) = 1e-7;
+  BOOST_TEST(!nearest.from_afar(P, B));
+  P(1, 1) = std::numeric_limits<double>::quiet_NaN();
+  BOOST_TEST(!nearest.from_afar(P, B));
+  BOOST_TEST(!nearest.from_afar(MatrixXd::Zero(3, 2), B));
+}
+
 BOOST_AUTO_TEST_CASE(gives_up_far_away) {
   for (const Index columns : {2, 10}) {
     NearestOrthonormal nearest(columns);

@@ -44,7 +44,7 @@ std::vector<ConstrainedPoint> random_points() {
 // A projector of which the directions and claims can be replaced.
 class Planted final : public Projector {
  public:
-  using Directions = std::function<MatrixXd(const VectorXd&, const MatrixXd&, const MatrixXd&)>;
+  using Directions = std::function<ExprMatrix(const ExprMatrix&)>;
   Planted(Directions directions, bool orthogonal, bool constant)
       : Projector("planted"),
         directions_(std::move(directions)),
@@ -54,9 +54,9 @@ class Planted final : public Projector {
   bool has_constant_directions(Index) const override { return constant_; }
 
  private:
-  MatrixXd do_directions(const VectorXd& x, const LinearMap<double>& basis,
-                         const MatrixXd& conormals) const override {
-    return directions_(x, basis, conormals);
+  ExprMatrix do_directions(const ExprVector&, const LinearMap<Expr>&,
+                           const ExprMatrix& conormals) const override {
+    return directions_(conormals);
   }
   Directions directions_;
   bool orthogonal_, constant_;
@@ -107,21 +107,24 @@ BOOST_AUTO_TEST_CASE(laws_hold) {
 BOOST_AUTO_TEST_CASE(laws_reject_what_is_planted) {
   const Euclidean space(4);
   const auto points = random_points();
-  const auto conormals = [](const VectorXd&, const MatrixXd&, const MatrixXd& C) { return C; };
+  const auto conormals = [](const ExprMatrix& C) { return C; };
   BOOST_TEST(failed(Planted(conormals, true, false), space, points).empty());
-  const auto tangent = [](const VectorXd&, const MatrixXd&, const MatrixXd& C) -> MatrixXd {
-    return QrDecomposition::in_order(C).Q().rightCols(2);
+  const MatrixXd first = points.front().conormals.transpose();
+  const auto tangent = [&](const ExprMatrix&) -> ExprMatrix {
+    return constants(MatrixXd(QrDecomposition::in_order(first).Q().rightCols(2)));
   };
   BOOST_TEST(failed(Planted(tangent, false, false), space, points).front() == "J1");
-  // Along coordinates of whatever basis is given.
-  const auto of_the_basis = [](const VectorXd&, const MatrixXd&, const MatrixXd&) -> MatrixXd {
-    return MatrixXd::Identity(4, 2);
+  // Along one of the conormals that are given, whichever they are.
+  const auto of_the_conormals = [](const ExprMatrix& C) -> ExprMatrix {
+    ExprMatrix W = C;
+    W.col(1) += constants(Vector4d(0.3, 0.3, 0.3, 0.3));
+    return W;
   };
-  BOOST_TEST(
-      failed(Planted(of_the_basis, false, false), space, points) == std::vector<std::string>{"J2"},
-      boost::test_tools::per_element());
-  const auto oblique = [](const VectorXd&, const MatrixXd& B, const MatrixXd& C) -> MatrixXd {
-    return B.transpose() * Vector4d(1, 2, 3, 4).asDiagonal() * B * C;
+  BOOST_TEST(failed(Planted(of_the_conormals, false, false), space, points) ==
+                 std::vector<std::string>{"J2"},
+             boost::test_tools::per_element());
+  const auto oblique = [](const ExprMatrix& C) -> ExprMatrix {
+    return constants(Vector4d(1, 2, 3, 4)).asDiagonal() * C;
   };
   BOOST_TEST(failed(Planted(oblique, true, false), space, points) == std::vector<std::string>{"J3"},
              boost::test_tools::per_element());

@@ -42,6 +42,25 @@ BOOST_AUTO_TEST_CASE(units_are_no_matter) {
   }
 }
 
+// (1 - x) (x' - 2 - x) = 0 and x (x' - 2 - x) = 0, of which the first is chosen at x = 1/4: at x = 1 it says nothing.
+BOOST_AUTO_TEST_CASE(where_the_chosen_equations_are_dependent) {
+  const auto repeated = examples::flat(
+      1, 0, 2, [](const ExprVector& x, const ExprVector& w, const ExprVector&, const Expr&) {
+        const Expr law = w[0] - 2.0 - x[0];
+        return examples::equations({(1.0 - x[0]) * law, x[0] * law});
+      });
+  const ConstraintLadder ladder = ConstraintAlgorithm().run(repeated, examples::at({0.25}));
+  BOOST_TEST_REQUIRE((ladder.verdict == Verdict::regular));
+  const VectorField field(repeated, ladder, Backend::interpreter);
+  VectorField::Evaluation evaluate(field);
+  VectorXd rate(1);
+  for (const double x : {0.25, 0.9, 1.0, 1.5, 0.0}) {
+    evaluate(VectorXd::Constant(1, x), rate, 0.0);
+    BOOST_TEST(std::fabs(rate[0] - 2.0 - x) < 1e-12, x);
+    BOOST_TEST(std::fabs(evaluate.left_out()[0]) < 1e-12, x);
+  }
+}
+
 // x₅ = sin t, x_{i-1} = x_i': equations are differentiated up to six times, and each of them is needed.
 BOOST_AUTO_TEST_CASE(of_a_long_chain) {
   const auto chain = examples::flat(

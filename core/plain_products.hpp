@@ -1,0 +1,46 @@
+// Products of matrices by plain loops.
+#pragma once
+
+#include "courant/core/expr.hpp"
+
+namespace courant {
+
+// C = A B, column by column: A is rows × inner, B inner × columns, or square and of n columns where n is known. Each entry
+// is the sum of its terms in their order, as programs in C add them up too, to the last bit.
+template <int n = Eigen::Dynamic>
+inline void plain_product(const double* A, Index rows, const double* B, Index inner, Index columns,
+                          double* C) {
+  if constexpr (n != Eigen::Dynamic) inner = columns = n;
+  for (Index j = 0; j < columns; ++j) {
+    double* const c = C + j * rows;
+    const double* const b = B + j * inner;
+    for (Index i = 0; i < rows; ++i) c[i] = inner > 0 ? A[i] * b[0] : 0.0;
+    for (Index k = 1; k < inner; ++k)
+      for (Index i = 0; i < rows; ++i) c[i] += A[i + k * rows] * b[k];
+  }
+}
+
+inline double plain_product(const double* a, const double* b, Index count) {
+  double sum = 0.0;
+  for (Index i = 0; i < count; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+// C = A B and C = Aᵀ B for a C of their size.
+inline void multiply_plainly(const MatrixXd& A, const MatrixXd& B, MatrixXd& C) {
+  plain_product(A.data(), A.rows(), B.data(), A.cols(), B.cols(), C.data());
+}
+inline void multiply_transposed_plainly(const MatrixXd& A, const MatrixXd& B, MatrixXd& C) {
+  for (Index j = 0; j < B.cols(); ++j)
+    for (Index i = 0; i < A.cols(); ++i)
+      C(i, j) = plain_product(A.data() + i * A.rows(), B.data() + j * B.rows(), A.rows());
+}
+
+// ‖a - b‖₂
+inline double plain_distance(const double* a, const double* b, Index count) {
+  double sum = 0.0;
+  for (Index i = 0; i < count; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(sum);
+}
+
+}  // namespace courant

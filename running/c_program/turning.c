@@ -1,0 +1,151 @@
+/* ---- the directions of the projection ------------------------------------------------------------------ */
+
+/* An orthonormal basis of the covectors that annihilate what is tangent to the constraints, and one of the directions W
+   in which points are moved to these. Both turn as little as possible along a curve; those that are kept are of where
+   the last step ended. */
+struct directions {
+  double conormals[DIRECTIONS], kept_conormals[DIRECTIONS];
+  double W[DIRECTIONS], kept[DIRECTIONS];
+  double V[DIRECTIONS], combination[SHIFTS * SHIFTS], turned[DIRECTIONS]; /* W is nearest to V times the combination */
+  int are_kept;
+  double turning; /* |change of W| / |change of x| of the last steps, INFINITY before the first */
+};
+
+static double distance(const double *a, const double *b, int count) {
+  double sum = 0.0;
+  int i;
+  for (i = 0; i < count; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return sqrt(sum);
+}
+
+#if HAS_BASIS || HAS_SPAN || !IS_ALWAYS_COMPLEMENT
+/* C = A^T B for A and B of so many rows. */
+static void transposed_product(const double *A, int columns, const double *B, int of_B, int rows, double *C) {
+  int i, j;
+  for (j = 0; j < of_B; ++j)
+    for (i = 0; i < columns; ++i) C[i + j * columns] = scalar_product(A + i * rows, B + j * rows, rows);
+}
+#endif
+
+/* Those covectors whose parts along the old ones are unit vectors, by linear equations. in[4]: the old ones. Zero where
+   these are at right angles to them. */
+static int are_conormals_found(struct directions *D, const double *const *in) {
+  static double entries[CONORMAL_ENTRIES], A[CONORMAL_SIZE * CONORMAL_SIZE], S[CONORMAL_SIZE * CONORMAL_SIZE],
+      u[CONORMAL_SIZE * SHIFTS];
+  double row[CONORMAL_SIZE], column[CONORMAL_SIZE], covectors[DIRECTIONS];
+  const int n = CONORMAL_SIZE;
+  int i, j, k;
+  conormal_matrices(in, entries);
+  memset(A, 0, sizeof A);
+  for (k = 0; k < CONORMAL_OF_A; ++k) {
+    if (!isfinite(entries[k])) return 0;
+    A[conormal_row[k] + conormal_column[k] * n] = entries[k];
+  }
+  equilibrate(A, S, row, column, n);
+  memset(u, 0, sizeof u);
+  for (j = 0; j < SHIFTS; ++j) u[n - SHIFTS + j + j * n] = row[n - SHIFTS + j];
+  if (!(factor(S, u, n, SHIFTS) > 1e-7)) return 0;
+  substitute(S, u, n, SHIFTS);
+  memset(covectors, 0, sizeof covectors);
+  for (j = 0; j < SHIFTS; ++j) {
+    for (i = 0; i < n; ++i) u[i + j * n] *= column[i];
+    for (k = CONORMAL_OF_A; k < CONORMAL_ENTRIES; ++k)
+      covectors[conormal_row[k] + j * DIMENSION] += entries[k] * u[conormal_column[k] + j * n];
+  }
+  return is_made_orthonormal(covectors, DIMENSION, SHIFTS, D->conormals) ||
+         is_made_orthonormal_from_afar(covectors, DIMENSION, SHIFTS, D->conormals);
+}
+
+static void find_conormals(struct directions *D, const double **in) {
+  int k, are_found = D->are_kept;
+  if (are_found) {
+    in[4] = D->kept_conormals;
+    are_found = are_conormals_found(D, in);
+  }
+  for (k = 0; !D->are_kept && !are_found && k < REFERENCES; ++k) {
+    const double *const reference = references + k * VELOCITIES * SHIFTS;
+#if HAS_BASIS
+    double first[DIRECTIONS];
+    transposed_product(in[2], DIMENSION, reference, SHIFTS, VELOCITIES, first);
+    in[4] = first;
+#else
+    in[4] = reference;
+#endif
+    are_found = are_conormals_found(D, in);
+  }
+  if (!are_found) fail("has constraints that turn too far");
+}
+
+#if HAS_SPAN
+/* The combination of V that is nearest to W. */
+static void combine(struct directions *D, const double *W) {
+  double gram[SHIFTS * SHIFTS];
+  transposed_product(D->V, SHIFTS, D->V, SHIFTS, DIMENSION, gram);
+  transposed_product(D->V, SHIFTS, W, SHIFTS, DIMENSION, D->combination);
+  if (factor(gram, D->combination, SHIFTS, SHIFTS) == 0.0) fail("has dependent directions");
+  substitute(gram, D->combination, SHIFTS, SHIFTS);
+  product(D->V, DIMENSION, D->combination, SHIFTS, SHIFTS, D->turned);
+}
+
+static int is_nearest_to(struct directions *D, const double *W) {
+  double far[DIRECTIONS];
+  combine(D, W);
+  if (is_made_orthonormal(D->turned, DIMENSION, SHIFTS, D->W)) return 1;
+  memcpy(far, D->turned, sizeof far);
+  if (!is_made_orthonormal_from_afar(far, DIMENSION, SHIFTS, D->W)) return 0;
+  combine(D, D->W);
+  return is_made_orthonormal(D->turned, DIMENSION, SHIFTS, D->W);
+}
+#endif
+
+/* At x, with the unknowns y of the equations there. */
+static void aim(struct directions *D, const double *x, const double *basis, const double *y, double t) {
+  const double *in[INPUTS] = {y, x, basis, &t};
+  find_conormals(D, in);
+#if HAS_SPAN
+  {
+    const double *at[INPUTS] = {x, basis, D->conormals};
+    span(at, D->V);
+    if (D->are_kept) product(D->V, DIMENSION, D->combination, SHIFTS, SHIFTS, D->turned);
+    if (!(D->are_kept && is_made_orthonormal(D->turned, DIMENSION, SHIFTS, D->W)) &&
+        !is_nearest_to(D, D->are_kept ? D->kept : D->conormals))
+      fail("has directions that turn too far");
+  }
+#if !IS_ALWAYS_COMPLEMENT
+  {
+    double seen[SHIFTS * SHIFTS], determinant = 1.0;
+    int i;
+    transposed_product(D->conormals, SHIFTS, D->W, SHIFTS, DIMENSION, seen);
+    factor(seen, NULL, SHIFTS, 0);
+    for (i = 0; i < SHIFTS; ++i) determinant *= seen[i + i * SHIFTS];
+    if (!(fabs(determinant) > 1e-6)) fail("has directions along the constraints");
+  }
+#endif
+#else
+  memcpy(D->W, D->conormals, sizeof D->W);
+#endif
+}
+
+/* The next step begins where these are found; the last one began at x, and led to `found`. */
+static void keep_directions(struct directions *D, const double *x, const double *found) {
+  const double moved = distance(found, x, COORDINATES);
+  if (D->are_kept && moved > 1e-7 * largest(x, COORDINATES)) {
+    const double turning = distance(D->W, D->kept, DIRECTIONS) / moved;
+    D->turning = isfinite(D->turning) ? largest_of(turning, 0.9 * D->turning) : turning;
+  }
+#if HAS_SPAN
+  {
+    double next[SHIFTS * SHIFTS], before[SHIFTS * SHIFTS];
+    int i;
+    transposed_product(D->turned, SHIFTS, D->W, SHIFTS, DIMENSION, next);
+    for (i = 0; i < SHIFTS * SHIFTS; ++i) next[i] = -next[i];
+    for (i = 0; i < SHIFTS * SHIFTS; i += SHIFTS + 1) next[i] += 2.0;
+    memcpy(before, D->combination, sizeof before);
+    product(before, SHIFTS, next, SHIFTS, SHIFTS, D->combination);
+  }
+#endif
+  memcpy(D->kept, D->W, sizeof D->kept);
+  memcpy(D->kept_conormals, D->conormals, sizeof D->kept_conormals);
+  D->are_kept = 1;
+}
+
