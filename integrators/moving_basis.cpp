@@ -12,6 +12,12 @@ Function MovingBasis::projection(const Manifold& manifold, Backend backend) {
   return Function("basis", SpaceFormulas(manifold).basis, {.backend = backend});
 }
 
+LinearMap<double> MovingBasis::at(const Manifold& manifold, const VectorXd& x) {
+  MovingBasis basis(manifold, projection(manifold, Backend::interpreter));
+  basis.move_to(x);
+  return basis.basis_;
+}
+
 MovingBasis::MovingBasis(const Manifold& manifold, Function projection)
     : projection_(std::move(projection)),
       basis_(projection_.output_size() == 0

@@ -18,6 +18,8 @@ class MovingBasis {
  public:
   // (x, B) ↦ Π(x) B, to be traced once for all trajectories.
   static Function projection(const Manifold& manifold, Backend backend);
+  // The one that a trajectory begins with at x.
+  static LinearMap<double> at(const Manifold& manifold, const VectorXd& x);
 
   // `manifold` has to outlive it.
   MovingBasis(const Manifold& manifold, Function projection);

@@ -59,7 +59,7 @@ VectorFieldFormulas::VectorFieldFormulas(std::shared_ptr<const ImplicitSystem> o
   inputs = {{"y", y}, {"x", x}, {"basis", basis_parameters(basis)}, {"t", t}};
 
   // Values at the ladder's point, by the jet's leading coefficients; the other jets start at zero.
-  const LinearMap<double> B = M.tangent_basis(ladder.point.x);
+  const LinearMap<double> B = MovingBasis::at(M, ladder.point.x);
   start = VectorXd::Zero(y.size());
   start.head(n) = B.transpose() * ladder.point.v;
   z_offset = static_cast<Index>(local.xi.size() - 1) * n;

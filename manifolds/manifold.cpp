@@ -11,7 +11,7 @@
 #include "courant/core/derivative.hpp"
 #include "courant/core/gauss_newton.hpp"
 #include "courant/core/message.hpp"
-#include "courant/core/range_basis.hpp"
+#include "courant/core/qr_decomposition.hpp"
 
 namespace courant {
 namespace {
@@ -137,7 +137,11 @@ ExprVector Manifold::do_constraint(const ExprVector&) const {
 
 LinearMap<double> Manifold::tangent_basis(const VectorXd& x) const {
   if (dimension_ == tangent_dimension_) return LinearMap<double>::identity(dimension_);
-  return range_basis(tangent_projector(x).matrix(), dimension_);
+  const MatrixXd projector = tangent_projector(x);
+  const MatrixXd basis = QrDecomposition::pivoted(projector).Q(dimension_);
+  // Zeros that are round-off become zeros: what is computed in the basis would see dependences that
+  // are not there.
+  return MatrixXd((basis.array().abs() < 1e-15).select(0.0, basis));
 }
 
 Index Manifold::Dilations::after(const std::vector<Index>& units) {

@@ -342,7 +342,6 @@ class CProgram {
         c_array(Eigen::Map<const VectorXd>(step_.substeps.data(), std::ssize(step_.substeps))) +
         ";\n\n" + nearby_parts("near_stage", 0.5) + nearby_parts("near_end", 1.0) + rows_.parts();
     if (has_exponentials_) all += text::approach();
-    if (makes_orthonormal || solve.space.has_equations()) all += text::scalar_product();
     if (solve.space.has_equations()) all += text::round_off();
     if (makes_orthonormal) all += text::orthonormal();
     if (solve.space.has_basis()) all += text::basis();

@@ -25,7 +25,7 @@ static void make_basis(struct basis *B, const double *x) {
     double square = -1.0, length;
     int longest = 0;
     for (j = 0; j < VELOCITIES; ++j) {
-      const double of_column = scalar_product(projector + j * VELOCITIES, projector + j * VELOCITIES, VELOCITIES);
+      const double of_column = dot(projector + j * VELOCITIES, projector + j * VELOCITIES, VELOCITIES);
       if (of_column <= square) continue;
       square = of_column;
       longest = j;
@@ -34,7 +34,7 @@ static void make_basis(struct basis *B, const double *x) {
     for (i = 0; i < VELOCITIES; ++i) direction[i] = projector[i + longest * VELOCITIES] / length;
     for (j = 0; j < VELOCITIES; ++j) {
       double *const column = projector + j * VELOCITIES;
-      const double part = scalar_product(direction, column, VELOCITIES);
+      const double part = dot(direction, column, VELOCITIES);
       for (i = 0; i < VELOCITIES; ++i) column[i] -= part * direction[i];
     }
   }
@@ -66,6 +66,6 @@ static int take_over_basis(struct basis *B, const struct basis *other) {
 
 static void find_coordinates(const struct basis *B, const double *v, double *coordinates) {
   int j;
-  for (j = 0; j < DIMENSION; ++j) coordinates[j] = scalar_product(B->entries + j * VELOCITIES, v, VELOCITIES);
+  for (j = 0; j < DIMENSION; ++j) coordinates[j] = dot(B->entries + j * VELOCITIES, v, VELOCITIES);
 }
 

@@ -106,7 +106,7 @@ static int is_aimed(const struct stepper *S, const double *aimed, double moved, 
     const double *const of_step = S->y + UNKNOWNS - SHIFTS;
     const int rest = UNKNOWNS - SHIFTS - 2 * DISPLACEMENTS;
     const double length =
-        sqrt(largest_of(scalar_product(mu, mu, SHIFTS), scalar_product(of_step, of_step, SHIFTS)));
+        sqrt(largest_of(dot(mu, mu, SHIFTS), dot(of_step, of_step, SHIFTS)));
     const double of_jets = largest_of(change(aimed + DISPLACEMENTS, S->p + DISPLACEMENTS, DISPLACEMENTS),
                                       change(aimed + 2 * DISPLACEMENTS, S->p + 2 * DISPLACEMENTS, rest));
     return goes_on && 10.0 * S->directions.turning * length * largest_of(moved, size * of_jets) <= 1e-16 * size;

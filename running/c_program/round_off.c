@@ -8,7 +8,7 @@ static void keep_to_space(double *x) {
   double first = 0.0;
   int i, j, turn;
   space_residual(in, all);
-  if (largest(all, SPACE_EQUATIONS) <= 32.0 * DBL_EPSILON * largest_of(1.0, scalar_product(x, x, COORDINATES))) return;
+  if (largest(all, SPACE_EQUATIONS) <= 32.0 * DBL_EPSILON * largest_of(1.0, dot(x, x, COORDINATES))) return;
   space_jacobian(in, all);
   for (i = 0; i < SPACE_EQUATIONS + space_entries; ++i)
     if (!isfinite(all[i])) return;
@@ -19,7 +19,7 @@ static void keep_to_space(double *x) {
     double square = 0.0, length, distance, *direction;
     int longest = 0;
     for (i = 0; i < SPACE_EQUATIONS; ++i) {
-      const double of_gradient = scalar_product(gradients + i * COORDINATES, gradients + i * COORDINATES, COORDINATES);
+      const double of_gradient = dot(gradients + i * COORDINATES, gradients + i * COORDINATES, COORDINATES);
       if (of_gradient <= square) continue;
       square = of_gradient;
       longest = i;
@@ -36,7 +36,7 @@ static void keep_to_space(double *x) {
       double *const gradient = gradients + i * COORDINATES;
       double part;
       if (i == longest) continue;
-      part = scalar_product(direction, gradient, COORDINATES);
+      part = dot(direction, gradient, COORDINATES);
       for (j = 0; j < COORDINATES; ++j) gradient[j] -= part * direction[j];
       all[i] -= part * distance;
     }

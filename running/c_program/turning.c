@@ -23,7 +23,7 @@ static double distance(const double *a, const double *b, int count) {
 static void transposed_product(const double *A, int columns, const double *B, int of_B, int rows, double *C) {
   int i, j;
   for (j = 0; j < of_B; ++j)
-    for (i = 0; i < columns; ++i) C[i + j * columns] = scalar_product(A + i * rows, B + j * rows, rows);
+    for (i = 0; i < columns; ++i) C[i + j * columns] = dot(A + i * rows, B + j * rows, rows);
 }
 #endif
 

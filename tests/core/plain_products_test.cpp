@@ -34,14 +34,14 @@ BOOST_AUTO_TEST_CASE(are_products) {
              boost::test_tools::tolerance(1e-15));
 }
 
-// In the order of their terms: (1 + 1e16) - 1e16 is 0, and 1e16 - 1e16 + 1 is 1.
+// In the order of their terms: (1 + 1e16) - 1e16 is 0; the product of two vectors in two parts.
 BOOST_AUTO_TEST_CASE(add_terms_in_their_order) {
-  const double ones[] = {1.0, 1.0, 1.0}, up[] = {1.0, 1e16, -1e16}, down[] = {1e16, -1e16, 1.0};
-  BOOST_TEST(plain_product(ones, up, 3) == 0.0);
-  BOOST_TEST(plain_product(ones, down, 3) == 1.0);
-  double c = 0.0;
+  const double ones[] = {1.0, 1.0, 1.0, 1.0, 1.0}, up[] = {1.0, 1e16, -1e16};
+  double c = 1.0;
   plain_product(ones, 1, up, 3, 1, &c);
   BOOST_TEST(c == 0.0);
+  const double parts[] = {1.0, 3.0, 1e16, 0.5, -1e16};
+  BOOST_TEST(plain_product(ones, parts, 5) == 3.5);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
