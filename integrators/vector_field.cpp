@@ -226,9 +226,15 @@ void VectorField::Evaluation::take_natural_sizes(const Inputs& in) {
   sizes_.head(y_.size()) = size * units.column_scale;
 }
 
+namespace {
+
+// Of the terms of equations, a part that is none.
+constexpr double kSolved = 1e-9;
+
+}  // namespace
+
 // Whether F is what rounding leaves of its terms at y_, whatever the sizes were that a solver was told.
-bool VectorField::Evaluation::holds(const Function& F, const Inputs& in) const {
-  constexpr double solved = 1e-9;
+bool VectorField::Evaluation::holds(const Function& F, const Inputs& in, double solved) const {
   VectorXd all(F.output_size() + F.nonzeros()), terms = VectorXd::Zero(F.output_size());
   F.value_and_jacobian(in.data(), all.data());
   for (std::size_t k = 0; k < F.pattern_row().size(); ++k)
@@ -247,7 +253,7 @@ bool VectorField::Evaluation::is_solved(const Inputs& in) {
     newton_.reset();
     y_ = field_.formulas_.start;
     return prepare() && converges() &&
-           (newton_.is_determined() || holds(field_.equations_.left(), in));
+           (newton_.is_determined() || holds(field_.equations_.left(), in, kSolved));
   };
   return converges() || is_found_again([&] {
            sizes_.setConstant(largest(y_));
@@ -267,12 +273,15 @@ bool VectorField::Evaluation::is_solved_by_all(const Inputs& in, bool is_solved)
   if (!all_)
     all_ = Function("vector field", of.inputs, joined(of.equations, of.left_out),
                     {.differentiate = {of.inputs[0].name}});
-  if (is_solved && holds(*all_, in)) return true;
+  if (is_solved && holds(*all_, in, kSolved)) return true;
   const VectorXd found = y_;
   y_ = of.start;
   const VectorXd sizes = VectorXd::Constant(sizes_.size(), largest(y_));
   Newton newton(*all_, std::vector<Index>(static_cast<std::size_t>(y_.size()), 1), {});
-  if (newton.solve(in, sizes.data()).status == Newton::Status::converged && holds(*all_, in))
+  // Off M_f, by however little, least squares are a compromise, and no other velocity.
+  constexpr double on_M_f = 1e-12;
+  if (newton.solve(in, sizes.data()).status == Newton::Status::converged &&
+      holds(*all_, in, is_solved ? on_M_f : kSolved))
     return true;
   y_ = found;
   return is_solved;

@@ -82,7 +82,7 @@ class VectorField {
    private:
     void solve(const VectorXd& x, VectorXd& rate, double t);
     void take_natural_sizes(const Inputs& in);
-    bool holds(const Function& F, const Inputs& in) const;
+    bool holds(const Function& F, const Inputs& in, double solved) const;
     bool is_solved(const Inputs& in);
     bool is_solved_by_all(const Inputs& in, bool is_solved);
 

@@ -37,14 +37,14 @@ BOOST_AUTO_TEST_CASE(a_program_is_written_to_a_file_or_to_standard_output) {
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_exported_is_one_line) {
-  const Answer sphere =
-      courant_command({"export", "experiments/rigid_body.json", "--language", "c"});
-  BOOST_TEST(sphere.status == 2);
-  BOOST_TEST(sphere.out == "");
+  const Answer gauge =
+      courant_command({"export", "experiments/christ_lee.json", "--language", "c"});
+  BOOST_TEST(gauge.status == 2);
+  BOOST_TEST(gauge.out == "");
   BOOST_TEST(
-      sphere.err.find("courant: experiments/rigid_body.json: /method: cannot be exported: ") == 0u,
-      sphere.err);
-  BOOST_TEST(std::count(sphere.err.begin(), sphere.err.end(), '\n') == 1);
+      gauge.err.find("courant: experiments/christ_lee.json: /method: cannot be exported: ") == 0u,
+      gauge.err);
+  BOOST_TEST(std::count(gauge.err.begin(), gauge.err.end(), '\n') == 1);
   BOOST_TEST(courant_command({"export", "experiments/pendulum.json"}).status == 2);
   const Answer fortran =
       courant_command({"export", "experiments/pendulum.json", "--language", "fortran"});
