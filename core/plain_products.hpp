@@ -31,6 +31,20 @@ inline double plain_product(const double* a, const double* b, Index count) {
   return sum.value();
 }
 
+// The first of the longest columns of A (rows × columns, column by column), and the square of its length.
+struct LongestColumn {
+  Index index = 0;
+  double square = 0.0;
+};
+inline LongestColumn longest_column(const double* A, Index rows, Index columns) {
+  LongestColumn result;
+  for (Index j = 0; j < columns; ++j) {
+    const double square = plain_product(A + j * rows, A + j * rows, rows);
+    if (!(square <= result.square)) result = {.index = j, .square = square};
+  }
+  return result;
+}
+
 // C = A B and C = Aᵀ B for a C of their size.
 inline void multiply_plainly(const MatrixXd& A, const MatrixXd& B, MatrixXd& C) {
   plain_product(A.data(), A.rows(), B.data(), A.cols(), B.cols(), C.data());

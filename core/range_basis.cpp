@@ -15,16 +15,7 @@ Eigen::MatrixXd range_basis(Eigen::MatrixXd projector, Eigen::Index n) {
   const Eigen::Index m = projector.rows();
   Eigen::MatrixXd basis(m, n);
   for (Eigen::Index k = 0; k < n; ++k) {
-    Eigen::Index longest = 0;
-    double square = -1.0;
-    for (Eigen::Index j = 0; j < projector.cols(); ++j) {
-      const double* const column = projector.data() + j * m;
-      const double length = plain_product(column, column, m);
-      if (!(length <= square)) {
-        square = length;
-        longest = j;
-      }
-    }
+    const auto [longest, square] = longest_column(projector.data(), m, projector.cols());
     // Of the two signs, that with a first number that is not positive, as reflections make it.
     const double length = projector(0, longest) > 0.0 ? -std::sqrt(square) : std::sqrt(square);
     double* const direction = basis.data() + k * m;

@@ -217,9 +217,8 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
   corrected_shift_ = Function(
       "corrected shift", {{"near", trace.near}, {"s", trace.s}, {"x0", trace.x0}, {"x", trace.x}},
       trace.corrected, compiled);
-  const bool is_never_aimed = codimension_ == 0 || fixed_directions_.size() > 0;
-  conormals_ = {trace.conormals(), is_never_aimed ? Backend::interpreter : backend};
-  if (!is_never_aimed) {
+  conormals_ = {trace.conormals(), has_fixed_directions() ? Backend::interpreter : backend};
+  if (!has_fixed_directions()) {
     references_ = MovingConormals::references(M.tangent_basis(ladder.point.x) *
                                               orthonormalized(ladder.conormals().transpose()));
     span_ = Function("directions", projector_->span_formulas(M, codimension_), compiled);
@@ -259,7 +258,7 @@ StepProgram ConstrainFirst::program() const {
                            {{"near", trace.near}, {"s", trace.s}, {"x0", trace.x0}, {"x", trace.x}},
                        .shifted = trace.shifted,
                        .corrected = trace.corrected}};
-  if (codimension_ > 0 && fixed_directions_.size() == 0)
+  if (!has_fixed_directions())
     program.solve->projection->turning = StepProgram::Solve::Projection::Turning{
         .conormals = trace.conormals(),
         .references = references_,

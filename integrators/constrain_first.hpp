@@ -59,6 +59,9 @@ class ConstrainFirst final : public Integrator, public Programmed {
   class Projection;
   struct Trace;
 
+  // Whether W is the same at every x, or there is nothing to project.
+  bool has_fixed_directions() const { return codimension_ == 0 || fixed_directions_.size() > 0; }
+
   std::unique_ptr<Stepper> do_stepper() const override;
   // Exact but for the turning of W, by differences of order 8 to 1e-12 of ‖μ‖.
   std::shared_ptr<const StepDifferential> do_differential() const override;

@@ -34,7 +34,7 @@ ConstrainFirst::Projection::Projection(const ConstrainFirst& method, MovingBasis
       rest_((method.blocks_ - 2) * n_ + method.auxiliaries_),
       solver_(method.projection_, {n_, n_, rest_, d_}, method.name() + " (projection)"),
       is_explicit_(solver_.is_explicit() && method.projection_.left().output_size() == 0 &&
-                   has_fixed_directions() &&
+                   method_.has_fixed_directions() &&
                    n_ == method.system()->manifold()->tangent_dimension()),
       gives_all_(is_explicit_ && std::ssize(solver_.found()) == solver_.unknown().size()),
       end_(predicted_groups(method, solver_.unknown().size()),
@@ -135,7 +135,7 @@ void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& a
     }
     const double moved = largest(y.head(n_));
     const double size = largest(found_.head(guess_.size()));
-    if (has_fixed_directions()) return;
+    if (method_.has_fixed_directions()) return;
     // P does not depend on W once x no longer moves with it. Where steps begin, x moves with W not
     // at all; but the next one begins along W.
     if (iteration == 0) {
@@ -202,7 +202,7 @@ void ConstrainFirst::Projection::move_basis(const VectorXd& x, VectorXd& y) {
 
 // W at x, with columns near those of the last step, so that μ and the kept factorisations go on.
 void ConstrainFirst::Projection::aim(const VectorXd& x, const VectorXd& y, double t) {
-  if (has_fixed_directions()) return;
+  if (method_.has_fixed_directions()) return;
   conormals_.move_to({.jets = y.data(), .origin = x.data(), .basis = basis_.data(), .t = &t});
   directions_.move_to(x, basis_.map(), conormals_.matrix());
 }
@@ -230,7 +230,7 @@ void ConstrainFirst::Projection::take(State& state) const {
 }
 
 bool ConstrainFirst::Projection::accept(const VectorXd& x) {
-  if (!has_fixed_directions()) {
+  if (!method_.has_fixed_directions()) {
     const double moved = plain_distance(found_.data(), x.data(), x.size());
     if (directions_.is_kept() && moved > 1e-7 * largest(x)) {
       const MatrixXd& W = directions_.matrix();

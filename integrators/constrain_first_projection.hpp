@@ -76,7 +76,6 @@ class ConstrainFirst::Projection {
   double jet_change(const VectorXd& from, const VectorXd& to) const;
   void move_basis(const VectorXd& x, VectorXd& y);
   void aim(const VectorXd& x, const VectorXd& y, double t);
-  bool has_fixed_directions() const { return d_ == 0 || method_.fixed_directions_.size() > 0; }
 
   const ConstrainFirst& method_;
   Index n_, d_, rest_;

@@ -4,12 +4,23 @@
 
 #include "courant/core/plain_products.hpp"
 #include "courant/core/range_basis.hpp"
-#include "courant/integrators/space_formulas.hpp"
+#include "courant/integrators/ladder/local_formulation.hpp"
 
 namespace courant {
 
+Function::Formulas MovingBasis::formulas(const Manifold& manifold) {
+  Graph graph;
+  const ExprVector x = graph.variables("x", manifold.ambient_dimension());
+  const LinearMap<Expr> basis = basis_variables(graph, manifold);
+  const ExprVector entries = basis_parameters(basis);
+  Function::Formulas result{.inputs = {{"x", x}, {"basis", entries}}};
+  if (entries.size() > 0)
+    result.outputs = (manifold.tangent_projector(x) * basis).entries().reshaped();
+  return result;
+}
+
 Function MovingBasis::projection(const Manifold& manifold, Backend backend) {
-  return Function("basis", SpaceFormulas(manifold).basis, {.backend = backend});
+  return Function("basis", formulas(manifold), {.backend = backend});
 }
 
 LinearMap<double> MovingBasis::at(const Manifold& manifold, const VectorXd& x) {

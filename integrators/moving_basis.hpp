@@ -16,12 +16,12 @@ namespace courant {
 // points far apart. One object a trajectory.
 class MovingBasis {
  public:
-  // (x, B) ↦ Π(x) B, to be traced once for all trajectories.
+  // (x, B) ↦ Π(x) B, column by column; nothing where B is the identity. To be traced once for all trajectories.
+  static Function::Formulas formulas(const Manifold& manifold);
   static Function projection(const Manifold& manifold, Backend backend);
   // The one that a trajectory begins with at x.
   static LinearMap<double> at(const Manifold& manifold, const VectorXd& x);
 
-  // `manifold` has to outlive it.
   MovingBasis(const Manifold& manifold, Function projection);
 
   // Whether B went on from the last one; at the first point, and where the new tangent space is at

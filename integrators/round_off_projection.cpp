@@ -5,7 +5,6 @@
 
 #include "courant/core/pairs.hpp"
 #include "courant/core/plain_products.hpp"
-#include "courant/integrators/space_formulas.hpp"
 
 namespace courant {
 namespace {
@@ -16,9 +15,14 @@ constexpr double kNoDirection = 1e-8;
 
 }  // namespace
 
+Function::Formulas RoundOffProjection::formulas(const Manifold& manifold) {
+  Graph graph;
+  const ExprVector x = graph.variables("x", manifold.ambient_dimension());
+  return {{{"x", x}}, manifold.constraint(x)};
+}
+
 Function RoundOffProjection::constraint(const Manifold& manifold, Backend backend) {
-  return Function("constraint", SpaceFormulas(manifold).constraint,
-                  {.differentiate = {"x"}, .backend = backend});
+  return Function("constraint", formulas(manifold), {.differentiate = {"x"}, .backend = backend});
 }
 
 RoundOffProjection::RoundOffProjection(Function constraint) : constraint_(std::move(constraint)) {
@@ -42,16 +46,7 @@ void RoundOffProjection::apply(VectorXd& x) {
         all_[count + static_cast<Index>(k)];
   double first = 0.0;  // the length of the longest
   for (Index turn = 0; turn < count; ++turn) {
-    Index longest = 0;
-    double square = 0.0;
-    for (Index i = 0; i < count; ++i) {
-      const double* const gradient = gradients_.data() + i * size;
-      const double length = plain_product(gradient, gradient, size);
-      if (length > square) {
-        square = length;
-        longest = i;
-      }
-    }
+    const auto [longest, square] = longest_column(gradients_.data(), size, count);
     const double length = std::sqrt(square);
     if (turn == 0) first = length;
     if (!(length > kNoDirection * first)) return;

@@ -14,7 +14,8 @@ namespace courant {
 // ‖x‖²): the round-off of some hundred steps. Holds workspace: one object a trajectory.
 class RoundOffProjection {
  public:
-  // x ↦ constraint(x) with its Jacobian, to be traced once for all trajectories.
+  // x ↦ constraint(x), with its Jacobian to be traced once for all trajectories.
+  static Function::Formulas formulas(const Manifold& manifold);
   static Function constraint(const Manifold& manifold, Backend backend);
   explicit RoundOffProjection(Function constraint);
   void apply(VectorXd& x);

@@ -20,6 +20,9 @@ namespace {
 
 using regular_matrix::kNoise;
 
+// Of the terms of equations, a part that is none.
+constexpr double kSolved = 1e-9;
+
 // What may be the matter with a point that has no velocity.
 std::string whereabouts(const Manifold& M, const VectorXd& x) {
   const double defect = M.point_defect(x);
@@ -226,13 +229,6 @@ void VectorField::Evaluation::take_natural_sizes(const Inputs& in) {
   sizes_.head(y_.size()) = size * units.column_scale;
 }
 
-namespace {
-
-// Of the terms of equations, a part that is none.
-constexpr double kSolved = 1e-9;
-
-}  // namespace
-
 // Whether F is what rounding leaves of its terms at y_, whatever the sizes were that a solver was told.
 bool VectorField::Evaluation::holds(const Function& F, const Inputs& in, double solved) const {
   VectorXd all(F.output_size() + F.nonzeros()), terms = VectorXd::Zero(F.output_size());
@@ -248,22 +244,23 @@ bool VectorField::Evaluation::is_solved(const Inputs& in) {
   const auto converges = [&] {
     return newton_.solve(in, sizes_.data()).status == Newton::Status::converged;
   };
-  // What is found by a matrix that sees some directions only has to hold.
-  const auto is_found_again = [&](const auto& prepare) {
+  const auto begin_again = [&] {
     newton_.reset();
     y_ = field_.formulas_.start;
-    return prepare() && converges() &&
-           (newton_.is_determined() || holds(field_.equations_.left(), in, kSolved));
   };
-  return converges() || is_found_again([&] {
-           sizes_.setConstant(largest(y_));
-           return true;
-         }) ||
-         is_found_again([&] {
-           take_natural_sizes(in);
-           return true;
-         }) ||
-         is_found_again([&] { return newton_.approach(in, sizes_.data()); });
+  // What is found by a matrix that sees some directions only has to hold.
+  const auto is_found_again = [&] {
+    return converges() && (newton_.is_determined() || holds(field_.equations_.left(), in, kSolved));
+  };
+  if (converges()) return true;
+  begin_again();
+  sizes_.setConstant(largest(y_));
+  if (is_found_again()) return true;
+  begin_again();
+  take_natural_sizes(in);
+  if (is_found_again()) return true;
+  begin_again();
+  return newton_.approach(in, sizes_.data()) && is_found_again();
 }
 
 // Where those are dependent, all equations tell the velocity, on M_f.

@@ -315,7 +315,8 @@ class CProgram {
         c_define("LOOKS_AT_STEPS", solve.is_affine ? 0 : 1) +
         c_define("HAS_EXPONENTIALS", has_exponentials_ ? 1 : 0) +
         c_define("MEASURES_STEPS", rows_.measures_steps() ? 1 : 0) +
-        c_define("HAS_BASIS", solve.space.has_basis() ? 1 : 0) +
+        c_define("HAS_BASIS", solve.space.has_basis() ? 1 : 0) + "#define BASIS " +
+        (solve.space.has_basis() ? "S->basis.entries" : "NULL") + "\n" +
         c_define("SPACE_EQUATIONS", solve.space.constraint.outputs.size());
     const bool turns = projects && solve.projection->turning;
     if (projects)
@@ -342,6 +343,7 @@ class CProgram {
         c_array(Eigen::Map<const VectorXd>(step_.substeps.data(), std::ssize(step_.substeps))) +
         ";\n\n" + nearby_parts("near_stage", 0.5) + nearby_parts("near_end", 1.0) + rows_.parts();
     if (has_exponentials_) all += text::approach();
+    if (solve.space.has_basis() || solve.space.has_equations()) all += text::longest_column();
     if (solve.space.has_equations()) all += text::round_off();
     if (makes_orthonormal) all += text::orthonormal();
     if (solve.space.has_basis()) all += text::basis();

@@ -10,6 +10,7 @@ std::string_view newton();
 std::string_view approach();
 std::string_view field();
 std::string_view predictor();
+std::string_view longest_column();
 std::string_view orthonormal();
 std::string_view basis();
 std::string_view round_off();

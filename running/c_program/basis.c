@@ -22,14 +22,8 @@ static void make_basis(struct basis *B, const double *x) {
   }
   for (k = 0; k < DIMENSION; ++k) {
     double *const direction = B->entries + k * VELOCITIES;
-    double square = -1.0, length;
-    int longest = 0;
-    for (j = 0; j < VELOCITIES; ++j) {
-      const double of_column = dot(projector + j * VELOCITIES, projector + j * VELOCITIES, VELOCITIES);
-      if (of_column <= square) continue;
-      square = of_column;
-      longest = j;
-    }
+    double square, length;
+    const int longest = longest_column(projector, VELOCITIES, VELOCITIES, &square);
     length = projector[longest * VELOCITIES] > 0.0 ? -sqrt(square) : sqrt(square);
     for (i = 0; i < VELOCITIES; ++i) direction[i] = projector[i + longest * VELOCITIES] / length;
     for (j = 0; j < VELOCITIES; ++j) {

@@ -15,11 +15,7 @@ struct stepper {
 #endif
 };
 
-#if HAS_BASIS
-#define STEP_INPUTS(y, state, h) {y, (state)->x, S->basis.entries, h, &(state)->t}
-#else
-#define STEP_INPUTS(y, state, h) {y, (state)->x, NULL, h, &(state)->t}
-#endif
+#define STEP_INPUTS(y, state, h) {y, (state)->x, BASIS, h, &(state)->t}
 
 /* What the state alone predicts. */
 static void begin(const struct stepper *S, const struct state *before, double h, double *y) {

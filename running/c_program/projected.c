@@ -26,12 +26,6 @@ struct stepper {
 #endif
 };
 
-#if HAS_BASIS
-#define BASIS S->basis.entries
-#else
-#define BASIS NULL
-#endif
-
 #if TURNS
 #define ALONG S->directions.W
 #else

@@ -16,14 +16,8 @@ static void keep_to_space(double *x) {
   for (i = 0; i < space_entries; ++i)
     gradients[space_column[i] + space_row[i] * COORDINATES] = all[SPACE_EQUATIONS + i];
   for (turn = 0; turn < SPACE_EQUATIONS; ++turn) {
-    double square = 0.0, length, distance, *direction;
-    int longest = 0;
-    for (i = 0; i < SPACE_EQUATIONS; ++i) {
-      const double of_gradient = dot(gradients + i * COORDINATES, gradients + i * COORDINATES, COORDINATES);
-      if (of_gradient <= square) continue;
-      square = of_gradient;
-      longest = i;
-    }
+    double square, length, distance, *direction;
+    const int longest = longest_column(gradients, COORDINATES, SPACE_EQUATIONS, &square);
     length = sqrt(square);
     if (turn == 0) first = length;
     /* Equations that repeat others leave round-off, which is no direction. */

@@ -44,4 +44,11 @@ BOOST_AUTO_TEST_CASE(add_terms_in_their_order) {
   BOOST_TEST(plain_product(ones, parts, 5) == 3.5);
 }
 
+BOOST_AUTO_TEST_CASE(the_longest_column_is_the_first_of_equals) {
+  const double A[] = {1.0, 2.0, 3.0, 4.0, -4.0, 3.0, 0.0, 0.0};
+  BOOST_TEST(longest_column(A, 2, 4).index == 1);
+  BOOST_TEST(longest_column(A, 2, 4).square == 25.0);
+  BOOST_TEST(longest_column(A + 6, 2, 1).square == 0.0);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

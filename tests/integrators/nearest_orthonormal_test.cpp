@@ -11,13 +11,21 @@ BOOST_AUTO_TEST_SUITE(nearest_orthonormal)
 
 using namespace courant;
 
+namespace {
+
+MatrixXd random_matrix(Index rows, Index columns, std::mt19937& generator) {
+  std::normal_distribution<double> normal;
+  return MatrixXd::NullaryExpr(rows, columns, [&] { return normal(generator); });
+}
+
+}  // namespace
+
 // The polar factor U Vᵀ of the singular value decomposition, for all sizes with code of their own
 // and larger ones, at distances from round-off to where it gives up.
 BOOST_AUTO_TEST_CASE(is_the_polar_factor) {
   std::mt19937 generator(1);
-  std::normal_distribution<double> normal;
   const auto random = [&](Index rows, Index columns) {
-    return MatrixXd(MatrixXd::NullaryExpr(rows, columns, [&] { return normal(generator); }));
+    return random_matrix(rows, columns, generator);
   };
   for (Index columns = 1; columns <= 12; ++columns)
     for (const Index rows : {columns, columns + 3})
@@ -38,9 +46,8 @@ BOOST_AUTO_TEST_CASE(is_the_polar_factor) {
 // From afar too, whatever the size of P, but not where a direction is lost.
 BOOST_AUTO_TEST_CASE(is_the_polar_factor_from_afar) {
   std::mt19937 generator(2);
-  std::normal_distribution<double> normal;
   const auto random = [&](Index rows, Index columns) {
-    return MatrixXd(MatrixXd::NullaryExpr(rows, columns, [&] { return normal(generator); }));
+    return random_matrix(rows, columns, generator);
   };
   for (const Index columns : {1, 2, 3, 10})
     for (const Index rows : {columns, columns + 2})
