@@ -68,7 +68,7 @@ class CProgram {
     std::string all = head() + sizes(state);
     all += text::numbers();
     all += text::newton();
-    all += functions_.source();
+    all += functions_.source() + space();
     if (field()) all += text::field();
     return all + steps + rows + std::string(text::main());
   }
@@ -274,6 +274,26 @@ class CProgram {
     return all + "static long step_number = 0;\n\n";
   }
 
+  // What steps and the vector field know of the space.
+  std::string space() const {
+    if (!step_.solve) return c_define("HAS_BASIS", 0) + "\n";
+    const StepProgram::Solve& solve = *step_.solve;
+    const bool has_basis = solve.space.has_basis(), has_equations = solve.space.has_equations();
+    const bool turns = solve.projection && solve.projection->turning;
+    std::string all = c_define("HAS_BASIS", has_basis ? 1 : 0) + "#define BASIS " +
+                      (has_basis ? "S->basis.entries" : "NULL") + "\n" +
+                      c_define("SPACE_EQUATIONS", solve.space.constraint.outputs.size());
+    if (has_basis || turns)
+      all += c_define("DIMENSION", dimension_) +
+             c_define("MOST_COLUMNS", has_basis ? dimension_ : solve.projection->shifts);
+    all += "\n";
+    if (has_basis || has_equations) all += text::longest_column();
+    if (has_equations) all += text::round_off();
+    if (has_basis || turns) all += text::orthonormal();
+    if (has_basis) all += text::basis();
+    return all;
+  }
+
   // The parts whose last steps are nearest in time to each, see Composition.
   std::string nearby_parts(const std::string& name, double part) const {
     std::string all =
@@ -314,19 +334,11 @@ class CProgram {
         c_define("MOST_PREDICTED", std::max(unknowns, velocities_)) +
         c_define("LOOKS_AT_STEPS", solve.is_affine ? 0 : 1) +
         c_define("HAS_EXPONENTIALS", has_exponentials_ ? 1 : 0) +
-        c_define("MEASURES_STEPS", rows_.measures_steps() ? 1 : 0) +
-        c_define("HAS_BASIS", solve.space.has_basis() ? 1 : 0) + "#define BASIS " +
-        (solve.space.has_basis() ? "S->basis.entries" : "NULL") + "\n" +
-        c_define("SPACE_EQUATIONS", solve.space.constraint.outputs.size());
+        c_define("MEASURES_STEPS", rows_.measures_steps() ? 1 : 0);
     const bool turns = projects && solve.projection->turning;
     if (projects)
       all += c_define("TURNS", turns ? 1 : 0) +
              "#define IS_EXPLICIT (projection_equations.size == 0 && !TURNS && !HAS_BASIS)\n";
-    const bool makes_orthonormal = solve.space.has_basis() || turns;
-    if (makes_orthonormal)
-      all +=
-          c_define("DIMENSION", dimension_) +
-          c_define("MOST_COLUMNS", solve.space.has_basis() ? dimension_ : solve.projection->shifts);
     if (!projects) all += contained_coordinates(solve.formulas.contained(1));
     if (projects)
       all += c_define("SHIFTS", solve.projection->shifts) +
@@ -343,10 +355,6 @@ class CProgram {
         c_array(Eigen::Map<const VectorXd>(step_.substeps.data(), std::ssize(step_.substeps))) +
         ";\n\n" + nearby_parts("near_stage", 0.5) + nearby_parts("near_end", 1.0) + rows_.parts();
     if (has_exponentials_) all += text::approach();
-    if (solve.space.has_basis() || solve.space.has_equations()) all += text::longest_column();
-    if (solve.space.has_equations()) all += text::round_off();
-    if (makes_orthonormal) all += text::orthonormal();
-    if (solve.space.has_basis()) all += text::basis();
     if (turns) all += text::turning();
     for (const std::string_view part :
          {projects ? text::projected() : text::displaced(), text::looks(),

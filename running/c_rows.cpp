@@ -18,6 +18,8 @@ bool CRows::measures_steps() const {
   return observed_.account != nullptr || observed_.staged.size() > 0;
 }
 
+bool CRows::has_basis() const { return step_.solve && step_.solve->space.has_basis(); }
+
 bool CRows::has_effort() const { return step_.solve && step_.solve->effort.size() > 0; }
 
 void CRows::add_functions(CFunctions& functions) const {
@@ -122,6 +124,7 @@ std::string CRows::measurement(const State& first_asked) const {
   out << "\nstatic void measure(const struct state *state) {\n";
   const bool of_field = observed_.is_field;
   if (has_field && !of_field) out << "  start_field(&observed, state);\n";
+  if (of_field && has_basis()) out << "  move_basis(&observed.basis, state->x);\n";
   if (has_field) out << "  evaluate_field(&observed, state->x, state->t);\n";
   out << "  {\n    const double *in[] = {state->x, "
       << (of_field ? "observed.rate + COORDINATES, observed.rate + COORDINATES + VELOCITIES"
@@ -152,7 +155,9 @@ std::string CRows::measurement(const State& first_asked) const {
   if (energies_) out << "  last_energy = row[" << *observed_.H << "];\n";
   out << "  return row;\n}\n\n/* Where an epoch begins. */\n"
       << "static void begin_rows_again(const struct state *state) {\n"
-      << (has_field ? "  start_field(&observed, state);\n" : "  (void)state;\n") << "}\n\n"
+      << (has_field ? "  start_field(&observed, NULL);\n  start_field(&observed, state);\n"
+                    : "  (void)state;\n")
+      << "}\n\n"
       << "/* Of the state that the last step led to. */\n"
       << "static const double *next_row(const struct state *state) {\n";
   if (energies_) {

@@ -28,6 +28,7 @@ class CRows {
   std::string measurement(const State& first_asked) const;
 
  private:
+  bool has_basis() const;
   bool has_effort() const;
 
   const StepProgram& step_;

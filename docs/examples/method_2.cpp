@@ -20,12 +20,12 @@ class WeightedProjector final : public Projector {
   explicit WeightedProjector(double weight) : Projector("weighted"), weight_(weight) {}
 
  private:
-  // `basis` is that of the tangent space; on T*Rⁿ it is the unit matrix.
-  MatrixXd do_directions(const VectorXd&, const LinearMap<double>& basis,
-                         const MatrixXd& conormals) const override {
-    MatrixXd directions = basis * conormals;
-    directions.bottomRows(directions.rows() / 2) /= weight_;
-    return basis.transpose() * directions;
+  // T*R² has no tangents Π but the identity, so conormals are C itself.
+  ExprMatrix do_directions(const ExprVector&, const LinearMap<Expr>&,
+                           const ExprMatrix& conormals) const override {
+    ExprMatrix directions = conormals;
+    directions.bottomRows(directions.rows() / 2) /= Expr(weight_);
+    return directions;
   }
   double weight_;
 };

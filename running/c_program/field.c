@@ -6,6 +6,9 @@ struct field {
   double y[FIELD_UNKNOWNS + 1], sizes[FIELD_UNKNOWNS + 1]; /* the largest that each was */
   double rate[COORDINATES + 1 + VELOCITIES + 1 + AUXILIARIES + 1];
   double left_out[LEFT_OUT + 1]; /* equations that are not used */
+#if HAS_BASIS
+  struct basis basis; /* of the derivatives of displacements in y, where it is evaluated */
+#endif
 };
 
 /* The next evaluation begins at this state, or (NULL) where the run did. */
@@ -17,13 +20,26 @@ static void start_field(struct field *F, const struct state *state) {
     F->y[i] = field_start[i];
     F->sizes[i] = 0.0;
   }
+#if HAS_BASIS
+  F->basis.is_set = F->basis.is_set && state != NULL;
+#endif
   if (state == NULL) return;
+#if HAS_BASIS
+  move_basis(&F->basis, state->x);
+  find_coordinates(&F->basis, state->v, F->y);
+#else
   for (i = 0; i < VELOCITIES; ++i) F->y[i] = 0.0 + state->v[i];
+#endif
   for (i = 0; i < AUXILIARIES; ++i) F->y[FIELD_Z + i] = state->z[i];
 }
 
+/* On curved spaces its basis has to be at x. */
 static void evaluate_field(struct field *F, const double *x, double t) {
+#if HAS_BASIS
+  const double *in[INPUTS] = {F->y, x, F->basis.entries, &t};
+#else
   const double *in[INPUTS] = {F->y, x, NULL, &t};
+#endif
   int i, is_found = solve(&F->newton, F->y, in, F->sizes);
   if (!is_found) {
     /* From where the run begins, all unknowns measured alike. */

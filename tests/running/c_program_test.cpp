@@ -94,6 +94,12 @@ BOOST_AUTO_TEST_CASE(programs_forget_where_runs_do) {
     curved["output"]["epoch"] = epoch;
     check_same_bytes(name, curved);
   }
+  Json velocity = experiment_named("rigid_body");
+  velocity.erase("expect");
+  velocity["observe"] = {{"turn", "xi[0]' + xi[2]'"}};
+  velocity["time"] = {{"step", 0.07}, {"end", 21}};
+  velocity["output"] = {{"epoch", 37}};
+  check_same_bytes("velocities on a sphere", velocity);
   for (const char* name : {"pendulum_cartesian", "spherical_pendulum_constrained"}) {
     Json composed = experiment_named(name);
     composed.erase("expect");
