@@ -8,8 +8,14 @@
 namespace courant {
 namespace {
 
-// Newton and Schulz multiply small singular values by 1.5 in each step.
-constexpr int kMostSteps = 24;
+// Steps from afar multiply small singular values by 15/8.
+constexpr int kMostFromAfar = 16;
+
+// ‖E‖² that one step brings below round-off.
+constexpr double kLastStep = 3e-11;
+// That E/2 alone does.
+constexpr double kLinear = 1e-16;
+constexpr double kNearlyOrthonormal = 0.25;
 
 // E = 1 - PᵀP of n columns, or (Eigen::Dynamic) as many as E has; the sum of the squares of its entries.
 template <int n>
@@ -17,61 +23,76 @@ double defect(const MatrixXd& P, Index columns, double* E) {
   if constexpr (n != Eigen::Dynamic) columns = n;
   const Index rows = P.rows();
   const double* const p = P.data();
+  for (Index a = 0; a < columns; ++a)
+    for (Index b = 0; b <= a; ++b) E[a + b * columns] = a == b ? 1.0 : 0.0;
+  for (Index i = 0; i < rows; ++i)
+    for (Index a = 0; a < columns; ++a)
+      for (Index b = 0; b <= a; ++b) E[a + b * columns] -= p[i + a * rows] * p[i + b * rows];
   double sum = 0.0;
   for (Index a = 0; a < columns; ++a)
     for (Index b = 0; b <= a; ++b) {
-      double entry = a == b ? 1.0 : 0.0;
-      for (Index i = 0; i < rows; ++i) entry -= p[i + a * rows] * p[i + b * rows];
-      E[a + b * columns] = E[b + a * columns] = entry;
+      const double entry = E[b + a * columns] = E[a + b * columns];
       sum += (a == b ? 1.0 : 2.0) * (entry * entry);
     }
   return sum;
 }
 
-// root = (1 - E)^{-1/2} by its power series, where `size` is ‖E‖² < 1/4. The powers of E alternate between two places.
+// root = 1 + E/2 + 3/8 E², where `size` is ‖E‖².
 template <int n>
-void inverse_root(const double* E, double size, Index columns, double* root, double* power,
-                  double* next) {
+void inverse_root(const double* E, double size, Index columns, double* square, double* root) {
   if constexpr (n != Eigen::Dynamic) columns = n;
-  const Index count = columns * columns;
-  for (Index k = 0; k < count; ++k) {
-    root[k] = 0.5 * E[k];
-    power[k] = E[k];
+  for (Index k = 0; k < columns * columns; ++k) root[k] = 0.5 * E[k];
+  if (size > kLinear) {
+    plain_product<n>(E, columns, E, columns, columns, square);
+    for (Index k = 0; k < columns * columns; ++k) root[k] += 0.375 * square[k];
   }
-  for (Index k = 0; k < count; k += columns + 1) root[k] += 1.0;
-  double coefficient = 0.5;      // of Eʲ
-  double of_term = size * size;  // ‖E‖²ʲ
-  for (int j = 2; of_term > 1e-32; ++j, of_term *= size) {
-    coefficient *= 1.0 - 0.5 / j;
-    plain_product<n>(power, columns, E, columns, columns, next);
-    std::swap(power, next);
-    for (Index k = 0; k < count; ++k) root[k] += coefficient * power[k];
+  for (Index k = 0; k < columns * columns; k += columns + 1) root[k] += 1.0;
+}
+
+// B = P root, row by row: P may be B.
+template <int n>
+void multiply_rows(const MatrixXd& P, const double* root, Index columns, double* row, MatrixXd& B) {
+  if constexpr (n != Eigen::Dynamic) columns = n;
+  const Index rows = P.rows();
+  const double* const p = P.data();
+  double* const b = B.data();
+  for (Index i = 0; i < rows; ++i) {
+    for (Index j = 0; j < columns; ++j) {
+      row[j] = p[i] * root[j * columns];
+      for (Index k = 1; k < columns; ++k) row[j] += p[i + k * rows] * root[k + j * columns];
+    }
+    for (Index j = 0; j < columns; ++j) b[i + j * rows] = row[j];
   }
 }
 
 }  // namespace
 
 NearestOrthonormal::NearestOrthonormal(Index columns)
-    : find_(with_static_size(columns, [](auto n) { return &find<decltype(n)::value>; })) {
-  workspace_.fill(MatrixXd(columns, columns));
-}
+    : find_(with_static_size(columns, [](auto n) { return &find<decltype(n)::value>; })) {}
 
 template <int n>
-bool NearestOrthonormal::find(const MatrixXd& P, MatrixXd& B, Workspace& workspace) {
+bool NearestOrthonormal::find(const MatrixXd& P, MatrixXd& B, int most_from_afar,
+                              Workspace& workspace) {
   const Index columns = P.cols();
-  const auto by = [&](double* E, double* root, double* power, double* next) {
-    const double size = defect<n>(P, columns, E);
-    if (!(size < 0.25)) return false;
-    inverse_root<n>(E, size, columns, root, power, next);
-    plain_product<n>(P.data(), P.rows(), root, columns, columns, B.data());
-    return true;
+  const auto by = [&](double* E, double* square, double* root, double* row) {
+    const MatrixXd* from = &P;
+    for (int far = 0;; from = &B) {
+      const double size = defect<n>(*from, columns, E);
+      if (!(size < kNearlyOrthonormal) && (++far > most_from_afar || !std::isfinite(size)))
+        return false;
+      inverse_root<n>(E, size, columns, square, root);
+      multiply_rows<n>(*from, root, columns, row, B);
+      if (size <= kLastStep) return true;
+    }
   };
   if constexpr (n == Eigen::Dynamic) {
-    auto& [E, root, power, next] = workspace;
-    return by(E.data(), root.data(), power.data(), next.data());
+    auto& [E, square, root, row] = workspace;
+    for (MatrixXd* matrix : {&E, &square, &root}) matrix->resize(columns, columns);
+    row.resize(columns);
+    return by(E.data(), square.data(), root.data(), row.data());
   } else {
-    double E[n * n], root[n * n], power[n * n], next[n * n];
-    return by(E, root, power, next);
+    double E[n * n], square[n * n], root[n * n], row[n];
+    return by(E, square, root, row);
   }
 }
 
@@ -81,17 +102,7 @@ bool NearestOrthonormal::from_afar(MatrixXd P, MatrixXd& B) {
   if (!(square > 0.0) || !std::isfinite(square)) return false;
   const double size = std::sqrt(square);
   for (double& entry : P.reshaped()) entry /= size;
-  auto& [E, step, power, next] = workspace_;
-  const Index columns = P.cols();
-  for (int k = 0; k < kMostSteps; ++k) {
-    if ((*this)(P, B)) return true;
-    defect<Eigen::Dynamic>(P, columns, E.data());
-    for (double& entry : E.reshaped()) entry *= 0.5;
-    for (Index j = 0; j < columns; ++j) E(j, j) += 1.0;
-    multiply_plainly(P, E, B);
-    P = B;
-  }
-  return false;
+  return find_(P, B, kMostFromAfar, workspace_);
 }
 
 }  // namespace courant

@@ -44,7 +44,7 @@ static int move_basis(struct basis *B, const double *x) {
     double projected[VELOCITIES * DIMENSION];
     const double *in[INPUTS] = {x, B->entries};
     on_tangent_space(in, projected);
-    if (is_made_orthonormal(projected, VELOCITIES, DIMENSION, B->entries)) return 1;
+    if (is_made_orthonormal(projected, VELOCITIES, DIMENSION, 0, B->entries)) return 1;
     if (is_made_orthonormal_from_afar(projected, VELOCITIES, DIMENSION, B->entries)) return 1;
   }
   make_basis(B, x);

@@ -25,47 +25,42 @@ static void product(const double *A, int rows, const double *B, int inner, int c
     }
 }
 
-/* B = P (P^T P)^(-1/2) by the power series in E. Zero, and B as it was, unless P is nearly orthonormal. */
-static int is_made_orthonormal(const double *P, int rows, int columns, double *B) {
-  static double E[MOST_COLUMNS * MOST_COLUMNS], root[MOST_COLUMNS * MOST_COLUMNS],
-      power[MOST_COLUMNS * MOST_COLUMNS], next[MOST_COLUMNS * MOST_COLUMNS];
+/* B = P (P^T P)^(-1/2) by steps P <- P (1 + E/2 + 3/8 E^2). Zero, and B as it was, if P is so far from orthonormal that
+   it takes more than so many steps to come near. */
+static int is_made_orthonormal(const double *P, int rows, int columns, int most_from_afar, double *B) {
+  static double E[MOST_COLUMNS * MOST_COLUMNS], root[MOST_COLUMNS * MOST_COLUMNS], square[MOST_COLUMNS * MOST_COLUMNS];
   const int count = columns * columns;
-  const double size = defect(P, rows, columns, E);
-  double coefficient = 0.5, of_term = size * size;
-  int j, k;
-  if (!(size < 0.25)) return 0;
-  for (k = 0; k < count; ++k) {
-    root[k] = 0.5 * E[k];
-    power[k] = E[k];
+  const double *from = P;
+  int far = 0, i, j, k;
+  for (;; from = B) {
+    const double size = defect(from, rows, columns, E);
+    if (!(size < 0.25) && (++far > most_from_afar || !isfinite(size))) return 0;
+    for (k = 0; k < count; ++k) root[k] = 0.5 * E[k];
+    if (size > 1e-16) {
+      product(E, columns, E, columns, columns, square);
+      for (k = 0; k < count; ++k) root[k] += 0.375 * square[k];
+    }
+    for (k = 0; k < count; k += columns + 1) root[k] += 1.0;
+    for (i = 0; i < rows; ++i) {
+      double row[MOST_COLUMNS];
+      for (j = 0; j < columns; ++j) {
+        row[j] = from[i] * root[j * columns];
+        for (k = 1; k < columns; ++k) row[j] += from[i + k * rows] * root[k + j * columns];
+      }
+      for (j = 0; j < columns; ++j) B[i + j * rows] = row[j];
+    }
+    if (size <= 3e-11) return 1;
   }
-  for (k = 0; k < count; k += columns + 1) root[k] += 1.0;
-  for (j = 2; of_term > 1e-32; ++j, of_term *= size) {
-    coefficient *= 1.0 - 0.5 / j;
-    product(power, columns, E, columns, columns, next);
-    memcpy(power, next, count * sizeof *power);
-    for (k = 0; k < count; ++k) root[k] += coefficient * power[k];
-  }
-  product(P, rows, root, columns, columns, B);
-  return 1;
 }
 
-/* The same for P far from orthonormal, which changes: P <- P (1 + E/2) (Newton and Schulz) until it is near. */
+/* The same for P far from orthonormal, which changes. */
 static int is_made_orthonormal_from_afar(double *P, int rows, int columns, double *B) {
-  static double E[MOST_COLUMNS * MOST_COLUMNS];
   double square = 0.0, size;
-  int i, k;
+  int i;
   for (i = 0; i < rows * columns; ++i) square += P[i] * P[i];
   if (!(square > 0.0) || !isfinite(square)) return 0;
   size = sqrt(square);
   for (i = 0; i < rows * columns; ++i) P[i] /= size;
-  for (k = 0; k < 24; ++k) {
-    if (is_made_orthonormal(P, rows, columns, B)) return 1;
-    defect(P, rows, columns, E);
-    for (i = 0; i < columns * columns; ++i) E[i] *= 0.5;
-    for (i = 0; i < columns * columns; i += columns + 1) E[i] += 1.0;
-    product(P, rows, E, columns, columns, B);
-    memcpy(P, B, rows * columns * sizeof *P);
-  }
-  return 0;
+  return is_made_orthonormal(P, rows, columns, 16, B);
 }
 

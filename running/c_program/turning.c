@@ -52,7 +52,7 @@ static int are_conormals_found(struct directions *D, const double *const *in) {
     for (k = CONORMAL_OF_A; k < CONORMAL_ENTRIES; ++k)
       covectors[conormal_row[k] + j * DIMENSION] += entries[k] * u[conormal_column[k] + j * n];
   }
-  return is_made_orthonormal(covectors, DIMENSION, SHIFTS, D->conormals) ||
+  return is_made_orthonormal(covectors, DIMENSION, SHIFTS, 0, D->conormals) ||
          is_made_orthonormal_from_afar(covectors, DIMENSION, SHIFTS, D->conormals);
 }
 
@@ -90,11 +90,11 @@ static void combine(struct directions *D, const double *W) {
 static int is_nearest_to(struct directions *D, const double *W) {
   double far[DIRECTIONS];
   combine(D, W);
-  if (is_made_orthonormal(D->turned, DIMENSION, SHIFTS, D->W)) return 1;
+  if (is_made_orthonormal(D->turned, DIMENSION, SHIFTS, 0, D->W)) return 1;
   memcpy(far, D->turned, sizeof far);
   if (!is_made_orthonormal_from_afar(far, DIMENSION, SHIFTS, D->W)) return 0;
   combine(D, D->W);
-  return is_made_orthonormal(D->turned, DIMENSION, SHIFTS, D->W);
+  return is_made_orthonormal(D->turned, DIMENSION, SHIFTS, 0, D->W);
 }
 #endif
 
@@ -107,7 +107,7 @@ static void aim(struct directions *D, const double *x, const double *basis, cons
     const double *at[INPUTS] = {x, basis, D->conormals};
     span(at, D->V);
     if (D->are_kept) product(D->V, DIMENSION, D->combination, SHIFTS, SHIFTS, D->turned);
-    if (!(D->are_kept && is_made_orthonormal(D->turned, DIMENSION, SHIFTS, D->W)) &&
+    if (!(D->are_kept && is_made_orthonormal(D->turned, DIMENSION, SHIFTS, 0, D->W)) &&
         !is_nearest_to(D, D->are_kept ? D->kept : D->conormals))
       fail("has directions that turn too far");
   }

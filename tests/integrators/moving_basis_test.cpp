@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "courant/manifolds/cotangent_bundle.hpp"
+#include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/hyperbolic.hpp"
 #include "courant/manifolds/special_orthogonal3.hpp"
 #include "courant/manifolds/sphere.hpp"
@@ -49,6 +50,14 @@ BOOST_AUTO_TEST_CASE(follows_a_curve) {
       BOOST_TEST((basis.map().matrix() - before).norm() < 0.5, M->name());
     }
   }
+}
+
+// Where it is the identity nothing is stored, however large the space is.
+BOOST_AUTO_TEST_CASE(is_no_matrix_on_large_flat_spaces) {
+  const Euclidean flat(300'000);  // a matrix would take 720 GB
+  MovingBasis basis(flat, MovingBasis::projection(flat, Backend::interpreter));
+  BOOST_TEST(basis.move_to(VectorXd::Zero(flat.dimension())));
+  BOOST_TEST(basis.map().is_identity());
 }
 
 // Far away the nearest basis too, but not at a right angle, where it is a fresh one.
