@@ -7,7 +7,7 @@
 namespace courant {
 namespace {
 
-constexpr double kRoundOff = 1e-15;
+constexpr double kLeastEntry = 1e-15;
 
 }  // namespace
 
@@ -27,7 +27,7 @@ Eigen::MatrixXd range_basis(Eigen::MatrixXd projector, Eigen::Index n) {
     }
   }
   for (double& entry : basis.reshaped())
-    if (std::fabs(entry) < kRoundOff) entry = 0.0;
+    if (std::fabs(entry) < kLeastEntry) entry = 0.0;
   return basis;
 }
 
