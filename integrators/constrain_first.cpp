@@ -219,8 +219,7 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
       trace.corrected, compiled);
   conormals_ = {trace.conormals(), has_fixed_directions() ? Backend::interpreter : backend};
   if (!has_fixed_directions()) {
-    references_ = MovingConormals::references(M.tangent_basis(ladder.point.x) *
-                                              orthonormalized(ladder.conormals().transpose()));
+    references_ = MovingConormals::references(orthonormalized(ladder.conormals().transpose()));
     span_ = Function("directions", projector_->span_formulas(M, codimension_), compiled);
   }
   basis_ = MovingBasis::projection(M, backend);
