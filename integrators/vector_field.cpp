@@ -164,6 +164,15 @@ VectorField::VectorField(VectorFieldFormulas formulas, Backend backend)
   together.compile();
 }
 
+const Function& VectorField::all() const {
+  std::call_once(all_->once, [&] {
+    all_->function =
+        Function("vector field", formulas_.inputs, joined(formulas_.equations, formulas_.left_out),
+                 {.differentiate = {formulas_.inputs[0].name}});
+  });
+  return all_->function;
+}
+
 VectorField::Evaluation::Evaluation(const VectorField& field)
     : field_(field),
       // Velocities, accelerations and forces have no unit in common: each is measured by itself.
@@ -267,18 +276,16 @@ bool VectorField::Evaluation::is_solved(const Inputs& in) {
 bool VectorField::Evaluation::is_solved_by_all(const Inputs& in, bool is_solved) {
   const VectorFieldFormulas& of = field_.formulas_;
   if (of.left_out.size() == 0) return is_solved;
-  if (!all_)
-    all_ = Function("vector field", of.inputs, joined(of.equations, of.left_out),
-                    {.differentiate = {of.inputs[0].name}});
-  if (is_solved && holds(*all_, in, kSolved)) return true;
+  const Function& all = field_.all();
+  if (is_solved && holds(all, in, kSolved)) return true;
   const VectorXd found = y_;
   y_ = of.start;
   const VectorXd sizes = VectorXd::Constant(sizes_.size(), largest(y_));
-  Newton newton(*all_, std::vector<Index>(static_cast<std::size_t>(y_.size()), 1), {});
+  Newton newton(all, std::vector<Index>(static_cast<std::size_t>(y_.size()), 1), {});
   // Off M_f, by however little, least squares are a compromise, and no other velocity.
   constexpr double on_M_f = 1e-12;
   if (newton.solve(in, sizes.data()).status == Newton::Status::converged &&
-      holds(*all_, in, is_solved ? on_M_f : kSolved))
+      holds(all, in, is_solved ? on_M_f : kSolved))
     return true;
   y_ = found;
   return is_solved;

@@ -1,7 +1,8 @@
 // VectorField: S_f as the graph of a vector field.
 #pragma once
 
-#include <optional>
+#include <memory>
+#include <mutex>
 
 #include "courant/core/function.hpp"
 #include "courant/core/newton.hpp"
@@ -88,7 +89,6 @@ class VectorField {
 
     const VectorField& field_;
     Newton newton_;
-    std::optional<Function> all_;  // all equations of y, once they were asked for
     VectorXd y_, kept_, out_, v_, z_, left_out_;
     // The largest of left_out that is no fault of the equations that are kept.
     double explained_ = 0.0;
@@ -97,11 +97,19 @@ class VectorField {
   };
 
  private:
+  // All equations of y, made when they are asked for first, by whatever thread.
+  struct All {
+    std::once_flag once;
+    Function function;
+  };
+  const Function& all() const;
+
   VectorFieldFormulas formulas_;
   EquationSystem equations_;  // y = (ξ', …, z, …); x, basis, t ↦ the equations kept
   Function rate_;             // the same ↦ ẋ, v, z
   Function left_out_;         // the same ↦ the equations of y that are not kept
   Function basis_;            // of MovingBasis
+  std::shared_ptr<All> all_ = std::make_shared<All>();
 };
 
 }  // namespace courant
