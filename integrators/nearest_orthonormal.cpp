@@ -23,15 +23,11 @@ double defect(const MatrixXd& P, Index columns, double* E) {
   if constexpr (n != Eigen::Dynamic) columns = n;
   const Index rows = P.rows();
   const double* const p = P.data();
-  for (Index a = 0; a < columns; ++a)
-    for (Index b = 0; b <= a; ++b) E[a + b * columns] = a == b ? 1.0 : 0.0;
-  for (Index i = 0; i < rows; ++i)
-    for (Index a = 0; a < columns; ++a)
-      for (Index b = 0; b <= a; ++b) E[a + b * columns] -= p[i + a * rows] * p[i + b * rows];
   double sum = 0.0;
   for (Index a = 0; a < columns; ++a)
     for (Index b = 0; b <= a; ++b) {
-      const double entry = E[b + a * columns] = E[a + b * columns];
+      const double entry = (a == b ? 1.0 : 0.0) - plain_product(p + a * rows, p + b * rows, rows);
+      E[a + b * columns] = E[b + a * columns] = entry;
       sum += (a == b ? 1.0 : 2.0) * (entry * entry);
     }
   return sum;
@@ -49,19 +45,19 @@ void inverse_root(const double* E, double size, Index columns, double* square, d
   for (Index k = 0; k < columns * columns; k += columns + 1) root[k] += 1.0;
 }
 
-// B = P root, row by row: P may be B.
+// B = P root, for few columns, row by row: P may be B.
 template <int n>
-void multiply_rows(const MatrixXd& P, const double* root, Index columns, double* row, MatrixXd& B) {
-  if constexpr (n != Eigen::Dynamic) columns = n;
+void multiply_rows(const MatrixXd& P, const double* root, MatrixXd& B) {
   const Index rows = P.rows();
   const double* const p = P.data();
   double* const b = B.data();
   for (Index i = 0; i < rows; ++i) {
-    for (Index j = 0; j < columns; ++j) {
-      row[j] = p[i] * root[j * columns];
-      for (Index k = 1; k < columns; ++k) row[j] += p[i + k * rows] * root[k + j * columns];
+    double row[n];
+    for (Index j = 0; j < n; ++j) {
+      row[j] = p[i] * root[j * n];
+      for (Index k = 1; k < n; ++k) row[j] += p[i + k * rows] * root[k + j * n];
     }
-    for (Index j = 0; j < columns; ++j) b[i + j * rows] = row[j];
+    for (Index j = 0; j < n; ++j) b[i + j * rows] = row[j];
   }
 }
 
@@ -74,25 +70,27 @@ template <int n>
 bool NearestOrthonormal::find(const MatrixXd& P, MatrixXd& B, int most_from_afar,
                               Workspace& workspace) {
   const Index columns = P.cols();
-  const auto by = [&](double* E, double* square, double* root, double* row) {
+  const auto by = [&](double* E, double* square, double* root, const auto& multiply) {
     const MatrixXd* from = &P;
     for (int far = 0;; from = &B) {
       const double size = defect<n>(*from, columns, E);
       if (!(size < kNearlyOrthonormal) && (++far > most_from_afar || !std::isfinite(size)))
         return false;
       inverse_root<n>(E, size, columns, square, root);
-      multiply_rows<n>(*from, root, columns, row, B);
+      multiply(*from);
       if (size <= kLastStep) return true;
     }
   };
   if constexpr (n == Eigen::Dynamic) {
-    auto& [E, square, root, row] = workspace;
+    auto& [E, square, root, last] = workspace;
     for (MatrixXd* matrix : {&E, &square, &root}) matrix->resize(columns, columns);
-    row.resize(columns);
-    return by(E.data(), square.data(), root.data(), row.data());
+    return by(E.data(), square.data(), root.data(), [&](const MatrixXd& from) {
+      last = from;
+      plain_product(last.data(), last.rows(), root.data(), columns, columns, B.data());
+    });
   } else {
-    double E[n * n], square[n * n], root[n * n], row[n];
-    return by(E, square, root, row);
+    double E[n * n], square[n * n], root[n * n];
+    return by(E, square, root, [&](const MatrixXd& from) { multiply_rows<n>(from, root, B); });
   }
 }
 

@@ -26,8 +26,7 @@ class NearestOrthonormal {
 
  private:
   struct Workspace {
-    MatrixXd E, square, root;
-    VectorXd row;
+    MatrixXd E, square, root, last;
   };
   template <int n>
   static bool find(const MatrixXd& P, MatrixXd& B, int most_from_afar, Workspace& workspace);

@@ -3,11 +3,10 @@
 /* E = 1 - P^T P for P of so many columns; the sum of the squares of its entries. */
 static double defect(const double *P, int rows, int columns, double *E) {
   double sum = 0.0;
-  int a, b, i;
+  int a, b;
   for (a = 0; a < columns; ++a)
     for (b = 0; b <= a; ++b) {
-      double entry = a == b ? 1.0 : 0.0;
-      for (i = 0; i < rows; ++i) entry -= P[i + a * rows] * P[i + b * rows];
+      const double entry = (a == b ? 1.0 : 0.0) - dot(P + a * rows, P + b * rows, rows);
       E[a + b * columns] = E[b + a * columns] = entry;
       sum += (a == b ? 1.0 : 2.0) * (entry * entry);
     }
