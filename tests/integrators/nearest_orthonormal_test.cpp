@@ -29,7 +29,7 @@ BOOST_AUTO_TEST_CASE(is_the_polar_factor) {
   };
   for (Index columns = 1; columns <= 12; ++columns)
     for (const Index rows : {columns, columns + 3})
-      for (const double distance : {1e-15, 1e-8, 1e-4, 1e-2, 0.2}) {
+      for (const double distance : {1e-15, 1e-8, 2e-6, 1e-4, 1e-2, 0.2}) {
         const MatrixXd Q = orthonormalized(random(rows, columns));
         MatrixXd change = random(rows, columns);
         change *= distance / change.norm();
