@@ -9,8 +9,8 @@
 #include <cmath>
 #include <memory>
 
-#include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/maps/theta.hpp"
+#include "courant/integrators/methods/discretize_first.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/structures/canonical_symplectic.hpp"
 #include "courant/structures/dirac_system.hpp"

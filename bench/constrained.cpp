@@ -19,9 +19,9 @@
 #include <cstdio>
 #include <memory>
 
-#include "courant/integrators/constrain_first.hpp"
-#include "courant/integrators/ladder/constraint_algorithm.hpp"
+#include "courant/integrators/certificate/constraint_algorithm.hpp"
 #include "courant/integrators/maps/theta.hpp"
+#include "courant/integrators/methods/constrain_first.hpp"
 #include "courant/manifolds/euclidean.hpp"
 
 namespace {

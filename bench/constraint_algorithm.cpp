@@ -1,5 +1,5 @@
 // The ladder of large systems, by sparse rank decisions.
-#include "courant/integrators/ladder/constraint_algorithm.hpp"
+#include "courant/integrators/certificate/constraint_algorithm.hpp"
 
 #include <benchmark/benchmark.h>
 

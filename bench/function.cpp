@@ -2,7 +2,7 @@
 // differentiated and compiled.
 //
 //   H(x, y) = c Σ_{j<k} Γ_j Γ_k log l²_jk,   l²_jk = (x_j - x_k)² + (y_j - y_k)²
-#include "courant/core/function.hpp"
+#include "courant/core/expressions/function.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -10,7 +10,7 @@
 #include <numbers>
 #include <vector>
 
-#include "courant/core/derivative.hpp"
+#include "courant/core/expressions/derivative.hpp"
 
 namespace courant {
 namespace {

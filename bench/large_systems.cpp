@@ -18,9 +18,9 @@
 #include <tuple>
 #include <utility>
 
-#include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/maps/theta.hpp"
-#include "courant/integrators/step_formulas.hpp"
+#include "courant/integrators/methods/discretize_first.hpp"
+#include "courant/integrators/step/step_formulas.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/reading/experiment.hpp"
 #include "courant/running/consistent_start.hpp"

@@ -7,10 +7,10 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/maps/cayley_midpoint.hpp"
 #include "courant/integrators/maps/chordal.hpp"
 #include "courant/integrators/maps/cotangent_lift.hpp"
+#include "courant/integrators/methods/discretize_first.hpp"
 #include "courant/manifolds/rotation.hpp"
 #include "courant/structures/canonical_symplectic.hpp"
 #include "courant/structures/dirac_system.hpp"

@@ -19,11 +19,11 @@
 #include <memory>
 #include <numbers>
 
-#include "courant/integrators/constrain_first.hpp"
-#include "courant/integrators/discretize_first.hpp"
-#include "courant/integrators/ladder/constraint_algorithm.hpp"
+#include "courant/integrators/certificate/constraint_algorithm.hpp"
 #include "courant/integrators/maps/cotangent_lift.hpp"
 #include "courant/integrators/maps/theta.hpp"
+#include "courant/integrators/methods/constrain_first.hpp"
+#include "courant/integrators/methods/discretize_first.hpp"
 #include "courant/manifolds/cotangent_bundle.hpp"
 #include "courant/manifolds/euclidean.hpp"
 

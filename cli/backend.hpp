@@ -1,7 +1,7 @@
 // The option --backend of several subcommands.
 #pragma once
 
-#include "courant/core/function.hpp"
+#include "courant/core/expressions/function.hpp"
 
 namespace CLI {
 class App;

@@ -1,5 +1,5 @@
 #include "courant/cli/completion_script.hpp"
-#include "courant/core/word_list.hpp"
+#include "courant/core/words/word_list.hpp"
 
 namespace courant::cli {
 namespace {

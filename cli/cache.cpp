@@ -5,7 +5,7 @@
 
 #include "courant/cli/command.hpp"
 #include "courant/cli/text.hpp"
-#include "courant/core/native_cache.hpp"
+#include "courant/core/expressions/native_cache.hpp"
 
 namespace courant::cli {
 namespace {

@@ -10,7 +10,7 @@
 #include "courant/cli/experiment_file.hpp"
 #include "courant/cli/text.hpp"
 #include "courant/cli/waiting.hpp"
-#include "courant/core/message.hpp"
+#include "courant/core/words/message.hpp"
 
 namespace courant::cli {
 namespace {

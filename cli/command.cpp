@@ -8,9 +8,9 @@
 
 #include "courant/cli/help_formatter.hpp"
 #include "courant/cli/synopsis.hpp"
-#include "courant/core/message.hpp"
-#include "courant/core/spelling.hpp"
-#include "courant/core/version.hpp"
+#include "courant/core/words/message.hpp"
+#include "courant/core/words/spelling.hpp"
+#include "courant/core/words/version.hpp"
 #include "courant/running/run_files.hpp"
 #include "courant/running/run_folder.hpp"
 

@@ -11,7 +11,7 @@
 #include <system_error>
 
 #include "courant/cli/waiting.hpp"
-#include "courant/core/message.hpp"
+#include "courant/core/words/message.hpp"
 #include "courant/reading/json_document.hpp"
 #include "courant/reading/setting.hpp"
 #include "courant/reading/table.hpp"

@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-#include "courant/core/text_layout.hpp"
+#include "courant/core/words/text_layout.hpp"
 
 namespace courant::cli {
 namespace {

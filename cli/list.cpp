@@ -7,7 +7,7 @@
 
 #include "courant/cli/command.hpp"
 #include "courant/cli/text.hpp"
-#include "courant/core/spelling.hpp"
+#include "courant/core/words/spelling.hpp"
 #include "courant/reading/catalogue.hpp"
 
 namespace courant::cli {

@@ -5,7 +5,7 @@
 
 #include "courant/cli/command.hpp"
 #include "courant/cli/manual_page.hpp"
-#include "courant/core/spelling.hpp"
+#include "courant/core/words/spelling.hpp"
 #include "courant/running/output_file.hpp"
 
 namespace courant::cli {

@@ -2,8 +2,8 @@
 
 #include <cctype>
 
-#include "courant/core/version.hpp"
-#include "courant/core/word_list.hpp"
+#include "courant/core/words/version.hpp"
+#include "courant/core/words/word_list.hpp"
 
 namespace courant::cli {
 namespace {

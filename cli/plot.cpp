@@ -6,8 +6,8 @@
 #include <ostream>
 
 #include "courant/cli/command.hpp"
-#include "courant/core/spelling.hpp"
-#include "courant/core/word_list.hpp"
+#include "courant/core/words/spelling.hpp"
+#include "courant/core/words/word_list.hpp"
 #include "courant/reporting/figure_file.hpp"
 #include "courant/reporting/study_figure.hpp"
 #include "courant/reporting/sweep_figure.hpp"

@@ -8,7 +8,7 @@
 
 #include "courant/cli/command.hpp"
 #include "courant/cli/text.hpp"
-#include "courant/core/message.hpp"
+#include "courant/core/words/message.hpp"
 #include "courant/plotting/terminal_plot.hpp"
 #include "courant/reporting/energy_figures.hpp"
 #include "courant/reporting/report_figures.hpp"

@@ -11,7 +11,7 @@
 #include "courant/cli/run_text.hpp"
 #include "courant/cli/sweep.hpp"
 #include "courant/cli/waiting.hpp"
-#include "courant/core/native.hpp"
+#include "courant/core/expressions/native.hpp"
 #include "courant/running/run_backend.hpp"
 #include "courant/running/runner.hpp"
 

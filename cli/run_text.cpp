@@ -4,7 +4,7 @@
 #include <cmath>
 #include <ostream>
 
-#include "courant/core/message.hpp"
+#include "courant/core/words/message.hpp"
 #include "courant/plotting/terminal_plot.hpp"
 #include "courant/reporting/ladder_diagram.hpp"
 #include "courant/reporting/ladder_explanation.hpp"

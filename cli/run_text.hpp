@@ -6,7 +6,7 @@
 
 #include "courant/cli/command.hpp"
 #include "courant/cli/text.hpp"
-#include "courant/integrators/integrator.hpp"
+#include "courant/integrators/step/integrator.hpp"
 #include "courant/running/runner.hpp"
 
 namespace courant::cli {

@@ -8,7 +8,7 @@
 
 #include "courant/cli/experiment_file.hpp"
 #include "courant/cli/text.hpp"
-#include "courant/core/parallel.hpp"
+#include "courant/core/numbers/parallel.hpp"
 #include "courant/reporting/figure_file.hpp"
 #include "courant/reporting/sweep_figure.hpp"
 #include "courant/running/output_file.hpp"

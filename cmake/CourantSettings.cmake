@@ -18,7 +18,7 @@ if(BUILD_SHARED_LIBS)
   set(CMAKE_INSTALL_RPATH $ORIGIN/../${CMAKE_INSTALL_LIBDIR})
 endif()
 
-# Headers are included by the names that they are installed under: "courant/core/expr.hpp".
+# Headers are included by the names that they are installed under: "courant/core/expressions/expr.hpp".
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/include)
 file(CREATE_LINK ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/include/courant SYMBOLIC)
 

@@ -3,10 +3,10 @@
 # What nearly every file includes, parsed once a target rather than once a file. Eigen's decompositions are not here:
 # core compiles them once (see docs/decisions.md).
 set(courant_precompiled <Eigen/Core> <Eigen/SparseCore> <algorithm> <cmath> <functional> <memory> <random> <stdexcept>
-    <string> <vector> <courant/core/function.hpp>)
+    <string> <vector> <courant/core/expressions/function.hpp>)
 
-# How much a release optimises a room, but for what it lists as `in_steps`, which has -O3. It takes a third to half of the
-# compiler's time.
+# How much a release optimises a room, but for the parts of it that are listed as `fast`, which have -O3. It takes a third
+# to half of the compiler's time.
 foreach(room core manifolds structures integrators systems)
   set(courant_optimisation_${room} -O1)
 endforeach()
@@ -74,8 +74,8 @@ endfunction()
 
 # courant_steps(<room> [PUBLIC <links>...] [PRIVATE <links>...])
 #
-# The part of the library courant_<room> that runs in every step, or that long preparations spend their time in: the
-# sources in ${in_steps}, with -O3.
+# The parts of the library courant_<room> that run in every step, or that long preparations spend their time in: the
+# sources of ${fast} in ${in_steps}, with -O3.
 function(courant_steps room)
   set(target courant_${room}_steps)
   add_library(${target} OBJECT ${in_steps})
@@ -93,15 +93,23 @@ endfunction()
 # courant_library(<room> [PUBLIC <links>...] [PRIVATE <links>...])
 #
 # The library courant_<room> of all sources of this folder and its parts but those in ${left_out}, linked to the rooms
-# that it may know and to what is given, exported as Courant::<room>. See courant_steps for ${in_steps}.
+# that it may know and to what is given, exported as Courant::<room>. The parts (folders) in ${fast} are optimised, see
+# courant_steps.
 function(courant_library room)
   set(target courant_${room})
   file(GLOB sources CONFIGURE_DEPENDS *.cpp */*.cpp)
   file(GLOB headers CONFIGURE_DEPENDS *.hpp */*.hpp)
   list(TRANSFORM left_out PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
   list(REMOVE_ITEM sources ${left_out})
-  list(TRANSFORM in_steps PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
-  list(REMOVE_ITEM sources ${in_steps})
+  set(in_steps "")
+  foreach(part IN LISTS fast)
+    file(GLOB part_sources CONFIGURE_DEPENDS ${part}/*.cpp)
+    list(APPEND in_steps ${part_sources})
+  endforeach()
+  if(in_steps)
+    list(REMOVE_ITEM in_steps ${left_out})
+    list(REMOVE_ITEM sources ${in_steps})
+  endif()
   if(NOT sources) # a folder may consist of headers alone
     set(sources ${CMAKE_CURRENT_BINARY_DIR}/headers_only.cpp)
     file(WRITE ${sources} "")

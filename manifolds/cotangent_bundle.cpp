@@ -1,6 +1,6 @@
 #include "courant/manifolds/cotangent_bundle.hpp"
 
-#include "courant/core/derivative.hpp"
+#include "courant/core/expressions/derivative.hpp"
 
 namespace courant {
 

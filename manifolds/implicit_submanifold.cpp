@@ -4,11 +4,11 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "courant/core/cholesky_decomposition.hpp"
-#include "courant/core/derivative.hpp"
-#include "courant/core/expr_vectors.hpp"
-#include "courant/core/linear_algebra.hpp"
-#include "courant/core/singular_value_decomposition.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/expressions/expr_vectors.hpp"
+#include "courant/core/expressions/linear_algebra.hpp"
+#include "courant/core/linear/cholesky_decomposition.hpp"
+#include "courant/core/linear/singular_value_decomposition.hpp"
 
 namespace courant {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <ostream>
 
-#include "courant/core/message.hpp"
+#include "courant/core/words/message.hpp"
 
 namespace courant {
 

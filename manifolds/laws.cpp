@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "courant/core/complete_orthogonal_decomposition.hpp"
-#include "courant/core/derivative.hpp"
-#include "courant/core/message.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/linear/complete_orthogonal_decomposition.hpp"
+#include "courant/core/words/message.hpp"
 #include "courant/manifolds/measurement.hpp"
 
 namespace courant {

@@ -8,10 +8,10 @@
 #include <stdexcept>
 #include <typeinfo>
 
-#include "courant/core/derivative.hpp"
-#include "courant/core/gauss_newton.hpp"
-#include "courant/core/message.hpp"
-#include "courant/core/qr_decomposition.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/linear/qr_decomposition.hpp"
+#include "courant/core/solve/gauss_newton.hpp"
+#include "courant/core/words/message.hpp"
 
 namespace courant {
 namespace {

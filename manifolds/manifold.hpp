@@ -7,8 +7,8 @@
 #include <random>
 #include <string>
 
-#include "courant/core/expr.hpp"
-#include "courant/core/linear_map.hpp"
+#include "courant/core/expressions/expr.hpp"
+#include "courant/core/expressions/linear_map.hpp"
 
 namespace courant {
 

@@ -5,9 +5,9 @@
 #include <exception>
 #include <limits>
 
-#include "courant/core/complete_orthogonal_decomposition.hpp"
-#include "courant/core/derivative.hpp"
-#include "courant/core/message.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/linear/complete_orthogonal_decomposition.hpp"
+#include "courant/core/words/message.hpp"
 
 namespace courant {
 

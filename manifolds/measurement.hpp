@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "courant/core/function.hpp"
+#include "courant/core/expressions/function.hpp"
 #include "courant/manifolds/law_result.hpp"
 #include "courant/manifolds/manifold.hpp"
 

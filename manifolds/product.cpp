@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "courant/core/word_list.hpp"
+#include "courant/core/words/word_list.hpp"
 
 namespace courant {
 namespace {

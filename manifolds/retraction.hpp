@@ -5,7 +5,7 @@
 #include <limits>
 #include <string>
 
-#include "courant/core/expr.hpp"
+#include "courant/core/expressions/expr.hpp"
 
 namespace courant {
 

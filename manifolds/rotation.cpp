@@ -2,9 +2,9 @@
 
 #include <stdexcept>
 
-#include "courant/core/lu_decomposition.hpp"
-#include "courant/core/message.hpp"
-#include "courant/core/singular_value_decomposition.hpp"
+#include "courant/core/linear/lu_decomposition.hpp"
+#include "courant/core/linear/singular_value_decomposition.hpp"
+#include "courant/core/words/message.hpp"
 
 namespace courant {
 

@@ -1,7 +1,7 @@
 // Rotations of R³: the formulas that SO(3), SE(3) and their discretization maps share.
 #pragma once
 
-#include "courant/core/expr.hpp"
+#include "courant/core/expressions/expr.hpp"
 
 namespace courant {
 

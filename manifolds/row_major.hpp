@@ -1,7 +1,7 @@
 // Matrices as vectors, row after row: how points that are matrices are stored.
 #pragma once
 
-#include "courant/core/expr.hpp"
+#include "courant/core/expressions/expr.hpp"
 
 namespace courant {
 

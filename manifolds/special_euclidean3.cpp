@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "courant/core/expr_vectors.hpp"
+#include "courant/core/expressions/expr_vectors.hpp"
 #include "courant/manifolds/rotation.hpp"
 #include "courant/manifolds/row_major.hpp"
 

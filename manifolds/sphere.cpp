@@ -3,7 +3,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "courant/core/message.hpp"
+#include "courant/core/words/message.hpp"
 
 namespace courant {
 

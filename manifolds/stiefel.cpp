@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
-#include "courant/core/linear_algebra.hpp"
-#include "courant/core/singular_value_decomposition.hpp"
+#include "courant/core/expressions/linear_algebra.hpp"
+#include "courant/core/linear/singular_value_decomposition.hpp"
 #include "courant/manifolds/row_major.hpp"
 
 namespace courant {

@@ -3,8 +3,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "courant/core/cholesky_decomposition.hpp"
-#include "courant/core/linear_algebra.hpp"
+#include "courant/core/expressions/linear_algebra.hpp"
+#include "courant/core/linear/cholesky_decomposition.hpp"
 
 namespace courant {
 namespace {

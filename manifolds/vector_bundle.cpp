@@ -4,9 +4,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "courant/core/derivative.hpp"
-#include "courant/core/linear_algebra.hpp"
-#include "courant/core/singular_value_decomposition.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/expressions/linear_algebra.hpp"
+#include "courant/core/linear/singular_value_decomposition.hpp"
 
 namespace courant {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "courant/core/message.hpp"
+#include "courant/core/words/message.hpp"
 #include "courant/systems/catalogue_files.hpp"
 
 namespace courant {

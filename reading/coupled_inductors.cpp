@@ -3,9 +3,9 @@
 #include <cmath>
 #include <tuple>
 
-#include "courant/core/as_size.hpp"
-#include "courant/core/cholesky_decomposition.hpp"
-#include "courant/core/lu_decomposition.hpp"
+#include "courant/core/linear/cholesky_decomposition.hpp"
+#include "courant/core/linear/lu_decomposition.hpp"
+#include "courant/core/numbers/as_size.hpp"
 
 namespace courant {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "courant/core/linear_algebra.hpp"
+#include "courant/core/expressions/linear_algebra.hpp"
 #include "courant/reading/network_element.hpp"
 
 namespace courant {

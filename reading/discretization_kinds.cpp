@@ -1,4 +1,4 @@
-#include "courant/core/message.hpp"
+#include "courant/core/words/message.hpp"
 #include "courant/integrators/maps/cayley_midpoint.hpp"
 #include "courant/integrators/maps/chordal.hpp"
 #include "courant/integrators/maps/cotangent_lift.hpp"

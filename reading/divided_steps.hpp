@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "courant/integrators/divided_integrator.hpp"
+#include "courant/integrators/methods/divided_integrator.hpp"
 #include "courant/reading/json_reader.hpp"
 #include "courant/reading/method_kinds.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "courant/integrators/step_energies.hpp"
+#include "courant/integrators/step/step_energies.hpp"
 
 namespace courant {
 

@@ -1,6 +1,6 @@
 #include "courant/reading/event.hpp"
 
-#include "courant/core/declaration.hpp"
+#include "courant/core/language/declaration.hpp"
 
 namespace courant {
 namespace {

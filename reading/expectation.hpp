@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "courant/integrators/divided_integrator.hpp"
-#include "courant/integrators/ladder/constraint_ladder.hpp"
+#include "courant/integrators/certificate/constraint_ladder.hpp"
+#include "courant/integrators/methods/divided_integrator.hpp"
 #include "courant/reading/model.hpp"
 
 namespace courant {

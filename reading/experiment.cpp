@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "courant/core/declaration.hpp"
-#include "courant/core/message.hpp"
+#include "courant/core/language/declaration.hpp"
+#include "courant/core/words/message.hpp"
 #include "courant/reading/divided_steps.hpp"
 #include "courant/reading/energy_words.hpp"
 #include "courant/reading/json_document.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "courant/core/text_layout.hpp"
+#include "courant/core/words/text_layout.hpp"
 #include "courant/reading/json_reader.hpp"
 
 namespace courant {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "courant/core/message.hpp"
-#include "courant/core/spelling.hpp"
+#include "courant/core/words/message.hpp"
+#include "courant/core/words/spelling.hpp"
 
 namespace courant {
 namespace {

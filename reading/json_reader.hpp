@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "courant/core/expr.hpp"
+#include "courant/core/expressions/expr.hpp"
 #include "courant/reading/findings.hpp"
 #include "courant/reading/kind.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "courant/core/expr.hpp"
+#include "courant/core/expressions/expr.hpp"
 #include "courant/reading/findings.hpp"
 
 namespace courant {

@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "courant/core/message.hpp"
+#include "courant/core/words/message.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/structures/canonical_symplectic.hpp"
 

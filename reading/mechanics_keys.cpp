@@ -1,9 +1,9 @@
 #include "courant/reading/mechanics_keys.hpp"
 
-#include "courant/core/derivative.hpp"
-#include "courant/core/expr_vectors.hpp"
-#include "courant/core/message.hpp"
-#include "courant/core/text_layout.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/expressions/expr_vectors.hpp"
+#include "courant/core/words/message.hpp"
+#include "courant/core/words/text_layout.hpp"
 
 namespace courant {
 namespace {

@@ -1,8 +1,8 @@
 #include "courant/reading/method_in_units.hpp"
 
-#include "courant/integrators/integrator_in_units.hpp"
-#include "courant/integrators/ladder/constraint_algorithm.hpp"
-#include "courant/integrators/ladder/ladder_in_units.hpp"
+#include "courant/integrators/certificate/constraint_algorithm.hpp"
+#include "courant/integrators/certificate/ladder_in_units.hpp"
+#include "courant/integrators/methods/integrator_in_units.hpp"
 
 namespace courant {
 

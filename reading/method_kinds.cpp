@@ -2,17 +2,17 @@
 
 #include <array>
 
-#include "courant/integrators/composition.hpp"
-#include "courant/integrators/constrain_first.hpp"
-#include "courant/integrators/damped_composition.hpp"
-#include "courant/integrators/discrete_gradient.hpp"
-#include "courant/integrators/discretize_first.hpp"
-#include "courant/integrators/explicit_runge_kutta.hpp"
-#include "courant/integrators/integrator_in_units.hpp"
 #include "courant/integrators/maps/cotangent_lift.hpp"
 #include "courant/integrators/maps/theta.hpp"
-#include "courant/integrators/matched_start.hpp"
-#include "courant/integrators/reduced_map.hpp"
+#include "courant/integrators/methods/composition.hpp"
+#include "courant/integrators/methods/constrain_first.hpp"
+#include "courant/integrators/methods/damped_composition.hpp"
+#include "courant/integrators/methods/discrete_gradient.hpp"
+#include "courant/integrators/methods/discretize_first.hpp"
+#include "courant/integrators/methods/explicit_runge_kutta.hpp"
+#include "courant/integrators/methods/integrator_in_units.hpp"
+#include "courant/integrators/methods/matched_start.hpp"
+#include "courant/integrators/methods/reduced_map.hpp"
 #include "courant/reading/method_in_units.hpp"
 #include "courant/reading/transformed_time.hpp"
 

@@ -5,11 +5,11 @@
 #include <memory>
 #include <string>
 
-#include "courant/core/function.hpp"
-#include "courant/integrators/integrator.hpp"
-#include "courant/integrators/ladder/constraint_ladder.hpp"
+#include "courant/core/expressions/function.hpp"
+#include "courant/integrators/certificate/constraint_ladder.hpp"
 #include "courant/integrators/maps/discretization_map.hpp"
-#include "courant/integrators/projector.hpp"
+#include "courant/integrators/step/integrator.hpp"
+#include "courant/integrators/step/projector.hpp"
 #include "courant/reading/registry.hpp"
 #include "courant/reading/vocabulary.hpp"
 #include "courant/structures/implicit_system.hpp"

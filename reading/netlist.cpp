@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "courant/core/spelling.hpp"
+#include "courant/core/words/spelling.hpp"
 #include "courant/reading/experiment.hpp"
 #include "courant/reading/netlist_circuit.hpp"
 

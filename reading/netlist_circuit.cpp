@@ -6,8 +6,8 @@
 #include <set>
 #include <tuple>
 
-#include "courant/core/formula.hpp"
-#include "courant/core/message.hpp"
+#include "courant/core/language/formula.hpp"
+#include "courant/core/words/message.hpp"
 #include "courant/reading/netlist_names.hpp"
 #include "courant/reading/netlist_parameters.hpp"
 

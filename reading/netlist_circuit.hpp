@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "courant/core/symbol_table.hpp"
+#include "courant/core/language/symbol_table.hpp"
 #include "courant/reading/netlist_cards.hpp"
 #include "courant/reading/netlist_operating_point.hpp"
 

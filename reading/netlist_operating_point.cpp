@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "courant/core/as_size.hpp"
-#include "courant/core/sparse_lu.hpp"
+#include "courant/core/linear/sparse_lu.hpp"
+#include "courant/core/numbers/as_size.hpp"
 #include "courant/structures/kirchhoff.hpp"
 
 namespace courant::netlist {

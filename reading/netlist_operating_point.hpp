@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "courant/core/linear_solver.hpp"
+#include "courant/core/linear/linear_solver.hpp"
 
 namespace courant::netlist {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "courant/core/formula.hpp"
-#include "courant/core/message.hpp"
+#include "courant/core/language/formula.hpp"
+#include "courant/core/words/message.hpp"
 
 namespace courant::netlist {
 namespace {

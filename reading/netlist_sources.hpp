@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "courant/core/symbol_table.hpp"
-#include "courant/integrators/divided_integrator.hpp"
+#include "courant/core/language/symbol_table.hpp"
+#include "courant/integrators/methods/divided_integrator.hpp"
 #include "courant/reading/netlist_text.hpp"
 
 namespace courant::netlist {

@@ -4,8 +4,8 @@
 #include <cctype>
 #include <charconv>
 
-#include "courant/core/formula.hpp"
-#include "courant/core/message.hpp"
+#include "courant/core/language/formula.hpp"
+#include "courant/core/words/message.hpp"
 
 namespace courant::netlist {
 namespace {

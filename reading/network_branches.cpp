@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "courant/core/formula.hpp"
+#include "courant/core/language/formula.hpp"
 
 namespace courant {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "courant/core/symbol_table.hpp"
+#include "courant/core/language/symbol_table.hpp"
 #include "courant/reading/network_topology.hpp"
 
 namespace courant {

@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "courant/core/declaration.hpp"
-#include "courant/core/formula.hpp"
+#include "courant/core/language/declaration.hpp"
+#include "courant/core/language/formula.hpp"
 
 namespace courant {
 namespace {

@@ -4,7 +4,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "courant/core/as_size.hpp"
+#include "courant/core/numbers/as_size.hpp"
 
 namespace courant {
 

@@ -4,11 +4,11 @@
 #include <set>
 #include <span>
 
-#include "courant/core/as_size.hpp"
-#include "courant/core/formula.hpp"
-#include "courant/core/message.hpp"
-#include "courant/core/spelling.hpp"
-#include "courant/core/word_list.hpp"
+#include "courant/core/language/formula.hpp"
+#include "courant/core/numbers/as_size.hpp"
+#include "courant/core/words/message.hpp"
+#include "courant/core/words/spelling.hpp"
+#include "courant/core/words/word_list.hpp"
 #include "courant/structures/kirchhoff.hpp"
 
 namespace courant {

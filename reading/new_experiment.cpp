@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "courant/core/spelling.hpp"
-#include "courant/core/word_list.hpp"
+#include "courant/core/words/spelling.hpp"
+#include "courant/core/words/word_list.hpp"
 #include "courant/reading/catalogue.hpp"
 
 namespace courant {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "courant/core/symbol_table.hpp"
+#include "courant/core/language/symbol_table.hpp"
 #include "courant/reading/expectation.hpp"
 
 namespace courant {

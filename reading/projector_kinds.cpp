@@ -1,7 +1,7 @@
-#include "courant/core/cholesky_decomposition.hpp"
-#include "courant/core/message.hpp"
-#include "courant/integrators/field_projector.hpp"
-#include "courant/integrators/natural_units.hpp"
+#include "courant/core/linear/cholesky_decomposition.hpp"
+#include "courant/core/words/message.hpp"
+#include "courant/integrators/step/field_projector.hpp"
+#include "courant/integrators/step/natural_units.hpp"
 #include "courant/reading/method_kinds.hpp"
 
 namespace courant {

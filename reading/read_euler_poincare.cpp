@@ -1,5 +1,5 @@
-#include "courant/core/declaration.hpp"
-#include "courant/core/expr_vectors.hpp"
+#include "courant/core/expressions/expr_vectors.hpp"
+#include "courant/core/language/declaration.hpp"
 #include "courant/reading/lie_algebra_keys.hpp"
 #include "courant/reading/mechanics_keys.hpp"
 #include "courant/reading/system_kinds.hpp"

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "courant/core/declaration.hpp"
-#include "courant/core/message.hpp"
-#include "courant/core/word_list.hpp"
+#include "courant/core/language/declaration.hpp"
+#include "courant/core/words/message.hpp"
+#include "courant/core/words/word_list.hpp"
 #include "courant/reading/system_kinds.hpp"
 #include "courant/structures/interconnection.hpp"
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 
-#include "courant/core/as_size.hpp"
-#include "courant/core/declaration.hpp"
-#include "courant/core/formula.hpp"
+#include "courant/core/language/declaration.hpp"
+#include "courant/core/language/formula.hpp"
+#include "courant/core/numbers/as_size.hpp"
 #include "courant/reading/coupled_inductors.hpp"
 #include "courant/reading/network_branches.hpp"
 #include "courant/reading/network_quantities.hpp"

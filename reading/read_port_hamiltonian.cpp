@@ -1,5 +1,5 @@
-#include "courant/core/message.hpp"
-#include "courant/core/symmetric_eigenvalues.hpp"
+#include "courant/core/linear/symmetric_eigenvalues.hpp"
+#include "courant/core/words/message.hpp"
 #include "courant/reading/space.hpp"
 #include "courant/reading/structure_kinds.hpp"
 #include "courant/reading/system_kinds.hpp"

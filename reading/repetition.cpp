@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "courant/core/declaration.hpp"
-#include "courant/core/formula.hpp"
-#include "courant/core/message.hpp"
+#include "courant/core/language/declaration.hpp"
+#include "courant/core/language/formula.hpp"
+#include "courant/core/words/message.hpp"
 #include "courant/reading/written_formula.hpp"
 
 namespace courant {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "courant/core/symbol_table.hpp"
+#include "courant/core/language/symbol_table.hpp"
 #include "courant/reading/json_reader.hpp"
 
 namespace courant {

@@ -1,7 +1,7 @@
 #include "courant/reading/structure_kinds.hpp"
 
-#include "courant/core/message.hpp"
-#include "courant/core/word_list.hpp"
+#include "courant/core/words/message.hpp"
+#include "courant/core/words/word_list.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/reading/lie_algebra_keys.hpp"
 #include "courant/structures/canonical_symplectic.hpp"

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "courant/core/declaration.hpp"
+#include "courant/core/language/declaration.hpp"
 
 namespace courant {
 namespace {

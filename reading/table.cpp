@@ -6,7 +6,7 @@
 #include <fstream>
 #include <optional>
 
-#include "courant/core/spelling.hpp"
+#include "courant/core/words/spelling.hpp"
 
 namespace courant {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "courant/core/interpolation.hpp"
+#include "courant/core/expressions/interpolation.hpp"
 #include "courant/reading/json_reader.hpp"
 
 namespace courant {

@@ -2,12 +2,12 @@
 
 #include <cmath>
 
-#include "courant/core/message.hpp"
-#include "courant/integrators/fixed_time_projector.hpp"
+#include "courant/core/words/message.hpp"
 #include "courant/integrators/maps/product_map.hpp"
 #include "courant/integrators/maps/theta.hpp"
-#include "courant/integrators/natural_units.hpp"
-#include "courant/integrators/transformed_integrator.hpp"
+#include "courant/integrators/methods/transformed_integrator.hpp"
+#include "courant/integrators/step/fixed_time_projector.hpp"
+#include "courant/integrators/step/natural_units.hpp"
 
 namespace courant {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "courant/core/message.hpp"
-#include "courant/core/spelling.hpp"
+#include "courant/core/words/message.hpp"
+#include "courant/core/words/spelling.hpp"
 
 namespace courant {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "courant/core/declaration.hpp"
+#include "courant/core/language/declaration.hpp"
 #include "courant/reading/table.hpp"
 #include "courant/reading/written_formula.hpp"
 

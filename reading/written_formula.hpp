@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "courant/core/formula.hpp"
+#include "courant/core/language/formula.hpp"
 #include "courant/reading/json_reader.hpp"
 
 namespace courant {

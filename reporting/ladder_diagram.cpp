@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "courant/core/text_layout.hpp"
+#include "courant/core/words/text_layout.hpp"
 #include "courant/plotting/scale.hpp"
 
 namespace courant {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "courant/core/message.hpp"
-#include "courant/core/text_layout.hpp"
-#include "courant/core/word_list.hpp"
+#include "courant/core/words/message.hpp"
+#include "courant/core/words/text_layout.hpp"
+#include "courant/core/words/word_list.hpp"
 
 namespace courant {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "courant/core/word_list.hpp"
+#include "courant/core/words/word_list.hpp"
 #include "courant/plotting/curve_data.hpp"
 #include "courant/reporting/energy_figures.hpp"
 #include "courant/reporting/ladder_diagram.hpp"

@@ -5,7 +5,7 @@
 #include <functional>
 #include <set>
 
-#include "courant/core/text_layout.hpp"
+#include "courant/core/words/text_layout.hpp"
 #include "courant/reporting/energy_figures.hpp"
 #include "courant/reporting/section_figures.hpp"
 #include "courant/reporting/space_figures.hpp"

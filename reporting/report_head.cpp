@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "courant/core/word_list.hpp"
+#include "courant/core/words/word_list.hpp"
 #include "courant/reporting/typesetting.hpp"
 
 namespace courant {

@@ -4,14 +4,14 @@
 #include <optional>
 #include <stdexcept>
 
-#include "courant/core/c_prelude.hpp"
-#include "courant/core/derivative.hpp"
-#include "courant/core/exponentials.hpp"
-#include "courant/core/expr_vectors.hpp"
-#include "courant/core/lu_decomposition.hpp"
-#include "courant/core/matrix_numbers.hpp"
-#include "courant/core/message.hpp"
-#include "courant/core/program.hpp"
+#include "courant/core/expressions/c_prelude.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/expressions/expr_vectors.hpp"
+#include "courant/core/expressions/matrix_numbers.hpp"
+#include "courant/core/expressions/program.hpp"
+#include "courant/core/linear/lu_decomposition.hpp"
+#include "courant/core/solve/exponentials.hpp"
+#include "courant/core/words/message.hpp"
 
 namespace courant {
 namespace {

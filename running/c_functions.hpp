@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "courant/core/elimination.hpp"
-#include "courant/core/function.hpp"
+#include "courant/core/algebra/elimination.hpp"
+#include "courant/core/expressions/function.hpp"
 #include "courant/structures/state.hpp"
 
 namespace courant {

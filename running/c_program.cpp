@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <sstream>
 
-#include "courant/core/message.hpp"
-#include "courant/core/version.hpp"
-#include "courant/core/word_list.hpp"
-#include "courant/integrators/composition.hpp"
-#include "courant/integrators/step_program.hpp"
+#include "courant/core/words/message.hpp"
+#include "courant/core/words/version.hpp"
+#include "courant/core/words/word_list.hpp"
+#include "courant/integrators/methods/composition.hpp"
+#include "courant/integrators/step/step_program.hpp"
 #include "courant/running/c_functions.hpp"
 #include "courant/running/c_program_limits.hpp"
 #include "courant/running/c_program_text.hpp"

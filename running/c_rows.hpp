@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "courant/integrators/step_energies.hpp"
-#include "courant/integrators/step_program.hpp"
+#include "courant/integrators/step/step_energies.hpp"
+#include "courant/integrators/step/step_program.hpp"
 #include "courant/running/c_functions.hpp"
 #include "courant/running/observed_quantities.hpp"
 

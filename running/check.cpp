@@ -6,11 +6,11 @@
 #include <span>
 #include <sstream>
 
-#include "courant/core/message.hpp"
-#include "courant/integrators/integrator_laws.hpp"
-#include "courant/integrators/ladder/ladder_laws.hpp"
+#include "courant/core/words/message.hpp"
+#include "courant/integrators/certificate/ladder_laws.hpp"
 #include "courant/integrators/maps/laws.hpp"
-#include "courant/integrators/transformed_integrator.hpp"
+#include "courant/integrators/methods/integrator_laws.hpp"
+#include "courant/integrators/methods/transformed_integrator.hpp"
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/measured_invariants.hpp"
 #include "courant/running/momentum_drifts.hpp"

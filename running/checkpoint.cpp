@@ -6,8 +6,8 @@
 #include <map>
 #include <type_traits>
 
-#include "courant/core/message.hpp"
-#include "courant/core/version.hpp"
+#include "courant/core/words/message.hpp"
+#include "courant/core/words/version.hpp"
 #include "courant/running/output_file.hpp"
 #include "courant/running/run_files.hpp"
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "courant/integrators/ladder/ladder_watch.hpp"
-#include "courant/integrators/stepper.hpp"
+#include "courant/integrators/certificate/ladder_watch.hpp"
+#include "courant/integrators/step/stepper.hpp"
 #include "courant/running/energy_watch.hpp"
 #include "courant/running/event_watch.hpp"
 #include "courant/running/observer.hpp"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "courant/core/message.hpp"
+#include "courant/core/words/message.hpp"
 
 namespace courant {
 

@@ -8,12 +8,12 @@
 #include <stdexcept>
 #include <unordered_set>
 
-#include "courant/core/message.hpp"
-#include "courant/core/rank_decision.hpp"
-#include "courant/core/word_list.hpp"
-#include "courant/integrators/integrator_in_units.hpp"
-#include "courant/integrators/ladder/constraint_algorithm.hpp"
-#include "courant/integrators/ladder/ladder_in_units.hpp"
+#include "courant/core/linear/rank_decision.hpp"
+#include "courant/core/words/message.hpp"
+#include "courant/core/words/word_list.hpp"
+#include "courant/integrators/certificate/constraint_algorithm.hpp"
+#include "courant/integrators/certificate/ladder_in_units.hpp"
+#include "courant/integrators/methods/integrator_in_units.hpp"
 #include "courant/running/undefined_formula.hpp"
 
 namespace courant {

@@ -1,7 +1,7 @@
 // From the initial values of an experiment to a consistent point.
 #pragma once
 
-#include "courant/integrators/ladder/constraint_ladder.hpp"
+#include "courant/integrators/certificate/constraint_ladder.hpp"
 #include "courant/reading/experiment.hpp"
 
 namespace courant {

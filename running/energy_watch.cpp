@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "courant/core/message.hpp"
+#include "courant/core/words/message.hpp"
 
 namespace courant {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "courant/integrators/integrator.hpp"
+#include "courant/integrators/step/integrator.hpp"
 #include "courant/running/observer.hpp"
 #include "courant/running/run_watcher.hpp"
 

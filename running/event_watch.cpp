@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "courant/core/bracketed_root.hpp"
-#include "courant/core/message.hpp"
+#include "courant/core/solve/bracketed_root.hpp"
+#include "courant/core/words/message.hpp"
 
 namespace courant {
 namespace {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "courant/integrators/stepper.hpp"
+#include "courant/integrators/step/stepper.hpp"
 #include "courant/reading/event.hpp"
 #include "courant/reading/expectation.hpp"
 #include "courant/running/output_file.hpp"

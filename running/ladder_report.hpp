@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "courant/integrators/ladder/constraint_classes.hpp"
-#include "courant/integrators/ladder/constraint_formulas.hpp"
-#include "courant/integrators/ladder/constraint_ladder.hpp"
+#include "courant/integrators/certificate/constraint_classes.hpp"
+#include "courant/integrators/certificate/constraint_formulas.hpp"
+#include "courant/integrators/certificate/constraint_ladder.hpp"
 #include "courant/reading/findings.hpp"
 #include "courant/structures/implicit_system.hpp"
 

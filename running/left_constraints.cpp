@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "courant/core/message.hpp"
+#include "courant/core/words/message.hpp"
 
 namespace courant {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "courant/integrators/integrator.hpp"
+#include "courant/integrators/step/integrator.hpp"
 #include "courant/running/observer.hpp"
 #include "courant/running/quantity_statistics.hpp"
 

@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "courant/core/derivative.hpp"
-#include "courant/core/function.hpp"
-#include "courant/integrators/vector_field.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/expressions/function.hpp"
+#include "courant/integrators/step/vector_field.hpp"
 
 namespace courant {
 

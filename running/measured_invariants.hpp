@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "courant/integrators/ladder/constraint_ladder.hpp"
+#include "courant/integrators/certificate/constraint_ladder.hpp"
 #include "courant/reading/experiment.hpp"
 
 namespace courant {

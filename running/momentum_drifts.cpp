@@ -1,7 +1,7 @@
 #include "courant/running/momentum_drifts.hpp"
 
-#include "courant/core/expr_vectors.hpp"
-#include "courant/core/function.hpp"
+#include "courant/core/expressions/expr_vectors.hpp"
+#include "courant/core/expressions/function.hpp"
 #include "courant/manifolds/cotangent_bundle.hpp"
 
 namespace courant {

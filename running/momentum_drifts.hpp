@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "courant/integrators/integrator.hpp"
+#include "courant/integrators/step/integrator.hpp"
 #include "courant/reading/experiment.hpp"
 
 namespace courant {

@@ -6,10 +6,10 @@
 #include <random>
 #include <utility>
 
-#include "courant/core/derivative.hpp"
-#include "courant/core/expr_vectors.hpp"
-#include "courant/core/rank_decision.hpp"
-#include "courant/core/uncertain.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/expressions/expr_vectors.hpp"
+#include "courant/core/linear/rank_decision.hpp"
+#include "courant/core/numbers/uncertain.hpp"
 
 namespace courant {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "courant/integrators/vector_field.hpp"
+#include "courant/integrators/step/vector_field.hpp"
 #include "courant/reading/experiment.hpp"
 #include "courant/structures/energy_system.hpp"
 

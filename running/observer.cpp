@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "courant/core/expr_vectors.hpp"
-#include "courant/core/message.hpp"
-#include "courant/core/uncertain.hpp"
+#include "courant/core/expressions/expr_vectors.hpp"
+#include "courant/core/numbers/uncertain.hpp"
+#include "courant/core/words/message.hpp"
 
 namespace courant {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "courant/core/function.hpp"
-#include "courant/integrators/tangent_map.hpp"
-#include "courant/integrators/vector_field.hpp"
+#include "courant/core/expressions/function.hpp"
+#include "courant/integrators/methods/tangent_map.hpp"
+#include "courant/integrators/step/vector_field.hpp"
 #include "courant/reading/experiment.hpp"
 #include "courant/running/observed_quantities.hpp"
 #include "courant/running/power_account.hpp"

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "courant/integrators/step_energies.hpp"
+#include "courant/integrators/step/step_energies.hpp"
 
 namespace courant {
 

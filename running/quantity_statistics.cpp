@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "courant/core/pairs.hpp"
+#include "courant/core/linear/pairs.hpp"
 
 namespace courant {
 

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "courant/core/expr.hpp"
+#include "courant/core/expressions/expr.hpp"
 #include "courant/reading/expectation.hpp"
 
 namespace courant {

@@ -1,7 +1,7 @@
 // Which back end the functions of a run are worth.
 #pragma once
 
-#include "courant/core/backend.hpp"
+#include "courant/core/expressions/backend.hpp"
 #include "courant/reading/experiment.hpp"
 
 namespace courant {

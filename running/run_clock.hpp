@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "courant/integrators/stepper.hpp"
+#include "courant/integrators/step/stepper.hpp"
 #include "courant/reading/expectation.hpp"
 
 namespace courant {

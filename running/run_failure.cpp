@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "courant/core/message.hpp"
+#include "courant/core/words/message.hpp"
 #include "courant/running/undefined_formula.hpp"
 
 namespace courant {

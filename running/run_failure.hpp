@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "courant/integrators/solve_error.hpp"
+#include "courant/integrators/step/solve_error.hpp"
 #include "courant/running/observer.hpp"
 
 namespace courant {

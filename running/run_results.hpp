@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "courant/integrators/stepper.hpp"
+#include "courant/integrators/step/stepper.hpp"
 #include "courant/reading/experiment.hpp"
 #include "courant/running/event_watch.hpp"
 #include "courant/running/observer.hpp"

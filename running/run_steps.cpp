@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "courant/core/pairs.hpp"
+#include "courant/core/linear/pairs.hpp"
 
 namespace courant {
 namespace {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "courant/integrators/integrator.hpp"
+#include "courant/integrators/step/integrator.hpp"
 #include "courant/reading/expectation.hpp"
 
 namespace courant {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "courant/integrators/step.hpp"
+#include "courant/integrators/step/step.hpp"
 
 namespace courant {
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "courant/integrators/ladder/ladder_watch.hpp"
+#include "courant/integrators/certificate/ladder_watch.hpp"
 #include "courant/running/quantity_statistics.hpp"
 #include "courant/running/run_watcher.hpp"
 #include "courant/running/trajectory_writer.hpp"

@@ -6,8 +6,8 @@
 #include <map>
 #include <optional>
 
-#include "courant/core/message.hpp"
-#include "courant/integrators/ladder/ladder_watch.hpp"
+#include "courant/core/words/message.hpp"
+#include "courant/integrators/certificate/ladder_watch.hpp"
 #include "courant/running/checkpoint_keeper.hpp"
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/energy_watch.hpp"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "courant/core/parallel.hpp"
+#include "courant/core/numbers/parallel.hpp"
 #include "courant/reading/experiment.hpp"
 #include "courant/running/run_folder.hpp"
 #include "courant/running/run_summary.hpp"

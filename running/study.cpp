@@ -9,8 +9,8 @@
 #include <optional>
 #include <utility>
 
-#include "courant/core/message.hpp"
-#include "courant/core/spelling.hpp"
+#include "courant/core/words/message.hpp"
+#include "courant/core/words/spelling.hpp"
 #include "courant/reading/divided_steps.hpp"
 #include "courant/reading/transformed_time.hpp"
 #include "courant/running/consistent_start.hpp"

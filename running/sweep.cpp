@@ -7,9 +7,9 @@
 #include <mutex>
 #include <new>
 
-#include "courant/core/message.hpp"
-#include "courant/core/parallel.hpp"
-#include "courant/core/word_list.hpp"
+#include "courant/core/numbers/parallel.hpp"
+#include "courant/core/words/message.hpp"
+#include "courant/core/words/word_list.hpp"
 #include "courant/reading/experiment.hpp"
 #include "courant/running/comma_separated.hpp"
 #include "courant/running/consistent_start.hpp"

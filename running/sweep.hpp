@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "courant/core/function.hpp"
+#include "courant/core/expressions/function.hpp"
 #include "courant/reading/setting.hpp"
 #include "courant/running/result_folder.hpp"
 

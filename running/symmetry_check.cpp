@@ -1,6 +1,6 @@
 #include "courant/running/symmetry_check.hpp"
 
-#include "courant/core/message.hpp"
+#include "courant/core/words/message.hpp"
 #include "courant/structures/dirac_system.hpp"
 
 namespace courant {

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "courant/integrators/ladder/constraint_ladder.hpp"
-#include "courant/integrators/tangent_map.hpp"
+#include "courant/integrators/certificate/constraint_ladder.hpp"
+#include "courant/integrators/methods/tangent_map.hpp"
 #include "courant/reading/experiment.hpp"
 
 namespace courant {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "courant/core/expr.hpp"
+#include "courant/core/expressions/expr.hpp"
 #include "courant/reading/experiment.hpp"
 #include "courant/running/output_file.hpp"
 

@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "courant/core/subgraph.hpp"
-#include "courant/core/undefined.hpp"
-#include "courant/integrators/vector_field.hpp"
+#include "courant/core/expressions/subgraph.hpp"
+#include "courant/core/expressions/undefined.hpp"
+#include "courant/integrators/step/vector_field.hpp"
 
 namespace courant {
 namespace {

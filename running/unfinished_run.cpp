@@ -2,7 +2,7 @@
 
 #include <system_error>
 
-#include "courant/core/message.hpp"
+#include "courant/core/words/message.hpp"
 #include "courant/running/experiment_changes.hpp"
 #include "courant/running/run_files.hpp"
 #include "courant/running/trajectory_writer.hpp"

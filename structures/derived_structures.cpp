@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "courant/core/derivative.hpp"
-#include "courant/core/expr_vectors.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/expressions/expr_vectors.hpp"
 #include "courant/structures/composed.hpp"
 #include "courant/structures/gauge_transformed.hpp"
 #include "courant/structures/product_structure.hpp"

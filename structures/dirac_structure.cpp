@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "courant/core/derivative.hpp"
+#include "courant/core/expressions/derivative.hpp"
 #include "courant/structures/blocks.hpp"
 
 namespace courant {

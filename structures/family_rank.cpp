@@ -1,6 +1,6 @@
 #include "courant/structures/family_rank.hpp"
 
-#include "courant/core/function.hpp"
+#include "courant/core/expressions/function.hpp"
 
 namespace courant {
 

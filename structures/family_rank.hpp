@@ -1,7 +1,7 @@
 // The rank condition of Morse families.
 #pragma once
 
-#include "courant/core/rank_decision.hpp"
+#include "courant/core/linear/rank_decision.hpp"
 #include "courant/structures/generating_family.hpp"
 
 namespace courant {

@@ -5,8 +5,8 @@
 #include <random>
 #include <stdexcept>
 
-#include "courant/core/derivative.hpp"
-#include "courant/core/power_of_two.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/numbers/power_of_two.hpp"
 
 namespace courant {
 

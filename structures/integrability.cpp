@@ -7,8 +7,8 @@
 #include <optional>
 #include <random>
 
-#include "courant/core/derivative.hpp"
-#include "courant/core/singular_value_decomposition.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/linear/singular_value_decomposition.hpp"
 #include "courant/structures/blocks.hpp"
 
 namespace courant {

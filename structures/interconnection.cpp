@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
-#include "courant/core/expr_vectors.hpp"
-#include "courant/core/message.hpp"
-#include "courant/core/rank_decision.hpp"
+#include "courant/core/expressions/expr_vectors.hpp"
+#include "courant/core/linear/rank_decision.hpp"
+#include "courant/core/words/message.hpp"
 #include "courant/manifolds/product.hpp"
 
 namespace courant {

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <utility>
 
-#include "courant/core/as_size.hpp"
+#include "courant/core/numbers/as_size.hpp"
 
 namespace courant {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "courant/core/equilibration.hpp"
+#include "courant/core/linear/equilibration.hpp"
 #include "courant/structures/circuit_graph.hpp"
 #include "courant/structures/dirac_representations.hpp"
 #include "courant/structures/linear_dirac.hpp"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "courant/core/as_size.hpp"
+#include "courant/core/numbers/as_size.hpp"
 
 namespace courant {
 namespace {

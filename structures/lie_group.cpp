@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "courant/core/complete_orthogonal_decomposition.hpp"
+#include "courant/core/linear/complete_orthogonal_decomposition.hpp"
 #include "courant/manifolds/cotangent_bundle.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/special_euclidean3.hpp"

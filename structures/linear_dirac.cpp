@@ -8,11 +8,11 @@
 #include <stdexcept>
 #include <vector>
 
-#include "courant/core/lu_decomposition.hpp"
-#include "courant/core/message.hpp"
-#include "courant/core/qr_decomposition.hpp"
-#include "courant/core/singular_value_decomposition.hpp"
-#include "courant/core/text_layout.hpp"
+#include "courant/core/linear/lu_decomposition.hpp"
+#include "courant/core/linear/qr_decomposition.hpp"
+#include "courant/core/linear/singular_value_decomposition.hpp"
+#include "courant/core/words/message.hpp"
+#include "courant/core/words/text_layout.hpp"
 #include "courant/structures/blocks.hpp"
 
 namespace courant {

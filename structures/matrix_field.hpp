@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "courant/core/expr.hpp"
+#include "courant/core/expressions/expr.hpp"
 
 namespace courant {
 

@@ -1,8 +1,8 @@
 // The structures that matrix fields describe: few lines each, one translation unit for all.
 #include <stdexcept>
 
-#include "courant/core/expr_vectors.hpp"
-#include "courant/core/message.hpp"
+#include "courant/core/expressions/expr_vectors.hpp"
+#include "courant/core/words/message.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/product.hpp"
 #include "courant/structures/closed_port_hamiltonian.hpp"

@@ -3,8 +3,8 @@
 #include <random>
 #include <stdexcept>
 
-#include "courant/core/derivative.hpp"
-#include "courant/core/expr_vectors.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/expressions/expr_vectors.hpp"
 #include "courant/structures/canonical_symplectic.hpp"
 #include "courant/structures/constrained_family.hpp"
 #include "courant/structures/restricted_two_form.hpp"

@@ -3,8 +3,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "courant/core/derivative.hpp"
-#include "courant/core/rank_decision.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/linear/rank_decision.hpp"
 
 namespace courant {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "courant/core/as_size.hpp"
-#include "courant/core/derivative.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/numbers/as_size.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/structures/kirchhoff.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "courant/core/equilibration.hpp"
+#include "courant/core/linear/equilibration.hpp"
 #include "courant/structures/port_system.hpp"
 
 namespace courant {

@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "courant/core/message.hpp"
-#include "courant/core/singular_value_decomposition.hpp"
+#include "courant/core/linear/singular_value_decomposition.hpp"
+#include "courant/core/words/message.hpp"
 #include "courant/structures/blocks.hpp"
 
 namespace courant {

@@ -3,7 +3,7 @@
 
 #include <iosfwd>
 
-#include "courant/core/rank_decision.hpp"
+#include "courant/core/linear/rank_decision.hpp"
 
 namespace courant {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "courant/core/pairs.hpp"
+#include "courant/core/linear/pairs.hpp"
 
 namespace courant {
 namespace {

@@ -1,7 +1,7 @@
 // State: where a trajectory is.
 #pragma once
 
-#include "courant/core/expr.hpp"
+#include "courant/core/expressions/expr.hpp"
 
 namespace courant {
 

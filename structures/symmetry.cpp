@@ -6,10 +6,10 @@
 #include <random>
 #include <stdexcept>
 
-#include "courant/core/derivative.hpp"
-#include "courant/core/expr_vectors.hpp"
-#include "courant/core/gauss_newton.hpp"
-#include "courant/core/message.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/expressions/expr_vectors.hpp"
+#include "courant/core/solve/gauss_newton.hpp"
+#include "courant/core/words/message.hpp"
 #include "courant/manifolds/measurement.hpp"
 #include "courant/structures/canonical_symplectic.hpp"
 

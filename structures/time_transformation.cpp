@@ -4,9 +4,9 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "courant/core/derivative.hpp"
-#include "courant/core/expr_vectors.hpp"
-#include "courant/core/gauss_newton.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/expressions/expr_vectors.hpp"
+#include "courant/core/solve/gauss_newton.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/product.hpp"
 #include "courant/structures/canonical_symplectic.hpp"

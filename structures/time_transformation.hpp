@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "courant/core/function.hpp"
+#include "courant/core/expressions/function.hpp"
 #include "courant/structures/dirac_system.hpp"
 #include "courant/structures/energy_system.hpp"
 #include "courant/structures/state.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "courant/core/message.hpp"
+#include "courant/core/words/message.hpp"
 #include "courant/manifolds/cotangent_bundle.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/structures/lagrangian_system.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "courant/core/message.hpp"
+#include "courant/core/words/message.hpp"
 #include "courant/manifolds/product.hpp"
 #include "courant/manifolds/rotation.hpp"
 #include "courant/manifolds/sphere.hpp"

@@ -1,7 +1,7 @@
 // Explicit symplectic methods written by hand for the one problem, composed as Courant composes.
 #pragma once
 
-#include "courant/integrators/composition.hpp"
+#include "courant/integrators/methods/composition.hpp"
 #include "problem.hpp"
 
 namespace work_precision {

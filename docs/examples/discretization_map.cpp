@@ -3,8 +3,8 @@
 #include <cmath>
 #include <iostream>
 
-#include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/maps/laws.hpp"
+#include "courant/integrators/methods/discretize_first.hpp"
 #include "courant/manifolds/hyperbolic.hpp"
 
 using namespace courant;

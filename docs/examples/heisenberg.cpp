@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/maps/cotangent_lift.hpp"
 #include "courant/integrators/maps/laws.hpp"
 #include "courant/integrators/maps/theta.hpp"
+#include "courant/integrators/methods/discretize_first.hpp"
 #include "courant/manifolds/cotangent_bundle.hpp"
 #include "courant/manifolds/laws.hpp"
 #include "courant/structures/canonical_symplectic.hpp"

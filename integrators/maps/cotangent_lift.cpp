@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
-#include "courant/core/derivative.hpp"
-#include "courant/core/linear_algebra.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/expressions/linear_algebra.hpp"
 
 namespace courant {
 namespace {

@@ -3,8 +3,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "courant/core/gauss_newton.hpp"
-#include "courant/core/message.hpp"
+#include "courant/core/solve/gauss_newton.hpp"
+#include "courant/core/words/message.hpp"
 
 namespace courant {
 

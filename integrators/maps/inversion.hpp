@@ -1,7 +1,7 @@
 // The inverse of a discretization map by Newton's method.
 #pragma once
 
-#include "courant/core/function.hpp"
+#include "courant/core/expressions/function.hpp"
 #include "courant/integrators/maps/discretization_map.hpp"
 
 namespace courant {

@@ -5,10 +5,10 @@
 #include <limits>
 #include <optional>
 
-#include "courant/core/derivative.hpp"
-#include "courant/core/expr_vectors.hpp"
-#include "courant/core/message.hpp"
-#include "courant/core/singular_value_decomposition.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/expressions/expr_vectors.hpp"
+#include "courant/core/linear/singular_value_decomposition.hpp"
+#include "courant/core/words/message.hpp"
 #include "courant/integrators/maps/inversion.hpp"
 #include "courant/integrators/maps/one_step.hpp"
 #include "courant/integrators/maps/symplecticity.hpp"

@@ -1,6 +1,6 @@
 #include "courant/integrators/maps/one_step.hpp"
 
-#include "courant/core/expr_vectors.hpp"
+#include "courant/core/expressions/expr_vectors.hpp"
 
 namespace courant {
 

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "courant/core/function.hpp"
+#include "courant/core/expressions/function.hpp"
 #include "courant/integrators/maps/discretization_map.hpp"
 
 namespace courant {

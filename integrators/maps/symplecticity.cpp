@@ -5,8 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "courant/core/derivative.hpp"
-#include "courant/core/expr_vectors.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/expressions/expr_vectors.hpp"
 
 namespace courant {
 namespace {

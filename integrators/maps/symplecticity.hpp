@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "courant/core/function.hpp"
+#include "courant/core/expressions/function.hpp"
 #include "courant/integrators/maps/discretization_map.hpp"
 #include "courant/manifolds/cotangent_bundle.hpp"
 

@@ -6,8 +6,8 @@
 
 #include "../running/temporary_folder.hpp"
 #include "answer.hpp"
-#include "courant/core/native.hpp"
-#include "courant/core/text_layout.hpp"
+#include "courant/core/expressions/native.hpp"
+#include "courant/core/words/text_layout.hpp"
 #include "courant/running/run_files.hpp"
 
 namespace courant {

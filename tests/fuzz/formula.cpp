@@ -1,5 +1,5 @@
 // Formulas: the parser answers any text with a number or with an error for users.
-#include "courant/core/formula.hpp"
+#include "courant/core/language/formula.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "courant/core/expr_vectors.hpp"
+#include "courant/core/expressions/expr_vectors.hpp"
 #include "words.hpp"
 
 namespace courant::fuzz {

@@ -71,8 +71,8 @@ foreach(example method_2 discretization_map generating_family pendulum pendulum_
 endforeach()
 
 # What is not API is not installed.
-if(EXISTS ${PREFIX}/include/courant/integrators/ladder/row_reduction.hpp)
-  message(FATAL_ERROR "a header that no public one includes is installed: integrators/ladder/row_reduction.hpp")
+if(EXISTS ${PREFIX}/include/courant/integrators/certificate/row_reduction.hpp)
+  message(FATAL_ERROR "a header that no public one includes is installed: integrators/certificate/row_reduction.hpp")
 endif()
 
 set(docs ${CMAKE_CURRENT_LIST_DIR}/../../docs)

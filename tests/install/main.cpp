@@ -2,8 +2,8 @@
 #include <cmath>
 #include <iostream>
 
-#include "courant/core/derivative.hpp"
-#include "courant/core/function.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/expressions/function.hpp"
 #include "courant/manifolds/sphere.hpp"
 
 int main() {

@@ -5,11 +5,11 @@
 #include <functional>
 #include <optional>
 
-#include "courant/core/lu_decomposition.hpp"
-#include "courant/integrators/constrain_first.hpp"
-#include "courant/integrators/discretize_first.hpp"
-#include "courant/integrators/ladder/constraint_algorithm.hpp"
+#include "courant/core/linear/lu_decomposition.hpp"
+#include "courant/integrators/certificate/constraint_algorithm.hpp"
 #include "courant/integrators/maps/theta.hpp"
+#include "courant/integrators/methods/constrain_first.hpp"
+#include "courant/integrators/methods/discretize_first.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/tests/integrators/example_systems.hpp"
 

@@ -2,7 +2,7 @@
 // 6.1), step by step.
 #include <boost/test/unit_test.hpp>
 
-#include "courant/core/derivative.hpp"
+#include "courant/core/expressions/derivative.hpp"
 #include "courant/tests/integrators/vortices.hpp"
 
 BOOST_AUTO_TEST_SUITE(discrete_lagrangian)

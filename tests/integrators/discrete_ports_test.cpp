@@ -2,9 +2,9 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/maps/discrete_dirac_structure.hpp"
 #include "courant/integrators/maps/theta.hpp"
+#include "courant/integrators/methods/discretize_first.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/structures/closed_port_hamiltonian.hpp"
 #include "courant/structures/open_port_hamiltonian.hpp"

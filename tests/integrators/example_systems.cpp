@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "courant/core/derivative.hpp"
-#include "courant/core/lu_decomposition.hpp"
-#include "courant/core/qr_decomposition.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/linear/lu_decomposition.hpp"
+#include "courant/core/linear/qr_decomposition.hpp"
 #include "courant/manifolds/euclidean.hpp"
 
 namespace courant::examples {

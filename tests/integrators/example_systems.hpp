@@ -6,7 +6,7 @@
 #include <random>
 #include <string>
 
-#include "courant/integrators/ladder/constraint_algorithm.hpp"
+#include "courant/integrators/certificate/constraint_algorithm.hpp"
 #include "courant/structures/implicit_system.hpp"
 
 namespace courant::examples {

@@ -3,11 +3,11 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "courant/integrators/constrain_first.hpp"
-#include "courant/integrators/discretize_first.hpp"
-#include "courant/integrators/explicit_runge_kutta.hpp"
 #include "courant/integrators/maps/theta.hpp"
-#include "courant/tests/integrators/ladder/ladder_catalogue.hpp"
+#include "courant/integrators/methods/constrain_first.hpp"
+#include "courant/integrators/methods/discretize_first.hpp"
+#include "courant/integrators/methods/explicit_runge_kutta.hpp"
+#include "courant/tests/integrators/certificate/ladder_catalogue.hpp"
 
 BOOST_AUTO_TEST_SUITE(explicit_time)
 

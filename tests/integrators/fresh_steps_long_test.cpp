@@ -5,9 +5,9 @@
 // stepper does.
 #include <boost/test/unit_test.hpp>
 
-#include "courant/integrators/composition.hpp"
+#include "courant/integrators/methods/composition.hpp"
 #include "courant/manifolds/manifold.hpp"
-#include "integrator_catalogue.hpp"
+#include "step/integrator_catalogue.hpp"
 
 BOOST_AUTO_TEST_SUITE(fresh_steps_long_test)
 

@@ -3,9 +3,9 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "courant/core/complete_orthogonal_decomposition.hpp"
-#include "courant/integrators/explicit_runge_kutta.hpp"
-#include "courant/tests/integrators/ladder/ladder_catalogue.hpp"
+#include "courant/core/linear/complete_orthogonal_decomposition.hpp"
+#include "courant/integrators/methods/explicit_runge_kutta.hpp"
+#include "courant/tests/integrators/certificate/ladder_catalogue.hpp"
 
 BOOST_AUTO_TEST_SUITE(gauge_curves)
 

@@ -4,12 +4,12 @@
 #include <boost/test/unit_test.hpp>
 #include <random>
 
-#include "courant/core/qr_decomposition.hpp"
-#include "courant/integrators/constrain_first.hpp"
-#include "courant/integrators/discretize_first.hpp"
-#include "courant/integrators/ladder/constraint_algorithm.hpp"
+#include "courant/core/linear/qr_decomposition.hpp"
+#include "courant/integrators/certificate/constraint_algorithm.hpp"
 #include "courant/integrators/maps/cotangent_lift.hpp"
 #include "courant/integrators/maps/theta.hpp"
+#include "courant/integrators/methods/constrain_first.hpp"
+#include "courant/integrators/methods/discretize_first.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/structures/canonical_symplectic.hpp"
 #include "courant/structures/closed_port_hamiltonian.hpp"

@@ -5,11 +5,11 @@
 #include <memory>
 #include <numbers>
 
-#include "courant/integrators/constrain_first.hpp"
-#include "courant/integrators/discretize_first.hpp"
-#include "courant/integrators/ladder/constraint_algorithm.hpp"
+#include "courant/integrators/certificate/constraint_algorithm.hpp"
 #include "courant/integrators/maps/cotangent_lift.hpp"
 #include "courant/integrators/maps/theta.hpp"
+#include "courant/integrators/methods/constrain_first.hpp"
+#include "courant/integrators/methods/discretize_first.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/structures/canonical_symplectic.hpp"
 #include "courant/structures/dirac_system.hpp"

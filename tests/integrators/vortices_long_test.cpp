@@ -1,9 +1,9 @@
 // The table of docs/errata.md: Section 6.3 with h = 1, figures computed independently.
 #include <boost/test/unit_test.hpp>
 
-#include "courant/core/derivative.hpp"
-#include "courant/core/function.hpp"
-#include "courant/integrators/explicit_runge_kutta.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/expressions/function.hpp"
+#include "courant/integrators/methods/explicit_runge_kutta.hpp"
 #include "courant/tests/integrators/vortices.hpp"
 
 BOOST_AUTO_TEST_SUITE(vortices_long)

@@ -4,7 +4,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "catalogue.hpp"
-#include "courant/core/derivative.hpp"
+#include "courant/core/expressions/derivative.hpp"
 
 BOOST_AUTO_TEST_SUITE(cotangent_bundle)
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "courant/core/derivative.hpp"
+#include "courant/core/expressions/derivative.hpp"
 
 BOOST_AUTO_TEST_SUITE(rotation)
 

@@ -2,7 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include "courant/core/lu_decomposition.hpp"
+#include "courant/core/linear/lu_decomposition.hpp"
 
 BOOST_AUTO_TEST_SUITE(stiefel)
 

@@ -2,8 +2,8 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include "courant/integrators/integrator_in_units.hpp"
-#include "courant/integrators/ladder/constraint_algorithm.hpp"
+#include "courant/integrators/certificate/constraint_algorithm.hpp"
+#include "courant/integrators/methods/integrator_in_units.hpp"
 #include "courant/reading/experiment.hpp"
 
 BOOST_AUTO_TEST_SUITE(method_in_units_test)

@@ -3,7 +3,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "courant/core/formula.hpp"
+#include "courant/core/language/formula.hpp"
 #include "courant/reading/experiment.hpp"
 #include "courant/reading/netlist_sources.hpp"
 

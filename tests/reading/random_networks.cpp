@@ -6,8 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "courant/core/as_size.hpp"
-#include "courant/integrators/ladder/constraint_algorithm.hpp"
+#include "courant/core/numbers/as_size.hpp"
+#include "courant/integrators/certificate/constraint_algorithm.hpp"
 #include "courant/reading/system_kinds.hpp"
 
 namespace courant::test {

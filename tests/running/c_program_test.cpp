@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "c_runs.hpp"
-#include "courant/core/message.hpp"
+#include "courant/core/words/message.hpp"
 #include "courant/running/c_program_text.hpp"
 
 namespace courant {

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "courant/core/host.hpp"
+#include "courant/core/expressions/host.hpp"
 #include "courant/running/c_program.hpp"
 #include "run_in.hpp"
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "courant/core/version.hpp"
+#include "courant/core/words/version.hpp"
 #include "courant/running/run_files.hpp"
 #include "temporary_folder.hpp"
 

@@ -1,8 +1,8 @@
-#include "courant/integrators/ladder/ladder_watch.hpp"
+#include "courant/integrators/certificate/ladder_watch.hpp"
 
 #include <boost/test/unit_test.hpp>
 
-#include "courant/integrators/ladder/constraint_algorithm.hpp"
+#include "courant/integrators/certificate/constraint_algorithm.hpp"
 #include "run_in.hpp"
 
 BOOST_AUTO_TEST_SUITE(ladder_watch_test)

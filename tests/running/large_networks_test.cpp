@@ -1,7 +1,7 @@
 // Networks of 10⁴ states and more: what is done with n × n numbers takes gigabytes there.
 #include <boost/test/unit_test.hpp>
 
-#include "courant/integrators/vector_field.hpp"
+#include "courant/integrators/step/vector_field.hpp"
 #include "lc_line.hpp"
 #include "problems.hpp"
 

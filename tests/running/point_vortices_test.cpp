@@ -3,8 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <functional>
 
-#include "courant/integrators/explicit_runge_kutta.hpp"
-#include "courant/integrators/ladder/constraint_algorithm.hpp"
+#include "courant/integrators/certificate/constraint_algorithm.hpp"
+#include "courant/integrators/methods/explicit_runge_kutta.hpp"
 
 namespace courant {
 BOOST_AUTO_TEST_SUITE(point_vortices)

@@ -3,7 +3,7 @@
 #include <random>
 
 #include "../integrators/varying_metric.hpp"
-#include "courant/core/qr_decomposition.hpp"
+#include "courant/core/linear/qr_decomposition.hpp"
 #include "courant/running/runner.hpp"
 #include "problems.hpp"
 

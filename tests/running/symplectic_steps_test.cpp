@@ -2,8 +2,8 @@
 // (q, p) ↦ (q, C(q)ᵀ p) ∈ R^{2N}, which pulls dq ∧ dP back to ω_Q: no frame, no torsion.
 #include <boost/test/unit_test.hpp>
 
-#include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/maps/theta.hpp"
+#include "courant/integrators/methods/discretize_first.hpp"
 #include "courant/manifolds/cotangent_bundle.hpp"
 #include "problems.hpp"
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include "courant/core/complete_orthogonal_decomposition.hpp"
-#include "courant/core/derivative.hpp"
-#include "courant/core/rank_decision.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/linear/complete_orthogonal_decomposition.hpp"
+#include "courant/core/linear/rank_decision.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/special_orthogonal3.hpp"
 #include "courant/manifolds/sphere.hpp"

@@ -6,8 +6,8 @@
 #include <random>
 
 #include "catalogue.hpp"
-#include "courant/core/derivative.hpp"
-#include "courant/core/lu_decomposition.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/linear/lu_decomposition.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/special_orthogonal3.hpp"
 #include "courant/manifolds/sphere.hpp"

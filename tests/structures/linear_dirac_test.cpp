@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 
-#include "courant/core/lu_decomposition.hpp"
-#include "courant/core/qr_decomposition.hpp"
+#include "courant/core/linear/lu_decomposition.hpp"
+#include "courant/core/linear/qr_decomposition.hpp"
 
 namespace courant {
 BOOST_AUTO_TEST_SUITE(linear_dirac_test)

@@ -4,8 +4,8 @@
 #include <random>
 
 #include "catalogue.hpp"
-#include "courant/core/lu_decomposition.hpp"
-#include "courant/core/qr_decomposition.hpp"
+#include "courant/core/linear/lu_decomposition.hpp"
+#include "courant/core/linear/qr_decomposition.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/implicit_submanifold.hpp"
 #include "courant/manifolds/special_orthogonal3.hpp"

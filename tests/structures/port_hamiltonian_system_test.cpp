@@ -6,7 +6,7 @@
 #include <random>
 
 #include "catalogue.hpp"
-#include "courant/core/derivative.hpp"
+#include "courant/core/expressions/derivative.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/sphere.hpp"
 #include "courant/structures/closed_port_hamiltonian.hpp"

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <random>
 
-#include "courant/core/derivative.hpp"
-#include "courant/core/lu_decomposition.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/linear/lu_decomposition.hpp"
 
 namespace courant {
 BOOST_AUTO_TEST_SUITE(point_vortices)

@@ -2,9 +2,9 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/maps/chordal.hpp"
 #include "courant/integrators/maps/theta.hpp"
+#include "courant/integrators/methods/discretize_first.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/special_orthogonal3.hpp"
 #include "courant/tests/integrators/example_systems.hpp"

@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <boost/test/unit_test.hpp>
 
-#include "courant/core/derivative.hpp"
-#include "courant/core/lu_decomposition.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/linear/lu_decomposition.hpp"
 #include "courant/integrators/maps/theta.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/special_orthogonal3.hpp"

@@ -3,10 +3,10 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "courant/integrators/discretize_first.hpp"
 #include "courant/integrators/maps/chordal.hpp"
 #include "courant/integrators/maps/laws.hpp"
 #include "courant/integrators/maps/theta.hpp"
+#include "courant/integrators/methods/discretize_first.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/measurement.hpp"
 #include "courant/tests/integrators/example_systems.hpp"

@@ -2,7 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include "courant/core/derivative.hpp"
+#include "courant/core/expressions/derivative.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/special_orthogonal3.hpp"
 #include "courant/manifolds/sphere.hpp"

@@ -1,0 +1,167 @@
+#include "courant/core/algebra/simplified.hpp"
+
+#include <initializer_list>
+#include <map>
+#include <stdexcept>
+#include <unordered_map>
+
+#include "courant/core/algebra/sum_arithmetic.hpp"
+#include "courant/core/expressions/subgraph.hpp"
+
+namespace courant {
+namespace {
+
+using Sum = Polynomial;
+
+// How a sum is brought to a form: products of sums multiplied out or not, relations applied where
+// they make it shorter, or always, to the first or to the last of their factors, and fractions added
+// to one fraction or not.
+struct Style {
+  bool expand = true;
+  enum class Relations { where_shorter, first, last } relations = Relations::where_shorter;
+  bool add_fractions = false;
+};
+
+// The sums of products that expressions of one graph are, in one style.
+class Simplifier {
+ public:
+  Simplifier(const Simplification& given, Style style)
+      : arithmetic_({.expand = true, .add_fractions = style.add_fractions}),
+        adds_fractions_(style.add_fractions) {
+    PolynomialReduction& reduction = arithmetic_.reduction();
+    for (const Expr& relation : given.relations) reduction.assume(of(relation));
+    if (style.relations != Style::Relations::where_shorter)
+      reduction.conclude({.backwards = style.relations == Style::Relations::last});
+    else
+      for (const Expr& constraint : given.constraints) reduction.assume(of(constraint));
+    arithmetic_.set_expanding(style.expand);
+    known_.clear();
+  }
+
+  Sum of(const Expr& a) {
+    if (a.is_constant()) return SumArithmetic::number(a.value());
+    const Subgraph part(ExprVector::Constant(1, a));
+    for (const std::uint32_t node : part.nodes())
+      if (!known_.contains(node)) known_.emplace(node, value(a.graph(), node));
+    return known_.at(a.node());
+  }
+
+  SumArithmetic& arithmetic() { return arithmetic_; }
+  bool adds_fractions() const { return adds_fractions_; }
+
+ private:
+  Sum call(const std::string& name, std::initializer_list<const Sum*> arguments) {
+    std::string inside;
+    for (const Sum* argument : arguments)
+      inside += (inside.empty() ? "" : ", ") + arithmetic_.text(*argument);
+    return arithmetic_.factor({.text = name + "(" + inside + ")"});
+  }
+
+  Sum value(const Graph& graph, std::uint32_t index) {
+    const Node& node = graph.node(index);
+    const auto operand = [&](std::uint32_t i) -> const Sum& { return known_.at(i); };
+    static const std::map<Op, const char*> functions = {
+        {Op::exp, "exp"},   {Op::log, "log"},   {Op::tan, "tan"},   {Op::asin, "asin"},
+        {Op::acos, "acos"}, {Op::atan, "atan"}, {Op::sinh, "sinh"}, {Op::cosh, "cosh"},
+        {Op::tanh, "tanh"}, {Op::abs, "abs"},   {Op::sign, "sign"}, {Op::atan2, "atan2"},
+        {Op::min, "min"},   {Op::max, "max"}};
+    if (const auto function = functions.find(node.op); function != functions.end())
+      return arity(node.op) == 1 ? call(function->second, {&operand(node.a)})
+                                 : call(function->second, {&operand(node.a), &operand(node.b)});
+    switch (node.op) {
+      case Op::constant:
+        return SumArithmetic::number(graph.constant(index));
+      case Op::variable:
+        return arithmetic_.factor({.text = graph.name(index), .variable = index});
+      case Op::negate:
+        return SumArithmetic::scaled(operand(node.a), -1.0);
+      case Op::add:
+        return arithmetic_.plus(operand(node.a), operand(node.b));
+      case Op::subtract:
+        return arithmetic_.minus(operand(node.a), operand(node.b));
+      case Op::multiply:
+        return arithmetic_.times(operand(node.a), operand(node.b));
+      case Op::divide:
+        return arithmetic_.times(operand(node.a), arithmetic_.to_power(operand(node.b), -1));
+      case Op::power:
+        return arithmetic_.to_power(operand(node.a), node.k);
+      case Op::sqrt: {
+        const Sum& under = operand(node.a);
+        const std::string name = "sqrt(" + arithmetic_.text(under) + ")";
+        return arithmetic_.factor({.text = name, .sum = under, .is_root = true});
+      }
+      case Op::sin:
+      case Op::cos: {
+        const Sum &a = operand(node.a), sine = call("sin", {&a}), cosine = call("cos", {&a});
+        arithmetic_.reduction().add_circle(sine.begin()->first[0].first,
+                                           cosine.begin()->first[0].first);
+        return node.op == Op::sin ? sine : cosine;
+      }
+      case Op::pow: {
+        const std::string base = arithmetic_.text(operand(node.a));
+        const std::string exponent = arithmetic_.text(operand(node.b));
+        return arithmetic_.factor({.text = "(" + base + ")^(" + exponent + ")"});
+      }
+      default: {  // conditions, and what only the library writes
+        const std::string as_it_is = to_string(graph.expression(index), 200);
+        return arithmetic_.factor({.text = "(" + as_it_is + ")"});
+      }
+    }
+  }
+
+  SumArithmetic arithmetic_;
+  bool adds_fractions_;
+  std::unordered_map<std::uint32_t, Sum> known_;
+};
+
+// Of the texts that all styles give, the shortest.
+template <class Texts>
+std::optional<std::string> shortest(const Simplification& given, const Texts& texts) {
+  std::optional<std::string> best;
+  using enum Style::Relations;
+  std::vector<Style> styles = {
+      {.expand = true}, {.expand = false}, {.expand = true, .add_fractions = true}};
+  if (!given.relations.empty())
+    for (const Style::Relations relations : {first, last}) styles.push_back({true, relations});
+  for (const Style& style : styles) {
+    try {
+      Simplifier simplifier(given, style);
+      for (const std::string& text : texts(simplifier))
+        if (!best || text.size() < best->size()) best = text;
+    } catch (const std::length_error&) {  // too large to be written by hand
+      continue;
+    } catch (const std::domain_error&) {  // 1/0
+      continue;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+std::optional<std::string> simplified(const Expr& a, const Simplification& given) {
+  return shortest(given, [&](Simplifier& simplifier) {
+    SumArithmetic& sums = simplifier.arithmetic();
+    const Sum sum = simplifier.of(a);
+    std::vector<std::string> found = {sums.text(sums.collected(sum))};
+    try {
+      found.push_back(sums.text(sum));
+      found.push_back(sums.text(sums.factored(sum)));
+      if (simplifier.adds_fractions()) found.push_back(sums.text(sums.as_fraction(sum)));
+    } catch (const std::length_error&) {  // the first one will do
+    }
+    return found;
+  });
+}
+
+std::optional<std::string> simplified_equation(const Expr& a, const Simplification& given) {
+  return shortest(given, [&](Simplifier& simplifier) {
+    const SumArithmetic& sums = simplifier.arithmetic();
+    const Sum sum = sums.equation(simplifier.of(a));
+    const double c = sums.leading(sum);
+    return std::vector<std::string>{sums.text(SumArithmetic::scaled(sum, c < 0.0 ? -1.0 : 1.0)),
+                                    sums.text(SumArithmetic::scaled(sum, 1.0 / c))};
+  });
+}
+
+}  // namespace courant

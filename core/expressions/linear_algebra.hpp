@@ -1,0 +1,14 @@
+// Linear algebra on expressions.
+#pragma once
+
+#include "courant/core/expressions/expr.hpp"
+
+namespace courant {
+
+// A⁻¹ b for a square A (n × n) and b (n × m), by elimination without pivoting: an expression cannot
+// choose a pivot, so every leading minor has to stay away from zero where the result is used (A
+// near the identity, symmetric definite, triangular …). Throws std::invalid_argument if the sizes
+// do not fit, std::domain_error if a pivot is identically zero.
+ExprMatrix solve(ExprMatrix A, ExprMatrix b);
+
+}  // namespace courant

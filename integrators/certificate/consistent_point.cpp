@@ -1,0 +1,328 @@
+#include "courant/integrators/certificate/consistent_point.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include "courant/integrators/certificate/ladder_levels.hpp"
+#include "courant/integrators/certificate/natural_scaling.hpp"
+
+namespace courant {
+namespace {
+
+void check_size(const char* argument, Index size, Index expected, bool may_be_empty) {
+  if (size != expected && !(may_be_empty && size == 0))
+    throw std::invalid_argument(std::string("ConstraintAlgorithm::run: ") + argument + " has " +
+                                std::to_string(size) + " entries, expected " +
+                                std::to_string(expected) + ".");
+}
+
+void check_finite(const char* argument, const VectorXd& values) {
+  for (Index i = 0; i < values.size(); ++i)
+    if (!std::isfinite(values[i]))
+      throw std::invalid_argument(std::string("ConstraintAlgorithm::run: entry ") +
+                                  std::to_string(i) + " of " + argument +
+                                  " is not a finite number.");
+}
+
+// A zero that is one by the sizes that numbers have there. Those that were met on the way, as after a
+// first step of 10⁸, are no sizes of the problem, and next to them residuals of 1 are round-off. Among
+// exponentials each search may go astray so, and its zero has to be one by its terms too.
+Zero find_confirmed(const LinearizableMap& map, const VectorXd& start, const Mobility& mobility) {
+  constexpr double accepted = 1e-10;
+  Zero zero = find_zero(map, start, mobility);
+  for (int look = 0; look < 5 && zero.found && zero.iterations > 0; ++look) {
+    Zero again = find_zero(map, zero.y, mobility);
+    if (again.history.front() <= accepted) break;
+    zero = std::move(again);
+  }
+  if (mobility.has_exponentials && zero.found && !is_met(map(zero.y))) zero.found = false;
+  return zero;
+}
+
+}  // namespace
+
+ConsistentPoint::ConsistentPoint(std::shared_ptr<const ImplicitSystem> system, InitialGuess guess,
+                                 SparseMatrixXd metric)
+    : system_(std::move(system)), guess_(std::move(guess)), metric_(std::move(metric)) {
+  if (!system_) throw std::invalid_argument("ConstraintAlgorithm::run: system is null.");
+  const Index N = system_->manifold()->ambient_dimension();
+  const Index tangent = system_->manifold()->tangent_dimension();
+  check_size("x", guess_.x.size(), N, false);
+  check_size("v", guess_.v.size(), tangent, true);
+  check_size("z", guess_.z.size(), system_->auxiliary_size(), true);
+  check_size("metric", metric_.size(), N * N, true);
+  check_finite("x", guess_.x);
+  check_finite("v", guess_.v);
+  check_finite("z", guess_.z);
+  check_finite("t", VectorXd::Constant(1, guess_.t));
+  const auto M = system_->manifold();
+  array_.emplace(system_, guess_.t,
+                 M->point_defect(guess_.x) == 0.0 ? guess_.x : M->project(guess_.x));
+  if (M->dimension() == N) drop_round_off();
+  const auto hold = [&](const std::vector<Index>& components, const VectorXd& values, Index offset,
+                        const char* name) {
+    for (const Index i : components) {
+      if (i < 0 || i >= values.size())
+        throw std::invalid_argument(std::string("ConstraintAlgorithm::run: component ") +
+                                    std::to_string(i) + " of " + name + " is to be held, but " +
+                                    name + " has " + std::to_string(values.size()) +
+                                    " given entries.");
+      held_.emplace_back(offset + i, values[i]);
+    }
+  };
+  hold(guess_.hold_x, guess_.x, 0, "x");
+  hold(guess_.hold_v, guess_.v, N, "v");
+  hold(guess_.hold_z, guess_.z, N + tangent, "z");
+  z_is_given_ = guess_.z.size() > 0;
+  if (!z_is_given_) guess_.z = system_->auxiliary_guess(guess_.x, guess_.v);
+}
+
+// A user who computes cos(π/2) means 0; equations that hold at a point with zeros would hold nowhere
+// near it otherwise.
+void ConsistentPoint::drop_round_off() {
+  constexpr double round_off = 8.0 * std::numeric_limits<double>::epsilon();
+  const Index n = array_->base_size();
+  const VectorXd y = array_->jet(guess_.v, guess_.z);
+  VectorXd reach = y.cwiseAbs();
+  reach.head(n) = array_->origin_size();
+  Linearization at = array_->linearize(y);
+  if (!is_finite(at)) return;
+  const SparseMatrixXd magnitude = generic_magnitude(
+      [&](const VectorXd& there) { return array_->linearize(there); }, y, reach, at);
+  at.value.setZero();
+  // Where all numbers are small the largest is a unit, so that it stays.
+  const NaturalScaling units({at.value, magnitude}, reach, 0.0);
+  // Round-off is small next to other numbers too. Units alone do not tell: those of a circuit whose
+  // currents grow like exp (v/25 mV) may be 10¹⁶ of what flows.
+  const double given = reach.size() == 0 ? 0.0 : reach.maxCoeff();
+  const auto drop = [&](VectorXd& values, Index first) {
+    for (Index i = 0; i < values.size(); ++i)
+      if (std::fabs(values[i]) <= round_off * std::min(units.column_scale[first + i], given))
+        values[i] = 0.0;
+  };
+  drop(guess_.x, 0);
+  drop(guess_.v, n);
+  drop(guess_.z, 2 * n);
+  array_ = array_->at(guess_.t, guess_.x);
+}
+
+ConsistentJet ConsistentPoint::start() const {
+  Zero zero;
+  zero.y = array_->jet(guess_.v, guess_.z);
+  zero.reach = zero.y.cwiseAbs();
+  return {*array_, zero};
+}
+
+LinearizableMap ConsistentPoint::conditions(const DerivativeArray& array, bool hold) const {
+  return [this, &array, hold](const VectorXd& y) {
+    Linearization at = array.linearize(y);
+    if (hold && !held_.empty()) {
+      const Linearization state = array.state_map(y);
+      const Eigen::SparseMatrix<double, Eigen::RowMajor> by_row = state.jacobian;
+      std::vector<Eigen::Triplet<double>> entries;
+      for (Index j = 0; j < at.jacobian.outerSize(); ++j)
+        for (SparseMatrixXd::InnerIterator it(at.jacobian, j); it; ++it)
+          entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(j), it.value());
+      Index row = at.value.size();
+      at.value.conservativeResize(row + static_cast<Index>(held_.size()));
+      at.value_error.conservativeResize(at.value.size());
+      for (const auto& [component, value] : held_) {
+        at.value[row] = state.value[component] - value;
+        at.value_error[row] = 4.0 * Uncertain::unit * std::fabs(value);
+        for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(by_row, component); it;
+             ++it)
+          entries.emplace_back(static_cast<int>(row), static_cast<int>(it.col()), it.value());
+        ++row;
+      }
+      at.error.conservativeResize(row, y.size());  // what is held is known
+      at.jacobian.resize(row, y.size());
+      at.jacobian.setFromTriplets(entries.begin(), entries.end());
+    }
+    return at;
+  };
+}
+
+Mobility ConsistentPoint::mobility(const ConsistentJet& from, bool x_is_free) const {
+  const Index n = from.array.base_size(), size = from.zero.y.size();
+  Mobility result;
+  result.frozen = x_is_free ? 0 : n;
+  result.has_exponentials = from.array.has_exponentials();
+  // Where x or a velocity can give way, the velocity does: by a factor of 1000 in the squares.
+  result.cost = VectorXd::Constant(size, 0.03);
+  result.cost.head(n).setOnes();
+  // Where an unknown that is given and a velocity that is not can give way, the velocity does: z of
+  // the guess chooses between branches.
+  if (z_is_given_ && guess_.v.size() == 0)
+    result.cost.segment(2 * n, guess_.z.size()).setConstant(0.3);
+  result.typical = from.array.resized(from.zero.reach, from.array.level_of(from.zero.y));
+  result.offset = from.array.origin_size();
+  result.typical.head(n) = result.typical.head(n).cwiseMax(result.offset);
+  if (x_is_free)
+    result.admits = [extent = system_->manifold()->extent_at(from.array.origin()),
+                     basis = from.array.basis()](const VectorXd& y) {
+      return extent(basis * y.head(basis.cols())) < 0.9;
+    };
+  const double radius = system_->manifold()->injectivity_radius(from.array.origin());
+  if (std::isfinite(radius))  // angles
+    result.typical.head(n) = result.typical.head(n).cwiseMax(radius / std::numbers::pi);
+  return result;
+}
+
+Quadratic ConsistentPoint::displacement(const DerivativeArray& array, const VectorXd& y) const {
+  const Index N = system_->manifold()->ambient_dimension(), n = array.base_size();
+  const Linearization state = array.state_map(y);
+  const VectorXd moved = state.value.head(N) - guess_.x;
+  const SparseMatrixXd d_x = state.jacobian.topLeftCorner(N, n);
+  if (metric_.size() == 0)
+    return {0.5 * moved.squaredNorm(), d_x.transpose() * moved,
+            SparseMatrixXd(d_x.transpose() * d_x)};
+  const VectorXd force = metric_ * moved;
+  return {0.5 * moved.dot(force), d_x.transpose() * force,
+          SparseMatrixXd(d_x.transpose() * metric_ * d_x)};
+}
+
+double ConsistentPoint::distance(const VectorXd& x) const {
+  const VectorXd moved = x - guess_.x;
+  if (metric_.size() == 0) return moved.norm();
+  return std::sqrt(std::max(0.0, moved.dot(VectorXd(metric_ * moved))));
+}
+
+ConsistentJet ConsistentPoint::recentred(const DerivativeArray& array, const Zero& zero) const {
+  const State state = array.state(zero.y);
+  ConsistentJet there = {array.at(array.t(), state.x), zero};
+  const VectorXd first = there.array.jet(state.v, state.z);
+  there.zero.y.head(first.size()) = first;
+  // ξ_0 = 0 and ξ_1, z_0 are those of the same state; higher coefficients change with the chart.
+  const Zero polished =
+      find_zero(conditions(there.array, true), there.zero.y, mobility(there, false));
+  if (polished.found) {
+    there.zero = polished;
+    there.zero.iterations += zero.iterations;
+    // The origin of the chart is no better known than where it was found.
+    const Index n = array.base_size();
+    there.zero.uncertainty.head(n) =
+        there.zero.uncertainty.head(n).cwiseMax(zero.uncertainty.head(n));
+  }
+  return there;
+}
+
+std::optional<ConsistentJet> ConsistentPoint::find_beyond(const ConsistentJet& ended) const {
+  constexpr int most_charts = 20;
+  constexpr double outside = 0.5;  // of the domain of a chart; searches end at 0.9 of it
+  ConsistentJet at = ended;
+  const Index n = at.array.base_size();
+  for (int chart = 0; chart < most_charts; ++chart) {
+    const auto extent = system_->manifold()->extent_at(at.array.origin());
+    if (at.zero.found || !at.zero.is_finite ||
+        !(extent(at.array.basis() * at.zero.y.head(n)) > outside))
+      return std::nullopt;
+    const State state = at.array.state(at.zero.y);
+    at.array = at.array.at(at.array.t(), state.x);
+    const VectorXd first = at.array.jet(state.v, state.z);
+    at.zero.y.head(first.size()) = first;
+    const LinearizableMap F = conditions(at.array, true);
+    const Mobility free = mobility(at, true);
+    at.zero = find_confirmed(F, at.zero.y, free);
+    if (!at.zero.found) continue;
+    at.zero = least_zero(
+        F, [&](const VectorXd& y) { return displacement(at.array, y); }, at.zero, free);
+    return recentred(at.array, at.zero);
+  }
+  return std::nullopt;
+}
+
+ConsistentJet ConsistentPoint::find(const ConsistentJet& from) const {
+  const LinearizableMap F = conditions(from.array, true);
+  const Index n = from.array.base_size();
+  Zero zero = find_zero(F, from.zero.y, mobility(from, false));
+  const bool has_exponentials = from.array.has_exponentials();
+  if (zero.found && !(has_exponentials && !is_met(F(zero.y)))) return {from.array, zero};
+  if (const auto start = from.array.beyond_exponentials(from.zero.y))
+    if (const Zero other = find_zero(F, *start, mobility(from, false));
+        other.found && is_met(F(other.y)))
+      return {from.array, other};
+  if (zero.found) return {from.array, zero};
+  const Mobility free = mobility(from, true);
+  zero = find_confirmed(F, from.zero.y, free);
+  if (const auto far = find_beyond({from.array, zero}); far) return *far;
+  // At a point where equations have no linear part, as x² + y² = 1 at 0, no step leads anywhere.
+  if (!zero.found && zero.is_finite) {
+    TangentDisplacement displacements(from.array, from.zero.y,
+                                      free.typical.cwiseMax(from.zero.y.cwiseAbs()));
+    for (const double size : {0.1, 0.3, 1.0, 1e2, 1e4, 1e6, 1e8}) {
+      VectorXd displacement = displacements.next();
+      displacement.head(n) *= size;
+      displacement.tail(displacement.size() - n) *= std::min(size, 1.0);
+      const Zero other = find_confirmed(F, from.zero.y + displacement, free);
+      if (other.found || (other.is_finite && !is_contradiction({from.array, other}))) zero = other;
+      if (zero.found) break;
+    }
+  }
+  if (!zero.found) return {from.array, zero};
+  zero = least_zero(
+      F, [&](const VectorXd& y) { return displacement(from.array, y); }, zero, free);
+  return recentred(from.array, zero);
+}
+
+bool ConsistentPoint::is_contradiction(const ConsistentJet& jet) const {
+  const Linearization at = conditions(jet.array, true)(jet.zero.y);
+  UncertainMatrix J{at.jacobian, at.error}, with_F = J;
+  for (SparseMatrixXd* matrix : {&with_F.value, &with_F.error})
+    matrix->conservativeResize(matrix->rows(), matrix->cols() + 1);
+  for (Index i = 0; i < at.value.size(); ++i) {
+    const bool is_zero = std::fabs(at.value[i]) <= at.value_error[i];
+    if (!is_zero) with_F.value.insert(i, J.cols()) = at.value[i];
+    with_F.error.insert(i, J.cols()) = at.value_error[i] + (is_zero ? std::fabs(at.value[i]) : 0.0);
+  }
+  with_F.value.makeCompressed();
+  with_F.error.makeCompressed();
+  const RankDecision together = decide_rank(with_F);
+  return together.rank > decide_rank(J).rank && !together.ambiguous();
+}
+
+ConsistentJet ConsistentPoint::again(const ConsistentJet& jet) const {
+  return recentred(jet.array, jet.zero);
+}
+
+ConsistentPoint::Neighbour ConsistentPoint::find_displaced(const ConsistentJet& from,
+                                                           const VectorXd& displacement,
+                                                           const SparseMatrixXd& magnitude) const {
+  return find_around(from, from.array, from.zero.y, displacement, magnitude);
+}
+
+ConsistentJet ConsistentPoint::find_at(const ConsistentJet& from, const VectorXd& xi) const {
+  ConsistentJet jet = from;
+  jet.zero.y.head(xi.size()) = xi;
+  jet.zero = find_zero(conditions(jet.array, false), jet.zero.y, mobility(jet, false));
+  return jet;
+}
+
+ConsistentPoint::Neighbour ConsistentPoint::find_later(const ConsistentJet& from,
+                                                       const VectorXd& displacement,
+                                                       double later) const {
+  // Entries that contain t may vanish now and not later, so that magnitudes of now tell nothing.
+  return find_around(from, from.array.at(from.array.t() + later, from.array.origin()),
+                     from.array.carried(from.zero.y, later), displacement, SparseMatrixXd());
+}
+
+ConsistentPoint::Neighbour ConsistentPoint::find_around(const ConsistentJet& from,
+                                                        const DerivativeArray& array,
+                                                        const VectorXd& start,
+                                                        const VectorXd& displacement,
+                                                        const SparseMatrixXd& magnitude) const {
+  Mobility free = mobility(from, true);
+  VectorXd y = start + displacement;
+  // Units of 10⁹ are none of angles.
+  for (double part = 0.1; free.admits && !free.admits(y) && part > 1e-20; part *= 0.1)
+    y = start + part * displacement;
+  free.magnitude = magnitude;
+  free.noise *= 1e-3;  // of displacements that are thousandths of natural units
+  const Zero zero = find_zero(conditions(array, false), y, free);
+  if (!zero.found) return {{array, zero}, VectorXd::Zero(y.size())};
+  return {{array, zero}, zero.y - y};
+}
+
+}  // namespace courant

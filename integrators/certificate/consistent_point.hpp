@@ -1,0 +1,81 @@
+// Consistent points: zeros of a derivative array near given values.
+#pragma once
+
+#include "courant/integrators/certificate/constraint_algorithm.hpp"
+#include "courant/integrators/certificate/derivative_array.hpp"
+#include "courant/integrators/certificate/least_zero.hpp"
+
+namespace courant {
+
+// A jet y that solves F^[k] = 0 (if zero.found) in the chart of `array`, whose origin is its point
+// (ξ_0 = 0) unless it is a neighbour of one. zero.reach has the sizes of the unknowns on the way there.
+struct ConsistentJet {
+  DerivativeArray array;
+  Zero zero;
+};
+
+// Where F^[k] vanishes near a guess.
+//
+// Values that are held are conditions beside F^[k]; x stays exactly where it is if the other
+// unknowns alone can solve F^[k] = 0, otherwise it goes to the zero with the least ½ (x - x_given)ᵀ
+// W (x - x_given) nearby. v and z of the guess choose between branches and give the iteration its
+// start.
+class ConsistentPoint {
+ public:
+  // Throws std::invalid_argument if sizes do not fit the system. `metric`: W, N × N, or empty
+  // for 1.
+  ConsistentPoint(std::shared_ptr<const ImplicitSystem> system, InitialGuess guess,
+                  SparseMatrixXd metric);
+
+  // The given values as a jet of level 0; x is brought to the manifold. On Rⁿ given numbers that are
+  // round-off next to the units of the problem, as the cosine of a right angle, are 0.
+  ConsistentJet start() const;
+  // The zero of F^[k] near `from`, whose jet is of level k.
+  ConsistentJet find(const ConsistentJet& from) const;
+  // Whether the linear parts of the equations contradict each other at a jet that is no zero: whether
+  // rank (J | F) exceeds rank J. Elsewhere a search that ended has merely not converged.
+  bool is_contradiction(const ConsistentJet& jet) const;
+  // The same zero found once more, from its point, velocity and unknowns alone: higher coefficients
+  // that the equations leave open lose what the search left in them.
+  ConsistentJet again(const ConsistentJet& jet) const;
+  // A zero of F^[k] near `from`, its jet displaced by `displacement`, and how far from there it is.
+  // Held values may change. The jet stays in the chart of `from`, where its ξ_0 is not 0.
+  // `magnitude`: of the Jacobian around `from` (generic_magnitude).
+  struct Neighbour {
+    ConsistentJet jet;
+    VectorXd correction;
+  };
+  Neighbour find_displaced(const ConsistentJet& from, const VectorXd& displacement,
+                           const SparseMatrixXd& magnitude) const;
+  // The same, `later` in time: from where the curve leads whose jet `from` is.
+  Neighbour find_later(const ConsistentJet& from, const VectorXd& displacement, double later) const;
+
+  // The zero of F^[k] near `from`, of level k, with ξ_0 = `xi` in its chart. Held values may change.
+  ConsistentJet find_at(const ConsistentJet& from, const VectorXd& xi) const;
+
+  // ‖x - x_given‖_W.
+  double distance(const VectorXd& x) const;
+
+ private:
+  LinearizableMap conditions(const DerivativeArray& array, bool hold) const;
+  Mobility mobility(const ConsistentJet& from, bool x_is_free) const;
+  Quadratic displacement(const DerivativeArray& array, const VectorXd& y) const;
+  // From where a search ended at the edge of a chart, as that of the sphere does on T*S², the zero
+  // that it was on the way to, in charts farther on; empty if there is none or no edge.
+  std::optional<ConsistentJet> find_beyond(const ConsistentJet& ended) const;
+  ConsistentJet recentred(const DerivativeArray& array, const Zero& zero) const;
+
+  Neighbour find_around(const ConsistentJet& from, const DerivativeArray& array,
+                        const VectorXd& start, const VectorXd& displacement,
+                        const SparseMatrixXd& magnitude) const;
+  void drop_round_off();
+
+  std::shared_ptr<const ImplicitSystem> system_;
+  InitialGuess guess_;
+  bool z_is_given_ = false;
+  SparseMatrixXd metric_;
+  std::optional<DerivativeArray> array_;        // at the given point
+  std::vector<std::pair<Index, double>> held_;  // row of (x, v, z), value
+};
+
+}  // namespace courant

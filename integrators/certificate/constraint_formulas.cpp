@@ -1,0 +1,464 @@
+#include "courant/integrators/certificate/constraint_formulas.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "courant/core/algebra/normal_form.hpp"
+#include "courant/core/algebra/simplified.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/expressions/subgraph.hpp"
+#include "courant/core/numbers/parallel.hpp"
+
+namespace courant {
+namespace {
+
+constexpr std::size_t longest = 450;  // characters of a formula: five lines
+constexpr std::size_t most_operations = 20000, most_operations_of_one = 1000;
+
+using Kind = ConstraintFormulas::Step::Kind;
+
+ExprVector named(const Graph& graph, const std::vector<std::string>& names) {
+  ExprVector result(static_cast<Index>(names.size()));
+  for (std::size_t i = 0; i < names.size(); ++i)
+    result[static_cast<Index>(i)] = graph.variable(names[i]);
+  return result;
+}
+
+bool is_number(const std::string& text) {
+  return text.find_first_not_of("0123456789.+-e") == std::string::npos;
+}
+
+// Equations on the way to their reduced form. On a manifold with as many ẋ as v = C ẋ, velocities
+// are ẋ, and equations are taken modulo what points and velocities satisfy.
+class EquationReduction {
+ public:
+  EquationReduction(const ImplicitSystem& system, const State& point)
+      : x_(named(graph_, system.names().coordinates)), t_(graph_.variable("t")) {
+    const Manifold& M = *system.manifold();
+    const ExprVector rates = named(graph_, velocity_names(system));
+    const ExprVector z = named(graph_, system.names().auxiliary);
+    velocity_count_ = rates.size();
+    unknowns_.resize(rates.size() + z.size());
+    unknowns_ << rates, z;
+    solution_ = unknowns_;
+    solved_.assign(static_cast<std::size_t>(unknowns_.size()), false);
+    motion_ = M.frame(x_) * rates;
+    numbers_.resize(x_.size() + 1 + unknowns_.size());
+    numbers_ << point.x, point.t, point.v, point.z;
+
+    ExprVector v = rates;
+    const ExprVector constraint = M.constraint(x_);
+    const std::vector<Expr> on_manifold(constraint.begin(), constraint.end());
+    on_points_.relations = NormalForm(x_, on_manifold).basis();
+    on_vectors_ = on_points_;
+    if (!on_manifold.empty() && M.tangent_dimension() == M.ambient_dimension()) {
+      v = M.coframe(x_) * rates;
+      motion_ = rates;
+      numbers_.segment(x_.size() + 1, rates.size()) =
+          values(M.frame(constants(point.x)) * constants(point.v));
+      const ExprVector along = tangent(constraint, x_, rates);
+      std::vector<Expr> relations = on_manifold;
+      relations.insert(relations.end(), along.begin(), along.end());
+      normal_form_.emplace(variables(), relations);
+      on_vectors_.relations = normal_form_->basis();
+    }
+    const ExprVector equations = system.residual(x_, v, z, t_);
+    is_too_large_ = Subgraph(equations).size() > most_operations;
+    if (is_too_large_) return;
+    for (const Expr& equation : equations) add(equation);
+    if (normal_form_)
+      if (auto others = normal_form_->eliminated(equations_, unknowns_); !others.empty())
+        equations_ = others;
+  }
+
+  bool is_too_large() const { return is_too_large_; }
+
+  // Solves for unknowns while it can; what is left without unknowns and is not identically zero is
+  // returned, and taken off.
+  std::vector<Expr> constraints() {
+    while (solve_one()) {
+    }
+    std::vector<Expr> found, kept;
+    for (const Expr& equation : equations_) {
+      if (equation.is_constant(0.0)) continue;
+      (has_unknown(equation) ? kept : found).push_back(equation);
+    }
+    equations_ = kept;
+    return found;
+  }
+
+  // dφ/dt in velocities.
+  Expr derivative(const Expr& function) const {
+    ExprVector at(x_.size() + 1), rate(x_.size() + 1);
+    at << x_, t_;
+    rate << motion_, Expr(1.0);
+    return tangent(ExprVector::Constant(1, function), at, rate)[0];
+  }
+  // With what is known of the unknowns put in.
+  Expr reduced(const Expr& function) { return normal(substitute(function, unknowns_, solution_)); }
+  void add(const Expr& equation) {
+    if (const Expr remainder = normal(equation); !is_zero(remainder))
+      equations_.push_back(remainder);
+  }
+
+  // What follows from the equations that are left when velocities and unknowns that occur in them in
+  // another way than linearly are eliminated.
+  std::vector<Expr> consequences() const {
+    std::vector<Expr> left;
+    for (const Expr& equation : equations_)
+      if (has_unknown(equation)) left.push_back(equation);
+    return NormalForm(variables(), {}).consequences(left, unknowns_);
+  }
+  // Whether functions of the point have no zero in common.
+  bool have_no_common_zero(const std::vector<Expr>& functions) const {
+    return NormalForm(x_, functions).hold_nowhere();
+  }
+
+  // Solutions satisfy it.
+  void add_constraint(const Expr& function) { constraints_.push_back(function); }
+
+  bool has_unknown(const Expr& function) const {
+    for (const Expr& entry : gradient(function, unknowns_))
+      if (!entry.is_constant(0.0)) return true;
+    return false;
+  }
+  double value(const Expr& function) const {
+    const Expr number = substitute(function, variables(), constants(numbers_));
+    return number.is_constant() ? number.value() : std::nan("");
+  }
+  // In the tangent representation.
+  VectorXd gradient_at_point(const Expr& function) const {
+    const ExprVector v = unknowns_.head(velocity_count_);
+    const ExprVector along = gradient(derivative(function), v);
+    VectorXd result(along.size());
+    for (Index i = 0; i < along.size(); ++i) result[i] = value(along[i]);
+    return result;
+  }
+
+  std::string written(const Expr& function) const {
+    return short_enough(simplified(function, given(function)));
+  }
+  std::string written_equation(const Expr& function) const {
+    return short_enough(simplified_equation(function, given(function)));
+  }
+  // Of some unknowns (velocities first) that are functions of the point, in x and t. Their expressions are made before
+  // the threads begin, in one order.
+  std::vector<std::string> solutions(const std::vector<Index>& of) {
+    const Simplification on_solutions{on_points_.relations, constraints_};
+    std::vector<Expr> functions;
+    for (const Index u : of) functions.push_back(reduced(unknowns_[u]));
+    std::vector<std::string> texts(of.size());
+    in_parallel(of.size(), core_count(), [&](std::size_t i) {
+      texts[i] = short_enough(simplified(functions[i], on_solutions));
+    });
+    return texts;
+  }
+  bool is_function_of_the_point(Index u) {
+    return solved_[static_cast<std::size_t>(u)] && !has_unknown(reduced(unknowns_[u]));
+  }
+  Index velocity_count() const { return velocity_count_; }
+
+ private:
+  static std::string short_enough(const std::optional<std::string>& text) {
+    return text && text->size() <= longest ? *text : "";
+  }
+  bool is_zero(const Expr& function) const {
+    return function.is_constant(0.0) ||
+           (!has_unknown(function) && simplified(function, on_points_) == "0");
+  }
+
+  // Where the point and the velocity are on the manifold.
+  Expr normal(const Expr& function) { return normal_form_ ? (*normal_form_)(function) : function; }
+  const Simplification& given(const Expr& function) const {
+    return has_unknown(function) ? on_vectors_ : on_points_;
+  }
+
+  double largest(const ExprVector& functions) const {
+    double found = 0.0;
+    for (const Expr& function : functions) found = std::max(found, std::abs(value(function)));
+    return found;
+  }
+  // At the point, next to how fast it changes there and to the other coefficients of its equation: what is
+  // identically zero, though its formula does not tell, is round-off of these.
+  bool vanishes(const Expr& function, double others) const {
+    const double least = others > 1e-6 ? 1e-10 * others : 1e-6;
+    if (!(std::abs(value(function)) > least)) return true;
+    double size = 0.0;
+    const ExprVector along = gradient(function, variables());
+    for (Index i = 0; i < along.size(); ++i)
+      size += std::abs(value(along[i])) * std::max(1.0, std::abs(numbers_[i]));
+    return !(std::abs(value(function)) > 1e-6 * size);
+  }
+
+  ExprVector variables() const {
+    ExprVector all(x_.size() + 1 + unknowns_.size());
+    all << x_, t_, unknowns_;
+    return all;
+  }
+  // Solves the equation with fewest unknowns for one that is linear in it; constant coefficients
+  // first. False if there is none.
+  bool solve_one() {
+    std::size_t best_equation = equations_.size();
+    Index best_unknown = -1;
+    double best_cost = 1e9;
+    for (std::size_t e = 0; e < equations_.size(); ++e) {
+      if (equations_[e].is_constant()) continue;
+      // Nothing that could be written comes of what is so long.
+      if (Subgraph(ExprVector::Constant(1, equations_[e])).size() > most_operations_of_one)
+        continue;
+      const ExprVector g = gradient(equations_[e], unknowns_);
+      Index count = 0;
+      for (const Expr& entry : g) count += entry.is_constant(0.0) ? 0 : 1;
+      for (Index u = 0; u < g.size(); ++u) {
+        if (g[u].is_constant(0.0)) continue;
+        double cost = static_cast<double>(count);
+        if (!g[u].is_constant()) {
+          bool linear = !vanishes(g[u], largest(g));
+          for (const Expr& second : gradient(g[u], unknowns_))
+            linear = linear && second.is_constant(0.0);
+          if (!linear) continue;
+          cost += 1000.0;
+        }
+        if (cost < best_cost) {
+          best_cost = cost;
+          best_equation = e;
+          best_unknown = u;
+        }
+      }
+    }
+    if (best_unknown < 0) return false;
+    const Expr equation = equations_[best_equation];
+    const Expr coefficient = gradient(equation, unknowns_)[best_unknown];
+    const ExprVector unknown = unknowns_.segment(best_unknown, 1);
+    const Expr rest = substitute(equation, unknown, ExprVector::Constant(1, Expr(0.0)));
+    const Expr result = coefficient.is_constant(1.0)    ? -rest
+                        : coefficient.is_constant(-1.0) ? rest
+                                                        : -rest / coefficient;
+    equations_.erase(equations_.begin() + static_cast<std::ptrdiff_t>(best_equation));
+    const ExprVector by = ExprVector::Constant(1, result);
+    for (Expr& other : equations_) other = normal(substitute(other, unknown, by));
+    solution_[best_unknown] = normal(result);
+    solved_[static_cast<std::size_t>(best_unknown)] = true;
+    for (Index u = 0; u < solution_.size(); ++u)
+      if (solved_[static_cast<std::size_t>(u)])
+        solution_[u] = normal(substitute(solution_[u], unknown, by));
+    return true;
+  }
+
+  Graph graph_;
+  ExprVector x_;
+  Expr t_;
+  Index velocity_count_ = 0;
+  ExprVector unknowns_, solution_;  // velocities, then auxiliary unknowns
+  ExprVector motion_;               // ẋ
+  VectorXd numbers_;                // of variables(), at the point
+  Simplification on_points_, on_vectors_;
+  std::optional<NormalForm> normal_form_;
+  std::vector<Expr> constraints_;
+  std::vector<bool> solved_;
+  std::vector<Expr> equations_;
+  bool is_too_large_ = false;
+};
+
+// The formulas of one system, found level by level.
+class Derivation {
+ public:
+  Derivation(const ImplicitSystem& system, const ConstraintLadder& ladder)
+      : ladder_(ladder),
+        elimination_(system, ladder.point),
+        known_(system.manifold()->tangent_dimension(), 0),
+        is_told_(static_cast<std::size_t>(elimination_.velocity_count()), false) {}
+
+  ConstraintFormulas operator()(Index levels) {
+    if (elimination_.is_too_large()) return {};
+    for (Index level = 0; level <= levels; ++level) {
+      found_.clear();
+      for (const Expr& function : elimination_.constraints()) add_constraint(level, function);
+      if (std::ssize(found_) < constraint_count(level))
+        for (const Expr& function : elimination_.consequences()) add_constraint(level, function);
+      add_velocities(level);
+      if (contradicted_) break;
+      for (const Expr& function : found_) differentiate(level + 1, function, level < levels);
+      if (contradicted_) break;
+    }
+    if (ladder_.index >= 0) elimination_.constraints();
+    std::vector<Index> determined;
+    for (std::size_t j = 0; j < ladder_.determined.size(); ++j) {
+      const Index u = elimination_.velocity_count() + static_cast<Index>(j);
+      if (ladder_.determined[j] && elimination_.is_function_of_the_point(u))
+        determined.push_back(u);
+    }
+    const std::vector<std::string> formulas = elimination_.solutions(determined);
+    for (std::size_t i = 0; i < formulas.size(); ++i)
+      if (!formulas[i].empty())
+        result_.values.push_back({determined[i] - elimination_.velocity_count(), formulas[i]});
+    return result_;
+  }
+
+ private:
+  // By ranks.
+  Index constraint_count(Index level) const {
+    return std::ranges::count(ladder_.constraints, level, &PointConstraint::level);
+  }
+
+  void add_constraint(Index level, const Expr& function) {
+    const double value = elimination_.value(function);
+    VectorXd g = elimination_.gradient_at_point(function);
+    const double size = g.norm();
+    const std::string formula = elimination_.written_equation(function);
+    if (is_number(formula) && !formula.empty()) {
+      if (ladder_.index >= 0 || formula == "0") return;
+      result_.steps.push_back({level, Kind::contradiction, "", "", elimination_.written(function)});
+      contradicted_ = true;
+      return;
+    }
+    if (!(size > 0.0)) {
+      if (ladder_.verdict == Verdict::rank_change && std::abs(value) < 1e-8 && !formula.empty())
+        result_.constraints.push_back({level, formula, true});
+      return;
+    }
+    // Where there is no consistent point, constraints need not hold at the one that was found.
+    const bool holds = std::abs(value) < 1e-8 * size * (1.0 + ladder_.point.x.norm());
+    if (!holds && ladder_.verdict != Verdict::inconsistent) return;
+    if (ladder_.verdict == Verdict::inconsistent && !formula.empty()) {
+      all_.push_back(function);
+      if (elimination_.have_no_common_zero(all_)) {
+        result_.constraints.push_back({level, formula});
+        result_.steps.push_back({level, Kind::contradiction, formula, "", "1"});
+        contradicted_ = true;
+        return;
+      }
+    }
+    g -= known_ * (known_.transpose() * g);
+    if (g.norm() < 1e-8 * size) return;  // follows from those before
+    known_.conservativeResize(Eigen::NoChange, known_.cols() + 1);
+    known_.rightCols(1) = g.normalized();
+    if (!formula.empty()) result_.constraints.push_back({level, formula});
+    found_.push_back(function);
+    elimination_.add_constraint(function);
+  }
+
+  void differentiate(Index level, const Expr& function, bool goes_on) {
+    const Expr derivative = elimination_.derivative(function);
+    const Expr reduced = elimination_.reduced(derivative);
+    const std::string result = elimination_.written(reduced);
+    Kind kind = elimination_.has_unknown(reduced) ? Kind::condition : Kind::constraint;
+    if (result == "0")
+      kind = Kind::kept;
+    else if (is_number(result) && !result.empty())
+      kind = Kind::contradiction;
+    if (kind == Kind::contradiction && ladder_.index >= 0) return;  // the numbers know better
+    if (goes_on) {
+      std::string constraint = elimination_.written_equation(function);
+      std::string raw = elimination_.written_equation(derivative);
+      if (!constraint.empty() && !raw.empty() && !result.empty())
+        result_.steps.push_back({level, kind, std::move(constraint), std::move(raw),
+                                 kind == Kind::kept || kind == Kind::contradiction
+                                     ? result
+                                     : elimination_.written_equation(reduced)});
+    }
+    contradicted_ = contradicted_ || kind == Kind::contradiction;
+    if (kind != Kind::kept) elimination_.add(reduced);
+  }
+
+  // Those that are functions of the point from this level on.
+  void add_velocities(Index level) {
+    std::vector<Index> told;
+    for (Index u = 0; u < elimination_.velocity_count(); ++u) {
+      const auto i = static_cast<std::size_t>(u);
+      if (is_told_[i] || !elimination_.is_function_of_the_point(u)) continue;
+      is_told_[i] = true;
+      told.push_back(u);
+    }
+    const std::vector<std::string> formulas = elimination_.solutions(told);
+    for (std::size_t i = 0; i < formulas.size(); ++i)
+      if (!formulas[i].empty()) result_.velocities.push_back({told[i], level, formulas[i]});
+  }
+
+  const ConstraintLadder& ladder_;
+  EquationReduction elimination_;
+  MatrixXd known_;           // orthonormal: the gradients so far
+  std::vector<Expr> found_;  // constraints of this level
+  std::vector<Expr> all_;    // of all levels, where they contradict each other
+  std::vector<bool> is_told_;
+  bool contradicted_ = false;
+  ConstraintFormulas result_;
+};
+
+}  // namespace
+
+std::string to_string(ConstraintFormulas::Step::Kind kind) {
+  switch (kind) {
+    case Kind::constraint:
+      return "constraint";
+    case Kind::condition:
+      return "condition";
+    case Kind::kept:
+      return "kept";
+    case Kind::contradiction:
+      return "contradiction";
+  }
+  return "";
+}
+
+std::vector<std::string> velocity_names(const ImplicitSystem& system) {
+  const Manifold& M = *system.manifold();
+  const auto& coordinates = system.names().coordinates;
+  const auto size = static_cast<std::size_t>(M.tangent_dimension());
+  std::vector<std::string> names;
+  if (size == coordinates.size()) {
+    for (const std::string& name : coordinates) names.push_back(name + "'");
+    return names;
+  }
+  // On a cotangent bundle the fibre has as many components as the velocity of the base.
+  // Components that are those of the velocity of a coordinate.
+  Graph graph;
+  const ExprVector x = named(graph, coordinates), v = graph.variables("v", M.tangent_dimension());
+  const ExprVector motion = M.frame(x) * v;
+  names.resize(size);
+  std::vector<std::string> others;  // arrays of coordinates whose velocities are no components
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    const auto component =
+        std::ranges::find_if(v, [&](const Expr& c) { return c.node() == motion[Index(i)].node(); });
+    if (component != v.end()) {
+      names[static_cast<std::size_t>(component - v.begin())] = coordinates[i] + "'";
+    } else if (const std::string array = coordinates[i].substr(0, coordinates[i].find('['));
+               others.empty() || others.back() != array) {
+      others.push_back(array);
+    }
+  }
+  // They are called after their momenta, or three in a row after each of these arrays, as of rotations and
+  // points that turn with them.
+  std::vector<std::string> called;
+  for (const std::string& name : coordinates)
+    if (name.starts_with("p_")) called.push_back("v_" + name.substr(2));
+  const auto unnamed = static_cast<std::size_t>(std::ranges::count(names, std::string()));
+  if (called.size() != unnamed) {
+    called.clear();
+    for (std::size_t i = 0; i < unnamed; ++i)
+      called.push_back(unnamed == 3 * others.size()
+                           ? "v_" + others[i / 3] + "[" + std::to_string(i % 3) + "]"
+                           : "v[" + std::to_string(i) + "]");
+  }
+  std::size_t next = 0;
+  for (std::string& name : names)
+    if (name.empty()) name = called[next++];
+  return names;
+}
+
+ConstraintFormulas constraint_formulas(const ImplicitSystem& system,
+                                       const ConstraintLadder& ladder) {
+  const bool is_empty =
+      (ladder.verdict == Verdict::inconsistent || ladder.verdict == Verdict::rank_change) &&
+      !ladder.levels.empty();
+  const Manifold& M = *system.manifold();
+  if ((ladder.index < 0 && !is_empty) || ladder.point.x.size() != M.ambient_dimension() ||
+      ladder.point.v.size() != M.tangent_dimension() ||
+      ladder.point.z.size() != system.auxiliary_size() ||
+      M.tangent_dimension() + system.auxiliary_size() > 200)
+    return {};
+  return Derivation(system, ladder)(is_empty ? ladder.levels.back().k : ladder.index);
+}
+
+}  // namespace courant

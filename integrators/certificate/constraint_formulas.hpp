@@ -1,0 +1,69 @@
+// The constraint algorithm as one does it by hand, where that works.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "courant/integrators/certificate/constraint_ladder.hpp"
+#include "courant/structures/implicit_system.hpp"
+
+namespace courant {
+
+// Formulas are in the names of the system, simplified, and hold on its manifold.
+struct ConstraintFormulas {
+  struct Constraint {
+    Index level;
+    std::string formula;       // that vanishes on M_level
+    bool is_singular = false;  // its differential vanishes at the point
+  };
+  struct Value {
+    Index unknown;        // auxiliary
+    std::string formula;  // of coordinates and time
+  };
+  // A component of the velocity that is a function of the point from this level on.
+  struct Velocity {
+    Index component;
+    Index level;
+    std::string formula;
+  };
+  // What S_level adds to the level before: a function that vanishes on M_{level-1}, differentiated.
+  struct Step {
+    enum class Kind {
+      constraint,     // nothing but coordinates is left
+      condition,      // on velocities and unknowns
+      kept,           // 0 = 0: the constraint is kept
+      contradiction,  // 1 = 0
+    };
+    Index level;
+    Kind kind;
+    std::string constraint;  // φ
+    std::string derivative;  // dφ/dt, in velocities
+    std::string result;      // dφ/dt with what is known of the velocities put in
+  };
+  std::vector<Constraint> constraints;
+  std::vector<Value> values;
+  std::vector<Velocity> velocities;
+  std::vector<Step> steps;
+};
+
+std::string to_string(ConstraintFormulas::Step::Kind kind);
+
+// What one finds with pencil and paper: equations are solved for velocities and auxiliary unknowns
+// that occur in them linearly, with a constant coefficient or one that does not vanish at the
+// point, and put into the others; an equation without unknowns left is a constraint, and its time
+// derivative the next equation. Constraints are kept if they vanish at the point and add a
+// direction to the gradients of those before them. Where ranks tell of more constraints, polynomial
+// elimination looks for them: p = v/|v| has the consequence |p| = 1. What takes more than a few lines is
+// left out. For up to 200 velocities and unknowns; nothing otherwise.
+//
+// `ladder` has an index; or its rank changes, and constraints may be singular; or it is inconsistent, and
+// the last step may be a contradiction: that of a derivative, or of constraints without a common zero, the
+// last of which it names.
+ConstraintFormulas constraint_formulas(const ImplicitSystem& system,
+                                       const ConstraintLadder& ladder);
+
+// Names of the components of the velocity (Ñ) in the representation of the manifold: x' of a
+// coordinate x that is one of them; else v_R[0] of R[3][3], or v[0].
+std::vector<std::string> velocity_names(const ImplicitSystem& system);
+
+}  // namespace courant

@@ -1,0 +1,168 @@
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "courant/integrators/methods/constrain_first.hpp"
+#include "courant/integrators/step/vector_field_differential.hpp"
+
+namespace courant {
+namespace {
+
+// W along a curve is differentiated by differences of order 8 with this part of the point's size, which
+// leaves about 1e-12 of W. It is multiplied by the distance of a step from M_f, O(h²) or less.
+constexpr double kDifferenceOfW = 1e-2;
+constexpr std::array kWeightsOfOrder8 = {4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0};
+// Next to the point, a distance from M_f that is round-off: W does not matter there.
+constexpr double kOnConstraints = 1e-15;
+// Directions along the constraints are so up to this part of their size.
+constexpr double kAlongConstraints = 1e-6;
+
+}  // namespace
+
+// With the field X of S_f the step is x₀ ↤ x̄ ↦ x₁, maps between points of M_f:
+//
+//   x̄ ↦ R_d^±(x̄, h X(x̄)) = y^±,   x₀ = P(y⁻),   x₁ = P(y⁺)
+//
+// so TΦ_h = T(P R_d⁺ hX) (T(P R_d⁻ hX))⁻¹ on T_{x̄}M_f. P(y) is the x ∈ M_f with R_x(B W(x) μ) = y:
+//
+//   δy = ∂R/∂x δx + ∂R/∂s (B ∂(Wμ)/∂x δx + B W δμ),   δx ∈ T_xM_f
+class ConstrainFirst::Differential final : public StepDifferential {
+ public:
+  explicit Differential(const ConstrainFirst& method)
+      : method_(method),
+        M_(*method_.system()->manifold()),
+        field_(method_.system(), *method.ladder_, Backend::interpreter),
+        differential_(field_.formulas()) {
+    Graph graph;
+    const ExprVector x = graph.variables("x", M_.ambient_dimension());
+    const ExprVector w = graph.variables("w", M_.tangent_dimension());
+    const ExprVector tangent = M_.tangent_projector(x) * w;
+    const auto ends = method_.map_->forward(x, tangent);
+    const Function::Options by_both = {.differentiate = {"x", "w"}};
+    first_ = Function("R-", {{"x", x}, {"w", w}}, ends.first, by_both);
+    second_ = Function("R+", {{"x", x}, {"w", w}}, ends.second, by_both);
+    retraction_ = Function("R", {{"x", x}, {"w", w}}, M_.retract(x, tangent), by_both);
+  }
+
+ private:
+  MatrixXd do_images(const Step& step, const MatrixXd& V) const override {
+    const State& stage = step.stage;
+    const Site at = site(stage);
+    const MatrixXd tangent = at.velocities;
+    const MatrixXd displaced =
+        step.h * differential_(place(stage.x, stage.t, at.evaluation), tangent).v;
+    const auto moved = [&](const Function& end) {
+      const MatrixXd J = end.jacobian({stage.x, VectorXd(step.h * stage.v)});
+      return MatrixXd(J.leftCols(stage.x.size()) * tangent +
+                      J.rightCols(displaced.rows()) * displaced);
+    };
+    const VectorXd w = step.h * stage.v;
+    const MatrixXd to_start = projected(step.before, first_({stage.x, w}), moved(first_));
+    const MatrixXd to_end = projected(step.after, second_({stage.x, w}), moved(second_));
+    // In a basis of T_{x₀}M_f: coordinates that are constant there, as at rest or on an axis, are no equations.
+    const Site start = site(step.before);
+    const auto coordinates = [&](const MatrixXd& velocities) -> MatrixXd {
+      const MatrixXd components = M_.coframe(step.before.x).matrix() * velocities;
+      return start.directions.transpose() *
+             (start.evaluation.basis().matrix().transpose() * components);
+    };
+    const MatrixXd along = coordinates(V);
+    if ((start.velocities * along - V).norm() > kAlongConstraints * V.norm())
+      throw std::domain_error(
+          "ConstrainFirst: no step begins in a given direction; expected directions along the "
+          "constraints.");
+    return to_end *
+           implicit_derivative("ConstrainFirst", coordinates(to_start), -along, to_start.cols());
+  }
+
+  // A point of M_f with its tangent and conormal directions.
+  struct Site {
+    VectorField::Evaluation evaluation;
+    MatrixXd directions;  // T_xM_f in the basis of the evaluation
+    MatrixXd velocities;  // the same as ambient velocities
+  };
+  Site site(const State& state) const {
+    Site at{VectorField::Evaluation(field_), {}, {}};
+    VectorXd rate(state.x.size());
+    at.evaluation(state, rate);
+    at.directions = differential_.constrained_directions(place(state.x, state.t, at.evaluation),
+                                                         method_.codimension_);
+    at.velocities = (M_.frame(state.x) * at.evaluation.basis()).matrix() * at.directions;
+    return at;
+  }
+  static VectorFieldDifferential::Place place(const VectorXd& x, double t,
+                                              const VectorField::Evaluation& evaluation) {
+    return {x, t, evaluation.unknowns(), evaluation.basis()};
+  }
+
+  // W at a point, as tangent vectors (Ñ × d).
+  MatrixXd shifts(const VectorXd& x, double t, const VectorField::Evaluation& evaluation) const {
+    const MatrixXd basis = evaluation.basis().matrix();
+    if (method_.fixed_directions_.size() > 0) return basis * method_.fixed_directions_;
+    const MatrixXd C = differential_.conormals(place(x, t, evaluation), method_.codimension_);
+    MatrixXd V = C;
+    if (method_.span_.output_size() > 0)
+      V = method_.span_({x, evaluation.basis().entries().reshaped(), C.reshaped()})
+              .reshaped(C.rows(), C.cols());
+    return basis * method_.projector_->orthonormal_directions(V, evaluation.basis(), C);
+  }
+
+  // T P: images in T_xM_f, at the state, of ambient velocities at y, which P takes to its x.
+  MatrixXd projected(const State& state, const VectorXd& y, const MatrixXd& velocities) const {
+    if (method_.codimension_ == 0) return velocities;
+    const Site at = site(state);
+    const VectorXd shift = M_.inverse_retract(state.x, y);
+    const MatrixXd R = retraction_.jacobian({state.x, shift});
+    const auto by_point = R.leftCols(state.x.size());
+    const auto by_shift = R.rightCols(shift.size());
+    const MatrixXd W = shifts(state.x, state.t, at.evaluation);
+    MatrixXd A(y.size(), at.velocities.cols() + W.cols());
+    A << by_point * at.velocities + by_shift * turning(state, at, shift), by_shift * W;
+    return at.velocities * implicit_derivative("ConstrainFirst", A, -velocities, A.cols())
+                               .topRows(at.velocities.cols());
+  }
+
+  // How W(x) μ = shift changes along T_xM_f, up to what lies in W itself, which δμ makes up for: (Ñ × k).
+  MatrixXd turning(const State& state, const Site& at, const VectorXd& shift) const {
+    MatrixXd result = MatrixXd::Zero(shift.size(), at.directions.cols());
+    const double size = state.x.lpNorm<Eigen::Infinity>();
+    if (method_.fixed_directions_.size() > 0 ||
+        shift.lpNorm<Eigen::Infinity>() <= kOnConstraints * size)
+      return result;
+    const MatrixXd along = at.evaluation.basis().matrix() * at.directions;
+    const auto in_W = [&](const VectorXd& direction) -> VectorXd {
+      State moved = state;
+      moved.x = M_.retract(state.x, direction);
+      VectorField::Evaluation evaluation(field_);
+      VectorXd rate(moved.x.size());
+      evaluation(moved, rate);
+      const MatrixXd W = shifts(moved.x, moved.t, evaluation);
+      return W * (W.transpose() * shift);
+    };
+    for (Index k = 0; k < along.cols(); ++k) {
+      const double step = kDifferenceOfW * (size > 0.0 ? size : 1.0);
+      for (std::size_t i = 0; i < kWeightsOfOrder8.size(); ++i) {
+        const VectorXd direction = static_cast<double>(i + 1) * step * along.col(k);
+        result.col(k) +=
+            kWeightsOfOrder8[i] / step * (in_W(direction) - in_W(VectorXd(-direction)));
+      }
+    }
+    return result;
+  }
+
+  const ConstrainFirst method_;  // its functions are shared, not copied
+  const Manifold& M_;
+  VectorField field_;
+  VectorFieldDifferential differential_;
+  Function first_, second_, retraction_;  // x, w ↦ R_d⁻, R_d⁺, R, with Jacobian by both
+};
+
+std::shared_ptr<const StepDifferential> ConstrainFirst::do_differential() const {
+  if (gauge_dimension_ > 0)
+    throw std::domain_error(
+        "ConstrainFirst::differential: with gauge freedom a step depends on the steps before; "
+        "expected a regular system.");
+  return std::make_shared<Differential>(*this);
+}
+
+}  // namespace courant

@@ -1,0 +1,304 @@
+#include "courant/integrators/methods/constrain_first_projection.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "courant/core/linear/pairs.hpp"
+#include "courant/core/linear/plain_products.hpp"
+
+namespace courant {
+namespace {
+
+// P is found by solving with W of the last iterate until W no longer changes: contraction is about
+// curvature × ‖μ‖ = O(h²).
+constexpr int kMaxProjections = 30;
+
+// What is left of x, relative to its size, when W is taken to change no more: less than round-off.
+// The contraction that it is computed with is that of the last step, at most so many times too
+// small.
+constexpr double kTolerance = 1e-16;
+constexpr double kSafety = 10.0;
+
+// P takes the end of a step to the point of M_f nearby: to a distance below that part of the step.
+// Solutions farther away are other ones, which an old factorisation can lead to.
+constexpr double kNearby = 0.5;
+// Of the coordinates, a part that is no distance.
+constexpr double kNoDistance = 1e-10;
+
+}  // namespace
+
+ConstrainFirst::Projection::Projection(const ConstrainFirst& method, MovingBasis& basis)
+    : method_(method),
+      n_(method.system()->manifold()->dimension()),
+      d_(method.codimension_),
+      rest_((method.blocks_ - 2) * n_ + method.auxiliaries_),
+      solver_(method.projection_, {n_, n_, rest_, d_}, method.name() + " (projection)"),
+      is_explicit_(solver_.is_explicit() && method.projection_.left().output_size() == 0 &&
+                   method_.has_fixed_directions() &&
+                   n_ == method.system()->manifold()->tangent_dimension()),
+      gives_all_(is_explicit_ && std::ssize(solver_.found()) == solver_.unknown().size()),
+      end_(predicted_groups(method, solver_.unknown().size()),
+           method.fixed_directions_.size() > 0 ? solver_.predicted() : solver_.found()),
+      shift_({method.system()->manifold()->tangent_dimension()}),
+      basis_(basis),
+      conormals_(method.conormals_, n_, d_, method.references_),
+      directions_(*method.projector_, method.span_, n_, d_),
+      jets_(VectorXd::Zero(solver_.unknown().size())),
+      given_(jets_),
+      start_(jets_),
+      near_(method.system()->manifold()->ambient_dimension()),
+      guess_(near_.size()),
+      shifted_(VectorXd::Zero(method.system()->manifold()->tangent_dimension())),
+      corrected_(shifted_),
+      vectors_(shifted_.size(), method.blocks_),
+      found_(method.projected_.output_size()),
+      velocity_(n_) {}
+
+std::vector<Index> ConstrainFirst::Projection::predicted_groups(const ConstrainFirst& method,
+                                                                Index unknowns) {
+  const Index tangent = method.blocks_ * method.system()->manifold()->dimension();
+  return {tangent, unknowns - tangent};
+}
+
+std::array<double, 4> ConstrainFirst::Projection::scales(const State& before, double h,
+                                                         double besides) {
+  // A start at zero, as of a circuit at rest, has the size of its first step.
+  const double given = std::max(largest(before.x), besides);
+  const double size = given > 0.0 ? given : std::fabs(h) * largest(before.v);
+  return {size, size / std::fabs(h), auxiliary_scale(largest(before.z), size), size};
+}
+
+// ξ and μ
+void ConstrainFirst::Projection::clear_places(VectorXd& y) const {
+  y.head(n_).setZero();
+  y.tail(d_).setZero();
+}
+
+const VectorXd& ConstrainFirst::Projection::jets() {
+  clear_places(jets_);
+  return jets_;
+}
+
+void ConstrainFirst::Projection::begin_with(const VectorXd& y) {
+  if (!gives_all_) copy_pairs(y.data(), y.size(), solver_.unknown().data());
+}
+
+void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& approach,
+                                         SolverStatistics& statistics) {
+  const auto& [before, attempt, t, from_M_f, goes_on] = approach;
+  VectorXd& y = gives_all_ ? given_ : solver_.unknown();
+  if (!gives_all_) clear_places(y);
+  if (is_explicit_) {
+    const double* const in[] = {
+        y.data(), near.data(), basis_.data(), directions_.matrix().data(), near.data(), &t};
+    method_.projection_.unknowns().value(in, y.data());
+    method_.projected_.value(in, found_.data());
+    return;
+  }
+  near_ = near;
+  guess_ = near_;
+  const double speed = goes_on ? largest_speed(before, y) : 0.0;
+  if (goes_on && !shift_.is_empty()) {
+    shift_.predict(shifted_);
+    const double* in[] = {near_.data(), shifted_.data()};
+    method_.shift_.value(in, guess_.data());
+  }
+  foreseen_ = guess_;
+  double previous = std::numeric_limits<double>::infinity();
+  for (int iteration = 0; iteration < kMaxProjections; ++iteration) {
+    move_basis(guess_, y);
+    start_ = y;
+    if (iteration == 0 && goes_on && !end_.is_empty()) {
+      end_.predict(y);
+      y.head(n_).setZero();
+      solver_.settle(start_);
+    }
+    aim(guess_, y, t);
+    aimed_ = y;
+    const Inputs in(y.data(),
+                    {guess_.data(), basis_.data(), directions_.matrix().data(), near_.data(), &t});
+    const auto sizes = scales(before, attempt.h, largest(near_));
+    const auto begin = [&] { y = start_; };
+    const auto lands_nearby = [&] {
+      solver_.solve(in, sizes.data(), begin, attempt, statistics);
+      method_.projected_.value(in.data(), found_.data());
+      return !goes_on || is_nearby(before, attempt.h * speed, sizes[0]);
+    };
+    if (!lands_nearby()) {
+      ++statistics.failures;
+      solver_.forget();
+      begin();
+      if (!lands_nearby())
+        throw SolveError(SolveError::Reason::disconnected, method_.name(), attempt.time, attempt.h,
+                         "is too large: the projection onto M_f leads farther than half the "
+                         "step.");
+    }
+    const double moved = largest(y.head(n_));
+    const double size = largest(found_.head(guess_.size()));
+    if (method_.has_fixed_directions()) return;
+    // P does not depend on W once x no longer moves with it. Where steps begin, x moves with W not
+    // at all; but the next one begins along W.
+    if (iteration == 0) {
+      const double distance = std::sqrt(
+          std::max(plain_product(y.data() + (y.size() - d_), y.data() + (y.size() - d_), d_),
+                   plain_product(from_M_f.data(), from_M_f.data(), d_)));
+      const double change = std::max(moved, size * jet_change(aimed_, y));
+      if (goes_on && kSafety * turning_ * distance * change <= kTolerance * size) return;
+    } else {
+      const double contraction = moved / previous;
+      if (moved <= 1e-15 * size || contraction * moved <= kTolerance * size ||
+          (contraction >= 0.5 && moved < 1e-12 * (1.0 + size)))
+        return;
+    }
+    guess_ = found_.head(guess_.size());
+    y.head(n_).setZero();
+    previous = moved;
+  }
+  throw SolveError(SolveError::Reason::diverged, method_.name(), attempt.time, attempt.h,
+                   "is too large: the projection onto M_f does not converge.");
+}
+
+// The largest of the velocity before the step, of that in its middle and of that after it, extrapolated.
+double ConstrainFirst::Projection::largest_speed(const State& before, const VectorXd& y) {
+  if (n_ == 0) return 0.0;
+  basis_.coordinates_of(before.v, velocity_);
+  const auto middle = y.segment(n_, n_);
+  return std::max({velocity_.lpNorm<Eigen::Infinity>(), middle.lpNorm<Eigen::Infinity>(),
+                   (2.0 * middle - velocity_).lpNorm<Eigen::Infinity>()});
+}
+
+// Whether what was found is not far from near_, next to the step from `before` and to coordinates of
+// that size; nor ξ from guess_, which may have gone around a compact space. Where a coordinate turns it is
+// back after the step where it was: how far the step led, its velocities tell.
+bool ConstrainFirst::Projection::is_nearby(const State& before, double path, double size) const {
+  const auto found = found_.head(near_.size());
+  const double step = std::max((near_ - before.x).lpNorm<Eigen::Infinity>(), std::fabs(path));
+  const double nearby = std::max(kNearby * step, kNoDistance * size);
+  const double foreseen = (guess_ - near_).lpNorm<Eigen::Infinity>();
+  return (found - near_).lpNorm<Eigen::Infinity>() <= nearby &&
+         largest(solver_.unknown().head(n_)) <= nearby + 2.0 * foreseen;
+}
+
+// By how much ξ', … and z, … differ, relative to their size: W is computed with them.
+double ConstrainFirst::Projection::jet_change(const VectorXd& from, const VectorXd& to) const {
+  const auto change = [&](Index first, Index size) {
+    const double moved = (to - from).segment(first, size).lpNorm<Eigen::Infinity>();
+    return moved == 0.0 ? 0.0 : moved / to.segment(first, size).lpNorm<Eigen::Infinity>();
+  };
+  return std::max(change(n_, n_), rest_ == 0 ? 0.0 : change(2 * n_, rest_));
+}
+
+// The same vectors in the basis at x.
+void ConstrainFirst::Projection::move_basis(const VectorXd& x, VectorXd& y) {
+  if (n_ == method_.system()->manifold()->tangent_dimension()) return;
+  const MatrixXd& B = basis_.map().entries();
+  const Index size = B.rows();
+  plain_product(B.data(), size, y.data(), n_, method_.blocks_, vectors_.data());
+  if (!basis_.move_to(x)) is_turned_ = true;
+  for (Index k = 0; k < method_.blocks_; ++k)
+    for (Index j = 0; j < n_; ++j)
+      y[k * n_ + j] = plain_product(B.data() + j * size, vectors_.data() + k * size, size);
+}
+
+// W at x, with columns near those of the last step, so that μ and the kept factorisations go on.
+void ConstrainFirst::Projection::aim(const VectorXd& x, const VectorXd& y, double t) {
+  if (method_.has_fixed_directions()) return;
+  conormals_.move_to({.jets = y.data(), .origin = x.data(), .basis = basis_.data(), .t = &t});
+  directions_.move_to(x, basis_.map(), conormals_.matrix());
+}
+
+void ConstrainFirst::Projection::record() {
+  if (is_explicit_) return;
+  VectorXd& y = solver_.unknown();
+  if (!solver_.is_determined()) end_.limit_degree(Predictor::kUndetermined);
+  y.head(n_).setZero();
+  end_.record(y);
+  // shifted_ led to foreseen_: to first order in what is left, this one leads to x.
+  const double* in[] = {near_.data(), shifted_.data(), foreseen_.data(), found_.data()};
+  method_.corrected_shift_.value(in, corrected_.data());
+  shift_.record(corrected_);
+}
+
+void ConstrainFirst::Projection::take(State& state) const {
+  const Index N = near_.size();
+  state.x.resize(N);
+  const double* from = found_.data();
+  for (VectorXd* part : {&state.x, &state.v, &state.z}) {
+    copy_pairs(from, part->size(), part->data());
+    from += part->size();
+  }
+}
+
+bool ConstrainFirst::Projection::accept(const VectorXd& x) {
+  if (!method_.has_fixed_directions()) {
+    const double moved = plain_distance(found_.data(), x.data(), x.size());
+    if (directions_.is_kept() && moved > 1e-7 * largest(x)) {
+      const MatrixXd& W = directions_.matrix();
+      const double turning = plain_distance(W.data(), directions_.kept().data(), W.size()) / moved;
+      turning_ = std::isfinite(turning_) ? std::max(turning, 0.9 * turning_) : turning;
+    }
+    directions_.keep();
+    conormals_.keep();
+  }
+  copy_pairs(found_.data(), guess_.size(), guess_.data());
+  if (!basis_.move_to(guess_)) is_turned_ = true;
+  basis_.keep();
+  const bool goes_on = !is_turned_;
+  if (is_turned_) forget_motion();
+  is_turned_ = false;
+  if (gives_all_)
+    jets_.swap(given_);
+  else
+    copy_pairs(solver_.unknown().data(), jets_.size(), jets_.data());
+  return goes_on;
+}
+
+void ConstrainFirst::Projection::take_over(const Projection& other, bool goes_on) {
+  if (!goes_on) forget_motion();
+  conormals_.take_over(other.conormals_);
+  directions_.take_over(other.directions_);
+  jets_ = other.jets_;
+  turning_ = other.turning_;
+  is_turned_ = false;
+}
+
+void ConstrainFirst::Projection::learn_from(const Projection& other,
+                                            const Stepper::Companion& companion) {
+  const double ratio = companion.ratio, times = companion.at_end;
+  if (times == 0.0 || is_explicit_) return;
+  end_.learn_from(other.end_, times_of(times, ratio, 0));
+  shift_.learn_from(other.shift_, VectorXd::Constant(shifted_.size(), times * (ratio * ratio)));
+}
+
+// Steps end off M_f by what goes like their squares.
+VectorXd ConstrainFirst::Projection::times_of(double times, double ratio,
+                                              Index displacements) const {
+  VectorXd all = VectorXd::Constant(solver_.unknown().size(), times);
+  all.head(displacements) *= ratio;
+  all.tail(d_) *= ratio * ratio;
+  return all;
+}
+
+void ConstrainFirst::Projection::discard() {
+  conormals_.discard();
+  directions_.discard();
+  is_turned_ = false;
+}
+
+void ConstrainFirst::Projection::forget_motion() {
+  end_.forget();
+  shift_.forget();
+}
+
+void ConstrainFirst::Projection::forget() {
+  solver_.forget();
+  forget_motion();
+  conormals_.forget();
+  directions_.forget();
+  is_turned_ = false;
+  turning_ = std::numeric_limits<double>::infinity();
+  jets_.setZero();
+  shifted_.setZero();
+}
+
+}  // namespace courant

@@ -1,0 +1,30 @@
+// The formulas of a step by Method 2.
+#pragma once
+
+#include "courant/integrators/certificate/local_formulation.hpp"
+#include "courant/integrators/methods/constrain_first.hpp"
+#include "courant/integrators/step/open_jets.hpp"
+#include "courant/integrators/step/step_formulas.hpp"
+
+namespace courant {
+
+// The formulas of a step and of the projection that follows it.
+struct ConstrainFirst::Trace {
+  explicit Trace(const ConstrainFirst& method);
+
+  StepFormulas step, projection;
+  OpenJets open;  // what `constraints` are without, of S_f as LocalFormulation has it
+  Index blocks, auxiliaries;
+  ExprVector x0, basis_entries, t, near, s, x;  // parameters
+  ExprVector constraints, jets;                 // S_f, and its unknowns (ξ, ξ', …, z, …)
+  std::vector<std::string> constraint_names;
+  ExprVector advanced, projected, shifted, corrected;
+  Index dimension, codimension;
+
+  MovingConormals::Formulas conormals() const;
+
+ private:
+  void describe(const ConstrainFirst& method, const LocalFormulation& local);
+};
+
+}  // namespace courant

@@ -1,0 +1,68 @@
+#include "courant/integrators/step/unit_equations.hpp"
+
+#include <cmath>
+
+#include "courant/core/linear/complete_orthogonal_decomposition.hpp"
+#include "courant/manifolds/manifold.hpp"
+
+namespace courant {
+namespace {
+
+// Parts of vectors of length 1 below this are rounding errors of their decomposition.
+constexpr double kRoundOff = 1e-9;
+
+}  // namespace
+
+UnitEquations::UnitEquations(const UnitNumbering& numbering, Index rows, Index columns)
+    : rows_(rows) {
+  const Index n = std::ssize(numbering), own = Manifold::Dilations::after(numbering);
+  const Index unknowns = rows + own + columns - 2 * n + 1;  // logarithms of r, units of ξ, z, T
+  C_ = MatrixXd::Zero(columns, unknowns);
+  for (Index j = 0; j < n; ++j) {
+    const Index unit = numbering[static_cast<std::size_t>(j)];
+    if (unit != Manifold::Dilations::none) C_(j, rows + unit) = C_(n + j, rows + unit) = 1.0;
+    C_(n + j, unknowns - 1) = -1.0;
+  }
+  for (Index j = 2 * n; j < columns; ++j) C_(j, rows + own + j - 2 * n) = 1.0;
+  A_ = MatrixXd::Zero(unknowns, unknowns);
+  b_ = VectorXd::Zero(unknowns);
+}
+
+void UnitEquations::add_entry(Index row, Index column, double size) {
+  VectorXd term = C_.row(column);
+  term[row] = 1.0;
+  A_ += term * term.transpose();
+  b_ -= std::log(size) * term;
+}
+
+void UnitEquations::add_constant(Index row, double size) {
+  A_(row, row) += 1.0;
+  b_[row] -= std::log(size);
+}
+
+void UnitEquations::add_slope(Index column, double size) {
+  const VectorXd term = column < C_.rows() ? VectorXd(C_.row(column))
+                                           : VectorXd(VectorXd::Unit(C_.cols(), C_.cols() - 1));
+  A_ += term * term.transpose();
+  b_ -= std::log(size) * term;
+}
+
+VectorXd UnitEquations::columns(const VectorXd& sizes) const {
+  const CompleteOrthogonalDecomposition normal(A_, 1e-12);
+  VectorXd s = normal.solve(b_);
+  const MatrixXd open = normal.Q().rightCols(A_.cols() - normal.rank());
+  std::vector<Index> known;
+  for (Index j = 0; j < sizes.size(); ++j)
+    if (sizes[j] > 0.0) known.push_back(j);
+  if (open.cols() > 0 && !known.empty()) {
+    const VectorXd size = sizes(known).array().log();
+    const MatrixXd K = C_(known, Eigen::all);
+    // Next to columns of length 1: what is open may have nothing to do with what is known.
+    const MatrixXd seen =
+        (K * open).unaryExpr([](double part) { return std::fabs(part) > kRoundOff ? part : 0.0; });
+    s += open * CompleteOrthogonalDecomposition(seen, 1e-12).solve(size - K * s);
+  }
+  return (C_ * s).array().exp();
+}
+
+}  // namespace courant

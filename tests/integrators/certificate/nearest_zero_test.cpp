@@ -1,0 +1,69 @@
+// Searches for zeros, and their units, where numbers are round-off.
+#include "courant/integrators/certificate/nearest_zero.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <limits>
+
+BOOST_AUTO_TEST_SUITE(nearest_zero_test)
+
+using namespace courant;
+
+namespace {
+
+constexpr double unit = 0.5 * std::numeric_limits<double>::epsilon();
+
+Linearization linear(const MatrixXd& J, const VectorXd& value, const VectorXd& value_error) {
+  Linearization at;
+  at.value = value;
+  at.value_error = value_error;
+  at.jacobian = J.sparseView();
+  at.error = SparseMatrixXd(J.rows(), J.cols());
+  return at;
+}
+
+VectorXd vector(std::initializer_list<double> values) {
+  return Eigen::Map<const VectorXd>(values.begin(), static_cast<Index>(values.size()));
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_residual_within_its_error_is_none) {
+  const Linearization at =
+      linear(MatrixXd::Identity(3, 3), vector({1e-17, 2e-16, -3.0}), vector({1e-16, 1e-16, 1e-16}));
+  BOOST_TEST((significant(at) - vector({0, 2e-16, -3})).norm() == 0.0);
+  const Linearization unknown = linear(MatrixXd::Identity(1, 1), vector({1e-17}), VectorXd());
+  BOOST_TEST(significant(unknown)[0] == 1e-17);
+}
+
+// Two equations that share nothing: x = 0.3, and y = 0 that is 10⁻¹⁷ because of rounding.
+BOOST_AUTO_TEST_CASE(round_off_chooses_no_units) {
+  const MatrixXd J = MatrixXd::Identity(2, 2);
+  const VectorXd error = vector({1e-16, 1e-16});
+  // A residual of 10⁻¹⁷ in an equation whose unknown vanishes.
+  const NaturalScaling by_value(linear(J, vector({0, 1e-17}), error), vector({0.3, 0}));
+  BOOST_TEST(by_value.row_scale[1] == 1.0);
+  // An unknown of 10⁻¹⁷: a unit is seen by its rounding errors at least a thousand times over.
+  const NaturalScaling by_size(linear(J, vector({0, 0}), error), vector({0.3, 1e-17}));
+  BOOST_TEST(by_size.column_scale[1] >= 1e3 * 1e-16);
+  BOOST_TEST(by_size.row_scale[1] * 1e-16 <= 1e-3);
+  BOOST_TEST(by_size.column_scale[0] < 1.0);  // a number is a unit
+}
+
+// x + y = 0.7, x - y = 0.7: y = 0, and not what elimination leaves of it.
+BOOST_AUTO_TEST_CASE(what_a_step_leaves_of_an_unknown_is_zero) {
+  MatrixXd J(2, 2);
+  J << 1.0, 3.0, 1.0 / 3.0, -0.9;
+  const auto map = [&](const VectorXd& y) {
+    const VectorXd target = 0.7 * J.col(0);
+    return linear(J, J * y - target, unit * (J.cwiseAbs() * y.cwiseAbs() + target));
+  };
+  Mobility mobility;
+  mobility.cost = VectorXd::Ones(2);
+  const Zero zero = find_zero(map, vector({0.1, 0.3}), mobility);
+  BOOST_TEST(zero.found);
+  BOOST_TEST(zero.y[1] == 0.0);
+  BOOST_TEST(std::abs(zero.y[0] - 0.7) < 1e-15);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
