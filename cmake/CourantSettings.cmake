@@ -18,6 +18,10 @@ if(BUILD_SHARED_LIBS)
   set(CMAKE_INSTALL_RPATH $ORIGIN/../${CMAKE_INSTALL_LIBDIR})
 endif()
 
+# Static libraries go into shared ones too, such as a module of Python. Programs are compiled as libraries are, so that they
+# share precompiled headers; a function of a library is never replaced by one of its name elsewhere, so it may be inlined.
+add_compile_options(-fPIC -fno-semantic-interposition)
+
 # Headers are included by the names that they are installed under: "courant/core/expressions/expr.hpp".
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/include)
 file(CREATE_LINK ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/include/courant SYMBOLIC)

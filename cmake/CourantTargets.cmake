@@ -86,7 +86,6 @@ function(courant_steps room)
   list(TRANSFORM courant_known_${room} PREPEND courant_ OUTPUT_VARIABLE known)
   target_link_libraries(${target} PUBLIC ${known})
   target_link_libraries(${target} ${ARGN})
-  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ${BUILD_SHARED_LIBS})
   target_sources(courant_${room} PRIVATE $<TARGET_OBJECTS:${target}>)
 endfunction()
 
