@@ -18,9 +18,16 @@ if(BUILD_SHARED_LIBS)
   set(CMAKE_INSTALL_RPATH $ORIGIN/../${CMAKE_INSTALL_LIBDIR})
 endif()
 
-# Static libraries go into shared ones too, such as a module of Python. Programs are compiled as libraries are, so that they
-# share precompiled headers; a function of a library is never replaced by one of its name elsewhere, so it may be inlined.
-add_compile_options(-fPIC -fno-semantic-interposition)
+# Static libraries go into modules of Python, MEX files and plug-ins, so all code is position independent. Programs share
+# precompiled headers with libraries, so they are compiled alike. No symbol of a library is replaced from outside: with that
+# promise GCC inlines as it does in a program.
+if(NOT DEFINED CMAKE_POSITION_INDEPENDENT_CODE)
+  set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+endif()
+if(CMAKE_POSITION_INDEPENDENT_CODE)
+  set(CMAKE_CXX_COMPILE_OPTIONS_PIE ${CMAKE_CXX_COMPILE_OPTIONS_PIC})
+  add_compile_options(-fno-semantic-interposition)
+endif()
 
 # Headers are included by the names that they are installed under: "courant/core/expressions/expr.hpp".
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/include)

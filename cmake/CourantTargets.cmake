@@ -130,6 +130,7 @@ function(courant_library room)
   target_link_libraries(${target} ${ARGN})
   set_target_properties(${target} PROPERTIES
     EXPORT_NAME ${room}
+    DEFINE_SYMBOL "" # or no other room could use its precompiled headers
     VERSION ${PROJECT_VERSION}
     SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   install(TARGETS ${target} EXPORT CourantTargets)
