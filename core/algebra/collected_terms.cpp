@@ -16,7 +16,7 @@ namespace courant {
 namespace {
 
 // Shared sums of more terms than this are not taken apart, nor are those of longer sums.
-constexpr std::size_t kMostTerms = 32;
+constexpr std::size_t kMostCollected = 32;
 
 class Collector {
  public:
@@ -209,7 +209,7 @@ class Collector {
     return places;
   }
 
-  static bool may_be_apart(const SumOfTerms& sum) { return sum.terms().size() <= kMostTerms; }
+  static bool may_be_apart(const SumOfTerms& sum) { return sum.terms().size() <= kMostCollected; }
   bool stays(const Place& place) const {
     return place.is_leaf || (!place.is_head && !place.meets && !is_product(node(place.at)));
   }
@@ -253,7 +253,7 @@ class Collector {
     const std::size_t before = operations_of(places);
     SumOfTerms sum = sum_of(places);
     bool has_met = sum.has_met();
-    for (bool is_apart = true; is_apart && sum.terms().size() <= kMostTerms;) {
+    for (bool is_apart = true; is_apart && sum.terms().size() <= kMostCollected;) {
       is_apart = false;
       for (const SumOfTerms::Term& term : sum.terms()) {
         if (!term.varies) continue;

@@ -27,7 +27,7 @@ struct Ends {
   bool is_fixed() const { return slope.is_constant(0.0); }
 };
 
-Ends product(const Ends& a, const Ends& b) {
+Ends ends_of_product(const Ends& a, const Ends& b) {
   return {a.first * b.first, a.last * b.last, a.slope * b.mean() + a.mean() * b.slope};
 }
 
@@ -53,7 +53,7 @@ class DividedDifference {
       case Op::subtract:
         return with(a.slope - b.slope);
       case Op::multiply:
-        return with(product(a, b).slope);
+        return with(ends_of_product(a, b).slope);
       case Op::divide:
         return with(quotient(a, b).slope);
       case Op::sqrt:
@@ -134,8 +134,8 @@ class DividedDifference {
 
   // asin a = atan2(a, √(1 - a²)).
   Expr arc_sine(const Ends& a) const {
-    const Ends inner =
-        product({1.0 - a.first, 1.0 - a.last, -a.slope}, {1.0 + a.first, 1.0 + a.last, a.slope});
+    const Ends inner = ends_of_product({1.0 - a.first, 1.0 - a.last, -a.slope},
+                                       {1.0 + a.first, 1.0 + a.last, a.slope});
     const Expr first = sqrt(inner.first), last = sqrt(inner.last);
     return angle(a, {first, last, inner.slope / (first + last)},
                  {asin(a.first), asin(a.last), 0.0});
@@ -144,13 +144,13 @@ class DividedDifference {
   static Ends power(const Ends& a, std::int32_t k) {
     if (k == 1) return a;
     const Ends half = power(a, k / 2);
-    const Ends even = product(half, half);
-    return k % 2 == 0 ? even : product(even, a);
+    const Ends even = ends_of_product(half, half);
+    return k % 2 == 0 ? even : ends_of_product(even, a);
   }
 
   // aᵇ = exp(b log a) for a > 0; elsewhere the plain difference, or the derivative.
   Expr general_power(const Ends& a, const Ends& b, const Ends& y) const {
-    const Ends exponent = product(b, {log(a.first), log(a.last), logarithm(a)});
+    const Ends exponent = ends_of_product(b, {log(a.first), log(a.last), logarithm(a)});
     const Expr half = square(0.5 * step_ * exponent.slope);
     const Expr smooth = exp(exponent.mean()) * stumpff(1, -half) * exponent.slope;
     const Expr still = a.is_fixed() ? Expr(0.0) : b.first * pow(a.first, b.first - 1.0) * a.slope;
