@@ -7,7 +7,7 @@
 #include "courant/core/linear/small_product.hpp"
 #include "courant/core/linear/static_size.hpp"
 #include "courant/core/solve/broyden_update.hpp"
-#include "courant/core/solve/movement.hpp"
+#include "courant/core/solve/unknown_change.hpp"
 
 namespace courant {
 namespace {
@@ -19,15 +19,15 @@ using Numbers = Eigen::Array<double, n, 1>;
 
 // u ← u - change.
 template <int n>
-[[gnu::always_inline]] inline PairMovement subtract(double* u, const Numbers<n>& change) {
-  PairMovement movement;
+[[gnu::always_inline]] inline PairChange subtract(double* u, const Numbers<n>& change) {
+  PairChange movement;
   for_each_pair(0, n, [&]<class Part>(Index i, Part) {
     movement.move(u + i, read<Part>(change.data() + i));
   });
   return movement;
 }
 
-double largest_change(const PairMovement& movement) {
+double largest_change(const PairChange& movement) {
   return movement.is_finite() ? movement.changes.value() : std::numeric_limits<double>::infinity();
 }
 
@@ -35,7 +35,7 @@ template <int n>
 double improve_by(const Contraction::Workspace& at, double& size) {
   const Numbers<n> change = small_product<n>(at.inverse, at.residual);
   Eigen::Map<Numbers<n>>{at.change} = change;
-  const PairMovement movement = subtract<n>(at.u, change);
+  const PairChange movement = subtract<n>(at.u, change);
   size = movement.sizes.value();
   return largest_change(movement);
 }
@@ -54,7 +54,7 @@ template <int n>
   for (int iteration = 1;; ++iteration) {
     F.value_with_held(numbers, residual);
     const Numbers<n> change = small_product<n>(inverse, residual);
-    const PairMovement movement = subtract<n>(u, change);
+    const PairChange movement = subtract<n>(u, change);
     size = std::max(scale, movement.sizes.value());
     moved = contraction::relative(largest_change(movement), size);
     const bool is_first = iteration == 1;

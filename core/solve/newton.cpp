@@ -8,7 +8,7 @@
 
 #include "courant/core/solve/broyden_update.hpp"
 #include "courant/core/solve/damped_newton.hpp"
-#include "courant/core/solve/movement.hpp"
+#include "courant/core/solve/unknown_change.hpp"
 #include "courant/core/solve/unknown_selection.hpp"
 
 namespace courant {
@@ -54,7 +54,7 @@ struct NumberSum {
 
 // u_i ← u_i - change_i for begin ≤ i < end.
 auto subtract(double* u, const double* change, Index begin, Index end) {
-  PairMovement movement;
+  PairChange movement;
   for_each_pair(begin, end, [&]<class Numbers>(Index i, Numbers) {
     movement.move(u + i, read<Numbers>(change + i));
   });
@@ -63,7 +63,7 @@ auto subtract(double* u, const double* change, Index begin, Index end) {
 
 // The same for the unknowns at these places.
 auto subtract(double* u, const double* change, const Index* places, Index begin, Index end) {
-  Movement<NumberMaximum, NumberSum> movement;
+  UnknownChange<NumberMaximum, NumberSum> movement;
   for (Index i = begin; i < end; ++i) movement.move(u + places[i], change[i]);
   return movement;
 }

@@ -9,7 +9,7 @@ namespace courant {
 
 // The largest change of some unknowns, their largest size after it, and whether all changes are finite.
 template <class Largest, class Total>
-struct Movement {
+struct UnknownChange {
   Largest changes, sizes;
   Total total;
 
@@ -25,6 +25,6 @@ struct Movement {
   bool is_finite() const { return std::isfinite(total.value()); }
 };
 
-using PairMovement = Movement<PairMaximum, PairSum>;
+using PairChange = UnknownChange<PairMaximum, PairSum>;
 
 }  // namespace courant
