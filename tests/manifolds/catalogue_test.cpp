@@ -32,7 +32,7 @@ BOOST_AUTO_TEST_CASE(manifolds_are_compared_by_value) {
 }
 
 BOOST_AUTO_TEST_CASE(every_class_is_in_the_catalogue) {
-  const auto classes = test::final_classes(COURANT_SOURCES "/manifolds", "Manifold|VectorBundle");
+  const auto classes = test::final_classes("manifolds", "Manifold|VectorBundle");
   BOOST_TEST(classes.size() >= 12U);
   const auto catalogue = test::manifold_catalogue();
   for (const std::string& name : classes)

@@ -56,7 +56,7 @@ BOOST_AUTO_TEST_CASE(every_structure_keeps_every_law) {
 }
 
 BOOST_AUTO_TEST_CASE(every_class_is_in_the_catalogue) {
-  const auto classes = test::final_classes(COURANT_SOURCES "/structures", "DiracStructure");
+  const auto classes = test::final_classes("structures", "DiracStructure");
   BOOST_TEST(classes.size() >= 14U);
   for (const std::string& name : classes)
     BOOST_TEST(std::ranges::any_of(

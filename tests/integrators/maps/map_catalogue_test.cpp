@@ -25,8 +25,7 @@ BOOST_AUTO_TEST_CASE(every_lift_keeps_every_law) {
 }
 
 BOOST_AUTO_TEST_CASE(every_class_is_in_the_catalogue) {
-  const auto classes =
-      test::final_classes(COURANT_SOURCES "/integrators/maps", "DiscretizationMap");
+  const auto classes = test::final_classes("integrators/maps", "DiscretizationMap");
   BOOST_TEST(classes.size() >= 6U);
   auto catalogue = test::base_map_catalogue();
   catalogue.push_back(test::lift(catalogue.front()));
