@@ -8,7 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "courant/plotting/figure.hpp"
+#include "courant/plotting/panel.hpp"
+#include "courant/plotting/svg.hpp"
 
 namespace courant::plot {
 

@@ -9,7 +9,7 @@
 #include <map>
 
 #include "courant/plotting/digits.hpp"
-#include "courant/plotting/figure.hpp"
+#include "courant/plotting/palette.hpp"
 #include "courant/plotting/scale.hpp"
 
 namespace courant::plot {

@@ -1,7 +1,6 @@
 #include "courant/plotting/figure.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -14,14 +13,6 @@
 namespace courant::plot {
 
 namespace {
-
-constexpr std::array<PaletteColour, 7> colours = {{{"#0072b2", "#4aa5e0"},
-                                                   {"#d55e00", "#f27b3d"},
-                                                   {"#009e73", "#2fc39a"},
-                                                   {"#b3578a", "#df97bd"},
-                                                   {"#c98a00", "#e9ab22"},
-                                                   {"#3b9bd1", "#8fd0f7"},
-                                                   {"#444444", "#d0cdc6"}}};
 
 constexpr double left_margin = 62, right_margin = 18, top_margin = 26, bottom_margin = 42;
 constexpr double padding = 0.03;  // of the axis, between data and frame
@@ -360,14 +351,12 @@ Markup legend(std::span<const LegendEntry> entries) {
   return element("ul", {{"class", "legend"}}, items);
 }
 
-std::span<const PaletteColour> palette() { return colours; }
-
 std::string figure_style() {
   std::string light, dark, classes;
-  for (std::size_t i = 0; i < colours.size(); ++i) {
+  for (std::size_t i = 0; i < palette().size(); ++i) {
     const std::string name = colour_class(i);
-    light.append("--").append(name).append(":").append(colours[i].light).append(";");
-    dark.append("--").append(name).append(":").append(colours[i].dark).append(";");
+    light.append("--").append(name).append(":").append(palette()[i].light).append(";");
+    dark.append("--").append(name).append(":").append(palette()[i].dark).append(";");
     classes.append(".").append(name).append("{--ink:var(--").append(name).append(")}\n");
   }
   return ":root{" + light + "}\n@media screen and (prefers-color-scheme:dark){:root{" + dark +

@@ -1,7 +1,10 @@
 // Curves in space, as they are seen from a side.
 #pragma once
 
-#include "courant/plotting/figure.hpp"
+#include <cstddef>
+
+#include "courant/plotting/panel.hpp"
+#include "courant/plotting/svg.hpp"
 
 namespace courant::plot {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "courant/plotting/figure.hpp"
+#include "courant/plotting/panel.hpp"
 
 namespace courant::plot {
 

@@ -7,7 +7,7 @@
 
 #include "courant/reporting/energy_error.hpp"
 #include "courant/reporting/energy_trend.hpp"
-#include "courant/reporting/report_figures.hpp"
+#include "courant/reporting/run_figure.hpp"
 
 namespace courant {
 

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace courant {
 namespace {
 
 constexpr std::size_t fewest_occurrences = 10, most_occurrences = 4000;
+
+using Plane = std::pair<std::string, std::string>;  // the names of its two axes
 
 double spread(std::span<const double> values) {
   double least = INFINITY, greatest = -INFINITY;
@@ -18,16 +21,16 @@ double spread(std::span<const double> values) {
 }
 
 // The plane of what differs from one occurrence to the next.
-std::optional<PlanarBody> plane_of(const Run& run, const TrajectoryTable& event) {
+std::optional<Plane> plane_of(const Run& run, const TrajectoryTable& event) {
   std::vector<std::string> differ;
   for (const std::string& name : run.coordinates())
     if (event.contains(name) &&
         spread(event.column(name)) > 1e-3 * spread(run.trajectory.column(name)))
       differ.push_back(name);
   for (const std::string& name : differ)
-    if (std::ranges::count(differ, "p_" + name) > 0) return PlanarBody{name, "p_" + name};
+    if (std::ranges::count(differ, "p_" + name) > 0) return Plane{name, "p_" + name};
   if (differ.size() < 2) return std::nullopt;
-  return PlanarBody{differ[0], differ[1]};
+  return Plane{differ[0], differ[1]};
 }
 
 std::vector<std::string> frequent_events(std::span<const Run> runs) {
@@ -47,7 +50,7 @@ std::optional<Figure> section_figure(std::span<const Run> runs) {
   figure.name = "section";
   std::string planes;
   for (const std::string& name : frequent_events(runs)) {
-    std::optional<PlanarBody> plane;
+    std::optional<Plane> plane;
     plot::Panel panel;
     for (std::size_t i = 0; i < runs.size(); ++i) {
       const auto found = runs[i].events.find(name);

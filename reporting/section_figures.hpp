@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "courant/reporting/report_figures.hpp"
+#include "courant/reporting/run_figure.hpp"
 
 namespace courant {
 

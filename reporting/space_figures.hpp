@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "courant/reporting/report_figures.hpp"
+#include "courant/reporting/run_figure.hpp"
 
 namespace courant {
 

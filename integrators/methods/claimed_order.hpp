@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "courant/integrators/methods/integrator_laws.hpp"
+#include "courant/integrators/methods/integrator_setting.hpp"
 #include "courant/integrators/methods/order_measurement.hpp"
 #include "courant/integrators/methods/state_separation.hpp"
 

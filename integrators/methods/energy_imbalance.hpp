@@ -1,7 +1,7 @@
 // The balance of energy that steps keep.
 #pragma once
 
-#include "courant/integrators/methods/integrator_laws.hpp"
+#include "courant/integrators/methods/integrator_setting.hpp"
 
 namespace courant {
 

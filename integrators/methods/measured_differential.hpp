@@ -1,7 +1,7 @@
 // The differential of a step, from differences of steps.
 #pragma once
 
-#include "courant/integrators/methods/integrator_laws.hpp"
+#include "courant/integrators/methods/integrator_setting.hpp"
 
 namespace courant {
 
