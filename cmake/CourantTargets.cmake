@@ -5,8 +5,8 @@
 set(courant_precompiled <Eigen/Core> <Eigen/SparseCore> <algorithm> <cmath> <functional> <memory> <random> <stdexcept>
     <string> <vector> <courant/core/expressions/function.hpp>)
 
-# How much a release optimises a room, but for the parts of it that are listed as `fast`, which have -O3. It takes a third
-# to half of the compiler's time.
+# How much a release optimises a room, but for the parts of it that are listed as `fast`, which have -O3; "." is the folder
+# of the room itself. It takes a third to half of the compiler's time.
 foreach(room core manifolds structures integrators systems)
   set(courant_optimisation_${room} -O1)
 endforeach()
@@ -102,6 +102,7 @@ function(courant_library room)
   list(REMOVE_ITEM sources ${left_out})
   set(in_steps "")
   foreach(part IN LISTS fast)
+    cmake_path(ABSOLUTE_PATH part NORMALIZE)
     file(GLOB part_sources CONFIGURE_DEPENDS ${part}/*.cpp)
     list(APPEND in_steps ${part_sources})
   endforeach()
@@ -133,7 +134,7 @@ function(courant_library room)
     DEFINE_SYMBOL "" # or no other room could use its precompiled headers
     VERSION ${PROJECT_VERSION}
     SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
-  install(TARGETS ${target} EXPORT CourantTargets)
+  install(TARGETS ${target} EXPORT CourantTargets COMPONENT development)
 endfunction()
 
 # courant_tests(<room>)
