@@ -76,5 +76,5 @@ function(courant_settings target)
   endif()
   # The interpreter and the native code that is compiled at run time must give the same bits. A compiler
   # that contracts a*b+c into one rounding does so where it likes, differently in the two: so never.
-  target_compile_options(${target} PUBLIC -ffp-contract=off)
+  target_compile_options(${target} PRIVATE -ffp-contract=off)
 endfunction()
