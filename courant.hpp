@@ -1,8 +1,7 @@
 // Courant in one header: everything that a program needs which makes systems and integrates them.
 //
-// docs/examples/pendulum.cpp shows step by step how. Headers that stand neither here nor in
-// cli/command_main.hpp, nor are included by those that do, are not installed and no promise to
-// anyone.
+// docs/examples/pendulum.cpp shows step by step how. Headers that are not in
+// cmake/public_headers.txt are not installed and no promise to anyone.
 #pragma once
 
 #include "courant/core/algebra/divided_difference.hpp"

@@ -1,21 +1,8 @@
-# Installs the headers of the public API: courant.hpp, what a program with kinds of its own includes, and the headers
-# that these include. Run by `cmake --install` with SOURCE and INCLUDE_DIR set.
+# Installs the headers of cmake/public_headers.txt. Run by `cmake --install` with SOURCE and INCLUDE_DIR set.
 
 cmake_minimum_required(VERSION 3.25)
-set(queue courant.hpp cli/command_main.hpp)
-set(public ${queue})
-while(queue)
-  list(POP_FRONT queue header)
-  file(STRINGS ${SOURCE}/${header} lines REGEX "^#include \"courant/")
-  foreach(line IN LISTS lines)
-    string(REGEX REPLACE "^#include \"courant/([^\"]+)\".*" "\\1" included "${line}")
-    if(NOT included IN_LIST public)
-      list(APPEND public ${included})
-      list(APPEND queue ${included})
-    endif()
-  endforeach()
-endwhile()
-foreach(header IN LISTS public)
+file(STRINGS ${SOURCE}/cmake/public_headers.txt headers REGEX "^[a-z]")
+foreach(header IN LISTS headers)
   get_filename_component(folder courant/${header} DIRECTORY)
   file(INSTALL ${SOURCE}/${header} DESTINATION ${INCLUDE_DIR}/${folder})
 endforeach()
