@@ -82,6 +82,9 @@ check_tutorial(${docs}/tutorial-new-manifold.md ${docs}/examples/heisenberg.cpp 
 execute_process(COMMAND ${CONSUMER}/rolling_penny OUTPUT_VARIABLE output COMMAND_ECHO NONE
                 COMMAND_ERROR_IS_FATAL ANY)
 check_tutorial(${docs}/tutorial-new-structure.md ${docs}/examples/rolling_penny.cpp "${output}")
+execute_process(COMMAND ${CONSUMER}/verlet OUTPUT_VARIABLE output COMMAND_ECHO NONE
+                COMMAND_ERROR_IS_FATAL ANY)
+check_tutorial(${docs}/tutorial-new-method.md ${docs}/examples/verlet.cpp "${output}")
 execute_process(COMMAND ${CONSUMER}/linear_dirac OUTPUT_VARIABLE output COMMAND_ECHO NONE
                 COMMAND_ERROR_IS_FATAL ANY)
 check_tutorial(${docs}/linear-dirac-structures.md ${docs}/examples/linear_dirac.cpp "${output}")
