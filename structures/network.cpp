@@ -247,7 +247,7 @@ Network::Ports Network::ports(const ExprVector& x, const ExprVector& velocity,
     }
   }
   for (std::size_t a = 0; a < ports_.size(); ++a) {
-    const Expr u = z[inputs()[a]];
+    const Expr& u = z[inputs()[a]];
     if (branches_[as_size(ports_[a])].kind == Kind::current)
       evaluation.set_voltage(ports_[a], u);
     else

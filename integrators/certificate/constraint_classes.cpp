@@ -164,7 +164,7 @@ std::optional<ConstraintClasses> constraint_classes(const ImplicitSystem& system
     if (ladder.constraints[static_cast<std::size_t>(a)].level == 0)
       of_primary.row(row++) = brackets.row(a);
   }
-  ConstraintClasses::Brackets& classes = result.brackets.emplace();
+  ConstraintClasses::Brackets& classes = *(result.brackets = ConstraintClasses::Brackets());
   classes.second_class = rank(brackets);
   classes.first_class = all - classes.second_class;
   classes.primary_first_class = result.primary - rank(of_primary);

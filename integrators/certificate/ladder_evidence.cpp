@@ -28,7 +28,7 @@ std::string asked_above(const ConsistentPoint& consistent, const ConsistentJet& 
   if ((!there.back().is_solved || !are_certain(there)) && !has_refined_ranks(above, there))
     return "What is known at " + place +
            " leaves open whether equations that follow from others do so there.";
-  if (const std::string changed = change(levels, there); !changed.empty()) return changed;
+  if (std::string changed = change(levels, there); !changed.empty()) return changed;
   return repeats(there) ? "" : "The dimensions fall again at " + place + ".";
 }
 

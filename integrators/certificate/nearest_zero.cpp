@@ -205,7 +205,7 @@ class ZeroSearch {
 }  // namespace
 
 Zero find_zero(const LinearizableMap& map, const VectorXd& start, const Mobility& mobility) {
-  const Zero careful = ZeroSearch(map, start, mobility, true).run();
+  Zero careful = ZeroSearch(map, start, mobility, true).run();
   if (careful.found) return careful;
   const Zero bold = ZeroSearch(map, start, mobility, false).run();
   return bold.found ? bold : careful;
