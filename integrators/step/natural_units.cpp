@@ -255,7 +255,7 @@ VectorXd natural_units(const std::shared_ptr<const ImplicitSystem>& system,
   if (ladder.point.x.size() == 0 || n == 0) return VectorXd::Ones(size);
   const Level0 level(system, ladder.point, Evidence::typical, each);
   const DerivativeArray& array = level.array;
-  const VectorXd units = level.units.head(n);
+  VectorXd units = level.units.head(n);
   if (n == size) return units;
   // The geometric mean over a block, weighted with what each basis vector has in it.
   const std::vector<Index> block = M.mixed_components();

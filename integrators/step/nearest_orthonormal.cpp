@@ -82,7 +82,8 @@ bool NearestOrthonormal::find(const MatrixXd& P, MatrixXd& B, int most_from_afar
     }
   };
   if constexpr (n == Eigen::Dynamic) {
-    auto& [E, square, root, last] = workspace;
+    MatrixXd &E = workspace.E, &square = workspace.square, &root = workspace.root;
+    MatrixXd& last = workspace.last;
     for (MatrixXd* matrix : {&E, &square, &root}) matrix->resize(columns, columns);
     return by(E.data(), square.data(), root.data(), [&](const MatrixXd& from) {
       last = from;

@@ -51,7 +51,7 @@ void Predictor::learn_from(const Predictor& other, const VectorXd& times) {
 // the same order for each unknown, so that steps in C give the same bits: the newest have been found just now, and
 // what waits for them should be short.
 void Predictor::extrapolate(const Group& group, int age, double* result) const {
-  const auto& [order, spacing] = group.rule;
+  const int order = group.rule.order, spacing = group.rule.spacing;
   const double* const oldest = recorded(age + order * spacing - 1);
   const Index stride = spacing * history_.cols();
   const double* const weights = group.weights.data();

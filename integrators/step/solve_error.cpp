@@ -16,8 +16,8 @@ double rounded_down(double h) {
 
 std::string text(const std::string& method, double time, double h, const std::string& what_happened,
                  const std::optional<SolveError::Reach>& reach) {
-  const std::string step = method + ": the step of " + number_text(h, 12) +
-                           " from t = " + number_text(time, 12) + ' ' + what_happened;
+  std::string step = method + ": the step of " + number_text(h, 12) +
+                     " from t = " + number_text(time, 12) + ' ' + what_happened;
   if (!reach) return step;
   return step + ": the one that is ends at a step of " + number_text(reach->h) + ". " +
          (reach->remedy.empty()

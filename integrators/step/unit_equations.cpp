@@ -9,7 +9,7 @@ namespace courant {
 namespace {
 
 // Parts of vectors of length 1 below this are rounding errors of their decomposition.
-constexpr double kRoundOff = 1e-9;
+constexpr double kNoPart = 1e-9;
 
 }  // namespace
 
@@ -59,7 +59,7 @@ VectorXd UnitEquations::columns(const VectorXd& sizes) const {
     const MatrixXd K = C_(known, Eigen::all);
     // Next to columns of length 1: what is open may have nothing to do with what is known.
     const MatrixXd seen =
-        (K * open).unaryExpr([](double part) { return std::fabs(part) > kRoundOff ? part : 0.0; });
+        (K * open).unaryExpr([](double part) { return std::fabs(part) > kNoPart ? part : 0.0; });
     s += open * CompleteOrthogonalDecomposition(seen, 1e-12).solve(size - K * s);
   }
   return (C_ * s).array().exp();
