@@ -18,8 +18,8 @@ MatrixXd fixed_directions(const Manifold& M, const Projector& projector,
                           const ConstraintLadder& ladder) {
   const Index n = M.dimension(), d = n - ladder.degrees_of_freedom;
   if (d == 0 || n != M.tangent_dimension() || !projector.has_constant_directions(d)) return {};
-  const MatrixXd W = projector.directions(ladder.point.x, LinearMap<double>::identity(n),
-                                          orthonormalized(ladder.conormals().transpose()));
+  MatrixXd W = projector.directions(ladder.point.x, LinearMap<double>::identity(n),
+                                    orthonormalized(ladder.conormals().transpose()));
   // Unit vectors where their span is the same: formulas become simpler.
   constexpr double round_off = 1e-12;
   const MatrixXd onto = W * W.transpose(), rounded = onto.array().round();

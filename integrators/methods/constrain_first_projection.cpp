@@ -85,7 +85,10 @@ void ConstrainFirst::Projection::begin_with(const VectorXd& y) {
 
 void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& approach,
                                          SolverStatistics& statistics) {
-  const auto& [before, attempt, t, from_M_f, goes_on] = approach;
+  const State& before = approach.before;
+  const StepSolver::Attempt& attempt = approach.attempt;
+  const double t = approach.t;
+  const bool goes_on = approach.goes_on;
   VectorXd& y = gives_all_ ? given_ : solver_.unknown();
   if (!gives_all_) clear_places(y);
   if (is_explicit_) {
@@ -141,7 +144,7 @@ void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& a
     if (iteration == 0) {
       const double distance = std::sqrt(
           std::max(plain_product(y.data() + (y.size() - d_), y.data() + (y.size() - d_), d_),
-                   plain_product(from_M_f.data(), from_M_f.data(), d_)));
+                   plain_product(approach.from_M_f.data(), approach.from_M_f.data(), d_)));
       const double change = std::max(moved, size * jet_change(aimed_, y));
       if (goes_on && kSafety * turning_ * distance * change <= kTolerance * size) return;
     } else {

@@ -6,7 +6,7 @@ namespace courant {
 namespace {
 
 std::shared_ptr<const EnergySystem> checked(const std::shared_ptr<const ImplicitSystem>& system) {
-  const auto with_energy = std::dynamic_pointer_cast<const EnergySystem>(system);
+  auto with_energy = std::dynamic_pointer_cast<const EnergySystem>(system);
   if (!with_energy)
     throw std::invalid_argument(
         "DiscreteGradient::DiscreteGradient: the system is given by its equations alone; expected "

@@ -180,7 +180,7 @@ std::shared_ptr<const LiePoisson> checked(const std::shared_ptr<const DiracSyste
   if (!system || !map)
     throw std::invalid_argument(
         "ReducedMap::ReducedMap: the system or the map is missing; expected both.");
-  const auto structure = std::dynamic_pointer_cast<const LiePoisson>(system->structure());
+  auto structure = std::dynamic_pointer_cast<const LiePoisson>(system->structure());
   if (!structure)
     throw std::invalid_argument("ReducedMap::ReducedMap: the structure is " +
                                 system->structure()->name() +
