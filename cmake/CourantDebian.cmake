@@ -1,4 +1,5 @@
-# `cpack -G DEB` packs the command alone, with manual pages, completion and the experiments; scripts/package does it.
+# `cpack -G DEB` makes two packages: the command, with manual pages, completion and the experiments; and libcourant-dev, what
+# a program is built with that uses the libraries. scripts/package does it.
 
 if(BUILD_SHARED_LIBS)
   return() # a command that needs libraries of its own
@@ -28,31 +29,50 @@ install(CODE "set(PAGES \"${PROJECT_BINARY_DIR}/pages\")
 set(DEBIAN \"${PROJECT_BINARY_DIR}/debian\")
 set(EXPERIMENTS \"${PROJECT_SOURCE_DIR}/experiments\")" COMPONENT debian EXCLUDE_FROM_ALL)
 install(SCRIPT ${PROJECT_SOURCE_DIR}/cmake/install_debian.cmake COMPONENT debian EXCLUDE_FROM_ALL)
+install(CODE "set(DEBIAN \"${PROJECT_BINARY_DIR}/debian\")" COMPONENT debian_development EXCLUDE_FROM_ALL)
+install(SCRIPT ${PROJECT_SOURCE_DIR}/cmake/install_debian_development.cmake COMPONENT debian_development EXCLUDE_FROM_ALL)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME courant)
 set(CPACK_PACKAGE_CONTACT "${COURANT_MAINTAINER}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
-set(CPACK_COMPONENTS_ALL command debian)
-set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
+set(CPACK_COMPONENTS_ALL command debian development debian_development)
+set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE
     WORLD_READ WORLD_EXECUTE)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_DEBIAN_PACKAGE_SECTION math)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME courant)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION math)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libcourant-dev)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS "libboost-dev, libeigen3-dev, nlohmann-json3-dev")
+if(COURANT_WITH_SUITESPARSE)
+  string(APPEND CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS ", libsuitesparse-dev, liblapack-dev")
+endif()
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 # Without a compiler formulas are interpreted; without rsvg-convert figures are written as SVG only.
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gcc | c-compiler, librsvg2-bin")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "gcc | c-compiler, librsvg2-bin")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "geometric integrators from Dirac structures")
-set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "\
+set(about "\
 Courant turns the geometric description of a mechanical or physical system
 (a manifold, a Dirac structure, an energy) into a numerical integrator that
 keeps the geometry, and says beforehand, by a numerical constraint algorithm,
 whether and where the equations have solutions.
 .
+")
+set(CPACK_COMPONENT_COMMAND_GROUP program)
+set(CPACK_COMPONENT_DEBIAN_GROUP program)
+set(CPACK_COMPONENT_DEVELOPMENT_GROUP library)
+set(CPACK_COMPONENT_DEBIAN_DEVELOPMENT_GROUP library)
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "${about}\
 This package contains the command, which reads experiments in JSON and writes
 trajectories, reports and figures. `courant tour` is an introduction.")
+set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "${about}\
+This package contains the static libraries and the headers, for programs that
+make systems of their own in C++ and integrate them. CMake finds it by
+find_package(Courant), other builds by pkg-config.")
 include(CPack)
