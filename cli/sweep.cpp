@@ -50,7 +50,8 @@ void print_table(const Console& console, const SweepTask& task, const Json& tabl
   }
   head.emplace_back("status");
   const Json& rows = table.at("runs");
-  for (const auto& [name, title] : task.columns) {
+  for (const auto& column : task.columns) {
+    const std::string &name = column.first, &title = column.second;
     if (std::ranges::none_of(rows, [&](const Json& row) { return row["values"].contains(name); }))
       continue;
     names.push_back(name);

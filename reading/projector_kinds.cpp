@@ -67,7 +67,7 @@ Projector::MatrixFormula metric_formula(const MetricChoice& metric, Index size,
   if (formulas.shape != Shape{size, size})
     throw ExperimentError(metric.pointer,
                           "is no " + size_text(size, size) + " matrix; expected one");
-  const auto formula = point_matrix(formulas, size, size, at);
+  auto formula = point_matrix(formulas, size, size, at);
   const MatrixXd G = values(formula(constants(at.initial.x)));
   const bool symmetric = (G - G.transpose()).norm() <= 1e-12 * G.norm();
   const MatrixXd part = seen(G);

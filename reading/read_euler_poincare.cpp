@@ -79,7 +79,7 @@ std::vector<MatrixXd> defining_representation(const LieAlgebra& g) {
 // momenta; nothing where the word says nothing of this algebra.
 std::vector<MatrixXd> named_representation(const std::string& word, const LieAlgebra& g) {
   if (word == "adjoint") return adjoint_representation(g);
-  const Representation vectors = defining_representation(g);
+  Representation vectors = defining_representation(g);
   if (word == "symmetric-matrices") return dual(symmetric_square(dual(vectors)));
   if (word == "two-forms") return dual(exterior_square(dual(vectors)));
   return vectors;

@@ -117,7 +117,8 @@ Json to_json(const RunSummary& summary) {
   for (const auto& [name, symmetry] : summary.symmetries)
     json["symmetries"][name] = {{"conserved", symmetry.is_conserved}, {"remark", symmetry.remark}};
   for (const auto& [name, event] : summary.events) {
-    const auto when = [&](double t) { return event.count > 0 ? Json(t) : Json(); };
+    const bool has_occurred = event.count > 0;
+    const auto when = [&](double t) { return has_occurred ? Json(t) : Json(); };
     json["events"][name] = {
         {"count", event.count}, {"first", when(event.first)}, {"last", when(event.last)}};
   }

@@ -114,7 +114,9 @@ BOOST_AUTO_TEST_CASE(unknowns_that_are_not_contained_stay) {
 
 BOOST_AUTO_TEST_CASE(undetermined_unknowns_are_noticed) {
   // One equation for two unknowns; the same twice; two that are independent.
-  for (const auto& [second, determined] : {std::pair(0.0, false), std::pair(1.0, true)}) {
+  for (const auto& of_second : {std::pair(0.0, false), std::pair(1.0, true)}) {
+    const double second = of_second.first;
+    const bool determined = of_second.second;
     NewtonProblem problem = newton_problem(2, [&](const ExprVector& y, const Expr& a) {
       ExprVector F(3);
       F << y[0] + y[1] - a, 2.0 * y[0] + 2.0 * y[1] - 2.0 * a, y[0] + y[1] - a + second * y[0];
