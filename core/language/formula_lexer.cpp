@@ -168,6 +168,32 @@ std::vector<Token> tokenize(std::string_view text) {
   return tokens;
 }
 
+int binding_of(TokenKind kind) {
+  switch (kind) {
+    case TokenKind::logical_or:
+      return 1;
+    case TokenKind::logical_and:
+      return 2;
+    case TokenKind::less:
+    case TokenKind::less_equal:
+    case TokenKind::greater:
+    case TokenKind::greater_equal:
+    case TokenKind::equal:
+    case TokenKind::unequal:
+      return 3;
+    case TokenKind::plus:
+    case TokenKind::minus:
+      return 4;
+    case TokenKind::times:
+    case TokenKind::over:
+      return 5;
+    case TokenKind::hat:
+      return 7;
+    default:
+      return 0;
+  }
+}
+
 bool is_name(std::string_view text) { return !text.empty() && name_length(text) == text.size(); }
 
 }  // namespace courant::formula

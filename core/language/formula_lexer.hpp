@@ -48,6 +48,11 @@ struct Token {
 // Throws FormulaError.
 std::vector<Token> tokenize(std::string_view text);
 
+// How tightly a sign binds what stands on both sides; 0 if it is no such sign. ^ does so to the right.
+int binding_of(TokenKind kind);
+// The same of a sign before its operand.
+inline constexpr int kUnary = 6;
+
 // Whether `text` is one name and nothing else.
 bool is_name(std::string_view text);
 

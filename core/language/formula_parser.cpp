@@ -16,35 +16,6 @@ constexpr Index kMostTerms = 1'000'000;  // of all sums together: a second
 // a system with so many takes a minute.
 constexpr Index kMostOpenTerms = 500'000;
 
-constexpr int kUnary = 6;
-
-// How tightly a sign binds what stands on both sides; 0 if it is no such sign.
-int binding_of(TokenKind kind) {
-  switch (kind) {
-    case TokenKind::logical_or:
-      return 1;
-    case TokenKind::logical_and:
-      return 2;
-    case TokenKind::less:
-    case TokenKind::less_equal:
-    case TokenKind::greater:
-    case TokenKind::greater_equal:
-    case TokenKind::equal:
-    case TokenKind::unequal:
-      return 3;
-    case TokenKind::plus:
-    case TokenKind::minus:
-      return 4;
-    case TokenKind::times:
-    case TokenKind::over:
-      return 5;
-    case TokenKind::hat:
-      return 7;
-    default:
-      return 0;
-  }
-}
-
 bool begins_operand(TokenKind kind) {
   return kind == TokenKind::number || kind == TokenKind::name ||
          kind == TokenKind::left_parenthesis;
