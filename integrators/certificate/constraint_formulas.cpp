@@ -154,6 +154,9 @@ class EquationReduction {
     });
     return texts;
   }
+  Expr solution(Index u) { return reduced(unknowns_[u]); }
+  const ExprVector& coordinates() const { return x_; }
+  const Expr& time() const { return t_; }
   bool is_function_of_the_point(Index u) {
     return solved_[static_cast<std::size_t>(u)] && !has_unknown(reduced(unknowns_[u]));
   }
@@ -292,7 +295,10 @@ class Derivation {
     const std::vector<std::string> formulas = elimination_.solutions(determined);
     for (std::size_t i = 0; i < formulas.size(); ++i)
       if (!formulas[i].empty())
-        result_.values.push_back({determined[i] - elimination_.velocity_count(), formulas[i]});
+        told(ConstraintFormulas::Value{determined[i] - elimination_.velocity_count(), formulas[i]},
+             elimination_.solution(determined[i]));
+    result_.coordinates = elimination_.coordinates();
+    result_.time = elimination_.time();
     return result_;
   }
 
@@ -300,6 +306,15 @@ class Derivation {
   // By ranks.
   Index constraint_count(Index level) const {
     return std::ranges::count(ladder_.constraints, level, &PointConstraint::level);
+  }
+
+  void told(ConstraintFormulas::Constraint constraint, const Expr& function) {
+    result_.constraints.push_back(std::move(constraint));
+    result_.constraint_functions.push_back(function);
+  }
+  void told(ConstraintFormulas::Value value, const Expr& function) {
+    result_.values.push_back(std::move(value));
+    result_.value_functions.push_back(function);
   }
 
   void add_constraint(Index level, const Expr& function) {
@@ -315,7 +330,7 @@ class Derivation {
     }
     if (!(size > 0.0)) {
       if (ladder_.verdict == Verdict::rank_change && std::abs(value) < 1e-8 && !formula.empty())
-        result_.constraints.push_back({level, formula, true});
+        told(ConstraintFormulas::Constraint{level, formula, true}, function);
       return;
     }
     // Where there is no consistent point, constraints need not hold at the one that was found.
@@ -324,7 +339,7 @@ class Derivation {
     if (ladder_.verdict == Verdict::inconsistent && !formula.empty()) {
       all_.push_back(function);
       if (elimination_.have_no_common_zero(all_)) {
-        result_.constraints.push_back({level, formula});
+        told(ConstraintFormulas::Constraint{level, formula}, function);
         result_.steps.push_back({level, Kind::contradiction, formula, "", "1"});
         contradicted_ = true;
         return;
@@ -334,7 +349,7 @@ class Derivation {
     if (g.norm() < 1e-8 * size) return;  // follows from those before
     known_.conservativeResize(Eigen::NoChange, known_.cols() + 1);
     known_.rightCols(1) = g.normalized();
-    if (!formula.empty()) result_.constraints.push_back({level, formula});
+    if (!formula.empty()) told(ConstraintFormulas::Constraint{level, formula}, function);
     found_.push_back(function);
     elimination_.add_constraint(function);
   }

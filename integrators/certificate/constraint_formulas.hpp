@@ -44,6 +44,11 @@ struct ConstraintFormulas {
   std::vector<Value> values;
   std::vector<Velocity> velocities;
   std::vector<Step> steps;
+  // The constraints and the values as expressions, in the same order, of coordinates (N) and time, which have the
+  // names of the system.
+  std::vector<Expr> constraint_functions = {}, value_functions = {};
+  ExprVector coordinates = {};
+  Expr time = {};
 };
 
 std::string to_string(ConstraintFormulas::Step::Kind kind);

@@ -1,0 +1,219 @@
+#include "courant/integrators/certificate/constraint_brackets.hpp"
+
+#include <cmath>
+#include <memory>
+
+#include "courant/core/algebra/simplified.hpp"
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/structures/dirac_structure.hpp"
+#include "courant/structures/dirac_system.hpp"
+
+namespace courant {
+namespace {
+
+constexpr std::size_t longest = 450, most_constraints = 24;
+constexpr Index most_coordinates = 16;
+
+ExprVector variables(const Graph& graph, const std::string& name, Index count) {
+  ExprVector result(count);
+  for (Index i = 0; i < count; ++i) result[i] = graph.variable(name + std::to_string(i));
+  return result;
+}
+
+// A⁻¹ B by elimination with pivots that are constants; nothing where one is missing.
+std::optional<ExprMatrix> quotient(ExprMatrix A, ExprMatrix B) {
+  const Index n = A.rows();
+  for (Index k = 0; k < n; ++k) {
+    Index pivot = -1;
+    double largest = 0.0;
+    for (Index i = k; i < n; ++i)
+      if (A(i, k).is_constant() && std::abs(A(i, k).value()) > largest) {
+        largest = std::abs(A(i, k).value());
+        pivot = i;
+      }
+    if (pivot < 0) return std::nullopt;
+    A.row(k).swap(A.row(pivot));
+    B.row(k).swap(B.row(pivot));
+    const Expr inverse = Expr(1.0 / A(k, k).value());
+    A.row(k) *= inverse;
+    B.row(k) *= inverse;
+    for (Index i = 0; i < n; ++i) {
+      if (i == k || A(i, k).is_constant(0.0)) continue;
+      const Expr factor = A(i, k);
+      for (Index j = k; j < n; ++j) A(i, j) -= factor * A(k, j);
+      for (Index j = 0; j < B.cols(); ++j) B(i, j) -= factor * B(k, j);
+    }
+  }
+  return B;
+}
+
+// Λ of F v + E α = 0, v = Λ α, at the coordinates x.
+std::optional<ExprMatrix> bivector(const DiracStructure& structure, const ExprVector& x,
+                                   const Graph& graph) {
+  const Index n = structure.manifold()->tangent_dimension();
+  if (structure.port_size() > 0 || structure.equation_count() != n) return std::nullopt;
+  const ExprVector v = variables(graph, "v of bracket ", n),
+                   alpha = variables(graph, "covector of bracket ", n);
+  const ExprVector membership = structure.membership(x, v, alpha, ExprVector());
+  const ExprMatrix F = jacobian(membership, v).dense(), E = jacobian(membership, alpha).dense();
+  auto solved = quotient(F, E);
+  if (solved) *solved = -*solved;
+  return solved;
+}
+
+class Brackets {
+ public:
+  Brackets(const ImplicitSystem& system, const ConstraintFormulas& formulas, ExprMatrix bivector)
+      : system_(system),
+        formulas_(formulas),
+        bivector_(std::move(bivector)),
+        x_(formulas.coordinates) {
+    const Manifold& M = *system.manifold();
+    const ExprVector of_manifold = M.constraint(x_);
+    on_M_f_.relations.assign(of_manifold.begin(), of_manifold.end());
+    frame_ = M.frame(x_);
+    on_manifold_ = on_M_f_;
+    on_M_f_.constraints = formulas.constraint_functions;
+    // Equations are written divided by what is common to their terms; brackets need the function itself.
+    for (Expr function : formulas.constraint_functions) {
+      if (written(function, on_manifold_).value_or("").starts_with('-')) function = -function;
+      names_.push_back(written(function, on_manifold_).value_or(""));
+      differentials_.push_back(differential(function));
+      fields_.push_back(bivector_ * differentials_.back());
+    }
+  }
+
+  std::optional<ConstraintBrackets> operator()() {
+    ConstraintBrackets result;
+    const std::size_t count = formulas_.constraints.size();
+    for (std::size_t a = 0; a < count; ++a) {
+      if (names_[a].empty()) return std::nullopt;
+      result.constraints.push_back(names_[a]);
+      result.matrix.emplace_back();
+      bool vanish = true;
+      for (std::size_t b = 0; b < count; ++b) {
+        const auto text = written(bracket(a, b));
+        if (!text) return std::nullopt;
+        vanish = vanish && *text == "0";
+        result.matrix.back().push_back(*text);
+      }
+      result.is_first_class.push_back(vanish);
+    }
+    result.hamiltonian = hamiltonian();
+    for (std::size_t a = 0; a < count; ++a)
+      if (result.is_first_class[a]) result.generators.push_back(generator(a));
+    result.dirac_brackets = dirac_brackets(result);
+    return result;
+  }
+
+ private:
+  ExprVector differential(const Expr& f) const { return frame_.transpose() * gradient(f, x_); }
+  Expr bracket(std::size_t a, std::size_t b) const {
+    return a == b ? Expr(0.0) : differentials_[a].dot(fields_[b]);
+  }
+  static std::optional<std::string> written(const Expr& f, const Simplification& given) {
+    auto text = simplified(f, given);
+    if (text && text->size() > longest) text.reset();
+    return text;
+  }
+  std::optional<std::string> written(const Expr& f) const { return written(f, on_M_f_); }
+
+  std::string hamiltonian() const {
+    const auto* dirac = dynamic_cast<const DiracSystem*>(&system_);
+    if (!dirac) return "";
+    const GeneratingFamily& family = *dirac->family();
+    const Graph graph = x_[0].graph();
+    const auto& names = system_.names().auxiliary;
+    ExprVector lambda(family.parameter_size());
+    for (Index i = 0; i < lambda.size(); ++i)
+      lambda[i] = graph.variable(names[static_cast<std::size_t>(i)]);
+    for (std::size_t i = 0; i < formulas_.values.size(); ++i)
+      if (const Index unknown = formulas_.values[i].unknown; unknown < lambda.size())
+        lambda[unknown] = formulas_.value_functions[i];
+    return written(family.value(x_, lambda, formulas_.time), on_manifold_).value_or("");
+  }
+
+  ConstraintBrackets::Generator generator(std::size_t a) const {
+    ConstraintBrackets::Generator found{names_[a], {}};
+    const ExprVector rates = frame_ * fields_[a];
+    for (Index i = 0; i < rates.size(); ++i)
+      if (const auto text = written(rates[i]); text && *text != "0")
+        found.moves.emplace_back(name(i), *text);
+    return found;
+  }
+
+  std::vector<ConstraintBrackets::DiracBracket> dirac_brackets(
+      const ConstraintBrackets& found) const {
+    std::vector<std::size_t> second;
+    for (std::size_t a = 0; a < found.is_first_class.size(); ++a)
+      if (!found.is_first_class[a]) second.push_back(a);
+    const auto count = static_cast<Index>(second.size());
+    if (count == 0 || x_.size() > most_coordinates) return {};
+    ExprMatrix C(count, count);
+    bool constant = true;
+    for (Index a = 0; a < count; ++a)
+      for (Index b = 0; b < count; ++b) {
+        C(a, b) = bracket(second[static_cast<std::size_t>(a)], second[static_cast<std::size_t>(b)]);
+        constant = constant && C(a, b).is_constant();
+      }
+    ExprMatrix inverse;
+    if (constant) {
+      const auto solved = quotient(C, ExprMatrix::Identity(count, count));
+      if (!solved) return {};
+      inverse = *solved;
+    } else if (count == 2) {
+      inverse = ExprMatrix::Zero(2, 2);
+      inverse(0, 1) = 1.0 / C(1, 0);
+      inverse(1, 0) = 1.0 / C(0, 1);
+    } else {
+      return {};
+    }
+    std::vector<ConstraintBrackets::DiracBracket> brackets;
+    ExprMatrix along(x_.size(), count);  // {x_i, φ_a}
+    for (Index a = 0; a < count; ++a)
+      along.col(a) =
+          frame_ * fields_[static_cast<std::size_t>(second[static_cast<std::size_t>(a)])];
+    const ExprMatrix all =
+        frame_ * bivector_ * frame_.transpose() + along * inverse * along.transpose();
+    for (Index i = 0; i < x_.size(); ++i)
+      for (Index j = i + 1; j < x_.size(); ++j) {
+        const auto text = written(all(i, j));
+        if (!text) return {};
+        if (*text != "0") brackets.push_back({name(i), name(j), *text});
+      }
+    return brackets;
+  }
+
+  std::string name(Index coordinate) const {
+    return system_.names().coordinates[static_cast<std::size_t>(coordinate)];
+  }
+
+  const ImplicitSystem& system_;
+  const ConstraintFormulas& formulas_;
+  ExprMatrix bivector_;
+  LinearMap<Expr> frame_;
+  ExprVector x_;
+  Simplification on_manifold_, on_M_f_;
+  std::vector<std::string> names_;  // of the constraints: their formulas
+  std::vector<ExprVector> differentials_, fields_;
+};
+
+}  // namespace
+
+std::optional<ConstraintBrackets> constraint_brackets(const ImplicitSystem& system,
+                                                      const ConstraintLadder& ladder,
+                                                      const ConstraintFormulas& formulas) {
+  const auto structure = system.structure();
+  if (!structure || ladder.index < 0 || formulas.constraints.empty() ||
+      formulas.constraints.size() != ladder.constraints.size() ||
+      formulas.constraints.size() > most_constraints)
+    return std::nullopt;
+  const auto* dirac = dynamic_cast<const DiracSystem*>(&system);
+  if (dirac && dirac->exterior().constraint) return std::nullopt;
+  const ExprVector& x = formulas.coordinates;
+  auto lambda = bivector(*structure, x, x[0].graph());
+  if (!lambda) return std::nullopt;
+  return Brackets(system, formulas, std::move(*lambda))();
+}
+
+}  // namespace courant

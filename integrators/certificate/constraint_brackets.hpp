@@ -1,0 +1,53 @@
+// Brackets of constraints in formulas: what a course on constrained dynamics writes on the blackboard.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "courant/integrators/certificate/constraint_formulas.hpp"
+#include "courant/integrators/certificate/constraint_ladder.hpp"
+#include "courant/structures/implicit_system.hpp"
+
+namespace courant {
+
+// Of the constraints φ_a of a ladder, where the Dirac structure of the system is the graph of a bivector Λ,
+// {f, g} = ⟨df, Λ dg⟩. Formulas are simplified by the constraints: they hold on M_f.
+struct ConstraintBrackets {
+  // φ_a, in the order of ConstraintFormulas but as functions, not as equations, which may be divided; {φ_a, φ_b} as
+  // rows.
+  std::vector<std::string> constraints;
+  std::vector<std::vector<std::string>> matrix;
+  // Whether φ_a is first class as it stands: {φ_a, φ_b} = 0 on M_f for all b.
+  std::vector<bool> is_first_class;
+
+  // The energy with the unknowns that are known put in: of a Lagrangian that is the total Hamiltonian, in which
+  // velocities that nothing determines multiply primary constraints. "" where it is longer than five lines.
+  std::string hamiltonian;
+
+  // Of a first class constraint φ, what it generates: δx = ε {x, φ} for the coordinates that it moves.
+  struct Generator {
+    std::string constraint;
+    std::vector<std::pair<std::string, std::string>> moves;  // coordinate, {x, φ}
+  };
+  std::vector<Generator> generators;
+
+  // {x_i, x_j} - {x_i, φ_a} C^ab {φ_b, x_j} with C the matrix of the constraints that are not first class, for
+  // i < j where that is not 0. Nothing where there are no such constraints, where C is not constant, or has
+  // more than two of them and is not constant, or for more than 16 coordinates.
+  struct DiracBracket {
+    std::string first, second, value;
+  };
+  std::vector<DiracBracket> dirac_brackets;
+};
+
+// Nothing where there are no constraints, where not all of them have formulas, where there is no structure or none
+// whose bivector elimination with constant pivots finds, and with constraints on velocities. At most 24
+// constraints.
+// Reference: Henneaux, Teitelboim, Quantization of Gauge Systems (1992), chapter 1.
+std::optional<ConstraintBrackets> constraint_brackets(const ImplicitSystem& system,
+                                                      const ConstraintLadder& ladder,
+                                                      const ConstraintFormulas& formulas);
+
+}  // namespace courant
