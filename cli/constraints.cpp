@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <ostream>
@@ -13,8 +14,10 @@
 #include "courant/integrators/certificate/discrete_constraint_algorithm.hpp"
 #include "courant/reporting/ladder_diagram.hpp"
 #include "courant/reporting/ladder_explanation.hpp"
+#include "courant/reporting/ladder_page.hpp"
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/ladder_report.hpp"
+#include "courant/running/output_file.hpp"
 
 namespace courant::cli {
 namespace {
@@ -38,15 +41,16 @@ void print_levels(const Console& console, const Experiment& experiment,
   out << '\n';
 }
 
-void print_ladder(const Console& console, const Experiment& experiment,
-                  const LadderReport& ladder) {
+void print_ladder(const Console& console, const Experiment& experiment, const LadderReport& ladder,
+                  const std::optional<ConstraintBrackets>& brackets) {
   std::ostream& out = console.out;
   print_levels(console, experiment, ladder);
   const bool is_stopped = ladder.reason.starts_with("Stopped");
   if (!is_stopped) print_wrapped(out, verdict_in_words(ladder), "  ");
   if (!ladder.reason.empty()) print_wrapped(out, ladder.reason, "  ");
   out << '\n';
-  for (const std::string& line : ladder_explanation(ladder)) print_wrapped(out, line, "  ");
+  for (const Prose& line : ladder_explanation(ladder, brackets))
+    print_wrapped(out, line.str(), "  ");
   if (!ladder.moves.empty()) {
     out << '\n';
     // Of velocities and unknowns, which have units of their own, there is no sum.
@@ -99,16 +103,51 @@ void print_discrete(const Console& console, const Experiment& experiment,
   out << "\n  without discretization: " << ladder_line(continuous) << '\n';
 }
 
+// The JSON of a ladder, and that of its brackets where there are some.
+Json with_brackets(Json ladder, const std::optional<ConstraintBrackets>& brackets) {
+  if (!brackets) return ladder;
+  Json& json = ladder["brackets"];
+  json = {{"constraints", brackets->constraints},
+          {"matrix", brackets->matrix},
+          {"first_class", brackets->is_first_class},
+          {"hamiltonian", brackets->hamiltonian},
+          {"generators", Json::array()},
+          {"dirac", Json::array()}};
+  for (const auto& [constraint, moves] : brackets->generators) {
+    json["generators"].push_back({{"constraint", constraint}, {"moves", Json::object()}});
+    for (const auto& [coordinate, formula] : moves)
+      json["generators"].back()["moves"][coordinate] = formula;
+  }
+  for (const auto& [first, second, value] : brackets->dirac_brackets)
+    json["dirac"].push_back({{"of", {first, second}}, {"bracket", value}});
+  return ladder;
+}
+
+using PageWriter = std::string (*)(const LadderPage&);
+
+// By the ending of a file's name; null for others.
+PageWriter page_writer(const std::filesystem::path& path) {
+  const std::string ending = path.extension().string();
+  if (ending == ".html") return to_html;
+  if (ending == ".tex") return to_latex;
+  return ending == ".md" ? to_markdown : nullptr;
+}
+
+void write_page(const Console& console, const std::filesystem::path& path, const LadderPage& page) {
+  write_file(path, page_writer(path)(page));
+  console.out << path.string() << '\n';
+}
+
 }  // namespace
 
 void add_constraints(CLI::App& app, Session& session) {
   struct Arguments {
     std::string file;
-    bool json = false, discrete = false;
+    bool json = false, latex = false, markdown = false, discrete = false;
     Index level = -1;
     std::vector<std::string> settings;
     SweepArguments sweep;
-    std::string folder;
+    std::string output;  // a page; of a sweep its folder
     bool force = false;
   };
   auto arguments = std::make_shared<Arguments>();
@@ -118,14 +157,26 @@ void add_constraints(CLI::App& app, Session& session) {
       ->required();
   add_settings(*constraints, arguments->settings);
   add_sweep(*constraints, arguments->sweep);
-  CLI::Option* folder =
-      constraints->add_option("-o", arguments->folder, "of a sweep: where its table and figure go")
-          ->type_name("DIR")
-          ->needs("--sweep");
+  CLI::Option* output =
+      constraints
+          ->add_option("-o", arguments->output,
+                       "a page with the findings and their formulas set (.html, or .tex and .md); "
+                       "of a sweep: the folder for its table and figure")
+          ->type_name("FILE|DIR");
   constraints
-      ->add_flag("--force", arguments->force, "replace a sweep that is in the folder already")
-      ->needs(folder);
-  constraints->add_flag("--json", arguments->json, "print JSON");
+      ->add_flag("--force", arguments->force,
+                 "replace the page, or the sweep that is in the folder already")
+      ->needs(output);
+  CLI::Option* json = constraints->add_flag("--json", arguments->json, "print JSON");
+  CLI::Option* latex =
+      constraints->add_flag("--latex", arguments->latex, "print a document for LaTeX")
+          ->excludes(json)
+          ->excludes("--sweep");
+  CLI::Option* markdown =
+      constraints->add_flag("--markdown", arguments->markdown, "print Markdown with $formulas$")
+          ->excludes(json)
+          ->excludes(latex)
+          ->excludes("--sweep");
   CLI::Option* level =
       constraints->add_option("--level", arguments->level, "stop at this level of the ladder")
           ->check(CLI::Range(0, 1000).description(""))
@@ -135,14 +186,24 @@ void add_constraints(CLI::App& app, Session& session) {
       ->add_flag("--discrete", arguments->discrete,
                  "the ladder of the method's discretization map and step (Remark 6.1)")
       ->excludes(level)
+      ->excludes(latex)
+      ->excludes(markdown)
       ->excludes("--sweep");
   constraints->callback([&session, arguments] {
+    if (arguments->sweep.ranges.empty() && !arguments->output.empty()) {
+      if (!page_writer(arguments->output))
+        throw CLI::ValidationError(
+            "-o", "is " + arguments->output + "; expected a name that ends in .html, .tex or .md");
+      if (arguments->discrete || arguments->json || arguments->latex || arguments->markdown)
+        throw CLI::ValidationError(
+            "-o", "is a page; --discrete, --json, --latex and --markdown print to the screen");
+    }
     session.action = [arguments](const Console& console) {
       if (!arguments->sweep.ranges.empty())
         return run_sweep(console, {.file = arguments->file,
                                    .settings = arguments->settings,
                                    .sweep = arguments->sweep,
-                                   .folder = arguments->folder,
+                                   .folder = arguments->output,
                                    .replace = arguments->force,
                                    .json = arguments->json,
                                    .action = [](const SweepCase& one,
@@ -155,20 +216,32 @@ void add_constraints(CLI::App& app, Session& session) {
       return with_experiment(
           console, arguments->file,
           [&](const Experiment& experiment) -> int {
+            const bool as_page = !arguments->output.empty();
             std::optional<Waiting> waiting(std::in_place, console, "constraint algorithm");
             const ConstraintLadder start = consistent_start(experiment);
-            const LadderReport whole = ladder_report(start, *experiment.model.system);
+            const ImplicitSystem& system = *experiment.model.system;
+            const ConstraintFormulas formulas = constraint_formulas(system, start);
+            const LadderReport whole = ladder_report(start, system, formulas);
+            std::optional<ConstraintBrackets> brackets;
+            if (!arguments->discrete && arguments->level < 0)
+              brackets = constraint_brackets(system, start, formulas);
             const LadderReport ladder = arguments->discrete ? discrete_ladder(experiment, start)
                                         : arguments->level >= 0
                                             ? up_to_level(whole, arguments->level)
                                             : whole;
             waiting.reset();
-            if (arguments->json)
-              console.out << to_json(ladder).dump(2) << '\n';
+            if (as_page)
+              write_page(console, arguments->output, ladder_page(experiment, ladder, brackets));
+            else if (arguments->latex)
+              console.out << to_latex(ladder_page(experiment, ladder, brackets));
+            else if (arguments->markdown)
+              console.out << to_markdown(ladder_page(experiment, ladder, brackets));
+            else if (arguments->json)
+              console.out << with_brackets(to_json(ladder), brackets).dump(2) << '\n';
             else if (arguments->discrete)
               print_discrete(console, experiment, ladder, whole);
             else
-              print_ladder(console, experiment, ladder);
+              print_ladder(console, experiment, ladder, brackets);
             return done;
           },
           arguments->settings);

@@ -16,14 +16,23 @@ std::string plural(Index count, const std::string& noun) {
 }
 
 // 1.2 dx - 1.6 dy
-std::string linear_form(const LadderReport::Values& components, const std::string& prefix) {
-  std::string text;
+Prose linear_form(const LadderReport::Values& components, const std::string& prefix) {
+  Prose sum;
   int terms = 0;
   for (const auto& [name, value] : components) {
-    if (++terms > 6) return text + (value < 0 ? " - \u2026" : " + \u2026");
-    add_term(text, value, prefix + name, 4);
+    if (++terms > 6) return sum + (value < 0 ? " - \u2026" : " + \u2026");
+    std::string sign = terms == 1 ? "" : "0";  // what a term comes after
+    add_term(sign, value, prefix, 4);
+    sum += sign.substr(terms == 1 ? 0 : 1) + Prose::formula(name);
   }
-  return text;
+  return sum;
+}
+
+Prose listed(const std::vector<std::string>& names) {
+  Prose list;
+  for (const std::string& name : names)
+    list += (list.parts().empty() ? "" : ", ") + Prose::formula(name);
+  return list;
 }
 
 // The highest derivatives first: they are what the constraint is made of, the others what removes
@@ -52,7 +61,7 @@ std::vector<Entry> of_level(const std::vector<Entry>& list, Index k) {
 // How many of so many lines of a kind are shown: no line says that one or two more are left out.
 std::size_t shown_of(std::size_t count) { return count <= 8 ? count : 6; }
 
-void tell_rest(std::size_t count, std::vector<std::string>& lines) {
+void tell_rest(std::size_t count, std::vector<Prose>& lines) {
   if (const std::size_t left = count - shown_of(count); left > 0)
     lines.push_back("    \u2026 and " + std::to_string(left) + " more");
 }
@@ -60,14 +69,14 @@ void tell_rest(std::size_t count, std::vector<std::string>& lines) {
 // x' = v: those that are functions of the point from level k on, and where all are told, those of
 // level 0 too.
 void explain_velocities(const LadderReport::Elimination& found, Index k, bool all,
-                        std::vector<std::string>& lines) {
+                        std::vector<Prose>& lines) {
   constexpr std::size_t columns = 90, most_rows = 18;
   std::size_t rows = 0, left = 0;
   for (const auto& [name, level, formula] : found.velocities) {
     if (level != k && !(all && level == 0)) continue;
     rows += 1 + (name.size() + formula.size()) / columns;
     if (rows <= most_rows)
-      lines.push_back("    " + name + " = " + formula);
+      lines.push_back("    " + Prose::formula(name + " = " + formula));
     else
       ++left;
   }
@@ -76,21 +85,23 @@ void explain_velocities(const LadderReport::Elimination& found, Index k, bool al
 
 // What S_k adds: each equation in velocities, and what becomes of it with those of S_{k-1}.
 void explain_steps(const std::vector<ConstraintFormulas::Step>& steps, Index k,
-                   std::vector<std::string>& lines) {
+                   std::vector<Prose>& lines) {
   for (std::size_t i = 0; i < shown_of(steps.size()); ++i) {
     const std::string &derivative = steps[i].derivative, &result = steps[i].result;
-    std::string text = "    " + derivative + " = 0";
+    Prose text = "    " + Prose::formula(derivative + " = 0");
     if (result == "0")
-      text += ": 0 = 0 with the velocities of S" + subscript(k - 1) + ", so the constraint is kept";
+      text += ": " + Prose::formula("0 = 0") + " with the velocities of S" + subscript(k - 1) +
+              ", so the constraint is kept";
     else if (!result.empty() && result != derivative &&
              (steps[i].kind == ConstraintFormulas::Step::Kind::constraint || result.size() < 60))
-      text += ", with the velocities of S" + subscript(k - 1) + ":  " + result + " = 0";
+      text +=
+          ", with the velocities of S" + subscript(k - 1) + ":  " + Prose::formula(result + " = 0");
     lines.push_back(text);
   }
   tell_rest(steps.size(), lines);
 }
 
-void explain_level(const LadderReport& ladder, Index k, std::vector<std::string>& lines) {
+void explain_level(const LadderReport& ladder, Index k, std::vector<Prose>& lines) {
   const auto at = static_cast<std::size_t>(k);
   const LadderReport::Level& level = ladder.levels.at(at);
   const Index dim_M = level.dim_M.value_or(-1), fibre = level.fibre.value_or(-1);
@@ -137,7 +148,7 @@ void explain_level(const LadderReport& ladder, Index k, std::vector<std::string>
 
   const bool all_formulas = formulas.size() == constraints.size();
   for (std::size_t i = 0; i < shown_of(formulas.size()); ++i)
-    lines.push_back("    " + formulas[i].formula + " = 0");
+    lines.push_back("    " + Prose::formula(formulas[i].formula + " = 0"));
   tell_rest(formulas.size(), lines);
   if (!all_formulas) {
     for (std::size_t i = 0; i < shown_of(constraints.size()); ++i) {
@@ -159,22 +170,21 @@ void explain_level(const LadderReport& ladder, Index k, std::vector<std::string>
 
 // The constraints of levels below `end`, where the ladder has no end to tell more of them.
 void list_constraints(const LadderReport::Elimination& found, Index end,
-                      std::vector<std::string>& lines) {
+                      std::vector<Prose>& lines) {
   for (Index k = 0; k < end; ++k) {
     const auto formulas = of_level(found.formulas, k);
     if (formulas.empty()) continue;
     lines.push_back(k == 0 ? "Level 0. The equations contain"
                            : "Level " + std::to_string(k) + ". Differentiated, that leads to");
     for (std::size_t i = 0; i < shown_of(formulas.size()); ++i)
-      lines.push_back("    " + formulas[i].formula + " = 0" +
+      lines.push_back("    " + Prose::formula(formulas[i].formula + " = 0") +
                       (formulas[i].is_singular ? ", whose differential is 0 here" : ""));
     tell_rest(formulas.size(), lines);
   }
 }
 
 // From the equations to 1 = 0, where elimination gets there.
-void explain_contradiction(const LadderReport::Elimination& found,
-                           std::vector<std::string>& lines) {
+void explain_contradiction(const LadderReport::Elimination& found, std::vector<Prose>& lines) {
   const ConstraintFormulas::Step* last = nullptr;
   for (const ConstraintFormulas::Step& step : found.steps)
     if (step.kind == ConstraintFormulas::Step::Kind::contradiction) last = &step;
@@ -191,30 +201,30 @@ void explain_contradiction(const LadderReport::Elimination& found,
     else if (last && !last->constraint.empty())
       lines.push_back("These have no zero in common: together they lead to 1 = 0.");
     else if (last)
-      lines.push_back("The equations lead to " + last->result +
-                      " = 0: no velocity satisfies them.");
+      lines.push_back("The equations lead to " + Prose::formula(last->result + " = 0") +
+                      ": no velocity satisfies them.");
     return;
   }
   const Index end = last->level;
   const std::string &derivative = last->derivative, &result = last->result;
   list_constraints(found, end, lines);
   lines.push_back("Level " + std::to_string(end) + ". Solutions stay on M" + subscript(end - 1) +
-                  ": from " + last->constraint + " = 0 follows");
-  lines.push_back("    " + derivative + " = 0");
-  std::string known;
+                  ": from " + Prose::formula(last->constraint + " = 0") + " follows");
+  lines.push_back("    " + Prose::formula(derivative + " = 0"));
+  Prose known;
   for (const auto& [name, level, formula] : found.velocities)
     if (derivative.find(name) != std::string::npos && level < end)
-      known += (known.empty() ? "" : ", ") + name + " = " + formula;
+      known += (known.parts().empty() ? "" : ", ") + Prose::formula(name + " = " + formula);
   lines.push_back("But S" + subscript(end - 1) + " has" +
-                  (known.empty() ? " velocities with" : ""));
-  lines.push_back("    " + (known.empty() ? result + " = 0" : known));
-  if (!known.empty()) lines.push_back("Put in, that is");
-  if (!known.empty()) lines.push_back("    " + result + " = 0");
+                  (known.parts().empty() ? " velocities with" : ""));
+  lines.push_back("    " + (known.parts().empty() ? Prose::formula(result + " = 0") : known));
+  if (!known.parts().empty()) lines.push_back("Put in, that is");
+  if (!known.parts().empty()) lines.push_back("    " + Prose::formula(result + " = 0"));
   lines.push_back("That cannot be: S" + subscript(end) + " is empty.");
 }
 
 // "Three constraints: two primary …" and what is left when gauge is counted off.
-void explain_freedom(const LadderReport& ladder, std::vector<std::string>& lines) {
+void explain_freedom(const LadderReport& ladder, std::vector<Prose>& lines) {
   const Index index = *ladder.index, dim_M = ladder.degrees_of_freedom.value_or(-1);
   lines.push_back("Degrees of freedom: " + std::to_string(dim_M) + ", the dimension of M" +
                   subscript(index) + ": so many initial values can be chosen.");
@@ -258,27 +268,73 @@ void explain_freedom(const LadderReport& ladder, std::vector<std::string>& lines
   if (classes.is_ambiguous) lines.push_back("Ambiguous: a rank behind the classes is doubtful.");
 }
 
-void explain_unknowns(const LadderReport& ladder, std::vector<std::string>& lines) {
-  std::string free;
+// {a, b} = value.
+Prose bracket(const std::string& a, const std::string& b, const std::string& value) {
+  return "    {" + Prose::formula(a) + ", " + Prose::formula(b) + "} = " + Prose::formula(value);
+}
+
+// What brackets say in formulas: which constraints generate what, and what is left of the brackets of coordinates.
+void explain_brackets(const ConstraintBrackets& found, std::vector<Prose>& lines) {
+  const auto phi = [](std::size_t a) { return "phi_" + std::to_string(a + 1); };
+  std::vector<Prose> brackets, dirac;
+  for (std::size_t a = 0; a < found.matrix.size(); ++a)
+    for (std::size_t b = a + 1; b < found.matrix.size(); ++b)
+      if (found.matrix[a][b] != "0")
+        brackets.push_back(bracket(phi(a), phi(b), found.matrix[a][b]));
+  const auto tell = [&](const std::string& head, const std::vector<Prose>& list) {
+    if (list.empty()) return;
+    lines.push_back(head);
+    for (std::size_t i = 0; i < shown_of(list.size()); ++i) lines.push_back(list[i]);
+    tell_rest(list.size(), lines);
+  };
+  if (!brackets.empty()) {
+    std::vector<Prose> names;
+    for (std::size_t a = 0; a < found.constraints.size(); ++a)
+      names.push_back("    " + Prose::formula(phi(a) + " = " + found.constraints[a]));
+    tell("Brackets of the constraints", names);
+    tell("that are not 0 on M_f:", brackets);
+  }
+  if (!found.hamiltonian.empty()) {
+    lines.push_back(
+        "Total Hamiltonian, where velocities that nothing determines multiply constraints:");
+    lines.push_back("    " + Prose::formula("H = " + found.hamiltonian));
+  }
+  for (std::size_t i = 0; i < shown_of(found.generators.size()); ++i) {
+    const auto& [constraint, moves] = found.generators[i];
+    if (moves.empty()) continue;
+    lines.push_back("Generated by " + Prose::formula(constraint) + ", a change by a small \u03b5:");
+    for (std::size_t k = 0; k < shown_of(moves.size()); ++k)
+      lines.push_back("    \u03b4" + Prose::formula(moves[k].first) + " = \u03b5 (" +
+                      Prose::formula(moves[k].second) + ")");
+    tell_rest(moves.size(), lines);
+  }
+  for (const auto& [first, second, value] : found.dirac_brackets)
+    dirac.push_back(bracket(first, second, value));
+  tell("Dirac brackets, in which constraints may be put to 0 beforehand:", dirac);
+}
+
+void explain_unknowns(const LadderReport& ladder, std::vector<Prose>& lines) {
+  Prose free;
   int listed = 0;
   double largest = 1.0;
   for (const LadderReport::Unknown& unknown : ladder.end->unknowns)
     largest = std::max(largest, std::abs(unknown.value));
   for (const auto& [name, value, is_determined, formula] : ladder.end->unknowns) {
     if (!is_determined) {
-      free += (free.empty() ? "" : ", ") + name;
+      free += (free.parts().empty() ? "" : ", ") + Prose::formula(name);
       continue;
     }
     if (++listed > 8) continue;
     if (listed == 1) lines.push_back("Unknowns that are determined, with their values here:");
-    std::string text =
-        "    " + name + " = " + number_text(std::abs(value) < 1e-14 * largest ? 0 : value);
+    Prose text =
+        "    " +
+        Prose::formula(name + " = " + number_text(std::abs(value) < 1e-14 * largest ? 0 : value));
     const bool is_told = ladder.elimination && ladder.elimination->velocity(name);
-    if (formula && !is_told) text += "  (" + name + " = " + *formula + ")";
+    if (formula && !is_told) text += "  (" + Prose::formula(name + " = " + *formula) + ")";
     lines.push_back(text);
   }
   if (listed > 8) lines.push_back("    \u2026 and " + std::to_string(listed - 8) + " more");
-  if (!free.empty()) lines.push_back("Unknowns that nothing determines: " + free + ".");
+  if (!free.parts().empty()) lines.push_back("Unknowns that nothing determines: " + free + ".");
 }
 
 }  // namespace
@@ -328,8 +384,10 @@ std::string family_in_words(const LadderReport& ladder) {
          " \u03bb, so that nothing says that \U0001d4db is a Lagrangian submanifold.";
 }
 
-std::vector<std::string> ladder_explanation(const LadderReport& ladder) {
-  std::vector<std::string> lines;
+LadderWords ladder_words(const LadderReport& ladder,
+                         const std::optional<ConstraintBrackets>& brackets) {
+  LadderWords words;
+  std::vector<Prose>& lines = words.levels;
   if (ladder.constraints) {
     const Index last = ladder.index.value_or(static_cast<Index>(ladder.levels.size()) - 1);
     for (Index k = 0; k <= last; ++k) explain_level(ladder, k, lines);
@@ -341,30 +399,32 @@ std::vector<std::string> ladder_explanation(const LadderReport& ladder) {
   if (ladder.constraints && ladder.index && ladder.end) {
     lines.push_back("Level " + std::to_string(*ladder.index + 1) +
                     ". Nothing new: from here on every level is the same.");
-    explain_freedom(ladder, lines);
-    explain_unknowns(ladder, lines);
+    explain_freedom(ladder, words.freedom);
+    if (brackets) explain_brackets(*brackets, words.freedom);
+    explain_unknowns(ladder, words.freedom);
     const auto& [unknowns, gauge, determined, differentiations, redundant] = *ladder.end;
     if (!gauge.empty()) {
-      lines.push_back("Gauge: the velocity may be changed at will along");
+      words.freedom.push_back("Gauge: the velocity may be changed at will along");
       for (const LadderReport::Values& direction : gauge)
-        lines.push_back("    " + linear_form(direction, ""));
+        words.freedom.push_back("    " + linear_form(direction, ""));
       if (!determined.empty())
-        lines.push_back("Determined all the same: " + word_list(determined) + ".");
+        words.freedom.push_back("Determined all the same: " + listed(determined) + ".");
     }
     if (!redundant.empty()) {
-      lines.push_back("Redundant: " + plural(static_cast<Index>(redundant.size()), "equation") +
-                      (redundant.size() == 1 ? " follows" : " follow") +
-                      " from the others here; harmless. Dependent among themselves are");
+      words.freedom.push_back(
+          "Redundant: " + plural(static_cast<Index>(redundant.size()), "equation") +
+          (redundant.size() == 1 ? " follows" : " follow") +
+          " from the others here; harmless. Dependent among themselves are");
       for (std::size_t i = 0; i < std::min<std::size_t>(redundant.size(), 4); ++i)
-        lines.push_back("    " + sources(redundant[i]));
+        words.freedom.push_back("    " + sources(redundant[i]));
     }
   }
-  if (ladder.family) lines.push_back(family_in_words(ladder));
+  if (ladder.family) words.freedom.push_back(family_in_words(ladder));
   const LadderReport::Level* weakest = nullptr;
   for (const LadderReport::Level& level : ladder.levels)
     if (!std::isnan(level.gap) && (!weakest || level.gap < weakest->gap)) weakest = &level;
   if (weakest) {
-    lines.push_back(
+    words.certainty.push_back(
         "How sure: dimensions are differences of ranks, and a rank counts the "
         "singular values that "
         "exceed the bound of their error. In the weakest decision (level " +
@@ -374,9 +434,18 @@ std::vector<std::string> ladder_explanation(const LadderReport& ladder) {
         number_text(weakest->largest_neglected, 2) + " times the bound.");
   }
   if (ladder.is_ambiguous) {
-    lines.push_back("Ambiguous: do not rely on the verdict.");
-    for (const std::string& doubt : ladder.doubts) lines.push_back("    " + doubt);
+    words.certainty.push_back("Ambiguous: do not rely on the verdict.");
+    for (const std::string& doubt : ladder.doubts) words.certainty.push_back("    " + doubt);
   }
+  return words;
+}
+
+std::vector<Prose> ladder_explanation(const LadderReport& ladder,
+                                      const std::optional<ConstraintBrackets>& brackets) {
+  LadderWords words = ladder_words(ladder, brackets);
+  std::vector<Prose> lines = std::move(words.levels);
+  for (const std::vector<Prose>* part : {&words.freedom, &words.certainty})
+    lines.insert(lines.end(), part->begin(), part->end());
   return lines;
 }
 

@@ -1,9 +1,12 @@
 // What a ladder means, for a terminal.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "courant/integrators/certificate/constraint_brackets.hpp"
+#include "courant/reporting/prose.hpp"
 #include "courant/running/ladder_report.hpp"
 
 namespace courant {
@@ -12,10 +15,22 @@ namespace courant {
 // repeat, ∅ where a level is empty.
 std::vector<std::string> ladder_text_diagram(const LadderReport& ladder);
 
+// The findings in three parts, as in ladder_explanation.
+struct LadderWords {
+  std::vector<Prose> levels;  // what each level adds
+  std::vector<Prose>
+      freedom;  // degrees of freedom, classes, brackets, unknowns, gauge, redundant equations
+  std::vector<Prose> certainty;  // the numbers the verdict rests on, and doubts
+};
+// With brackets where there are some.
+LadderWords ladder_words(const LadderReport& ladder,
+                         const std::optional<ConstraintBrackets>& brackets = std::nullopt);
+
 // The findings in words, level by level: hidden constraints and where they come
 // from, multipliers, gauge directions, redundant equations, and the numbers the verdict rests on.
 // One paragraph an entry; entries that begin with a space belong under the one before.
-std::vector<std::string> ladder_explanation(const LadderReport& ladder);
+std::vector<Prose> ladder_explanation(
+    const LadderReport& ladder, const std::optional<ConstraintBrackets>& brackets = std::nullopt);
 
 // Whether E(x, λ) is a Morse family at the point, in a sentence; empty of a system that is not given by
 // one.

@@ -18,11 +18,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostEntries = 12, kMostLetters = 300;
 
-struct Entry {
-  std::string name;
-  std::vector<std::string> formulas;
-};
-
 // The object with that name, or one without members.
 Json members(const Json& object, const std::string& key) {
   const auto found = object.is_object() ? object.find(key) : object.end();
@@ -74,12 +69,31 @@ std::vector<std::string> told_in_words(const Json& value) {
   return lines;
 }
 
-// Formulas of the system, then numbers and parameters: those of ready-made systems are members of
-// it. An entry without formulas in the end where something was left out.
-std::vector<Entry> model(const Json& experiment) {
+Markup entry(const std::string& name, const Markup& content) {
+  return element("dt", {}, name) + element("dd", {}, content);
+}
+
+// "completed, 4000 steps", or how many runs have which status.
+Markup status(std::span<const Run> runs) {
+  std::map<RunStatus, std::size_t> counts;
+  for (const Run& run : runs) ++counts[run.summary.status];
+  Markup all;
+  for (const auto& [status, count] : counts) {
+    std::string text = to_string(status);
+    if (counts.size() > 1 || count > 1) text = std::to_string(count) + " " + text;
+    if (!all.str().empty()) all += ", ";
+    all += element("span", {{"class", status == RunStatus::completed ? "good" : "bad"}}, text);
+  }
+  if (runs.size() == 1) all += ", " + std::to_string(runs[0].summary.steps) + " steps";
+  return entry("status", all);
+}
+
+}  // namespace
+
+std::vector<ModelEntry> model_entries(const nlohmann::ordered_json& experiment) {
   constexpr std::string_view no_formulas[] = {"type", "manifold", "coordinates", "unknowns"};
-  std::vector<Entry> entries;
-  Entry parameters = {"parameters", {}};
+  std::vector<ModelEntry> entries;
+  ModelEntry parameters = {"parameters", {}};
   bool is_whole = true;
   const auto add_parameter = [&](const std::string& name, const Json& value) {
     const std::string text = value.is_array()
@@ -115,27 +129,6 @@ std::vector<Entry> model(const Json& experiment) {
   return entries;
 }
 
-Markup entry(const std::string& name, const Markup& content) {
-  return element("dt", {}, name) + element("dd", {}, content);
-}
-
-// "completed, 4000 steps", or how many runs have which status.
-Markup status(std::span<const Run> runs) {
-  std::map<RunStatus, std::size_t> counts;
-  for (const Run& run : runs) ++counts[run.summary.status];
-  Markup all;
-  for (const auto& [status, count] : counts) {
-    std::string text = to_string(status);
-    if (counts.size() > 1 || count > 1) text = std::to_string(count) + " " + text;
-    if (!all.str().empty()) all += ", ";
-    all += element("span", {{"class", status == RunStatus::completed ? "good" : "bad"}}, text);
-  }
-  if (runs.size() == 1) all += ", " + std::to_string(runs[0].summary.steps) + " steps";
-  return entry("status", all);
-}
-
-}  // namespace
-
 Markup report_head(std::span<const Run> runs) {
   std::vector<std::string> systems;
   for (const Run& run : runs)
@@ -151,7 +144,7 @@ Markup report_head(std::span<const Run> runs) {
     return true;
   };
   if (std::ranges::all_of(runs, is_the_same))
-    for (const auto& [name, lines] : model(first)) {
+    for (const auto& [name, lines] : model_entries(first)) {
       Markup content;
       for (const std::string& line : lines)
         content += element("div", {}, element("code", {}, line));

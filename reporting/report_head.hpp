@@ -1,12 +1,24 @@
 // What stands under the title of a report.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "courant/plotting/svg.hpp"
 #include "courant/running/run_files.hpp"
 
 namespace courant {
+
+// A key of an experiment's system, and its formulas as they are written.
+struct ModelEntry {
+  std::string name;
+  std::vector<std::string> formulas;
+};
+// Formulas of the system, then numbers and parameters: those of ready-made systems are members of
+// it. An entry without formulas in the end where something was left out.
+std::vector<ModelEntry> model_entries(const nlohmann::ordered_json& experiment);
 
 // The systems and how many runs; their status; the equations and parameters of the experiment, where
 // all runs have the same, as they are written there. Formulas of more than 300 characters, and what

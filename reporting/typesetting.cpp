@@ -118,6 +118,35 @@ Markup typeset_manifolds(std::string_view text) {
   return markup;
 }
 
+std::string manifolds_in_unicode(std::string_view text) {
+  static constexpr std::string_view above[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  const std::string markup = typeset_manifolds(text).str();
+  std::string result;
+  bool raised = false;
+  for (std::string_view rest = markup; !rest.empty();) {
+    static constexpr std::pair<std::string_view, std::string_view> entities[] = {
+        {"&amp;", "&"}, {"&lt;", "<"}, {"&gt;", ">"}, {"&quot;", "\""}, {"&#39;", "'"}};
+    if (rest[0] == '<') {
+      raised = rest.starts_with("<sup>");
+      rest.remove_prefix(rest.find('>') + 1);
+      continue;
+    }
+    const auto* entity =
+        std::ranges::find_if(entities, [&](const auto& e) { return rest.starts_with(e.first); });
+    if (entity != std::end(entities)) {
+      result += entity->second;
+      rest.remove_prefix(entity->first.size());
+      continue;
+    }
+    if (raised && std::isdigit(static_cast<unsigned char>(rest[0])) != 0)
+      result += above[static_cast<std::size_t>(rest[0] - '0')];
+    else
+      result += rest[0];
+    rest.remove_prefix(1);
+  }
+  return result;
+}
+
 std::string unbroken(std::string_view text) {
   std::string result(text);
   for (const auto& [broken, whole] :

@@ -17,6 +17,9 @@ plot::Markup typeset(std::string_view text);
 // not known stay as they are.
 plot::Markup typeset_manifolds(std::string_view text);
 
+// The same as plain text: T*S², ℝ³ × SO(3).
+std::string manifolds_in_unicode(std::string_view text);
+
 // The same text, whose numbers stay in one line: "1.2 × 10⁻⁴ ± 3 × 10⁻⁵" with spaces that do not break.
 std::string unbroken(std::string_view text);
 

@@ -176,12 +176,16 @@ std::vector<LadderReport::Dimensions> LadderReport::dimensions() const {
 }
 
 LadderReport ladder_report(const ConstraintLadder& ladder, const ImplicitSystem& system) {
+  return ladder_report(ladder, system, constraint_formulas(system, ladder));
+}
+
+LadderReport ladder_report(const ConstraintLadder& ladder, const ImplicitSystem& system,
+                           const ConstraintFormulas& formulas) {
   LadderReport report = discrete_ladder_report(ladder, system);
   report.family = family(ladder, system);
   const bool has_end = ladder.index >= 0;
   if (!has_end && ladder.verdict != Verdict::inconsistent && ladder.verdict != Verdict::rank_change)
     return report;
-  const ConstraintFormulas formulas = constraint_formulas(system, ladder);
   report.elimination = elimination(formulas, velocity_names(system));
   if (!has_end) return report;
   report.classes = classes(ladder, system);

@@ -110,6 +110,9 @@ struct LadderReport {
 };
 
 LadderReport ladder_report(const ConstraintLadder& ladder, const ImplicitSystem& system);
+// The same for who has the formulas of its constraints.
+LadderReport ladder_report(const ConstraintLadder& ladder, const ImplicitSystem& system,
+                           const ConstraintFormulas& formulas);
 
 // Of a DiscreteConstraintAlgorithm: verdict, levels, and the first point of the chain.
 LadderReport discrete_ladder_report(const ConstraintLadder& ladder, const ImplicitSystem& system);

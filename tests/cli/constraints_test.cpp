@@ -6,6 +6,7 @@
 #include "courant/cli/command.hpp"
 #include "courant/reading/findings.hpp"
 #include "courant/tests/core/says.hpp"
+#include "courant/tests/running/temporary_folder.hpp"
 
 namespace courant {
 BOOST_AUTO_TEST_SUITE(constraints_test)
@@ -80,6 +81,42 @@ BOOST_AUTO_TEST_CASE(lines_fit_a_hundred_columns) {
       BOOST_TEST(!says(line, "z[0]"), name << ": " << line);
     }
   }
+}
+
+// One content in three notations, with formulas set and none of the signs of source text.
+BOOST_AUTO_TEST_CASE(prints_documents) {
+  const Answer latex = constraints({pendulum, "--latex"});
+  BOOST_TEST(latex.status == 0, latex.err);
+  BOOST_TEST(says(latex.out, "\\[ x\\,v + y\\,w = 0 \\]"), latex.out);
+  BOOST_TEST(says(latex.out, "S_{0} & \\supseteq & S_{1}"), latex.out);
+  BOOST_TEST(!says(latex.out, "x*v"));
+  const Answer markdown = constraints({pendulum, "--markdown"});
+  BOOST_TEST(says(markdown.out, "$$x\\,v + y\\,w = 0$$"), markdown.out);
+  BOOST_TEST(constraints({pendulum, "--latex", "--json"}).status == 2);
+}
+
+BOOST_AUTO_TEST_CASE(writes_a_page) {
+  const TemporaryFolder folder;
+  const std::string page = (folder.path() / "page.html").string();
+  const Answer answer = constraints({pendulum, "-o", page});
+  BOOST_TEST(answer.status == 0, answer.err);
+  const std::string html = read_text(page);
+  BOOST_TEST(says(html, "<math>"), html);
+  BOOST_TEST(says(html, "<mover accent=\"true\">"));
+  BOOST_TEST(!says(html, "<script"));
+  const Answer wrong = constraints({pendulum, "-o", (folder.path() / "page.pdf").string()});
+  BOOST_TEST(wrong.status == 2);
+  BOOST_TEST(says(wrong.err, "expected a name that ends in .html, .tex or .md"), wrong.err);
+}
+
+// Without a run: gauge and inconsistent systems, and what has brackets, have pages too.
+BOOST_AUTO_TEST_CASE(pages_of_all_verdicts) {
+  for (const std::string name : {"christ_lee", "inconsistent_lagrangian", "point_vortices"}) {
+    const Answer answer = constraints({"experiments/" + name + ".json", "--latex"});
+    BOOST_TEST(answer.status == 0, name << answer.err);
+    BOOST_TEST(says(answer.out, "\\end{document}"), name);
+  }
+  BOOST_TEST(says(constraints({"experiments/point_vortices.json", "--latex"}).out, "pmatrix"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

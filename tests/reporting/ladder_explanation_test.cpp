@@ -19,7 +19,10 @@ Json ladder(const Json& experiment) {
 
 // Of what is read back.
 std::vector<std::string> ladder_explanation(const Json& found) {
-  return courant::ladder_explanation(read_ladder_report(found));
+  std::vector<std::string> lines;
+  for (const Prose& line : courant::ladder_explanation(read_ladder_report(found)))
+    lines.push_back(line.str());
+  return lines;
 }
 std::vector<std::string> ladder_text_diagram(const Json& found) {
   return courant::ladder_text_diagram(read_ladder_report(found));

@@ -18,6 +18,13 @@ BOOST_AUTO_TEST_CASE(manifolds_are_written_as_one_writes_them) {
   BOOST_TEST(set("SpecialOrthogonal(4)") == "SO(4)");
 }
 
+BOOST_AUTO_TEST_CASE(manifolds_as_plain_text) {
+  BOOST_TEST(manifolds_in_unicode("system on CotangentBundle(Sphere(2, exponential))") ==
+             "system on T*S²");
+  BOOST_TEST(manifolds_in_unicode("Product(Euclidean(12), MySphere(2)) & <b> 'c'") ==
+             "ℝ¹² × MySphere(2) & <b> 'c'");
+}
+
 BOOST_AUTO_TEST_CASE(anything_else_stays_as_it_is) {
   for (const char* text : {"", "4 point vortices", "Stiefel(4, 2)", "Sphere", "Sphere(2",
                            "Sphere(2, (a)", "MySphere(2)", "()", "f(x) – ℝ"})

@@ -1,0 +1,29 @@
+// Formulas set as mathematics: MathML for pages, LaTeX for papers.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "courant/plotting/svg.hpp"
+
+namespace courant {
+
+// A formula or an equation of the language of experiments as a reader of mathematics expects it:
+//
+//   p_x^2/(2*m) - k*cos(theta_1)    p_x²/2m - k cos θ₁, with a bar
+//   q[0]' = sqrt(a[1][2])           q̇₀ = √a₁₂
+//   sum(i, 0, n-1, x[i]^2)          with Σ and its bounds
+//
+// x' is ẋ, names of Greek letters are these letters, what follows _ in a name stands below. A text that is no
+// formula is set as text, so that nothing is lost.
+
+// MathML Core, a <math> element of its own; a browser needs no script for it. `displayed`: on a line of its own.
+plot::Markup math(std::string_view formula, bool displayed = false);
+
+// What goes between the $ of LaTeX with amsmath.
+std::string latex_math(std::string_view formula);
+
+// A text in which LaTeX sees no commands.
+std::string latex_text(std::string_view text);
+
+}  // namespace courant

@@ -1,0 +1,435 @@
+#include "courant/reporting/ladder_page.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <string_view>
+#include <utility>
+
+#include "courant/core/words/message.hpp"
+#include "courant/core/words/text_layout.hpp"
+#include "courant/reporting/formula_typesetting.hpp"
+#include "courant/reporting/ladder_diagram.hpp"
+#include "courant/reporting/ladder_explanation.hpp"
+#include "courant/reporting/page_frame.hpp"
+#include "courant/reporting/report_head.hpp"
+#include "courant/reporting/report_tables.hpp"
+#include "courant/reporting/typesetting.hpp"
+
+namespace courant {
+namespace {
+
+using plot::element;
+using plot::Markup;
+
+// 5.2e+14 as 5.2 × 10¹⁴.
+std::string with_powers_of_ten(std::string_view text) {
+  static constexpr std::string_view above[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  const auto digit = [&](std::size_t i) {
+    return i < text.size() && std::isdigit(static_cast<unsigned char>(text[i])) != 0;
+  };
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool exponent = text[i] == 'e' && i > 0 && digit(i - 1) && i + 1 < text.size() &&
+                          (text[i + 1] == '+' || text[i + 1] == '-') && digit(i + 2);
+    if (!exponent) {
+      result += text[i];
+      continue;
+    }
+    result += "\u00a0×\u00a010";
+    if (text[++i] == '-') result += "⁻";
+    while (text[i + 1] == '0' && digit(i + 2)) ++i;
+    while (digit(i + 1)) result += above[static_cast<std::size_t>(text[++i] - '0')];
+  }
+  return result;
+}
+
+// A line of the explanation: those that begin with spaces stand under the one before.
+LadderPage::Paragraph paragraph(const Prose& line) {
+  const bool is_displayed = line.str().starts_with("    ");
+  Prose text;
+  for (const Prose::Part& part : line.parts()) {
+    std::string words = part.text;
+    if (is_displayed && text.parts().empty() && !part.is_formula)
+      words.erase(0, words.find_first_not_of(' '));
+    if (words.empty()) continue;
+    text += part.is_formula ? Prose::formula(words) : Prose(with_powers_of_ten(words));
+  }
+  return {text, is_displayed};
+}
+
+LadderPage::Section section(std::string title, const std::vector<Prose>& lines) {
+  LadderPage::Section made{std::move(title), {}};
+  for (const Prose& line : lines) made.paragraphs.push_back(paragraph(line));
+  return made;
+}
+
+// What is longer is folded, or cut where nothing folds.
+constexpr std::size_t kMostLines = 12;
+
+bool has_matrix(const LadderPage& page) {
+  return page.brackets && page.brackets->constraints.size() <= 8;
+}
+
+// Keys of a system whose values name something.
+bool are_words(std::string_view key) {
+  return key == "structure" || key == "nodes" || key == "ports" || key == "elements";
+}
+
+// --- HTML ---
+
+Markup set(const Prose& prose) {
+  Markup all;
+  for (const Prose::Part& part : prose.parts())
+    all += part.is_formula ? math(part.text) : typeset(part.text);
+  return all;
+}
+
+Markup paragraphs(const std::vector<LadderPage::Paragraph>& list) {
+  Markup all;
+  for (const LadderPage::Paragraph& one : list)
+    all += one.is_displayed ? element("div", {{"class", "displayed"}}, set(one.text))
+                            : element("p", {}, set(one.text));
+  return all;
+}
+
+Markup model(const std::vector<LadderPage::Section>& entries) {
+  Markup all;
+  for (const LadderPage::Section& entry : entries) {
+    Markup lines;
+    for (const LadderPage::Paragraph& line : entry.paragraphs)
+      lines += element("div", {}, set(line.text));
+    all += element("dt", {}, entry.title) + element("dd", {}, lines);
+  }
+  const Markup list = element("dl", {{"class", "model"}}, all);
+  std::size_t count = 0;
+  for (const LadderPage::Section& entry : entries) count += entry.paragraphs.size();
+  if (count <= kMostLines) return list;
+  return element("details", {},
+                 element("summary", {}, counted(static_cast<Index>(count), "formula")) + list);
+}
+
+Markup matrix(const ConstraintBrackets& brackets) {
+  Markup head = element("th", {}, math("phi"));
+  Markup rows;
+  for (std::size_t a = 0; a < brackets.matrix.size(); ++a) {
+    const std::string name = "phi_" + std::to_string(a + 1);
+    head += element("th", {{"scope", "col"}}, math(name));
+    Markup cells = element("th", {{"scope", "row"}}, math(name));
+    for (const std::string& entry : brackets.matrix[a]) cells += element("td", {}, math(entry));
+    cells += element("td", {}, brackets.is_first_class[a] ? "first class" : "");
+    rows += element("tr", {}, cells);
+  }
+  Markup constraints;
+  for (std::size_t a = 0; a < brackets.constraints.size(); ++a)
+    constraints += element("div", {{"class", "displayed"}},
+                           math("phi_" + std::to_string(a + 1) + " = " + brackets.constraints[a]));
+  return constraints +
+         element("div", {{"class", "scroll"}},
+                 element("table", {{"class", "brackets"}},
+                         element("caption", {}, typeset("Brackets {φ_a, φ_b} on M_f")) +
+                             element("thead", {}, element("tr", {}, head + element("th", {}, ""))) +
+                             element("tbody", {}, rows)));
+}
+
+// --- LaTeX ---
+
+// A sentence, whose characters that are not ASCII LaTeX knows by commands.
+std::string latex_sentence(std::string_view text) {
+  static const std::vector<std::pair<std::string_view, std::string_view>> characters = {
+      {"₀", "\\ensuremath{_0}"},
+      {"₁", "\\ensuremath{_1}"},
+      {"₂", "\\ensuremath{_2}"},
+      {"₃", "\\ensuremath{_3}"},
+      {"₄", "\\ensuremath{_4}"},
+      {"₅", "\\ensuremath{_5}"},
+      {"₆", "\\ensuremath{_6}"},
+      {"₇", "\\ensuremath{_7}"},
+      {"₈", "\\ensuremath{_8}"},
+      {"₉", "\\ensuremath{_9}"},
+      {"⊇", "\\ensuremath{\\supseteq}"},
+      {"⊂", "\\ensuremath{\\subset}"},
+      {"∩", "\\ensuremath{\\cap}"},
+      {"∈", "\\ensuremath{\\in}"},
+      {"→", "\\ensuremath{\\to}"},
+      {"∅", "\\ensuremath{\\emptyset}"},
+      {"∂", "\\ensuremath{\\partial}"},
+      {"𝓛", "\\ensuremath{\\mathcal L}"},
+      {"λ", "\\ensuremath{\\lambda}"},
+      {"φ", "\\ensuremath{\\phi}"},
+      {"ω", "\\ensuremath{\\omega}"},
+      {"τ", "\\ensuremath{\\tau}"},
+      {"ε", "\\ensuremath{\\varepsilon}"},
+      {"δ", "\\ensuremath{\\delta}"},
+      {"Λ", "\\ensuremath{\\Lambda}"},
+      {"ℝ", "\\ensuremath{\\mathbb R}"},
+      {"×", "\\ensuremath{\\times}"},
+      {"±", "\\ensuremath{\\pm}"},
+      {"·", "\\ensuremath{\\cdot}"},
+      {"√", "\\ensuremath{\\surd}"},
+      {"≥", "\\ensuremath{\\ge}"},
+      {"≤", "\\ensuremath{\\le}"},
+      {"⁻", "\\ensuremath{^{-}}"},
+      {"°", "\\ensuremath{^\\circ}"},
+      {"¹", "\\ensuremath{^1}"},
+      {"⁴", "\\ensuremath{^4}"},
+      {"⁵", "\\ensuremath{^5}"},
+      {"⁶", "\\ensuremath{^6}"},
+      {"⁷", "\\ensuremath{^7}"},
+      {"⁸", "\\ensuremath{^8}"},
+      {"⁹", "\\ensuremath{^9}"},
+      {"⁰", "\\ensuremath{^0}"},
+      {"²", "\\ensuremath{^2}"},
+      {"³", "\\ensuremath{^3}"},
+      {"…", "\\dots{}"},
+      {"–", "--"},
+      {"—", "---"},
+      {"\u00a0", "~"}};
+  std::string result;
+  while (!text.empty()) {
+    const auto found =
+        std::ranges::find_if(characters, [&](const auto& c) { return text.starts_with(c.first); });
+    if (found != characters.end()) {
+      result += found->second;
+      text.remove_prefix(found->first.size());
+      continue;
+    }
+    const unsigned char first = static_cast<unsigned char>(text[0]);
+    // M_f, S_{k+1}.
+    if (text[0] == '_' && text.size() > 1 && !result.empty()) {
+      const std::size_t close = text.find('}');
+      const bool braced = text[1] == '{' && close != std::string_view::npos;
+      const std::string_view below = braced ? text.substr(2, close - 2) : text.substr(1, 1);
+      result += "\\ensuremath{_{" + std::string(below) + "}}";
+      text.remove_prefix(braced ? close + 1 : 2);
+      continue;
+    }
+    if (first < 0x80) {
+      result += latex_text(text.substr(0, 1));
+      text.remove_prefix(1);
+      continue;
+    }
+    // A letter that is not known here: the rest of its bytes go along, for a LaTeX that reads UTF-8.
+    std::size_t size = 1;
+    while (size < text.size() && (static_cast<unsigned char>(text[size]) & 0xC0) == 0x80) ++size;
+    result += text.substr(0, size);
+    text.remove_prefix(size);
+  }
+  return result;
+}
+
+std::string latex_prose(const Prose& prose) {
+  std::string all;
+  for (const Prose::Part& part : prose.parts())
+    all += part.is_formula ? "$" + latex_math(part.text) + "$" : latex_sentence(part.text);
+  return all;
+}
+
+// Prose that is one formula and nothing else.
+bool is_formula(const Prose& prose) {
+  return prose.parts().size() == 1 && prose.parts()[0].is_formula;
+}
+
+std::string latex_paragraphs(const std::vector<LadderPage::Paragraph>& list) {
+  std::string all;
+  for (const LadderPage::Paragraph& one : list) {
+    if (!one.is_displayed)
+      all += latex_prose(one.text) + "\n\n";
+    else if (is_formula(one.text))
+      all += "\\[ " + latex_math(one.text.parts()[0].text) + " \\]\n";
+    else
+      all += "\\begin{quote}\n" + latex_prose(one.text) + "\n\\end{quote}\n";
+  }
+  return all;
+}
+
+std::string latex_diagram(const LadderReport& ladder) {
+  std::string S, arrows, M, dim_S, dim_M, columns;
+  const LadderReport::Level* before = nullptr;
+  for (const LadderReport::Level& level : ladder.levels) {
+    const std::string k = std::to_string(level.k);
+    if (before) {
+      const auto relation = [](bool same) { return same ? " & = & " : " & \\supseteq & "; };
+      S += relation(level.dim_S && before->dim_S == level.dim_S);
+      M += relation(level.dim_M && before->dim_M == level.dim_M);
+      arrows += " & & ";
+      dim_S += " & & ";
+      dim_M += " & & ";
+    }
+    S += "S_{" + k + "}";
+    M += "M_{" + k + "}";
+    arrows += "\\downarrow\\tau";
+    dim_S += level.dim_S ? std::to_string(*level.dim_S) : "\\emptyset";
+    dim_M += level.dim_M ? std::to_string(*level.dim_M) : "\\emptyset";
+    columns += before ? "cc" : "c";
+    before = &level;
+  }
+  if (columns.empty()) return "";
+  return "\\[ \\begin{array}{r@{\\quad}" + columns + "}\n\\dim S & " + dim_S + " \\\\\n & " + S +
+         " \\\\\n & " + arrows + " \\\\\n & " + M + " \\\\\n\\dim M & " + dim_M +
+         "\n\\end{array} \\]\n";
+}
+
+std::string latex_matrix(const ConstraintBrackets& brackets) {
+  std::string all;
+  for (std::size_t a = 0; a < brackets.constraints.size(); ++a)
+    all += "\\[ " + latex_math("phi_" + std::to_string(a + 1) + " = " + brackets.constraints[a]) +
+           " \\]\n";
+  all += "\\[ \\bigl(\\{\\phi_a, \\phi_b\\}\\bigr) = \\begin{pmatrix}\n";
+  for (const auto& row : brackets.matrix) {
+    for (std::size_t b = 0; b < row.size(); ++b) all += (b == 0 ? "" : " & ") + latex_math(row[b]);
+    all += " \\\\\n";
+  }
+  return all + "\\end{pmatrix} \\]\n";
+}
+
+// --- Markdown ---
+
+std::string markdown_text(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (std::string_view("\\`*_{}[]<>#|$").find(c) != std::string_view::npos) result += '\\';
+    result += c;
+  }
+  return result;
+}
+
+std::string markdown_prose(const Prose& prose) {
+  std::string all;
+  for (const Prose::Part& part : prose.parts())
+    all += part.is_formula ? "$" + latex_math(part.text) + "$" : markdown_text(part.text);
+  return all;
+}
+
+std::string markdown_paragraphs(const std::vector<LadderPage::Paragraph>& list) {
+  std::string all;
+  for (const LadderPage::Paragraph& one : list) {
+    if (!one.is_displayed)
+      all += markdown_prose(one.text) + "\n\n";
+    else if (is_formula(one.text))
+      all += "$$" + latex_math(one.text.parts()[0].text) + "$$\n\n";
+    else
+      all += "> " + markdown_prose(one.text) + "\n\n";
+  }
+  return all;
+}
+
+}  // namespace
+
+LadderPage ladder_page(const Experiment& experiment, const LadderReport& ladder,
+                       const std::optional<ConstraintBrackets>& brackets) {
+  LadderPage page;
+  page.title = experiment.title.empty() ? "Constraint algorithm" : experiment.title;
+  page.system = experiment.model.description;
+  page.ladder = ladder;
+  page.brackets = brackets;
+  for (const ModelEntry& entry : model_entries(experiment.document)) {
+    if (entry.formulas.empty()) continue;
+    LadderPage::Section lines{entry.name, {}};
+    for (const std::string& formula : entry.formulas)
+      lines.paragraphs.push_back(
+          {are_words(entry.name) ? Prose(formula) : Prose::formula(formula)});
+    page.model.push_back(std::move(lines));
+  }
+  std::vector<Prose> verdict = {verdict_in_words(ladder)};
+  if (!ladder.reason.empty()) verdict.emplace_back(ladder.reason);
+  page.sections.push_back(section("Verdict", verdict));
+  const LadderWords words = ladder_words(ladder, brackets);
+  page.sections.push_back(section("Level by level", words.levels));
+  page.sections.push_back(section("Freedom, classes, brackets", words.freedom));
+  page.sections.push_back(section("How sure", words.certainty));
+  LadderPage::Section moves{"What moved", {}};
+  for (const Movement& move : ladder.moves)
+    moves.paragraphs.push_back({Prose::formula(move.name) + " from " + number_text(move.from) +
+                                    " to " + number_text(move.to),
+                                true});
+  page.sections.push_back(std::move(moves));
+  std::erase_if(page.sections,
+                [](const LadderPage::Section& one) { return one.paragraphs.empty(); });
+  return page;
+}
+
+Markup ladder_in_words(const LadderReport& ladder) {
+  const LadderWords words = ladder_words(ladder);
+  Markup all;
+  for (const std::vector<Prose>* part : {&words.levels, &words.freedom, &words.certainty})
+    all += paragraphs(section("", *part).paragraphs);
+  return all;
+}
+
+std::string to_html(const LadderPage& page) {
+  Markup body = element("h1", {}, page.title) +
+                element("p", {{"class", "lead"}}, typeset_manifolds(page.system));
+  body += model(page.model);
+  for (const LadderPage::Section& one : page.sections) {
+    Markup content = paragraphs(one.paragraphs);
+    if (one.title == "Verdict")
+      content += element("figure", {{"class", "diagram scroll"}}, ladder_diagram(page.ladder)) +
+                 ladder_table(page.ladder);
+    if (one.title == "Freedom, classes, brackets" && has_matrix(page))
+      content += matrix(*page.brackets);
+    body += page_section(one.title, content);
+  }
+  body += element("footer", {}, "Made by courant constraints.");
+  return whole_page(page.title, body);
+}
+
+std::string to_latex(const LadderPage& page) {
+  std::string text =
+      "\\documentclass{article}\n\\usepackage[utf8]{inputenc}\n\\usepackage{amsmath,amssymb}\n"
+      "\\setlength{\\parindent}{0pt}\n\\setlength{\\parskip}{0.5ex}\n\\begin{document}\n\\section*"
+      "{" +
+      latex_sentence(page.title) + "}\n" + latex_sentence(manifolds_in_unicode(page.system)) +
+      "\n\n";
+  for (const LadderPage::Section& entry : page.model) {
+    text += latex_sentence(entry.title) + ":\n" + "\\begin{quote}\\raggedright\n";
+    for (const LadderPage::Paragraph& line : entry.paragraphs)
+      text += latex_prose(line.text) + "\\\\\n";
+    text += "\\end{quote}\n";
+  }
+  for (const LadderPage::Section& one : page.sections) {
+    text += "\\subsection*{" + latex_sentence(one.title) + "}\n" + latex_paragraphs(one.paragraphs);
+    if (one.title == "Verdict") text += latex_diagram(page.ladder);
+    if (one.title == "Freedom, classes, brackets" && has_matrix(page))
+      text += latex_matrix(*page.brackets);
+  }
+  return text + "\\end{document}\n";
+}
+
+std::string to_markdown(const LadderPage& page) {
+  std::string text = "# " + markdown_text(page.title) + "\n\n" +
+                     markdown_text(manifolds_in_unicode(page.system)) + "\n\n";
+  for (const LadderPage::Section& entry : page.model) {
+    text += markdown_text(entry.title) + ":\n\n";
+    for (const LadderPage::Paragraph& line : entry.paragraphs)
+      text += "* " + markdown_prose(line.text) + "\n";
+    text += "\n";
+  }
+  for (const LadderPage::Section& one : page.sections) {
+    text += "## " + markdown_text(one.title) + "\n\n" + markdown_paragraphs(one.paragraphs);
+    if (one.title == "Verdict") {
+      text += "```text\n";
+      for (const std::string& line : ladder_text_diagram(page.ladder)) text += line + "\n";
+      text += "```\n\n";
+    }
+    if (one.title == "Freedom, classes, brackets" && has_matrix(page)) {
+      const ConstraintBrackets& brackets = *page.brackets;
+      text += "|  |";
+      for (std::size_t a = 0; a < brackets.matrix.size(); ++a)
+        text += " $\\phi_" + std::to_string(a + 1) + "$ |";
+      text += "\n|";
+      for (std::size_t a = 0; a <= brackets.matrix.size(); ++a) text += " --- |";
+      text += "\n";
+      for (std::size_t a = 0; a < brackets.matrix.size(); ++a) {
+        text += "| $\\phi_" + std::to_string(a + 1) + "$ |";
+        for (const std::string& entry : brackets.matrix[a])
+          text += " $" + latex_math(entry) + "$ |";
+        text += "\n";
+      }
+      text += "\n";
+    }
+  }
+  return text;
+}
+
+}  // namespace courant

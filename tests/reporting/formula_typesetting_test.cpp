@@ -1,0 +1,64 @@
+#include "courant/reporting/formula_typesetting.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <string>
+
+BOOST_AUTO_TEST_SUITE(formula_typesetting_test)
+
+using namespace courant;
+
+BOOST_AUTO_TEST_CASE(latex_of_formulas) {
+  BOOST_TEST(latex_math("p_x^2/(2*m)") == "\\frac{{p_{x}}^{2}}{2\\,m}");
+  BOOST_TEST(latex_math("q[0]' = sqrt(a[1][2])") == "\\dot{q}_{0} = \\sqrt{a_{1, 2}}");
+  BOOST_TEST(latex_math("k*cos(theta_1)") == "k\\,\\cos\\,\\theta_{1}");
+  BOOST_TEST(latex_math("sin(x + y)^2") == "{\\left( \\sin\\left( x + y\\right)\\right)}^{2}");
+  BOOST_TEST(latex_math("x''") == "\\ddot{x}");
+  BOOST_TEST(latex_math("theta1'") == "\\dot{\\theta}_{1}");
+  BOOST_TEST(latex_math("sum(i, 0, n-1, x[i]^2)") == "\\sum_{i=0}^{n - 1} {x_{i}}^{2}");
+  BOOST_TEST(latex_math("tension*x") == "\\mathrm{tension}\\,x");
+  BOOST_TEST(latex_math("1.5e-3*x") == "1.5\\cdot 10^{-3}\\,x");
+  BOOST_TEST(latex_math("if(x < 0, -x, x)") ==
+             "\\begin{cases}-x & \\text{if } x < 0 \\\\ x & \\text{otherwise}\\end{cases}");
+}
+
+// Parentheses stand where leaving them out would change the meaning, and nowhere else.
+BOOST_AUTO_TEST_CASE(parentheses) {
+  BOOST_TEST(latex_math("a - (b - c)") == "a - \\left( b - c\\right)");
+  BOOST_TEST(latex_math("(a - b) - c") == "a - b - c");
+  BOOST_TEST(latex_math("a + (b - c)") == "a + b - c");
+  BOOST_TEST(latex_math("(a + b)*c") == "\\left( a + b\\right)\\,c");
+  BOOST_TEST(latex_math("a*(b*c)") == "a\\,b\\,c");
+  BOOST_TEST(latex_math("a*-b") == "a\\,\\left( -b\\right)");
+  BOOST_TEST(latex_math("-(a + b)") == "-\\left( a + b\\right)");
+  BOOST_TEST(latex_math("(a + b)/c") == "\\frac{a + b}{c}");
+  BOOST_TEST(latex_math("(a/b)^2") == "{\\left( \\frac{a}{b}\\right)}^{2}");
+  BOOST_TEST(latex_math("(a^b)^c") == "{\\left( {a}^{b}\\right)}^{c}");
+  BOOST_TEST(latex_math("-z*p - x") == "-z\\,p - x");
+  BOOST_TEST(latex_math("x + (-z)*p") == "x + \\left( -z\\,p\\right)");
+  BOOST_TEST(latex_math("-(-x)") == "-\\left( -x\\right)");
+  BOOST_TEST(latex_math("2*3") == "2 \\cdot 3");
+  BOOST_TEST(
+      latex_math("(x - u)*(x^2 + u) - (x - u)*(u^2 + x)") ==
+      "\\left( x - u\\right)\\,\\left( {x}^{2} + u\\right) - \\left( x - u\\right)\\,\\left( "
+      "{u}^{2} + x\\right)");
+}
+
+BOOST_AUTO_TEST_CASE(what_is_no_formula_stays_text) {
+  BOOST_TEST(latex_math("equation of x_1 & y") == "\\text{equation of x\\_1 \\& y}");
+  BOOST_TEST(math("50% of <b>").str() ==
+             "<math><mrow><mtext>50% of &lt;b&gt;</mtext></mrow></math>");
+}
+
+BOOST_AUTO_TEST_CASE(mathml_of_formulas) {
+  BOOST_TEST(
+      math("x^2").str() ==
+      "<math><mrow><msup><mrow><mi>x</mi></mrow><mrow><mn>2</mn></mrow></msup></mrow></math>");
+  BOOST_TEST(math("lambda", true).str() ==
+             "<math display=\"block\"><mrow><mi>λ</mi></mrow></math>");
+  BOOST_TEST(math("x' = v").str() ==
+             "<math><mrow><mover "
+             "accent=\"true\"><mrow><mi>x</mi></mrow><mo>˙</mo></mover><mo>=</mo><mi>v</mi></"
+             "mrow></math>");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
