@@ -103,6 +103,7 @@ function(courant_library room)
   set(in_steps "")
   foreach(part IN LISTS fast)
     cmake_path(ABSOLUTE_PATH part NORMALIZE)
+    string(REGEX REPLACE "/$" "" part "${part}") # of ".", or its sources had two slashes, and were compiled twice
     file(GLOB part_sources CONFIGURE_DEPENDS ${part}/*.cpp)
     list(APPEND in_steps ${part_sources})
   endforeach()
