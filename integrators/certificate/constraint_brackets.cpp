@@ -11,7 +11,7 @@
 namespace courant {
 namespace {
 
-constexpr std::size_t longest = 450, most_constraints = 24;
+constexpr std::size_t longest_bracket = 450, most_constraints = 24;
 constexpr Index most_coordinates = 16;
 
 ExprVector variables(const Graph& graph, const std::string& name, Index count) {
@@ -113,7 +113,7 @@ class Brackets {
   }
   static std::optional<std::string> written(const Expr& f, const Simplification& given) {
     auto text = simplified(f, given);
-    if (text && text->size() > longest) text.reset();
+    if (text && text->size() > longest_bracket) text.reset();
     return text;
   }
   std::optional<std::string> written(const Expr& f) const { return written(f, on_M_f_); }
