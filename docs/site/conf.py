@@ -22,7 +22,7 @@ project_copyright = "2026, The Courant authors"
 version = release = os.environ["COURANT_VERSION"]
 root_doc = "docs/index"
 include_patterns = ["README.md", "*/README.md", "docs/*.md", "docs/tour/*.md"]
-exclude_patterns = ["build*", ".git", "runs", "node_modules"]
+exclude_patterns = ["build*", "include", ".git", "runs", "node_modules"]
 extensions = ["myst_parser", "sphinx.ext.graphviz"]
 myst_heading_anchors = 4
 myst_url_schemes = ["http", "https", "mailto", "api"]
