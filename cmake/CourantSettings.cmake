@@ -66,6 +66,7 @@ function(courant_settings target)
   if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
     target_compile_options(${target} PRIVATE -Wno-sign-conversion) # not in -Wconversion of GCC
   endif()
+  target_compile_definitions(${target} PRIVATE COURANT_CALLS_PRODUCTS) # see core/linear/products.hpp
   # GCC 12 sees overlaps and overflows in "literal" + std::string that are not there (GCC bug 105651).
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     target_compile_options(${target} PRIVATE -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow

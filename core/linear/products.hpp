@@ -93,6 +93,9 @@ concept Factors = Factor<A>::kind != Kind::other&& Factor<B>::kind != Kind::othe
 
 }  // namespace products
 
+// Of this project's own code alone (cmake/CourantSettings.cmake): what A * B is in a program that uses the library is not
+// ours to say, even where it says `using namespace courant`.
+#ifdef COURANT_CALLS_PRODUCTS
 template <class A, class B>
 requires products::Factors<A, B>
 auto operator*(const A& left, const B& right) {
@@ -113,5 +116,6 @@ auto operator*(const A& left, const B& right) {
   else
     return products::plain(Left::of(left), Right::of(right));
 }
+#endif
 
 }  // namespace courant

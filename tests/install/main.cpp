@@ -1,10 +1,21 @@
 // A pendulum's force from its energy, in ten lines: what a program that uses Courant starts with.
+#include <Eigen/Core>
 #include <cmath>
 #include <iostream>
+#include <type_traits>
+#include <utility>
 
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/core/expressions/function.hpp"
 #include "courant/manifolds/sphere.hpp"
+
+// What a product of the program's own matrices is stays Eigen's to say.
+namespace own {
+using namespace courant;
+using Matrix = Eigen::MatrixXd;
+static_assert(std::is_same_v<decltype(std::declval<Matrix&>() * std::declval<Matrix&>()),
+                             decltype(std::declval<Matrix&>().operator*(std::declval<Matrix&>()))>);
+}  // namespace own
 
 int main() {
   courant::Graph graph;
