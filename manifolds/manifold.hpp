@@ -183,7 +183,8 @@ class Manifold {
   virtual ExprMatrix do_frame(const ExprVector& x) const = 0;
   virtual ExprMatrix do_coframe(const ExprVector& x) const = 0;
 
-  // May override:
+ protected:
+  // May override; an override can call the default:
   // See has_identity_frame; do_frame and do_coframe are then not asked.
   virtual bool do_has_identity_frame() const { return false; }
   // Whether another object of this class is the same manifold; false by default, which is always
@@ -213,6 +214,7 @@ class Manifold {
   virtual VectorXd do_random_point(
       std::mt19937& generator) const;  // default: a projected normal vector
 
+ private:
   // The value on expressions, or its numbers if the argument X was numbers.
   template <class X, class Formula>
   static auto on(const Formula& formula) {

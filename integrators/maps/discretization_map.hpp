@@ -98,12 +98,15 @@ class DiscretizationMap {
  private:
   // To subclass, override:
   virtual PointPair<Expr> do_forward(const ExprVector& x, const ExprVector& v) const = 0;
-  // May override (or has_inverse() → false, and numbers are inverted by Newton's method):
+
+ protected:
+  // May override, and call the default (or has_inverse() → false, and numbers are inverted by Newton's method):
   virtual TangentVector<Expr> do_inverse(const ExprVector& x0, const ExprVector& x1) const;
   virtual Displacement do_from_start(const ExprVector& x0, const ExprVector& w) const {
     return from_start_by_inverse(x0, w);
   }
 
+ private:
   PointPair<Expr> checked_forward(const ExprVector& x, const ExprVector& v) const;
   PointPair<double> numeric_forward(const VectorXd& x, const VectorXd& v) const;
   TangentVector<Expr> checked_inverse(const ExprVector& x0, const ExprVector& x1) const;
