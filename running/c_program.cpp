@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "courant/core/linear/solver_choice.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/core/words/version.hpp"
 #include "courant/core/words/word_list.hpp"

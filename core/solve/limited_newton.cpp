@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "courant/core/linear/solver_choice.hpp"
 #include "courant/core/solve/unknown_selection.hpp"
 
 namespace courant {

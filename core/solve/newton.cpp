@@ -6,6 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "courant/core/linear/solver_choice.hpp"
 #include "courant/core/solve/broyden_update.hpp"
 #include "courant/core/solve/damped_newton.hpp"
 #include "courant/core/solve/unknown_change.hpp"

@@ -1,8 +1,8 @@
 // Consistent points: zeros of a derivative array near given values.
 #pragma once
 
-#include "courant/integrators/certificate/constraint_algorithm.hpp"
 #include "courant/integrators/certificate/derivative_array.hpp"
+#include "courant/integrators/certificate/initial_guess.hpp"
 #include "courant/integrators/certificate/least_zero.hpp"
 
 namespace courant {

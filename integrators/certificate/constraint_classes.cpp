@@ -4,8 +4,8 @@
 #include <cmath>
 #include <memory>
 
-#include "courant/core/linear/linear_solver.hpp"
 #include "courant/core/linear/lu_decomposition.hpp"
+#include "courant/core/linear/solver_choice.hpp"
 #include "courant/core/linear/uncertain_matrix.hpp"
 #include "courant/structures/dirac_structure.hpp"
 #include "courant/structures/dirac_system.hpp"

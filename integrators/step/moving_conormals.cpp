@@ -15,6 +15,7 @@
 #include "courant/core/linear/equilibration.hpp"
 #include "courant/core/linear/plain_products.hpp"
 #include "courant/core/linear/qr_decomposition.hpp"
+#include "courant/core/linear/solver_choice.hpp"
 
 namespace courant {
 namespace {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "courant/core/linear/solver_choice.hpp"
 #include "courant/core/solve/damped_newton.hpp"
 #include "courant/core/solve/unknown_selection.hpp"
 

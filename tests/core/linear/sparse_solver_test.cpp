@@ -7,6 +7,7 @@
 
 #include "courant/core/linear/dense_solver.hpp"
 #include "courant/core/linear/lu_decomposition.hpp"
+#include "courant/core/linear/solver_choice.hpp"
 
 BOOST_AUTO_TEST_SUITE(sparse_solver)
 

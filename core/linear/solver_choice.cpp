@@ -1,4 +1,4 @@
-#include "courant/core/linear/linear_solver.hpp"
+#include "courant/core/linear/solver_choice.hpp"
 
 #include "courant/core/linear/dense_solver.hpp"
 #include "courant/core/linear/sparse_solver.hpp"
