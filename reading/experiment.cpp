@@ -284,7 +284,10 @@ Json without_comments(const Json& value) {
   return result;
 }
 
-Experiment read_experiment_document(const Json& written) {
+namespace {
+
+// `given`: the system, or null where the document describes it.
+Experiment read_document(const Json& written, const Model* given) {
   const Json document = without_comments(written);
   Findings findings;
   Experiment experiment;
@@ -294,8 +297,10 @@ Experiment read_experiment_document(const Json& written) {
     if (const auto run = object.optional("$run")) run->text();
     experiment.title = object.text("title", "");
     if (const auto description = object.optional("description")) description->text();
-    const auto system = object.required("system");
-    const auto model = system ? system_kinds().read(*system) : std::nullopt;
+    const auto system = given ? std::nullopt : object.required("system");
+    const auto model = given    ? std::optional(*given)
+                       : system ? system_kinds().read(*system)
+                                : std::nullopt;
     const auto initial = object.required("initial");
     const auto hold = object.optional("hold");
     const auto method = object.optional("method");
@@ -354,6 +359,16 @@ Experiment read_experiment_document(const Json& written) {
   findings.require_clean();
   experiment.document = findings.completed(document);
   return experiment;
+}
+
+}  // namespace
+
+Experiment read_experiment_document(const Json& document) {
+  return read_document(document, nullptr);
+}
+
+Experiment read_experiment_document(const Json& document, const Model& model) {
+  return read_document(document, &model);
 }
 
 }  // namespace courant

@@ -56,6 +56,10 @@ struct Experiment {
 Experiment read_experiment(std::string_view text);
 // The same for what such a text says. Keys that begin with // are comments, at any depth.
 Experiment read_experiment_document(const Json& document);
+// About a system that is there as an object, which takes the place of the key "system":
+//
+//   read_experiment_document({{"initial", …}, {"method", "constrain-first"}, {"time", …}}, model_of(system))
+Experiment read_experiment_document(const Json& document, const Model& model);
 Json without_comments(const Json& document);
 
 }  // namespace courant

@@ -51,4 +51,8 @@ struct Model {
   }
 };
 
+// The model of a system by its own names: elements "r[0]", "r[1]", … side by side are the array r. What is no name that
+// a formula could have has none in formulas. `description` is by default the name of the manifold.
+Model model_of(std::shared_ptr<const ImplicitSystem> system, std::string description = "");
+
 }  // namespace courant

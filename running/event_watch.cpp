@@ -26,29 +26,17 @@ RunEnd cannot_locate(const RunMoment& moment, const std::exception& error) {
 }  // namespace
 
 EventWatch::EventWatch(std::vector<Event> events, Index first, std::vector<std::string> columns,
-                       std::map<std::string, std::set<long>> kept,
-                       const std::filesystem::path& folder, std::optional<Memory> memory)
+                       std::map<std::string, std::set<long>> kept, Tell tell,
+                       std::optional<Memory> memory)
     : events_(std::move(events)),
       first_(first),
       columns_(std::move(columns)),
-      kept_(std::move(kept)) {
-  const std::filesystem::path path = folder / "events.csv";
-  if (memory) {
-    file_ = std::make_unique<OutputFile>(path, OutputFile::Existing{});
-    file_->cut(memory->file_size);
+      kept_(std::move(kept)),
+      tell_(std::move(tell)) {
+  if (memory)
     memory_ = std::move(*memory);
-    return;
-  }
-  file_ = std::make_unique<OutputFile>(path);
-  for (const Event& event : events_) memory_.records[event.name] = {};
-  std::string header = "event,t";
-  for (const std::string& column : columns_) header += ',' + column;
-  write(header + '\n');
-}
-
-void EventWatch::write(const std::string& line) {
-  file_->write(line);
-  memory_.file_size += line.size();
+  else
+    for (const Event& event : events_) memory_.records[event.name] = {};
 }
 
 void EventWatch::set_curve(Stepper& stepper, Measure measure) {
@@ -103,10 +91,7 @@ void EventWatch::take(const Zero& zero) {
   ++record.count;
   if (record.count == 1) record.first = zero.t;
   record.last = zero.t;
-  std::string line = name + ',' + exact_text(zero.t);
-  for (std::size_t i = 0; i < columns_.size(); ++i)
-    line += ',' + exact_text(zero.row[static_cast<Index>(i)]);
-  write(line + '\n');
+  tell_(name, zero.t, zero.row);
   const auto kept = kept_.find(name);
   if (kept == kept_.end() || !kept->second.contains(record.count)) return;
   auto& quantities = record.occurrences[record.count];

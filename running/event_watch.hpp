@@ -2,10 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <map>
-#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -14,13 +12,12 @@
 #include "courant/integrators/step/stepper.hpp"
 #include "courant/reading/event.hpp"
 #include "courant/reading/expectation.hpp"
-#include "courant/running/output_file.hpp"
 #include "courant/running/run_watcher.hpp"
 
 namespace courant {
 
-// Looks for events between two states of a run and writes each with its time and all that is
-// measured there to events.csv. Where a quantity has different signs at the two ends of a step, its
+// Looks for events between two states of a run and tells of each, with its time and all that is
+// measured there. Where a quantity has different signs at the two ends of a step, its
 // zero is found on the curve of the step, Stepper::between, by bracketing: to round-off of the
 // step, as right as the method is. Two zeros within one step are not seen, nor are those that touch
 // zero without passing through it.
@@ -29,18 +26,21 @@ class EventWatch final : public RunWatcher {
   // What is measured where a part of the last step ends: columns as in the rows of the run.
   using Measure = std::function<const VectorXd&(const Step&)>;
 
+  // An occurrence: the name of the event, its time, all that is measured there.
+  using Tell = std::function<void(const std::string& name, double t, const VectorXd& row)>;
+
   // All that is kept of the states so far.
   struct Memory {
     VectorXd values = {};  // of the quantities at the last state
     std::map<std::string, EventRecord> records = {};
-    std::uintmax_t file_size = 0;  // bytes of events.csv
+    std::uintmax_t file_size = 0;  // bytes of events.csv, where it is kept there
   };
 
-  // `first`: the column of the first event. `columns`: names of those that are written. `kept`:
-  // which occurrences (1, 2, …) of an event are to be in records(). `memory`: that of the run that
-  // goes on, whose file is cut off there. Throws OutputError.
+  // `first`: the column of the first event. `columns`: names of those that records() has. `kept`:
+  // which occurrences (1, 2, …) of an event are to be there. `memory`: that of the run that
+  // goes on.
   EventWatch(std::vector<Event> events, Index first, std::vector<std::string> columns,
-             std::map<std::string, std::set<long>> kept, const std::filesystem::path& folder,
+             std::map<std::string, std::set<long>> kept, Tell tell,
              std::optional<Memory> memory = std::nullopt);
 
   // Both have to outlive the run; before this is called no state may be watched.
@@ -62,13 +62,12 @@ class EventWatch final : public RunWatcher {
   };
   Zero locate(std::size_t event, double before, const RunMoment& moment);
   void take(const Zero& zero);
-  void write(const std::string& line);
 
   std::vector<Event> events_;
   Index first_;
   std::vector<std::string> columns_;
   std::map<std::string, std::set<long>> kept_;
-  std::unique_ptr<OutputFile> file_;
+  Tell tell_;
   Stepper* stepper_ = nullptr;
   Measure measure_;
   Memory memory_;

@@ -35,6 +35,8 @@ class RunWatcher {
   virtual ~RunWatcher() = default;
   // Why the run ends with this state; nothing if it goes on.
   virtual std::optional<RunEnd> watch(const RunMoment& moment) = 0;
+  // Whether it asks what steps were evaluated at: then steps are not made ahead.
+  virtual bool needs_stages() const { return true; }
 };
 
 }  // namespace courant

@@ -19,25 +19,6 @@ class Statistics final : public RunWatcher {
   QuantityStatistics& statistics_;
 };
 
-class Rows final : public RunWatcher {
- public:
-  Rows(TrajectoryWriter& writer, std::function<bool(long)> is_written, std::vector<Index> columns)
-      : writer_(writer), is_written_(std::move(is_written)), columns_(std::move(columns)) {}
-  std::optional<RunEnd> watch(const RunMoment& moment) override {
-    if (is_written_(moment.k)) {
-      values_ = moment.row(columns_);
-      append_row(writer_, moment.t, moment.tau, values_);
-    }
-    return std::nullopt;
-  }
-
- private:
-  TrajectoryWriter& writer_;
-  std::function<bool(long)> is_written_;
-  std::vector<Index> columns_;
-  VectorXd values_;  // in these
-};
-
 class Finiteness final : public RunWatcher {
  public:
   Finiteness(std::optional<NotFinite>& found, Index count, const QuantityStatistics& statistics)
@@ -132,20 +113,6 @@ class Stop final : public RunWatcher {
 
 std::unique_ptr<RunWatcher> keep_statistics(QuantityStatistics& statistics) {
   return std::make_unique<Statistics>(statistics);
-}
-
-void append_row(TrajectoryWriter& writer, double t, const std::optional<double>& tau,
-                const Eigen::Ref<const VectorXd>& values) {
-  if (!tau) return writer.append(t, values);
-  VectorXd all(values.size() + 1);
-  all << *tau, values;
-  writer.append(t, all);
-}
-
-std::unique_ptr<RunWatcher> write_rows(TrajectoryWriter& writer,
-                                       std::function<bool(long k)> is_written,
-                                       std::vector<Index> columns) {
-  return std::make_unique<Rows>(writer, std::move(is_written), std::move(columns));
 }
 
 std::unique_ptr<RunWatcher> find_not_finite(std::optional<NotFinite>& found, Index count,

@@ -10,7 +10,6 @@
 #include "courant/integrators/certificate/ladder_watch.hpp"
 #include "courant/running/quantity_statistics.hpp"
 #include "courant/running/run_watcher.hpp"
-#include "courant/running/trajectory_writer.hpp"
 
 namespace courant {
 
@@ -25,15 +24,6 @@ struct Progress {
 // What they are given has to outlive them.
 
 std::unique_ptr<RunWatcher> keep_statistics(QuantityStatistics& statistics);
-
-// A row with the transformed time, if there is one, behind t.
-void append_row(TrajectoryWriter& writer, double t, const std::optional<double>& tau,
-                const Eigen::Ref<const VectorXd>& values);
-
-// The rows of the steps k for which `is_written`, of their numbers those in `columns`.
-std::unique_ptr<RunWatcher> write_rows(TrajectoryWriter& writer,
-                                       std::function<bool(long k)> is_written,
-                                       std::vector<Index> columns);
 
 // The first value that is not finite among the first `count` of a row goes into `found`. `statistics`: of the same
 // rows, which have been told of each before.

@@ -8,16 +8,15 @@
 
 #include "courant/core/words/message.hpp"
 #include "courant/integrators/certificate/ladder_watch.hpp"
-#include "courant/running/checkpoint_keeper.hpp"
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/energy_watch.hpp"
+#include "courant/running/folder_keeper.hpp"
 #include "courant/running/ladder_report.hpp"
 #include "courant/running/left_constraints.hpp"
 #include "courant/running/observer_elsewhere.hpp"
 #include "courant/running/run_backend.hpp"
 #include "courant/running/run_clock.hpp"
 #include "courant/running/run_failure.hpp"
-#include "courant/running/run_folder.hpp"
 #include "courant/running/run_results.hpp"
 #include "courant/running/run_steps.hpp"
 #include "courant/running/run_watchers.hpp"
@@ -49,8 +48,9 @@ SolverStatistics operator+(const SolverStatistics& a, const SolverStatistics& b)
 
 class RunUnderway {
  public:
-  RunUnderway(const Experiment& experiment, const RunOptions& options)
+  RunUnderway(const Experiment& experiment, RunKeeper& keeper, const RunOptions& options)
       : experiment_(experiment),
+        keeper_(keeper),
         options_(options),
         backend_(worthwhile(options.backend, experiment)),
         ladder_(consistent_start(experiment)),
@@ -74,32 +74,29 @@ class RunUnderway {
     } else if (!experiment_.expect.inconsistent) {
       fail("The system is inconsistent near the initial values. " + ladder_.reason);
     }
-    const RunFolder folder(options_.folder, options_.existing, experiment_);
-    results_.id = folder.id();
-    const auto checkpoint = folder.checkpoint();
+    const Checkpoint* const checkpoint = keeper_.begin(experiment_);
+    results_.id = keeper_.id();
     const long first = checkpoint ? checkpoint->k : 0;
     if (method) watch_energy(*method);
     watch_ladder();
-    if (checkpoint) recall(*checkpoint, folder);
+    if (checkpoint) recall(*checkpoint);
     if (options_.on_resume && options_.existing == ExistingRun::resume)
       options_.on_resume(first, checkpoint && clock_.is_transformed() ? checkpoint->state.t
                                 : experiment_.time ? experiment_.time->time(first)
                                                    : 0.0);
-    folder.write_summary(results_.summary(RunStatus::running, {}));
-    rows_.open(folder);
-    if (method && !experiment_.events.empty()) watch_events(folder);
+    keeper_.tell(results_.summary(RunStatus::running, {}));
+    keeper_.open(opening(method));
+    if (method && !experiment_.events.empty()) watch_events(checkpoint);
     make_watchers(first);
-    CheckpointKeeper keeper(folder.checkpoint_file(), rows_.file(), options_.checkpoint_interval);
     if (method)
-      integrate(*method, checkpoint, keeper);
+      integrate(*method, checkpoint);
     else if (consistent && first == 0)
       goes_on({.after = ladder_.point}, 0);
-    rows_.file().flush();
-    keeper.flush();
+    keeper_.close();
 
     RunOutcome outcome{results_.status, results_.message, {}, results_.expectations()};
     outcome.summary = results_.summary(results_.status, outcome.expectations);
-    folder.write_summary(outcome.summary);
+    keeper_.tell(outcome.summary);
     return outcome;
   }
 
@@ -137,11 +134,21 @@ class RunUnderway {
     return std::nullopt;
   }
 
+  RunOpening opening(const std::optional<PreparedMethod>& method) const {
+    RunOpening opening{.columns = rows_.column_names(),
+                       .headings = rows_.headings(),
+                       .events = {},
+                       .event_columns = rows_.names(),
+                       .ladder = ladder_,
+                       .integrator = method ? method->integrator : nullptr};
+    if (method)
+      for (const Event& event : experiment_.events) opening.events.push_back(event.name);
+    return opening;
+  }
+
   // All that is told of the states of the run, in this order. What ends the run is told last.
   void make_watchers(long first) {
     watchers_.push_back(keep_statistics(results_.statistics));
-    watchers_.push_back(write_rows(
-        rows_.file(), [this](long k) { return rows_.has_step(k); }, rows_.columns()));
     watchers_.push_back(find_not_finite(not_finite_, static_cast<Index>(observer_.written_count()),
                                         results_.statistics));
     if (experiment_.time && !clock_.is_transformed() && !experiment_.expect.times.empty()) {
@@ -172,6 +179,8 @@ class RunUnderway {
     }
     results_.steps = k;
     results_.t = t;
+    keeper_.see(moment);
+    rows_.write(moment, keeper_);
     std::optional<RunEnd> end;
     const auto tell = [&](RunWatcher& watcher) {
       if (auto its_end = watcher.watch(moment); its_end && !end) end = std::move(its_end);
@@ -188,7 +197,10 @@ class RunUnderway {
   }
 
   // Whether someone may ask what a step was evaluated at.
-  bool is_told_whole() const { return observer_.needs_stages() || !options_.watchers.empty(); }
+  bool is_told_whole() const {
+    return observer_.needs_stages() ||
+           std::ranges::any_of(options_.watchers, &RunWatcher::needs_stages);
+  }
 
   // Whether something is measured within steps.
   bool looks_into_steps() const {
@@ -206,12 +218,16 @@ class RunUnderway {
           method.initial);
   }
 
-  void watch_events(const RunFolder& folder) {
-    std::optional<EventWatch::Memory> memory;
-    if (folder.checkpoint()) memory = folder.checkpoint()->event_watch;
-    event_watch_.emplace(experiment_.events, static_cast<Index>(observer_.first_event()),
-                         rows_.names(), experiment_.expect.occurrences, folder.path(),
-                         std::move(memory));
+  void watch_events(const Checkpoint* from) {
+    const std::vector<std::string> columns = rows_.names();
+    event_watch_.emplace(
+        experiment_.events, static_cast<Index>(observer_.first_event()), columns,
+        experiment_.expect.occurrences,
+        [this, count = std::ssize(columns)](const std::string& name, double t,
+                                            const VectorXd& row) {
+          keeper_.append_event(name, t, row.head(count));
+        },
+        from ? from->event_watch : std::nullopt);
     results_.event_watch = &*event_watch_;
   }
 
@@ -228,7 +244,6 @@ class RunUnderway {
                    .k = k,
                    .state = state,
                    .motion = motion,
-                   .trajectory_size = rows_.file().size(),
                    .wall_seconds = results_.wall_seconds + seconds,
                    .solver = results_.solver + solver,
                    .statistics = results_.statistics.memory(),
@@ -241,20 +256,20 @@ class RunUnderway {
     return now;
   }
 
-  void recall(const Checkpoint& checkpoint, const RunFolder& folder) {
+  void recall(const Checkpoint& checkpoint) {
     const QuantityStatistics::Memory& kept = checkpoint.statistics;
     std::vector<const VectorXd*> rows = {&kept.initial, &kept.final, &kept.min,
                                          &kept.max,     &kept.mean,  &kept.covariation};
     for (const auto& [time, row] : checkpoint.rows_at_times) rows.push_back(&row);
     for (const VectorXd* row : rows)
       if (row->size() != static_cast<Index>(observer_.names().size()))
-        throw UnusableFolder(folder.checkpoint_file().string() + ": has " +
-                             std::to_string(row->size()) + " quantities, expected " +
-                             std::to_string(observer_.names().size()) + " as the experiment has");
+        keeper_.refuse_checkpoint("has " + std::to_string(row->size()) + " quantities, expected " +
+                                  std::to_string(observer_.names().size()) +
+                                  " as the experiment has");
     try {
       observer_.recall(checkpoint.observed);
     } catch (const std::invalid_argument& error) {
-      throw UnusableFolder(folder.checkpoint_file().string() + ": " + without_place(error.what()));
+      keeper_.refuse_checkpoint(without_place(error.what()));
     }
     results_.steps = checkpoint.k;
     results_.wall_seconds = checkpoint.wall_seconds;
@@ -271,8 +286,7 @@ class RunUnderway {
   bool may_make_ahead() const { return options_.ahead && !is_told_whole() && !looks_into_steps(); }
 
   // All steps, or those after a checkpoint.
-  void integrate(const PreparedMethod& method, const std::optional<Checkpoint>& from,
-                 CheckpointKeeper& keeper) {
+  void integrate(const PreparedMethod& method, const Checkpoint* from) {
     const TimeSpan& time = *experiment_.time;
     RunSteps::Start start{.state = method.initial};
     if (from) start = {.k = from->k, .state = from->state, .motion = from->motion};
@@ -296,8 +310,10 @@ class RunUnderway {
         // before and for those who begin with it.
         const Motion motion = steps.end_epoch();
         observer_.restart(steps.state());
-        keeper.keep(
-            checkpoint(steps.k(), steps.state(), motion, steps.statistics(), seconds_since(begin)));
+        keeper_.keep([&] {
+          return checkpoint(steps.k(), steps.state(), motion, steps.statistics(),
+                            seconds_since(begin));
+        });
       }
     } catch (const SolveError& error) {
       fail(failure_in_words(error, experiment_, ladder_, steps.state()) +
@@ -330,7 +346,7 @@ class RunUnderway {
   void look_into(RunSteps& steps) {
     if (clock_.is_transformed()) clock_.end_step(steps.stepper(), steps.state(), steps.k());
     elsewhere_.begin_step();
-    rows_.write_between(steps.stepper(), steps.k(), elsewhere_);
+    rows_.write_between(steps.stepper(), steps.k(), elsewhere_, keeper_);
   }
 
   void warn_of_end(const PreparedMethod& method, const State& end) {
@@ -355,6 +371,7 @@ class RunUnderway {
   }
 
   const Experiment& experiment_;
+  RunKeeper& keeper_;
   const RunOptions& options_;
   const Backend backend_;  // for the steps of the run
   const ConstraintLadder ladder_;
@@ -384,9 +401,14 @@ bool RunOutcome::as_expected() const {
                      [](const ExpectationResult& result) { return result.passed; });
 }
 
+RunOutcome run(const Experiment& experiment, RunKeeper& keeper, const RunOptions& options) {
+  keeper.check(experiment);
+  return RunUnderway(experiment, keeper, options)();
+}
+
 RunOutcome run(const Experiment& experiment, const RunOptions& options) {
-  RunFolder::check(options.folder, options.existing, experiment);
-  return RunUnderway(experiment, options)();
+  FolderKeeper folder(options.folder, options.existing, options.checkpoint_interval);
+  return run(experiment, folder, options);
 }
 
 }  // namespace courant

@@ -11,6 +11,7 @@
 #include "courant/core/numbers/parallel.hpp"
 #include "courant/reading/experiment.hpp"
 #include "courant/running/run_folder.hpp"
+#include "courant/running/run_keeper.hpp"
 #include "courant/running/run_summary.hpp"
 #include "courant/running/run_watchers.hpp"
 
@@ -52,9 +53,13 @@ struct RunOutcome {
 // it had never been stopped: the trajectory to the last byte, the summary but for times. Only
 // options.watchers are told no more of the steps before.
 //
+// The same where a keeper in the place of a folder keeps the run, in memory say; of options those that are about
+// folders are not looked at.
+//
 // Throws ExperimentError for initial values that cannot be used, and for changes of an experiment
 // whose run is to go on; UnusableFolder for a folder that cannot be used: then nothing was written.
 // Throws OutputError when the disk is full later on.
 RunOutcome run(const Experiment& experiment, const RunOptions& options);
+RunOutcome run(const Experiment& experiment, RunKeeper& keeper, const RunOptions& options = {});
 
 }  // namespace courant

@@ -1,9 +1,6 @@
 #include "courant/running/trajectory_rows.hpp"
 
 #include <algorithm>
-#include <cstdint>
-
-#include "courant/running/run_watchers.hpp"
 
 namespace courant {
 
@@ -14,6 +11,7 @@ TrajectoryRows::TrajectoryRows(const Experiment& experiment, const Observer& obs
   for (std::size_t i = 0; i < all.size(); ++i)
     if (i >= observer.coordinate_count() || experiment.output.has_column(all[i]))
       columns_.push_back(static_cast<Index>(i));
+  has_all_columns_ = columns_.size() == all.size();
   has_tau_ = clock.is_transformed() && std::ranges::find(all, "tau") == all.end();
 }
 
@@ -28,32 +26,45 @@ bool TrajectoryRows::has_step(long k) const {
          experiment_.output.is_written(k, *experiment_.time);
 }
 
-void TrajectoryRows::open(const RunFolder& folder) {
-  std::vector<std::string> columns = {"t"};
-  if (has_tau_) columns.push_back("tau");
-  for (const Index i : columns_) columns.push_back(observer_.names()[static_cast<std::size_t>(i)]);
-  for (std::string& column : columns) column = experiment_.output.heading(column);
-  std::optional<std::uintmax_t> keep;
-  if (folder.checkpoint()) keep = folder.checkpoint()->trajectory_size;
-  file_ = make_trajectory_writer(experiment_.output.format, folder.path(), columns, keep);
+std::vector<std::string> TrajectoryRows::column_names() const {
+  std::vector<std::string> names = {"t"};
+  if (has_tau_) names.push_back("tau");
+  for (const Index i : columns_) names.push_back(observer_.names()[static_cast<std::size_t>(i)]);
+  return names;
 }
 
-void TrajectoryRows::keep(double t, const VectorXd& row) {
+std::vector<std::string> TrajectoryRows::headings() const {
+  std::vector<std::string> headings = column_names();
+  for (std::string& heading : headings) heading = experiment_.output.heading(heading);
+  return headings;
+}
+
+void TrajectoryRows::keep(double t, const VectorXd& row) const {
   for (const double moment : experiment_.expect.times)
     if (moment == t) kept_[moment] = row;
 }
 
-void TrajectoryRows::write_between(Stepper& stepper, long k, ObserverElsewhere& elsewhere) {
-  if (clock_.is_transformed()) return visit_times(stepper, k, elsewhere);
+void TrajectoryRows::write(const RunMoment& moment, RunKeeper& keeper) const {
+  if (!has_step(moment.k)) return;
+  if (has_all_columns_)
+    keeper.append(moment.t, moment.tau, moment.row.head(std::ssize(columns_)));
+  else
+    keeper.append(moment.t, moment.tau, moment.row(columns_));
+}
+
+void TrajectoryRows::write_between(Stepper& stepper, long k, ObserverElsewhere& elsewhere,
+                                   RunKeeper& keeper) const {
+  if (clock_.is_transformed()) return visit_times(stepper, k, elsewhere, keeper);
   if (experiment_.output.at.empty()) return;
   const TimeSpan& time = *experiment_.time;
   for (const double t : experiment_.output.between(k, time)) {
     const VectorXd& row = elsewhere.row_within(stepper.part((t - time.time(k - 1)) / time.step));
-    file_->append(t, row(columns_));
+    keeper.append(t, std::nullopt, row(columns_));
   }
 }
 
-void TrajectoryRows::visit_times(Stepper& stepper, long k, ObserverElsewhere& elsewhere) {
+void TrajectoryRows::visit_times(Stepper& stepper, long k, ObserverElsewhere& elsewhere,
+                                 RunKeeper& keeper) const {
   const TimeSpan& time = *experiment_.time;
   const double before = stepper.last().before.t;
   const double after = clock_.is_last() ? time.until : stepper.last().after.t;
@@ -67,7 +78,7 @@ void TrajectoryRows::visit_times(Stepper& stepper, long k, ObserverElsewhere& el
     keep(t, row);
     if (!is_written) continue;
     const double tau = time.time(k - 1) + share * stepper.last().h;
-    append_row(*file_, t, has_tau_ ? std::optional(tau) : std::nullopt, row(columns_));
+    keeper.append(t, has_tau_ ? std::optional(tau) : std::nullopt, row(columns_));
   }
 }
 

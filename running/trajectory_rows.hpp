@@ -2,15 +2,13 @@
 #pragma once
 
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "courant/running/observer_elsewhere.hpp"
 #include "courant/running/run_clock.hpp"
-#include "courant/running/run_folder.hpp"
-#include "courant/running/trajectory_writer.hpp"
+#include "courant/running/run_keeper.hpp"
 
 namespace courant {
 
@@ -27,28 +25,30 @@ class TrajectoryRows {
   const std::vector<Index>& columns() const { return columns_; }
   // Whether there is a column of the transformed time: unless the experiment has another use for its name.
   bool has_tau() const { return has_tau_; }
-  bool has_step(long k) const;  // of the state after step k
 
-  // The file; of a run that goes on, as it was at its checkpoint.
-  void open(const RunFolder& folder);
-  TrajectoryWriter& file() const { return *file_; }  // after open()
+  // Of the columns: t first.
+  std::vector<std::string> column_names() const;
+  std::vector<std::string> headings() const;
 
+  // The row of a state of the run, if it has one.
+  void write(const RunMoment& moment, RunKeeper& keeper) const;
   // The rows that are asked for between step k - 1 and the one that was made, step k. In transformed time
   // also those that expectations ask for; those at the end of a step, keep() has.
-  void write_between(Stepper& stepper, long k, ObserverElsewhere& elsewhere);
+  void write_between(Stepper& stepper, long k, ObserverElsewhere& elsewhere,
+                     RunKeeper& keeper) const;
   // A row that may be one that expectations ask for by its time.
-  void keep(double t, const VectorXd& row);
+  void keep(double t, const VectorXd& row) const;
 
  private:
-  void visit_times(Stepper& stepper, long k, ObserverElsewhere& elsewhere);
+  bool has_step(long k) const;  // of the state after step k
+  void visit_times(Stepper& stepper, long k, ObserverElsewhere& elsewhere, RunKeeper& keeper) const;
 
   const Experiment& experiment_;
   const Observer& observer_;
   const RunClock& clock_;
   std::map<double, VectorXd>& kept_;
   std::vector<Index> columns_;
-  bool has_tau_;
-  std::unique_ptr<TrajectoryWriter> file_;
+  bool has_all_columns_, has_tau_;
 };
 
 }  // namespace courant
