@@ -209,6 +209,7 @@ void add_constraints(CLI::App& app, Session& session) {
                                    .action = [](const SweepCase& one,
                                                 const auto&) { return ladder_of_case(one); },
                                    .columns = {{"verdict", "verdict"},
+                                               {"ambiguous", "ambiguous"},
                                                {"ladder", "(dim S dim M)"},
                                                {"index", "index"},
                                                {"degrees_of_freedom", "degrees of freedom"},

@@ -101,6 +101,7 @@ void print_opening(const Console& console, const Experiment& experiment,
         << '\n';
   out << "\n  (dim S, dim M): " << ladder_line(ladder) << '\n';
   print_wrapped(out, verdict_in_words(ladder), "  ");
+  for (const std::string& doubt : doubts_in_words(ladder)) print_wrapped(out, doubt, "  ");
   if (ladder.family && !ladder.family->is_morse())
     print_wrapped(out, family_in_words(ladder), "  ");
   for (const Movement& move : ladder.moves)

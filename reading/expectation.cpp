@@ -304,9 +304,12 @@ bool is_dimension_list(const JsonReader& key) {
 }
 
 // {"verdict": "regular", "ladder": [[16, 8], [8, 8]], "index": 1}: what the constraint algorithm
-// finds.
+// finds. A verdict that is doubted is not met but by {"verdict": "regular", "doubted": true}.
 bool read_certificate(ObjectReader& entry, const Reading& reading) {
   bool any = false;
+  const auto doubt = entry.optional("doubted");
+  if (doubt && !doubt->value().is_boolean()) doubt->expected("true or false");
+  const bool doubted = doubt && doubt->value() == true;
   if (const auto key = entry.optional("verdict")) {
     any = true;
     const auto verdict =
@@ -314,8 +317,14 @@ bool read_certificate(ObjectReader& entry, const Reading& reading) {
     if (verdict) {
       if (*verdict == "inconsistent") reading.expectations.inconsistent = true;
       expect_equal(
-          *key, "verdict of the constraint algorithm", entry,
-          [](const ConstraintLadder& ladder) { return to_string(ladder.verdict); }, reading);
+          *key, std::string(doubted ? "doubted " : "") + "verdict of the constraint algorithm",
+          entry,
+          [doubted](const ConstraintLadder& ladder) {
+            const std::string found = to_string(ladder.verdict);
+            if (ladder.is_ambiguous() == doubted) return found;
+            return found + (doubted ? ", and not doubted" : ", but doubted");
+          },
+          reading);
     }
   }
   if (const auto key = entry.optional("ladder")) {

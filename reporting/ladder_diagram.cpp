@@ -109,6 +109,13 @@ std::string verdict_in_words(const LadderReport& ladder) {
   return "";
 }
 
+std::vector<std::string> doubts_in_words(const LadderReport& ladder) {
+  if (!ladder.is_ambiguous) return {};
+  std::vector<std::string> lines = {"Ambiguous: do not rely on the verdict."};
+  for (const std::string& doubt : ladder.doubts) lines.push_back("    " + doubt);
+  return lines;
+}
+
 std::string discrete_verdict_in_words(const LadderReport& ladder) {
   const Index k = ladder.index.value_or(0);
   const Index dim_M = ladder.levels.empty() ? 0 : ladder.levels.back().dim_M.value_or(0);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "courant/plotting/svg.hpp"
 #include "courant/running/ladder_report.hpp"
@@ -20,6 +21,10 @@ plot::Markup ladder_diagram(const LadderReport& ladder);
 // The verdict as a sentence: where the algorithm stopped, what S_f is, and what that means for
 // solutions.
 std::string verdict_in_words(const LadderReport& ladder);
+
+// What must be said wherever the verdict is: that it is doubted, and why, an entry each; none where it
+// is not.
+std::vector<std::string> doubts_in_words(const LadderReport& ladder);
 
 // The same of a discrete ladder, where S_f are pairs of points.
 std::string discrete_verdict_in_words(const LadderReport& ladder);

@@ -7,6 +7,7 @@
 #include "courant/core/words/message.hpp"
 #include "courant/core/words/text_layout.hpp"
 #include "courant/core/words/word_list.hpp"
+#include "courant/reporting/ladder_diagram.hpp"
 
 namespace courant {
 namespace {
@@ -433,10 +434,7 @@ LadderWords ladder_words(const LadderReport& ladder,
         " times the bound, the largest that was taken for zero is " +
         number_text(weakest->largest_neglected, 2) + " times the bound.");
   }
-  if (ladder.is_ambiguous) {
-    words.certainty.push_back("Ambiguous: do not rely on the verdict.");
-    for (const std::string& doubt : ladder.doubts) words.certainty.push_back("    " + doubt);
-  }
+  for (const std::string& doubt : doubts_in_words(ladder)) words.certainty.push_back(doubt);
   return words;
 }
 

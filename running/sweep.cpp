@@ -167,6 +167,7 @@ Json run_of_case(const SweepCase& one, const std::filesystem::path& folder, Back
         message = result.pointer + ": " + result.description + ": " + result.finding;
   const auto expected = static_cast<long>(outcome.expectations.size());
   Json values{{"verdict", summary.ladder ? Json(to_string(summary.ladder->verdict)) : Json()},
+              {"ambiguous", summary.ladder ? Json(summary.ladder->is_ambiguous) : Json()},
               {"steps", summary.steps}};
   if (expected > 0) {
     values["expectations"] = expected;
@@ -209,6 +210,7 @@ Json ladder_of_case(const SweepCase& one) {
           {"message", ladder.reason},
           {"values",
            {{"verdict", to_string(ladder.verdict)},
+            {"ambiguous", ladder.is_ambiguous},
             {"index", known(ladder.index)},
             {"degrees_of_freedom", known(ladder.degrees_of_freedom)},
             {"gauge_dimension", ladder.gauge_dimension},

@@ -3,9 +3,9 @@
 #include <boost/test/unit_test.hpp>
 #include <set>
 
+#include "../core/files/temporary_folder.hpp"
 #include "courant/running/run_files.hpp"
 #include "courant/running/run_folder.hpp"
-#include "temporary_folder.hpp"
 
 namespace courant {
 BOOST_AUTO_TEST_SUITE(sweep_test)
@@ -82,9 +82,11 @@ BOOST_AUTO_TEST_CASE(a_table_says_what_became_of_each_run) {
   const std::string csv = read_text(folder.file("csv"));
   BOOST_TEST(csv == sweep_csv(table));
   BOOST_TEST(
-      csv.find("folder,/method/discretization/theta,status,verdict,steps,expectations,passed,"
-               "H.initial,") == 0u);
-  BOOST_TEST(csv.find("\n1-theta=0.5,0.5,completed,regular,10,1,1,0.5,") != std::string::npos);
+      csv.find(
+          "folder,/method/discretization/theta,status,verdict,ambiguous,steps,expectations,passed,"
+          "H.initial,") == 0u);
+  BOOST_TEST(csv.find("\n1-theta=0.5,0.5,completed,regular,false,10,1,1,0.5,") !=
+             std::string::npos);
   BOOST_TEST(csv.find("\n,2,wrong,,") != std::string::npos);
 }
 
