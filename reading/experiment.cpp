@@ -74,6 +74,13 @@ std::optional<TimeSpan> read_time(const JsonReader& value, const SymbolTable& co
     return std::nullopt;
   }
   time.steps = std::lround(steps);
+  const double latest = std::max(std::abs(time.start), std::abs(end));
+  const double apart = std::nextafter(latest, std::numeric_limits<double>::infinity()) - latest;
+  if (step_key && time.steps > 0 && time.step < apart) {
+    step_key->problem("is " + exact_text(time.step) + "; at t = " + exact_text(latest) +
+                      " numbers are " + exact_text(apart) + " apart, expected a longer step");
+    return std::nullopt;
+  }
   if (std::abs(steps - static_cast<double>(time.steps)) > 1e-9 * std::max(1.0, steps)) {
     const double whole = std::max(1.0, std::round(steps));
     end_key->problem("is " + exact_text(steps) +

@@ -18,6 +18,10 @@ namespace {
 constexpr double kThermalVoltage = 0.02586492;
 constexpr double kLeastConductance = 1e-12;
 
+// Elements, those of all instances of subcircuits. A few lines of nested ones make more than any
+// memory holds.
+constexpr std::size_t kMostElements = 100'000;
+
 std::set<std::string> words_in(const Deck& deck, bool as_written) {
   std::set<std::string> words;
   for (const Line& line : deck.lines)
@@ -268,6 +272,10 @@ class CircuitReader {
   void add_instance(const Card& card, const std::string& prefix, const NodeMap& map,
                     const Scope& scope) {
     const int line = card.line->number;
+    if (names_.size() >= kMostElements)
+      throw LineError{
+          line, "makes more than " + std::to_string(kMostElements) +
+                    " elements of the netlist, with those of its subcircuits; expected fewer"};
     std::vector<std::string> words = card.words;
     std::erase(words, "params:");
     if (words.size() < 2) throw LineError{line, "has no subcircuit; expected one"};

@@ -1,5 +1,6 @@
 #include "courant/reading/netlist_parameters.hpp"
 
+#include <cctype>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -11,6 +12,9 @@ namespace courant::netlist {
 
 void NetlistParameters::define(Scope& scope, const std::string& prefix, const std::string& name,
                                const std::string& formula, int line) {
+  if (std::isalpha(static_cast<unsigned char>(name[0])) == 0 && name[0] != '_')
+    throw LineError{
+        line, "\"" + name + "\" is no name of a parameter; expected one that begins with a letter"};
   const double value = circuit_.value_of(formula, line);
   std::string global = identifier(prefix + name);
   static const std::set<std::string> reserved = {"e", "pi", "h"};

@@ -63,9 +63,10 @@ std::string FactorTable::text(const Polynomial& sum) const {
   if (sum.empty()) return "0";
   std::string result;
   for (const auto& [monomial, c] : in_order(sum)) {
-    if (result.size() > longest) throw std::length_error("FactorTable: the text is too long.");
     result += result.empty() ? (c < 0 ? "-" : "") : (c < 0 ? " - " : " + ");
     result += text(monomial, std::fabs(c));
+    // Each term, not only the sum: a term has the texts of its factors, which have those of theirs.
+    if (result.size() > longest) throw std::length_error("FactorTable: the text is too long.");
   }
   return result;
 }

@@ -68,6 +68,10 @@ Expr interpolated(const VectorXd& times, const VectorXd& values, Interpolation k
       throw std::invalid_argument("interpolated: time " + std::to_string(i + 1) +
                                   " is not after the one before; expected increasing times.");
   const Pieces coefficients = pieces(times, values, kind);
+  if (!coefficients.allFinite())
+    throw std::invalid_argument(
+        "interpolated: the curve through the values overflows; expected smaller values or times "
+        "that are further apart.");
   const Expr from = chosen(times, times, t, 0, n);
   const Expr within = max(min(t, times[n - 1]), times[0]) - from;
   Expr sum = 0.0;
