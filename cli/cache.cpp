@@ -51,11 +51,10 @@ void add_cache(CLI::App& app, Session& session) {
   command->add_flag("--clear", *clear, "remove all of it");
   command->callback([&session, clear] {
     session.action = [clear](const Console& console) -> int {
-      const auto cache = NativeCache::open();
+      std::string defect;
+      const auto cache = NativeCache::open(&defect);
       if (!cache) {
-        print_error(console,
-                    "there is no folder to keep compiled code in; expected one that this user "
-                    "alone may write to in COURANT_CACHE, XDG_CACHE_HOME or HOME");
+        print_error(console, defect);
         return failed;
       }
       if (*clear) cache->clear();

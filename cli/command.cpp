@@ -8,11 +8,11 @@
 
 #include "courant/cli/help_formatter.hpp"
 #include "courant/cli/synopsis.hpp"
+#include "courant/core/files/output_file.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/core/words/spelling.hpp"
 #include "courant/core/words/version.hpp"
 #include "courant/running/run_files.hpp"
-#include "courant/running/run_folder.hpp"
 
 namespace courant::cli {
 namespace {
@@ -108,7 +108,7 @@ int command(const std::vector<std::string>& arguments, const Console& console) {
     return unless_lost(console, done);
   } catch (const CLI::ParseError& error) {
     return refuse(console, std::string(error.what()) + "; see `courant --help`", wrong);
-  } catch (const UnusableFolder& error) {
+  } catch (const RefusedOutput& error) {
     return refuse(console, error.what(), wrong);
   } catch (const RunFileError& error) {
     return refuse(console, error.what(), wrong);

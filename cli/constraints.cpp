@@ -10,6 +10,7 @@
 #include "courant/cli/sweep.hpp"
 #include "courant/cli/text.hpp"
 #include "courant/cli/waiting.hpp"
+#include "courant/core/files/own_file.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/integrators/certificate/discrete_constraint_algorithm.hpp"
 #include "courant/reporting/ladder_diagram.hpp"
@@ -17,7 +18,6 @@
 #include "courant/reporting/ladder_page.hpp"
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/ladder_report.hpp"
-#include "courant/running/output_file.hpp"
 
 namespace courant::cli {
 namespace {
@@ -133,8 +133,9 @@ PageWriter page_writer(const std::filesystem::path& path) {
   return ending == ".md" ? to_markdown : nullptr;
 }
 
-void write_page(const Console& console, const std::filesystem::path& path, const LadderPage& page) {
-  write_file(path, page_writer(path)(page));
+void write_page(const Console& console, const OwnFiles& files, const std::filesystem::path& path,
+                const LadderPage& page) {
+  files.write(path, page_writer(path)(page));
   console.out << path.string() << '\n';
 }
 
@@ -214,6 +215,8 @@ void add_constraints(CLI::App& app, Session& session) {
                                                {"index", "index"},
                                                {"degrees_of_freedom", "degrees of freedom"},
                                                {"gap", "gap"}}});
+      const OwnFiles files("constraints", arguments->force);
+      if (!arguments->output.empty()) files.check(arguments->output);
       return with_experiment(
           console, arguments->file,
           [&](const Experiment& experiment) -> int {
@@ -232,7 +235,8 @@ void add_constraints(CLI::App& app, Session& session) {
                                             : whole;
             waiting.reset();
             if (as_page)
-              write_page(console, arguments->output, ladder_page(experiment, ladder, brackets));
+              write_page(console, files, arguments->output,
+                         ladder_page(experiment, ladder, brackets));
             else if (arguments->latex)
               console.out << to_latex(ladder_page(experiment, ladder, brackets));
             else if (arguments->markdown)

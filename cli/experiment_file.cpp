@@ -11,11 +11,10 @@
 #include <system_error>
 
 #include "courant/cli/waiting.hpp"
+#include "courant/core/files/output_file.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/reading/json_document.hpp"
 #include "courant/reading/setting.hpp"
-#include "courant/reading/table.hpp"
-#include "courant/running/output_file.hpp"
 
 namespace courant::cli {
 namespace {
@@ -84,20 +83,21 @@ int reporting_errors(const Console& console, const std::string& file,
 
 int with_document(const Console& console, const std::string& file,
                   const std::function<int(const Json&)>& action,
-                  const std::vector<std::string>& settings) {
+                  const std::vector<std::string>& settings, TableFiles tables) {
   const auto text = read_input(console, file, "an experiment");
   if (!text) return wrong;
   return reporting_errors(console, file, [&] {
     Json document = parse_json(*text);
     for (const std::string& setting : settings) apply_setting(read_setting(setting), document);
-    load_tables(document, std::filesystem::path(file == "-" ? "" : file).parent_path());
+    load_tables(document, std::filesystem::path(file == "-" ? "" : file).parent_path(),
+                file == "-" && tables == TableFiles::beside ? TableFiles::none : tables);
     return action(document);
   });
 }
 
 int with_experiment(const Console& console, const std::string& file,
                     const std::function<int(const Experiment&)>& action,
-                    const std::vector<std::string>& settings) {
+                    const std::vector<std::string>& settings, TableFiles tables) {
   return with_document(
       console, file,
       [&](const Json& document) {
@@ -106,7 +106,7 @@ int with_experiment(const Console& console, const std::string& file,
         waiting.reset();
         return action(experiment);
       },
-      settings);
+      settings, tables);
 }
 
 }  // namespace courant::cli

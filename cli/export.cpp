@@ -4,8 +4,9 @@
 
 #include "courant/cli/command.hpp"
 #include "courant/cli/experiment_file.hpp"
+#include "courant/cli/force.hpp"
+#include "courant/core/files/own_file.hpp"
 #include "courant/running/c_program.hpp"
-#include "courant/running/output_file.hpp"
 
 namespace courant::cli {
 
@@ -13,6 +14,7 @@ void add_export(CLI::App& app, Session& session) {
   struct Arguments {
     std::string file, language, output;
     std::vector<std::string> settings;
+    bool force = false;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
@@ -27,9 +29,12 @@ void add_export(CLI::App& app, Session& session) {
       ->add_option("-o,--output", arguments->output,
                    "where to write; by default to standard output")
       ->type_name("FILE");
+  add_force(*command, arguments->force);
   add_settings(*command, arguments->settings);
   command->callback([&session, arguments] {
     session.action = [arguments](const Console& console) {
+      const OwnFiles files("export", arguments->force);
+      if (!arguments->output.empty()) files.check(arguments->output);
       return with_experiment(
           console, arguments->file,
           [&](const Experiment& experiment) -> int {
@@ -37,7 +42,7 @@ void add_export(CLI::App& app, Session& session) {
             if (arguments->output.empty())
               console.out << program;
             else
-              write_file(arguments->output, program);
+              files.write(arguments->output, program);
             return done;
           },
           arguments->settings);

@@ -4,13 +4,16 @@
 
 #include "courant/cli/command.hpp"
 #include "courant/cli/experiment_file.hpp"
+#include "courant/cli/force.hpp"
+#include "courant/core/files/own_file.hpp"
 #include "courant/reading/netlist.hpp"
-#include "courant/running/output_file.hpp"
 
 namespace courant::cli {
 namespace {
 
-int import(const Console& console, const std::string& file, const std::string& output) {
+int import(const Console& console, const std::string& file, const std::string& output, bool force) {
+  const OwnFiles files("import", force);
+  if (!output.empty()) files.check(output);
   const auto text = read_input(console, file, "a netlist");
   if (!text) return wrong;
   return reporting_errors(console, file, [&]() -> int {
@@ -21,7 +24,7 @@ int import(const Console& console, const std::string& file, const std::string& o
     if (output.empty())
       console.out << experiment.dump(2) << '\n';
     else
-      write_file(output, experiment.dump(2) + "\n");
+      files.write(output, experiment.dump(2) + "\n");
     return done;
   });
 }
@@ -34,9 +37,11 @@ void add_import(CLI::App& app, Session& session) {
   command->add_option("FILE", *file, "the netlist, - for standard input")->required();
   command->add_option("-o,--output", *output, "where to write; by default to standard output")
       ->type_name("FILE");
-  command->callback([&session, file, output] {
-    session.action = [file, output](const Console& console) -> int {
-      return import(console, *file, *output);
+  auto force = std::make_shared<bool>(false);
+  add_force(*command, *force);
+  command->callback([&session, file, output, force] {
+    session.action = [file, output, force](const Console& console) -> int {
+      return import(console, *file, *output, *force);
     };
   });
 }

@@ -5,8 +5,9 @@
 
 #include "courant/cli/command.hpp"
 #include "courant/cli/manual_page.hpp"
+#include "courant/core/files/output_file.hpp"
+#include "courant/core/files/own_file.hpp"
 #include "courant/core/words/spelling.hpp"
-#include "courant/running/output_file.hpp"
 
 namespace courant::cli {
 namespace {
@@ -14,9 +15,10 @@ namespace {
 // All pages, as files courant.1, courant-run.1, …
 int write_pages(const Synopsis& all, const std::filesystem::path& folder) {
   make_folder(folder);
-  write_file(folder / (all.main.name + ".1"), manual_page(all));
+  const OwnFiles files("man");
+  files.write(folder / (all.main.name + ".1"), manual_page(all));
   for (const CommandSynopsis& command : all.commands)
-    write_file(folder / (all.main.name + "-" + command.name + ".1"), manual_page(all, command));
+    files.write(folder / (all.main.name + "-" + command.name + ".1"), manual_page(all, command));
   return done;
 }
 

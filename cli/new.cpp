@@ -4,9 +4,10 @@
 #include <ostream>
 
 #include "courant/cli/command.hpp"
+#include "courant/core/files/output_file.hpp"
+#include "courant/core/files/own_file.hpp"
 #include "courant/reading/new_experiment.hpp"
 #include "courant/reading/system_kinds.hpp"
-#include "courant/running/output_file.hpp"
 
 namespace courant::cli {
 namespace {
@@ -42,7 +43,7 @@ void add_new(CLI::App& app, Session& session) {
         const std::string text = new_experiment(arguments->kind, arguments->in_formulas);
         if (arguments->file.empty()) {
           console.out << text;
-        } else if (std::filesystem::exists(arguments->file)) {
+        } else if (file_exists(arguments->file)) {
           print_error(console, arguments->file + ": is there already; expected another file (-o)");
           return wrong;
         } else {

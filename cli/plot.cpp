@@ -6,6 +6,8 @@
 #include <ostream>
 
 #include "courant/cli/command.hpp"
+#include "courant/cli/force.hpp"
+#include "courant/core/files/own_file.hpp"
 #include "courant/core/words/spelling.hpp"
 #include "courant/core/words/word_list.hpp"
 #include "courant/reporting/figure_file.hpp"
@@ -20,12 +22,13 @@ struct PlotArguments {
   std::vector<std::filesystem::path> folders;
   std::string figure;
   std::filesystem::path output;
+  bool force = false;
 };
 
 // The figure of a sweep or a study, from its table.
 std::optional<Figure> figure_of_table(const std::filesystem::path& folder) {
   const auto read = [&](const char* file) {
-    return std::filesystem::exists(folder / file) ? read_json(folder / file) : Json();
+    return file_exists(folder / file) ? read_json(folder / file) : Json();
   };
   try {
     if (const Json sweep = read("sweep.json"); !sweep.is_null()) return sweep_figure(sweep);
@@ -61,7 +64,7 @@ int plot_figure(const Console& console, const PlotArguments& arguments) {
   }
   const Figure& figure = figures[static_cast<std::size_t>(found - names.begin())];
   try {
-    write_figure(figure, arguments.output);
+    write_figure(figure, arguments.output, arguments.force);
   } catch (const std::invalid_argument& error) {
     print_error(console, error.what());
     return wrong;
@@ -93,6 +96,7 @@ void add_plot(CLI::App& app, Session& session) {
                    "it, with the ending .csv")
       ->type_name("FILE")
       ->required();
+  add_force(*plot, arguments->force);
   plot->callback([&session, arguments] {
     session.action = [arguments](const Console& console) {
       return plot_figure(console, *arguments);

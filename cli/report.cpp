@@ -7,7 +7,9 @@
 #include <ostream>
 
 #include "courant/cli/command.hpp"
+#include "courant/cli/force.hpp"
 #include "courant/cli/text.hpp"
+#include "courant/core/files/own_file.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/plotting/terminal_plot.hpp"
 #include "courant/reporting/energy_figures.hpp"
@@ -19,6 +21,7 @@ namespace {
 struct ReportArguments {
   std::vector<std::filesystem::path> folders;
   std::filesystem::path output;
+  bool force = false;
 };
 
 // Beside the files of one run; above the folders of several.
@@ -89,14 +92,16 @@ void add_report(CLI::App& app, Session& session) {
       ->add_option("-o", arguments->output,
                    "where the page goes (default: report.html in DIR, or above the folders)")
       ->type_name("FILE");
+  add_force(*report, arguments->force);
   report->callback([&session, arguments] {
     session.action = [arguments](const Console& console) -> int {
+      const auto page = page_of(*arguments);
+      OwnFiles("report", arguments->force).check(page);
       std::vector<Run> runs;
       for (const auto& folder : arguments->folders) runs.push_back(read_run(folder));
       print_comparison(console, runs);
       print_energies(console, runs);
-      const auto page = page_of(*arguments);
-      write_report(runs, page);
+      write_report(runs, page, arguments->force);
       console.out << "\nThe report is " << page.string() << '\n';
       return done;
     };

@@ -20,7 +20,6 @@
 #include "courant/reading/setting.hpp"
 #include "courant/reporting/figure_file.hpp"
 #include "courant/reporting/study_figure.hpp"
-#include "courant/running/output_file.hpp"
 #include "courant/running/result_folder.hpp"
 
 namespace courant::cli {
@@ -83,8 +82,8 @@ void print_study(const Console& console, const StudyReport& study) {
 }
 
 void write_files(const ResultFolder& folder, const StudyReport& study) {
-  folder.write(to_json(study), study_csv(study));
-  if (const auto figure = study_figure(study)) write_file(folder.file("svg"), figure_svg(*figure));
+  const auto figure = study_figure(study);
+  folder.write(to_json(study), study_csv(study), figure ? figure_svg(*figure) : "");
 }
 
 int status_of_study(const StudyReport& study) {

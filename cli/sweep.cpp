@@ -11,7 +11,6 @@
 #include "courant/core/numbers/parallel.hpp"
 #include "courant/reporting/figure_file.hpp"
 #include "courant/reporting/sweep_figure.hpp"
-#include "courant/running/output_file.hpp"
 
 namespace courant::cli {
 namespace {
@@ -102,7 +101,7 @@ int sweep_of(const Console& console, const SweepTask& task, const Json& document
              .folder = folder ? &*folder : nullptr});
   if (console.heeds_stop) *console.heeds_stop = false;
   const auto figure = folder ? sweep_figure(table) : std::nullopt;
-  if (figure) write_file(folder->file("svg"), figure_svg(*figure));
+  if (figure) folder->write(table, sweep_csv(table), figure_svg(*figure));
   if (task.json)
     console.out << table.dump(2) << '\n';
   else if (!task.quiet)

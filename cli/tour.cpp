@@ -1,6 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <cstdlib>
-#include <filesystem>
 #include <istream>
 #include <memory>
 #include <ostream>
@@ -9,6 +7,7 @@
 #include "courant/cli/command.hpp"
 #include "courant/cli/text.hpp"
 #include "courant/cli/tour_chapters.hpp"
+#include "courant/core/files/work_folder.hpp"
 
 namespace courant::cli {
 namespace {
@@ -62,11 +61,9 @@ std::string output_of(const TourChapter& chapter, const Console& console) {
     return shown_part(out.str()) + err.str();
   }
   // A run writes a folder, which is not the reader's.
-  std::string folder = (std::filesystem::temp_directory_path() / "courant-tour-XXXXXX").string();
-  if (mkdtemp(folder.data()) == nullptr) return "";
-  arguments.insert(arguments.end(), {"-o", folder + "/run"});
+  const WorkFolder folder;
+  arguments.insert(arguments.end(), {"-o", (folder.path() / "run").string()});
   command(arguments, inner);
-  std::filesystem::remove_all(folder);
   return expectations(out.str()) + err.str();
 }
 

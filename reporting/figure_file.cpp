@@ -5,16 +5,18 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <system_error>
 #include <vector>
 
+#include "courant/core/files/content_hash.hpp"
+#include "courant/core/files/output_file.hpp"
+#include "courant/core/files/own_file.hpp"
+#include "courant/core/files/work_folder.hpp"
 #include "courant/plotting/sheet.hpp"
 #include "courant/running/comma_separated.hpp"
-#include "courant/running/output_file.hpp"
 
 extern char** environ;
 
@@ -23,6 +25,7 @@ namespace courant {
 namespace {
 
 constexpr const char* converter = "rsvg-convert";
+constexpr std::array extensions = {".svg", ".pdf", ".png"};
 
 // Runs rsvg-convert, no shell between, to write a picture of the kind of `file`. Throws OutputError with the name of
 // this one.
@@ -55,27 +58,28 @@ void convert(const std::filesystem::path& svg, const std::filesystem::path& file
     throw OutputError(file.string() + ": rsvg-convert failed");
 }
 
-// The picture by rsvg-convert, written whole. Throws OutputError with the name of the file.
-void write_converted(const std::string& drawing, const std::filesystem::path& file) {
-  std::filesystem::path svg = file, picture = file;
-  svg += ".svg.new";
-  picture += ".picture.new";
-  write_file(svg, drawing, file);
-  std::error_code ignored;
-  std::filesystem::remove(picture, ignored);
-  const auto remove_both = [&] {
-    for (const auto& part : {svg, picture}) std::filesystem::remove(part, ignored);
-  };
-  try {
-    convert(svg, file, picture);
-    std::ifstream converted(picture, std::ios::binary);
-    const std::string content(std::istreambuf_iterator<char>(converted), {});
-    write_file(file, content);
-  } catch (const OutputError&) {
-    remove_both();
-    throw;
+// The picture that rsvg-convert makes. Throws OutputError with the name of the file.
+std::string converted(const std::string& drawing, const std::filesystem::path& file) {
+  const WorkFolder work;
+  const std::filesystem::path svg = work.path() / "drawing.svg", picture = work.path() / "picture";
+  write_file(svg, drawing);
+  convert(svg, file, picture);
+  return content_of(picture);
+}
+
+// Throws RefusedOutput if there are other numbers than those of a picture of this name that is ours.
+void check_numbers(const std::filesystem::path& picture, const std::filesystem::path& numbers) {
+  std::error_code error;
+  if (!std::filesystem::exists(numbers, error)) return;
+  const std::string there = content_hash(content_of(numbers));
+  for (const char* extension : extensions) {
+    std::filesystem::path of = picture;
+    const auto mark = mark_of(of.replace_extension(extension));
+    if (mark && mark->beside == there) return;
   }
-  remove_both();
+  throw RefusedOutput(numbers.string() +
+                      ": the numbers of the figure would go there, and it is not as courant wrote "
+                      "it; expected another name (-o)");
 }
 
 struct Column {
@@ -134,18 +138,20 @@ std::string figure_csv(const Figure& figure) {
   return csv;
 }
 
-void write_figure(const Figure& figure, const std::filesystem::path& file) {
+void write_figure(const Figure& figure, const std::filesystem::path& file, bool force) {
   const std::string extension = file.extension().string();
-  if (extension != ".svg" && extension != ".pdf" && extension != ".png")
+  if (std::ranges::find(extensions, extension) == extensions.end())
     throw std::invalid_argument(file.string() +
                                 ": is no kind of picture; expected a name that ends in .svg, .pdf "
                                 "or .png");
-  if (extension == ".svg")
-    write_file(file, figure_svg(figure));
-  else
-    write_converted(figure_svg(figure), file);
   std::filesystem::path numbers = file;
-  write_file(numbers.replace_extension(".csv"), figure_csv(figure));
+  numbers.replace_extension(".csv");
+  const OwnFiles files("plot", force);
+  files.check(file);
+  check_numbers(file, numbers);
+  const std::string drawing = figure_svg(figure), csv = figure_csv(figure);
+  files.write(file, extension == ".svg" ? drawing : converted(drawing, file), csv);
+  write_file(numbers, csv);
 }
 
 }  // namespace courant

@@ -18,8 +18,10 @@ std::string figure_csv(const Figure& figure);
 
 // Writes the figure as SVG, PDF or PNG (at 300 dots an inch), as the extension of `file` says, and
 // its numbers beside it with the extension .csv. PDF and PNG are made by the program rsvg-convert.
-// Throws std::invalid_argument for another extension, OutputError where a file cannot be written or
-// rsvg-convert is missing or fails.
-void write_figure(const Figure& figure, const std::filesystem::path& file);
+// Files that are there are replaced if they are as this function wrote them; with `force` the picture
+// is in any case, as it was named, but never other numbers. Throws RefusedOutput, before anything is
+// written, where a file may not be replaced; std::invalid_argument for another extension; OutputError
+// where a file cannot be written or rsvg-convert is missing or fails.
+void write_figure(const Figure& figure, const std::filesystem::path& file, bool force = false);
 
 }  // namespace courant

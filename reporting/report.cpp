@@ -4,6 +4,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "courant/core/files/own_file.hpp"
 #include "courant/core/words/word_list.hpp"
 #include "courant/plotting/curve_data.hpp"
 #include "courant/reporting/energy_figures.hpp"
@@ -15,7 +16,6 @@
 #include "courant/reporting/report_script.hpp"
 #include "courant/reporting/report_tables.hpp"
 #include "courant/reporting/typesetting.hpp"
-#include "courant/running/output_file.hpp"
 
 namespace courant {
 
@@ -110,6 +110,8 @@ Markup ladders(std::span<const Run> runs, std::span<const std::string> labels) {
   for (const auto& [ladder, text, owners] : distinct) {
     if (distinct.size() > 1) all += element("p", {{"class", "lead"}}, owners);
     all += element("p", {}, typeset(verdict_in_words(*ladder)));
+    for (const std::string& doubt : doubts_in_words(*ladder))
+      all += element("p", {{"class", "message"}}, typeset(doubt));
     all += element("figure", {{"class", "diagram scroll"}}, ladder_diagram(*ladder));
     all += ladder_table(*ladder);
     all += ladder_in_words(*ladder);
@@ -192,8 +194,10 @@ std::string report_html(std::span<const Run> runs) {
   return page_with_rows(runs, figures, rows_for_script(runs, figures));
 }
 
-void write_report(std::span<const Run> runs, const std::filesystem::path& output) {
-  write_file(output, report_html(runs));
+void write_report(std::span<const Run> runs, const std::filesystem::path& output, bool force) {
+  const OwnFiles files("report", force);
+  files.check(output);
+  files.write(output, report_html(runs));
 }
 
 }  // namespace courant

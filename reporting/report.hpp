@@ -17,7 +17,9 @@ namespace courant {
 std::string report_html(std::span<const Run> runs);
 
 // Writes the page of the runs to `output`; a page that is there is replaced in one piece or not at
-// all. Throws RunFileError when it cannot be written.
-void write_report(std::span<const Run> runs, const std::filesystem::path& output);
+// all, and only if it is as this function wrote it, or `force`. Throws OutputError when it cannot be
+// written, RefusedOutput when it may not be replaced.
+void write_report(std::span<const Run> runs, const std::filesystem::path& output,
+                  bool force = false);
 
 }  // namespace courant

@@ -6,9 +6,9 @@
 #include <map>
 #include <type_traits>
 
+#include "courant/core/files/output_file.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/core/words/version.hpp"
-#include "courant/running/output_file.hpp"
 #include "courant/running/run_files.hpp"
 
 namespace courant {
@@ -81,7 +81,14 @@ Json written(const std::map<std::string, EventRecord>& records);
 void read(const Json& json, std::map<std::string, EventRecord>& records);
 
 void read(const Json& json, std::uintmax_t& value) { value = json.get<std::uintmax_t>(); }
-Json written(std::uintmax_t value) { return value; }
+void read(const Json& json, HashedBytes::Record& record) {
+  read(json.at("size"), record.size);
+  read(json.at("part"), record.part);
+  record.hashes = json.at("hashes").get<std::vector<std::uintmax_t>>();
+}
+Json written(const HashedBytes::Record& record) {
+  return {{"size", record.size}, {"part", record.part}, {"hashes", record.hashes}};
+}
 void read(const Json& json, bool& value) { value = json.get<bool>(); }
 void read(const Json& json, long& value) { value = json.get<long>(); }
 void read(const Json& json, std::string& value) { value = json.get<std::string>(); }
@@ -160,7 +167,7 @@ void each_member(Is<EventRecord> auto& event, const auto& visit) {
 void each_member(Is<EventWatch::Memory> auto& event_watch, const auto& visit) {
   visit("values", event_watch.values);
   visit("records", event_watch.records);
-  visit("file_size", event_watch.file_size);
+  visit("file", event_watch.file);
 }
 
 void each_member(Is<TangentMap::Memory> auto& tangent_map, const auto& visit) {
@@ -213,16 +220,28 @@ void read_record(const Json& json, std::optional<Record>& value) {
   if (!json.is_null()) read_record(json, value.emplace());
 }
 
+std::string dumped(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+// Of all that stands before the entry "hash".
+std::string hash_of(Json json) {
+  json.erase("hash");
+  return content_hash(dumped(json));
+}
+
 Checkpoint from_json(const Json& json) {
   if (const auto version = json.at("courant").get<std::string>(); version != COURANT_VERSION_STRING)
     throw RunFileError("version " + version + " of courant wrote it, this is " +
                        COURANT_VERSION_STRING + ", which may make other bits");
+  if (json.at("hash") != hash_of(json))
+    throw RunFileError("is not as it was written; expected it whole, or --force to begin anew");
   Checkpoint checkpoint;
   read(json.at("run"), checkpoint.run);
   read(json.at("k"), checkpoint.k);
   read_record(json.at("state"), checkpoint.state);
   read_record(json.at("motion"), checkpoint.motion);
-  checkpoint.trajectory_size = json.at("trajectory_size").get<std::uintmax_t>();
+  read(json.at("trajectory"), checkpoint.trajectory);
   read(json.at("wall_seconds"), checkpoint.wall_seconds);
   read_record(json.at("solver"), checkpoint.solver);
   read_record(json.at("statistics"), checkpoint.statistics);
@@ -248,7 +267,7 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
             {"k", checkpoint.k},
             {"state", record(checkpoint.state)},
             {"motion", record(checkpoint.motion)},
-            {"trajectory_size", checkpoint.trajectory_size},
+            {"trajectory", written(checkpoint.trajectory)},
             {"wall_seconds", checkpoint.wall_seconds},
             {"solver", record(checkpoint.solver)},
             {"statistics", record(checkpoint.statistics)},
@@ -261,7 +280,8 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
             {"tangent_map", record(checkpoint.observed.tangent_map)}};
   for (const auto& [time, row] : checkpoint.rows_at_times)
     json["rows_at_times"].push_back({{"t", written(time)}, {"row", written(row)}});
-  write_file(file, json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+  json["hash"] = hash_of(json);
+  write_file(file, dumped(json) + "\n");
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& file) {

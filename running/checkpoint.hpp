@@ -1,12 +1,12 @@
 // Checkpoint: all there is to know of a run at an epoch.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 
+#include "courant/core/files/content_hash.hpp"
 #include "courant/integrators/certificate/ladder_watch.hpp"
 #include "courant/integrators/step/stepper.hpp"
 #include "courant/running/energy_watch.hpp"
@@ -26,7 +26,7 @@ struct Checkpoint {
   State state = {};
   Motion motion = {};  // that steps from the state go on with
   // So far:
-  std::uintmax_t trajectory_size = 0;  // bytes of the file of the trajectory
+  HashedBytes::Record trajectory = {};  // its file
   double wall_seconds = 0.0;
   SolverStatistics solver = {};
   QuantityStatistics::Memory statistics = {};
@@ -44,7 +44,8 @@ struct Checkpoint {
 // A kill at any moment leaves the file whole, the former or this. Throws OutputError.
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
 
-// Throws RunFileError, also where another version of Courant wrote it: that may make other bits.
+// Throws RunFileError, also where the file is no longer what was written, and where another version of
+// Courant wrote it: that may make other bits.
 Checkpoint read_checkpoint(const std::filesystem::path& file);
 
 }  // namespace courant

@@ -5,9 +5,9 @@
 
 namespace courant {
 
-CheckpointKeeper::CheckpointKeeper(std::filesystem::path file, TrajectoryWriter& writer,
+CheckpointKeeper::CheckpointKeeper(std::function<void(const Checkpoint&)> write,
                                    std::chrono::duration<double> interval)
-    : file_(std::move(file)), writer_(writer), interval_(interval) {}
+    : write_(std::move(write)), interval_(interval) {}
 
 void CheckpointKeeper::keep(Checkpoint checkpoint) {
   kept_ = std::move(checkpoint);
@@ -17,8 +17,7 @@ void CheckpointKeeper::keep(Checkpoint checkpoint) {
 void CheckpointKeeper::flush() {
   if (!kept_) return;
   const auto begin = Clock::now();
-  writer_.flush();  // first: the checkpoint never promises rows that are not there
-  write_checkpoint(file_, *kept_);
+  write_(*kept_);
   kept_.reset();
   written_ = Clock::now();
   interval_ = std::max<std::chrono::duration<double>>(interval_, 200 * (written_ - begin));

@@ -1,36 +1,34 @@
-// CheckpointKeeper: the file of the last checkpoint of a run.
+// CheckpointKeeper: when the checkpoints of a run are written.
 #pragma once
 
 #include <chrono>
-#include <filesystem>
+#include <functional>
 #include <optional>
 
 #include "courant/running/checkpoint.hpp"
-#include "courant/running/trajectory_writer.hpp"
 
 namespace courant {
 
-// An epoch may take a millisecond, and a file takes a tenth of that. So not each checkpoint is
+// An epoch may take a millisecond, and a file that is synced takes some. So not each checkpoint is
 // written: at least `interval` goes by from one to the next, and 200 times what writing took, so
 // that it costs less than half a percent. A run that is killed goes on from the last that was.
 class CheckpointKeeper {
  public:
-  // `writer`, that of the rows which checkpoints stand on, has to outlive it.
-  CheckpointKeeper(std::filesystem::path file, TrajectoryWriter& writer,
+  // `write` puts all that a checkpoint stands on on the disk, then the checkpoint.
+  CheckpointKeeper(std::function<void(const Checkpoint&)> write,
                    std::chrono::duration<double> interval);
 
-  // Throws OutputError.
+  // Throw what `write` throws.
   void keep(Checkpoint checkpoint);
-  // The last one is in the file. Throws OutputError.
+  // The last one is written.
   void flush();
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  std::filesystem::path file_;
-  TrajectoryWriter& writer_;
+  std::function<void(const Checkpoint&)> write_;
   std::chrono::duration<double> interval_;
-  std::optional<Checkpoint> kept_;  // that is not in the file
+  std::optional<Checkpoint> kept_;  // that is not written
   Clock::time_point written_ = Clock::now();
 };
 

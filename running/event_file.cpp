@@ -5,36 +5,29 @@
 namespace courant {
 namespace {
 
-OutputFile opened(const std::filesystem::path& path, bool is_there) {
-  if (is_there) return OutputFile(path, OutputFile::Existing{});
-  return OutputFile(path);
+GrowingFile opened(const std::filesystem::path& path, const HashedBytes::Record* keep) {
+  if (keep != nullptr) return GrowingFile(path, "", *keep);
+  return GrowingFile(path);
 }
 
 }  // namespace
 
 EventFile::EventFile(const std::filesystem::path& path, const std::vector<std::string>& columns,
-                     std::optional<std::uintmax_t> keep)
-    : file_(opened(path, keep.has_value())) {
-  if (keep) {
-    file_.cut(*keep);
-    size_ = *keep;
-    return;
-  }
+                     const HashedBytes::Record* keep)
+    : file_(opened(path, keep)) {
+  if (keep != nullptr) return;
   std::string header = "event,t";
   for (const std::string& column : columns) header += ',' + column;
-  write(header + '\n');
+  file_.append(header + '\n');
+  file_.flush();
 }
 
 void EventFile::append(const std::string& name, double t,
                        const Eigen::Ref<const VectorXd>& values) {
   std::string line = name + ',' + exact_text(t);
   for (const double value : values) line += ',' + exact_text(value);
-  write(line + '\n');
-}
-
-void EventFile::write(const std::string& line) {
-  file_.write(line);
-  size_ += line.size();
+  file_.append(line + '\n');
+  if (file_.is_full()) file_.flush();
 }
 
 }  // namespace courant

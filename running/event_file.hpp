@@ -1,32 +1,32 @@
 // EventFile: events.csv.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "courant/core/expressions/expr.hpp"
-#include "courant/running/output_file.hpp"
+#include "courant/running/growing_file.hpp"
 
 namespace courant {
 
 // A row an occurrence: the name of the event, the time, what is measured there.
 class EventFile {
  public:
-  // `keep`: not a new file, but that which is there, cut off at this size. Throws OutputError.
+  // `keep`: not a new file, but that which is there, as it was when record() was this. Throws
+  // OutputError.
   EventFile(const std::filesystem::path& path, const std::vector<std::string>& columns,
-            std::optional<std::uintmax_t> keep);
+            const HashedBytes::Record* keep);
 
   void append(const std::string& name, double t, const Eigen::Ref<const VectorXd>& values);
-  std::uintmax_t size() const { return size_; }  // bytes
+  // Everything that was appended is in the file; and on the disk.
+  void flush() { file_.flush(); }
+  void sync() { file_.sync(); }
+  // Of everything that was appended.
+  HashedBytes::Record record() const { return file_.record(); }
 
  private:
-  void write(const std::string& line);
-
-  OutputFile file_;
-  std::uintmax_t size_ = 0;
+  GrowingFile file_;
 };
 
 }  // namespace courant

@@ -1,7 +1,6 @@
 // EventWatch: where quantities of a run pass through zero.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -9,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "courant/core/files/content_hash.hpp"
 #include "courant/integrators/step/stepper.hpp"
 #include "courant/reading/event.hpp"
 #include "courant/reading/expectation.hpp"
@@ -33,7 +33,7 @@ class EventWatch final : public RunWatcher {
   struct Memory {
     VectorXd values = {};  // of the quantities at the last state
     std::map<std::string, EventRecord> records = {};
-    std::uintmax_t file_size = 0;  // bytes of events.csv, where it is kept there
+    HashedBytes::Record file = {};  // events.csv, where it is kept there
   };
 
   // `first`: the column of the first event. `columns`: names of those that records() has. `kept`:

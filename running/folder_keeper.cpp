@@ -1,6 +1,5 @@
 #include "courant/running/folder_keeper.hpp"
 
-#include <cstdint>
 #include <utility>
 
 namespace courant {
@@ -25,13 +24,19 @@ void FolderKeeper::refuse_checkpoint(const std::string& what) const {
 
 void FolderKeeper::open(const RunOpening& opening) {
   const auto& from = folder_->checkpoint();
-  std::optional<std::uintmax_t> rows, events;
-  if (from) rows = from->trajectory_size;
-  if (from && from->event_watch) events = from->event_watch->file_size;
-  rows_ = make_trajectory_writer(format_, folder_->path(), opening.headings, rows);
+  const HashedBytes::Record* const events =
+      from && from->event_watch ? &from->event_watch->file : nullptr;
+  rows_ = make_trajectory_writer(format_, folder_->path(), opening.headings,
+                                 from ? &from->trajectory : nullptr);
   if (!opening.events.empty())
     events_.emplace(folder_->path() / "events.csv", opening.event_columns, events);
-  checkpoints_.emplace(folder_->checkpoint_file(), *rows_, checkpoint_interval_);
+  checkpoints_.emplace(
+      [this](const Checkpoint& checkpoint) {  // which never promises what is not there
+        rows_->sync();
+        if (events_) events_->sync();
+        folder_->write_checkpoint(checkpoint);
+      },
+      checkpoint_interval_);
 }
 
 void FolderKeeper::append(double t, const std::optional<double>& tau,
@@ -49,13 +54,14 @@ void FolderKeeper::append_event(const std::string& name, double t,
 
 void FolderKeeper::keep(const std::function<Checkpoint()>& checkpoint) {
   Checkpoint now = checkpoint();
-  now.trajectory_size = rows_->size();
-  if (now.event_watch) now.event_watch->file_size = events_->size();
+  now.trajectory = rows_->record();
+  if (now.event_watch) now.event_watch->file = events_->record();
   checkpoints_->keep(std::move(now));
 }
 
 void FolderKeeper::close() {
   rows_->flush();
+  if (events_) events_->flush();
   checkpoints_->flush();
 }
 

@@ -9,6 +9,7 @@
 #include "courant/running/event_file.hpp"
 #include "courant/running/run_folder.hpp"
 #include "courant/running/run_keeper.hpp"
+#include "courant/running/trajectory_writer.hpp"
 
 namespace courant {
 

@@ -1,10 +1,5 @@
 #include "courant/running/result_folder.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
-#include <cerrno>
 #include <fstream>
 #include <system_error>
 #include <utility>
@@ -21,10 +16,10 @@ std::string article(const std::string& kind) { return "a " + kind; }
 
 std::vector<fs::path> files_of(const fs::path& path, const std::string& kind) {
   std::vector<fs::path> found;
-  for (const char* extension : {"json", "csv", "svg", "json.new", "csv.new", "svg.new"}) {
+  for (const char* extension : {"json", "csv", "svg"}) {
     std::error_code error;
     const fs::path file = path / (kind + "." + extension);
-    if (fs::exists(file, error)) found.push_back(file);
+    if (fs::exists(fs::symlink_status(file, error))) found.push_back(file);
   }
   return found;
 }
@@ -59,6 +54,10 @@ void remove_all_of(const fs::path& path, const std::string& kind) {
     if (error) refuse_folder(file, "cannot be replaced: " + error.message());
   };
   for (const fs::path& folder : run_folders(path, result_in(path, kind))) {
+    if (fs::is_symlink(folder)) {  // what it leads to was put elsewhere, to be kept
+      remove(folder);
+      continue;
+    }
     RunFolder::remove(folder);
     if (!result_in(folder, "study").is_null())
       for (const fs::path& file : files_of(folder, "study")) remove(file);
@@ -74,8 +73,8 @@ constexpr const char* kResultIsWritten =
 }  // namespace
 
 void ResultFolder::check(const fs::path& path, const std::string& kind, bool replace) {
-  RunFolder::check_place(path);
-  if (RunFolder::is_in_use(path)) refuse_folder(path, kResultIsWritten);
+  LockedFolder::check_place(path);
+  if (LockedFolder::is_in_use(path)) refuse_folder(path, kResultIsWritten);
   const std::vector<fs::path> files = files_of(path, kind);
   if (files.empty()) return;
   if (result_in(path, kind).is_null())
@@ -87,34 +86,31 @@ void ResultFolder::check(const fs::path& path, const std::string& kind, bool rep
                       " in this folder; expected another folder (-o), or --force to replace it");
 }
 
-ResultFolder::ResultFolder(fs::path path, std::string kind, bool replace)
-    : path_(std::move(path)), kind_(std::move(kind)) {
-  check(path_, kind_, replace);
-  try {
-    make_folder(path_);
-    lock_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-      refuse_folder(path_, kResultIsWritten);
-    remove_all_of(path_, kind_);
-  } catch (const OutputError& error) {
-    if (lock_ >= 0) ::close(lock_);
-    throw UnusableFolder(error.what());
-  }
+namespace {
+
+const fs::path& checked(const fs::path& path, const std::string& kind, bool replace) {
+  ResultFolder::check(path, kind, replace);
+  return path;
 }
 
-ResultFolder::~ResultFolder() {
-  if (lock_ >= 0) ::close(lock_);
+}  // namespace
+
+ResultFolder::ResultFolder(const fs::path& path, std::string kind, bool replace)
+    : folder_(checked(path, kind, replace), kResultIsWritten), kind_(std::move(kind)) {
+  remove_all_of(path, kind_);
 }
 
 fs::path ResultFolder::file(const std::string& extension) const {
-  return path_ / (kind_ + "." + extension);
+  return path() / (kind_ + "." + extension);
 }
 
-void ResultFolder::write(const Json& result, const std::string& csv) const {
+void ResultFolder::write(const Json& result, const std::string& csv, const std::string& svg) const {
+  folder_.require_still_there();
   Json whole = {{"kind", kind_}};
   whole.update(result);
   write_file(file("json"), whole.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   write_file(file("csv"), csv);
+  if (!svg.empty()) write_file(file("svg"), svg);
 }
 
 }  // namespace courant

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "courant/reading/findings.hpp"
+#include "courant/running/locked_folder.hpp"
 
 namespace courant {
 
@@ -17,27 +18,23 @@ class ResultFolder {
   // `kind` is "sweep" or "study". Throws UnusableFolder, before anything is changed, if there is one
   // that may not be replaced, another is being written, there are files of these names that nothing
   // like that wrote, or the folder cannot be written.
-  ResultFolder(std::filesystem::path path, std::string kind, bool replace);
-  ~ResultFolder();
-  ResultFolder(const ResultFolder&) = delete;
-  ResultFolder& operator=(const ResultFolder&) = delete;
+  ResultFolder(const std::filesystem::path& path, std::string kind, bool replace);
 
   // Throws UnusableFolder if the constructor would; changes nothing. To be asked before anything is
   // computed.
   static void check(const std::filesystem::path& path, const std::string& kind, bool replace);
 
-  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& path() const { return folder_.path(); }
   // <kind>.<extension> in the folder.
   std::filesystem::path file(const std::string& extension) const;
 
-  // Both files. `result` is an object; "kind" becomes its first key. The folders of runs are those
+  // Both files, and the figure if there is one. `result` is an object; "kind" becomes its first key. The folders of runs are those
   // of its entries "runs", each with a "folder". Throws OutputError.
-  void write(const Json& result, const std::string& csv) const;
+  void write(const Json& result, const std::string& csv, const std::string& svg = "") const;
 
  private:
-  std::filesystem::path path_;
+  LockedFolder folder_;
   std::string kind_;
-  int lock_ = -1;
 };
 
 }  // namespace courant

@@ -11,9 +11,10 @@
 #include <optional>
 #include <utility>
 
+#include "courant/core/files/own_file.hpp"
 #include "courant/reading/json_document.hpp"
 #include "courant/reading/output.hpp"
-#include "courant/running/run_folder.hpp"
+#include "courant/running/locked_folder.hpp"
 
 namespace courant {
 
@@ -40,7 +41,8 @@ using Json = nlohmann::ordered_json;
 
 std::ifstream open(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file)) fail(file, "cannot be read.");
+  std::error_code unreadable;
+  if (!stream || std::filesystem::is_directory(file, unreadable)) fail(file, "cannot be read.");
   return stream;
 }
 
@@ -197,19 +199,20 @@ void check_one_run(const Run& run, const std::filesystem::path& experiment,
 }  // namespace
 
 Run read_run(const std::filesystem::path& directory) {
-  if (!std::filesystem::is_directory(directory))
+  std::error_code unreadable;
+  if (!std::filesystem::is_directory(directory, unreadable))
     fail(directory, "is not a folder; expected that of a run.");
   const auto csv = directory / "trajectory.csv", npy = directory / "trajectory.npy";
   const auto summary = directory / "summary.json", experiment = directory / "experiment.json";
-  if (!std::filesystem::exists(csv) && !std::filesystem::exists(npy))
+  if (!file_exists(csv) && !file_exists(npy))
     fail(directory, "has no trajectory.csv or trajectory.npy.");
   RunSummary told = read_summary(summary);
   const bool ended = told.status != RunStatus::running;
   if (!ended)
-    told.message = RunFolder::is_in_use(directory) ? "The run has not ended yet."
-                                                   : "The run did not end: it was killed.";
+    told.message = LockedFolder::is_in_use(directory) ? "The run has not ended yet."
+                                                      : "The run did not end: it was killed.";
   const auto trajectory = [&] {
-    if (std::filesystem::exists(csv)) return read_trajectory_csv(csv, !ended);
+    if (file_exists(csv)) return read_trajectory_csv(csv, !ended);
     const auto names = directory / "columns.json";
     const Json columns = read_json(names);
     const bool strings =
@@ -225,9 +228,9 @@ Run read_run(const std::filesystem::path& directory) {
           .trajectory = trajectory(),
           .summary = std::move(told),
           .experiment = read_json(experiment)};
-  if (const auto events = directory / "events.csv"; std::filesystem::exists(events))
+  if (const auto events = directory / "events.csv"; file_exists(events))
     run.events = read_events_csv(events, !ended);
-  check_one_run(run, experiment, std::filesystem::exists(csv) ? csv : npy);
+  check_one_run(run, experiment, file_exists(csv) ? csv : npy);
   return run;
 }
 

@@ -1,16 +1,13 @@
 #include "courant/running/run_folder.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
+#include <algorithm>
 #include <array>
-#include <cerrno>
 #include <random>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "courant/core/files/own_file.hpp"
 #include "courant/running/run_files.hpp"
 
 namespace courant {
@@ -18,14 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What a run and its report write; experiment.json and summary.json tell whose they are.
-// The checkpoint is the first to be removed: what is left of the others begins anew.
+// What runs and their reports write. The checkpoint is the first to be removed: what is left of the
+// others begins anew.
 constexpr std::array kFiles = {"checkpoint.json", "summary.json", "trajectory.csv",
                                "trajectory.npy",  "columns.json", "experiment.json",
                                "events.csv",      "report.html"};
-// What write_file leaves when it is killed.
-constexpr std::array kTorn = {"summary.json.new", "columns.json.new", "checkpoint.json.new",
-                              "experiment.json.new"};
 
 void write_json(const fs::path& file, const Json& json) {
   write_file(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
@@ -48,6 +42,18 @@ bool is_of_a_run(const fs::path& folder) {
   return experiment.is_object() && experiment.contains("$run");
 }
 
+// Whether the run with this experiment wrote the file: what runs do not write in its format, or
+// without events, is not its own, nor is a report that was edited.
+bool is_own(const fs::path& file, const Json& experiment) {
+  const std::string name = file.filename().string();
+  if (name == "report.html") return mark_of(file).has_value();
+  const Json output = experiment.value("output", Json());
+  const bool is_npy = output.is_object() && output.value("format", Json()) == "npy";
+  if (name == "trajectory.npy" || name == "columns.json") return is_npy;
+  if (name == "trajectory.csv") return !is_npy;
+  return name != "events.csv" || experiment.contains("events");
+}
+
 std::string new_id() {
   std::random_device random;
   std::string id;
@@ -55,22 +61,31 @@ std::string new_id() {
   return id;
 }
 
+bool has_entry(const fs::path& file) {
+  std::error_code error;
+  return fs::exists(fs::symlink_status(file, error));  // a link that leads nowhere is one, too
+}
+
+[[noreturn]] void refuse_foreign(const fs::path& file) {
+  refuse_folder(file, "is there already, and no run wrote it; expected another folder (-o)");
+}
+
 // The files of an earlier run, if they may be replaced.
 std::vector<fs::path> replaceable(const fs::path& path, bool replace) {
-  std::vector<fs::path> found;
+  std::vector<fs::path> found, foreign;
+  Json experiment = json_in(path / "experiment.json");
+  if (!experiment.is_object()) experiment = Json::object();
   for (const char* name : kFiles)
-    if (file_exists(path / name)) found.push_back(path / name);
-  if (found.empty()) return found;
-  if (!is_of_a_run(path))
-    refuse_folder(found.front(),
-                  "is there already, and no run wrote it; expected another folder (-o)");
-  if (!replace)
+    if (const fs::path file = path / name; has_entry(file))
+      (is_own(file, experiment) ? found : foreign).push_back(file);
+  std::erase_if(foreign, [](const fs::path& file) { return file.filename() == "report.html"; });
+  if (!found.empty() && !is_of_a_run(path)) refuse_foreign(found.front());
+  if (!foreign.empty()) refuse_foreign(foreign.front());
+  if (!found.empty() && !replace)
     refuse_folder(
         path,
         "there is a run in this folder; expected another folder (-o), --force to replace it, or "
         "--resume to go on with it");
-  for (const char* name : kTorn)
-    if (file_exists(path / name)) found.push_back(path / name);
   return found;
 }
 
@@ -87,30 +102,9 @@ constexpr const char* kRunIsWritten =
 
 }  // namespace
 
-void RunFolder::check_place(const fs::path& path) {
-  // Only the attempt tells of names that are too long, and of file systems without folders.
-  std::error_code error;
-  std::vector<fs::path> missing;
-  fs::path nearest = fs::absolute(path, error).lexically_normal();
-  for (; !file_exists(nearest) && nearest.has_relative_path(); nearest = nearest.parent_path())
-    missing.push_back(nearest);
-  error =
-      fs::is_directory(nearest) ? std::error_code() : make_error_code(std::errc::not_a_directory);
-  std::vector<fs::path> made;
-  while (!error && !missing.empty()) {
-    if (fs::create_directory(missing.back(), error)) made.push_back(missing.back());
-    missing.pop_back();
-  }
-  for (std::error_code ignored; !made.empty(); made.pop_back()) fs::remove(made.back(), ignored);
-  if (error) refuse_folder(path, "the folder cannot be made: " + error.message());
-  if (nearest == fs::absolute(path, error).lexically_normal() &&
-      access(nearest.c_str(), W_OK | X_OK) != 0)
-    refuse_folder(path, "cannot be written: " + std::generic_category().message(errno));
-}
-
 void RunFolder::check(const fs::path& path, ExistingRun existing, const Experiment& experiment) {
-  check_place(path);
-  if (is_in_use(path)) refuse_folder(path, kRunIsWritten);
+  LockedFolder::check_place(path);
+  if (LockedFolder::is_in_use(path)) refuse_folder(path, kRunIsWritten);
   if (existing == ExistingRun::resume)
     unfinished_run(path, experiment);
   else
@@ -124,47 +118,50 @@ void RunFolder::remove(const fs::path& path) {
   fs::remove(path, not_empty);
 }
 
-bool RunFolder::is_in_use(const fs::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return false;
-  const bool locked = flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  ::close(descriptor);
-  return locked;
+namespace {
+
+// A run that is to go on is there already.
+fs::path existing(fs::path path, bool is_to_go_on) {
+  std::error_code unreadable;
+  if (is_to_go_on && !fs::is_directory(path, unreadable))
+    refuse_folder(path, "there is no run in this folder that could go on");
+  return path;
 }
 
-RunFolder::RunFolder(fs::path path, ExistingRun existing, const Experiment& experiment)
-    : path_(std::move(path)) {
-  const bool goes_on = existing == ExistingRun::resume;
+}  // namespace
+
+RunFolder::RunFolder(fs::path path, ExistingRun existing_run, const Experiment& experiment)
+    : folder_(existing(std::move(path), existing_run == ExistingRun::resume), kRunIsWritten) {
+  const fs::path& there = folder_.path();
   try {
-    if (!goes_on) make_folder(path_);
-    lock_.descriptor = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (lock_.descriptor >= 0 && flock(lock_.descriptor, LOCK_EX | LOCK_NB) != 0 &&
-        errno == EWOULDBLOCK)
-      refuse_folder(path_, kRunIsWritten);
-    if (goes_on)
-      run_ = unfinished_run(path_, experiment);
-    else
+    if (existing_run == ExistingRun::resume) {
+      run_ = unfinished_run(there, experiment);
+      if (const fs::path report = there / "report.html"; mark_of(report))
+        remove_files({report});  // of the run as it was
+    } else {
       run_.id = new_id();
-    if (goes_on)
-      remove_files({path_ / "report.html"});  // of the run as it was
-    else
-      remove_files(replaceable(path_, existing == ExistingRun::replace));
+      remove_files(replaceable(there, existing_run == ExistingRun::replace));
+    }
     Json document = experiment.document;
     document["$run"] = run_.id;
-    write_json(path_ / "experiment.json", document);
+    write_json(there / "experiment.json", document);
+  } catch (const RefusedOutput&) {
+    throw;
   } catch (const OutputError& error) {
     throw UnusableFolder(error.what());
   }
 }
 
-fs::path RunFolder::checkpoint_file() const { return path_ / "checkpoint.json"; }
+fs::path RunFolder::checkpoint_file() const { return path() / "checkpoint.json"; }
 
-RunFolder::Lock::~Lock() {
-  if (descriptor >= 0) ::close(descriptor);
+void RunFolder::write_checkpoint(const Checkpoint& checkpoint) const {
+  folder_.require_still_there();
+  courant::write_checkpoint(checkpoint_file(), checkpoint);
 }
 
 void RunFolder::write_summary(const RunSummary& summary) const {
-  write_json(path_ / "summary.json", to_json(summary));
+  folder_.require_still_there();
+  write_json(path() / "summary.json", to_json(summary));
 }
 
 }  // namespace courant

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "courant/reading/experiment.hpp"
-#include "courant/running/output_file.hpp"
+#include "courant/running/locked_folder.hpp"
 #include "courant/running/run_summary.hpp"
 #include "courant/running/unfinished_run.hpp"
 
@@ -37,34 +37,22 @@ class RunFolder {
   static void check(const std::filesystem::path& path, ExistingRun existing,
                     const Experiment& experiment);
 
-  // Throws UnusableFolder if no folder can be made or written there; changes nothing.
-  static void check_place(const std::filesystem::path& path);
-
   // Removes the files of the run in a folder, and the folder if it is empty then. Nothing where there
   // is none.
   static void remove(const std::filesystem::path& path);
 
-  // Whether a run is being written to the folder.
-  static bool is_in_use(const std::filesystem::path& path);
-
-  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& path() const { return folder_.path(); }
   const std::string& id() const { return run_.id; }
   // Where a run goes on; nothing if it begins.
   const std::optional<Checkpoint>& checkpoint() const { return run_.checkpoint; }
   std::filesystem::path checkpoint_file() const;
-  // Throws OutputError.
+  // Throw OutputError, also where another folder has its name by now.
+  void write_checkpoint(const Checkpoint& checkpoint) const;
   void write_summary(const RunSummary& summary) const;
 
  private:
-  std::filesystem::path path_;
+  LockedFolder folder_;
   UnfinishedRun run_;
-  struct Lock {
-    int descriptor = -1;
-    Lock() = default;
-    Lock(const Lock&) = delete;
-    Lock& operator=(const Lock&) = delete;
-    ~Lock();
-  } lock_;
 };
 
 }  // namespace courant

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <limits>
 #include <map>
+#include <new>
 #include <optional>
 
 #include "courant/core/words/message.hpp"
@@ -76,9 +77,34 @@ class RunUnderway {
     }
     const Checkpoint* const checkpoint = keeper_.begin(experiment_);
     results_.id = keeper_.id();
+    try {
+      make(checkpoint, method, consistent);
+    } catch (const RefusedOutput&) {  // of a run that goes on: nothing was written
+      throw;
+    } catch (const std::bad_alloc&) {
+      fail(place_ + "takes more memory than there is");
+    } catch (const std::domain_error& error) {
+      fail(place_ + without_place(error.what()));
+    } catch (const std::exception& error) {  // a full disk, an interrupt of the host
+      fail(place_ + without_place(error.what()));
+      try {
+        conclude();
+      } catch (const OutputError&) {  // there is no place for it either
+      }
+      throw;
+    }
+    return conclude();
+  }
+
+ private:
+  // All that is kept, but the last summary.
+  void make(const Checkpoint* checkpoint, const std::optional<PreparedMethod>& method,
+            bool consistent) {
     const long first = checkpoint ? checkpoint->k : 0;
     if (method) watch_energy(*method);
+    place_ = "/examine: ";
     watch_ladder();
+    place_.clear();
     if (checkpoint) recall(*checkpoint);
     if (options_.on_resume && options_.existing == ExistingRun::resume)
       options_.on_resume(first, checkpoint && clock_.is_transformed() ? checkpoint->state.t
@@ -93,14 +119,15 @@ class RunUnderway {
     else if (consistent && first == 0)
       goes_on({.after = ladder_.point}, 0);
     keeper_.close();
+  }
 
+  RunOutcome conclude() {
     RunOutcome outcome{results_.status, results_.message, {}, results_.expectations()};
     outcome.summary = results_.summary(results_.status, outcome.expectations);
     keeper_.tell(outcome.summary);
     return outcome;
   }
 
- private:
   void fail(std::string message) {
     results_.status = RunStatus::failed;
     results_.message = std::move(message);
@@ -385,6 +412,7 @@ class RunUnderway {
                       .ladder_report = ladder_report_,
                       .symmetries = symmetries_,
                       .observer = observer_};
+  std::string place_;  // in the experiment, of what is being made ready: "/examine: "
   std::optional<NotFinite> not_finite_;
   RunClock clock_{experiment_.time};
   std::optional<LadderWatch> ladder_watch_;

@@ -2,56 +2,53 @@
 
 #include <bit>
 #include <charconv>
+#include <fstream>
+
+#include "courant/running/damage_of_lines.hpp"
 
 namespace courant {
 namespace {
-
-constexpr std::size_t kBlock = std::size_t{1} << 18;  // bytes kept back
 
 // Comma-separated numbers, each by the fewest digits that read back to the same double.
 class CsvWriter final : public TrajectoryWriter {
  public:
   CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns)
       : file_(path) {
-    reserve(columns.size());
     for (const std::string& column : columns) {
-      if (!buffer_.empty()) buffer_ += ',';
-      buffer_ += column;
+      if (!row_.empty()) row_ += ',';
+      row_ += column;
     }
-    buffer_ += '\n';
+    end_row();
     do_flush();
   }
-  CsvWriter(const std::filesystem::path& path, std::size_t columns, std::uintmax_t keep)
-      : file_(path, OutputFile::Existing{}), written_(keep) {
-    reserve(columns);
-    file_.cut(keep);
-  }
+  CsvWriter(const std::filesystem::path& path, const HashedBytes::Record& keep)
+      : file_(path, "", keep) {}
 
  private:
-  void reserve(std::size_t columns) { buffer_.reserve(kBlock + 32 * columns); }
   void do_append(double t, const Eigen::Ref<const VectorXd>& values) override {
     add(t);
     for (const double value : values) {
-      buffer_ += ',';
+      row_ += ',';
       add(value);
     }
-    buffer_ += '\n';
-    if (buffer_.size() >= kBlock) do_flush();
+    end_row();
+    if (file_.is_full()) do_flush();
   }
-  void do_flush() override {
-    file_.write(buffer_);
-    written_ += buffer_.size();
-    buffer_.clear();
-  }
-  std::uintmax_t do_size() const override { return written_ + buffer_.size(); }
+  void do_flush() override { file_.flush(); }
+  void do_sync() override { file_.sync(); }
+  HashedBytes::Record do_record() const override { return file_.record(); }
   void add(double value) {
     char digits[32];
-    buffer_.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+    row_.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+  }
+  void end_row() {
+    row_ += '\n';
+    file_.append(row_);
+    row_.clear();
   }
 
-  OutputFile file_;
-  std::uintmax_t written_ = 0;
-  std::string buffer_;
+  GrowingFile file_;
+  std::string row_;
 };
 
 // The format of NumPy, version 1.0: little-endian float64 by rows, the header saying how many there
@@ -63,39 +60,30 @@ class NpyWriter final : public TrajectoryWriter {
   static constexpr std::size_t kHeader = 128;  // bytes
 
   NpyWriter(const std::filesystem::path& path, std::size_t columns)
-      : file_(path), columns_(columns) {
-    reserve();
-    file_.write(header());
-  }
-  NpyWriter(const std::filesystem::path& path, std::size_t columns, std::uintmax_t keep)
-      : file_(path, OutputFile::Existing{}),
-        columns_(columns),
-        rows_((keep - kHeader) / (sizeof(double) * columns)) {
-    reserve();
-    file_.overwrite(header());
-    file_.cut(keep);
-  }
+      : columns_(columns), file_(path, header()) {}
+  NpyWriter(const std::filesystem::path& path, std::size_t columns, const HashedBytes::Record& keep)
+      : columns_(columns),
+        rows_(keep.size / (sizeof(double) * columns)),
+        file_(path, header(), keep) {}
 
  private:
   void do_append(double t, const Eigen::Ref<const VectorXd>& values) override {
     add(t);
     for (const double value : values) add(value);
-    ++kept_back_;
-    if (buffer_.size() >= kBlock) do_flush();
+    ++rows_;
+    if (file_.is_full()) do_flush();
   }
-  void reserve() { buffer_.reserve(kBlock + sizeof(double) * columns_); }
   // Rows first: the header never promises what is not there.
   void do_flush() override {
-    file_.write(buffer_);
-    rows_ += kept_back_;
-    file_.overwrite(header());
-    buffer_.clear();
-    kept_back_ = 0;
+    file_.flush();
+    file_.replace_head(header());
   }
-  std::uintmax_t do_size() const override {
-    return kHeader + (rows_ + kept_back_) * columns_ * sizeof(double);
+  void do_sync() override {
+    do_flush();
+    file_.sync();
   }
-  void add(double value) { buffer_.append(reinterpret_cast<const char*>(&value), sizeof value); }
+  HashedBytes::Record do_record() const override { return file_.record(); }
+  void add(double value) { file_.append({reinterpret_cast<const char*>(&value), sizeof value}); }
   std::string header() const {
     std::string text = "{'descr': '<f8', 'fortran_order': False, 'shape': (" +
                        std::to_string(rows_) + ", " + std::to_string(columns_) + "), }";
@@ -103,12 +91,17 @@ class NpyWriter final : public TrajectoryWriter {
     return std::string("\x93NUMPY\x01\x00\x76\x00", 10) + text + '\n';
   }
 
-  OutputFile file_;
-  std::string buffer_;
   std::size_t columns_;
   std::size_t rows_ = 0;
-  std::size_t kept_back_ = 0;
+  GrowingFile file_;
 };
+
+// How many columns columns.json names, at least one.
+std::size_t column_count(const std::filesystem::path& folder) {
+  std::ifstream stream(folder / "columns.json");
+  const Json columns = Json::parse(stream, nullptr, false);
+  return columns.is_array() && !columns.empty() ? columns.size() : 1;
+}
 
 }  // namespace
 
@@ -119,15 +112,26 @@ const char* trajectory_name(Output::Format format) {
 std::unique_ptr<TrajectoryWriter> make_trajectory_writer(Output::Format format,
                                                          const std::filesystem::path& folder,
                                                          const std::vector<std::string>& columns,
-                                                         std::optional<std::uintmax_t> keep) {
+                                                         const HashedBytes::Record* keep) {
   const std::filesystem::path file = folder / trajectory_name(format);
   if (format == Output::Format::csv) {
-    if (keep) return std::make_unique<CsvWriter>(file, columns.size(), *keep);
+    if (keep != nullptr) return std::make_unique<CsvWriter>(file, *keep);
     return std::make_unique<CsvWriter>(file, columns);
   }
   write_file(folder / "columns.json", Json(columns).dump() + "\n");
-  if (keep) return std::make_unique<NpyWriter>(file, columns.size(), *keep);
+  if (keep != nullptr) return std::make_unique<NpyWriter>(file, columns.size(), *keep);
   return std::make_unique<NpyWriter>(file, columns.size());
+}
+
+std::optional<std::string> damage(Output::Format format, const std::filesystem::path& folder,
+                                  const HashedBytes::Record& record) {
+  const std::filesystem::path file = folder / trajectory_name(format);
+  if (format == Output::Format::csv) return damage_of_lines(file, record);
+  const Difference there = difference(file, NpyWriter::kHeader, record);
+  if (there.is_none()) return std::nullopt;
+  const std::size_t row = column_count(folder) * sizeof(double);
+  return damage_of_rows((there.from - NpyWriter::kHeader) / row + 1,
+                        (there.to - 1 - NpyWriter::kHeader) / row + 1);
 }
 
 }  // namespace courant

@@ -1,7 +1,6 @@
 // Writing the rows of a trajectory.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -10,7 +9,7 @@
 
 #include "courant/core/expressions/expr.hpp"
 #include "courant/reading/experiment.hpp"
-#include "courant/running/output_file.hpp"
+#include "courant/running/growing_file.hpp"
 
 namespace courant {
 
@@ -24,24 +23,31 @@ class TrajectoryWriter {
   void append(double t, const Eigen::Ref<const VectorXd>& values) { do_append(t, values); }
   // Everything that was appended is in the file.
   void flush() { do_flush(); }
-  // Bytes of the file with everything that was appended, whether it is there already or not.
-  std::uintmax_t size() const { return do_size(); }
+  // And on the disk.
+  void sync() { do_sync(); }
+  // Of everything that was appended, whether it is in the file already or not.
+  HashedBytes::Record record() const { return do_record(); }
 
  private:
   virtual void do_append(double t, const Eigen::Ref<const VectorXd>& values) = 0;
   virtual void do_flush() = 0;
-  virtual std::uintmax_t do_size() const = 0;
+  virtual void do_sync() = 0;
+  virtual HashedBytes::Record do_record() const = 0;
 };
 
 // The name of the file.
 const char* trajectory_name(Output::Format format);
 
 // The file (with columns.json for npy) in a folder; `columns` are the names, t first.
-// `keep`: not a new file, but that which is there already, as it was when size() was this; what was
+// `keep`: not a new file, but that which is there already, as it was when record() was this; what was
 // written to it since is cut off.
 std::unique_ptr<TrajectoryWriter> make_trajectory_writer(Output::Format format,
                                                          const std::filesystem::path& folder,
                                                          const std::vector<std::string>& columns,
-                                                         std::optional<std::uintmax_t> keep = {});
+                                                         const HashedBytes::Record* keep = nullptr);
+
+// What is wrong with a file that should be as a record says, by its rows; nothing if it is so.
+std::optional<std::string> damage(Output::Format format, const std::filesystem::path& folder,
+                                  const HashedBytes::Record& record);
 
 }  // namespace courant

@@ -2,7 +2,9 @@
 
 #include <system_error>
 
+#include "courant/core/files/own_file.hpp"
 #include "courant/core/words/message.hpp"
+#include "courant/running/damage_of_lines.hpp"
 #include "courant/running/experiment_changes.hpp"
 #include "courant/running/run_files.hpp"
 #include "courant/running/trajectory_writer.hpp"
@@ -33,13 +35,11 @@ void check_unfinished(const fs::path& folder, const std::string& id, const Exper
                               "; expected a later /time/end to go on to");
 }
 
-void check_size(const fs::path& file, std::uintmax_t expected) {
-  std::error_code error;
-  const std::uintmax_t size = fs::file_size(file, error);
-  if (error) refuse_folder(file, "cannot be read: " + error.message());
-  if (size < expected)
-    refuse_folder(file, "has " + std::to_string(size) + " bytes, expected at least the " +
-                            std::to_string(expected) + " that the run wrote");
+// Refuses a file with `damage`.
+void require_whole(const fs::path& file, const std::optional<std::string>& damage) {
+  if (!file_exists(file)) refuse_folder(file, "is not there; expected the file that the run wrote");
+  if (fs::is_symlink(file)) refuse_folder(file, "is a link; expected the file that the run wrote");
+  if (damage) refuse_folder(file, *damage + "; expected it whole, or --force to begin anew");
 }
 
 void check_checkpoint(const fs::path& folder, const std::string& id, const Experiment& experiment,
@@ -52,20 +52,13 @@ void check_checkpoint(const fs::path& folder, const std::string& id, const Exper
     throw ExperimentError("/time/end", "is " + exact_text(time.end()) +
                                            "; the run would go on from t = " + exact_text(reached) +
                                            ", expected a later one");
-  check_size(folder / trajectory_name(experiment.output.format), checkpoint.trajectory_size);
-  if (checkpoint.event_watch) check_size(folder / "events.csv", checkpoint.event_watch->file_size);
+  const Output::Format format = experiment.output.format;
+  require_whole(folder / trajectory_name(format), damage(format, folder, checkpoint.trajectory));
+  if (const auto& events = checkpoint.event_watch)
+    require_whole(folder / "events.csv", damage_of_lines(folder / "events.csv", events->file));
 }
 
 }  // namespace
-
-void refuse_folder(const fs::path& path, const std::string& what) {
-  throw UnusableFolder(path.string() + ": " + what);
-}
-
-bool file_exists(const fs::path& file) {
-  std::error_code error;
-  return fs::exists(file, error);
-}
 
 UnfinishedRun unfinished_run(const fs::path& folder, const Experiment& experiment) {
   const fs::path begun_with = folder / "experiment.json", file = folder / "checkpoint.json";

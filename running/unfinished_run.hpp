@@ -7,21 +7,9 @@
 
 #include "courant/reading/experiment.hpp"
 #include "courant/running/checkpoint.hpp"
-#include "courant/running/output_file.hpp"
+#include "courant/running/locked_folder.hpp"
 
 namespace courant {
-
-// A folder that a run cannot be written to, found before anything was written: one line.
-class UnusableFolder : public OutputError {
- public:
-  using OutputError::OutputError;
-};
-
-// Throws UnusableFolder with the path in front.
-[[noreturn]] void refuse_folder(const std::filesystem::path& path, const std::string& what);
-
-// Whether the file is there, as far as one may see.
-bool file_exists(const std::filesystem::path& file);
 
 struct UnfinishedRun {
   std::string id;

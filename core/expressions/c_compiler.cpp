@@ -17,6 +17,9 @@
 #include <vector>
 
 #include "courant/core/expressions/host.hpp"
+#include "courant/core/files/output_file.hpp"
+#include "courant/core/files/own_file.hpp"
+#include "courant/core/files/work_folder.hpp"
 
 extern char** environ;
 
@@ -66,12 +69,6 @@ std::vector<std::string> flags(std::size_t source_size) {
   return result;
 }
 
-fs::path temporary_directory() {
-  std::error_code error;
-  const fs::path result = fs::temp_directory_path(error);
-  return error ? "/tmp" : result;
-}
-
 // Runs the compiler, no shell between; throws std::runtime_error with what it said if it fails.
 void run_compiler(const fs::path& compiler, const std::vector<std::string>& options,
                   const fs::path& source, const fs::path& object) {
@@ -102,12 +99,12 @@ void run_compiler(const fs::path& compiler, const std::vector<std::string>& opti
   while ((waited = waitpid(child, &status, 0)) < 0 && errno == EINTR) {
   }
   // Where the host program ignores SIGCHLD there is no status; the object tells then.
-  const bool failed =
-      waited == child ? !(WIFEXITED(status) && WEXITSTATUS(status) == 0) : !fs::exists(object);
-  if (failed) {
+  const bool failed = waited == child && !(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  if (failed || !fs::is_regular_file(object)) {
     const std::string said = content_of(log).substr(0, 2000);
-    throw std::runtime_error("CCompiler::compile: " + compiler.string() +
-                             (said.empty() ? " failed." : " failed:\n" + said));
+    const std::string what = failed ? " failed" : " made no object";
+    throw std::runtime_error("CCompiler::compile: " + compiler.string() + what +
+                             (said.empty() ? "." : ":\n" + said));
   }
 }
 
@@ -164,10 +161,10 @@ std::shared_ptr<const NativeCode> CCompiler::compile(const std::string& c_source
   if (const auto cached = cache_ ? cache_->find(content) : std::nullopt)
     if (auto code = SharedObject::load(*cached)) return code;  // one that doesn't load is made anew
 
-  const CompilationFolder work(cache_ ? cache_->folder() : temporary_directory());
+  const WorkFolder work(cache_ ? cache_->folder() : WorkFolder::temporary_folder());
   const fs::path source = work.path() / "source.c";
   fs::path object = work.path() / "object.so";
-  std::ofstream(source, std::ios::binary) << content;
+  write_file(source, content);
   run_compiler(compiler, options, source, object);
   if (cache_) object = cache_->add(content, source, object);
   if (auto code = SharedObject::load(object)) return code;

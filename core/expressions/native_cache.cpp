@@ -1,67 +1,103 @@
 #include "courant/core/expressions/native_cache.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
 #include <map>
+#include <stdexcept>
 #include <system_error>
 
 #include "courant/core/expressions/host.hpp"
+#include "courant/core/files/content_hash.hpp"
+#include "courant/core/files/output_file.hpp"
+#include "courant/core/files/own_file.hpp"
+#include "courant/core/files/work_folder.hpp"
 
 namespace courant {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kCompilation = "courant-compile-";
-
-// 128 bits: FNV-1a from two starting points.
-std::string hash_of(const std::string& content) {
-  std::string digits;
-  for (std::uint64_t hash : {0xCBF29CE484222325ULL, 0x84222325CBF29CE4ULL}) {
-    for (const char c : content) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3ULL;
-    for (int shift = 60; shift >= 0; shift -= 4)
-      digits += "0123456789abcdef"[(hash >> shift) & 0xF];
-  }
-  return digits;
-}
+constexpr const char* kTag = "CACHEDIR.TAG";
+// As https://bford.info/cachedir has it.
+constexpr const char* kTagContent =
+    "Signature: 8a477f597d28d172789f06886806bc55\n"
+    "# Compiled code of courant, which makes it again: `courant cache --clear` removes it.\n";
+constexpr std::size_t kNameDigits = 32;
 
 std::string sum_of(const std::string& object) {
-  return std::to_string(object.size()) + ' ' + hash_of(object) + '\n';
+  return std::to_string(object.size()) + ' ' + content_hash(object) + '\n';
 }
 
-}  // namespace
+// Whether it is a file of an entry, by its name.
+bool is_of_entry(const fs::path& file) {
+  const std::string name = file.stem().string(), extension = file.extension().string();
+  return name.size() == kNameDigits &&
+         name.find_first_not_of("0123456789abcdef") == std::string::npos &&
+         (extension == ".c" || extension == ".so" || extension == ".sum");
+}
 
-std::optional<NativeCache> NativeCache::open() {
-  fs::path folder = environment_variable("COURANT_CACHE");
-  if (folder.empty()) {
-    const fs::path base = environment_variable("XDG_CACHE_HOME");
-    const fs::path home = environment_variable("HOME");
-    if (base.is_absolute())
-      folder = base / "courant";
-    else if (home.is_absolute())
-      folder = home / ".cache" / "courant";
-    else
-      return std::nullopt;
-  }
+// A file of somebody else; nothing if there is none.
+std::optional<fs::path> foreign_file(const fs::path& folder) {
   std::error_code error;
-  folder = fs::absolute(folder, error);
+  for (const auto& item : fs::directory_iterator(folder, error))
+    if (!is_of_entry(item.path()) && !WorkFolder::is_name(item.path().filename().string()))
+      return item.path();
+  return std::nullopt;
+}
+
+// The folder that the environment names; empty if none.
+fs::path wanted_folder() {
+  const fs::path cache = environment_variable("COURANT_CACHE");
+  const fs::path base = environment_variable("XDG_CACHE_HOME");
+  const fs::path home = environment_variable("HOME");
+  std::error_code error;
+  if (!cache.empty()) return fs::absolute(cache, error);
+  if (base.is_absolute()) return base / "courant";
+  return home.is_absolute() ? home / ".cache" / "courant" : fs::path();
+}
+
+// Why a folder may not be used; empty if it may. Made and marked if need be.
+std::string defect_of(const fs::path& folder) {
+  constexpr const char* expected =
+      "expected a folder that this user alone may write to in COURANT_CACHE, XDG_CACHE_HOME or "
+      "HOME";
+  if (folder.empty())
+    return std::string("there is no folder to keep compiled code in; ") + expected;
+  std::error_code error;
   fs::create_directories(folder.parent_path(), error);
   mkdir(folder.c_str(), 0700);
   struct stat status {};
   const bool ours = stat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode) &&
                     status.st_uid == geteuid() && (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
-  if (!ours || access(folder.c_str(), W_OK | X_OK) != 0) return std::nullopt;
+  if (!ours || access(folder.c_str(), W_OK | X_OK) != 0)
+    return folder.string() + ": compiled code is not kept there; " + expected;
+  if (content_of(folder / kTag) == kTagContent) return "";
+  if (const auto foreign = foreign_file(folder))
+    return folder.string() +
+           ": compiled code is not kept there, beside files that are not of it: " +
+           foreign->filename().string() + "; expected a folder that is empty or not there";
+  try {
+    write_file(folder / kTag, kTagContent);
+  } catch (const OutputError& failure) {
+    return failure.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+std::optional<NativeCache> NativeCache::open(std::string* defect) {
+  const fs::path folder = wanted_folder();
+  const std::string found = defect_of(folder);
+  if (defect != nullptr) *defect = found;
+  if (!found.empty()) return std::nullopt;
   return NativeCache(folder);
 }
 
 std::optional<fs::path> NativeCache::find(const std::string& content) const {
-  const std::string name = hash_of(content);
+  const std::string name = content_hash(content);
   const fs::path object = file(name, ".so"), sum = file(name, ".sum");
   std::error_code error;
   if (!fs::exists(sum, error) || content_of(file(name, ".c")) != content ||
@@ -75,12 +111,16 @@ std::optional<fs::path> NativeCache::find(const std::string& content) const {
 
 fs::path NativeCache::add(const std::string& content, const fs::path& source,
                           const fs::path& object) const {
-  const std::string name = hash_of(content);
+  const std::string name = content_hash(content);
   const fs::path sum = object.parent_path() / "sum";
-  std::ofstream(sum, std::ios::binary) << sum_of(content_of(object));
-  fs::rename(source, file(name, ".c"));
-  fs::rename(object, file(name, ".so"));
-  fs::rename(sum, file(name, ".sum"));
+  try {
+    write_file(sum, sum_of(content_of(object)));
+    fs::rename(source, file(name, ".c"));
+    fs::rename(object, file(name, ".so"));
+    fs::rename(sum, file(name, ".sum"));
+  } catch (const std::runtime_error&) {  // a full disk, a folder of that name: it is not kept
+    return fs::exists(object) ? object : file(name, ".so");
+  }
   prune({});
   return file(name, ".so");
 }
@@ -89,8 +129,8 @@ std::vector<NativeCache::Entry> NativeCache::entries() const {
   std::map<std::string, Entry> found;
   std::error_code error;
   for (const auto& item : fs::directory_iterator(folder_, error)) {
-    const std::string extension = item.path().extension().string();
-    if (extension != ".c" && extension != ".so" && extension != ".sum") continue;
+    std::error_code unreadable;
+    if (!is_of_entry(item.path()) || !item.is_regular_file(unreadable)) continue;
     Entry& entry = found[item.path().stem().string()];
     entry.name = item.path().stem().string();
     std::error_code gone;  // removed by another program
@@ -120,38 +160,7 @@ void NativeCache::prune(const Limits& limits) const {
     for (const char* extension : {".sum", ".so", ".c"})
       fs::remove(file(entry.name, extension), ignored);
   }
-  remove_leftovers();
-}
-
-void NativeCache::remove_leftovers() const {
-  std::error_code ignored;
-  std::vector<fs::path> abandoned;
-  for (const auto& item : fs::directory_iterator(folder_, ignored)) {
-    if (!item.path().filename().string().starts_with(kCompilation)) continue;
-    const int descriptor = ::open(item.path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (descriptor < 0) continue;
-    // A folder is locked in the moment after it is made.
-    const auto age = fs::file_time_type::clock::now() - item.last_write_time(ignored);
-    if (age > std::chrono::seconds(10) && flock(descriptor, LOCK_EX | LOCK_NB) == 0)
-      abandoned.push_back(item.path());
-    close(descriptor);
-  }
-  for (const fs::path& folder : abandoned) fs::remove_all(folder, ignored);
-}
-
-CompilationFolder::CompilationFolder(const fs::path& parent)
-    : path_((parent / (std::string(kCompilation) + "XXXXXX")).string()), lock_(-1) {
-  if (mkdtemp(path_.data()) == nullptr)
-    throw std::system_error(errno, std::generic_category(),
-                            "CCompiler::compile: no folder can be made in " + parent.string());
-  lock_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock_ >= 0) flock(lock_, LOCK_EX | LOCK_NB);
-}
-
-CompilationFolder::~CompilationFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-  if (lock_ >= 0) close(lock_);
+  WorkFolder::remove_left_behind(folder_);
 }
 
 }  // namespace courant

@@ -16,8 +16,11 @@ namespace courant {
 // An entry is three files with the hash of its content as name: the content (.c), the object (.so),
 // and length and hash of the object (.sum), which appears last. An object that is not what its .sum
 // says was cut off by a full disk or a crash: loading it would end the program. Files appear by an
-// atomic rename, so that threads and programs may share the folder. A folder that cannot be written
-// to, belongs to somebody else, or may be written to by others, is not used.
+// atomic rename, so that threads and programs may share the folder.
+//
+// The folder is marked as ours by a CACHEDIR.TAG, which backups heed too. A folder that cannot be
+// written to, belongs to somebody else, may be written to by others, or has files of somebody else
+// and no mark, is not used. In a marked one only names of our own form are read or removed.
 class NativeCache {
  public:
   struct Entry {
@@ -31,16 +34,17 @@ class NativeCache {
     std::chrono::hours age = std::chrono::hours(24 * 90);  // since an entry was last used
   };
 
-  // The cache of this user, its folder made if need be; nothing if there is none that may be used.
-  static std::optional<NativeCache> open();
+  // The cache of this user, its folder made and marked if need be; nothing if there is none that may
+  // be used, and `defect` says why.
+  static std::optional<NativeCache> open(std::string* defect = nullptr);
 
   const std::filesystem::path& folder() const { return folder_; }
 
   // The object of a content, if there is a whole one.
   std::optional<std::filesystem::path> find(const std::string& content) const;
 
-  // Moves a source, which is the content, and its object here; returns where the object is then.
-  // Prunes.
+  // Moves a source, which is the content, and its object here; returns where the object is then: here,
+  // or where it was if that cannot be. Prunes.
   std::filesystem::path add(const std::string& content, const std::filesystem::path& source,
                             const std::filesystem::path& object) const;
 
@@ -57,26 +61,8 @@ class NativeCache {
   std::filesystem::path file(const std::string& name, const char* extension) const {
     return folder_ / (name + extension);
   }
-  void remove_leftovers() const;
 
   std::filesystem::path folder_;
-};
-
-// A new folder for a compilation, gone with its object, whatever is in it. It is locked while it is
-// in use, by which the cache knows those that a kill left behind.
-class CompilationFolder {
- public:
-  // Throws std::system_error if it cannot be made in `parent`.
-  explicit CompilationFolder(const std::filesystem::path& parent);
-  ~CompilationFolder();
-  CompilationFolder(const CompilationFolder&) = delete;
-  CompilationFolder& operator=(const CompilationFolder&) = delete;
-
-  std::filesystem::path path() const { return path_; }
-
- private:
-  std::string path_;
-  int lock_;
 };
 
 }  // namespace courant

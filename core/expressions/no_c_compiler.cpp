@@ -22,7 +22,10 @@ std::shared_ptr<const NativeCompiler> machine_compiler() {
   return std::make_shared<const NoCompiler>();
 }
 
-std::optional<NativeCache> NativeCache::open() { return std::nullopt; }
+std::optional<NativeCache> NativeCache::open(std::string* defect) {
+  if (defect != nullptr) *defect = "this build keeps no compiled code: it has no compiler";
+  return std::nullopt;
+}
 
 // There is no cache that these could be asked of.
 std::vector<NativeCache::Entry> NativeCache::entries() const { return {}; }

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <string>
 
-#include "../running/temporary_folder.hpp"
+#include "../core/files/temporary_folder.hpp"
 #include "courant/cli/command.hpp"
 #include "courant/reading/findings.hpp"
 

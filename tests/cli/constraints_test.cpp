@@ -5,8 +5,8 @@
 #include "answer.hpp"
 #include "courant/cli/command.hpp"
 #include "courant/reading/findings.hpp"
+#include "courant/tests/core/files/temporary_folder.hpp"
 #include "courant/tests/core/says.hpp"
-#include "courant/tests/running/temporary_folder.hpp"
 
 namespace courant {
 BOOST_AUTO_TEST_SUITE(constraints_test)

@@ -1,6 +1,6 @@
 #include <boost/test/unit_test.hpp>
 
-#include "../running/temporary_folder.hpp"
+#include "../core/files/temporary_folder.hpp"
 #include "answer.hpp"
 
 namespace courant {
@@ -29,7 +29,7 @@ BOOST_AUTO_TEST_CASE(a_program_is_written_to_a_file_or_to_standard_output) {
   const Answer printed =
       courant_command({"export", "experiments/pendulum.json", "--language", "c"});
   BOOST_TEST(printed.status == 0);
-  BOOST_TEST((printed.out == read_text(file)));
+  BOOST_TEST(read_text(file).starts_with(printed.out));
   BOOST_TEST(printed.out.find("int main(void)") != std::string::npos);
   const Answer changed = courant_command(
       {"export", "experiments/pendulum.json", "--language", "c", "--set", "/title=A swing"});

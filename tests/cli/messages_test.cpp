@@ -4,7 +4,7 @@
 #include <boost/test/unit_test.hpp>
 #include <sstream>
 
-#include "../running/temporary_folder.hpp"
+#include "../core/files/temporary_folder.hpp"
 #include "answer.hpp"
 #include "courant/cli/command.hpp"
 #include "courant/running/run_files.hpp"

@@ -1,6 +1,6 @@
 #include <boost/test/unit_test.hpp>
 
-#include "../running/temporary_folder.hpp"
+#include "../core/files/temporary_folder.hpp"
 #include "answer.hpp"
 #include "courant/cli/command.hpp"
 #include "courant/tests/core/says.hpp"

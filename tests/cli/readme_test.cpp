@@ -3,7 +3,7 @@
 #include <iterator>
 #include <sstream>
 
-#include "../running/temporary_folder.hpp"
+#include "../core/files/temporary_folder.hpp"
 #include "courant/cli/command.hpp"
 
 namespace courant {

@@ -4,7 +4,7 @@
 #include <boost/test/unit_test.hpp>
 #include <set>
 
-#include "../running/temporary_folder.hpp"
+#include "../core/files/temporary_folder.hpp"
 #include "courant/reading/catalogue.hpp"
 #include "courant/reading/experiment.hpp"
 #include "courant/reading/method_kinds.hpp"

@@ -2,7 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include "../running/temporary_folder.hpp"
+#include "../core/files/temporary_folder.hpp"
 #include "answer.hpp"
 #include "courant/running/run_files.hpp"
 #include "courant/tests/core/says.hpp"

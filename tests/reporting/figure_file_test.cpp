@@ -3,9 +3,10 @@
 #include <boost/test/unit_test.hpp>
 #include <cstdlib>
 
+#include "../core/files/temporary_folder.hpp"
 #include "../plotting/parsed_markup.hpp"
-#include "../running/temporary_folder.hpp"
-#include "courant/running/output_file.hpp"
+#include "courant/core/files/output_file.hpp"
+#include "courant/core/files/own_file.hpp"
 
 BOOST_AUTO_TEST_SUITE(figure_file)
 
@@ -58,7 +59,7 @@ BOOST_AUTO_TEST_CASE(a_picture_has_its_legend_and_stands_alone) {
 BOOST_AUTO_TEST_CASE(files_are_of_the_kind_that_their_names_say) {
   const TemporaryFolder folder;
   write_figure(two_curves(), folder / "a.svg");
-  BOOST_TEST(read_text(folder / "a.svg") == figure_svg(two_curves()));
+  BOOST_TEST(read_text(folder / "a.svg").starts_with(figure_svg(two_curves())));
   BOOST_TEST(read_text(folder / "a.csv") == figure_csv(two_curves()));
   BOOST_CHECK_THROW(write_figure(two_curves(), folder / "a.jpg"), std::invalid_argument);
   BOOST_CHECK_THROW(write_figure(two_curves(), folder / "none" / "a.svg"), OutputError);
@@ -79,6 +80,40 @@ BOOST_AUTO_TEST_CASE(files_are_of_the_kind_that_their_names_say) {
   for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path()))
     ++files;
   BOOST_TEST(files == 6u);  // nothing is left of what was on the way
+}
+
+// Also where they are of the same name: the trajectory of a run, what was measured in a laboratory.
+BOOST_AUTO_TEST_CASE(files_of_others_are_not_replaced) {
+  const TemporaryFolder folder;
+  const auto refused = [](const RefusedOutput&) { return true; };
+  for (const char* name : {"trajectory.csv", "trajectory.svg"}) {
+    write_text(folder / name, "mine");
+    BOOST_CHECK_EXCEPTION(write_figure(two_curves(), folder / "trajectory.svg"), RefusedOutput,
+                          refused);
+    BOOST_TEST(read_text(folder / name) == "mine");
+    std::filesystem::remove(folder / name);
+    BOOST_TEST(std::filesystem::is_empty(folder.path()));
+  }
+  // The picture by its name, the numbers never.
+  write_text(folder / "a.svg", "mine");
+  write_figure(two_curves(), folder / "a.svg", true);
+  write_text(folder / "a.csv", "edited");
+  BOOST_CHECK_EXCEPTION(write_figure(two_curves(), folder / "a.svg", true), RefusedOutput, refused);
+  BOOST_TEST(read_text(folder / "a.csv") == "edited");
+}
+
+BOOST_AUTO_TEST_CASE(its_own_files_are_replaced) {
+  const TemporaryFolder folder;
+  Figure other = two_curves();
+  other.panels[0].series[0].y[0] = 17;
+  std::vector<const char*> names = {"a.svg"};
+  if (has_converter()) names.insert(names.end(), {"a.pdf", "a.png"});
+  for (const char* name : names)
+    for (const Figure& figure : {two_curves(), other}) {
+      write_figure(figure, folder / name);
+      BOOST_TEST(read_text(folder / "a.csv") == figure_csv(figure));
+      BOOST_TEST(mark_of(folder / name).has_value());
+    }
 }
 
 BOOST_AUTO_TEST_CASE(a_missing_converter_is_said) {

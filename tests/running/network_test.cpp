@@ -1,9 +1,9 @@
 #include <boost/test/unit_test.hpp>
 
+#include "../core/files/temporary_folder.hpp"
 #include "courant/running/run_files.hpp"
 #include "problems.hpp"
 #include "run_in.hpp"
-#include "temporary_folder.hpp"
 
 namespace courant::test {
 BOOST_AUTO_TEST_SUITE(network_runs)

@@ -2,8 +2,8 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include "../core/files/temporary_folder.hpp"
 #include "courant/running/run_folder.hpp"
-#include "temporary_folder.hpp"
 
 namespace courant {
 BOOST_AUTO_TEST_SUITE(result_folder)
@@ -62,6 +62,18 @@ BOOST_AUTO_TEST_CASE(a_run_with_something_else_in_it_keeps_that) {
   const ResultFolder again(path, "sweep", true);
   BOOST_TEST(!std::filesystem::exists(path / "1-k=1" / "summary.json"));
   BOOST_TEST(std::filesystem::exists(path / "1-k=1" / "notes.txt"));
+}
+
+// A run that was put elsewhere, to be kept.
+BOOST_AUTO_TEST_CASE(of_a_link_to_a_run_the_link_alone_is_removed) {
+  const TemporaryFolder temporary;
+  const auto path = temporary / "sweep";
+  ResultFolder(path, "sweep", false).write(one_run, "");
+  write_run(temporary / "kept");
+  std::filesystem::create_directory_symlink("../kept", path / "1-k=1");
+  const ResultFolder again(path, "sweep", true);
+  BOOST_TEST(!std::filesystem::is_symlink(path / "1-k=1"));
+  BOOST_TEST(std::filesystem::exists(temporary / "kept" / "summary.json"));
 }
 
 BOOST_AUTO_TEST_CASE(folders_that_cannot_be_used_are_refused) {

@@ -2,6 +2,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "courant/core/files/own_file.hpp"
 #include "courant/running/run_files.hpp"
 #include "resumed_run.hpp"
 
@@ -124,7 +125,7 @@ BOOST_AUTO_TEST_CASE(a_run_that_is_complete_goes_on_to_a_later_end) {
       Json shorter = experiment;
       shorter["time"]["end"] = 0.2 * static_cast<double>(steps);
       run_in(folder, shorter);
-      write_text(folder / "run" / "report.html", "of the run as it was");
+      OwnFiles("report").write(folder / "run" / "report.html", "<p>of the run as it was</p>");
       write_text(folder / "run" / "notes.txt", "mine");
       resume_in(folder / "run", experiment);
       run_in(other, experiment);

@@ -2,6 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include "courant/core/files/own_file.hpp"
 #include "run_in.hpp"
 
 namespace courant {
@@ -60,15 +61,15 @@ BOOST_AUTO_TEST_CASE(a_run_is_replaced_only_if_it_may_be) {
 BOOST_AUTO_TEST_CASE(a_folder_belongs_to_one_run_at_a_time) {
   const TemporaryFolder folder;
   const auto path = folder / "run";
-  BOOST_TEST(!RunFolder::is_in_use(path));
+  BOOST_TEST(!LockedFolder::is_in_use(path));
   {
     const RunFolder run(path, ExistingRun::refuse, experiment);
-    BOOST_TEST(RunFolder::is_in_use(path));
+    BOOST_TEST(LockedFolder::is_in_use(path));
     for (const ExistingRun existing :
          {ExistingRun::refuse, ExistingRun::replace, ExistingRun::resume})
       BOOST_TEST(refusal(path, existing).find("another run is being written") != std::string::npos);
   }
-  BOOST_TEST(!RunFolder::is_in_use(path));
+  BOOST_TEST(!LockedFolder::is_in_use(path));
   BOOST_TEST(refusal(path, ExistingRun::replace) == "");
 }
 
@@ -80,6 +81,39 @@ BOOST_AUTO_TEST_CASE(what_no_run_wrote_is_never_removed) {
   for (const ExistingRun existing : {ExistingRun::refuse, ExistingRun::replace})
     BOOST_TEST(refusal(path, existing).find("no run wrote it") != std::string::npos);
   BOOST_TEST(read_text(path / "experiment.json") == "{\"title\": \"mine\"}");
+}
+
+// A run writes a trajectory in one format, and a report is ours if it has our mark.
+BOOST_AUTO_TEST_CASE(files_beside_a_run_that_it_did_not_write_are_kept) {
+  const TemporaryFolder folder;
+  const auto path = folder / "run";
+  { const RunFolder run(path, ExistingRun::refuse, experiment); }
+  write_text(path / "report.html", "<p>mine</p>\n");
+  BOOST_TEST(refusal(path, ExistingRun::replace) == "");
+  BOOST_TEST(read_text(path / "report.html") == "<p>mine</p>\n");
+  OwnFiles("report", true).write(path / "report.html", "<p>ours</p>\n");
+  BOOST_TEST(refusal(path, ExistingRun::replace) == "");
+  BOOST_TEST(!std::filesystem::exists(path / "report.html"));
+  for (const char* name : {"trajectory.npy", "events.csv"}) {
+    write_text(path / name, "mine");
+    BOOST_TEST(refusal(path, ExistingRun::replace).find("no run wrote it") != std::string::npos);
+    BOOST_TEST(read_text(path / name) == "mine");
+    std::filesystem::remove(path / name);
+  }
+}
+
+// Two runs that had the folder one after the other: neither writes into the other's.
+BOOST_AUTO_TEST_CASE(a_folder_that_was_made_again_is_not_written_to) {
+  const TemporaryFolder folder;
+  const auto path = folder / "run";
+  const RunFolder first(path, ExistingRun::refuse, experiment);
+  std::filesystem::rename(path, folder / "moved");
+  BOOST_CHECK_THROW(first.write_summary(summary), OutputError);
+  const RunFolder second(path, ExistingRun::refuse, experiment);
+  BOOST_CHECK_THROW(first.write_summary(summary), OutputError);
+  BOOST_CHECK_THROW(first.write_checkpoint({.run = first.id()}), OutputError);
+  BOOST_TEST(!std::filesystem::exists(path / "summary.json"));
+  second.write_summary(summary);
 }
 
 BOOST_AUTO_TEST_CASE(a_folder_that_cannot_be_made_is_refused) {
@@ -119,7 +153,7 @@ BOOST_AUTO_TEST_CASE(a_run_does_not_go_on_with_another_experiment) {
   const std::string before = read_text(path / "experiment.json");
   BOOST_CHECK_THROW(RunFolder::check(path, ExistingRun::resume, titled("two")), ExperimentError);
   BOOST_CHECK_THROW(RunFolder(path, ExistingRun::resume, titled("two")), ExperimentError);
-  BOOST_TEST(!RunFolder::is_in_use(path));
+  BOOST_TEST(!LockedFolder::is_in_use(path));
   BOOST_TEST(read_text(path / "experiment.json") == before);
 }
 
@@ -127,9 +161,13 @@ BOOST_AUTO_TEST_CASE(a_run_does_not_go_on_with_another_experiment) {
 BOOST_AUTO_TEST_CASE(what_a_kill_leaves_at_the_beginning_is_no_run) {
   const TemporaryFolder folder;
   const auto path = folder / "run";
-  write_text(path / "experiment.json.new", "{\"tit");
+  const auto left = path / ".courant-0123456789abcdef", mine = path / ".courant-mine";
+  write_text(left, "{\"tit");
+  write_text(mine, "mine");
   BOOST_TEST(refusal(path, ExistingRun::resume).find("there is no run") != std::string::npos);
   BOOST_TEST(refusal(path, ExistingRun::refuse) == "");
+  BOOST_TEST(!std::filesystem::exists(left));
+  BOOST_TEST(std::filesystem::exists(mine));
 }
 
 // Before the constraint algorithm, which may take long and here would be an error of its own.

@@ -1,8 +1,8 @@
 // A run of an experiment in a folder of the test.
 #pragma once
 
+#include "../core/files/temporary_folder.hpp"
 #include "courant/running/runner.hpp"
-#include "temporary_folder.hpp"
 
 namespace courant {
 

@@ -3,9 +3,10 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "../core/files/temporary_folder.hpp"
+#include "courant/running/folder_keeper.hpp"
 #include "courant/running/run_files.hpp"
 #include "problems.hpp"
-#include "temporary_folder.hpp"
 
 namespace courant::test {
 BOOST_AUTO_TEST_SUITE(trajectory_rows_test)
@@ -34,20 +35,29 @@ struct Rows {
   TrajectoryTable written() {
     const TemporaryFolder folder;
     {
-      const RunFolder run((folder / "run"), ExistingRun::refuse, given.experiment);
-      rows.open(run);
+      FolderKeeper keeper(folder / "run", ExistingRun::refuse, std::chrono::seconds(1));
+      keeper.begin(given.experiment);
+      keeper.open({.columns = rows.column_names(),
+                   .headings = rows.headings(),
+                   .events = {},
+                   .event_columns = {},
+                   .ladder = given.ladder,
+                   .integrator = nullptr});
       const auto stepper = method.integrator->stepper();
       State state = method.initial;
-      rows.file().append(0.0, observer.begin(state)(rows.columns()));
+      const auto write = [&](long k, const VectorXd& row, const Step& step) {
+        rows.write({.k = k, .steps = 4, .t = clock.t(state, k), .row = row, .step = step}, keeper);
+      };
+      write(0, observer.begin(state), Step{.after = state});
       for (long k = 1; k <= 4; ++k) {
         stepper->step(state, 0.25);
         elsewhere.begin_step();
-        rows.write_between(*stepper, k, elsewhere);
+        rows.write_between(*stepper, k, elsewhere, keeper);
         const VectorXd& row = observer.advance(stepper->last());
         rows.keep(clock.t(state, k), row);
-        if (rows.has_step(k)) rows.file().append(clock.t(state, k), row(rows.columns()));
+        write(k, row, stepper->last());
       }
-      rows.file().flush();
+      keeper.close();
     }
     return read_trajectory_csv(folder / "run" / "trajectory.csv");
   }

@@ -1,11 +1,13 @@
 #include "courant/running/trajectory_writer.hpp"
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
+#include <cstdio>
 #include <limits>
 #include <random>
 
+#include "../core/files/temporary_folder.hpp"
 #include "courant/running/run_files.hpp"
-#include "temporary_folder.hpp"
 
 namespace courant {
 BOOST_AUTO_TEST_SUITE(trajectory_writer)
@@ -61,17 +63,17 @@ BOOST_AUTO_TEST_CASE(goes_on_with_a_file_from_any_row) {
         const auto all = make_trajectory_writer(format, other.path(), {"t", "x", "H"});
         for (const auto& row : rows) append(*all, row);
         all->flush();
-        BOOST_TEST(all->size() == std::filesystem::file_size(other / trajectory_name(format)));
       }
       const auto file = folder / trajectory_name(format);
       const auto writer = make_trajectory_writer(format, folder.path(), {"t", "x", "H"});
       for (std::size_t i = 0; i < whole; ++i) append(*writer, rows[i]);
-      const std::uintmax_t size = writer->size();  // also of what is kept back
+      const HashedBytes::Record kept = writer->record();  // also of what is kept back
       for (std::size_t i = whole; i < 20000; ++i) append(*writer, rows[i]);
       writer->flush();
-      const auto again = make_trajectory_writer(format, folder.path(), {"t", "x", "H"}, size);
-      BOOST_TEST(again->size() == size);
-      BOOST_TEST(std::filesystem::file_size(file) == size);
+      const auto again = make_trajectory_writer(format, folder.path(), {"t", "x", "H"}, &kept);
+      BOOST_TEST((again->record() == kept));
+      BOOST_TEST(std::filesystem::file_size(file) ==
+                 kept.size + (format == Format::npy ? 128u : 0u));
       if (format == Format::npy)
         BOOST_TEST(read_trajectory_npy(file, {"t", "x", "H"}).rows() == whole);
       for (std::size_t i = whole; i < rows.size(); ++i) append(*again, rows[i]);
@@ -85,12 +87,53 @@ BOOST_AUTO_TEST_CASE(a_file_that_lost_rows_is_not_written_on) {
   for (const Format format : {Format::csv, Format::npy}) {
     const auto writer = make_trajectory_writer(format, folder.path(), {"t", "x", "H"});
     append(*writer, {0.1, 0.2, 0.3});
-    BOOST_CHECK_THROW(
-        make_trajectory_writer(format, folder.path(), {"t", "x", "H"}, writer->size()),
-        OutputError);
-    std::filesystem::remove(folder / trajectory_name(format));
-    BOOST_CHECK_THROW(make_trajectory_writer(format, folder.path(), {"t", "x", "H"}, 128),
+    const HashedBytes::Record record = writer->record();  // of a row that is kept back
+    BOOST_TEST(damage(format, folder.path(), record).has_value());
+    BOOST_CHECK_THROW(make_trajectory_writer(format, folder.path(), {"t", "x", "H"}, &record),
                       OutputError);
+    std::filesystem::remove(folder / trajectory_name(format));
+    BOOST_CHECK_THROW(make_trajectory_writer(format, folder.path(), {"t", "x", "H"}, &record),
+                      OutputError);
+  }
+}
+
+// A power cut leaves zeros, an editor another digit: each is found, and where.
+BOOST_AUTO_TEST_CASE(damage_is_told_by_its_rows) {
+  const auto rows = random_rows(2000);
+  for (const Format format : {Format::csv, Format::npy}) {
+    const TemporaryFolder folder;
+    const auto file = folder / trajectory_name(format);
+    const auto writer = make_trajectory_writer(format, folder.path(), {"t", "x", "H"});
+    for (const auto& row : rows) append(*writer, row);
+    writer->sync();
+    const HashedBytes::Record record = writer->record();
+    BOOST_TEST(!damage(format, folder.path(), record));
+    const std::string whole = read_text(file);
+    const auto damaged = [&](std::size_t at, const std::string& bytes) {
+      std::string text = whole;
+      write_text(file, text.replace(at, bytes.size(), bytes));
+      return damage(format, folder.path(), record).value_or("whole");
+    };
+    const std::size_t at = whole.size() / 2;
+    // Where the row is that the byte stands in, by the file as it was.
+    const std::size_t row = format == Format::csv
+                                ? static_cast<std::size_t>(std::count(
+                                      whole.begin(), whole.begin() + static_cast<Index>(at), '\n'))
+                                : (at - 128) / 24 + 1;
+    if (format == Format::csv)
+      BOOST_TEST(damaged(at, std::string(2000, '\0')) ==
+                 "row " + std::to_string(row) + " is not as it was written");
+    const std::string edited = damaged(at, whole[at] == '7' ? "8" : "7");
+    std::size_t first = 0, last = 0;
+    BOOST_TEST_REQUIRE(std::sscanf(edited.c_str(), "rows %zu to %zu are not as", &first, &last) ==
+                       2);
+    BOOST_TEST(first <= row);
+    BOOST_TEST(row <= last);
+    BOOST_TEST(last - first < 500u);
+    write_text(file, whole.substr(0, at));
+    BOOST_TEST(damage(format, folder.path(), record).has_value());
+    write_text(file, whole + "1,2,3");  // what was written since does not matter
+    BOOST_TEST(!damage(format, folder.path(), record));
   }
 }
 

@@ -147,17 +147,26 @@ BOOST_AUTO_TEST_CASE(files_that_are_not_those_of_the_run_are_refused) {
   };
   BOOST_TEST(refusal([](const Interrupted& run) { run.change("summary.json", "/id", "1"); }) ==
              "summary.json: is of another run than experiment.json");
-  BOOST_TEST(refusal([](const Interrupted& run) { run.change("checkpoint.json", "/run", "1"); }) ==
-             "checkpoint.json: is of another run than experiment.json");
+  const Interrupted other;
+  BOOST_TEST(refusal([&](const Interrupted& run) {
+               write_text(run / "checkpoint.json", read_text(other / "checkpoint.json"));
+             }) == "checkpoint.json: is of another run than experiment.json");
+  BOOST_TEST(refusal([](const Interrupted& run) {
+               run.change("checkpoint.json", "/state/x/0", 0.5);
+             }).starts_with("checkpoint.json: is not as it was written; "));
   BOOST_TEST(refusal([](const Interrupted& run) {
                run.change("checkpoint.json", "/courant", "0.0.1");
              }).starts_with("checkpoint.json: version 0.0.1 of courant wrote it, this is "));
   BOOST_TEST(refusal([](const Interrupted& run) {
                std::filesystem::resize_file(run / "trajectory.csv", 100);
-             }).starts_with("trajectory.csv: has 100 bytes, expected at least the "));
+             }).starts_with("trajectory.csv: rows 1 to "));
   BOOST_TEST(refusal([](const Interrupted& run) {
                std::filesystem::remove(run / "trajectory.csv");
-             }) == "trajectory.csv: cannot be read: No such file or directory");
+             }) == "trajectory.csv: is not there; expected the file that the run wrote");
+  BOOST_TEST(refusal([](const Interrupted& run) {
+               std::string text = read_text(run / "trajectory.csv");
+               write_text(run / "trajectory.csv", text.replace(200, 100, 100, '\0'));
+             }).find(" is not as it was written; expected it whole") != std::string::npos);
   BOOST_TEST(refusal([](const Interrupted& run) {
                write_text(run / "checkpoint.json", "{");
              }).starts_with("checkpoint.json:1: is not JSON: "));
@@ -169,8 +178,7 @@ BOOST_AUTO_TEST_CASE(files_that_are_not_those_of_the_run_are_refused) {
 BOOST_AUTO_TEST_CASE(files_that_a_kill_leaves_are_enough) {
   const Interrupted run;
   std::filesystem::remove(run / "summary.json");
-  write_text(run / "summary.json.new", "{\"sta");
-  write_text(run / "checkpoint.json.new", "{\"cou");
+  write_text(run / ".courant-0123456789abcdef", "{\"sta");
   BOOST_TEST(run.refusal() == "");
 }
 

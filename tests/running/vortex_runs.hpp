@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "temporary_folder.hpp"
+#include "../core/files/temporary_folder.hpp"
 
 namespace courant::test {
 

@@ -14,6 +14,7 @@
 #include "../random_expressions.hpp"
 #include "courant/core/expressions/function.hpp"
 #include "courant/core/expressions/native_cache.hpp"
+#include "courant/core/files/work_folder.hpp"
 
 namespace courant {
 BOOST_AUTO_TEST_SUITE(c_compiler_test, *boost::unit_test::precondition([](auto) {
@@ -42,6 +43,11 @@ class Cache {
 
   fs::path folder() const { return folder_; }
   fs::path path() const { return folder_ / "cache"; }
+  std::vector<fs::path> files() const {
+    std::vector<fs::path> result;
+    for (const auto& entry : fs::directory_iterator(path())) result.push_back(entry.path());
+    return result;
+  }
   std::vector<fs::path> objects() const {
     std::vector<fs::path> result;
     if (fs::exists(path()))
@@ -253,13 +259,13 @@ BOOST_FIXTURE_TEST_CASE(what_is_old_or_too_much_is_pruned, Cache) {
   BOOST_REQUIRE(cache->entries().size() == 1);
   BOOST_TEST(cache->entries()[0].name == entries[2].name);
   cache->clear();
-  BOOST_TEST(fs::is_empty(path()));
+  BOOST_TEST(files().size() == 1);  // the mark of the folder
 }
 
 // An entry that is used is young.
 BOOST_FIXTURE_TEST_CASE(what_is_used_is_kept, Cache) {
   machine_compiler()->compile(constant_function(1.0));
-  for (const auto& file : fs::directory_iterator(path()))
+  for (const auto& file : files())
     fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::hours(24 * 80));
   machine_compiler()->compile(constant_function(1.0));
   NativeCache::open()->prune({.age = std::chrono::hours(24 * 60)});
@@ -268,15 +274,59 @@ BOOST_FIXTURE_TEST_CASE(what_is_used_is_kept, Cache) {
 
 BOOST_FIXTURE_TEST_CASE(what_a_killed_compilation_left_is_removed, Cache) {
   const auto cache = NativeCache::open();
-  const fs::path left = path() / "courant-compile-abcdef";
+  const fs::path left = path() / "courant-work-abcdef";
   fs::create_directory(left);
   std::ofstream(left / "source.c") << "half";
-  const CompilationFolder in_use(path());
+  const WorkFolder in_use(path());
   for (const fs::path& folder : {left, in_use.path()})
     fs::last_write_time(folder, fs::file_time_type::clock::now() - std::chrono::hours(1));
   cache->prune({});
   BOOST_TEST(!fs::exists(left));
   BOOST_TEST(fs::exists(in_use.path()));
+}
+
+// Somebody's sources, whatever their age: the folder is theirs, and no cache.
+BOOST_FIXTURE_TEST_CASE(a_folder_with_other_files_is_not_used, Cache) {
+  fs::create_directories(path());
+  for (const char* name : {"main.c", "library.so"}) std::ofstream(path() / name) << "mine";
+  std::string defect;
+  BOOST_TEST(!NativeCache::open(&defect).has_value());
+  BOOST_TEST(defect.find("beside files that are not of it: ") != std::string::npos);
+  BOOST_TEST(call(*machine_compiler()->compile(constant_function(1.0))) == 1.0);
+  BOOST_TEST(files().size() == 2);
+}
+
+// What comes into a marked folder later is not ours either.
+BOOST_FIXTURE_TEST_CASE(only_names_of_entries_are_removed, Cache) {
+  machine_compiler()->compile(constant_function(1.0));
+  const auto year_ago = fs::file_time_type::clock::now() - std::chrono::hours(24 * 365);
+  std::vector<fs::path> mine;
+  for (const char* name : {"main.c", "ABCDEF0123456789ABCDEF0123456789.c", "0123.so", "notes.sum"})
+    mine.push_back(path() / name);
+  for (const fs::path& file : mine) {
+    std::ofstream(file) << "mine";
+    fs::last_write_time(file, year_ago);
+  }
+  NativeCache::open()->prune({});
+  NativeCache::open()->clear();
+  for (const fs::path& file : mine) BOOST_TEST(fs::exists(file), file);
+  BOOST_TEST(NativeCache::open()->entries().empty());
+}
+
+BOOST_FIXTURE_TEST_CASE(a_folder_in_the_place_of_an_object_does_not_stop_it, Cache) {
+  machine_compiler()->compile(constant_function(1.0));
+  const fs::path object = objects().at(0);
+  fs::remove(object);
+  fs::create_directory(object);
+  BOOST_TEST(call(*machine_compiler()->compile(constant_function(1.0))) == 1.0);
+}
+
+BOOST_FIXTURE_TEST_CASE(a_compiler_that_makes_nothing_is_said, Cache) {
+  BOOST_CHECK_EXCEPTION(CCompiler("/bin/true").compile(constant_function(1.0)), std::runtime_error,
+                        [](const std::exception& error) {
+                          return std::string(error.what()) ==
+                                 "CCompiler::compile: /bin/true made no object.";
+                        });
 }
 
 BOOST_FIXTURE_TEST_CASE(a_compiler_that_does_not_work_is_a_defect, Cache) {
