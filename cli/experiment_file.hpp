@@ -8,6 +8,7 @@
 
 #include "courant/cli/command.hpp"
 #include "courant/reading/experiment.hpp"
+#include "courant/reading/table.hpp"
 
 namespace CLI {
 class App;
@@ -23,10 +24,12 @@ void add_settings(CLI::App& command, std::vector<std::string>& settings);
 // it or later, is said in a line `courant: FILE: /pointer: …` for each problem.
 //
 // `settings` are changes of the experiment, each `/json/pointer=VALUE`: VALUE is JSON or, where it
-// is not, a text. The place of a value may be new if what it is in is there.
+// is not, a text. The place of a value may be new if what it is in is there. `tables`: which files it
+// may name.
 int with_experiment(const Console& console, const std::string& file,
                     const std::function<int(const Experiment&)>& action,
-                    const std::vector<std::string>& settings = {});
+                    const std::vector<std::string>& settings = {},
+                    TableFiles tables = TableFiles::anywhere);
 
 // What the file says, or standard input if that is "-"; nothing, after a line of what is wrong, if it
 // cannot be read or is larger than 16 MB. `expected` is what it should be, "an experiment".
@@ -40,6 +43,7 @@ int reporting_errors(const Console& console, const std::string& file,
 // with_experiment with what the file says, before it is read as an experiment.
 int with_document(const Console& console, const std::string& file,
                   const std::function<int(const Json&)>& action,
-                  const std::vector<std::string>& settings = {});
+                  const std::vector<std::string>& settings = {},
+                  TableFiles tables = TableFiles::anywhere);
 
 }  // namespace courant::cli

@@ -6,6 +6,7 @@
 
 #include "courant/cli/backend.hpp"
 #include "courant/cli/command.hpp"
+#include "courant/cli/confinement.hpp"
 #include "courant/cli/experiment_file.hpp"
 #include "courant/cli/progress_bar.hpp"
 #include "courant/cli/run_text.hpp"
@@ -26,6 +27,7 @@ struct RunArguments {
   bool resume = false;
   bool explain = false;
   bool quiet = false;
+  bool untrusted = false;
   std::vector<std::string> settings;
   SweepArguments sweep;
 
@@ -78,6 +80,10 @@ int run_experiment(const Console& console, const RunArguments& arguments,
   bar.reset();
   if (console.heeds_stop) *console.heeds_stop = false;
   if (!arguments.quiet) print_outcome(console, outcome, options.folder);
+  if (arguments.untrusted && Confinement::is_out_of_time()) {
+    print_error(console, arguments.file + ": " + Confinement::time_in_words());
+    return failed;
+  }
   if (outcome.status != RunStatus::completed)
     print_error(console, arguments.file + ": " + outcome.message);
   if (outcome.status == RunStatus::interrupted) return interrupted;
@@ -132,16 +138,29 @@ void add_run(CLI::App& app, Session& session) {
   run->add_flag("--explain", arguments->explain,
                 "say which equations a step solves, and which unknowns they give explicitly")
       ->excludes("--sweep");
+  run->add_flag(
+         "--untrusted", arguments->untrusted,
+         "run an experiment of a stranger: without a C compiler, with files beside it alone, "
+         "and with at most 60 s of the processor, 2 GB of memory and 256 MB in a file")
+      ->excludes("--sweep");
   run->add_flag("--quiet", arguments->quiet, "print errors only");
   run->callback([&session, arguments] {
-    session.action = [arguments](const Console& console) {
+    session.action = [arguments](const Console& console) -> int {
       if (!arguments->sweep.ranges.empty()) return run_cases(console, *arguments);
+      if (arguments->untrusted) {
+        if (arguments->backend == Backend::Kind::native) {
+          print_error(console, "--untrusted runs no C compiler; expected no --backend native");
+          return wrong;
+        }
+        arguments->backend = Backend::Kind::interpreter;
+        Confinement::begin(console.heeds_stop);
+      }
       return with_experiment(
           console, arguments->file,
           [&](const Experiment& experiment) {
             return run_experiment(console, *arguments, experiment);
           },
-          arguments->settings);
+          arguments->settings, arguments->untrusted ? TableFiles::beside : TableFiles::anywhere);
     };
   });
 }

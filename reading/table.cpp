@@ -58,10 +58,17 @@ std::optional<Table> read_table(const JsonReader& value) {
                          "; expected increasing times");
       return std::nullopt;
     }
-  return Table{*times, *values,
-               word == "steps"   ? Interpolation::steps
-               : word == "cubic" ? Interpolation::cubic
-                                 : Interpolation::linear};
+  const Table table{*times, *values,
+                    word == "steps"   ? Interpolation::steps
+                    : word == "cubic" ? Interpolation::cubic
+                                      : Interpolation::linear};
+  try {
+    table.at((*times)[0]);
+  } catch (const std::invalid_argument&) {
+    values_key->refused();
+    return std::nullopt;
+  }
+  return table;
 }
 
 std::vector<std::string> cells(const std::string& line) {
@@ -160,24 +167,47 @@ std::vector<std::pair<std::string, Table>> read_tables(const JsonReader& object)
 
 namespace {
 
+// Throws ExperimentError if the file may not be named.
+void require_allowed(const std::string& pointer, const std::filesystem::path& file,
+                     const std::filesystem::path& folder, TableFiles which) {
+  if (which == TableFiles::anywhere) return;
+  const auto refuse = [&](const char* expected) {
+    throw ExperimentError(pointer + "/file", "is " + file.string() +
+                                                 ", and the experiment is not "
+                                                 "trusted; expected " +
+                                                 expected);
+  };
+  if (which == TableFiles::none) refuse("its numbers in the experiment");
+  std::error_code error;
+  const auto home = std::filesystem::weakly_canonical(folder.empty() ? "." : folder, error);
+  const auto there = std::filesystem::weakly_canonical(folder / file, error);
+  if (error ||
+      std::mismatch(home.begin(), home.end(), there.begin(), there.end()).first != home.end())
+    refuse("a file in the folder of the experiment");
+}
+
 // In a system, and in those that it is made of.
-void load_tables_of(Json& system, const std::string& pointer, const std::filesystem::path& folder) {
+void load_tables_of(Json& system, const std::string& pointer, const std::filesystem::path& folder,
+                    TableFiles which) {
   if (!system.is_object()) return;
   if (system.contains("tables") && system["tables"].is_object())
     for (auto& [name, table] : system["tables"].items())
-      if (table.is_object() && table.contains("file") && table["file"].is_string())
-        table = File(pointer + "/tables/" + name, folder / table["file"].get<std::string>())
-                    .load(table);
+      if (table.is_object() && table.contains("file") && table["file"].is_string()) {
+        const std::string place = pointer + "/tables/" + name;
+        const std::filesystem::path file = table["file"].get<std::string>();
+        require_allowed(place, file, folder, which);
+        table = File(place, folder / file).load(table);
+      }
   if (system.contains("systems") && system["systems"].is_object())
     for (auto& [name, part] : system["systems"].items())
-      load_tables_of(part, pointer + "/systems/" + name, folder);
+      load_tables_of(part, pointer + "/systems/" + name, folder, which);
 }
 
 }  // namespace
 
-void load_tables(Json& document, const std::filesystem::path& folder) {
+void load_tables(Json& document, const std::filesystem::path& folder, TableFiles which) {
   if (document.is_object() && document.contains("system"))
-    load_tables_of(document["system"], "/system", folder);
+    load_tables_of(document["system"], "/system", folder, which);
 }
 
 }  // namespace courant

@@ -25,7 +25,13 @@ std::vector<std::pair<std::string, Table>> read_tables(const JsonReader& object)
 // Puts times and values in the place of {"file": "wind.csv", "time": "t", "column": "speed"} in the
 // tables of an experiment's system, and of those that it is made of; files are looked for in `folder`. They are comma-separated, with
 // names in the first line, and the default columns are the first two. Throws ExperimentError with the
-// place in the experiment, the file and the line.
-void load_tables(Json& document, const std::filesystem::path& folder);
+// place in the experiment, the file and the line; also for a file that it may not name.
+enum class TableFiles {
+  anywhere,
+  beside,  // in `folder`, whatever links lead to
+  none,
+};
+void load_tables(Json& document, const std::filesystem::path& folder,
+                 TableFiles which = TableFiles::anywhere);
 
 }  // namespace courant
