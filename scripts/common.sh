@@ -62,10 +62,10 @@ build_in() {
   quietly "$dir/build.log" cmake --build "$dir" --target "$target" --parallel "$(nproc)"
 }
 
-# build_command <target>: builds it in $build, without the tests where nothing is configured yet: these need packages
+# build_command <target> [<CMake option>...]: builds it in $build, without the tests where nothing is configured yet: these need packages
 # of their own, and scripts/test turns them on.
 build_command() {
   local options=()
   [ -f "$build/CMakeCache.txt" ] || options=(-D COURANT_BUILD_TESTS=OFF)
-  build_in "$build" "$1" "${options[@]}"
+  build_in "$build" "$1" "${options[@]}" "${@:2}"
 }

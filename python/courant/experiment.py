@@ -1,0 +1,83 @@
+"""A function for each kind of system: ``courant.experiment.mechanical(coordinates=["q"], potential="q^2/2", …)``.
+
+The arguments are the keys of the kind, then those of experiments (``initial``, ``method``, ``time``, …); a hyphen of a
+kind is an underscore here. ``help(courant.experiment.mechanical)`` lists them with what they take.
+"""
+
+from __future__ import annotations
+
+import inspect
+import textwrap
+
+from courant import _courant as core
+from courant._experiment import Experiment
+
+_REST = {
+    "initial": "values by name, in full or in part",
+    "hold": "names of initial values that must not move",
+    "method": "how it is integrated: a word or a dictionary",
+    "time": "``{\"step\": h, \"end\": T}``",
+    "observe": "formulas by name",
+    "events": "quantities whose zeros are located",
+    "expect": "what has to come out",
+    "output": "which rows there are",
+    "title": "one line",
+}
+
+
+def _systems():
+    return {kind["type"].replace("-", "_"): kind for kind in core.catalogue()["systems"] if kind["type"] != "python"}
+
+
+def _docstring(kind):
+    lines = [f"An experiment with a system of the kind ``{kind['type']}``: {kind['summary']}.", "", "Parameters", "----------"]
+    for key in kind["keys"]:
+        takes = key["takes"]
+        if not key["required"]:
+            takes += ", optional" if key["default"] is None else f", default {key['default']!r}"
+        lines += [f"{key['key']} : {takes}", *textwrap.wrap(key["summary"], 100, initial_indent="    ",
+                                                           subsequent_indent="    ")]
+    for name, text in _REST.items():
+        lines += [f"{name} : optional", "    " + text]
+    return "\n".join([*lines, "", "Returns", "-------", "courant.Experiment"])
+
+
+def _maker(name, kind):
+    own = [key["key"] for key in kind["keys"]]
+    required = [key["key"] for key in kind["keys"] if key["required"]]
+
+    def make(**keys):
+        unknown = [key for key in keys if key not in own and key not in _REST and key not in ("weights", "symmetries",
+                                                                                              "defects", "examine")]
+        if unknown:
+            raise TypeError(f"{name}() got an unknown key {unknown[0]!r}; it takes {', '.join([*own, *_REST])}")
+        missing = [key for key in required if key not in keys]
+        if missing:
+            raise TypeError(f"{name}() needs the key {missing[0]!r}")
+        system = {"type": kind["type"], **{key: keys[key] for key in own if key in keys}}
+        return Experiment({"system": system, "initial": {},
+                           **{key: value for key, value in keys.items() if key not in own and value is not None}})
+
+    make.__name__ = make.__qualname__ = name
+    make.__module__ = __name__
+    make.__doc__ = _docstring(kind)
+    keyword = inspect.Parameter.KEYWORD_ONLY
+    make.__signature__ = inspect.Signature(
+        [inspect.Parameter(key, keyword, default=inspect.Parameter.empty if key in required else None)
+         for key in own if key.isidentifier()]
+        + [inspect.Parameter(key, keyword, default=None) for key in _REST if key not in own],
+        return_annotation=Experiment)
+    return make
+
+
+def __getattr__(name):
+    kind = _systems().get(name)
+    if kind is None:
+        raise AttributeError(f"there is no kind of system {name!r}; expected one of {', '.join(_systems())}")
+    made = _maker(name, kind)
+    globals()[name] = made
+    return made
+
+
+def __dir__():
+    return sorted([*_systems(), *(name for name in globals() if not name.startswith("_"))])

@@ -1,0 +1,110 @@
+// Experiments, and what is asked of them without a run.
+#include "courant/python/objects.hpp"
+#include "courant/reading/catalogue.hpp"
+#include "courant/reading/experiment.hpp"
+#include "courant/reading/netlist.hpp"
+#include "courant/reporting/ladder_diagram.hpp"
+#include "courant/reporting/ladder_explanation.hpp"
+#include "courant/reporting/ladder_page.hpp"
+#include "courant/running/check.hpp"
+#include "courant/running/consistent_start.hpp"
+#include "courant/running/ladder_report.hpp"
+#include "courant/running/study.hpp"
+
+namespace courant::python {
+namespace {
+
+// The certificate of an experiment: the one place that knows which engine finds it.
+Json certificate(const Experiment& experiment) {
+  return courant::to_json(ladder_report(consistent_start(experiment), *experiment.model.system));
+}
+
+Json described(const KindDescription& kind) {
+  Json keys = Json::array();
+  for (const Key& key : kind.keys)
+    keys.push_back({{"key", key.name},
+                    {"takes", key.takes.text},
+                    {"summary", key.summary},
+                    {"required", key.required},
+                    {"default", key.otherwise}});
+  return {
+      {"type", kind.type}, {"summary", kind.sentence()}, {"keys", keys}, {"example", kind.example}};
+}
+
+}  // namespace
+
+void bind_experiments(py::module_& module) {
+  py::class_<Experiment, std::shared_ptr<Experiment>>(module, "Experiment")
+      .def_property_readonly(
+          "document", [](const Experiment& experiment) { return to_python(experiment.document); })
+      .def_property_readonly("title", [](const Experiment& e) { return e.title; })
+      .def_property_readonly(
+          "coordinates", [](const Experiment& e) { return e.model.system->names().coordinates; })
+      .def_property_readonly("unknowns",
+                             [](const Experiment& e) { return e.model.system->names().auxiliary; })
+      .def_property_readonly("method", [](const Experiment& e) {
+        return e.method ? e.method->description : std::string();
+      });
+  module.def(
+      "read",
+      [](const py::object& document, const py::list& objects) {
+        const ObjectsOfExperiment scope(objects);
+        if (py::isinstance<py::str>(document))
+          return std::make_shared<Experiment>(read_experiment(document.cast<std::string>()));
+        return std::make_shared<Experiment>(read_experiment_document(to_json(document)));
+      },
+      py::arg("document"), py::arg("objects") = py::list());
+  module.def("certificate", [](const Experiment& experiment) {
+    Json found;
+    {
+      const py::gil_scoped_release free;
+      found = certificate(experiment);
+    }
+    return to_python(found);
+  });
+  module.def("check", [](const Experiment& experiment) {
+    Json found;
+    {
+      const py::gil_scoped_release free;
+      found = check_experiment(experiment);
+    }
+    return to_python(found);
+  });
+  module.def(
+      "study",
+      [](const std::vector<std::shared_ptr<Experiment>>& experiments, int steps,
+         const std::vector<std::string>& quantities) {
+        std::vector<StudySubject> subjects;
+        for (const auto& experiment : experiments)
+          subjects.push_back({experiment->title, *experiment});
+        Json found;
+        {
+          const py::gil_scoped_release free;
+          found = courant::to_json(study(subjects, {.steps = steps, .quantities = quantities}));
+        }
+        return to_python(found);
+      },
+      py::arg("experiments"), py::arg("steps") = 5,
+      py::arg("quantities") = std::vector<std::string>());
+  module.def("ladder_words", [](const py::object& found) {
+    const LadderReport ladder = read_ladder_report(to_json(found));
+    py::dict words;
+    words["verdict"] = verdict_in_words(ladder);
+    words["diagram"] = ladder_diagram(ladder).str();
+    words["explanation"] = ladder_explanation(ladder);
+    words["html"] = ladder_in_words(ladder).str();
+    return words;
+  });
+  module.def("imported_netlist",
+             [](const std::string& text) { return import_netlist(text).dump(); });
+  module.def("catalogue", [] {
+    Json all = Json::object();
+    for (const Shelf& shelf : courant::catalogue()) {
+      Json& kinds = all[shelf.name] = Json::array();
+      for (const KindDescription& kind : shelf.kinds) kinds.push_back(described(kind));
+    }
+    return to_python(all);
+  });
+}
+
+}  // namespace courant::python
