@@ -35,7 +35,7 @@ install(FILES
 # For builds without CMake: pkg-config --cflags --libs courant. Libraries before those that they need.
 set(courant_pc_libraries "")
 foreach(room IN LISTS courant_rooms)
-  if(NOT room STREQUAL cli)
+  if(NOT room MATCHES "^(cli|python)$")
     string(PREPEND courant_pc_libraries " -lcourant_${room}")
   endif()
 endforeach()
