@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <random>
 #include <set>
@@ -335,7 +336,7 @@ Elimination::Elimination(const ExprVector& F, const ExprVector& y, const Options
   std::vector<bool> is_done(static_cast<std::size_t>(F.size()), false);
   std::vector<bool> is_given(static_cast<std::size_t>(y.size()), false);
   const SparseExprMatrix J = jacobian(equations, y);
-  Tableau tableau(J, options.never_zero, std::move(coarseness));
+  Tableau tableau(J, options.never_zero, coarseness);
   for (auto taken = tableau.round(); !taken.empty(); taken = tableau.round()) {
     const auto count = static_cast<Index>(taken.size());
     ExprVector variables(count), rest(count);
@@ -380,6 +381,47 @@ Elimination::Elimination(const ExprVector& F, const ExprVector& y, const Options
   }
   for (Index j = 0; j < y.size(); ++j)
     if (!is_given[static_cast<std::size_t>(j)]) kept.push_back(j);
+  if (options.is_regular) take_last_ones(y, coarseness);
+}
+
+// Unknowns that one equation alone contains, and that is affine in it; then those that are so without this one.
+void Elimination::take_last_ones(const ExprVector& y, const std::vector<int>& coarseness) {
+  for (bool goes_on = true; goes_on;) {
+    goes_on = false;
+    const SparseExprMatrix J = jacobian(equations, y(kept));
+    std::vector<std::size_t> entries(kept.size(), 0), last(kept.size(), 0);
+    for (std::size_t k = 0; k < J.row.size(); ++k) {
+      const auto j = static_cast<std::size_t>(J.col[k]);
+      ++entries[j];
+      last[j] = k;
+    }
+    for (std::size_t j = 0; j < kept.size() && !goes_on; ++j) {
+      const ExprVector unknown = ExprVector::Constant(1, y[kept[j]]);
+      const Expr slope = entries[j] == 1 ? J.values[static_cast<Index>(last[j])] : Expr(0.0);
+      if (entries[j] != 1 || depends(ExprVector::Constant(1, slope), unknown)) continue;
+      const auto row = static_cast<std::size_t>(J.row[last[j]]);
+      const auto coarse = [&](std::size_t k) {
+        return coarseness[static_cast<std::size_t>(kept[k])];
+      };
+      bool is_coarsest = true;
+      for (std::size_t k = 0; k < J.row.size(); ++k)
+        if (J.row[k] == static_cast<Index>(row))
+          is_coarsest &= coarse(static_cast<std::size_t>(J.col[k])) <= coarse(j);
+      if (!is_coarsest) continue;
+      const Expr rest = substitute(equations[static_cast<Index>(row)], unknown,
+                                   ExprVector::Constant(1, Expr(0.0)));
+      const ExprVector formula = ExprVector::Constant(1, -rest / slope);
+      unknowns = substitute(unknowns, unknown, formula);
+      pivots.push_back({remaining[row], kept[j]});
+      remaining.erase(remaining.begin() + static_cast<std::ptrdiff_t>(row));
+      kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(j));
+      std::vector<Index> left(static_cast<std::size_t>(equations.size()));
+      std::iota(left.begin(), left.end(), Index{0});
+      left.erase(left.begin() + static_cast<std::ptrdiff_t>(row));
+      equations = ExprVector(equations(left));
+      goes_on = true;
+    }
+  }
 }
 
 }  // namespace courant

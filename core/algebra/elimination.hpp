@@ -36,6 +36,9 @@ struct Elimination {
     // a coarser one: an iteration that ends when the kept unknowns are known to their accuracy knows the
     // others to theirs.
     std::vector<int> coarseness = {};
+    // Whether y_j may be divided by an a that varies with other unknowns, where F_i alone contains y_j in the end:
+    // the caller knows that the equations are regular. A multiplier of a hidden constraint is such an unknown.
+    bool is_regular = false;
   };
 
   // Throws std::invalid_argument if an unknown is no variable, or the coarseness does not fit.
@@ -48,6 +51,9 @@ struct Elimination {
   std::vector<Index> kept;  // unknowns that are left, ascending
   ExprVector equations;     // G, one for each of `remaining`
   ExprVector unknowns;      // Y, one for each unknown, in those of `kept` and the parameters
+
+ private:
+  void take_last_ones(const ExprVector& y, const std::vector<int>& coarseness);
 };
 
 }  // namespace courant

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/expressions/expr_vectors.hpp"
 #include "courant/core/expressions/function.hpp"
 
 namespace courant {
@@ -207,6 +209,27 @@ BOOST_AUTO_TEST_CASE(arguments_are_checked) {
   const ExprVector y = graph.variables("y", 2);
   BOOST_CHECK_THROW(eliminated(y, y, {.coarseness = {1}}), std::invalid_argument);
   BOOST_CHECK_THROW(eliminated(y, equations({y[0], y[0] + y[1]})), std::invalid_argument);
+}
+
+// λ from 2λ² - a = 0 stays, and μ and ν, which one equation alone contains in the end, are divided by what depends on λ.
+BOOST_AUTO_TEST_CASE(regular_equations_give_what_they_alone_contain) {
+  Graph graph;
+  const ExprVector y = graph.variables("y", 3), a = graph.variables("a", 1);  // λ, μ, ν
+  const ExprVector F = equations({2.0 * square(y[0]) - a[0], (1.0 + square(y[0])) * y[1] - y[0],
+                                  exp(y[0]) * y[2] + square(y[1]) * y[0] - 3.0});
+  const Elimination careful(F, y, {});
+  BOOST_TEST(careful.kept.size() == 3u);
+  const Elimination regular(F, y, {.is_regular = true});
+  const std::vector<Index> kept = {0}, remaining = {0};
+  BOOST_TEST(regular.kept == kept, boost::test_tools::per_element());
+  BOOST_TEST(regular.remaining == remaining, boost::test_tools::per_element());
+  BOOST_TEST(regular.pivots.size() == 2u);
+  const double lambda = 0.7, mu = lambda / (1.0 + lambda * lambda);
+  const VectorXd found = values(
+      substitute(regular.unknowns, joined(y, a),
+                 constants(VectorXd(Eigen::Vector4d(lambda, 0.0, 0.0, 2.0 * lambda * lambda)))));
+  BOOST_TEST(std::abs(found[1] - mu) < 1e-15);
+  BOOST_TEST(std::abs(found[2] - (3.0 - mu * mu * lambda) / std::exp(lambda)) < 1e-15);
 }
 
 // A step of h for a line of inductors and capacitors that belong to a unit of time T: which unknowns are
