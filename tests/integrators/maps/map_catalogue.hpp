@@ -12,6 +12,7 @@
 #include "courant/integrators/maps/product_map.hpp"
 #include "courant/integrators/maps/projected.hpp"
 #include "courant/integrators/maps/spherical_midpoint.hpp"
+#include "courant/integrators/maps/staggered.hpp"
 #include "courant/integrators/maps/theta.hpp"
 
 namespace courant::test {
@@ -79,6 +80,9 @@ inline std::vector<MapPointer> base_map_catalogue() {
           projected(spherical_circle(), 0.5),
           make<Adjoint>(make<Theta>(rotations, 0.2)),
           make<Adjoint>(make<Theta>(space, 0.0)),
+          make<Staggered>(space, Eigen::Vector3d(0.0, 1.0, 0.0)),
+          make<Staggered>(space, Eigen::Vector3d(0.0, 1.0, 0.3)),
+          make<Staggered>(torus, Eigen::Vector2d(0.5, 0.5)),
           make<ProductMap>(
               make<Product>(std::vector<ManifoldPointer>{space, rotations}),
               std::vector<MapPointer>{make<Theta>(space, 0.0), make<Theta>(rotations, 0.0)}),
@@ -95,7 +99,8 @@ inline std::vector<MapPointer> other_map_catalogue() {
   return {make<Theta>(phase_space, 0.5),
           make<Theta>(make<CotangentBundle>(make<SpecialOrthogonal3>()), 0.5),
           make<Adjoint>(lift(make<Theta>(make<Sphere>(2), 0.0))),
-          make<Adjoint>(lift(make<CayleyMidpoint>(make<SpecialOrthogonal3>())))};
+          make<Adjoint>(lift(make<CayleyMidpoint>(make<SpecialOrthogonal3>()))),
+          make<Adjoint>(lift(make<Theta>(make<Euclidean>(2), 0.0)))};
 }
 
 }  // namespace courant::test
