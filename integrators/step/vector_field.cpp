@@ -10,6 +10,7 @@
 #include "courant/core/expressions/expr_vectors.hpp"
 #include "courant/core/linear/complete_orthogonal_decomposition.hpp"
 #include "courant/core/linear/equilibration.hpp"
+#include "courant/core/linear/pairs.hpp"
 #include "courant/core/linear/regular_matrix.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/integrators/certificate/local_formulation.hpp"
@@ -150,6 +151,17 @@ VectorFieldFormulas::VectorFieldFormulas(std::shared_ptr<const ImplicitSystem> o
   const ExprVector v = at_origin(local.v);
   rate.resize(x.size() + v.size() + local.z[0].size());
   rate << M.frame(x) * v, v, local.z[0];
+  if (left_out.size() == 0) take_explicit(y);
+}
+
+void VectorFieldFormulas::take_explicit(const ExprVector& y) {
+  const Elimination elimination(equations, y, {});
+  if (!elimination.kept.empty() || !elimination.remaining.empty()) return;
+  rate = substitute(rate, y, elimination.unknowns);
+  all = substitute(all, y, elimination.unknowns);
+  inputs[0].variables = equations = ExprVector(0);
+  start = VectorXd(0);
+  z_offset = 0;
 }
 
 VectorField::VectorField(VectorFieldFormulas formulas, Backend backend)
@@ -193,6 +205,7 @@ void VectorField::Evaluation::start(const State& state) {
   basis_.move_to(state.x);
   y_ = field_.formulas_.start;
   const Manifold& M = *field_.formulas_.system->manifold();
+  if (field_.is_explicit()) return;
   if (state.v.size() == M.tangent_dimension())
     basis_.coordinates_of(state.v, y_.head(M.dimension()));
   if (state.z.size() == z_.size()) y_.segment(field_.formulas_.z_offset, z_.size()) = state.z;
@@ -292,8 +305,12 @@ bool VectorField::Evaluation::is_solved_by_all(const Inputs& in, bool is_solved)
 }
 
 void VectorField::Evaluation::solve(const VectorXd& x, VectorXd& rate, double t) {
-  const Manifold& M = *field_.formulas_.system->manifold();
   const Inputs in(y_.data(), {x.data(), basis_.data(), &t});
+  if (field_.is_explicit()) {
+    take_rate(in, rate);
+    if (!are_finite(out_.data(), out_.size())) refuse(x, t);
+    return;
+  }
   const auto violation = [&] {
     field_.left_out_.value(in.data(), left_out_.data());
     return largest(left_out_);
@@ -304,14 +321,22 @@ void VectorField::Evaluation::solve(const VectorXd& x, VectorXd& rate, double t)
     is_found = is_solved_by_all(in, is_found);
     explained_ = std::max(explained_, violation());
   }
-  if (!is_found || !y_.allFinite())
-    throw std::domain_error("VectorField::operator(): no velocity found at t = " + number_text(t) +
-                            "; the state " + whereabouts(M, x) + ".");
+  if (!is_found || !y_.allFinite()) refuse(x, t);
   sizes_.head(y_.size()) = sizes_.head(y_.size()).cwiseMax(y_.cwiseAbs());
+  take_rate(in, rate);
+}
+
+void VectorField::Evaluation::take_rate(const Inputs& in, VectorXd& rate) {
   field_.rate_.value(in.data(), out_.data());
-  rate = out_.head(x.size());
-  v_ = out_.segment(x.size(), v_.size());
+  rate = out_.head(out_.size() - v_.size() - z_.size());
+  v_ = out_.segment(rate.size(), v_.size());
   z_ = out_.tail(z_.size());
+}
+
+void VectorField::Evaluation::refuse(const VectorXd& x, double t) const {
+  throw std::domain_error("VectorField::operator(): no velocity found at t = " + number_text(t) +
+                          "; the state " + whereabouts(*field_.formulas_.system->manifold(), x) +
+                          ".");
 }
 
 }  // namespace courant

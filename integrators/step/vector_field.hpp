@@ -12,7 +12,8 @@
 
 namespace courant {
 
-// The equations that a VectorField solves, as formulas.
+// The equations that a VectorField solves, as formulas. Where they give all of y explicitly there is no y, and
+// no equation is left: the rate is a formula in x and t.
 struct VectorFieldFormulas {
   // Which ladders there is a field for: with gauge freedom it is one of many, that nearest to the
   // last velocity that was evaluated.
@@ -28,6 +29,11 @@ struct VectorFieldFormulas {
   ExprVector all;      // the equations of S_f and of M_f, of which they are some
   VectorXd start;      // y at the ladder's point
   Index z_offset = 0;  // of z in it
+
+  bool is_explicit() const { return inputs[0].variables.size() == 0 && left_out.size() == 0; }
+
+ private:
+  void take_explicit(const ExprVector& y);
 };
 
 // x ↦ v with (x, v) ∈ S_f, for a regular ladder: the equations of S_f solved for (v, z, jets) at
@@ -49,7 +55,8 @@ class VectorField {
 
   const VectorFieldFormulas& formulas() const { return formulas_; }
   const std::shared_ptr<const ImplicitSystem>& system() const { return formulas_.system; }
-  bool is_native() const { return equations_.is_native(); }
+  bool is_native() const { return rate_.is_native(); }
+  bool is_explicit() const { return formulas_.is_explicit(); }
   // How many equations are left out, of those that contain v, z or jets.
   Index left_out_count() const { return left_out_.output_size(); }
 
@@ -82,6 +89,8 @@ class VectorField {
 
    private:
     void solve(const VectorXd& x, VectorXd& rate, double t);
+    void take_rate(const Inputs& in, VectorXd& rate);
+    [[noreturn]] void refuse(const VectorXd& x, double t) const;
     void take_natural_sizes(const Inputs& in);
     bool holds(const Function& F, const Inputs& in, double solved) const;
     bool is_solved(const Inputs& in);

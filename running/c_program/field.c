@@ -23,7 +23,7 @@ static void start_field(struct field *F, const struct state *state) {
 #if HAS_BASIS
   F->basis.is_set = F->basis.is_set && state != NULL;
 #endif
-  if (state == NULL) return;
+  if (state == NULL || FIELD_UNKNOWNS == 0) return;
 #if HAS_BASIS
   move_basis(&F->basis, state->x);
   find_coordinates(&F->basis, state->v, F->y);
@@ -40,7 +40,7 @@ static void evaluate_field(struct field *F, const double *x, double t) {
 #else
   const double *in[INPUTS] = {F->y, x, NULL, &t};
 #endif
-  int i, is_found = solve(&F->newton, F->y, in, F->sizes);
+  int i, is_found = FIELD_UNKNOWNS == 0 || solve(&F->newton, F->y, in, F->sizes);
   if (!is_found) {
     /* From where the run begins, all unknowns measured alike. */
     forget_matrix(&F->newton);
@@ -56,6 +56,8 @@ static void evaluate_field(struct field *F, const double *x, double t) {
     F->sizes[i] = largest_of(F->sizes[i], fabs(F->y[i]));
   }
   field_rate(in, F->rate);
+  for (i = 0; FIELD_UNKNOWNS == 0 && i < COORDINATES + VELOCITIES + AUXILIARIES; ++i)
+    if (!isfinite(F->rate[i])) fail("has a velocity that is not finite");
   field_left_out(in, F->left_out);
 }
 
