@@ -31,10 +31,10 @@ ExprVector Distribution::do_membership(const ExprVector& x, const ExprVector& v,
   const ExprMatrix A =
       matrix_at(columns_, x, manifold()->tangent_dimension(), port_size(), name(),
                 by_ == By::fields ? "the matrix of the fields" : "the matrix of the one-forms");
-  const ExprMatrix projector = manifold()->tangent_projector(x);
+  const LinearMap<Expr> projector = manifold()->tangent_projector(x);
   const ExprMatrix transposed = A.transpose();
   if (by_ == By::fields) return joined(v - projector * (A * u), transposed * alpha);
-  return joined(alpha - projector.transpose().eval() * (A * u), transposed * v);
+  return joined(alpha - projector.transpose() * ExprVector(A * u), transposed * v);
 }
 
 }  // namespace courant

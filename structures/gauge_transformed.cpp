@@ -23,8 +23,9 @@ ExprVector GaugeTransformed::do_membership(const ExprVector& x, const ExprVector
   const Index n = manifold()->tangent_dimension();
   require_equal(name() + "::membership", "the number of rows of the form", B.rows(), n);
   require_equal(name() + "::membership", "the number of columns of the form", B.cols(), n);
-  const ExprMatrix projector = manifold()->tangent_projector(x);
-  const ExprVector shift = projector.transpose().eval() * (B.transpose().eval() * (projector * v));
+  const LinearMap<Expr> projector = manifold()->tangent_projector(x);
+  const ExprVector shift =
+      projector.transpose() * ExprVector(B.transpose().eval() * (projector * v));
   return structure_->membership(x, v, alpha - shift, u);
 }
 

@@ -18,8 +18,8 @@ ExprVector Presymplectic::do_membership(const ExprVector& x, const ExprVector& v
                                         const ExprVector& alpha, const ExprVector&) const {
   const Index n = manifold()->tangent_dimension();
   const ExprMatrix omega = matrix_at(form_, x, n, n, name(), "the form").transpose();
-  const ExprMatrix projector = manifold()->tangent_projector(x);
-  return alpha - projector.transpose().eval() * (omega * (projector * v));
+  const LinearMap<Expr> projector = manifold()->tangent_projector(x);
+  return alpha - projector.transpose() * ExprVector(omega * (projector * v));
 }
 
 }  // namespace courant

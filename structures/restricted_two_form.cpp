@@ -23,9 +23,9 @@ ExprVector RestrictedTwoForm::do_membership(const ExprVector& x, const ExprVecto
   const ExprMatrix omega = matrix_at(form_, x, n, n, name(), "the form").transpose();
   const ExprMatrix mu =
       matrix_at(one_forms_, x, n, port_size(), name(), "the matrix of the one-forms");
-  const ExprMatrix projector = manifold()->tangent_projector(x);
+  const LinearMap<Expr> projector = manifold()->tangent_projector(x);
   const ExprVector covector = omega * (projector * v) + mu * u;
-  return joined(alpha - projector.transpose().eval() * covector, mu.transpose().eval() * v);
+  return joined(alpha - projector.transpose() * covector, mu.transpose().eval() * v);
 }
 
 }  // namespace courant

@@ -139,6 +139,14 @@ std::optional<ConstraintClasses> constraint_classes(const ImplicitSystem& system
   // Reactions of constraints on velocities are no vector fields of functions.
   const auto* dirac = dynamic_cast<const DiracSystem*>(&system);
   if (dirac && dirac->exterior().constraint) return std::nullopt;
+  // Nothing to classify where equations without ports leave all of M: there D is a graph. The structures of large
+  // systems are not written down as matrices for that.
+  if (ladder.constraints.empty() && ladder.gauge_dimension == 0 && structure->port_size() == 0) {
+    ConstraintClasses none;
+    none.degrees_of_freedom_up_to_gauge = ladder.degrees_of_freedom;
+    none.brackets.emplace();
+    return none;
+  }
   const VectorXd& x = ladder.point.x;
   const Maps maps = maps_at(*structure, x);
   if (!maps.bivector && !maps.form) return std::nullopt;

@@ -31,7 +31,7 @@ PulledBack pull_back_frame(const DiscretizationMap& map, const ExprVector& q, co
   const Expr pairing = from.segment(N + n, N).dot(image.first) + from.tail(N).dot(image.second);
   const ExprVector by_velocity = gradient(pairing, velocity);
   ExprVector by_position = gradient(pairing, at);
-  const ExprMatrix projector = Q.tangent_projector(at);
+  const LinearMap<Expr> projector = Q.tangent_projector(at);  // the identity of Rⁿ takes no memory
   if (Q.dimension() < n)
     by_position += pull_back(ExprVector(projector * velocity), at, by_velocity);
   ExprVector covector(2 * n);

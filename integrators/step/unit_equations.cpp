@@ -28,11 +28,25 @@ UnitEquations::UnitEquations(const UnitNumbering& numbering, Index rows, Index c
   b_ = VectorXd::Zero(unknowns);
 }
 
+// (Σ parts + log size)², for a few of the unknowns s.
+void UnitEquations::add_term(const std::vector<Part>& parts, double size) {
+  for (const Part& a : parts) {
+    for (const Part& b : parts) A_(a.unknown, b.unknown) += a.factor * b.factor;
+    b_[a.unknown] -= std::log(size) * a.factor;
+  }
+}
+
+std::vector<UnitEquations::Part> UnitEquations::column_parts(Index column) const {
+  std::vector<Part> parts;
+  for (Index k = rows_; k < C_.cols(); ++k)
+    if (C_(column, k) != 0.0) parts.push_back({k, C_(column, k)});
+  return parts;
+}
+
 void UnitEquations::add_entry(Index row, Index column, double size) {
-  VectorXd term = C_.row(column);
-  term[row] = 1.0;
-  A_ += term * term.transpose();
-  b_ -= std::log(size) * term;
+  std::vector<Part> parts = column_parts(column);
+  parts.push_back({row, 1.0});
+  add_term(parts, size);
 }
 
 void UnitEquations::add_constant(Index row, double size) {
@@ -41,10 +55,8 @@ void UnitEquations::add_constant(Index row, double size) {
 }
 
 void UnitEquations::add_slope(Index column, double size) {
-  const VectorXd term = column < C_.rows() ? VectorXd(C_.row(column))
-                                           : VectorXd(VectorXd::Unit(C_.cols(), C_.cols() - 1));
-  A_ += term * term.transpose();
-  b_ -= std::log(size) * term;
+  add_term(column < C_.rows() ? column_parts(column) : std::vector<Part>{{C_.cols() - 1, 1.0}},
+           size);
 }
 
 VectorXd UnitEquations::columns(const VectorXd& sizes) const {

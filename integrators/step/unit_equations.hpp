@@ -35,6 +35,13 @@ class UnitEquations {
   VectorXd columns(const VectorXd& sizes) const;
 
  private:
+  struct Part {
+    Index unknown;
+    double factor;
+  };
+  std::vector<Part> column_parts(Index column) const;  // of log c
+  void add_term(const std::vector<Part>& parts, double size);
+
   Index rows_;
   MatrixXd C_, A_;  // log c = C s for the unknowns s; A s = b where the sum is least
   VectorXd b_;
