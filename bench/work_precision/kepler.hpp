@@ -44,10 +44,11 @@ struct Kepler {
   static double time_scale() { return 1.0; }
   static void of_state(const courant::VectorXd& x, double* y) { std::copy_n(x.data(), 4, y); }
   static std::vector<Choice> choices() {
-    return {{"Method 1", {{"type", "discretize-first"}}, 1000},
-            {"Method 1, order 4", {{"type", "discretize-first"}, {"order", 4}}, 100},
-            {"Method 1, order 6", {{"type", "discretize-first"}, {"order", 6}}, 50},
-            {"Method 1, order 8", {{"type", "discretize-first"}, {"order", 8}}, 25}};
+    return with_verlet({{"Method 1", {{"type", "discretize-first"}}, 1000},
+                        {"Method 1, order 4", {{"type", "discretize-first"}, {"order", 4}}, 100},
+                        {"Method 1, order 6", {{"type", "discretize-first"}, {"order", 6}}, 50},
+                        {"Method 1, order 8", {{"type", "discretize-first"}, {"order", 8}}, 25}},
+                       "discretize-first", "Verlet");
   }
 };
 

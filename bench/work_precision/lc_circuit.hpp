@@ -55,11 +55,12 @@ struct LcCircuit {
     y[1] = -x[0] / std::sqrt(inductance * capacitance);
   }
   static std::vector<Choice> choices() {
-    return {{"Method 1", {{"type", "discretize-first"}}, 250},
-            {"Method 1, order 4", {{"type", "discretize-first"}, {"order", 4}}, 16},
-            {"Method 1, order 6", {{"type", "discretize-first"}, {"order", 6}}, 8},
-            {"Method 1, order 8", {{"type", "discretize-first"}, {"order", 8}}, 6},
-            {"discrete gradient", {{"type", "discrete-gradient"}}, 250}};
+    return with_verlet({{"Method 1", {{"type", "discretize-first"}}, 250},
+                        {"Method 1, order 4", {{"type", "discretize-first"}, {"order", 4}}, 16},
+                        {"Method 1, order 6", {{"type", "discretize-first"}, {"order", 6}}, 8},
+                        {"Method 1, order 8", {{"type", "discretize-first"}, {"order", 8}}, 6},
+                        {"discrete gradient", {{"type", "discrete-gradient"}}, 250}},
+                       "discretize-first", "Verlet");
   }
 };
 

@@ -68,10 +68,11 @@ struct Pendulum {
   static double time_scale() { return 1.0; }
   static void of_state(const courant::VectorXd& x, double* y) { std::copy_n(x.data(), 4, y); }
   static std::vector<Choice> choices() {
-    return {{"Method 2", {{"type", "constrain-first"}}, 500},
-            {"Method 2, order 4", {{"type", "constrain-first"}, {"order", 4}}, 64},
-            {"Method 2, order 6", {{"type", "constrain-first"}, {"order", 6}}, 40},
-            {"Method 2, order 8", {{"type", "constrain-first"}, {"order", 8}}, 32}};
+    return with_verlet({{"Method 2", {{"type", "constrain-first"}}, 500},
+                        {"Method 2, order 4", {{"type", "constrain-first"}, {"order", 4}}, 64},
+                        {"Method 2, order 6", {{"type", "constrain-first"}, {"order", 6}}, 40},
+                        {"Method 2, order 8", {{"type", "constrain-first"}, {"order", 8}}, 32}},
+                       "constrain-first", "RATTLE");
   }
 };
 

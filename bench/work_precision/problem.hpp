@@ -46,6 +46,19 @@ struct Choice {
   long steps = 0;
 };
 
+// These, and the explicit method of a system with H = T + V, or RATTLE, at all orders.
+inline std::vector<Choice> with_verlet(std::vector<Choice> choices, const char* type,
+                                       const std::string& name) {
+  for (const auto& [order, steps] :
+       std::initializer_list<std::pair<int, long>>{{2, 500}, {4, 64}, {6, 32}, {8, 32}}) {
+    Json method = {{"type", type}, {"discretization", "verlet"}};
+    if (order > 2) method["order"] = order;
+    choices.push_back(
+        {order > 2 ? name + ", order " + std::to_string(order) : name, method, steps});
+  }
+  return choices;
+}
+
 // What is not the same from run to run.
 struct Context {
   std::filesystem::path experiments;  // the folder
