@@ -126,6 +126,8 @@ Markup runs_table(std::span<const Run> runs, std::span<const std::string> labels
   numbers(
       "wall time in seconds", [](Of run) { return run.wall_seconds; }, 3);
   numbers(
+      "processor time in seconds", [](Of run) { return run.cpu_seconds; }, 3);
+  numbers(
       "steps a second", [](Of run) { return run.steps_per_second; }, 3);
   return table("Runs and solver statistics", heads, rows);
 }

@@ -243,6 +243,7 @@ Checkpoint from_json(const Json& json) {
   read_record(json.at("motion"), checkpoint.motion);
   read(json.at("trajectory"), checkpoint.trajectory);
   read(json.at("wall_seconds"), checkpoint.wall_seconds);
+  read(json.at("cpu_seconds"), checkpoint.cpu_seconds);
   read_record(json.at("solver"), checkpoint.solver);
   read_record(json.at("statistics"), checkpoint.statistics);
   for (const Json& entry : json.at("rows_at_times")) {
@@ -269,6 +270,7 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
             {"motion", record(checkpoint.motion)},
             {"trajectory", written(checkpoint.trajectory)},
             {"wall_seconds", checkpoint.wall_seconds},
+            {"cpu_seconds", checkpoint.cpu_seconds},
             {"solver", record(checkpoint.solver)},
             {"statistics", record(checkpoint.statistics)},
             {"rows_at_times", Json::array()},

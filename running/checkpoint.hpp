@@ -28,6 +28,7 @@ struct Checkpoint {
   // So far:
   HashedBytes::Record trajectory = {};  // its file
   double wall_seconds = 0.0;
+  double cpu_seconds = 0.0;
   SolverStatistics solver = {};
   QuantityStatistics::Memory statistics = {};
   std::map<double, VectorXd> rows_at_times = {};

@@ -90,6 +90,7 @@ RunSummary RunResults::summary(RunStatus told_status,
                  .divisions = solver.divisions};
   told.backend = backend;
   told.wall_seconds = wall_seconds;
+  told.cpu_seconds = cpu_seconds;
   told.steps_per_second = per(count, wall_seconds);
   return told;
 }

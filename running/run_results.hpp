@@ -37,6 +37,7 @@ struct RunResults {
   SolverStatistics solver = {};
   std::string backend = "interpreter";
   double wall_seconds = 0.0;
+  double cpu_seconds = 0.0;  // of all threads of this process
 
   // The greatest |constraint[i]|, NaN where there are none.
   double max_violation() const;

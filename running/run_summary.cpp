@@ -136,6 +136,7 @@ Json to_json(const RunSummary& summary) {
                     {"divisions", solver.divisions.value_or(0)}};
   json["backend"] = summary.backend;
   json["wall_seconds"] = summary.wall_seconds;
+  json["cpu_seconds"] = summary.cpu_seconds;
   json["steps_per_second"] = summary.steps_per_second;
   return json;
 }
@@ -152,6 +153,7 @@ RunSummary read_run_summary(const Json& json) {
                      .steps = count(json, "steps").value_or(0),
                      .backend = text_at(json, "backend"),
                      .wall_seconds = number(json, "wall_seconds"),
+                     .cpu_seconds = number(json, "cpu_seconds"),
                      .steps_per_second = number(json, "steps_per_second")};
   if (json.contains("ladder")) summary.ladder = read_ladder(json.at("ladder"));
   for (const Json& warning : part(json, "warnings", nothing)) summary.warnings.push_back(warning);

@@ -52,7 +52,7 @@ struct RunSummary {
   };
   Solver solver = {};
   std::string backend = {};
-  double wall_seconds = kUnknown, steps_per_second = kUnknown;
+  double wall_seconds = kUnknown, cpu_seconds = kUnknown, steps_per_second = kUnknown;
 
   // Nothing if there is none of this name. It lives as long as the summary.
   const QuantityRecord* observable(std::string_view name) const&;

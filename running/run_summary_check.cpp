@@ -133,6 +133,7 @@ Kind summary_kind() {
        {"solver", solver},
        {"backend", a_text},
        {"wall_seconds", a_number},
+       {"cpu_seconds", a_number},
        {"steps_per_second", a_number}});
 }
 

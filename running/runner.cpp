@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <limits>
 #include <map>
 #include <new>
@@ -33,9 +34,22 @@ using Clock = std::chrono::steady_clock;
 // Fewer steps are made while a thread begins.
 constexpr long kWorthAThread = 1000;
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
+// What passes by the clock, and what the processor spends on all threads of this process.
+class Stopwatch {
+ public:
+  double wall_seconds() const {
+    return std::chrono::duration<double>(Clock::now() - begin_).count();
+  }
+  double cpu_seconds() const { return processor() - processor_begin_; }
+
+ private:
+  static double processor() {
+    return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
+  }
+
+  Clock::time_point begin_ = Clock::now();
+  double processor_begin_ = processor();
+};
 
 SolverStatistics operator+(const SolverStatistics& a, const SolverStatistics& b) {
   return {.steps = a.steps + b.steps,
@@ -263,15 +277,16 @@ class RunUnderway {
       ladder_watch_.emplace(experiment_.model.system, ladder_);
   }
 
-  // All that is known of a run after step k, where `solver` and `seconds` are those since it began
+  // All that is known of a run after step k, where `solver` and `watch` are those since it began
   // or went on.
   Checkpoint checkpoint(long k, const State& state, const Motion& motion,
-                        const SolverStatistics& solver, double seconds) const {
+                        const SolverStatistics& solver, const Stopwatch& watch) const {
     Checkpoint now{.run = results_.id,
                    .k = k,
                    .state = state,
                    .motion = motion,
-                   .wall_seconds = results_.wall_seconds + seconds,
+                   .wall_seconds = results_.wall_seconds + watch.wall_seconds(),
+                   .cpu_seconds = results_.cpu_seconds + watch.cpu_seconds(),
                    .solver = results_.solver + solver,
                    .statistics = results_.statistics.memory(),
                    .rows_at_times = results_.rows_at_times,
@@ -300,6 +315,7 @@ class RunUnderway {
     }
     results_.steps = checkpoint.k;
     results_.wall_seconds = checkpoint.wall_seconds;
+    results_.cpu_seconds = checkpoint.cpu_seconds;
     results_.solver = checkpoint.solver;
     results_.statistics.recall(checkpoint.statistics);
     results_.rows_at_times = checkpoint.rows_at_times;
@@ -320,7 +336,7 @@ class RunUnderway {
     const bool ahead = may_make_ahead() && time.steps - start.k >= kWorthAThread;
     RunSteps steps(*method.integrator, time, experiment_.output.epoch, std::move(start), ahead);
     if (!ahead) look_at(steps.stepper());
-    const auto begin = Clock::now();
+    const Stopwatch watch;
     try {
       bool going = true;
       steps.begin();
@@ -338,8 +354,7 @@ class RunUnderway {
         const Motion motion = steps.end_epoch();
         observer_.restart(steps.state());
         keeper_.keep([&] {
-          return checkpoint(steps.k(), steps.state(), motion, steps.statistics(),
-                            seconds_since(begin));
+          return checkpoint(steps.k(), steps.state(), motion, steps.statistics(), watch);
         });
       }
     } catch (const SolveError& error) {
@@ -348,7 +363,8 @@ class RunUnderway {
     } catch (const std::domain_error& error) {
       fail((results_.steps == 0 ? "/method: " : "") + without_place(error.what()));
     }
-    results_.wall_seconds += seconds_since(begin);
+    results_.wall_seconds += watch.wall_seconds();
+    results_.cpu_seconds += watch.cpu_seconds();
     results_.solver = results_.solver + steps.statistics();
     if (results_.status == RunStatus::completed && not_finite_) {
       results_.status = RunStatus::not_finite;

@@ -185,6 +185,7 @@ Json run_of_case(const SweepCase& one, const std::filesystem::path& folder, Back
   for (const auto& [name, value] : summary.final) values[name + ".final"] = value;
   values["iterations_per_step"] = summary.solver.iterations_per_step;
   values["wall_seconds"] = summary.wall_seconds;
+  values["cpu_seconds"] = summary.cpu_seconds;
   return {{"folder", one.name},
           {"status", to_string(summary.status)},
           {"message", message},

@@ -54,6 +54,7 @@ Checkpoint example() {
           .motion = {.is_predictable = true, .displacements = number(40)},
           .trajectory = {.size = 8000, .part = 4096, .hashes = {~std::uintmax_t{0}, 1}},
           .wall_seconds = 12.5,
+          .cpu_seconds = 24.25,
           .solver = {.steps = 1,
                      .iterations = 2,
                      .factorizations = 3,
@@ -130,6 +131,7 @@ void check_same(const Checkpoint& a, const Checkpoint& b) {
   BOOST_TEST(same(a.motion.displacements, b.motion.displacements));
   BOOST_TEST((a.trajectory == b.trajectory));
   BOOST_TEST(a.wall_seconds == b.wall_seconds);
+  BOOST_TEST(a.cpu_seconds == b.cpu_seconds);
   BOOST_TEST(a.solver.steps == b.solver.steps);
   BOOST_TEST(a.solver.iterations == b.solver.iterations);
   BOOST_TEST(a.solver.factorizations == b.solver.factorizations);

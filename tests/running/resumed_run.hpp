@@ -39,7 +39,7 @@ inline RunOutcome resume_in(const std::filesystem::path& folder, const Json& exp
 // What is the same in two summaries of one run, however often it was stopped.
 inline std::string lasting(const Json& summary) {
   Json json = summary;
-  for (const char* key : {"id", "wall_seconds", "steps_per_second"}) json.erase(key);
+  for (const char* key : {"id", "wall_seconds", "cpu_seconds", "steps_per_second"}) json.erase(key);
   return json.dump(1);
 }
 

@@ -87,6 +87,7 @@ BOOST_AUTO_TEST_CASE(a_summary_tells_coordinates_and_observables_apart) {
   results.of.steps = 4;
   results.of.solver = {.steps = 4, .iterations = 12, .factorizations = 2, .failures = 1};
   results.of.wall_seconds = 0.5;
+  results.of.cpu_seconds = 0.75;
   const RunSummary told = results.of.summary(RunStatus::interrupted, {});
   BOOST_TEST(told.id == "0123");
   BOOST_TEST((told.status == RunStatus::interrupted));
@@ -105,6 +106,7 @@ BOOST_AUTO_TEST_CASE(a_summary_tells_coordinates_and_observables_apart) {
   BOOST_TEST(told.solver.iterations_per_step == 3.0);
   BOOST_TEST(told.solver.factorizations_per_step == 0.5);
   BOOST_TEST(told.solver.failures.value() == 1);
+  BOOST_TEST(told.cpu_seconds == 0.75);
   BOOST_TEST(told.steps_per_second == 8.0);
   BOOST_TEST(told.events.empty());
   BOOST_TEST(!told.power_balance);

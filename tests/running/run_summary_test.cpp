@@ -31,6 +31,7 @@ RunSummary example() {
                      .ladder = LadderReport{.verdict = Verdict::regular, .index = 1},
                      .backend = "native",
                      .wall_seconds = 0.25,
+                     .cpu_seconds = 0.375,
                      .steps_per_second = 68.0};
   summary.observables = {
       {"H",
@@ -83,6 +84,7 @@ BOOST_AUTO_TEST_CASE(what_is_missing_or_null_is_not_known) {
   BOOST_TEST(!least.power_balance);
   BOOST_TEST(!least.solver.failures);
   BOOST_TEST(std::isnan(least.wall_seconds));
+  BOOST_TEST(std::isnan(least.cpu_seconds));
   BOOST_TEST(!least.ladder);
   Json json = to_json(example());
   json["observables"]["H"]["max"] = nullptr;
