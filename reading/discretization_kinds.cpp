@@ -37,6 +37,25 @@ std::optional<DiscretizationChoice> theta_map(ObjectReader& object) {
                 [theta](const ManifoldPointer& M) { return std::make_shared<Theta>(M, theta); });
 }
 
+[[noreturn]] void refuse(const std::string& map, const std::string& home, const Manifold& M) {
+  throw std::invalid_argument("the discretization \"" + map + "\" is for " + home +
+                              ", but the configurations are on " + M.name() +
+                              "; expected \"midpoint\"");
+}
+
+// Half a step of the cotangent lift of Theta(0), then half a step of its adjoint.
+std::optional<DiscretizationChoice> verlet(ObjectReader&) {
+  return DiscretizationChoice{"verlet",
+                              [](const ManifoldPointer& M) -> MapPointer {
+                                const auto bundle =
+                                    std::dynamic_pointer_cast<const CotangentBundle>(M);
+                                if (!bundle) refuse("verlet", "cotangent bundles", *M);
+                                return std::make_shared<CotangentLift>(
+                                    bundle, std::make_shared<Theta>(bundle->base(), 0.0));
+                              },
+                              true};
+}
+
 // A map that only some manifolds have, on M or, factor by factor, on a product of them; flat
 // factors get the midpoint map, which is what each of these maps is there.
 template <class Make>
@@ -50,12 +69,6 @@ MapPointer on_factors(const ManifoldPointer& M, const Make& make) {
   if (dynamic_cast<const Euclidean*>(M.get()) || dynamic_cast<const Torus*>(M.get()))
     return std::make_shared<Theta>(M, 0.5);
   return make(M);
-}
-
-[[noreturn]] void refuse(const std::string& map, const std::string& home, const Manifold& M) {
-  throw std::invalid_argument("the discretization \"" + map + "\" is for " + home +
-                              ", but the configurations are on " + M.name() +
-                              "; expected \"midpoint\"");
 }
 
 std::optional<DiscretizationChoice> exponential(ObjectReader&) {
@@ -101,7 +114,7 @@ std::optional<DiscretizationChoice> cayley(ObjectReader&) {
 
 // A map of the surrounding manifold with its ends projected to a submanifold.
 std::optional<DiscretizationChoice> projected(ObjectReader& object) {
-  const auto map = discretization_kinds().read_key(object, "map");
+  const auto map = read_map(object, "map");
   if (!map) return std::nullopt;
   const auto on_submanifold = [make = map->make](const ManifoldPointer& M) -> MapPointer {
     const auto submanifold = std::dynamic_pointer_cast<const ImplicitSubmanifold>(M);
@@ -117,9 +130,21 @@ std::optional<DiscretizationChoice> projected(ObjectReader& object) {
 
 }  // namespace
 
+std::optional<DiscretizationChoice> read_map(ObjectReader& object, const std::string& key) {
+  auto choice = discretization_kinds().read_key(object, key);
+  if (!choice || !choice->is_half) return choice;
+  object.optional(key)->problem(
+      "is \"verlet\", which is made of two maps; expected one map, such as \"midpoint\"");
+  return std::nullopt;
+}
+
 Registry<DiscretizationChoice>& discretization_kinds() {
   static Registry<DiscretizationChoice> kinds({
       {{"midpoint", "R_d(x, v) = (R_x(-v/2), R_x(v/2)), symmetric, order 2"}, midpoint},
+      {{"verlet",
+        "half a step of Theta(0), then half a step of Theta(1), on cotangent bundles: order 2, "
+        "symmetric, symplectic; explicit for H = T(p) + V(q), RATTLE with constraints on q"},
+       verlet},
       {{"exponential", "midpoint, where the retraction is the exponential map"}, exponential},
       {{"chordal", "the symmetric map (2) of spheres, and of products of them"}, chordal},
       {{"spherical-midpoint", "(x√(1-v²/4) - v/2, x√(1-v²/4) + v/2) on spheres, and products"},

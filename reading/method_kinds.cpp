@@ -3,6 +3,7 @@
 #include <array>
 
 #include "courant/integrators/maps/cotangent_lift.hpp"
+#include "courant/integrators/maps/staggered.hpp"
 #include "courant/integrators/maps/theta.hpp"
 #include "courant/integrators/methods/composition.hpp"
 #include "courant/integrators/methods/constrain_first.hpp"
@@ -13,6 +14,8 @@
 #include "courant/integrators/methods/integrator_in_units.hpp"
 #include "courant/integrators/methods/matched_start.hpp"
 #include "courant/integrators/methods/reduced_map.hpp"
+#include "courant/integrators/methods/staggering.hpp"
+#include "courant/integrators/methods/verlet.hpp"
 #include "courant/reading/method_in_units.hpp"
 #include "courant/reading/transformed_time.hpp"
 
@@ -94,12 +97,30 @@ std::array<MapPointer, 2> damped_maps(const MethodSetting& at) {
   return {theta_map(DampedComposition::kThetas[0]), theta_map(DampedComposition::kThetas[1])};
 }
 
+// R_d of Verlet. On spaces that are no cotangent bundles coordinates are told apart by what they move by.
+MapPointer half_at(const DiscretizationChoice& map, const MethodSetting& at) {
+  const auto& M = at.system->manifold();
+  if (std::dynamic_pointer_cast<const CotangentBundle>(M)) return map.make(M);
+  const auto classes = staggering({at.system, at.ladder, VectorFieldFormulas::Freedom::none});
+  if (classes) return std::make_shared<Staggered>(M, *classes);
+  throw std::invalid_argument(
+      "the discretization \"verlet\" is for positions and momenta, or for coordinates in two "
+      "classes that move by "
+      "each other, as charges and fluxes without resistors do; on " +
+      M->name() + " they are not. Expected \"midpoint\"");
+}
+
+std::shared_ptr<const Integrator> in_halves(const MethodSetting& at, const MapPointer& map) {
+  return std::make_shared<Verlet>(at.system, at.ladder, map,
+                                  Verlet::Options{.backend = at.backend});
+}
+
 // A method of one or two maps, the order that is asked for, 0 for its own, and where it starts.
 template <class Make>
 PreparedMethod with_maps(const DiscretizationChoice& map, bool is_damped, int order,
                          const MethodSetting& at, const Make& make) {
   if (!is_damped) {
-    const auto on_manifold = map_at(map, at);
+    const auto on_manifold = map.is_half ? half_at(map, at) : map_at(map, at);
     return {composed(make(on_manifold), order), at.initial, on_manifold};
   }
   const auto maps = damped_maps(at);
@@ -119,6 +140,12 @@ std::optional<MethodChoice> discretize_first(ObjectReader& object) {
         "damping");
     return std::nullopt;
   }
+  if (rk2 && map->is_half) {
+    object.optional("start")->problem(
+        "is \"rk2\", which is about one step of the midpoint rule; expected \"on-manifold\" with "
+        "the discretization \"verlet\"");
+    return std::nullopt;
+  }
   if (rk2 && *order > 2) {
     object.optional("start")->problem(
         "is \"rk2\", which is about one step of order 2; expected \"on-manifold\" with order " +
@@ -135,14 +162,23 @@ std::optional<MethodChoice> discretize_first(ObjectReader& object) {
                                     ", but on a system with constraints steps of discretize-first "
                                     "are not near the identity, and compositions of them stay at "
                                     "order 2; expected \"constrain-first\"");
+        if (map.is_half && at.ladder.degrees_of_freedom < at.system->manifold()->dimension())
+          throw ExperimentError(
+              "/method/discretization",
+              "is \"verlet\", but on a system with constraints the equations of both halves leave "
+              "the "
+              "momentum at the end of a step open along the constraints; expected "
+              "\"constrain-first\", which knows that it is on M_f");
         if (rk2 && at.own)
           throw std::invalid_argument(
               "the start \"rk2\" is about one step of a given length of time; expected "
               "\"on-manifold\" with a transformation of time");
         return prepared_in_units(
             [&](const MethodSetting& in_units) {
-              PreparedMethod method =
-                  with_maps(map, is_damped, order, in_units, [&](const MapPointer& on_manifold) {
+              PreparedMethod method = with_maps(
+                  map, is_damped, order, in_units,
+                  [&](const MapPointer& on_manifold) -> std::shared_ptr<const Integrator> {
+                    if (map.is_half) return in_halves(in_units, on_manifold);
                     return std::make_shared<DiscretizeFirst>(
                         in_units.system, on_manifold,
                         DiscretizeFirst::Options{.backend = in_units.backend});
@@ -155,27 +191,44 @@ std::optional<MethodChoice> discretize_first(ObjectReader& object) {
       [is_damped = *is_damped](const MethodSetting&) { return !is_damped; }};
 }
 
+// Whether this is what stands for a key that is missing, written as a word or as an object.
+bool is_default(const ObjectReader& object, const std::string& key, const Json& value) {
+  const Json& word = object.declared_default(key);
+  return value == word || value == Json{{"type", word}};
+}
+
 std::optional<MethodChoice> constrain_first(ObjectReader& object) {
   const auto map = discretization_kinds().read_key(object, "discretization");
   const auto projector = projector_kinds().read_key(object, "projector");
   const auto order = read_order(object);
   const auto is_damped = read_damping(object, map);
   if (!map || !projector || !order || !is_damped) return std::nullopt;
+  if (const auto given = object.optional("projector");
+      given && map->is_half && !is_default(object, "projector", given->value())) {
+    given->problem(
+        "takes no part in the discretization \"verlet\", whose multipliers lead to M_f; expected "
+        "no "
+        "projector");
+    return std::nullopt;
+  }
   return MethodChoice{
-      "constrain-first, " + map->description + damping_text(*is_damped) + ", " +
-          projector->description + order_text(*order),
+      "constrain-first, " + map->description + damping_text(*is_damped) +
+          (map->is_half ? "" : ", " + projector->description) + order_text(*order),
       [map = *map, projector = *projector, order = *order,
        is_damped = *is_damped](const MethodSetting& at) {
         const auto prepare = [&](const MethodSetting& in_units) {
-          return with_maps(map, is_damped, order, in_units, [&](const MapPointer& on_manifold) {
-            return std::make_shared<ConstrainFirst>(
-                in_units.system, in_units.ladder, on_manifold, projector_at(projector, in_units),
-                ConstrainFirst::Options{.backend = in_units.backend});
-          });
+          return with_maps(map, is_damped, order, in_units,
+                           [&](const MapPointer& on_manifold) -> std::shared_ptr<const Integrator> {
+                             if (map.is_half) return in_halves(in_units, on_manifold);
+                             return std::make_shared<ConstrainFirst>(
+                                 in_units.system, in_units.ladder, on_manifold,
+                                 projector_at(projector, in_units),
+                                 ConstrainFirst::Options{.backend = in_units.backend});
+                           });
         };
         // Without constraints nothing is projected.
         const bool is_free = at.ladder.degrees_of_freedom == at.system->manifold()->dimension();
-        if (projector.is_of_units || is_free) return prepared_in_units(prepare, at);
+        if (projector.is_of_units || is_free || map.is_half) return prepared_in_units(prepare, at);
         PreparedMethod method = prepare(at);
         if (needed_units(at.system, at.ladder.point))
           method.warning =
@@ -190,7 +243,7 @@ std::optional<MethodChoice> constrain_first(ObjectReader& object) {
 }
 
 std::optional<MethodChoice> reduced(ObjectReader& object) {
-  const auto map = discretization_kinds().read_key(object, "discretization");
+  const auto map = read_map(object, "discretization");
   const auto order = read_order(object);
   if (!map || !order) return std::nullopt;
   return MethodChoice{
@@ -228,7 +281,7 @@ std::shared_ptr<const DiscreteDifferential> differential(const std::string& name
 }
 
 std::optional<MethodChoice> discrete_gradient(ObjectReader& object) {
-  const auto map = discretization_kinds().read_key(object, "discretization");
+  const auto map = read_map(object, "discretization");
   const std::string gradient = object.word("gradient");
   if (!map) return std::nullopt;
   return MethodChoice{"discrete-gradient, " + gradient + ", " + map->description,

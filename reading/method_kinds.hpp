@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "courant/core/expressions/function.hpp"
@@ -58,6 +59,8 @@ struct MethodChoice {
 struct DiscretizationChoice {
   std::string description;
   std::function<std::shared_ptr<const DiscretizationMap>(std::shared_ptr<const Manifold>)> make;
+  // Whether a step is half a step of this map, then half a step of its adjoint (Verlet).
+  bool is_half = false;
 };
 
 // The choice of a projector; `make` throws std::invalid_argument where it does not fit the
@@ -72,5 +75,7 @@ struct ProjectorChoice {
 Registry<MethodChoice>& method_kinds();
 Registry<DiscretizationChoice>& discretization_kinds();
 Registry<ProjectorChoice>& projector_kinds();
+// The discretization at `key`, where it has to be one map; nothing, and a problem, for "verlet".
+std::optional<DiscretizationChoice> read_map(ObjectReader& object, const std::string& key);
 
 }  // namespace courant

@@ -42,7 +42,7 @@ class CProgram {
         step_(step_program(*prepared_.integrator)),
         observed_(experiment, ladder_),
         rows_(step_, observed_, *system_.manifold()) {
-    if (step_.explicit_steps && rows_.measures_steps())
+    if (!step_.solve && rows_.measures_steps())
       throw ExperimentError("/observe",
                             "what goes through ports in explicit steps is measured by a run "
                             "alone; expected no energies and no observables at the stage");
@@ -64,7 +64,9 @@ class CProgram {
 
     // What is written last says how large the arrays of the first have to be.
     add_functions();
-    const std::string steps = step_.solve ? solved_steps() : explicit_steps();
+    const std::string steps = step_.solve    ? solved_steps()
+                              : step_.direct ? direct_steps()
+                                             : explicit_steps();
     const std::string rows = rows_.measurement(ladder_.point);
     std::string all = head() + sizes(state);
     all += text::numbers();
@@ -100,6 +102,13 @@ class CProgram {
   }
 
   void add_functions() {
+    if (const auto& direct = step_.direct) {
+      functions_.add("begin_steps", direct->beginning.inputs, direct->beginning.outputs,
+                     "what is known where a step begins");
+      functions_.add("make_step", direct->step.inputs, direct->step.outputs,
+                     "where it leads, and what is known there");
+      functions_.add("end_step", direct->ending.inputs, direct->ending.outputs, "v and z there");
+    }
     if (const auto* field = this->field()) {
       functions_.add(
           {.symbol = "field",
@@ -371,6 +380,50 @@ class CProgram {
     for (std::size_t j = 0; j < row.size(); ++j)
       if (row[j]) sum += " + h * " + c_number(*row[j]) + " * k[" + std::to_string(j) + "][i]";
     return "  for (i = 0; i < COORDINATES; ++i) " + to + "[i] = " + sum + ";\n";
+  }
+
+  std::string direct_steps() const {
+    const Index known = step_.direct->beginning.outputs.size();
+    return "/* ---- a step "
+           "---------------------------------------------------------------------------------------"
+           "-----"
+           " */\n\n" +
+           c_define("KNOWN", known) + c_define("PARTS", std::ssize(step_.substeps)) +
+           "/* A step is made of steps of these parts of it. */\nstatic const double parts[PARTS] "
+           "= " +
+           c_array(Eigen::Map<const VectorXd>(step_.substeps.data(), std::ssize(step_.substeps))) +
+           ";\n"
+           "static double known[KNOWN + 1]; /* at the state */\n\n"
+           "/* From t to the time `end`. */\n"
+           "static void step(struct state *state, double h, double end) {\n"
+           "  static double points[2][COORDINATES + KNOWN + 1];\n"
+           "  double rates[VELOCITIES + AUXILIARIES + 1], share = 0.0;\n  int i, k;\n"
+           "  memcpy(points[0], state->x, COORDINATES * sizeof(double));\n"
+           "  memcpy(points[0] + COORDINATES, known, KNOWN * sizeof(double));\n"
+           "  for (k = 0; k < PARTS; ++k) {\n"
+           "    const double part = parts[k] * h, t = state->t + share * h;\n"
+           "    const double *from = points[k % 2];\n"
+           "    double *to = points[(k + 1) % 2];\n"
+           "    const double *in[INPUTS] = {from, from + COORDINATES, &part, &t};\n"
+           "    make_step(in, to);\n"
+           "    share += parts[k];\n"
+           "    if (k + 1 == PARTS) {\n"
+           "      const double *of_end[INPUTS] = {from, from + COORDINATES, to + COORDINATES, "
+           "&part, "
+           "&t};\n"
+           "      end_step(of_end, rates);\n"
+           "    }\n"
+           "  }\n"
+           "  memcpy(state->x, points[PARTS % 2], COORDINATES * sizeof(double));\n"
+           "  memcpy(known, points[PARTS % 2] + COORDINATES, KNOWN * sizeof(double));\n"
+           "  memcpy(state->v, rates, VELOCITIES * sizeof(double));\n"
+           "  memcpy(state->z, rates + VELOCITIES, AUXILIARIES * sizeof(double));\n"
+           "  for (i = 0; i < COORDINATES; ++i)\n"
+           "    if (!isfinite(state->x[i])) fail(\"leads to a state that is not finite\");\n"
+           "  state->t = end;\n}\n\n"
+           "static void begin_epoch(struct state *state) {\n"
+           "  const double *in[INPUTS] = {state->x, &state->t};\n"
+           "  begin_steps(in, known);\n}\n\n";
   }
 
   std::string explicit_steps() const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "courant/integrators/methods/composed_differential.hpp"
+#include "courant/integrators/methods/verlet.hpp"
 #include "courant/integrators/step/step_parts.hpp"
 
 namespace courant {
@@ -169,6 +170,8 @@ std::shared_ptr<const StepDifferential> Composition::do_differential() const {
 }
 
 std::unique_ptr<Stepper> Composition::do_stepper() const {
+  if (const auto* verlet = dynamic_cast<const Verlet*>(method_.get()))
+    if (auto explicit_steps = verlet->composed(coefficients(order_), name())) return explicit_steps;
   return std::make_unique<Trajectory>(method_, order_, name());
 }
 

@@ -20,6 +20,7 @@ class Integrator;
 //   solves    y with the equations = 0, then (x₁, v, …) = advanced(y; …)      DisplacementStepper
 //             the same with a projection after it                             ConstrainFirst
 //   explicit  a tableau of evaluations of a VectorField                       ExplicitRungeKutta
+//   direct    formulas for where it leads                                     Verlet, where it is explicit
 //
 // Where the space has equations of its own x₁ is kept to them as RoundOffProjection does, and where tangent vectors need
 // a basis it is that of MovingBasis.
@@ -74,6 +75,14 @@ struct StepProgram {
     const VectorFieldFormulas* field = nullptr;  // of the method, which has to outlive this
   };
   std::optional<Explicit> explicit_steps = {};
+
+  // Each of the substeps by formulas: (x₁, r₁) of (x₀, r₀), where r is what one leaves for the next.
+  struct Direct {
+    Function::Formulas beginning;  // x₀, t ↦ r₀
+    Function::Formulas step;       // x₀, r₀, h, t ↦ x₁, r₁
+    Function::Formulas ending;     // x₀, r₀, r₁, h, t ↦ v, z
+  };
+  std::optional<Direct> direct = {};
 
   // In which all this is, if not in those of the system: states are measured before a step, and restored.
   std::optional<Units> units = {};

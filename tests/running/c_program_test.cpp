@@ -111,6 +111,13 @@ BOOST_AUTO_TEST_CASE(programs_forget_where_runs_do) {
   free["method"] = {{"type", "constrain-first"}};
   free["output"]["epoch"] = 100;
   check_same_bytes("Method 2 without constraints", free);
+  for (const int order : {2, 8}) {
+    Json halves = oscillator;
+    halves["method"]["discretization"] = "verlet";
+    halves["method"]["order"] = order;
+    halves["output"]["epoch"] = 100;
+    check_same_bytes("verlet", halves);
+  }
   Json composed = oscillator;
   composed["method"]["order"] = 6;
   composed["output"]["epoch"] = 100;

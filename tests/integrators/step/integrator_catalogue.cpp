@@ -20,6 +20,7 @@
 #include "courant/integrators/methods/integrator_in_units.hpp"
 #include "courant/integrators/methods/reduced_map.hpp"
 #include "courant/integrators/methods/transformed_integrator.hpp"
+#include "courant/integrators/methods/verlet.hpp"
 #include "courant/integrators/step/projector.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/special_euclidean3.hpp"
@@ -108,6 +109,12 @@ class Site {
                                                 std::shared_ptr<const Projector> projector) const {
     return std::make_shared<ConstrainFirst>(system_, ladder_, map, std::move(projector));
   }
+  std::shared_ptr<const Integrator> in_halves(const MapPointer& map) const {
+    return std::make_shared<Verlet>(system_, ladder_, map);
+  }
+  void verlet(const std::string& map_name, const MapPointer& map) const {
+    add("verlet, " + map_name, in_halves(map));
+  }
   void reduced(const std::string& map_name, const MapPointer& map) const {
     add("reduced, " + map_name,
         std::make_shared<ReducedMap>(std::dynamic_pointer_cast<const DiracSystem>(system_), map));
@@ -178,6 +185,9 @@ void on_vector_spaces(std::vector<IntegratorEntry>& table) {
       "discretize-first",
       std::make_shared<DiscretizeFirst>(driven, lift(M, std::make_shared<Theta>(line))),
       {{4, 1.0}, {6, 4.0}, {8, 6.0}});
+  pendulum.verlet("theta = 0", lift(M, std::make_shared<Theta>(line, 0.0)));
+  pendulum.composed("verlet", pendulum.in_halves(lift(M, std::make_shared<Theta>(line, 0.0))),
+                    {{4, 1.0}, {6, 4.0}, {8, 6.0}});
   pendulum.explicit_methods(3.0);
   pendulum.damped_1();
   const auto lifted =
@@ -207,6 +217,7 @@ void of_energies(std::vector<IntegratorEntry>& table) {
                      table);
   coupled.discrete_gradients("midpoint", lift(M, std::make_shared<Theta>(line)));
   coupled.discrete_gradients("theta = 0", std::make_shared<Theta>(M, 0.0));
+  coupled.verlet("theta = 0", lift(M, std::make_shared<Theta>(line, 0.0)));
 
   // Ports: resistance that depends on the point, an input of time and output, feedthrough.
   const auto plane = std::make_shared<Euclidean>(2);
@@ -252,6 +263,8 @@ void of_energies(std::vector<IntegratorEntry>& table) {
           1));
   Site("rod", rod, {.x = Eigen::Vector4d(0.6, -0.8, 0.24, 0.18)}, 0.1, table)
       .discrete_gradients("midpoint", lift(N, std::make_shared<Theta>(plane)));
+  Site("rod", rod, {.x = Eigen::Vector4d(0.6, -0.8, 0.24, 0.18)}, 0.1, table)
+      .verlet("theta = 0", lift(N, std::make_shared<Theta>(plane, 0.0)));
 }
 
 void with_constraints(std::vector<IntegratorEntry>& table) {
@@ -303,6 +316,7 @@ void on_manifolds(std::vector<IntegratorEntry>& table) {
                       {.x = (VectorXd(6) << 0.6, 0.0, -0.8, 0.4, 0.5, 0.3).finished()}, 0.1, table);
   pendulum.method_1("chordal", lift(M, std::make_shared<Chordal>(sphere)));
   pendulum.method_1("theta = 1", lift(M, std::make_shared<Theta>(sphere, 1.0)));
+  pendulum.verlet("theta = 0", lift(M, std::make_shared<Theta>(sphere, 0.0)));
   pendulum.damped_1();
   pendulum.discrete_gradients("chordal", lift(M, std::make_shared<Chordal>(sphere)));
 
@@ -323,6 +337,7 @@ void on_manifolds(std::vector<IntegratorEntry>& table) {
   VectorXd x(12);
   x << 1, 0, 0, 0, 0.6, -0.8, 0, 0.8, 0.6, 0.3, -0.5, 0.9;
   const Site spinning("heavy top", top, {.x = x}, 0.1, table);
+  spinning.verlet("theta = 0", lift(N, std::make_shared<Theta>(rotations, 0.0)));
   spinning.method_1("cayley", lift(N, std::make_shared<CayleyMidpoint>(rotations)));
   spinning.discrete_gradients("cayley", lift(N, std::make_shared<CayleyMidpoint>(rotations)));
 }
