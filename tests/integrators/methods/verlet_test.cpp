@@ -21,6 +21,9 @@ using namespace courant;
 using examples::equations;
 using examples::FormulaSystem;
 using examples::Kepler;
+
+BOOST_AUTO_TEST_SUITE(verlet_step)
+
 using V = const ExprVector&;
 using T = const Expr&;
 
@@ -92,8 +95,6 @@ double order_to(const Integrator& method, const State& from, double time, const 
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(verlet_step)
 
 BOOST_AUTO_TEST_CASE(steps_of_a_separable_energy_are_those_of_stoermer) {
   const Kepler kepler{.eccentricity = 0.6};
