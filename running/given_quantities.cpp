@@ -71,7 +71,10 @@ InitialValues with_quantities(const Experiment& experiment) {
   y.head(N) = initial.x.values;
   y.tail(m) = experiment.model.system->auxiliary_guess(initial.x.values, VectorXd());
   for (Index i = 0; i < initial.z.given.size(); ++i)
-    if (initial.z.given[i]) y[N + n + i] = initial.z.values[i];
+    if (initial.z.given[i]) {
+      y[N + n + i] = initial.z.values[i];
+      width[N + n + i] = 0.0;
+    }
   for (Index i = 0; i < N; ++i)
     if (initial.x.given[i]) width[i] = 0.0;
   for (Index i = 0; i < N; ++i)

@@ -72,8 +72,7 @@ Json ResultFolder::result_in(const fs::path& path, const std::string& kind) {
   return result.is_object() && result.value("kind", Json()) == kind ? result : Json();
 }
 
-void ResultFolder::check(const fs::path& path, const std::string& kind, bool replace,
-                         bool resume) {
+void ResultFolder::check(const fs::path& path, const std::string& kind, bool replace, bool resume) {
   LockedFolder::check_place(path);
   if (LockedFolder::is_in_use(path)) refuse_folder(path, kResultIsWritten);
   const std::vector<fs::path> files = files_of(path, kind);
@@ -89,8 +88,7 @@ void ResultFolder::check(const fs::path& path, const std::string& kind, bool rep
 
 namespace {
 
-const fs::path& checked(const fs::path& path, const std::string& kind, bool replace,
-                        bool resume) {
+const fs::path& checked(const fs::path& path, const std::string& kind, bool replace, bool resume) {
   ResultFolder::check(path, kind, replace, resume);
   return path;
 }

@@ -89,7 +89,8 @@ Json outcome(const SweepCase& one, const std::function<Json(const SweepCase&)>& 
 // What a run of the experiment has left in a folder; nothing where there is none that could go on.
 std::optional<RunSummary> run_in_folder(const std::filesystem::path& folder,
                                         const Experiment& experiment) {
-  if (!file_exists(folder / "summary.json") || !file_exists(folder / "experiment.json"))
+  if (!std::filesystem::exists(folder / "summary.json") ||
+      !std::filesystem::exists(folder / "experiment.json"))
     return std::nullopt;
   const Json begun = read_json(folder / "experiment.json");
   const RunSummary summary = read_summary(folder / "summary.json");
