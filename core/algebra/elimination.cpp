@@ -15,6 +15,7 @@
 #include "courant/core/expressions/function.hpp"
 #include "courant/core/expressions/subgraph.hpp"
 #include "courant/core/linear/equilibration.hpp"
+#include "courant/core/numbers/quadruple.hpp"
 
 namespace courant {
 namespace {
@@ -287,22 +288,55 @@ class Tableau {
   std::set<Index> columns_left_;
 };
 
-// Which expressions are zero for all values of their variables, as cos² a + sin² a - 1: no more than
-// round-off at any of some generic points.
-std::vector<bool> are_identities(const ExprVector& expressions) {
-  constexpr int points = 3;
-  const ExprVector variables = variables_of(expressions);
-  const Function function("identities", {{"p", variables}}, expressions);
-  std::vector<bool> result(static_cast<std::size_t>(expressions.size()), true);
-  std::vector<Uncertain> at(static_cast<std::size_t>(variables.size())), values(result.size());
+// Generic points.
+constexpr int kPoints = 3;
+std::vector<VectorXd> generic_points(Index variables) {
   std::mt19937 generator(11);
   std::uniform_real_distribution<double> uniform(0.3, 0.9);
-  for (int point = 0; point < points; ++point) {
-    for (Uncertain& number : at) number = uniform(generator);
-    const Uncertain* in[] = {at.data()};
-    function.taylor_with_jacobian(in, 0, values.data());
-    for (std::size_t i = 0; i < values.size(); ++i)
+  std::vector<VectorXd> points;
+  for (int k = 0; k < kPoints; ++k)
+    points.push_back(VectorXd::NullaryExpr(variables, [&] { return uniform(generator); }));
+  return points;
+}
+
+template <class Number>
+std::vector<Number> values_at(const Function& function, const VectorXd& point) {
+  const std::vector<Number> at(point.begin(), point.end());
+  std::vector<Number> values(static_cast<std::size_t>(function.output_size()));
+  const Number* in[] = {at.data()};
+  function.taylor_with_jacobian(in, 0, values.data());
+  return values;
+}
+
+// Which expressions are zero for all values of their variables, as cos² a + sin² a - 1: at generic points they are no
+// more than round-off, and shrink with it when the digits double. A bound of the round-off alone is no evidence: of a
+// chain of hundreds of equations it grows beyond all numbers.
+std::vector<bool> are_identities(const ExprVector& expressions) {
+  constexpr double shrunk = 1e-10;  // doubles have 10⁻¹⁶, and the others 10⁻³⁴
+  const ExprVector variables = variables_of(expressions);
+  const std::vector<VectorXd> points = generic_points(variables.size());
+  const Function all("identities", {{"p", variables}}, expressions);
+  std::vector<bool> result(static_cast<std::size_t>(expressions.size()), true);
+  for (const VectorXd& point : points) {
+    const auto values = values_at<Uncertain>(all, point);
+    for (std::size_t i = 0; i < result.size(); ++i)
       result[i] = result[i] && std::fabs(values[i].value) <= values[i].error;
+  }
+  std::vector<Index> small;
+  for (std::size_t i = 0; i < result.size(); ++i)
+    if (result[i]) small.push_back(static_cast<Index>(i));
+  if (small.empty()) return result;
+  const Function some("identities", {{"p", variables}}, expressions(small));
+  for (const VectorXd& point : points) {
+    const auto coarse = values_at<Uncertain>(some, point);
+    const auto fine = values_at<Quadruple>(some, point);
+    for (std::size_t i = 0; i < small.size(); ++i) {
+      const double number = std::fabs(coarse[i].value),
+                   more = std::fabs(static_cast<double>(fine[i]));
+      // Of functions that have no value in more digits the bound is all that is known.
+      if (number > 0.0 && more > shrunk * number)
+        result[static_cast<std::size_t>(small[i])] = false;
+    }
   }
   return result;
 }

@@ -7,6 +7,7 @@
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/core/expressions/expr_vectors.hpp"
 #include "courant/core/expressions/function.hpp"
+#include "courant/core/linear/qr_decomposition.hpp"
 
 namespace courant {
 BOOST_AUTO_TEST_SUITE(elimination_test)
@@ -202,6 +203,38 @@ BOOST_AUTO_TEST_CASE(a_long_chain_is_not_filled) {
   BOOST_TEST(e.kept.size() == static_cast<std::size_t>(n));
   const Function G("G", {{"y", y}, {"h", h}}, e.equations, {.differentiate = {"y"}});
   BOOST_TEST(G.nonzeros() <= 3 * n);
+}
+
+// Slices that conduct heat behind one store, x, for one step of size h: the equation that is left last is no identity, however
+// many slices there are, and x moves as the sum of a series of resistances says: f_0 = x n/(n + 1).
+BOOST_AUTO_TEST_CASE(long_chains_are_solved) {
+  for (const Index n : {10, 150, 250, 400, 1000}) {
+    Graph graph;
+    const ExprVector y = graph.variables("y", n + 1), h = graph.variables("h", 1);
+    const ExprVector x0 = graph.variables("x0", 1);
+    ExprVector F(n + 1);
+    F[0] = (y[0] - x0[0]) / h[0] + 31250.0 * y[1];
+    for (Index k = 1; k <= n; ++k) {
+      const Expr before = k == 1 ? y[0] / 62500.0 : y[k - 1];
+      F[k] = 62500.0 * ((k == n ? Expr(0.0) : y[k + 1]) - 2.0 * y[k] + before);
+    }
+    std::vector<int> coarseness(static_cast<std::size_t>(n + 1), 1);
+    coarseness[0] = 0;
+    const Elimination e(F, y, {.never_zero = h, .coarseness = coarseness});
+    BOOST_TEST(e.remaining.size() == e.kept.size());
+    BOOST_REQUIRE(!e.kept.empty());
+    ExprVector u(std::ssize(e.kept));
+    for (std::size_t k = 0; k < e.kept.size(); ++k) u[static_cast<Index>(k)] = y[e.kept[k]];
+    const Function G("G", {{"u", u}, {"x0", x0}, {"h", h}}, e.equations, {.differentiate = {"u"}});
+    const std::vector<VectorXd> at = {VectorXd::Zero(u.size()), VectorXd::Constant(1, 2.0),
+                                      VectorXd::Constant(1, 0.5)};
+    const VectorXd found = -QrDecomposition::in_order(G.jacobian(at)).solve(G(at));
+    const Function Y("Y", {{"u", u}, {"x0", x0}, {"h", h}}, e.unknowns);
+    const VectorXd all = Y({found, at[1], at[2]});
+    const double size = static_cast<double>(n), part = size / (size + 1.0) / 62500.0;
+    BOOST_TEST(all[0] == 2.0 / (1.0 + 0.5 * 31250.0 * part), boost::test_tools::tolerance(1e-9));
+    BOOST_TEST(all[n] == all[0] / (size + 1.0) / 62500.0, boost::test_tools::tolerance(1e-6));
+  }
 }
 
 BOOST_AUTO_TEST_CASE(arguments_are_checked) {
