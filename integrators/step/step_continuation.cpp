@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "courant/core/linear/solver_choice.hpp"
@@ -93,6 +94,7 @@ void StepContinuation::evaluate(double sigma, bool with_jacobian) {
     equations_.value_and_jacobian(in_.data(), all_.data());
   else
     equations_.value(in_.data(), all_.data());
+  if (given_.size() > 0) all_.head(given_.size()) -= part_ * given_;
 }
 
 // The largest of these changes of displacements, next to their sizes. `change`: for each contained
@@ -256,17 +258,32 @@ StepContinuation::Result StepContinuation::follow(VectorXd& y, const Inputs& par
   is_determined_ = all_.allFinite() && solver_->factorize(all_.data() + equations_.output_size()) &&
                    solver_->is_determined();
   Result result;
+  std::optional<Result> ended;  // a curve from the state, so near it that round-off may be why
   for (const Attempt& attempt : {Attempt{true, true, beginning, kUnseen * seen},
                                  Attempt{false, true, beginning, kUnseen * seen},
                                  Attempt{false, false, kFarthest, kShortest},
                                  Attempt{false, false, kBeginning, kShortest}}) {
+    if (!attempt.leads_back && is_determined_ && carries(start, size, result)) {
+      y = u_;
+      result.begins_at_state = true;
+      break;
+    }
+    if (ended) {
+      if (attempt.leads_back) continue;
+      result = *ended;
+      set(point_.u, point_.sigma, y);
+      break;
+    }
     if (!begins(attempt, start, size, result)) continue;
     // What begins where displacements are hardly seen may end in their round-off.
     const bool is_conclusive = attempt.leads_back && point_.sigma >= seen;
     track(size, result);
     result.begins_at_state = attempt.leads_back;
     set(point_.u, point_.sigma, y);
-    if (result.arrived || is_conclusive) break;
+    if (result.arrived) break;
+    if (!is_conclusive) continue;
+    if (result.reached >= kFarthest) break;
+    ended = result;
   }
   return result;
 }
@@ -314,6 +331,44 @@ void StepContinuation::track(double size, Result& result) {
   result.arrived = point_.sigma == 1.0;
   result.arcs = arcs;
   result.reached = point_.sigma;
+}
+
+// From the prediction to u_, the solution at σ = 1, by parts of what the equations leave there.
+bool StepContinuation::carries(const VectorXd& start, double size, Result& result) {
+  const Index rows = equations_.output_size();
+  u_ = start;
+  evaluate(1.0, true);
+  if (!all_.allFinite() || !solver_->factorize(all_.data() + rows)) return false;
+  orientation_ = solver_->orientation();
+  vanishes_ = true;
+  given_ = all_.head(rows);
+  VectorXd from = start, direction(std::ssize(contained_));
+  solver_->solve(given_.data(), direction.data());
+  double tau = 0.0, length = 1.0;
+  int arcs = 0;
+  while (tau < 1.0 && length >= kEnd) {
+    const double next = tau + length >= 1.0 ? 1.0 : tau + length;
+    u_ = from;
+    for (std::size_t k = 0; k < contained_.size(); ++k)
+      u_[contained_[k]] -= (next - tau) * direction[static_cast<Index>(k)];
+    part_ = 1.0 - next;
+    if (direction.allFinite() && converges(1.0, size, kNear, result)) {
+      tau = next;
+      from = u_;
+      ++arcs;
+      length *= 2.0;
+      solver_->solve(given_.data(), direction.data());
+    } else {
+      length *= 0.3;
+    }
+  }
+  given_.resize(0);
+  result.arrived = tau == 1.0;
+  if (result.arrived) {
+    result.arcs = arcs;
+    result.reached = 1.0;
+  }
+  return result.arrived;
 }
 
 void StepContinuation::accept(double sigma) {

@@ -23,7 +23,12 @@ namespace courant {
 //
 // Where the state does not obey all equations, as after a step of Method 1 with constraints,
 // displacements do not vanish for σ → 0: the curve begins with a jump to where they hold. Where they have
-// no limit either it begins at a tenth of the step, with any solution that Newton's method finds. So near
+// no limit either, as velocities that grow like 1/σ and multipliers like 1/σ², what the state predicts is carried to the
+// solution at the step itself, along
+//
+//   G(y; h) = (1 - τ) G(y₀; h),   τ from 0 to 1
+//
+// by arcs like those above, and last the curve begins at a tenth of the step, with any solution that Newton's method finds. So near
 // the state that the matrix loses rank to round-off, which that of the step itself has, nothing is seen, and
 // no curve begins. One object a trajectory.
 class StepContinuation {
@@ -64,6 +69,7 @@ class StepContinuation {
 
   bool begins(const Attempt& attempt, const VectorXd& start, double size, Result& result);
   void track(double size, Result& result);
+  bool carries(const VectorXd& start, double size, Result& result);
   bool reaches(double next, double size, Result& result);
   // Newton's method from u_, for σ. False: it does not contract, or its first change is more than
   // `near`.
@@ -89,6 +95,8 @@ class StepContinuation {
   // Unknowns of this σ with displacements and shifts divided by σ, and their derivative by σ.
   VectorXd u_, tangent_;
   VectorXd predicted_;
+  VectorXd given_;     // G(y₀; h) where the prediction is carried, else empty
+  double part_ = 0.0;  // 1 - τ
   VectorXd y_, all_, step_, rate_;
 };
 
