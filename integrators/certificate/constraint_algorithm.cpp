@@ -35,11 +35,10 @@ std::vector<Movement> movements(const ImplicitSystem& system, const InitialGuess
 
 // Counts what other points of the final constraint set need as well, now and a moment later: a
 // multiplier that is zero at this point, as x₁ of a rod in the plane x₁ = 0, is not along a motion
-// that leaves it, nor that of a rope that hangs straight until its crane begins to move.
+// that leaves it, nor that of a rope that hangs straight until its crane begins to move. Sizes are those of the jet, `reach`.
 void count_differentiations_nearby(ConstraintLadder& ladder, const ConsistentPoint& consistent,
-                                   const ConsistentJet& at) {
-  if (at.array.has_constant_jacobian()) return;
-  TangentDisplacement tangents(at.array, at.zero.y, at.zero.reach);
+                                   const ConsistentJet& at, const VectorXd& reach) {
+  TangentDisplacement tangents(at.array, at.zero.y, reach);
   constexpr double nearby = 1e-2;
   const int looks = at.array.depends_on_time() ? 4 : 2;
   for (int i = 0; i < looks; ++i) {
@@ -53,6 +52,20 @@ void count_differentiations_nearby(ConstraintLadder& ladder, const ConsistentPoi
     for (std::size_t e = 0; e < counts.size(); ++e)
       ladder.differentiations[e] = std::max(ladder.differentiations[e], counts[e]);
   }
+}
+
+// By two sizes: a coordinate of 10⁻⁹ beside others may be small, or stand for zero, and then nothing is seen of what is
+// needed as near as that.
+void count_differentiations_nearby(ConstraintLadder& ladder, const ConsistentPoint& consistent,
+                                   const ConsistentJet& at) {
+  const Index n = at.array.base_size();
+  if (at.array.has_constant_jacobian() || n == 0) return;
+  VectorXd reach = at.zero.reach;
+  count_differentiations_nearby(ladder, consistent, at, reach);
+  if (reach.head(n).minCoeff() == reach.head(n).maxCoeff()) return;
+  for (const Index first : {Index{0}, n})
+    reach.segment(first, n).setConstant(reach.segment(first, n).maxCoeff());
+  count_differentiations_nearby(ladder, consistent, at, reach);
 }
 
 // Why the levels did not end.
