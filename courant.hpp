@@ -43,6 +43,7 @@
 #include "courant/integrators/methods/transformed_integrator.hpp"
 #include "courant/integrators/step/field_projector.hpp"
 #include "courant/integrators/step/fixed_time_projector.hpp"
+#include "courant/integrators/step/kinetic_projector.hpp"
 #include "courant/integrators/step/step_energies.hpp"
 #include "courant/integrators/step/vector_field.hpp"
 #include "courant/manifolds/cotangent_bundle.hpp"

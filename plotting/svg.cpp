@@ -10,14 +10,7 @@ namespace courant::plot {
 std::string escape(std::string_view text) {
   std::string escaped;
   escaped.reserve(text.size());
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    // U+0080 … U+009F, which are controls as well, are C2 80 … C2 9F.
-    if (c == '\xc2' && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xa0) {
-      escaped += "\uFFFD";
-      ++i;
-      continue;
-    }
+  for (const char c : text) {
     switch (c) {
       case '&':
         escaped += "&amp;";

@@ -53,7 +53,7 @@ class ProjectorOfPython final : public Projector {
   explicit ProjectorOfPython(std::string name) : Projector(std::move(name)) {}
 
  private:
-  ExprMatrix do_directions(const ExprVector& x, const LinearMap<Expr>& tangents,
+  ExprMatrix do_directions(const ExprVector& x, const Expr&, const LinearMap<Expr>& tangents,
                            const ExprMatrix& conormals) const override {
     const py::gil_scoped_acquire locked;
     return to_matrix(required<Projector>(this, "directions")(traced(x), traced(tangents.matrix()),

@@ -11,12 +11,10 @@
 #include "courant/integrators/methods/discrete_gradient.hpp"
 #include "courant/integrators/methods/discretize_first.hpp"
 #include "courant/integrators/methods/explicit_runge_kutta.hpp"
-#include "courant/integrators/methods/integrator_in_units.hpp"
 #include "courant/integrators/methods/matched_start.hpp"
 #include "courant/integrators/methods/reduced_map.hpp"
 #include "courant/integrators/methods/staggering.hpp"
 #include "courant/integrators/methods/verlet.hpp"
-#include "courant/reading/method_in_units.hpp"
 #include "courant/reading/transformed_time.hpp"
 
 namespace courant {
@@ -128,6 +126,16 @@ PreparedMethod with_maps(const DiscretizationChoice& map, bool is_damped, int or
           at.initial, maps[1]};
 }
 
+// Steps of Method 1 that leave constraints in between are not near the identity, and compositions of them stay at order 2.
+void require_no_constraints(int order, const MethodSetting& at, const std::string& method) {
+  if (order <= 2 || at.ladder.degrees_of_freedom == at.system->manifold()->dimension()) return;
+  throw ExperimentError("/method/order",
+                        "is " + std::to_string(order) +
+                            ", but on a system with constraints steps of " + method +
+                            " are not near the identity, and compositions of them stay at order 2; "
+                            "expected \"constrain-first\"");
+}
+
 std::optional<MethodChoice> discretize_first(ObjectReader& object) {
   const auto map = discretization_kinds().read_key(object, "discretization");
   const bool rk2 = object.word("start") == "rk2";
@@ -156,12 +164,7 @@ std::optional<MethodChoice> discretize_first(ObjectReader& object) {
       "discretize-first, " + map->description + damping_text(*is_damped) + order_text(*order) +
           (rk2 ? ", started by rk2" : ""),
       [map = *map, order = *order, is_damped = *is_damped, rk2](const MethodSetting& at) {
-        if (order > 2 && at.ladder.degrees_of_freedom < at.system->manifold()->dimension())
-          throw ExperimentError("/method/order",
-                                "is " + std::to_string(order) +
-                                    ", but on a system with constraints steps of discretize-first "
-                                    "are not near the identity, and compositions of them stay at "
-                                    "order 2; expected \"constrain-first\"");
+        require_no_constraints(order, at, "discretize-first");
         if (map.is_half && at.ladder.degrees_of_freedom < at.system->manifold()->dimension())
           throw ExperimentError(
               "/method/discretization",
@@ -173,20 +176,15 @@ std::optional<MethodChoice> discretize_first(ObjectReader& object) {
           throw std::invalid_argument(
               "the start \"rk2\" is about one step of a given length of time; expected "
               "\"on-manifold\" with a transformation of time");
-        return prepared_in_units(
-            [&](const MethodSetting& in_units) {
-              PreparedMethod method = with_maps(
-                  map, is_damped, order, in_units,
-                  [&](const MapPointer& on_manifold) -> std::shared_ptr<const Integrator> {
-                    if (map.is_half) return in_halves(in_units, on_manifold);
-                    return std::make_shared<DiscretizeFirst>(
-                        in_units.system, on_manifold,
-                        DiscretizeFirst::Options{.backend = in_units.backend});
-                  });
-              if (rk2) method.initial = start_of_method_1(in_units, *method.map);
-              return method;
-            },
-            at);
+        PreparedMethod method = with_maps(
+            map, is_damped, order, at,
+            [&](const MapPointer& on_manifold) -> std::shared_ptr<const Integrator> {
+              if (map.is_half) return in_halves(at, on_manifold);
+              return std::make_shared<DiscretizeFirst>(
+                  at.system, on_manifold, DiscretizeFirst::Options{.backend = at.backend});
+            });
+        if (rk2) method.initial = start_of_method_1(at, *method.map);
+        return method;
       },
       [is_damped = *is_damped](const MethodSetting&) { return !is_damped; }};
 }
@@ -216,25 +214,19 @@ std::optional<MethodChoice> constrain_first(ObjectReader& object) {
           (map->is_half ? "" : ", " + projector->description) + order_text(*order),
       [map = *map, projector = *projector, order = *order,
        is_damped = *is_damped](const MethodSetting& at) {
-        const auto prepare = [&](const MethodSetting& in_units) {
-          return with_maps(map, is_damped, order, in_units,
-                           [&](const MapPointer& on_manifold) -> std::shared_ptr<const Integrator> {
-                             if (map.is_half) return in_halves(in_units, on_manifold);
-                             return std::make_shared<ConstrainFirst>(
-                                 in_units.system, in_units.ladder, on_manifold,
-                                 projector_at(projector, in_units),
-                                 ConstrainFirst::Options{.backend = in_units.backend});
-                           });
-        };
+        const ProjectorChoice::Made made =
+            map.is_half ? ProjectorChoice::Made{} : projector_at(projector, at);
+        PreparedMethod method =
+            with_maps(map, is_damped, order, at,
+                      [&](const MapPointer& on_manifold) -> std::shared_ptr<const Integrator> {
+                        if (map.is_half) return in_halves(at, on_manifold);
+                        return std::make_shared<ConstrainFirst>(
+                            at.system, at.ladder, on_manifold, made.projector,
+                            ConstrainFirst::Options{.backend = at.backend});
+                      });
         // Without constraints nothing is projected.
-        const bool is_free = at.ladder.degrees_of_freedom == at.system->manifold()->dimension();
-        if (projector.is_of_units || is_free || map.is_half) return prepared_in_units(prepare, at);
-        PreparedMethod method = prepare(at);
-        if (needed_units(at.system, at.ladder.point))
-          method.warning =
-              "The numbers of this system are far apart, and its steps are made with them as they "
-              "are, since the projector has units of its own: changes of the small ones may be "
-              "lost. Expected the default projector, or other units.";
+        if (at.ladder.degrees_of_freedom < at.system->manifold()->dimension())
+          method.metric = made.metric;
         return method;
       },
       [is_damped = *is_damped](const MethodSetting& at) {
@@ -253,6 +245,7 @@ std::optional<MethodChoice> reduced(ObjectReader& object) {
           throw std::invalid_argument(
               "\"reduced\" takes no transformation of time; expected another method, such as "
               "\"discretize-first\"");
+        require_no_constraints(order, at, "reduced");
         const auto system = std::dynamic_pointer_cast<const DiracSystem>(at.system);
         const auto structure =
             system ? std::dynamic_pointer_cast<const LiePoisson>(system->structure()) : nullptr;
@@ -300,9 +293,7 @@ std::optional<MethodChoice> explicit_runge_kutta(ObjectReader& object) {
   const auto prepare = [](const MethodSetting& at) {
     return PreparedMethod{explicit_method(at, kind), at.initial};
   };
-  return MethodChoice{object.optional("type")->text().value(), [prepare](const MethodSetting& at) {
-                        return prepared_in_units(prepare, at);
-                      }};
+  return MethodChoice{object.optional("type")->text().value(), prepare};
 }
 
 }  // namespace

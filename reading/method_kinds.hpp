@@ -42,7 +42,8 @@ struct PreparedMethod {
   // In transformed time: the method that makes the integrator's steps, whose laws are those of the extended
   // system.
   std::shared_ptr<const TransformedIntegrator> transformed = {};
-  std::string warning = {};  // what a run with it has to say; empty: nothing
+  // What a projector measures moves by, "kinetic", "euclidean" or "given"; empty where nothing is measured.
+  std::string metric = {};
 };
 
 // The choice of a method, before there is a system to make it for.
@@ -66,10 +67,12 @@ struct DiscretizationChoice {
 // The choice of a projector; `make` throws std::invalid_argument where it does not fit the
 // manifold, ExperimentError where its formulas or names do not fit the system.
 struct ProjectorChoice {
+  struct Made {
+    std::shared_ptr<const Projector> projector;
+    std::string metric = {};  // as of PreparedMethod
+  };
   std::string description;
-  std::function<std::shared_ptr<const Projector>(const MethodSetting&)> make;
-  // Whether it is the same projector whatever the units of coordinates are.
-  bool is_of_units = false;
+  std::function<Made(const MethodSetting&)> make;
 };
 
 Registry<MethodChoice>& method_kinds();

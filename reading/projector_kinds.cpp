@@ -1,7 +1,7 @@
 #include "courant/core/linear/cholesky_decomposition.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/integrators/step/field_projector.hpp"
-#include "courant/integrators/step/natural_units.hpp"
+#include "courant/integrators/step/kinetic_projector.hpp"
 #include "courant/reading/method_kinds.hpp"
 
 namespace courant {
@@ -18,9 +18,20 @@ struct NamedValue {
 // What a metric may be given by. Formulas and names are looked at when there is a system.
 struct MetricChoice {
   std::optional<WrittenFormulas> formulas = {};
+  std::string word = {};  // "kinetic", "euclidean", or nothing where nothing is said
   std::string pointer = {};
-  bool is_euclidean = false;
 };
+
+constexpr const char* kKinetic = "kinetic";
+constexpr const char* kEuclidean = "euclidean";
+constexpr const char* kGiven = "given";
+// The words for a metric.
+std::vector<std::string> metric_words() { return {kKinetic, kEuclidean}; }
+
+[[noreturn]] void refuse_kinetic(const MetricChoice& metric, const std::string& why) {
+  throw ExperimentError(metric.pointer, "is \"kinetic\", but " + why +
+                                            "; expected \"euclidean\" or a matrix of formulas");
+}
 
 const Vocabulary& names(const MethodSetting& at) {
   if (!at.vocabulary)
@@ -78,18 +89,17 @@ Projector::MatrixFormula metric_formula(const MetricChoice& metric, Index size,
   return formula;
 }
 
-std::optional<MetricChoice> read_metric(ObjectReader& object,
-                                        const std::vector<std::string>& words) {
+std::optional<MetricChoice> read_metric(ObjectReader& object) {
   const auto key = object.optional("metric");
   if (!key) return MetricChoice{};
   if (key->value().is_string()) {
-    const auto word = key->word(words);
+    const auto word = key->word(metric_words());
     if (!word) return std::nullopt;
-    return MetricChoice{.is_euclidean = *word == "euclidean"};
+    return MetricChoice{.word = *word, .pointer = key->pointer()};
   }
   auto formulas = read_formulas(*key);
   if (!formulas) return std::nullopt;
-  return MetricChoice{std::move(formulas), key->pointer()};
+  return MetricChoice{.formulas = std::move(formulas), .pointer = key->pointer()};
 }
 
 std::optional<std::vector<NamedValue>> read_weights(ObjectReader& object) {
@@ -119,29 +129,37 @@ ProjectorPointer weighted(const std::vector<NamedValue>& weights, const MethodSe
 }
 
 std::optional<ProjectorChoice> orthogonal(ObjectReader& object) {
-  const auto metric = read_metric(object, {"euclidean"});
+  const auto metric = read_metric(object);
   const auto weights = read_weights(object);
   if (!metric || !weights) return std::nullopt;
-  if (!weights->empty() && (metric->formulas || metric->is_euclidean)) {
+  if (!weights->empty() && (metric->formulas || !metric->word.empty())) {
     object.optional("weights")->problem("are given beside a metric; expected one of the two");
     return std::nullopt;
   }
   return ProjectorChoice{
       "orthogonal projector",
-      [metric = *metric, weights = *weights](const MethodSetting& at) -> ProjectorPointer {
+      [metric = *metric, weights = *weights](const MethodSetting& at) -> ProjectorChoice::Made {
         const auto manifold = at.system->manifold();
-        if (metric.is_euclidean) return std::make_shared<OrthogonalProjector>();
-        if (!weights.empty()) return weighted(weights, at);
-        if (!metric.formulas)
-          return std::make_shared<OrthogonalProjector>(natural_units(at.system, at.ladder));
-        const MatrixXd basis = manifold->tangent_basis(at.initial.x);
-        return std::make_shared<OrthogonalProjector>(
-            *manifold, metric_formula(metric, manifold->tangent_dimension(), at,
-                                      [&](const MatrixXd& G) -> MatrixXd {
-                                        return basis.transpose() * G * basis;
-                                      }));
-      },
-      !metric->is_euclidean && !metric->formulas && weights->empty()};
+        if (!weights.empty()) return {weighted(weights, at), kGiven};
+        if (metric.formulas) {
+          const MatrixXd basis = manifold->tangent_basis(at.initial.x);
+          return {std::make_shared<OrthogonalProjector>(
+                      *manifold, metric_formula(metric, manifold->tangent_dimension(), at,
+                                                [&](const MatrixXd& G) -> MatrixXd {
+                                                  return basis.transpose() * G * basis;
+                                                })),
+                  kGiven};
+        }
+        const bool is_free = at.ladder.degrees_of_freedom == manifold->dimension();
+        if (metric.word != kEuclidean && !is_free) {
+          if (auto kinetic = KineticProjector::of(at.system, at.ladder)) return {kinetic, kKinetic};
+          if (metric.word == kKinetic)
+            refuse_kinetic(metric,
+                           "the system has no kinetic energy g^ij p_i p_j / 2 on a cotangent "
+                           "bundle that measures its constraints");
+        }
+        return {std::make_shared<OrthogonalProjector>(), kEuclidean};
+      }};
 }
 
 // The momenta of pairs (position, momentum), as entries of x.
@@ -202,29 +220,38 @@ std::vector<Index> momenta(const std::vector<WrittenPair>& pairs, const MethodSe
 }
 
 std::optional<ProjectorChoice> momentum(ObjectReader& object) {
-  const auto metric = read_metric(object, {"kinetic", "euclidean"});
+  const auto metric = read_metric(object);
   const auto pairs = read_pairs(object);
   if (!metric || !pairs) return std::nullopt;
   return ProjectorChoice{
       "momentum projector",
-      [metric = *metric, pairs = *pairs](const MethodSetting& at) -> ProjectorPointer {
+      [metric = *metric, pairs = *pairs](const MethodSetting& at) -> ProjectorChoice::Made {
         const auto manifold = at.system->manifold();
         const std::vector<Index> moving = momenta(pairs, at);
         Projector::MatrixFormula formula;
-        if (metric.formulas)
+        std::string name = kEuclidean;
+        if (metric.formulas) {
           formula = metric_formula(metric, static_cast<Index>(moving.size()), at,
                                    [](const MatrixXd& g) { return g; });
-        else if (metric.is_euclidean)
-          formula = [k = static_cast<Index>(moving.size())](const ExprVector&) -> ExprMatrix {
-            return ExprMatrix::Identity(k, k);
-          };
-        else
-          formula = MomentumProjector::kinetic_metric(at.system, moving, at.initial.x);
-        const VectorXd units = natural_units(at.system, at.ladder);
+          name = kGiven;
+        } else if (metric.word != kEuclidean) {
+          if (const auto kinetic = kinetic_metric(at.system, moving, at.initial.x)) {
+            formula = kinetic->lower;
+            name = kKinetic;
+          } else if (metric.word == kKinetic) {
+            refuse_kinetic(metric, "the system has no kinetic energy g^ij p_i p_j / 2");
+          }
+        }
+        // What is small next to other momenta is so in the metric.
+        VectorXd units;
+        if (formula) {
+          units = VectorXd::Ones(manifold->tangent_dimension());
+          units(moving) = values(formula(constants(at.initial.x))).diagonal().cwiseSqrt();
+        }
         const auto bundle = std::dynamic_pointer_cast<const CotangentBundle>(manifold);
         if (bundle && pairs.empty())
-          return std::make_shared<MomentumProjector>(bundle, formula, units);
-        return std::make_shared<MomentumProjector>(*manifold, moving, formula, units);
+          return {std::make_shared<MomentumProjector>(bundle, formula, units), name};
+        return {std::make_shared<MomentumProjector>(*manifold, moving, formula, units), name};
       }};
 }
 
@@ -249,7 +276,7 @@ ProjectorPointer along_fields(const WrittenFormulas& fields, const std::string& 
     throw ExperimentError(pointer, "is not tangent to " + M.name() +
                                        " at the initial point, off by " +
                                        number_text(across.norm()) + "; expected tangent vectors");
-  return std::make_shared<FieldProjector>(M, count, columns, natural_units(at.system, at.ladder));
+  return std::make_shared<FieldProjector>(M, count, columns);
 }
 
 std::optional<ProjectorChoice> directions(ObjectReader& object) {
@@ -261,8 +288,9 @@ std::optional<ProjectorChoice> directions(ObjectReader& object) {
     return std::nullopt;
   }
   return ProjectorChoice{"projector along given directions",
-                         [fields = *fields, pointer = key->pointer()](const MethodSetting& at) {
-                           return along_fields(fields, pointer, at);
+                         [fields = *fields, pointer = key->pointer()](
+                             const MethodSetting& at) -> ProjectorChoice::Made {
+                           return {along_fields(fields, pointer, at)};
                          }};
 }
 
@@ -272,15 +300,17 @@ Registry<ProjectorChoice>& projector_kinds() {
   const Takes names = takes::array_of(takes::text(), 2, 2);
   static Registry<ProjectorChoice> kinds({
       {{"orthogonal",
-        "to the nearest point of M_f, next to natural units if nothing else is said",
+        "to the nearest point of M_f: on T*Q q in the metric g of the kinetic energy, then p in "
+        "its "
+        "inverse, if there is one and nothing else is said",
         {optional_key("weights", takes::weights(), "of Σ weight · movement², 1 if not named"),
-         optional_key("metric", takes::metric({"euclidean"}), "in which the point is nearest")}},
+         optional_key("metric", takes::metric(metric_words()), "in which the point is nearest")}},
        orthogonal},
       {{"momentum",
         "q stays, p moves as little as possible, in the metric of the energy if none is given",
         {optional_key("pairs", takes::array_of(names, 1),
                       "positions and their momenta, where M is no cotangent bundle"),
-         optional_key("metric", takes::metric({"kinetic", "euclidean"}), "g_ij of Section 8.2")}},
+         optional_key("metric", takes::metric(metric_words()), "g_ij of Section 8.2")}},
        momentum},
       {{"directions",
         "along vector fields of one's own, as many as M_f has constraints",

@@ -7,7 +7,6 @@
 #include "courant/integrators/maps/theta.hpp"
 #include "courant/integrators/methods/transformed_integrator.hpp"
 #include "courant/integrators/step/fixed_time_projector.hpp"
-#include "courant/integrators/step/natural_units.hpp"
 
 namespace courant {
 namespace {
@@ -76,19 +75,19 @@ std::shared_ptr<const DiscretizationMap> map_at(const DiscretizationChoice& choi
                    std::move(map), std::make_shared<Theta>(product->factors().back(), theta)});
 }
 
-std::shared_ptr<const Projector> projector_at(const ProjectorChoice& choice,
-                                              const MethodSetting& at) {
+ProjectorChoice::Made projector_at(const ProjectorChoice& choice, const MethodSetting& at) {
   if (!at.own) return choice.make(at);
   // There is nothing to project where the transformation is symplectic.
-  if (at.transformation->is_symplectic()) return std::make_shared<OrthogonalProjector>();
-  return std::make_shared<FixedTimeProjector>(choice.make(*at.own), at.own->system->manifold());
+  if (at.transformation->is_symplectic()) return {std::make_shared<OrthogonalProjector>()};
+  const ProjectorChoice::Made own = choice.make(*at.own);
+  return {std::make_shared<FixedTimeProjector>(own.projector, at.own->system->manifold()),
+          own.metric};
 }
 
 VectorXd units_at(const MethodSetting& at) {
-  if (!at.own) return natural_units(at.system, at.ladder);
-  const VectorXd own = natural_units(at.own->system, at.own->ladder);
-  VectorXd units(own.size() + 1);
-  units << own, kNoSize;
+  if (!at.own) return {};
+  VectorXd units = VectorXd::Ones(at.own->system->manifold()->tangent_dimension() + 1);
+  units.tail(1).setConstant(kNoSize);
   return units;
 }
 

@@ -14,11 +14,10 @@ MethodChoice in_transformed_time(MethodChoice choice, WrittenFormula rate);
 
 // What a method is made of, for a setting in its own time or in another one: the discretization map on
 // the manifold of its system, which may have time as a coordinate; a projector that leaves time as it
-// is; and typical sizes of the Ñ coordinates, where time has none.
+// is; and sizes of the Ñ components of tangent vectors, 1 but of time, which has none; empty where time is no coordinate.
 std::shared_ptr<const DiscretizationMap> map_at(const DiscretizationChoice& choice,
                                                 const MethodSetting& at);
-std::shared_ptr<const Projector> projector_at(const ProjectorChoice& choice,
-                                              const MethodSetting& at);
+ProjectorChoice::Made projector_at(const ProjectorChoice& choice, const MethodSetting& at);
 VectorXd units_at(const MethodSetting& at);
 
 }  // namespace courant

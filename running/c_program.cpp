@@ -164,7 +164,7 @@ class CProgram {
                      "vectors along which points are projected");
   }
   std::string turning_sizes(const StepProgram::Solve::Projection::Turning& of) const {
-    const auto& [constraints, matrices, A, P] = of.conormals;
+    const auto& [constraints, matrices, A, P, sizes] = of.conormals;
     std::vector<Index> row = A.row, column = A.column;
     row.insert(row.end(), P.row.begin(), P.row.end());
     column.insert(column.end(), P.column.begin(), P.column.end());

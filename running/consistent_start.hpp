@@ -1,7 +1,8 @@
 // From the initial values of an experiment to a consistent point.
 #pragma once
 
-#include "courant/running/impulsive_start.hpp"
+#include "courant/integrators/certificate/constraint_ladder.hpp"
+#include "courant/reading/experiment.hpp"
 
 namespace courant {
 
@@ -12,6 +13,6 @@ namespace courant {
 // Throws ExperimentError where the equations are not finite at the initial values, where held
 // values contradict the constraints, and where a value is missing that nothing determines. An
 // inconsistent system is a finding: its ladder says so.
-ConsistentStart consistent_start(const Experiment& experiment);
+ConstraintLadder consistent_start(const Experiment& experiment);
 
 }  // namespace courant

@@ -35,6 +35,7 @@ struct RunResults {
   long steps = 0;
   double t = 0.0;  // after the last of them
   SolverStatistics solver = {};
+  std::string metric = {};  // as of PreparedMethod
   std::string backend = "interpreter";
   double wall_seconds = 0.0;
   double cpu_seconds = 0.0;  // of all threads of this process

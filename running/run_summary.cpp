@@ -92,6 +92,7 @@ Json to_json(const RunSummary& summary) {
             {"title", summary.title},
             {"system", summary.system},
             {"method", summary.method},
+            {"metric", summary.metric},
             {"steps", summary.steps},
             {"time", Json::object()},
             {"final", Json::object()},
@@ -101,7 +102,6 @@ Json to_json(const RunSummary& summary) {
   json["expectations"] = Json::array();
   if (const auto& time = summary.time)
     json["time"] = {{"start", time->start}, {"end", time->end}, {"step", time->step}};
-  if (!summary.stopped_by.empty()) json["stopped_by"] = summary.stopped_by;
   for (const auto& [name, value] : summary.final) append_member(json["final"], name, value);
   for (const auto& [name, record] : summary.observables)
     json["observables"][name] = {
@@ -151,6 +151,7 @@ RunSummary read_run_summary(const Json& json) {
                      .title = text_at(json, "title"),
                      .system = text_at(json, "system"),
                      .method = text_at(json, "method"),
+                     .metric = text_at(json, "metric"),
                      .steps = count(json, "steps").value_or(0),
                      .backend = text_at(json, "backend"),
                      .wall_seconds = number(json, "wall_seconds"),
@@ -158,7 +159,6 @@ RunSummary read_run_summary(const Json& json) {
                      .steps_per_second = number(json, "steps_per_second")};
   if (json.contains("ladder")) summary.ladder = read_ladder(json.at("ladder"));
   for (const Json& warning : part(json, "warnings", nothing)) summary.warnings.push_back(warning);
-  summary.stopped_by = text_at(json, "stopped_by");
   if (const Json& time = part(json, "time", nothing); !time.empty())
     summary.time = {number(time, "start"), number(time, "end"), number(time, "step")};
   for (const auto& [name, value] : part(json, "final", nothing).items())

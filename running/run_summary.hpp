@@ -24,12 +24,13 @@ struct RunSummary {
   std::string message = {};  // why it did not complete
   std::vector<std::string> warnings = {};
   std::string title = {}, system = {}, method = {};
+  std::string metric =
+      {};  // of the projector: "kinetic", "euclidean" or "given"; empty: nothing is projected
   long steps = 0;
   struct Time {
     double start = kUnknown, end = kUnknown, step = kUnknown;
   };
   std::optional<Time> time = {};
-  std::string stopped_by = {};  // the event that ended it before its time
   std::vector<std::pair<std::string, double>> final = {};  // coordinates
   std::vector<std::pair<std::string, QuantityRecord>> observables = {};
   // What Noether's theorem says of the momentum of that name, which is an observable.

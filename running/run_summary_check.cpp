@@ -115,6 +115,7 @@ Kind summary_kind() {
        {"title", a_text},
        {"system", a_text, true},
        {"method", a_text, true},
+       {"metric", a_text},
        {"steps", a_number, true},
        {"time", an_object_of({{"start", a_number}, {"end", a_number}, {"step", a_number}})},
        {"final", dictionary_of(a_number)},

@@ -21,7 +21,7 @@ class WeightedProjector final : public Projector {
 
  private:
   // T*R² has no tangents Π but the identity, so conormals are C itself.
-  ExprMatrix do_directions(const ExprVector&, const LinearMap<Expr>&,
+  ExprMatrix do_directions(const ExprVector&, const Expr&, const LinearMap<Expr>&,
                            const ExprMatrix& conormals) const override {
     ExprMatrix directions = conormals;
     directions.bottomRows(directions.rows() / 2) /= Expr(weight_);

@@ -18,8 +18,9 @@ MatrixXd fixed_directions(const Manifold& M, const Projector& projector,
                           const ConstraintLadder& ladder) {
   const Index n = M.dimension(), d = n - ladder.degrees_of_freedom;
   if (d == 0 || n != M.tangent_dimension() || !projector.has_constant_directions(d)) return {};
-  MatrixXd W = projector.directions(ladder.point.x, LinearMap<double>::identity(n),
-                                    orthonormalized(ladder.conormals().transpose()));
+  MatrixXd W =
+      projector.directions(ladder.point.x, LinearMap<double>::identity(n),
+                           orthonormalized(ladder.conormals().transpose()), ladder.point.t);
   // Unit vectors where their span is the same: formulas become simpler.
   constexpr double round_off = 1e-12;
   const MatrixXd onto = W * W.transpose(), rounded = onto.array().round();
@@ -219,7 +220,10 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
       trace.corrected, compiled);
   conormals_ = {trace.conormals(), has_fixed_directions() ? Backend::interpreter : backend};
   if (!has_fixed_directions()) {
-    references_ = MovingConormals::references(orthonormalized(ladder.conormals().transpose()));
+    MatrixXd conormals = ladder.conormals().transpose();
+    if (const VectorXd sizes = projector_->conormal_sizes(); sizes.size() > 0)
+      conormals = (sizes.cwiseInverse().asDiagonal() * conormals).eval();
+    references_ = MovingConormals::references(orthonormalized(conormals));
     span_ = Function("directions", projector_->span_formulas(M, codimension_), compiled);
   }
   basis_ = MovingBasis::projection(M, backend);

@@ -5,9 +5,9 @@
 #include "courant/integrators/certificate/constraint_ladder.hpp"
 #include "courant/integrators/maps/discretization_map.hpp"
 #include "courant/integrators/step/integrator.hpp"
+#include "courant/integrators/step/kinetic_projector.hpp"
 #include "courant/integrators/step/moving_conormals.hpp"
 #include "courant/integrators/step/open_jets.hpp"
-#include "courant/integrators/step/projector.hpp"
 #include "courant/integrators/step/step_program.hpp"
 #include "courant/structures/implicit_system.hpp"
 
@@ -37,6 +37,10 @@ class ConstrainFirst final : public Integrator, public Programmed {
                  std::shared_ptr<const Projector> projector)
       : ConstrainFirst(std::move(system), ladder, std::move(map), std::move(projector), Options()) {
   }
+  // With usual_projector().
+  ConstrainFirst(const std::shared_ptr<const ImplicitSystem>& system,
+                 const ConstraintLadder& ladder, std::shared_ptr<const DiscretizationMap> map)
+      : ConstrainFirst(system, ladder, std::move(map), usual_projector(system, ladder)) {}
 
   std::string name() const override { return "constrain-first"; }
   int order() const override { return map_->order(); }

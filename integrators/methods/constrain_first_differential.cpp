@@ -101,8 +101,13 @@ class ConstrainFirst::Differential final : public StepDifferential {
     if (method_.fixed_directions_.size() > 0) return basis * method_.fixed_directions_;
     const MatrixXd C = differential_.conormals(place(x, t, evaluation), method_.codimension_);
     MatrixXd V = C;
+    MatrixXd sized = C;
+    if (const VectorXd sizes = method_.projector_->conormal_sizes(); sizes.size() > 0)
+      sized = sizes.cwiseInverse().asDiagonal() * C;
     if (method_.span_.output_size() > 0)
-      V = method_.span_({x, evaluation.basis().entries().reshaped(), C.reshaped()})
+      V = method_
+              .span_({x, evaluation.basis().entries().reshaped(), sized.reshaped(),
+                      VectorXd::Constant(1, t)})
               .reshaped(C.rows(), C.cols());
     return basis * method_.projector_->orthonormal_directions(V, evaluation.basis(), C);
   }

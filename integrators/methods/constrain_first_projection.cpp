@@ -150,7 +150,7 @@ void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& a
     } else {
       const double contraction = moved / previous;
       if (moved <= 1e-15 * size || contraction * moved <= kTolerance * size ||
-          (contraction >= 0.5 && moved < 1e-12 * (1.0 + size)))
+          (contraction >= 0.5 && moved < 1e-10 * (1.0 + size)))
         return;
     }
     guess_ = found_.head(guess_.size());
@@ -207,7 +207,7 @@ void ConstrainFirst::Projection::move_basis(const VectorXd& x, VectorXd& y) {
 void ConstrainFirst::Projection::aim(const VectorXd& x, const VectorXd& y, double t) {
   if (method_.has_fixed_directions()) return;
   conormals_.move_to({.jets = y.data(), .origin = x.data(), .basis = basis_.data(), .t = &t});
-  directions_.move_to(x, basis_.map(), conormals_.matrix());
+  directions_.move_to(x, t, basis_.map(), conormals_.matrix());
 }
 
 void ConstrainFirst::Projection::record() {

@@ -105,7 +105,7 @@ void ConstrainFirst::Trace::describe(const ConstrainFirst& method, const LocalFo
 
 MovingConormals::Formulas ConstrainFirst::Trace::conormals() const {
   return MovingConormals::trace(step.graph, constraints, jets, dimension, codimension,
-                                {{"x0", x0}, {"basis", basis_entries}, {"t", t}});
+                                {{"x0", x0}, {"basis", basis_entries}, {"t", t}}, conormal_sizes);
 }
 
 ConstrainFirst::Trace::Trace(const ConstrainFirst& method) {
@@ -114,6 +114,7 @@ ConstrainFirst::Trace::Trace(const ConstrainFirst& method) {
   const Manifold& M = *S.manifold();
   const Index n = dimension = M.dimension(), d = codimension = method.codimension_;
   const Graph& graph = step.graph;
+  conormal_sizes = method.projector_->conormal_sizes();
   x0 = graph.variables("x0", M.ambient_dimension());
   const LinearMap<Expr> basis = basis_variables(graph, M);
   basis_entries = basis_parameters(basis);

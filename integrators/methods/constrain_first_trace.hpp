@@ -20,6 +20,7 @@ struct ConstrainFirst::Trace {
   std::vector<std::string> constraint_names;
   ExprVector advanced, projected, shifted, corrected;
   Index dimension, codimension;
+  VectorXd conormal_sizes;  // of the projector
 
   MovingConormals::Formulas conormals() const;
 

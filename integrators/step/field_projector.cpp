@@ -22,8 +22,8 @@ FieldProjector::FieldProjector(const Manifold& manifold, Index count, const Matr
   fields_ = fields;
 }
 
-ExprMatrix FieldProjector::do_directions(const ExprVector& x, const LinearMap<Expr>& tangents,
-                                         const ExprMatrix&) const {
+ExprMatrix FieldProjector::do_directions(const ExprVector& x, const Expr&,
+                                         const LinearMap<Expr>& tangents, const ExprMatrix&) const {
   return tangents * fields_(x);
 }
 

@@ -23,7 +23,7 @@ class FieldProjector final : public Projector {
   }
 
  private:
-  ExprMatrix do_directions(const ExprVector& x, const LinearMap<Expr>& tangents,
+  ExprMatrix do_directions(const ExprVector& x, const Expr& t, const LinearMap<Expr>& tangents,
                            const ExprMatrix& conormals) const override;
 
   Index count_;

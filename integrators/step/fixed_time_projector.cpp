@@ -16,15 +16,16 @@ FixedTimeProjector::FixedTimeProjector(std::shared_ptr<const Projector> projecto
 }
 
 // Of T_(x,t)(M × R) the part of T_xM, and of covectors there what they say at the time t.
-ExprMatrix FixedTimeProjector::do_directions(const ExprVector& x, const LinearMap<Expr>& tangents,
+ExprMatrix FixedTimeProjector::do_directions(const ExprVector& x, const Expr&,
+                                             const LinearMap<Expr>& tangents,
                                              const ExprMatrix& conormals) const {
   const Index size = manifold_->tangent_dimension();
   const LinearMap<Expr> of_point =
       tangents.is_identity() ? LinearMap<Expr>::identity(size)
                              : LinearMap<Expr>(tangents.entries().topLeftCorner(size, size));
   ExprMatrix moves = ExprMatrix::Zero(conormals.rows(), conormals.cols());
-  moves.topRows(size) =
-      projector_->span(x.head(manifold_->ambient_dimension()), of_point, conormals.topRows(size));
+  const Index N = manifold_->ambient_dimension();
+  moves.topRows(size) = projector_->span(x.head(N), x[N], of_point, conormals.topRows(size));
   return moves;
 }
 

@@ -18,7 +18,7 @@ class FixedTimeProjector final : public Projector {
   }
 
  private:
-  ExprMatrix do_directions(const ExprVector& x, const LinearMap<Expr>& tangents,
+  ExprMatrix do_directions(const ExprVector& x, const Expr& t, const LinearMap<Expr>& tangents,
                            const ExprMatrix& conormals) const override;
   std::string do_advice() const override {
     return "Are there constraints of time alone? Expected constraints of the point at each time.";

@@ -50,19 +50,23 @@ MovingConormals::Functions::Functions(const Formulas& of, Backend backend)
                   {.differentiate = {of.constraints.inputs.front().name}}),
       matrices("conormal equations", of.matrices, {.backend = backend}),
       A(of.A),
-      P(of.P) {}
+      P(of.P),
+      sizes(of.sizes) {}
 
 MovingConormals::Formulas MovingConormals::trace(const Graph& graph, const ExprVector& F,
                                                  const ExprVector& jets, Index n, Index d,
-                                                 const std::vector<Function::Input>& parameters) {
+                                                 const std::vector<Function::Input>& parameters,
+                                                 const VectorXd& sizes) {
   Formulas result;
+  result.sizes = sizes;
   std::vector<Function::Input> inputs = {{"y", jets}};
   inputs.insert(inputs.end(), parameters.begin(), parameters.end());
   result.constraints = {inputs, F};
   const ExprVector w = graph.variables("w", F.size());
   const ExprVector entries = graph.variables("C", n * d);
   const ExprVector pulled = pull_back(F, jets, w);
-  const ExprVector conormal = pulled.head(n);
+  ExprVector conormal = pulled.head(n);
+  if (sizes.size() > 0) conormal = conormal.cwiseProduct(constants(sizes.cwiseInverse())).eval();
   std::vector<Expr> equations;
   for (const Expr& component : pulled.tail(pulled.size() - n))
     if (!component.is_constant() || component.value() != 0.0) equations.push_back(component);
@@ -145,7 +149,7 @@ void MovingConormals::forget() {
 }
 
 bool MovingConormals::continue_to(const Point& point, const MatrixXd& from) {
-  const auto& [constraints, matrices, A, P] = functions_;
+  const auto& [constraints, matrices, A, P, sizes] = functions_;
   const double* in[] = {point.jets, point.origin, point.basis, point.t, from.data()};
   matrices.value(in, entries_.data());
   if (!solver_->factorize(entries_.data())) return false;
@@ -256,7 +260,11 @@ void MovingConormals::find(const Point& point) {
   const MatrixXd gradients =
       (Q.rightCols(by_xi.rows() - others.rank()).transpose() * row.asDiagonal() * by_xi)
           .transpose();
-  conormals_ = QrDecomposition::pivoted(gradients).Q(d_);
+  conormals_ = QrDecomposition::pivoted(
+                   functions_.sizes.size() == 0
+                       ? gradients
+                       : MatrixXd(functions_.sizes.cwiseInverse().asDiagonal() * gradients))
+                   .Q(d_);
 }
 
 }  // namespace courant

@@ -33,6 +33,7 @@ class MovingConormals {
     // (ξ, …), x₀, basis, t, C  ↦  the entries of A and P.
     Function::Formulas matrices;
     MatrixPattern A, P;
+    VectorXd sizes;  // s, empty for 1
   };
   // Traced once for all trajectories, the constraints with their Jacobian.
   struct Functions {
@@ -40,10 +41,13 @@ class MovingConormals {
     Functions(const Formulas& of, Backend backend);
     Function constraints, matrices;
     MatrixPattern A, P;
+    VectorXd sizes;
   };
-  // `jets`: the variables (ξ, ξ', …, z, …), the first n of them ξ; `parameters`: x₀, basis, t.
+  // `jets`: the variables (ξ, ξ', …, z, …), the first n of them ξ; `parameters`: x₀, basis, t. `sizes`: s, all that is
+  // said here of conormals holds for c / s then, as of Projector::conormal_sizes; empty for 1.
   static Formulas trace(const Graph& graph, const ExprVector& F, const ExprVector& jets, Index n,
-                        Index d, const std::vector<Function::Input>& parameters);
+                        Index d, const std::vector<Function::Input>& parameters,
+                        const VectorXd& sizes = {});
 
   // `references`: of d covectors (Ñ × d) each, orthonormal; or none.
   MovingConormals(Functions functions, Index n, Index d, std::vector<MatrixXd> references = {});

@@ -27,13 +27,13 @@ MovingDirections::MovingDirections(const Projector& projector, Function span, In
       next_(d, d),
       make_orthonormal_(d) {}
 
-void MovingDirections::move_to(const VectorXd& x, const LinearMap<double>& basis,
+void MovingDirections::move_to(const VectorXd& x, double t, const LinearMap<double>& basis,
                                const MatrixXd& conormals) {
   if (projector_.is_orthogonal() || conormals.cols() == 0) {
     W_ = conormals;
     return;
   }
-  const double* const in[] = {x.data(), basis.entries().data(), conormals.data()};
+  const double* const in[] = {x.data(), basis.entries().data(), conormals.data(), &t};
   span_.value(in, V_.data());
   is_continued_ = continues(conormals);
   if (is_continued_) return;

@@ -17,9 +17,10 @@ class MovingDirections {
   // allowed.
   MovingDirections(const Projector& projector, Function span, Index n, Index d);
 
-  // W at x, near that of the last keep(), so that this can be repeated while a point is sought.
+  // W at x and t, near that of the last keep(), so that this can be repeated while a point is sought.
   // Arguments and errors as of Projector::directions().
-  void move_to(const VectorXd& x, const LinearMap<double>& basis, const MatrixXd& conormals);
+  void move_to(const VectorXd& x, double t, const LinearMap<double>& basis,
+               const MatrixXd& conormals);
   void keep();
   void discard();  // back to what keep() left
   void forget();

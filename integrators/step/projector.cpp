@@ -4,15 +4,12 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "courant/core/expressions/derivative.hpp"
 #include "courant/core/expressions/expr_vectors.hpp"
 #include "courant/core/expressions/linear_algebra.hpp"
-#include "courant/core/linear/cholesky_decomposition.hpp"
 #include "courant/core/linear/qr_decomposition.hpp"
 #include "courant/core/linear/singular_value_decomposition.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/integrators/certificate/local_formulation.hpp"
-#include "courant/structures/dirac_system.hpp"
 
 namespace courant {
 namespace {
@@ -20,6 +17,8 @@ namespace {
 // The sine of the angle between the directions and T_xM_f below which they count as no complement:
 // projecting would lose more than half of the digits.
 constexpr double kTransversality = 1e-8;
+// Columns that span directions are fewer than they seem below this.
+constexpr double kIndependent = 1e-13;
 
 // The formula, if it gives a matrix of that size.
 Projector::MatrixFormula checked(const char* name, const Manifold& manifold,
@@ -66,104 +65,6 @@ const CotangentBundle& checked(const std::shared_ptr<const CotangentBundle>& pha
   return *phase_space;
 }
 
-// (∂²H/∂p²)⁻¹, or empty.
-Projector::MatrixFormula metric_of_energy(const std::shared_ptr<const ImplicitSystem>& system,
-                                          const std::vector<Index>& momenta, const VectorXd& x) {
-  // ∂²H/∂p² along the frame, with 1 across M, where there is nothing to be moved.
-  const auto inverse_metric = [system, momenta](const ExprVector& at) -> ExprMatrix {
-    const Manifold& M = *system->manifold();
-    Graph graph;
-    const ExprVector y = graph.variables("x", at.size());
-    const ExprVector z = graph.variables("z", system->auxiliary_size());
-    const Expr t = graph.variable("t");
-    const auto energy = system->energy(y, z, t);
-    if (!energy) return {};
-    const ExprMatrix E = M.frame(y);
-    const auto k = static_cast<Index>(momenta.size());
-    const ExprVector slope = E.transpose() * gradient(*energy, y);
-    ExprVector selected(k);
-    for (Index i = 0; i < k; ++i) selected[i] = slope[momenta[static_cast<std::size_t>(i)]];
-    const ExprMatrix along = jacobian(selected, y).dense() * E;
-    const ExprMatrix projector = M.tangent_projector(y);
-    ExprMatrix result(k, k);
-    for (Index i = 0; i < k; ++i)
-      for (Index j = 0; j < k; ++j) {
-        const Index row = momenta[static_cast<std::size_t>(i)],
-                    column = momenta[static_cast<std::size_t>(j)];
-        result(i, j) = along(i, column) + Expr(i == j ? 1.0 : 0.0) - projector(row, column);
-      }
-    ExprVector other(z.size() + 1);
-    other << z, t;
-    const ExprVector entries = result.reshaped();
-    if (jacobian(entries, other).values.size() > 0) return {};
-    const ExprVector moved = substitute(entries, y, at);
-    return moved.reshaped(k, k);
-  };
-  const auto metric = [inverse_metric](const ExprVector& at) -> ExprMatrix {
-    const ExprMatrix inverse = inverse_metric(at);
-    return solve(inverse, ExprMatrix::Identity(inverse.rows(), inverse.cols()));
-  };
-  const auto k = static_cast<Index>(momenta.size());
-  const ExprMatrix inverse = inverse_metric(constants(x));
-  if (k == 0 || inverse.rows() != k) return {};
-  try {
-    const MatrixXd g = values(metric(constants(x))), G = values(inverse);
-    if (!g.allFinite() || !G.allFinite()) return {};
-    if (!((G * g - MatrixXd::Identity(k, k)).norm() < 1e-8)) return {};
-  } catch (const std::domain_error&) {
-    return {};
-  }
-  return metric;
-}
-
-// ∂²L/∂w² of E = ⟨p, w⟩ - L(q, w) and what constraints add to it, where the w are the parameters
-// with ∂E/∂p_i = w_i; or empty.
-Projector::MatrixFormula metric_of_lagrangian(const std::shared_ptr<const ImplicitSystem>& system,
-                                              const std::vector<Index>& momenta,
-                                              const VectorXd& x) {
-  const auto* dirac = dynamic_cast<const DiracSystem*>(system.get());
-  const auto bundle = std::dynamic_pointer_cast<const CotangentBundle>(system->manifold());
-  if (!dirac || !bundle || momenta != MomentumProjector::momenta_of(*bundle)) return {};
-  const auto metric = [family = dirac->family(), bundle](const ExprVector& at) -> ExprMatrix {
-    Graph graph;
-    const ExprVector y = graph.variables("x", at.size());
-    const ExprVector lambda = graph.variables("lambda", family->parameter_size());
-    const Expr t = graph.variable("t");
-    const Expr E = family->value(y, lambda, t);
-    const ExprVector p = bundle->momentum(y);
-    const ExprVector rate = gradient(E, p);
-    ExprVector w(p.size());
-    for (Index i = 0; i < p.size(); ++i) {
-      const auto found = std::find(lambda.begin(), lambda.end(), rate[i]);
-      if (found == lambda.end()) return {};
-      w[i] = *found;
-    }
-    const Manifold& Q = *bundle->base();
-    ExprMatrix g = -jacobian(gradient(E, w), w).dense();
-    // Across Q the family says that w is tangent, where there is nothing to be moved.
-    if (Q.dimension() < Q.tangent_dimension()) {
-      const ExprMatrix projector = Q.tangent_projector(bundle->position(y)).matrix();
-      g = (projector.transpose() * g * projector).eval();
-      g += ExprMatrix::Identity(p.size(), p.size()) - projector;
-    }
-    ExprVector other(p.size() + lambda.size() + 1);
-    other << p, lambda, t;
-    const ExprVector entries = g.reshaped();
-    if (depends(entries, other)) return {};
-    return substitute(entries, y, at).reshaped(p.size(), p.size());
-  };
-  const auto k = static_cast<Index>(momenta.size());
-  const ExprMatrix here = metric(constants(x));
-  if (k == 0 || here.rows() != k) return {};
-  try {
-    const MatrixXd g = values(here);
-    if (!g.allFinite() || !CholeskyDecomposition(g).is_positive_definite()) return {};
-  } catch (const std::domain_error&) {
-    return {};
-  }
-  return metric;
-}
-
 }  // namespace
 
 Projector::Projector(std::string name, VectorXd units)
@@ -174,10 +75,10 @@ Projector::Projector(std::string name, VectorXd units)
                                   number_text(unit) + "; expected positive numbers.");
 }
 
-ExprMatrix Projector::span(const ExprVector& x, const LinearMap<Expr>& basis,
+ExprMatrix Projector::span(const ExprVector& x, const Expr& t, const LinearMap<Expr>& basis,
                            const ExprMatrix& conormals) const {
   const ExprMatrix covectors = basis * conormals;
-  const ExprMatrix V = do_directions(x, basis * basis.transpose(), covectors);
+  const ExprMatrix V = do_directions(x, t, basis * basis.transpose(), covectors);
   if (V.rows() != covectors.rows() || V.cols() != covectors.cols())
     throw std::invalid_argument("Projector(" + name_ + ")::do_directions: the result is " +
                                 size_text(V.rows(), V.cols()) + "; expected " +
@@ -193,20 +94,37 @@ Function::Formulas Projector::span_formulas(const Manifold& manifold, Index codi
   const ExprVector x = graph.variables("x", manifold.ambient_dimension());
   const LinearMap<Expr> basis = basis_variables(graph, manifold);
   const ExprVector C = graph.variables("C", n * codimension);
-  const ExprMatrix V = span(x, basis, C.reshaped(n, codimension));
-  return {{{"x", x}, {"basis", basis_parameters(basis)}, {"C", C}}, V.reshaped()};
+  const ExprVector t = graph.variables("t", 1);
+  ExprMatrix conormals = C.reshaped(n, codimension);
+  if (const VectorXd sizes = conormal_sizes(); sizes.size() > 0)
+    conormals = (constants(sizes).asDiagonal() * conormals).eval();
+  const ExprMatrix V = span(x, t[0], basis, conormals);
+  return {{{"x", x}, {"basis", basis_parameters(basis)}, {"C", C}, {"t", t}}, V.reshaped()};
 }
 
 MatrixXd Projector::directions(const VectorXd& x, const LinearMap<double>& basis,
-                               const MatrixXd& conormals) const {
-  return orthonormal_directions(values(span(constants(x), constants(basis), constants(conormals))),
-                                basis, conormals);
+                               const MatrixXd& conormals, double t) const {
+  return orthonormal_directions(
+      values(span(constants(x), Expr(t), constants(basis), constants(conormals))), basis,
+      conormals);
 }
 
 MatrixXd Projector::orthonormal_directions(const MatrixXd& V, const LinearMap<double>& basis,
                                            const MatrixXd& conormals) const {
   const Index d = conormals.cols();
   if (d == 0) return conormals;
+  const auto vectors = QrDecomposition::pivoted(V.colwise().normalized());
+  const auto refuse = [this](double sine) {
+    throw std::domain_error("Projector(" + name_ +
+                            ")::directions: the directions of the projector \"" + name_ +
+                            "\" meet T_xM_f, sine of the angle " + number_text(sine) +
+                            "; expected a complement of it. " + do_advice());
+  };
+  if (is_always_complement()) {
+    if (const double least = vectors.diagonal().cwiseAbs().minCoeff(); !(least > kIndependent))
+      refuse(least);
+    return vectors.Q(d);
+  }
   // Pairings of vectors with covectors do not depend on units, but lengths do: both are looked at
   // as numbers of the order of 1. Of B with n < Ñ the coordinates have the units of its entries.
   double sine;
@@ -219,13 +137,8 @@ MatrixXd Projector::orthonormal_directions(const MatrixXd& V, const LinearMap<do
             : VectorXd((basis.entries().cwiseAbs2().transpose() * units_.cwiseAbs2()).cwiseSqrt());
     sine = least_pairing(size.cwiseInverse().asDiagonal() * V, size.asDiagonal() * conormals);
   }
-  if (!(sine > kTransversality)) {
-    throw std::domain_error("Projector(" + name_ +
-                            ")::directions: the directions of the projector \"" + name_ +
-                            "\" meet T_xM_f, sine of the angle " + number_text(sine) +
-                            "; expected a complement of it. " + do_advice());
-  }
-  return QrDecomposition::pivoted(V.colwise().normalized()).Q(d);
+  if (!(sine > kTransversality)) refuse(sine);
+  return vectors.Q(d);
 }
 
 OrthogonalProjector::OrthogonalProjector(const Manifold& manifold, const MatrixFormula& metric)
@@ -233,7 +146,8 @@ OrthogonalProjector::OrthogonalProjector(const Manifold& manifold, const MatrixF
       metric_(checked("OrthogonalProjector::OrthogonalProjector", manifold, metric,
                       manifold.tangent_dimension())) {}
 
-ExprMatrix OrthogonalProjector::do_directions(const ExprVector& x, const LinearMap<Expr>& tangents,
+ExprMatrix OrthogonalProjector::do_directions(const ExprVector& x, const Expr&,
+                                              const LinearMap<Expr>& tangents,
                                               const ExprMatrix& conormals) const {
   if (metric_) {
     const ExprMatrix G = metric_(x);
@@ -276,15 +190,9 @@ std::vector<Index> MomentumProjector::momenta_of(const CotangentBundle& phase_sp
   return result;
 }
 
-Projector::MatrixFormula MomentumProjector::kinetic_metric(
-    const std::shared_ptr<const ImplicitSystem>& system, const std::vector<Index>& momenta,
-    const VectorXd& x) {
-  const MatrixFormula metric = metric_of_energy(system, momenta, x);
-  return metric ? metric : metric_of_lagrangian(system, momenta, x);
-}
-
 // Π g β for the momentum parts β of the conormals.
-ExprMatrix MomentumProjector::do_directions(const ExprVector& x, const LinearMap<Expr>& tangents,
+ExprMatrix MomentumProjector::do_directions(const ExprVector& x, const Expr&,
+                                            const LinearMap<Expr>& tangents,
                                             const ExprMatrix& conormals) const {
   ExprMatrix moved = conormals(momenta_, Eigen::all);
   if (metric_)

@@ -25,7 +25,7 @@ namespace courant {
 //   J2  the span of W(x) does not depend on the bases of T_xM and of the conormals
 //   J3  the claims is_orthogonal() and has_constant_directions() hold
 //
-// Immutable. To subclass: override do_directions, formulas of the point and of the conormals there.
+// Immutable. To subclass: override do_directions, formulas of the point, of the time and of the conormals there.
 class Projector {
  public:
   // A matrix of formulas of the point. A projector keeps those that it is made of.
@@ -46,9 +46,12 @@ class Projector {
   // Vectors that span W(x), n × d, neither orthonormal nor asked whether they are a complement: Bᵀ V for the V of
   // do_directions, on expressions. x: N; basis: B, Ñ × n, orthonormal; conormals: C, n × d, independent and in the
   // coordinates of that basis. Throws std::invalid_argument if V has another size.
-  ExprMatrix span(const ExprVector& x, const LinearMap<Expr>& basis,
+  ExprMatrix span(const ExprVector& x, const Expr& t, const LinearMap<Expr>& basis,
                   const ExprMatrix& conormals) const;
-  // (x, B, C) ↦ these vectors, column by column. Nothing where W is C.
+  // Sizes s of the components of conormals, where n = Ñ, next to which they are kept and made orthonormal along a
+  // trajectory; empty: 1. They matter to round-off alone.
+  virtual VectorXd conormal_sizes() const { return {}; }
+  // (x, B, C, t) ↦ these vectors, column by column, for conormals s C. Nothing where W is C.
   Function::Formulas span_formulas(const Manifold& manifold, Index codimension) const;
 
   // An orthonormal W(x) with the span of V, which is what span() gives for this basis and these conormals, an orthonormal
@@ -56,9 +59,9 @@ class Projector {
   // the units.
   MatrixXd orthonormal_directions(const MatrixXd& V, const LinearMap<double>& basis,
                                   const MatrixXd& conormals) const;
-  // The same at the point x.
-  MatrixXd directions(const VectorXd& x, const LinearMap<double>& basis,
-                      const MatrixXd& conormals) const;
+  // The same at the point x and the time t.
+  MatrixXd directions(const VectorXd& x, const LinearMap<double>& basis, const MatrixXd& conormals,
+                      double t = 0.0) const;
 
  protected:
   // `units`: typical sizes of the Ñ numbers of a tangent vector, all positive, or empty for 1.
@@ -69,7 +72,8 @@ class Projector {
  private:
   // Tangent vectors at x (Ñ × d) that span the directions. tangents: Π, the orthogonal projector onto T_xM, the identity
   // where n = Ñ; conormals: d covectors at x (Ñ × d), independent, with C = Πᵀ C.
-  virtual ExprMatrix do_directions(const ExprVector& x, const LinearMap<Expr>& tangents,
+  virtual ExprMatrix do_directions(const ExprVector& x, const Expr& t,
+                                   const LinearMap<Expr>& tangents,
                                    const ExprMatrix& conormals) const = 0;
   // May override: what to do where the directions meet T_xM_f.
   virtual std::string do_advice() const { return "Use the orthogonal projector."; }
@@ -79,10 +83,9 @@ class Projector {
 };
 
 // The nearest point in a metric G on T_xM, in the tangent representation (Ñ × Ñ): W is G-orthogonal
-// to T_xM_f, Πᵀ G W = C for conormals C. Moves onto any M_f; the default.
+// to T_xM_f, Πᵀ G W = C for conormals C. Moves onto any M_f.
 //
-// G is the Euclidean one; or diag(1/u²) for units u, where a point counts as near if it is so next
-// to what is typical of each coordinate, and nothing depends on units of measurement; or given.
+// G is the Euclidean one; or diag(1/u²) for units u of one's own; or given by formulas.
 class OrthogonalProjector final : public Projector {
  public:
   OrthogonalProjector() : OrthogonalProjector(VectorXd()) {}
@@ -93,7 +96,7 @@ class OrthogonalProjector final : public Projector {
   bool is_always_complement() const override { return !metric_; }
 
  private:
-  ExprMatrix do_directions(const ExprVector& x, const LinearMap<Expr>& tangents,
+  ExprMatrix do_directions(const ExprVector& x, const Expr& t, const LinearMap<Expr>& tangents,
                            const ExprMatrix& conormals) const override;
 
   MatrixFormula metric_;  // x ↦ G, or empty
@@ -115,12 +118,6 @@ class MomentumProjector final : public Projector {
 
   // Half of the tangent representation: the momenta of a cotangent bundle.
   static std::vector<Index> momenta_of(const CotangentBundle& phase_space);
-  // g_{ij} of the kinetic energy at x: (∂²H/∂p²)⁻¹ where `system` has an energy H whose second
-  // derivatives by these momenta are regular at x and depend on the point alone; ∂²L/∂w² where it is
-  // that of a Lagrangian for which these depend on q alone and are positive definite at x; empty
-  // otherwise.
-  static MatrixFormula kinetic_metric(const std::shared_ptr<const ImplicitSystem>& system,
-                                      const std::vector<Index>& momenta, const VectorXd& x);
 
   // All of T*_qQ if every momentum is determined by q.
   bool has_constant_directions(Index codimension) const override {
@@ -128,7 +125,7 @@ class MomentumProjector final : public Projector {
   }
 
  private:
-  ExprMatrix do_directions(const ExprVector& x, const LinearMap<Expr>& tangents,
+  ExprMatrix do_directions(const ExprVector& x, const Expr& t, const LinearMap<Expr>& tangents,
                            const ExprMatrix& conormals) const override;
 
   std::vector<Index> momenta_;

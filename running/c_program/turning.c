@@ -104,7 +104,7 @@ static void aim(struct directions *D, const double *x, const double *basis, cons
   find_conormals(D, in);
 #if HAS_SPAN
   {
-    const double *at[INPUTS] = {x, basis, D->conormals};
+    const double *at[INPUTS] = {x, basis, D->conormals, &t};
     span(at, D->V);
     if (D->are_kept) product(D->V, DIMENSION, D->combination, SHIFTS, SHIFTS, D->turned);
     if (!(D->are_kept && is_made_orthonormal(D->turned, DIMENSION, SHIFTS, 0, D->W)) &&

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "courant/plotting/figure.hpp"
 #include "parsed_markup.hpp"
 
 using namespace courant::plot;

@@ -4,6 +4,7 @@
 
 #include "../integrators/varying_metric.hpp"
 #include "courant/core/linear/qr_decomposition.hpp"
+#include "courant/integrators/methods/constrain_first.hpp"
 #include "courant/running/runner.hpp"
 #include "problems.hpp"
 
@@ -191,29 +192,26 @@ BOOST_AUTO_TEST_CASE(a_rotation_up_to_round_off) {
   }
 }
 
-// Neither projector depends on the unit of the momenta, unless it is told to measure numbers.
+// What is measured by the kinetic energy does not depend on the unit of the momenta; numbers do.
 BOOST_AUTO_TEST_CASE(units_of_momenta_do_not_matter) {
   const auto end = [](double unit, const Json& projector) {
     VectorXd x = test::problem(nonholonomic(unit)).end(method(projector), 0.5, 5);
     x.tail(4) *= unit;
     return x;
   };
-  for (const Json& projector :
-       {Json("orthogonal"), Json{{"type", "momentum"}, {"pairs", kPairs}}}) {
-    const VectorXd expected = end(1.0, projector);
-    for (const double unit : {1e-3, 1e3})
-      BOOST_TEST((end(unit, projector) - expected).norm() < 1e-6,
-                 projector << " moves by " << (end(unit, projector) - expected).norm()
-                           << " where the unit is " << unit);
-  }
-  const Json numbers = {{"type", "orthogonal"}, {"metric", "euclidean"}};
+  const Json projector = {{"type", "momentum"}, {"pairs", kPairs}};
+  const VectorXd expected = end(1.0, projector);
+  for (const double unit : {1e-3, 1e3})
+    BOOST_TEST((end(unit, projector) - expected).norm() < 1e-6,
+               projector << " moves by " << (end(unit, projector) - expected).norm()
+                         << " where the unit is " << unit);
+  const Json numbers = "orthogonal";
   BOOST_TEST((end(1e3, numbers) - end(1.0, numbers)).norm() > 1e-5);
 }
 
-// Starts with zeros in them: everywhere, of all velocities, of all positions, of one coordinate each. A
-// unit of a coordinate is not taken from what vanishes with it: the projector finds the motion that the
-// nearest point in the numbers leads to, to the order of the method, and the constraints hold as well.
-BOOST_AUTO_TEST_CASE(natural_units_at_starts_with_zeros) {
+// Starts with zeros in them: of one coordinate each, and of all velocities. The projector finds the motion that the
+// nearest point in the numbers leads to, to the order of the method.
+BOOST_AUTO_TEST_CASE(starts_with_zeros) {
   int starts = 0;
   for (const char* name : {"suslov_so3", "nonholonomic_particle", "snakeboard", "knife_edge",
                            "rolling_disk", "chaplygin_sleigh", "unicycle", "pendulum_cartesian"}) {
@@ -239,9 +237,9 @@ BOOST_AUTO_TEST_CASE(natural_units_at_starts_with_zeros) {
       if (motion.ladder.verdict != Verdict::regular) continue;
       ++starts;
       const auto difference = [&](long steps) {
-        const VectorXd natural = motion.end(method("orthogonal"), 0.4, steps);
+        const VectorXd usual = motion.end(method("orthogonal"), 0.4, steps);
         const Json numbers = {{"type", "orthogonal"}, {"metric", "euclidean"}};
-        return (natural - motion.end(method(numbers), 0.4, steps)).norm() / (1.0 + natural.norm());
+        return (usual - motion.end(method(numbers), 0.4, steps)).norm() / (1.0 + usual.norm());
       };
       const double coarse = difference(40), fine = difference(80);
       BOOST_TEST((fine < 0.35 * coarse || fine < 1e-9),
@@ -261,7 +259,8 @@ BOOST_AUTO_TEST_CASE(units_of_momenta_do_not_matter_at_zeros) {
       Json experiment = nonholonomic(unit);
       experiment["initial"] = start;
       for (Json& p : experiment["initial"]["p"]) p = p.get<double>() / unit;
-      VectorXd x = test::problem(experiment).end(method("orthogonal"), 0.5, 20);
+      VectorXd x =
+          test::problem(experiment).end(method({{"type", "momentum"}, {"pairs", kPairs}}), 0.5, 20);
       x.tail(4) *= unit;
       return x;
     };
@@ -270,6 +269,50 @@ BOOST_AUTO_TEST_CASE(units_of_momenta_do_not_matter_at_zeros) {
       BOOST_TEST((end(unit) - expected).norm() < 1e-4, start << " moves by "
                                                              << (end(unit) - expected).norm()
                                                              << " where the unit is " << unit);
+  }
+}
+
+// "kinetic" where there is no kinetic energy is no wish that could be met by something else; where nothing is said, the
+// numbers are measured, which the run says.
+BOOST_AUTO_TEST_CASE(a_metric_that_is_none) {
+  const Json relativistic = {
+      {"system",
+       {{"type", "hamiltonian"},
+        {"coordinates", {"x", "y", "z"}},
+        {"hamiltonian", "sqrt(1+p_x^2+p_y^2+2*p_z^2)+x^2/2"},
+        {"nonholonomic", "z'-y*x'"}}},
+      {"initial", {{"x", 0.6}, {"y", 0.8}, {"z", 0}, {"p_x", 0.4}, {"p_y", -0.3}}}};
+  for (const char* type : {"momentum", "orthogonal"}) {
+    const std::string text = problem_of(relativistic, {{"type", type}, {"metric", "kinetic"}});
+    BOOST_TEST(
+        text.find(
+            "/method/projector/metric: is \"kinetic\", but the system has no kinetic energy") == 0u,
+        text);
+    const test::Problem motion = test::problem(relativistic);
+    BOOST_TEST(motion.prepare(method(type), 0.1).metric == "euclidean");
+  }
+  Json classical = relativistic;
+  classical["system"]["hamiltonian"] = "(p_x^2+p_y^2+2*p_z^2)/2+x^2/2";
+  const test::Problem motion = test::problem(classical);
+  BOOST_TEST(motion.prepare(method("orthogonal"), 0.1).metric == "kinetic");
+  BOOST_TEST(motion.prepare(method("momentum"), 0.1).metric == "kinetic");
+  BOOST_TEST(
+      motion.prepare(method({{"type", "orthogonal"}, {"weights", {{"x", 2}}}}), 0.1).metric ==
+      "given");
+  BOOST_TEST(motion.prepare("rk4", 0.1).metric.empty());
+}
+
+// One default, in a file and in a program.
+BOOST_AUTO_TEST_CASE(the_default_is_that_of_programs) {
+  for (const char* name : {"knife_edge", "pendulum_holonomic", "pendulum_cartesian"}) {
+    const Json file = test::experiment_file(name);
+    const test::Problem motion =
+        test::problem({{"system", file.at("system")}, {"initial", file.at("initial")}});
+    const PreparedMethod written = motion.prepare("constrain-first", 0.02);
+    const ConstrainFirst program(motion.experiment.model.system, motion.ladder, written.map);
+    BOOST_TEST(program.advance(motion.ladder.point, 0.02, 10).x ==
+                   written.integrator->advance(motion.ladder.point, 0.02, 10).x,
+               name);
   }
 }
 

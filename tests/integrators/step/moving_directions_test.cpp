@@ -42,7 +42,7 @@ class Stretched final : public Projector {
   Stretched() : Projector("stretched") {}
 
  private:
-  ExprMatrix do_directions(const ExprVector& x, const LinearMap<Expr>&,
+  ExprMatrix do_directions(const ExprVector& x, const Expr&, const LinearMap<Expr>&,
                            const ExprMatrix& conormals) const override {
     ExprVector factors(4);
     factors << 1.0, 2.0, 0.1, exp(x[0]);
@@ -57,7 +57,7 @@ class Uneven final : public Projector {
   bool is_always_complement() const override { return true; }
 
  private:
-  ExprMatrix do_directions(const ExprVector&, const LinearMap<Expr>&,
+  ExprMatrix do_directions(const ExprVector&, const Expr&, const LinearMap<Expr>&,
                            const ExprMatrix& conormals) const override {
     return constants(Eigen::Vector4d(1e-3, 1e-3, 1.0, 1.0)).asDiagonal() * conormals;
   }
@@ -69,7 +69,7 @@ class Vanishing final : public Projector {
   Vanishing() : Projector("vanishing") {}
 
  private:
-  ExprMatrix do_directions(const ExprVector&, const LinearMap<Expr>&,
+  ExprMatrix do_directions(const ExprVector&, const Expr&, const LinearMap<Expr>&,
                            const ExprMatrix& conormals) const override {
     return constants(Eigen::Vector4d(0.0, 0.0, 1.0, 0.0)).replicate(1, conormals.cols());
   }
@@ -99,13 +99,13 @@ BOOST_AUTO_TEST_CASE(span_those_of_the_projector) {
     MovingDirections directions = moving(*projector, 2);
     for (int k = 0; k < 400; ++k) {
       const Place place(0.3 + 0.02 * k);
-      directions.move_to(place.x, kIdentity, place.conormals);
+      directions.move_to(place.x, 0.0, kIdentity, place.conormals);
       const MatrixXd W = directions.matrix();
       BOOST_TEST(orthonormality(W) < 1e-13);
       const MatrixXd exact = projector->directions(place.x, kIdentity, place.conormals);
       BOOST_TEST((onto(W) - onto(exact)).norm() < 1e-12);
       if (directions.is_kept()) BOOST_TEST((W - directions.kept()).norm() < 0.1);
-      directions.move_to(place.x, kIdentity, place.conormals);
+      directions.move_to(place.x, 0.0, kIdentity, place.conormals);
       BOOST_TEST((directions.matrix() - W).norm() < 1e-13);
       directions.keep();
     }
@@ -120,7 +120,7 @@ BOOST_AUTO_TEST_CASE(are_carried_along_in_units_that_are_far_apart) {
   for (int k = 0; k < 200; ++k) {
     const Place place(0.3 + 0.02 * k);
     const MatrixXd conormals = place.conormals * Eigen::Rotation2Dd(0.05 * k).toRotationMatrix();
-    directions.move_to(place.x, kIdentity, conormals);
+    directions.move_to(place.x, 0.0, kIdentity, conormals);
     BOOST_TEST(directions.is_continued());
     const MatrixXd& W = directions.matrix();
     BOOST_TEST(orthonormality(W) < 1e-13);
@@ -135,9 +135,9 @@ BOOST_AUTO_TEST_CASE(are_carried_along_a_long_step) {
   const Stretched stretched;
   MovingDirections directions = moving(stretched, 2);
   const Place first(0.1), far(1.9);
-  directions.move_to(first.x, kIdentity, first.conormals);
+  directions.move_to(first.x, 0.0, kIdentity, first.conormals);
   directions.keep();
-  directions.move_to(far.x, kIdentity, far.conormals);
+  directions.move_to(far.x, 0.0, kIdentity, far.conormals);
   BOOST_TEST(orthonormality(directions.matrix()) < 1e-13);
   const MatrixXd exact = stretched.directions(far.x, kIdentity, far.conormals);
   BOOST_TEST((onto(directions.matrix()) - onto(exact)).norm() < 1e-12);
@@ -148,18 +148,18 @@ BOOST_AUTO_TEST_CASE(go_back_and_forget) {
   MovingDirections directions = moving(stretched, 2);
   const Place first(0.1), second(0.12);
   BOOST_TEST(!directions.is_kept());
-  directions.move_to(first.x, kIdentity, first.conormals);
+  directions.move_to(first.x, 0.0, kIdentity, first.conormals);
   directions.keep();
   const MatrixXd kept = directions.matrix();
-  directions.move_to(second.x, kIdentity, second.conormals);
+  directions.move_to(second.x, 0.0, kIdentity, second.conormals);
   BOOST_TEST((directions.matrix() != kept));
   directions.discard();
   BOOST_TEST((directions.matrix() == kept));
   directions.forget();
   BOOST_TEST(!directions.is_kept());
   MovingDirections fresh = moving(stretched, 2);
-  directions.move_to(second.x, kIdentity, second.conormals);
-  fresh.move_to(second.x, kIdentity, second.conormals);
+  directions.move_to(second.x, 0.0, kIdentity, second.conormals);
+  fresh.move_to(second.x, 0.0, kIdentity, second.conormals);
   BOOST_TEST((directions.matrix() == fresh.matrix()));
 }
 
@@ -172,10 +172,10 @@ BOOST_AUTO_TEST_CASE(are_refused_where_they_meet_the_tangent_space) {
     return MatrixXd(Eigen::Vector4d(std::sin(angle), 0.0, std::cos(angle), 0.0));
   };
   for (const double angle : {0.0, 0.8, 1.5, 1.57}) {
-    directions.move_to(x, kIdentity, normal(angle));
+    directions.move_to(x, 0.0, kIdentity, normal(angle));
     directions.keep();
   }
-  BOOST_CHECK_THROW(directions.move_to(x, kIdentity, normal(0.5 * M_PI)), std::domain_error);
+  BOOST_CHECK_THROW(directions.move_to(x, 0.0, kIdentity, normal(0.5 * M_PI)), std::domain_error);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

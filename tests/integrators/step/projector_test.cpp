@@ -3,22 +3,15 @@
 #include <Eigen/LU>
 #include <boost/test/unit_test.hpp>
 
-#include "../example_systems.hpp"
 #include "courant/core/linear/qr_decomposition.hpp"
-#include "courant/integrators/certificate/constraint_algorithm.hpp"
 #include "courant/integrators/methods/projector_laws.hpp"
-#include "courant/integrators/step/natural_units.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/sphere.hpp"
-#include "courant/structures/canonical_symplectic.hpp"
-#include "courant/structures/constrained_family.hpp"
-#include "courant/structures/dirac_system.hpp"
 
 BOOST_AUTO_TEST_SUITE(projector)
 
 using namespace courant;
 using Eigen::Vector4d;
-using examples::equations;
 
 namespace {
 
@@ -54,24 +47,13 @@ class Planted final : public Projector {
   bool has_constant_directions(Index) const override { return constant_; }
 
  private:
-  ExprMatrix do_directions(const ExprVector&, const LinearMap<Expr>&,
+  ExprMatrix do_directions(const ExprVector&, const Expr&, const LinearMap<Expr>&,
                            const ExprMatrix& conormals) const override {
     return directions_(conormals);
   }
   Directions directions_;
   bool orthogonal_, constant_;
 };
-
-// q' = p/m, p' = -q + λ a, a·p = b·q, with momenta in units `unit`: p = unit · p̂.
-std::shared_ptr<const ImplicitSystem> knife_edge(double unit) {
-  return std::make_shared<examples::FormulaSystem>(
-      std::make_shared<Euclidean>(4), 1, 5,
-      [unit](const ExprVector& x, const ExprVector& v, const ExprVector& z, const Expr&) {
-        const Expr p0 = unit * x[2], p1 = unit * x[3];
-        return equations({v[0] - p0, v[1] - p1, unit * v[2] + x[0] - z[0] * x[1],
-                          unit * v[3] + x[1] - z[0] * x[0], x[1] * p0 + x[0] * p1 - 0.2});
-      });
-}
 
 }  // namespace
 
@@ -182,108 +164,6 @@ BOOST_AUTO_TEST_CASE(transversality_does_not_depend_on_units) {
                                            Vector4d(0.6, 0.8, 0.0, 0.0)),
                       std::domain_error);
   }
-}
-
-BOOST_AUTO_TEST_CASE(kinetic_metric_is_that_of_the_energy) {
-  const auto M = std::make_shared<CotangentBundle>(std::make_shared<Euclidean>(2));
-  const auto H = std::make_shared<Hamiltonian>(M, [](const ExprVector& x, const Expr&) {
-    return 0.5 * (square(x[2]) * (1.0 + square(x[0])) + x[2] * x[3] + 2.0 * square(x[3])) + x[1];
-  });
-  const auto system = std::make_shared<DiracSystem>(std::make_shared<CanonicalSymplectic>(M), H);
-  const Vector4d x(0.5, 0.1, 0.3, -0.2);
-  const auto metric =
-      MomentumProjector::kinetic_metric(system, MomentumProjector::momenta_of(*M), x);
-  BOOST_REQUIRE(static_cast<bool>(metric));
-  Eigen::Matrix2d expected;
-  expected << 1.25, 0.5, 0.5, 2.0;
-  BOOST_TEST((values(metric(constants(x))) - expected.inverse()).norm() < 1e-14);
-  // None where the energy does not say: L = ⟨α, w⟩ - H has no p in its energy.
-  const auto singular = std::make_shared<DiracSystem>(
-      std::make_shared<CanonicalSymplectic>(M),
-      std::make_shared<Lagrangian>(
-          M, [](const ExprVector& q, const ExprVector& w, const Expr&) { return q[0] * w[1]; }));
-  BOOST_TEST(!MomentumProjector::kinetic_metric(singular, {2, 3}, x));
-}
-
-// ∂²L/∂w², with constraints on positions besides; none where it depends on w, or is indefinite.
-BOOST_AUTO_TEST_CASE(kinetic_metric_is_that_of_the_lagrangian) {
-  const auto M = std::make_shared<CotangentBundle>(std::make_shared<Euclidean>(2));
-  const Vector4d x(0.5, 0.1, 0.3, -0.2);
-  const auto metric = [&](const Lagrangian::Formula& L) {
-    const auto family = std::make_shared<ConstrainedFamily>(
-        std::make_shared<Lagrangian>(M, L),
-        [](const ExprVector& y, const ExprVector&, const Expr&) {
-          return ExprVector{{y[0] - 5.0 * y[1]}};
-        },
-        1);
-    return MomentumProjector::kinetic_metric(
-        std::make_shared<DiracSystem>(std::make_shared<CanonicalSymplectic>(M), family),
-        MomentumProjector::momenta_of(*M), x);
-  };
-  const auto kinetic = metric([](const ExprVector& q, const ExprVector& w, const Expr&) -> Expr {
-    return 0.5 * (square(w[0]) * (1.0 + square(q[0])) + w[0] * w[1] + 2.0 * square(w[1])) - q[1] +
-           sin(q[0]) * w[1];
-  });
-  BOOST_REQUIRE(static_cast<bool>(kinetic));
-  Eigen::Matrix2d expected;
-  expected << 1.25, 0.5, 0.5, 2.0;
-  BOOST_TEST((values(kinetic(constants(x))) - expected).norm() < 1e-14);
-  BOOST_TEST(!metric([](const ExprVector&, const ExprVector& w, const Expr&) -> Expr {
-    return square(w[0]) + square(w[1]) * square(w[1]);
-  }));
-  BOOST_TEST(!metric([](const ExprVector&, const ExprVector& w, const Expr&) -> Expr {
-    return square(w[0]) - square(w[1]);
-  }));
-
-  // On a sphere it is 1 across.
-  const auto T = std::make_shared<CotangentBundle>(std::make_shared<Sphere>(2));
-  const auto round = std::make_shared<DiracSystem>(
-      std::make_shared<CanonicalSymplectic>(T),
-      std::make_shared<Lagrangian>(T,
-                                   [](const ExprVector&, const ExprVector& w, const Expr&) -> Expr {
-                                     return 1.5 * w.squaredNorm();
-                                   }));
-  const VectorXd y = (VectorXd(6) << 0.0, 0.0, 1.0, 0.2, 0.3, 0.0).finished();
-  const auto on_sphere =
-      MomentumProjector::kinetic_metric(round, MomentumProjector::momenta_of(*T), y);
-  BOOST_REQUIRE(static_cast<bool>(on_sphere));
-  const MatrixXd three = Eigen::Vector3d(3.0, 3.0, 1.0).asDiagonal();
-  BOOST_TEST((values(on_sphere(constants(y))) - three).norm() < 1e-14);
-}
-
-// Coordinates in other units have their natural units changed with them.
-BOOST_AUTO_TEST_CASE(natural_units_go_with_the_coordinates) {
-  const auto ladder_of = [](double unit) {
-    Vector4d x(0.5, -0.4, 0.7 / unit, 0.0);
-    x[3] = (0.2 / unit - x[1] * x[2]) / x[0];
-    return ConstraintAlgorithm().run(knife_edge(unit), {.x = x});
-  };
-  const ConstraintLadder ladder = ladder_of(1.0);
-  BOOST_REQUIRE((ladder.verdict == Verdict::regular));
-  const VectorXd units = natural_units(knife_edge(1.0), ladder);
-  for (const double unit : {1e-3, 1e3}) {
-    const VectorXd scaled = natural_units(knife_edge(unit), ladder_of(unit));
-    BOOST_TEST_INFO("units " << units.transpose() << " and " << scaled.transpose());
-    const VectorXd ratio = scaled.cwiseQuotient(units);
-    BOOST_TEST(ratio[2] / ratio[0] * unit == 1.0, boost::test_tools::tolerance(1e-9));
-    BOOST_TEST(ratio[3] / ratio[1] * unit == 1.0, boost::test_tools::tolerance(1e-9));
-  }
-}
-
-// A temperature 300 exp S at S = 0, where it divides an equation, is as large as its constant says.
-BOOST_AUTO_TEST_CASE(natural_units_where_an_unknown_divides) {
-  const auto system = std::make_shared<examples::FormulaSystem>(
-      std::make_shared<Euclidean>(2), 1, 3,
-      [](const ExprVector& x, const ExprVector& v, const ExprVector& z, const Expr&) {
-        return equations({v[0] - square(x[1]) / z[0], v[1] + x[1], z[0] - 300.0 * exp(x[0])});
-      });
-  const ConstraintLadder ladder = ConstraintAlgorithm().run(
-      system, {.x = Eigen::Vector2d(0, 10), .z = VectorXd::Constant(1, 300.0)});
-  BOOST_REQUIRE((ladder.verdict == Verdict::regular));
-  const VectorXd units = natural_units(system, ladder);
-  BOOST_TEST(units.allFinite());
-  BOOST_TEST((units.array() > 1e-6).all());
-  BOOST_TEST((units.array() < 1e6).all());
 }
 
 BOOST_AUTO_TEST_CASE(errors) {
