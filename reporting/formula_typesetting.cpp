@@ -14,7 +14,6 @@ namespace {
 
 using plot::element;
 using plot::Markup;
-using Kind = FormulaTree::Kind;
 
 // The letter as MathML shows it and the command of LaTeX.
 struct Letter {
@@ -201,6 +200,7 @@ template <class Out>
 class Typesetter {
  public:
   using Piece = typename Out::Piece;
+  using Kind = FormulaTree::Kind;
 
   Piece set(const FormulaTree& tree) const {
     switch (tree.kind) {
