@@ -86,6 +86,7 @@ int command(const std::vector<std::string>& arguments, const Console& console) {
   add_schema(app, session);
   add_import(app, session);
   add_export(app, session);
+  add_sweep_command(app, session);
   add_report(app, session);
   add_plot(app, session);
   add_new(app, session);

@@ -24,6 +24,7 @@ struct Console {
   bool is_terminal = false;                 // of err: progress is shown
   bool colour = false;                      // of out
   bool unicode = true;                      // of out
+  std::size_t columns = 98;                 // of out: text is wrapped there
   const std::atomic<bool>* stop = nullptr;  // set by an interrupt
   // Set by the command while it looks at `stop`; at other times an interrupt ends the program.
   std::atomic<bool>* heeds_stop = nullptr;
@@ -45,6 +46,7 @@ void add_check(CLI::App& app, Session& session);
 void add_study(CLI::App& app, Session& session);
 void add_list(CLI::App& app, Session& session);
 void add_schema(CLI::App& app, Session& session);
+void add_sweep_command(CLI::App& app, Session& session);
 void add_import(CLI::App& app, Session& session);
 void add_export(CLI::App& app, Session& session);
 void add_report(CLI::App& app, Session& session);

@@ -1,7 +1,10 @@
 #include "courant/cli/command_main.hpp"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <charconv>
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
@@ -42,6 +45,20 @@ bool is_utf8() {
   return false;
 }
 
+// Of the terminal, or what COLUMNS says; wider text is hard to read.
+std::size_t columns_of_text() {
+  constexpr std::size_t least = 40, otherwise = 98, most = 120;
+  std::size_t columns = otherwise;
+  winsize size{};
+  if (set("COLUMNS")) {
+    const std::string_view text = std::getenv("COLUMNS");
+    std::from_chars(text.data(), text.data() + text.size(), columns);
+  } else if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
+    columns = size.ws_col;
+  }
+  return std::clamp(columns, least, most);
+}
+
 }  // namespace
 
 int courant::command_main(int argc, char** argv) {
@@ -54,6 +71,7 @@ int courant::command_main(int argc, char** argv) {
       .is_terminal = isatty(STDERR_FILENO) == 1,
       .colour = out_is_terminal && !set("NO_COLOR"),
       .unicode = is_utf8() || !out_is_terminal,
+      .columns = columns_of_text(),
       .stop = &interrupt_requested,
       .heeds_stop = &interrupt_heeded,
   };

@@ -18,16 +18,32 @@
 #include "courant/reporting/ladder_page.hpp"
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/ladder_report.hpp"
+#include "courant/running/other_values.hpp"
 
 namespace courant::cli {
 namespace {
+
+// What the start is not, as it was given.
+void print_moves(const Console& console, const LadderReport& ladder) {
+  if (ladder.moves.empty()) return;
+  // Of velocities and unknowns, which have units of their own, there is no sum.
+  const std::string sum = ladder.moved > 0.0 ? ", by " + shown(ladder.moved, 4) + " in all:" : ":";
+  print_wrapped(console,
+                "Initial values that had to move to be consistent" +
+                    std::string(ladder.is_impulse ? ", as an impulse moves them" : "") + sum,
+                "  ");
+  for (const Movement& move : ladder.moves)
+    console.out << "      " << move.name << ' ' << from_and_to(move) << '\n';
+  console.out << '\n';
+}
 
 void print_levels(const Console& console, const Experiment& experiment,
                   const LadderReport& ladder) {
   std::ostream& out = console.out;
   if (!experiment.title.empty()) out << printable(experiment.title) << '\n';
-  print_wrapped(out, experiment.model.description, "  ");
+  print_wrapped(console, experiment.model.description, "  ");
   out << '\n';
+  print_moves(console, ladder);
   for (const std::string& line : ladder_text_diagram(ladder)) out << "  " << line << '\n';
   out << "\n  (dim S, dim M): " << ladder_line(ladder) << "\n\n";
   TextTable table({"k", "dim S", "dim M", "fibre", "gap", "residual"});
@@ -46,20 +62,11 @@ void print_ladder(const Console& console, const Experiment& experiment, const La
   std::ostream& out = console.out;
   print_levels(console, experiment, ladder);
   const bool is_stopped = ladder.reason.starts_with("Stopped");
-  if (!is_stopped) print_wrapped(out, verdict_in_words(ladder), "  ");
-  if (!ladder.reason.empty()) print_wrapped(out, ladder.reason, "  ");
+  if (!is_stopped) print_wrapped(console, verdict_in_words(ladder), "  ");
+  if (!ladder.reason.empty()) print_wrapped(console, ladder.reason, "  ");
   out << '\n';
   for (const Prose& line : ladder_explanation(ladder, brackets))
-    print_wrapped(out, line.str(), "  ");
-  if (!ladder.moves.empty()) {
-    out << '\n';
-    // Of velocities and unknowns, which have units of their own, there is no sum.
-    const std::string sum =
-        ladder.moved > 0.0 ? ", by " + shown(ladder.moved, 4) + " in all:" : ":";
-    print_wrapped(out, "Initial values that had to move to be consistent" + sum, "  ");
-    for (const Movement& move : ladder.moves)
-      out << "      " << move.name << ' ' << from_and_to(move) << '\n';
-  }
+    print_wrapped(console, line.str(), "  ");
 }
 
 // Remark 6.1 on the system, the discretization map and the step of an experiment.
@@ -85,7 +92,7 @@ void print_discrete(const Console& console, const Experiment& experiment,
                     const LadderReport& ladder, const LadderReport& continuous) {
   std::ostream& out = console.out;
   print_levels(console, experiment, ladder);
-  print_wrapped(out,
+  print_wrapped(console,
                 "Pairs of points in place of velocities (Remark 6.1): S_k are "
                 "the pairs (x\u2080, "
                 "x\u2081) from which k more steps can be made, M_k their first "
@@ -94,12 +101,12 @@ void print_discrete(const Console& console, const Experiment& experiment,
                     shown(experiment.time->step) + ".",
                 "  ");
   if (experiment.method->description.starts_with("constrain-first"))
-    print_wrapped(out,
+    print_wrapped(console,
                   "S\u2080 are the pairs that satisfy the equations of the system, as those of "
                   "discretize-first do; the steps of constrain-first satisfy those of S_f, and end "
                   "on M_f.",
                   "  ");
-  print_wrapped(out, discrete_verdict_in_words(ladder), "  ");
+  print_wrapped(console, discrete_verdict_in_words(ladder), "  ");
   out << "\n  without discretization: " << ladder_line(continuous) << '\n';
 }
 
@@ -222,10 +229,11 @@ void add_constraints(CLI::App& app, Session& session) {
           [&](const Experiment& experiment) -> int {
             const bool as_page = !arguments->output.empty();
             std::optional<Waiting> waiting(std::in_place, console, "constraint algorithm");
-            const ConstraintLadder start = consistent_start(experiment);
+            const ConsistentStart start = consistent_start(experiment);
             const ImplicitSystem& system = *experiment.model.system;
             const ConstraintFormulas formulas = constraint_formulas(system, start);
-            const LadderReport whole = ladder_report(start, system, formulas);
+            LadderReport whole = ladder_report(start, system, formulas);
+            tell_of_start(experiment, start, whole);
             std::optional<ConstraintBrackets> brackets;
             if (!arguments->discrete && arguments->level < 0)
               brackets = constraint_brackets(system, start, formulas);

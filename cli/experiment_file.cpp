@@ -15,6 +15,7 @@
 #include "courant/core/words/message.hpp"
 #include "courant/reading/json_document.hpp"
 #include "courant/reading/setting.hpp"
+#include "courant/reading/unused_parameters.hpp"
 
 namespace courant::cli {
 namespace {
@@ -88,7 +89,12 @@ int with_document(const Console& console, const std::string& file,
   if (!text) return wrong;
   return reporting_errors(console, file, [&] {
     Json document = parse_json(*text);
-    for (const std::string& setting : settings) apply_setting(read_setting(setting), document);
+    std::vector<Setting> changes;
+    for (const std::string& text : settings) {
+      changes.push_back(read_setting(text));
+      apply_setting(changes.back(), document);
+    }
+    require_used(document, changes);
     load_tables(document, std::filesystem::path(file == "-" ? "" : file).parent_path(),
                 file == "-" && tables == TableFiles::beside ? TableFiles::none : tables);
     return action(document);
@@ -104,6 +110,8 @@ int with_experiment(const Console& console, const std::string& file,
         std::optional<Waiting> waiting(std::in_place, console, "reading the experiment");
         const Experiment experiment = read_experiment_document(document);
         waiting.reset();
+        for (const auto& [where, what] : experiment.remarks)
+          print_error(console, "warning: " + file + ": " + where + ": " + what);
         return action(experiment);
       },
       settings, tables);

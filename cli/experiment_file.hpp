@@ -21,7 +21,8 @@ void add_settings(CLI::App& command, std::vector<std::string>& settings);
 
 // Reads the experiment from the file, or from standard input if that is "-", and does with it what
 // the subcommand does; returns its exit status. What is wrong with the experiment, found on reading
-// it or later, is said in a line `courant: FILE: /pointer: …` for each problem.
+// it or later, is said in a line `courant: FILE: /pointer: …` for each problem, and what may be a slip
+// in a line `courant: warning: FILE: /pointer: …`.
 //
 // `settings` are changes of the experiment, each `/json/pointer=VALUE`: VALUE is JSON or, where it
 // is not, a text. The place of a value may be new if what it is in is there. `tables`: which files it

@@ -18,7 +18,8 @@ int import(const Console& console, const std::string& file, const std::string& o
   if (!text) return wrong;
   return reporting_errors(console, file, [&]() -> int {
     std::vector<Problem> notes;
-    const Json experiment = import_netlist(*text, &notes);
+    const Json experiment =
+        import_netlist(*text, &notes, files_below(std::filesystem::path(file).parent_path()));
     for (const auto& [where, what] : notes)
       print_error(console, "note: " + file + ": " + where + ": " + what);
     if (output.empty())

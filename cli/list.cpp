@@ -41,7 +41,7 @@ void print_keys(const Console& console, const std::vector<Key>& keys) {
     std::string takes = key.takes.text;
     if (key.required) takes += "; required";
     if (!key.otherwise.is_null()) takes += "; default " + key.otherwise.dump();
-    print_wrapped(console.out, "    \"" + key.name + "\" (" + takes + "): " + key.summary, "  ");
+    print_wrapped(console, "    \"" + key.name + "\" (" + takes + "): " + key.summary, "  ");
   }
 }
 
@@ -57,7 +57,7 @@ void print_text(const Console& console, const std::vector<std::string>& types) {
     if (shelf.kinds.empty()) continue;
     console.out << shelf.name << '\n';
     for (const KindDescription& kind : shelf.kinds) {
-      print_wrapped(console.out, kind.type + ": " + kind.sentence(), "  ");
+      print_wrapped(console, kind.type + ": " + kind.sentence(), "  ");
       print_keys(console, kind.keys);
     }
     if (const std::vector<Key> common = common_keys(whole);

@@ -42,11 +42,21 @@ std::optional<Figure> figure_of_table(const std::filesystem::path& folder) {
 
 // All figures that there are of the folders.
 std::vector<Figure> figures_of(const std::vector<std::filesystem::path>& folders) {
+  std::vector<Figure> figures;
   if (folders.size() == 1)
-    if (auto figure = figure_of_table(folders.front())) return {std::move(*figure)};
+    if (auto figure = figure_of_table(folders.front())) figures.push_back(std::move(*figure));
+  const bool is_study = !figures.empty() && figures.front().name == "study";
+  if (is_study) return figures;
   std::vector<Run> runs;
-  for (const auto& folder : folders) runs.push_back(read_run(folder));
-  return all_figures(runs);
+  try {
+    for (const auto& folder : folders)
+      for (const auto& run : run_folders_in(folder)) runs.push_back(read_run(run));
+  } catch (const RunFileError&) {  // a sweep without runs, as one of ladders, has its figure alone
+    if (figures.empty()) throw;
+    return figures;
+  }
+  for (Figure& figure : all_figures(runs)) figures.push_back(std::move(figure));
+  return figures;
 }
 
 int plot_figure(const Console& console, const PlotArguments& arguments) {

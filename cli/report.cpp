@@ -87,7 +87,8 @@ void add_report(CLI::App& app, Session& session) {
   auto arguments = std::make_shared<ReportArguments>();
   CLI::App* report =
       app.add_subcommand("report", "Compare finished runs, and make a page of HTML of them");
-  report->add_option("DIR", arguments->folders, "the folder of a run, or several")->required();
+  report->add_option("DIR", arguments->folders, "the folder of a run or of a sweep, or several")
+      ->required();
   report
       ->add_option("-o", arguments->output,
                    "where the page goes (default: report.html in DIR, or above the folders)")
@@ -97,8 +98,18 @@ void add_report(CLI::App& app, Session& session) {
     session.action = [arguments](const Console& console) -> int {
       const auto page = page_of(*arguments);
       OwnFiles("report", arguments->force).check(page);
+      // A page of more curves than that is large, and they cannot be told apart.
+      constexpr std::size_t most = 24;
+      std::vector<std::filesystem::path> folders;
+      for (const auto& folder : arguments->folders)
+        for (auto& run : run_folders_in(folder)) folders.push_back(std::move(run));
+      if (folders.size() > most) {
+        print_error(console, "note: the page has the first " + std::to_string(most) + " of " +
+                                 std::to_string(folders.size()) + " runs");
+        folders.resize(most);
+      }
       std::vector<Run> runs;
-      for (const auto& folder : arguments->folders) runs.push_back(read_run(folder));
+      for (const auto& folder : folders) runs.push_back(read_run(folder));
       print_comparison(console, runs);
       print_energies(console, runs);
       write_report(runs, page, arguments->force);

@@ -13,6 +13,7 @@
 #include "courant/cli/sweep.hpp"
 #include "courant/cli/waiting.hpp"
 #include "courant/core/expressions/native.hpp"
+#include "courant/running/chosen_step.hpp"
 #include "courant/running/run_backend.hpp"
 #include "courant/running/runner.hpp"
 
@@ -46,6 +47,25 @@ void report_failures(const Console& console, const std::string& file, const RunO
 
 int run_experiment(const Console& console, const RunArguments& arguments,
                    const Experiment& experiment) {
+  if (experiment.time && !experiment.time->is_chosen) {
+    std::optional<Waiting> waiting;
+    if (!arguments.quiet) waiting.emplace(console, "choosing the step");
+    if (console.heeds_stop) *console.heeds_stop = true;
+    const ChosenStep chosen =
+        chosen_step(experiment, worthwhile(arguments.backend, experiment), console.stop);
+    waiting.reset();
+    if (!arguments.quiet)
+      print_wrapped(console,
+                    "The step " + shown(chosen.step) +
+                        " was chosen: with a half of it coordinates differ by " +
+                        shown(chosen.estimate, 2) + " of their ways.",
+                    "  ");
+    const auto whole = with_chosen_step(experiment, chosen);
+    for (std::size_t i = experiment.remarks.size(); i < whole->remarks.size(); ++i)
+      print_error(console, "warning: " + arguments.file + ": " + whole->remarks[i].where + ": " +
+                               whole->remarks[i].what);
+    return run_experiment(console, arguments, *whole);
+  }
   RunOptions options{.folder = arguments.output(),
                      .backend = arguments.backend,
                      .existing = arguments.resume  ? ExistingRun::resume
@@ -79,7 +99,7 @@ int run_experiment(const Console& console, const RunArguments& arguments,
   const RunOutcome outcome = run(experiment, options);
   bar.reset();
   if (console.heeds_stop) *console.heeds_stop = false;
-  if (!arguments.quiet) print_outcome(console, outcome, options.folder);
+  if (!arguments.quiet) print_outcome(console, experiment, outcome, options.folder);
   if (arguments.untrusted && Confinement::is_out_of_time()) {
     print_error(console, arguments.file + ": " + Confinement::time_in_words());
     return failed;
@@ -93,24 +113,27 @@ int run_experiment(const Console& console, const RunArguments& arguments,
 }
 
 int run_cases(const Console& console, const RunArguments& arguments) {
+  SweepArguments sweep = arguments.sweep;
+  sweep.resume = arguments.resume;
   return run_sweep(console,
                    {.file = arguments.file,
                     .settings = arguments.settings,
-                    .sweep = arguments.sweep,
+                    .sweep = sweep,
                     .folder = arguments.folder.empty() ? default_folder(arguments.file, "-sweep")
                                                        : std::filesystem::path(arguments.folder),
                     .replace = arguments.force,
                     .quiet = arguments.quiet,
                     .action =
                         [&](const SweepCase& one, const std::filesystem::path& folder) {
-                          return run_of_case(one, folder, arguments.backend, console.stop);
+                          return run_of_case(one, folder, arguments.backend, console.stop,
+                                             arguments.resume);
                         },
                     .columns = {{"steps", "steps"},
                                 {"H.max_drift", "max |H - H(0)|"},
                                 {"max_violation", "constraints"},
                                 {"passed", "passed"},
                                 {"expectations", "of"},
-                                {"wall_seconds", "seconds"}}});
+                                {"seconds", "seconds"}}});
 }
 
 }  // namespace
@@ -126,15 +149,14 @@ void add_run(CLI::App& app, Session& session) {
       ->type_name("DIR");
   add_backend(*run, arguments->backend);
   add_settings(*run, arguments->settings);
-  add_sweep(*run, arguments->sweep);
+  add_sweep(*run, arguments->sweep, true);
   CLI::Option* force =
       run->add_flag("--force", arguments->force, "replace a run that is in the folder already");
   run->add_flag("--resume", arguments->resume,
                 "go on with the run that is in the folder: one that was killed, interrupted or "
                 "failed, or one that is complete after /time/end has grown; its files become "
-                "those of a run that was never stopped")
-      ->excludes(force)
-      ->excludes("--sweep");
+                "those of a run that was never stopped; of a sweep, make what is missing")
+      ->excludes(force);
   run->add_flag("--explain", arguments->explain,
                 "say which equations a step solves, and which unknowns they give explicitly")
       ->excludes("--sweep");

@@ -95,17 +95,24 @@ void print_opening(const Console& console, const Experiment& experiment,
                    const LadderReport& ladder) {
   std::ostream& out = console.out;
   if (!experiment.title.empty()) out << printable(experiment.title) << '\n';
-  out << "  " << experiment.model.description << '\n';
+  print_wrapped(console, experiment.model.description, "  ");
   if (experiment.method)
-    out << "  " << experiment.method->description << ", " << steps_in_words(*experiment.time)
-        << '\n';
-  out << "\n  (dim S, dim M): " << ladder_line(ladder) << '\n';
-  print_wrapped(out, verdict_in_words(ladder), "  ");
-  for (const std::string& doubt : doubts_in_words(ladder)) print_wrapped(out, doubt, "  ");
-  if (ladder.family && !ladder.family->is_morse())
-    print_wrapped(out, family_in_words(ladder), "  ");
+    print_wrapped(console, experiment.method->description + ", " + steps_in_words(*experiment.time),
+                  "  ");
+  out << '\n';
   for (const Movement& move : ladder.moves)
-    out << "  " << move.name << " had to move " << from_and_to(move) << " to be consistent.\n";
+    print_wrapped(console, move.name + " had to move " + from_and_to(move) + " to be consistent.",
+                  "  ");
+  if (ladder.is_impulse)
+    print_wrapped(console, "That is what an impulse does: what the equations conserve is kept.",
+                  "  ");
+  if (!ladder.moves.empty()) out << '\n';
+  print_wrapped(console, "(dim S, dim M): " + ladder_line(ladder), "  ");
+  print_wrapped(console, verdict_in_words(ladder), "  ");
+  for (const std::string& doubt : doubts_in_words(ladder)) print_wrapped(console, doubt, "  ");
+  for (const std::string& line : choices_in_words(ladder)) print_wrapped(console, line, "  ");
+  if (ladder.family && !ladder.family->is_morse())
+    print_wrapped(console, family_in_words(ladder), "  ");
   out << std::flush;
 }
 
@@ -120,7 +127,7 @@ void print_explanation(const Console& console, const Integrator& method) {
   for (const StepFormulas& equations : formulas) console.out << explanation(equations) << '\n';
 }
 
-void print_outcome(const Console& console, const RunOutcome& outcome,
+void print_outcome(const Console& console, const Experiment& experiment, const RunOutcome& outcome,
                    const std::filesystem::path& folder) {
   const RunSummary& summary = outcome.summary;
   if (summary.steps <= kMostRowsPlotted) print_paths(console, folder);
@@ -141,10 +148,16 @@ void print_outcome(const Console& console, const RunOutcome& outcome,
     console.out << "  " << divided << (divided == 1 ? " step was" : " steps were")
                 << " made in halves.\n";
   for (const auto& [name, symmetry] : summary.symmetries)
-    if (!symmetry.remark.empty()) console.out << "  " << symmetry.remark << '\n';
-  for (const std::string& warning : summary.warnings)
-    console.out << "\n  Warning: " << warning << '\n';
+    if (!symmetry.remark.empty()) print_wrapped(console, symmetry.remark, "  ");
+  // What was said when the experiment was read comes first.
+  for (std::size_t i = experiment.remarks.size(); i < summary.warnings.size(); ++i) {
+    console.out << '\n';
+    print_wrapped(console, "Warning: " + summary.warnings[i], "  ");
+  }
   print_expectations(console, outcome);
+  if (!summary.stopped_by.empty())
+    console.out << "\n  ended by the event " << summary.stopped_by
+                << " at t = " << shown(summary.time ? summary.time->end : 0.0) << '\n';
   console.out << "\n  " << to_string(summary.status) << "; files in " << folder.string() << '\n'
               << std::flush;
 }

@@ -25,7 +25,7 @@ void print_resumption(const Console& console, long k, double t);
 void print_explanation(const Console& console, const Integrator& method);
 
 // How it went: paths in the plane, observables, solver, expectations, where the files are.
-void print_outcome(const Console& console, const RunOutcome& outcome,
+void print_outcome(const Console& console, const Experiment& experiment, const RunOutcome& outcome,
                    const std::filesystem::path& folder);
 
 }  // namespace courant::cli

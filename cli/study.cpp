@@ -65,16 +65,16 @@ void print_study(const Console& console, const StudyReport& study) {
         << "; reference: " << method.reference;
     if (method.reference_error > 0.0) out << ", off by some " << shown(method.reference_error, 1);
     out << '\n';
-    if (!method.remark.empty()) print_wrapped(out, method.remark, "  ");
+    if (!method.remark.empty()) print_wrapped(console, method.remark, "  ");
     for (const StudyReport::Row& row : method.rows)
       if (!row.message.empty())
-        print_wrapped(out, "step " + shown(row.step) + ": " + row.message, "  ");
+        print_wrapped(console, "step " + shown(row.step) + ": " + row.message, "  ");
     out << '\n';
   }
   if (const auto quantities = study.quantities()) {
     constexpr std::size_t most = 8;
     const auto told = std::span(*quantities).first(std::min(quantities->size(), most));
-    print_wrapped(out,
+    print_wrapped(console,
                   "The error is the greatest distance of (" + word_list(told) +
                       (quantities->size() > most ? ", …" : "") + ") from the reference.",
                   "");
@@ -145,7 +145,7 @@ Json study_case(const SweepCase& one, const std::filesystem::path& folder,
     return {{"status", "interrupted"}, {"message", "interrupted"}, {"values", Json::object()}};
   std::string written;
   if (!folder.empty()) {
-    const ResultFolder mine(folder / one.name, "study", false);
+    const ResultFolder mine(folder / one.name, "study", arguments.sweep.resume);
     write_files(mine, result);
     written = one.name;
   }
@@ -160,13 +160,13 @@ Json study_case(const SweepCase& one, const std::filesystem::path& folder,
           {"status", "completed"},
           {"message", message},
           {"as_expected", status_of_study(result) == done},
+          {"seconds", last.at("seconds")},
           {"values",
            {{"method", of_method.at("method")},
             {"order", of_method.at("order")},
             {"step", last.at("step")},
             {"error", last.at("error")},
             {"iterations", last.at("iterations")},
-            {"seconds", last.at("seconds")},
             {"reference", of_method.at("reference")},
             {"reference_error", of_method.at("reference_error")}}}};
 }

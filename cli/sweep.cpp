@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <fstream>
 #include <iterator>
 #include <optional>
 #include <ostream>
@@ -11,6 +12,7 @@
 #include "courant/core/numbers/parallel.hpp"
 #include "courant/reporting/figure_file.hpp"
 #include "courant/reporting/sweep_figure.hpp"
+#include "courant/running/unfinished_run.hpp"
 
 namespace courant::cli {
 namespace {
@@ -41,6 +43,11 @@ bool is_as_wanted(const Json& row) {
   return row.at("status") == "completed" && row.value("as_expected", true);
 }
 
+// One of the values of a case, or what is told of it beside them.
+Json value_of(const Json& row, const std::string& name) {
+  return row.at("values").contains(name) ? row.at("values").at(name) : row.value(name, Json());
+}
+
 void print_table(const Console& console, const SweepTask& task, const Json& table) {
   std::vector<std::string> head, names;
   for (const Json& range : table.at("sweep")) {
@@ -51,7 +58,7 @@ void print_table(const Console& console, const SweepTask& task, const Json& tabl
   const Json& rows = table.at("runs");
   for (const auto& column : task.columns) {
     const std::string &name = column.first, &title = column.second;
-    if (std::ranges::none_of(rows, [&](const Json& row) { return row["values"].contains(name); }))
+    if (std::ranges::none_of(rows, [&](const Json& row) { return !value_of(row, name).is_null(); }))
       continue;
     names.push_back(name);
     head.push_back(title);
@@ -63,7 +70,7 @@ void print_table(const Console& console, const SweepTask& task, const Json& tabl
     const std::string status = row.at("status");
     cells.push_back(status == "completed" && !is_as_wanted(row) ? "not as expected" : status);
     for (const std::string& name : names)
-      cells.push_back(row["values"].contains(name) ? shown(row["values"][name], 4) : "");
+      cells.push_back(value_of(row, name).is_null() ? "" : shown(value_of(row, name), 4));
     text.add(cells);
   }
   text.print(console.out);
@@ -85,20 +92,60 @@ int status_of_sweep(const Json& table) {
   return std::ranges::all_of(table.at("runs"), is_as_wanted) ? done : failed;
 }
 
-int sweep_of(const Console& console, const SweepTask& task, const Json& document) {
+// Places with their values, or a table of cases, which is a file.
+std::vector<ValueRange> ranges_of(const SweepArguments& arguments) {
   std::vector<ValueRange> ranges;
-  for (const std::string& text : task.sweep.ranges) ranges.push_back(read_range(text));
-  const std::vector<SweepCase> cases = sweep_cases(document, ranges);
+  for (const std::string& text : arguments.ranges) {
+    if (text.starts_with("/") && text.find('=') != std::string::npos) {
+      ranges.push_back(read_range(text));
+      continue;
+    }
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(text, error)) {
+      if (text.find('=') == std::string::npos)
+        throw ExperimentError(
+            "--sweep " + text,
+            "is no file; expected /json/pointer=a:b:n, or a file of cases (.csv)");
+      ranges.push_back(read_range(text));  // which says what is wrong
+      continue;
+    }
+    std::ifstream file(text, std::ios::binary);
+    const std::string content(std::istreambuf_iterator<char>(file), {});
+    for (ValueRange& range : read_cases(content, text)) ranges.push_back(std::move(range));
+  }
+  return ranges;
+}
+
+// The table of the sweep in the folder, which is to go on; null where there is none.
+Json earlier_table(const SweepTask& task, const Json& head) {
+  if (!task.sweep.resume || task.folder.empty()) return {};
+  const Json table = ResultFolder::result_in(task.folder, "sweep");
+  if (table.is_null()) return table;
+  for (const char* key : {"sweep", "experiment", "shard"})
+    if (table.value(key, Json()) != head.value(key, Json()))
+      throw UnusableFolder(task.folder.string() +
+                           ": the sweep in this folder is another one, by its \"" + key +
+                           "\"; expected the same experiment, --set, --sweep and --shard");
+  return table;
+}
+
+int sweep_of(const Console& console, const SweepTask& task, const Json& document) {
+  const std::vector<ValueRange> ranges = ranges_of(task.sweep);
+  const Shard shard = task.sweep.shard.empty() ? Shard() : Shard::read(task.sweep.shard);
+  const std::vector<SweepCase> cases = shard.take(sweep_cases(document, ranges));
   require_readable(cases);
+  const Json head = sweep_head(document, ranges, shard);
+  const Json earlier = earlier_table(task, head);
   std::optional<ResultFolder> folder;
-  if (!task.folder.empty()) folder.emplace(task.folder, "sweep", task.replace);
+  if (!task.folder.empty()) folder.emplace(task.folder, "sweep", task.replace, task.sweep.resume);
   if (console.heeds_stop) *console.heeds_stop = true;
   const Json table =
-      sweep(ranges, cases, [&](const SweepCase& one) { return task.action(one, task.folder); },
+      sweep(head, cases, [&](const SweepCase& one) { return task.action(one, task.folder); },
             {.threads = task.sweep.jobs > 0 ? task.sweep.jobs : core_count(),
              .stop = console.stop,
              .on_progress = progress(console, task.quiet),
-             .folder = folder ? &*folder : nullptr});
+             .folder = folder ? &*folder : nullptr,
+             .earlier = earlier});
   if (console.heeds_stop) *console.heeds_stop = false;
   const auto figure = folder ? sweep_figure(table) : std::nullopt;
   if (figure) folder->write(table, sweep_csv(table), figure_svg(*figure));
@@ -116,12 +163,13 @@ int sweep_of(const Console& console, const SweepTask& task, const Json& document
 
 }  // namespace
 
-void add_sweep(CLI::App& command, SweepArguments& arguments) {
+void add_sweep(CLI::App& command, SweepArguments& arguments, bool has_resume) {
   CLI::Option* sweep =
       command
           .add_option("--sweep", arguments.ranges,
                       "do it for several values: n numbers from a to b, or a list v,w,… of values; "
-                      "may be repeated, for all combinations")
+                      "may be repeated, for all combinations; or for each row of a table of cases, "
+                      "FILE.csv with a column for each pointer")
           ->type_name("/POINTER=a:b:n")
           ->expected(1)
           ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -131,10 +179,20 @@ void add_sweep(CLI::App& command, SweepArguments& arguments) {
       ->check(CLI::Range(1, 1000).description(""))
       ->type_name("N")
       ->needs(sweep);
+  command
+      .add_option("--shard", arguments.shard,
+                  "only the k-th of n parts of a sweep; `courant sweep --merge` joins them")
+      ->type_name("K/N")
+      ->needs(sweep);
+  if (!has_resume)
+    command
+        .add_flag("--resume", arguments.resume, "make what is missing in the sweep in the folder")
+        ->needs(sweep);
 }
 
 int run_sweep(const Console& console, const SweepTask& task) {
-  if (!task.folder.empty()) ResultFolder::check(task.folder, "sweep", task.replace);
+  if (!task.folder.empty())
+    ResultFolder::check(task.folder, "sweep", task.replace, task.sweep.resume);
   return with_document(
       console, task.file, [&](const Json& document) { return sweep_of(console, task, document); },
       task.settings);

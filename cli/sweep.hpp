@@ -18,9 +18,12 @@ namespace courant::cli {
 struct SweepArguments {
   std::vector<std::string> ranges;  // as given to --sweep; empty: no sweep
   unsigned jobs = 0;                // threads; 0: as many as there are cores
+  std::string shard;                // as given to --shard; empty: all of it
+  bool resume = false;
 };
 
-void add_sweep(CLI::App& command, SweepArguments& arguments);
+// Of a command whose --resume has other uses, that is its own.
+void add_sweep(CLI::App& command, SweepArguments& arguments, bool has_resume = false);
 
 // What a sweep does with each of its cases.
 struct SweepTask {

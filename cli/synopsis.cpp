@@ -66,6 +66,7 @@ const std::vector<Term>& environment() {
   static const std::vector<Term> variables{
       {"COURANT_CC", "the C compiler that makes native code of formulas (default: cc)"},
       {"COURANT_CACHE", "the folder in which that is kept (default: ~/.cache/courant)"},
+      {"COLUMNS", "where text is wrapped (default: at the width of the terminal)"},
       {"NO_COLOR", "no colours on the terminal"},
   };
   return variables;

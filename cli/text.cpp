@@ -63,8 +63,10 @@ std::string shown_if_known(std::optional<Index> value) {
   return value ? std::to_string(*value) : "–";
 }
 
-void print_wrapped(std::ostream& out, const std::string& text, const std::string& indent) {
-  constexpr std::size_t columns = 96;
+void print_wrapped(const Console& console, const std::string& text, const std::string& indent) {
+  std::ostream& out = console.out;
+  const std::size_t columns =
+      console.columns > indent.size() + 20 ? console.columns - indent.size() : 20;
   const std::size_t spaces = text.find_first_not_of(' ');
   const std::string first(spaces == std::string::npos ? 0 : spaces, ' ');
   const std::string further = first + (first.empty() ? "" : "    ");

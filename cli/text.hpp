@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "courant/cli/command.hpp"
 #include "courant/reading/findings.hpp"
 #include "courant/running/ladder_report.hpp"
 
@@ -18,9 +19,9 @@ std::string shown(const Json& value, int digits = 6);
 std::string shown_if_known(double value, int digits = 6);
 std::string shown_if_known(std::optional<Index> value);
 
-// `text` in lines of at most 96 characters, each after `indent`. A text that is indented itself, a
-// formula, goes on four columns further in.
-void print_wrapped(std::ostream& out, const std::string& text, const std::string& indent);
+// `text` on console.out in lines of at most console.columns characters, each after `indent`. A text that is
+// indented itself, a formula, goes on four columns further in.
+void print_wrapped(const Console& console, const std::string& text, const std::string& indent);
 
 // Rows of cells; the first column is left-aligned, the others right-aligned, two spaces apart.
 class TextTable {

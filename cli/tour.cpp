@@ -54,7 +54,8 @@ std::string expectations(const std::string& output) {
 std::string output_of(const TourChapter& chapter, const Console& console) {
   std::istringstream in(chapter.experiment);
   std::ostringstream out, err;
-  const Console inner{.in = in, .out = out, .err = err, .stop = console.stop};
+  const Console inner{
+      .in = in, .out = out, .err = err, .columns = console.columns, .stop = console.stop};
   std::vector<std::string> arguments = chapter.arguments;
   if (arguments[0] != "run") {
     command(arguments, inner);
@@ -74,8 +75,8 @@ std::string command_line(const TourChapter& chapter) {
   return line;
 }
 
-void print_paragraphs(std::ostream& out, const std::string& text) {
-  for (const std::string& paragraph : lines_of(text)) print_wrapped(out, paragraph, "  ");
+void print_paragraphs(const Console& console, const std::string& text) {
+  for (const std::string& paragraph : lines_of(text)) print_wrapped(console, paragraph, "  ");
 }
 
 // Waits for Enter where someone is there to press it.
@@ -90,21 +91,21 @@ void print_chapter(const Console& console, std::size_t number) {
   const TourChapter& chapter = tour_chapters()[number - 1];
   std::ostream& out = console.out;
   out << number << ". " << chapter.title << "\n\n";
-  print_paragraphs(out, chapter.idea);
+  print_paragraphs(console, chapter.idea);
   out << '\n';
   for (const std::string& line : lines_of(chapter.experiment)) out << "    " << line << '\n';
   out << '\n';
-  print_paragraphs(out, "Question: " + chapter.question);
+  print_paragraphs(console, "Question: " + chapter.question);
   wait(console);
   out << "\n  $ " << command_line(chapter) << "\n\n";
   for (const std::string& line : lines_of(output_of(chapter, console)))
     out << (line.empty() ? "" : "  ") << line << '\n';
   out << '\n';
-  print_paragraphs(out, "Answer: " + chapter.answer);
+  print_paragraphs(console, "Answer: " + chapter.answer);
   out << '\n';
-  print_paragraphs(out, "Exercise: " + chapter.exercise);
+  print_paragraphs(console, "Exercise: " + chapter.exercise);
   wait(console);
-  print_paragraphs(out, "Solution: " + chapter.solution);
+  print_paragraphs(console, "Solution: " + chapter.solution);
 }
 
 void print_page(const Console& console, std::size_t number) {

@@ -10,7 +10,14 @@ namespace courant::plot {
 std::string escape(std::string_view text) {
   std::string escaped;
   escaped.reserve(text.size());
-  for (const char c : text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    // U+0080 … U+009F, which are controls as well, are C2 80 … C2 9F.
+    if (c == '\xc2' && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xa0) {
+      escaped += "\uFFFD";
+      ++i;
+      continue;
+    }
     switch (c) {
       case '&':
         escaped += "&amp;";

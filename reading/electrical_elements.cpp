@@ -1,4 +1,5 @@
 #include "courant/reading/element_parts.hpp"
+#include "courant/reading/junction_charge.hpp"
 
 namespace courant {
 namespace {
@@ -11,9 +12,6 @@ Key secondary() {
   return required_key("secondary", takes::array_of(takes::text(), 2, 2),
                       "the two nodes of the other side, from and to");
 }
-
-// exp beyond this exponent goes on as its tangent: Newton's method may ask for more.
-constexpr double kLargestExponent = 60.0;
 
 std::optional<NetworkElement> read_resistor(ObjectReader& object, const NetworkSite& site) {
   ElementReader reader(object, site);
@@ -60,21 +58,45 @@ std::optional<NetworkElement> read_mutual_inductance(ObjectReader& object,
   return reader.result();
 }
 
+// The charge of a junction beside the branch that conducts, of index `first`: a state q, which q = q(v) ties to the
+// voltage of that branch. Where it is tied, the voltage of the charge is that of the branch, as it is side by side.
+void store_in_junction(ElementReader& reader, const JunctionCharge& junction,
+                       const NetworkTerminal& from, const NetworkTerminal& to) {
+  reader.implicit_storage(
+      domains::electrical, from, to, "q_", "_charge",
+      [junction](const NetworkVariables& variables, Index first, const Expr& charge) {
+        const Expr v = variables.voltage(first);
+        return v + (charge - junction.charge(v)) / junction.size();
+      },
+      [junction](const NetworkVariables& variables, Index first) {
+        return junction.energy(variables.voltage(first));
+      });
+}
+
 std::optional<NetworkElement> read_diode(ObjectReader& object, const NetworkSite& site) {
   ElementReader reader(object, site);
   const double saturation = reader.positive("saturation"), emission = reader.positive("emission"),
-               thermal = reader.positive("thermal_voltage"), series = reader.constant("leak");
-  reader.branch(domains::electrical, reader.node("from"), reader.node("to"), Kind::voltage,
-                Role::resistor,
-                [saturation, scale = emission * thermal, series](const NetworkVariables& variables,
-                                                                 Index first) {
+               thermal = reader.positive("thermal_voltage"), leak = reader.constant("leak");
+  const double breakdown = reader.constant("breakdown"),
+               breakdown_current = reader.constant("breakdown_current");
+  const JunctionCharge junction{.capacitance = reader.constant("capacitance"),
+                                .junction = reader.positive("junction"),
+                                .grading = reader.constant("grading"),
+                                .forward = reader.constant("forward"),
+                                .transit = reader.constant("transit"),
+                                .saturation = saturation,
+                                .scale = emission * thermal};
+  const auto from = reader.node("from"), to = reader.node("to");
+  reader.branch(domains::electrical, from, to, Kind::voltage, Role::resistor,
+                [=, scale = emission * thermal](const NetworkVariables& variables, Index first) {
                   const Expr v = variables.voltage(first);
-                  const Expr exponent = v / scale;
-                  const double top = std::exp(kLargestExponent);
-                  const Expr power = select(exponent < Expr(kLargestExponent), exp(exponent),
-                                            top * (1.0 + exponent - kLargestExponent));
-                  return saturation * (power - 1.0) + series * v;
+                  Expr current = saturation * (bounded_exp(v / scale) - 1.0) + leak * v;
+                  if (breakdown > 0.0)
+                    current -= breakdown_current * bounded_exp(-(v + breakdown) / scale);
+                  return current;
                 });
+  if (junction.capacitance > 0.0 || junction.transit > 0.0)
+    store_in_junction(reader, junction, from, to);
   return reader.result();
 }
 
@@ -161,12 +183,25 @@ ElementKinds electrical_elements() {
         {{"value", "coupling"}}},
        read_mutual_inductance},
       {{"diode",
-        "i = saturation (exp(v/(emission thermal_voltage)) - 1) + leak v",
+        "i = saturation (exp(v/(emission thermal_voltage)) - 1) + leak v, with a breakdown and a "
+        "charge",
         {name(), current_from(), current_to(),
          default_key("saturation", takes::formula(), 1e-14, "in A"),
          default_key("emission", takes::formula(), 1.0, "the emission coefficient"),
          default_key("thermal_voltage", takes::formula(), 0.025852, "k T/e in V"),
-         default_key("leak", takes::formula(), 0.0, "a conductance beside it, in S")}},
+         default_key("leak", takes::formula(), 0.0, "a conductance beside it, in S"),
+         default_key("breakdown", takes::formula(), 0.0,
+                     "the reverse voltage of breakdown in V; 0: none"),
+         default_key("breakdown_current", takes::formula(), 1e-3, "the current there, in A"),
+         default_key("capacitance", takes::formula(), 0.0,
+                     "C₀ of C₀/(1 - v/junction)^grading in F; with it or with transit there is a "
+                     "charge q_<name>"),
+         default_key("junction", takes::formula(), 1.0, "in V"),
+         default_key("grading", takes::formula(), 0.5, "less than 1"),
+         default_key("forward", takes::formula(), 0.5,
+                     "the part of junction from which on the capacitance goes on as its tangent"),
+         default_key("transit", takes::formula(), 0.0,
+                     "the time whose product with i is a charge, in s")}},
        read_diode},
       {{"ideal-transformer",
         "v₁ = ratio v₂, i₂ = -ratio i₁",

@@ -22,8 +22,15 @@ std::optional<Event> read_event(const std::string& name, const JsonReader& value
   const auto zero = entry.required("zero");
   const auto formula = zero ? read_formula(*zero) : std::nullopt;
   const auto sense = direction(entry);
+  bool stops = false;
+  if (const auto stop = entry.optional("stop")) {
+    stops = stop->value() == true;
+    if (!stop->value().is_boolean()) stop->expected("true or false");
+  } else {
+    entry.default_value("stop", false);
+  }
   if (!formula) return std::nullopt;
-  return Event{name, *formula, sense};
+  return Event{name, *formula, sense, stops};
 }
 
 // The name stands in a file between commas, and in expectations.

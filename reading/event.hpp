@@ -16,6 +16,7 @@ struct Event {
   std::string name;
   WrittenFormula formula;
   Direction direction = Direction::either;
+  bool stops = false;  // the run ends with the first of its zeros
 
   // Whether the quantity passes through zero between two values, the first of which is not zero: a
   // zero that is a value itself ends one interval, and does not begin the next.
@@ -24,7 +25,7 @@ struct Event {
 
 // Reads the object `events`. An entry is a formula, for zeros in both directions, or
 //
-//   {"zero": "x*p_x + y*p_y", "direction": "rising"}
+//   {"zero": "x*p_x + y*p_y", "direction": "rising", "stop": true}
 std::vector<Event> read_events(const JsonReader& events, const Model& model);
 
 }  // namespace courant

@@ -84,6 +84,9 @@ struct TimeSpan {
   std::optional<WrittenFormula> rate = {};
   double until = 0.0;
   std::optional<DividedIntegrator::Options> division = {};
+  // By which the step is to be chosen, or was.
+  std::optional<double> tolerance = {};
+  bool is_chosen = true;  // otherwise `step` is the longest that may be chosen
 
   bool is_transformed() const { return rate.has_value(); }
   // Of t, or of τ.

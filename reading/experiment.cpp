@@ -12,10 +12,14 @@
 #include "courant/reading/repetition.hpp"
 #include "courant/reading/system_kinds.hpp"
 #include "courant/reading/transformed_time.hpp"
+#include "courant/reading/unused_parameters.hpp"
 #include "courant/structures/energy_system.hpp"
 
 namespace courant {
 namespace {
+
+// A step that a tolerance chooses is not longer than this part of the run.
+constexpr double kLongestSteps = 1000.0;
 
 constexpr double kUnread = std::numeric_limits<double>::quiet_NaN();
 
@@ -45,14 +49,18 @@ double read_step(const JsonReader& value, const SymbolTable& constants) {
 
 // The number of steps must be whole: a last step of another size would be another method. In transformed
 // time steps are of all sizes.
-std::optional<TimeSpan> read_time(const JsonReader& value, const SymbolTable& constants) {
+std::optional<TimeSpan> read_time(const JsonReader& value, const SymbolTable& constants,
+                                  const std::optional<JsonReader>& interval) {
   ObjectReader object(value);
   TimeSpan time;
   if (const auto start_key = object.optional("start"))
     time.start = read_constant(*start_key, constants);
   else
     object.default_value("start", 0.0);
-  const auto step_key = object.required("step");
+  if (const auto tolerance = object.optional("tolerance"))
+    time.tolerance = tolerance->positive_number();
+  const auto step_key = time.tolerance ? object.optional("step") : object.required("step");
+  time.is_chosen = step_key.has_value();
   time.step = step_key ? read_step(*step_key, constants) : kUnread;
   const auto rate_key = object.optional("transformation");
   if (rate_key) time.rate = read_formula(*rate_key);
@@ -60,6 +68,13 @@ std::optional<TimeSpan> read_time(const JsonReader& value, const SymbolTable& co
   time.division = read_division(object, constants);
   const auto end_key = object.required("end");
   const double end = end_key ? read_constant(*end_key, constants) : kUnread;
+  if (!time.is_chosen) {
+    if (rate_key) object.required("step");  // which is one of another time
+    time.step = interval ? read_constant(*interval, constants) : (end - time.start) / kLongestSteps;
+    // So that a whole number of them makes the run.
+    const double count = std::round((end - time.start) / time.step);
+    if (count >= 1.0) time.step = (end - time.start) / count;
+  }
   if (std::isnan(time.start) || std::isnan(time.step) || std::isnan(end)) return std::nullopt;
   if (time.rate) {
     time.until = end;
@@ -313,8 +328,10 @@ Experiment read_document(const Json& written, const Model* given) {
     const auto method = object.optional("method");
     if (method) experiment.method = method_kinds().read(*method);
     const auto time = object.optional("time");
+    const auto output = object.optional("output");
     if (time)
-      experiment.time = read_time(*time, model ? model->vocabulary.symbols({}) : SymbolTable());
+      experiment.time = read_time(*time, model ? model->vocabulary.symbols({}) : SymbolTable(),
+                                  interval_of(output));
     if (method && !time) object.required("time");
     if (time && !method) object.required("method");
     experiment.examine = static_cast<long>(object.integer("examine", 0, 0));
@@ -328,7 +345,6 @@ Experiment read_document(const Json& written, const Model* given) {
     if (events && !time) events->problem("need a trajectory; expected \"method\" and \"time\"");
     const auto expect = object.optional("expect");
     const Json no_output = Json::object();
-    const auto output = object.optional("output");
     if (!output) object.default_value("output", no_output);
 
     if (model && experiment.time && experiment.time->rate)
@@ -365,6 +381,7 @@ Experiment read_document(const Json& written, const Model* given) {
   }
   findings.require_clean();
   experiment.document = findings.completed(document);
+  experiment.remarks = unused_parameters(document);
   return experiment;
 }
 

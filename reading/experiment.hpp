@@ -47,7 +47,8 @@ struct Experiment {
   std::vector<Event> events;
   Expectations expect;
   Output output;
-  long examine = 0;  // steps between two examinations of the ladder; 0: none
+  long examine = 0;                   // steps between two examinations of the ladder; 0: none
+  std::vector<Problem> remarks = {};  // on what may be a slip, and changes nothing
 
   double start() const { return time ? time->start : 0.0; }
 };

@@ -1,7 +1,9 @@
 #include "courant/reading/initial_values.hpp"
 
+#include <algorithm>
 #include <limits>
 
+#include "courant/core/expressions/derivative.hpp"
 #include "courant/reading/repetition.hpp"
 
 namespace courant {
@@ -23,13 +25,46 @@ Target find(const Reference& reference, const Vocabulary& vocabulary, InitialVal
   return {reference.is_velocity ? &values.velocity : &values.x, first, count};
 }
 
+// All that may be observed of a model.
+class Observables {
+ public:
+  explicit Observables(const Model& model) {
+    const ImplicitSystem& system = *model.system;
+    const Manifold& M = *system.manifold();
+    symbols_ = model.symbols(graph_.variables("x", M.ambient_dimension()),
+                             graph_.variables("v", M.tangent_dimension()),
+                             graph_.variables("z", system.auxiliary_size()), graph_.variable("t"));
+  }
+  // Whether the name is that of a quantity which depends on the state.
+  bool has(const std::string& name) const {
+    Findings findings;
+    const WrittenFormula formula{name, ""};
+    return check(formula, symbols_, findings) && !evaluate(formula, symbols_).is_constant();
+  }
+
+ private:
+  Graph graph_;
+  SymbolTable symbols_;
+};
+
+void read_quantity(const std::string& key, const JsonReader& value, const SymbolTable& constants,
+                   InitialValues& values) {
+  const auto formula = read_formula(value);
+  if (!formula) return;
+  const auto number = evaluate_constants({{}, {*formula}}, constants, value.findings());
+  if (number) values.quantities.push_back({{key, value.pointer()}, (*number)[0]});
+}
+
 void read_entry(const std::string& key, const JsonReader& value, const SymbolTable& constants,
                 const Model& model, InitialValues& values) {
   Target target{};
   try {
     target = find(parse_reference(key), model.vocabulary, values);
   } catch (const FormulaError& error) {
-    value.problem(std::string("key, ") + error.what());
+    if (Observables(model).has(key))
+      read_quantity(key, value, constants, values);
+    else
+      value.problem(std::string("key, ") + error.what());
     return;
   }
   const auto formulas = read_formulas(value);
@@ -74,6 +109,11 @@ void read_entries(const std::string& key, const JsonReader& entry, const SymbolT
 void read_hold(const JsonReader& name, const Model& model, InitialValues& values) {
   const auto text = name.text();
   if (!text) return;
+  for (GivenQuantity& quantity : values.quantities)
+    if (quantity.formula.text == *text) {
+      quantity.held = true;
+      return;
+    }
   try {
     const Target target = find(parse_reference(*text), model.vocabulary, values);
     if (!target.vector->given.segment(target.first, target.count).all())
@@ -100,6 +140,53 @@ void read_weight(const std::string& key, const JsonReader& value, const Model& m
   }
 }
 
+// Of an equation c (x_j' - x_k) = 0: j and k.
+std::optional<std::pair<Index, Index>> velocity_in(const Expr& equation, const ExprVector& x,
+                                                   const ExprVector& v, const ExprVector& others) {
+  const ExprVector one{{equation}};
+  const SparseExprMatrix of_x = jacobian(one, x), of_v = jacobian(one, v);
+  const auto is_constant = [](const SparseExprMatrix& row) {
+    return row.values.size() == 1 && row.values[0].is_constant();
+  };
+  if (!is_constant(of_x) || !is_constant(of_v) || jacobian(one, others).values.size() > 0)
+    return std::nullopt;
+  if (of_x.values[0].value() != -of_v.values[0].value()) return std::nullopt;
+  return std::pair(of_v.col[0], of_x.col[0]);
+}
+
+// 0 for the velocities that are not given. Whether there are any.
+bool rest(const Model& model, InitialValues& values) {
+  const ImplicitSystem& system = *model.system;
+  const Manifold& M = *system.manifold();
+  bool any = false;
+  const auto set = [](PartialVector& vector, Index i) {
+    if (!vector.given[i]) vector.values[i] = 0.0;
+    vector.given[i] = true;
+  };
+  const std::vector<std::string>& names = system.names().coordinates;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto momentum = std::ranges::find(names, "p_" + names[i]);
+    if (momentum == names.end()) continue;
+    any = true;
+    if (!values.x.given[momentum - names.begin()]) set(values.velocity, static_cast<Index>(i));
+  }
+  if (any || M.tangent_dimension() != M.ambient_dimension()) return any;
+  Graph graph;
+  const ExprVector x = graph.variables("x", M.ambient_dimension()),
+                   v = graph.variables("v", M.tangent_dimension());
+  ExprVector others(system.auxiliary_size() + 1);
+  others << graph.variables("z", system.auxiliary_size()), graph.variable("t");
+  const ExprVector residual =
+      system.residual(x, v, others.head(others.size() - 1).eval(), others[others.size() - 1]);
+  for (const Expr& equation : residual)
+    if (const auto pair = velocity_in(equation, x, v, others)) {
+      any = true;
+      const auto [position, velocity] = *pair;
+      if (!values.velocity.given[position]) set(values.x, velocity);
+    }
+  return any;
+}
+
 }  // namespace
 
 PartialVector::PartialVector(Index size)
@@ -114,10 +201,21 @@ std::optional<InitialValues> read_initial_values(const JsonReader& initial,
   const Index N = model.vocabulary.coordinates.size();
   InitialValues values{PartialVector(N), PartialVector(N),
                        PartialVector(model.vocabulary.unknowns.size()), VectorXd::Ones(N)};
-  const auto entries = initial.entries();
-  if (!entries) return std::nullopt;
-  const SymbolTable constants = model.vocabulary.symbols({});
-  for (const auto& [key, value] : *entries) read_entries(key, value, constants, model, values);
+  const bool is_word = initial.value() == "rest";
+  bool rests = is_word;
+  if (!is_word) {
+    const auto entries = initial.entries();
+    if (!entries) return std::nullopt;
+    const SymbolTable constants = model.vocabulary.symbols({});
+    for (const auto& [key, value] : *entries) {
+      if (key == "rest" && value.value().is_boolean())
+        rests = value.value().get<bool>();
+      else
+        read_entries(key, value, constants, model, values);
+    }
+  }
+  if (rests && !rest(model, values))
+    initial.problem("asks for rest, but no coordinate has a velocity; expected values");
   if (const auto names = hold ? hold->elements() : std::nullopt)
     for (const JsonReader& name : *names) read_hold(name, model, values);
   if (const auto entries_of_weights = weights ? weights->entries() : std::nullopt)

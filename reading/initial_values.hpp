@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "courant/reading/model.hpp"
 
@@ -16,17 +17,29 @@ struct PartialVector {
   explicit PartialVector(Index size = 0);
 };
 
+// A quantity that is neither a coordinate, a velocity nor an unknown: the voltage of a capacitor, a momentum, a
+// definition.
+struct GivenQuantity {
+  WrittenFormula formula;  // its name
+  double value = 0.0;
+  bool held = false;
+};
+
 struct InitialValues {
   PartialVector x;         // N
   PartialVector velocity;  // dx/dt, N
   PartialVector z;         // m, where unknowns have names
   VectorXd weight;  // N: coordinates that must move do so with the least Σ weight · movement²
+  std::vector<GivenQuantity> quantities = {};
 };
 
 // Reads `initial`, an object such as {"x": [-1, 1], "y[0]": 2, "x'": "v0/2"}: an array name takes
 // an array, values may be formulas of the parameters. `hold` is the array beside it, of names that
 // are given; `weights` an object of names and positive numbers, 1 for what is not in it. The
-// pointers of what is wrong are those of the entries.
+// pointers of what is wrong are those of the entries. Every quantity that can be observed may be given.
+//
+// "rest", or `"rest": true` in the object: velocities that are not given are 0. Those are dx/dt of the base of a
+// cotangent bundle, and coordinates v that an equation `x' - v` says to be velocities.
 std::optional<InitialValues> read_initial_values(const JsonReader& initial,
                                                  const std::optional<JsonReader>& hold,
                                                  const std::optional<JsonReader>& weights,

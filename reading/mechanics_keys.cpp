@@ -312,7 +312,11 @@ std::optional<WrittenFormulas> read_one_forms(const JsonReader& value, const Sym
                                                 : ""));
       right = false;
     } else if (depends(form.values, velocities)) {
-      value.findings().problem(pointer, "is not linear in the velocities; expected a one-form");
+      value.findings().problem(
+          pointer,
+          "is not linear in the velocities; expected a one-form. What is not linear is an "
+          "equation of the type \"implicit\", beside x' - v and the balance of momenta "
+          "with a reaction of your choice");
       right = false;
     }
   }

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
 
 #include "courant/core/words/spelling.hpp"
 #include "courant/reading/experiment.hpp"
+#include "courant/reading/linear_spectrum.hpp"
 #include "courant/reading/netlist_circuit.hpp"
 
 namespace courant {
@@ -14,11 +18,13 @@ using namespace netlist;
 
 // How often a step that cannot be made is halved.
 constexpr int kHalvings = 10;
+// By which steps are chosen: about what simulators of circuits have.
+constexpr double kTolerance = 1e-3;
 
 class Import {
  public:
-  explicit Import(std::string_view text)
-      : deck_(read_deck(text, problems_)),
+  Import(std::string_view text, const IncludedText& included)
+      : deck_(read_deck(text, problems_, included)),
         title_(deck_.title),
         circuit_(read_circuit(deck_, problems_)),
         times_(circuit_.times),
@@ -30,6 +36,7 @@ class Import {
     check_network();
     initial_ = initial();
     problems_.require_none();
+    if (!is_nonlinear()) is_stiff_ = has_time_constants_below(rows_interval());
   }
 
   Json experiment() const {
@@ -37,8 +44,7 @@ class Import {
     if (!circuit_.parameters.empty()) system["parameters"] = circuit_.parameters;
     system["nodes"] = circuit_.nodes;
     system["elements"] = circuit_.elements;
-    const double longest = largest_step_ > 0.0 ? std::min(largest_step_, times_.step) : times_.step;
-    const double steps = std::ceil(times_.end / longest * (1.0 - 1e-12));
+    const double steps = times_.end / rows_interval();
     Json observe = Json::object();
     for (std::size_t node = 1; node < circuit_.nodes.size(); ++node) {
       if (node == circuit_.resting) continue;
@@ -50,34 +56,57 @@ class Import {
             {"system", system},
             {"initial", initial_},
             {"method", method()},
-            {"time", time(times_.end / steps)},
-            {"observe", observe}};
+            {"time", time()},
+            {"observe", observe},
+            {"output", {{"interval", times_.end / steps}}}};
   }
   const std::vector<Problem>& notes() const { return notes_; }
 
  private:
   // Diodes next to coils make time constants down to 1e-16 s, with which the midpoint rule rings. Where they
   // cut coils off, derivatives of the constraints grow beyond all bounds: Method 1 has none, and the last of
-  // its damped steps ends where the constraints hold.
+  // its damped steps ends where the constraints hold. So with every law that is not linear; linear
+  // circuits by their time constants.
   Json method() const {
-    if (!has_diodes()) return {{"type", "constrain-first"}, {"discretization", "midpoint"}};
-    return {{"type", "discretize-first"}, {"discretization", "midpoint"}, {"damping", "l-stable"}};
+    if (is_nonlinear())
+      return {
+          {"type", "discretize-first"}, {"discretization", "midpoint"}, {"damping", "l-stable"}};
+    Json method = {{"type", "constrain-first"}, {"discretization", "midpoint"}};
+    if (is_stiff_) method["damping"] = "l-stable";
+    return method;
   }
-  bool has_diodes() const {
-    return std::any_of(circuit_.elements.begin(), circuit_.elements.end(),
-                       [](const Json& element) { return element["type"] == "diode"; });
+  bool is_nonlinear() const {
+    return std::ranges::any_of(circuit_.fixed.elements, [](const StaticElement& element) {
+      return element.kind == StaticElement::Kind::diode || element.law;
+    });
   }
 
-  // Steps end where sources bend; where diodes do not let one be made, it is made in shorter ones.
-  Json time(double step) const {
-    Json time = {{"step", step}, {"end", times_.end}};
+  // Steps end where sources bend; where a law does not let one be made, it is made in shorter ones. The first number of
+  // .tran says how often rows are written; how long steps are the waveforms decide.
+  Json time() const {
+    Json time = {{"tolerance", kTolerance}, {"end", times_.end}};
     for (const auto& [first, period] : circuit_.corners)
       if (period > 0.0)
         time["corners"].push_back({{"first", first}, {"period", period}});
       else
         time["corners"].push_back(first);
-    if (has_diodes()) time["halvings"] = kHalvings;
+    if (is_nonlinear()) time["halvings"] = kHalvings;
     return time;
+  }
+
+  // The time between rows: a whole part of the run.
+  double rows_interval() const {
+    const double longest = largest_step_ > 0.0 ? std::min(largest_step_, times_.step) : times_.step;
+    return times_.end / std::ceil(times_.end / longest * (1.0 - 1e-12));
+  }
+
+  // Whether a motion of the linear circuit decays faster than steps of h follow.
+  bool has_time_constants_below(double h) const {
+    const Experiment linear = read_experiment_document(experiment());
+    return fastest_decay(*linear.model.system,
+                         VectorXd::Zero(linear.model.vocabulary.coordinates.size())) *
+               h >
+           1.0;
   }
 
   void note(int line, const std::string& what) {
@@ -176,6 +205,11 @@ class Import {
 
   Json initial() {
     tell_what_has_no_effect();
+    if (!deck_.passed.empty())
+      notes_.push_back(
+          {"the netlist", in_words(deck_.passed) + (deck_.passed.size() == 1 ? " is" : " are") +
+                              " passed over: what a transient is does not depend on it"});
+    for (const auto& [line, what] : circuit_.notes) note(line, what);
     if (circuit_.resting) {
       const std::string node = circuit_.name_of(*circuit_.resting);
       notes_.push_back({"the netlist", "nothing stores energy, and a network needs a state: C_" +
@@ -187,6 +221,7 @@ class Import {
     Json initial = Json::object();
     if (circuit_.at_rest) {
       for (const NetlistStorage& storage : circuit_.storages) initial[storage.state] = 0;
+      for (const NetlistJunction& junction : circuit_.junctions) initial[junction.state] = 0;
       return initial;
     }
     const auto found = operating_point(circuit_.fixed);
@@ -207,6 +242,12 @@ class Import {
             value +=
                 mutual * current[static_cast<Index>(first == storage.element ? second : first)];
       initial[storage.state] = value;
+    }
+    for (const NetlistJunction& junction : circuit_.junctions) {
+      const StaticElement& element = circuit_.fixed.elements[junction.element];
+      const double v =
+          potential[static_cast<Index>(element.from)] - potential[static_cast<Index>(element.to)];
+      initial[junction.state] = junction.charge.charge(v).value();
     }
     return initial;
   }
@@ -242,6 +283,7 @@ class Import {
       }
       initial[storage.state] = given ? written_value(storage.value + "*" + *given) : Json(0);
     }
+    for (const NetlistJunction& junction : circuit_.junctions) initial[junction.state] = 0;
     return initial;
   }
 
@@ -272,12 +314,31 @@ class Import {
   std::map<std::size_t, std::string> given_;  // potentials of nodes, by .ic
   std::map<std::size_t, int> given_lines_;
   Json initial_ = Json::object();
+  bool is_stiff_ = false;
 };
 
 }  // namespace
 
-Json import_netlist(std::string_view text, std::vector<Problem>* notes) {
-  const Import import(text);
+IncludedText files_below(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  return [root = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder)](
+             const std::string& file) -> std::string {
+    constexpr std::uintmax_t largest = std::uintmax_t{16} << 20;  // bytes
+    std::error_code error;
+    const fs::path path = fs::weakly_canonical(root / file, error);
+    const fs::path below = path.lexically_relative(root);
+    if (error || below.empty() || *below.begin() == "..")
+      throw std::runtime_error("is outside of the netlist's folder; expected one below it");
+    if (!fs::is_regular_file(path, error)) throw std::runtime_error("is not there");
+    if (fs::file_size(path, error) > largest) throw std::runtime_error("is larger than 16 MB");
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  };
+}
+
+Json import_netlist(std::string_view text, std::vector<Problem>* notes,
+                    const IncludedText& included) {
+  const Import import(text, included);
   if (notes) *notes = import.notes();
   return import.experiment();
 }

@@ -6,13 +6,13 @@
 namespace courant::netlist {
 namespace {
 
-// Cards and commands that say what to show and how accurately: an experiment has its own ways.
-bool only_shows(const std::string& word) {
+// Cards that say what to show and how accurately, or ask for another analysis: an experiment has its own ways.
+bool is_passed_over(const std::string& word) {
   static const std::set<std::string> known = {
-      ".print",  ".plot", ".save",     ".probe",   ".options", ".option", ".op",      ".width",
-      ".meas",   ".four", ".backanno", ".measure", "run",      "print",   "plot",     "save",
-      "set",     "unset", "display",   "listing",  "echo",     "write",   "wrdata",   "let",
-      "gnuplot", "meas",  "measure",   "hardcopy", "quit",     "exit",    "asciiplot"};
+      ".print", ".plot",    ".save", ".probe", ".options",  ".option", ".opt",
+      ".op",    ".width",   ".meas", ".four",  ".ac",       ".dc",     ".tf",
+      ".noise", ".sens",    ".pz",   ".disto", ".temp",     ".graph",  ".wave",
+      ".step",  ".measure", ".sp",   ".pss",   ".backanno", ".csparam"};
   return known.contains(word);
 }
 
@@ -21,7 +21,8 @@ class DeckReader {
   DeckReader(Deck& deck, LineProblems& problems) : deck_(deck), problems_(problems) {}
 
   void read() {
-    for (const Line& line : deck_.lines) problems_.guard([&] { read_line(line); });
+    for (const Line& line : deck_.lines) problems_.guard([&] { read_line(line); }, line.origin);
+    if (!deck_.transient) deck_.transient = commanded_;
     if (part_ != &deck_.whole)
       problems_.add(part_->line, "this .subckt has no .ends; expected one after its elements");
     if (control_ > 0) problems_.add(control_, ".control has no .endc; expected one");
@@ -31,13 +32,13 @@ class DeckReader {
   void read_line(const Line& line) {
     const std::string& first = line.words[0];
     if (control_ > 0) {
-      if (first == ".endc")
-        control_ = 0;
-      else if (!only_shows(first))
-        throw LineError{line.number, "the command " + first +
-                                         " is not supported; expected run, and what shows results"};
+      if (first == ".endc") control_ = 0;
+      if (first == "tran" && !deck_.transient) commanded_ = card_of(line);
     } else if (first == ".control") {
       control_ = line.number;
+      pass(first);
+    } else if (first == ".global") {
+      deck_.globals.insert(line.words.begin() + 1, line.words.end());
     } else if (first == ".subckt") {
       begin(card_of(line));
     } else if (first == ".ends") {
@@ -61,11 +62,17 @@ class DeckReader {
       deck_.title.clear();
       for (std::size_t i = 1; i < line.written.size(); ++i)
         deck_.title += (i > 1 ? " " : "") + line.written[i];
-    } else if (first[0] == '.' && !only_shows(first)) {
+    } else if (first[0] == '.' && is_passed_over(first)) {
+      pass(first);
+    } else if (first[0] == '.') {
       throw LineError{line.number, first + " is not supported"};
-    } else if (first[0] != '.') {
+    } else {
       part_->elements.push_back(line);
     }
+  }
+
+  void pass(const std::string& card) {
+    if (std::ranges::find(deck_.passed, card) == deck_.passed.end()) deck_.passed.push_back(card);
   }
 
   void begin(const Card& card) {
@@ -99,39 +106,27 @@ class DeckReader {
     }
   }
 
+  // What a model says is looked at where an element uses it.
   void add_model(const Card& card) {
     const int line = card.line->number;
     const std::string& name = card.word(1, "name");
-    if (card.word(2, "type") != "d")
-      throw LineError{line,
-                      "models of the type " + card.words[2] + " are not supported; expected D"};
+    const std::string& type = card.word(2, "type");
     const auto [known, is_new] = part_->models.try_emplace(name);
     if (!is_new)
       throw LineError{line, "the model " + name + " is that of line " +
                                 std::to_string(known->second.line) + " again"};
-    DiodeModel& model = known->second;
-    model.line = line;
-    std::vector<std::string> wrong;
-    for (const auto& [key, value, where] : card.assigned) {
-      if (key == "is")
-        model.saturation = value;
-      else if (key == "n")
-        model.emission = value;
-      else if (number(value) != std::optional(0.0) && key != "bv" && key != "ibv" && key != "tnom")
-        wrong.push_back(key);
-    }
-    if (!wrong.empty())
-      throw LineError{line, std::string(wrong.size() == 1 ? "the parameter " : "the parameters ") +
-                                in_words(wrong) + " of a diode " +
-                                (wrong.size() == 1 ? "is" : "are") +
-                                " not supported; expected is or n"};
+    known->second.line = line;
+    known->second.type = type;
+    for (const auto& [key, value, where] : card.assigned) known->second.values[key] = value;
+    for (std::size_t i = 3; i < card.words.size(); ++i) known->second.values[card.words[i]] = "1";
   }
 
   Deck& deck_;
   LineProblems& problems_;
   Part* part_ = &deck_.whole;
-  Part second_;      // a subcircuit whose name is taken
-  int control_ = 0;  // the line of .control, inside
+  Part second_;                    // a subcircuit whose name is taken
+  int control_ = 0;                // the line of .control, inside
+  std::optional<Card> commanded_;  // tran of the commands there
 };
 
 }  // namespace
@@ -149,11 +144,11 @@ void LineProblems::add(int line, const std::string& what) {
     problems_.push_back(problem);
 }
 
-void LineProblems::guard(const std::function<void()>& action) {
+void LineProblems::guard(const std::function<void()>& action, const std::string& origin) {
   try {
     action();
   } catch (const LineError& error) {
-    add(error.line, error.what);
+    add(error.line, origin.empty() ? error.what : "(" + origin + ") " + error.what);
   }
 }
 
@@ -213,9 +208,14 @@ Card card_of(const Line& line) {
   return card;
 }
 
-Deck read_deck(std::string_view text, LineProblems& problems) {
+std::string DeviceModel::value(const std::string& key, const std::string& otherwise) const {
+  const auto found = values.find(key);
+  return found == values.end() ? otherwise : found->second;
+}
+
+Deck read_deck(std::string_view text, LineProblems& problems, const IncludedText& included) {
   Deck deck;
-  problems.guard([&] { deck.lines = lines_of(text, deck.title); });
+  problems.guard([&] { deck.lines = lines_of(text, deck.title, included); });
   DeckReader(deck, problems).read();
   return deck;
 }

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,8 @@ class LineProblems {
  public:
   // Line 0 is the whole.
   void add(int line, const std::string& what);
-  // Does it; a LineError is a problem.
-  void guard(const std::function<void()>& action);
+  // Does it; a LineError is a problem. `origin`: of a line of an included file.
+  void guard(const std::function<void()>& action, const std::string& origin = "");
   bool empty() const { return problems_.empty(); }
   // Throws ExperimentError, in the order of the lines, unless empty().
   void require_none() const;
@@ -55,9 +56,14 @@ struct Card {
 // Throws LineError.
 Card card_of(const Line& line);
 
-struct DiodeModel {
+// What .model says: `d`, `npn`, … and its parameters.
+struct DeviceModel {
   int line = 0;
-  std::string saturation = "1e-14", emission = "1";
+  std::string type;
+  std::map<std::string, std::string> values = {};
+
+  // The value of a parameter as it is written, or what it is where it is not given.
+  std::string value(const std::string& key, const std::string& otherwise) const;
 };
 
 // The netlist itself, or one of its subcircuits.
@@ -66,7 +72,7 @@ struct Part {
   std::vector<std::string> nodes = {};
   Assignments header = {};      // parameters that an instance may set
   Assignments parameters = {};  // of .param
-  std::map<std::string, DiodeModel> models = {};
+  std::map<std::string, DeviceModel> models = {};
   std::vector<Line> elements = {};
 };
 
@@ -82,10 +88,13 @@ struct Deck {
   std::optional<Card> transient;
   std::vector<Line> lines;  // which the cards point to
   std::vector<InitialPotential> initial, nodesets;
+  std::set<std::string> globals = {};  // nodes that are the same in all subcircuits
+  // Cards that do not change a transient, each once: .ac, .print, .control, ….
+  std::vector<std::string> passed = {};
 };
 
-// Reads all cards but those of elements. .print, .plot, .options and other cards that say what to
-// show are passed over, and so are the commands between .control and .endc that do.
-Deck read_deck(std::string_view text, LineProblems& problems);
+// Reads all cards but those of elements. What says what to show, how accurately, or asks for another analysis is passed
+// over, and so is what stands between .control and .endc; but where there is no .tran, that of the commands is taken.
+Deck read_deck(std::string_view text, LineProblems& problems, const IncludedText& included = {});
 
 }  // namespace courant::netlist

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "courant/core/language/symbol_table.hpp"
+#include "courant/reading/junction_charge.hpp"
 #include "courant/reading/netlist_cards.hpp"
 #include "courant/reading/netlist_operating_point.hpp"
 
@@ -22,6 +23,13 @@ struct NetlistStorage {
   int line;
 };
 
+// The charge of a diode.
+struct NetlistJunction {
+  std::string state;    // q_D1
+  std::size_t element;  // of `fixed`
+  JunctionCharge charge;
+};
+
 struct NetlistCircuit {
   Json parameters = Json::object();  // as `network` takes them
   Json nodes = Json::array({"0"}), elements = Json::array();
@@ -31,9 +39,11 @@ struct NetlistCircuit {
   SymbolTable values;  // of parameters, and of t: 0
   Scope scope;         // outside of all subcircuits
   std::map<std::string, std::size_t>
-      nodes_by_name;                 // as in the netlist; x1.m is in the instance x1
-  std::vector<std::string> sources;  // of voltage, outside of all subcircuits
+      nodes_by_name;                               // as in the netlist; x1.m is in the instance x1
+  std::vector<std::string> sources;                // of voltage, outside of all subcircuits
+  std::vector<std::pair<int, std::string>> notes;  // what of a line has no effect
   std::vector<NetlistStorage> storages;
+  std::vector<NetlistJunction> junctions;
   StaticCircuit fixed;             // at t = 0
   std::vector<std::string> names;  // of the elements of `fixed`
   std::vector<int> lines;

@@ -164,6 +164,22 @@ class StaticEquations {
           linear.add(row, row_of(element.control_to), -factor);
         }
       };
+      // What a law says at y_, for the two rows that it enters with these signs.
+      const auto law = [&](Index row, Index other, double sign) {
+        if (!element.law) return;
+        const auto [value, gradient] = value_of(*element.law);
+        double rest = value;
+        for (std::size_t c = 0; c < element.law->controls.size(); ++c) {
+          const Index column = column_of(element.law->controls[c]);
+          if (column < 0) continue;
+          const double slope = gradient[static_cast<Index>(c)];
+          linear.add(row, column, sign * slope);
+          linear.add(other, column, -sign * slope);
+          rest -= slope * y_[column];
+        }
+        linear.add(row, -sign * rest);
+        linear.add(other, sign * rest);
+      };
       switch (element.kind) {
         case StaticKind::resistor:
           stamp(element, 1.0 / element.value);
@@ -173,12 +189,15 @@ class StaticEquations {
           control(to, -element.gain);
           linear.add(from, -part * element.value);
           linear.add(to, part * element.value);
+          law(from, to, 1.0);
           break;
         case StaticKind::diode: {
           const double v = at_[static_cast<Index>(k)];
           const double power = element.value * std::exp(v / element.scale);
-          const double g = power / element.scale + element.leak + conductance;
-          const double offset = power - element.value - power / element.scale * v;
+          const double reverse = breakdown_current(element, v);
+          const double g = (power + reverse) / element.scale + element.leak + conductance;
+          const double offset =
+              power - element.value - reverse - (power + reverse) / element.scale * v;
           stamp(element, g);
           linear.add(from, -offset);
           linear.add(to, offset);
@@ -189,6 +208,7 @@ class StaticEquations {
           linear.add(own, to, -1.0);
           control(own, -element.gain);
           linear.add(own, part * element.value);
+          law(own, -1, -1.0);
           break;
         case StaticKind::inductor:
         case StaticKind::capacitor:
@@ -242,6 +262,7 @@ class StaticEquations {
   bool step(double conductance, double part) {
     if (size_ == 0) return true;
     const Linear linear = equations(conductance, part);
+    if (!linear.b.allFinite()) return false;
     SparseLu::Matrix A(size_, size_);
     A.setFromTriplets(linear.entries.begin(), linear.entries.end());
     A.makeCompressed();
@@ -267,9 +288,35 @@ class StaticEquations {
     return true;
   }
 
+  static double breakdown_current(const StaticElement& diode, double v) {
+    return diode.breakdown > 0.0
+               ? diode.breakdown * std::exp(-(v + diode.breakdown_voltage) / diode.scale)
+               : 0.0;
+  }
+
+  Index column_of(const StaticLaw::Control& control) const {
+    return control.element ? unknown_[*control.element] : static_cast<Index>(control.node) - 1;
+  }
+  // At y_.
+  std::pair<double, VectorXd> value_of(const StaticLaw& law) const {
+    VectorXd u(static_cast<Index>(law.controls.size()));
+    for (Index c = 0; c < u.size(); ++c) {
+      const Index column = column_of(law.controls[as_size(c)]);
+      u[c] = column < 0 ? 0.0 : y_[column];
+    }
+    return law.value(u);
+  }
+
   // The next voltage of a diode on the way to v: that of SPICE, which grows no faster than the
-  // logarithm of the current.
+  // logarithm of the current; in breakdown too.
   static double limited(const StaticElement& diode, double v, double last) {
+    if (diode.breakdown > 0.0 && v < std::min(0.0, -diode.breakdown_voltage + 10.0 * diode.scale)) {
+      StaticElement mirror = diode;
+      mirror.breakdown = 0.0;
+      mirror.value = diode.breakdown;
+      return -diode.breakdown_voltage -
+             limited(mirror, -(v + diode.breakdown_voltage), -(last + diode.breakdown_voltage));
+    }
     const double s = diode.scale, critical = s * std::log(s / (std::sqrt(2.0) * diode.value));
     if (v <= critical || std::abs(v - last) <= 2.0 * s) return v;
     if (last <= 0.0) return s * std::log(std::max(v / s, 1.0));
@@ -362,12 +409,14 @@ class StaticEquations {
       if (element.kind == StaticKind::resistor)
         current = v / element.value;
       else if (element.kind == StaticKind::diode)
-        current = element.value * std::expm1(v / element.scale) + element.leak * v;
+        current = element.value * std::expm1(v / element.scale) + element.leak * v -
+                  breakdown_current(element, v);
       else if (element.kind == StaticKind::current)
-        current =
-            element.value + element.gain * (element.control ? y_[unknown_[*element.control]]
-                                                            : potential(element.control_from) -
-                                                                  potential(element.control_to));
+        current = element.value +
+                  element.gain * (element.control ? y_[unknown_[*element.control]]
+                                                  : potential(element.control_from) -
+                                                        potential(element.control_to)) +
+                  (element.law ? value_of(*element.law).first : 0.0);
       else if (element.kind != StaticKind::capacitor)
         current = y_[unknown_[k]];
     }

@@ -1,8 +1,11 @@
 // The operating point of a netlist: where SPICE begins without `uic`.
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -12,6 +15,16 @@ namespace courant::netlist {
 
 // An element for direct voltages and currents, from node `from` to node `to`; 0 is the ground. Its
 // current i counts positive from `from` to `to`, its voltage is v = φ_from - φ_to.
+// A value f(u) of potentials of nodes and of currents of elements that are sources of voltage, and its gradient.
+struct StaticLaw {
+  struct Control {
+    std::optional<std::size_t> element = {};  // its current, else
+    std::size_t node = 0;                     // the potential of this node
+  };
+  std::vector<Control> controls = {};
+  std::function<std::pair<double, VectorXd>(const VectorXd& u)> value = {};
+};
+
 struct StaticElement {
   enum class Kind {
     resistor,   // v = value i
@@ -19,7 +32,7 @@ struct StaticElement {
     inductor,   // v = 0, value in H
     voltage,    // v = value + gain (what controls it)
     current,    // i = value + gain (what controls it)
-    diode       // i = value (exp(v/scale) - 1) + leak v
+    diode  // i = value (exp(v/scale) - 1) + leak v - breakdown exp(-(v + breakdown_voltage)/scale)
   };
   Kind kind = Kind::resistor;
   std::size_t from = 0, to = 0;
@@ -29,7 +42,10 @@ struct StaticElement {
   // voltage source.
   std::size_t control_from = 0, control_to = 0;
   std::optional<std::size_t> control = std::nullopt;
-  double scale = 0.0, leak = 0.0;  // of a diode, V and S
+  double scale = 0.0, leak = 0.0;                   // of a diode, V and S
+  double breakdown = 0.0, breakdown_voltage = 0.0;  // A and V; 0 A: none
+  // Of voltage and current: what they are besides `value`.
+  std::shared_ptr<const StaticLaw> law = nullptr;
 };
 
 struct StaticCircuit {

@@ -16,6 +16,8 @@ void NetlistParameters::define(Scope& scope, const std::string& prefix, const st
     throw LineError{
         line, "\"" + name + "\" is no name of a parameter; expected one that begins with a letter"};
   const double value = circuit_.value_of(formula, line);
+  if (name.empty() || std::isdigit(static_cast<unsigned char>(name[0])) != 0)
+    throw LineError{line, "the parameter \"" + name + "\" is no name; expected a letter first"};
   std::string global = identifier(prefix + name);
   static const std::set<std::string> reserved = {"e", "pi", "h"};
   for (bool added = false; !added;) {

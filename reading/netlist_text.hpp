@@ -1,6 +1,7 @@
 // The text of a SPICE netlist: lines, words, numbers and expressions.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -19,12 +20,20 @@ struct LineError {
 // braces; "(", ")" and "," are spaces, "=" is a word.
 struct Line {
   int number;
+  std::string text =
+      {};  // as written, joined, with calls of .func in place of which their bodies stand
   std::vector<std::string> words;
   std::vector<std::string> written;  // the same in the case of the text
+  std::string origin = {};           // of an included file: `models.lib, line 7`
 };
 
-// All lines after the title but comments. `title` is the first line.
-std::vector<Line> lines_of(std::string_view text, std::string& title);
+// The text of a file that .include or .lib names. Throws std::runtime_error with what is wrong with it.
+using IncludedText = std::function<std::string(const std::string& file)>;
+
+// All lines after the title but comments, with those of included files and what .func defines put in their
+// places. `title` is the first line. Lines of included files have the number of the line that includes them.
+std::vector<Line> lines_of(std::string_view text, std::string& title,
+                           const IncludedText& included = {});
 
 // `4.7k`, `10uF`, `1meg`; nothing if it is no number.
 std::optional<double> number(std::string_view word);

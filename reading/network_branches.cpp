@@ -35,6 +35,7 @@ class NetworkBranches::Assembly {
                          .kind = port.kind,
                          .role = port.role,
                          .law = port.law,
+                         .energy = port.energy,
                          .current_name = name(port.domain->through + full, element.pointer),
                          .voltage_name = name(port.domain->across + full, element.pointer)};
     if (port.domain == &domains::thermal && port.kind == Kind::voltage)

@@ -207,6 +207,21 @@ void ElementReader::storage(const NetworkDomain& domain, NetworkTerminal from, N
                             .state = letters});
 }
 
+void ElementReader::implicit_storage(const NetworkDomain& domain, NetworkTerminal from,
+                                     NetworkTerminal to, const std::string& letters,
+                                     const std::string& suffix, ChargeLaw voltage, OwnLaw energy) {
+  const std::string state = letters + element_.name;
+  storage(domain, std::move(from), std::move(to), Kind::charge, letters, suffix);
+  NetworkElement::Port& port = element_.ports.back();
+  port.law = [voltage = std::move(voltage), state, words = site_.words,
+              first = element_.first](const NetworkVariables& variables) {
+    const Index place = words->vocabulary.coordinates.find({.name = state, .indices = {}}).first;
+    return voltage(variables, *first, variables.x()[place]);
+  };
+  port.energy = [energy = std::move(energy), first = element_.first](
+                    const NetworkVariables& variables) { return energy(variables, *first); };
+}
+
 void ElementReader::port(const NetworkDomain& domain, NetworkTerminal from, NetworkTerminal to,
                          Kind kind) {
   element_.ports.push_back({.suffix = "",

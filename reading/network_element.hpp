@@ -56,7 +56,8 @@ struct NetworkElement {
     NetworkBranch::Kind kind = NetworkBranch::Kind::current;
     NetworkBranch::Role role = NetworkBranch::Role::resistor;
     NetworkBranch::Law law = {};
-    std::string state = {};  // first letters of the state's name
+    std::string state = {};          // first letters of the state's name
+    NetworkBranch::Law energy = {};  // of a charge whose law is implicit
   };
   using Energy = std::function<Expr(const ExprVector& own, const ExprVector& x, const Expr& t)>;
 
@@ -129,6 +130,12 @@ class ElementReader {
                       const std::string& suffix = "");
   void storage(const NetworkDomain& domain, NetworkTerminal from, NetworkTerminal to, Kind kind,
                const std::string& letters, const std::string& suffix = "");
+  // A charge that is tied to the unknowns of the element's other branches by its law: `voltage` of these and of the charge itself,
+  // `energy` of these.
+  using ChargeLaw = std::function<Expr(const NetworkVariables&, Index first, const Expr& charge)>;
+  void implicit_storage(const NetworkDomain& domain, NetworkTerminal from, NetworkTerminal to,
+                        const std::string& letters, const std::string& suffix, ChargeLaw voltage,
+                        OwnLaw energy);
   // A port of the network (NetworkBranch::Role::port).
   void port(const NetworkDomain& domain, NetworkTerminal from, NetworkTerminal to, Kind kind);
   // The value of a formula that the laws of the element use, which is checked like a law.

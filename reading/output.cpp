@@ -157,16 +157,43 @@ std::string without_unit(const std::string& heading) {
   return unit == std::string::npos || !heading.ends_with(']') ? heading : heading.substr(0, unit);
 }
 
+std::optional<JsonReader> interval_of(const std::optional<JsonReader>& output) {
+  if (!output || !output->value().is_object() || !output->value().contains("interval"))
+    return std::nullopt;
+  return JsonReader(output->value().at("interval"), output->pointer() + "/interval",
+                    output->findings());
+}
+
+// How many steps a time between rows is: a whole number.
+long steps_of_interval(const JsonReader& interval, const SymbolTable& constants,
+                       const std::optional<TimeSpan>& time) {
+  const auto formula = read_formula(interval);
+  const auto number =
+      formula ? evaluate_constants({{}, {*formula}}, constants, interval.findings()) : std::nullopt;
+  if (!number || !time) return 1;
+  const double steps = (*number)[0] / time->step, whole = std::round(steps);
+  // Of the end of the run, which may be no whole number of intervals, the step is a part.
+  constexpr double slack = 1e-3;
+  if (whole >= 1.0 && std::abs(steps - whole) <= slack * whole) return static_cast<long>(whole);
+  interval.problem("is " + exact_text(steps) + " steps; expected a whole number of them");
+  return 1;
+}
+
 Output read_output(const JsonReader& value, const SymbolTable& constants,
                    const std::optional<std::vector<std::string>>& quantities,
                    std::size_t coordinates, const std::optional<TimeSpan>& time) {
   ObjectReader object(value);
   Output output;
-  const auto every = object.optional("every"), at = object.optional("at");
+  const auto every = object.optional("every"), at = object.optional("at"),
+             interval = object.optional("interval");
   if (every)
     output.every = static_cast<long>(every->integer(1).value_or(1));
+  else if (interval)
+    output.every = steps_of_interval(*interval, constants, time);
   else if (!at)
     object.default_value("every", 1);
+  if (interval && (every || at))
+    interval->problem("stands beside \"every\" or \"at\"; expected one of them");
   if (at) {
     if (every) at->problem("stands beside \"every\"; expected one of them");
     output.at = read_times(*at, constants, time);

@@ -44,6 +44,9 @@ std::string without_unit(const std::string& heading);
 const std::string* entry_of(const std::map<std::string, std::string, std::less<>>& entries,
                             const std::string& quantity);
 
+// The key `interval` of the object: the time between rows.
+std::optional<JsonReader> interval_of(const std::optional<JsonReader>& output);
+
 // Reads the object `output`. `quantities`, of which `coordinates` are the first, and `time` are nothing
 // where they cannot be read; formulas of times may have `constants`.
 Output read_output(const JsonReader& value, const SymbolTable& constants,

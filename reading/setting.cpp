@@ -66,6 +66,28 @@ std::vector<std::string_view> pieces(std::string_view text, char separator) {
   return found;
 }
 
+// The cells of the row that begins at i, which becomes where the next one begins. In quotes a comma and a
+// line end belong to a cell, and "" is a quote.
+std::vector<std::string> row_of_cells(std::string_view text, std::size_t& i) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quoted && c == '"' && i + 1 < text.size() && text[i + 1] == '"')
+      cells.back() += text[++i];
+    else if (c == '"')
+      quoted = !quoted;
+    else if (!quoted && c == ',')
+      cells.emplace_back();
+    else if (!quoted && c == '\n')
+      break;
+    else if (c != '\r' || quoted)
+      cells.back() += c;
+  }
+  ++i;
+  return cells;
+}
+
 // n numbers from a to b, both of them exactly.
 std::vector<Json> numbers(double a, double b, std::size_t n) {
   std::vector<Json> values;
@@ -90,6 +112,8 @@ void apply_setting(const Setting& setting, Json& document, const std::string& op
     const Json::json_pointer place(setting.pointer);
     const Json::json_pointer above = place.parent_pointer();
     Json* const parent = document.contains(above) ? &document.at(above) : nullptr;
+    // The short form of a kind, "midpoint", stands for {"type": "midpoint"}.
+    if (parent && parent->is_string() && !above.empty()) *parent = {{"type", *parent}};
     if (!parent || !(parent->is_object() || (parent->is_array() && document.contains(place))))
       refuse(option, setting.pointer,
              "there is no such place in the experiment; expected one, or a new key of an object");
@@ -124,17 +148,53 @@ ValueRange read_range(const std::string& text, const std::string& option) {
   return range;
 }
 
+std::vector<ValueRange> read_cases(std::string_view text, const std::string& name,
+                                   const std::string& option) {
+  std::vector<ValueRange> ranges;
+  long line = 0;
+  const auto wrong = [&](const std::string& what) {
+    refuse(option, name, "line " + std::to_string(line) + " " + what);
+  };
+  for (std::size_t i = 0; i < text.size();) {
+    ++line;
+    const std::vector<std::string> cells = row_of_cells(text, i);
+    if (cells.size() == 1 && cells[0].empty()) continue;
+    if (ranges.empty()) {
+      for (const std::string& cell : cells) {
+        if (cell.empty() || cell[0] != '/')
+          wrong("has \"" + cell +
+                "\"; expected a JSON pointer for each column, such as /time/step");
+        ranges.push_back({cell, {}, !ranges.empty()});
+      }
+      continue;
+    }
+    if (cells.size() != ranges.size())
+      wrong("has " + std::to_string(cells.size()) + " cells; expected " +
+            std::to_string(ranges.size()) + ", one for each column");
+    if (ranges[0].values.size() == kMost)
+      wrong("is one case too many; expected at most " + std::to_string(kMost));
+    for (std::size_t k = 0; k < cells.size(); ++k) ranges[k].values.push_back(value_of(cells[k]));
+  }
+  if (ranges.empty() || ranges[0].values.empty())
+    refuse(option, name, "has no cases; expected a row for each under a row of JSON pointers");
+  return ranges;
+}
+
 std::vector<std::vector<Setting>> combinations(std::span<const ValueRange> ranges) {
   std::vector<std::vector<Setting>> all = {{}};
-  for (const ValueRange& range : ranges) {
-    if (all.size() * range.values.size() > kMost)
-      refuse("--sweep", range.pointer,
+  for (std::size_t first = 0, end = 0; first < ranges.size(); first = end) {
+    end = first + 1;
+    while (end < ranges.size() && ranges[end].is_tied) ++end;
+    const std::size_t count = ranges[first].values.size();
+    if (all.size() * count > kMost)
+      refuse("--sweep", ranges[first].pointer,
              "makes more than " + std::to_string(kMost) + " combinations of values");
     std::vector<std::vector<Setting>> longer;
     for (const auto& settings : all)
-      for (const Json& value : range.values) {
+      for (std::size_t i = 0; i < count; ++i) {
         longer.push_back(settings);
-        longer.back().push_back({range.pointer, value});
+        for (std::size_t k = first; k < end; ++k)
+          longer.back().push_back({ranges[k].pointer, ranges[k].values[i]});
       }
     all = std::move(longer);
   }

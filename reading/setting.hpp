@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "courant/reading/findings.hpp"
@@ -19,7 +20,8 @@ struct Setting {
 // `where` is `option` and the pointer.
 Setting read_setting(const std::string& text, const std::string& option = "--set");
 
-// Changes the document. The place may be new if what it is in is there. Throws ExperimentError with
+// Changes the document. The place may be new if what it is in is there; a word, as that of a method, is
+// taken for an object that has it as its `type`. Throws ExperimentError with
 // `option` and the pointer where it is not.
 void apply_setting(const Setting& setting, Json& document, const std::string& option = "--set");
 
@@ -27,6 +29,7 @@ void apply_setting(const Setting& setting, Json& document, const std::string& op
 struct ValueRange {
   std::string pointer;
   std::vector<Json> values;
+  bool is_tied = false;  // changes together with the range before it, value by value
 };
 
 // `/json/pointer=a:b:n`, n numbers from a to b at equal distances, or `/json/pointer=v,w,…`, each
@@ -34,8 +37,14 @@ struct ValueRange {
 // ExperimentError.
 ValueRange read_range(const std::string& text, const std::string& option = "--sweep");
 
-// Every combination of a value of each range; the last range changes fastest. Throws
-// ExperimentError if there are more than 100,000.
+// The columns of a table of cases (comma-separated values, RFC 4180): its head has a JSON pointer for each
+// column, a row a value for each, as in a setting. The ranges after the first are tied to it. `name` is that of the file, for
+// messages. Throws ExperimentError.
+std::vector<ValueRange> read_cases(std::string_view text, const std::string& name,
+                                   const std::string& option = "--sweep");
+
+// Every combination of a value of each range, where tied ranges are one; the last range changes fastest.
+// Throws ExperimentError if there are more than 100,000.
 std::vector<std::vector<Setting>> combinations(std::span<const ValueRange> ranges);
 
 }  // namespace courant

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "courant/core/expressions/derivative.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/core/words/spelling.hpp"
 
@@ -43,6 +44,39 @@ ExprVector value_of(const Definition& definition, const SymbolTable& symbols) {
     throw ExperimentError(findings.problems());
   }
 }
+
+// The time derivatives of definitions, one after the other, where there is a velocity.
+class DefinitionRates {
+ public:
+  DefinitionRates(const Vocabulary& vocabulary, const Vocabulary::Arguments& arguments)
+      : arguments_(arguments) {
+    if (!arguments.x || !arguments.velocity || !arguments.t) return;
+    at_ = graph_.variables("at", vocabulary.coordinates.size() + 1);
+    velocity_ = graph_.variables("velocity", vocabulary.coordinates.size());
+    Vocabulary plain = vocabulary;
+    plain.definitions.clear();
+    known_ = plain.symbols({.x = at_.head(at_.size() - 1), .t = at_[at_.size() - 1]});
+  }
+  // Adds name' to the table, if the definition is one of coordinates and t.
+  void add(const Definition& definition, SymbolTable& symbols) {
+    if (at_.size() == 0 || !is_available(definition, known_)) return;
+    const ExprVector value = value_of(definition, known_);
+    known_.add(definition.name, definition.formulas.shape, value);
+    const Index n = at_.size() - 1;
+    ExprVector direction(n + 1), variables(2 * n + 1), replacement(2 * n + 1);
+    direction << velocity_, Expr(1.0);
+    variables << at_, velocity_;
+    replacement << *arguments_.x, *arguments_.t, *arguments_.velocity;
+    symbols.add_velocity(definition.name, definition.formulas.shape,
+                         substitute(tangent(value, at_, direction), variables, replacement));
+  }
+
+ private:
+  Vocabulary::Arguments arguments_;
+  Graph graph_;
+  ExprVector at_, velocity_;  // (x, t) and dx/dt, as variables
+  SymbolTable known_;         // at these
+};
 
 // Whether the formulas consist of words that formulas have; a problem for each that does not.
 bool has_words(const WrittenFormulas& formulas, Findings& findings) {
@@ -201,9 +235,13 @@ SymbolTable Vocabulary::symbols(const Arguments& arguments) const {
   if (arguments.z) unknowns.add_to(symbols, *arguments.z);
   for (const Derived& quantities : derived)
     if (const auto values = quantities.values(arguments)) quantities.names.add_to(symbols, *values);
+  if (definitions.empty()) return symbols;
+  DefinitionRates rates(*this, arguments);
   for (const Definition& definition : definitions)
-    if (is_available(definition, symbols))
+    if (is_available(definition, symbols)) {
       symbols.add(definition.name, definition.formulas.shape, value_of(definition, symbols));
+      rates.add(definition, symbols);
+    }
   return symbols;
 }
 
@@ -260,16 +298,19 @@ void check_definitions(Vocabulary& vocabulary, Findings& findings) {
   std::swap(checked, vocabulary.definitions);
   Graph graph;
   const Index N = vocabulary.coordinates.size();
-  SymbolTable symbols = vocabulary.symbols({.x = graph.variables("x", N),
-                                            .velocity = graph.variables("v", N),
-                                            .z = graph.variables("z", vocabulary.unknowns.size()),
-                                            .t = graph.variable("t")});
+  const Vocabulary::Arguments all{.x = graph.variables("x", N),
+                                  .velocity = graph.variables("v", N),
+                                  .z = graph.variables("z", vocabulary.unknowns.size()),
+                                  .t = graph.variable("t")};
+  SymbolTable symbols = vocabulary.symbols(all);
+  DefinitionRates rates(vocabulary, all);
   for (Definition& definition : checked) {
     if (!is_new_name(definition.name, definition.pointer, symbols, findings)) continue;
     WrittenFormulas& formulas = definition.formulas;
     if (!check(formulas, symbols, findings))
       for (WrittenFormula& formula : formulas.formulas) formula.text = "1";
     symbols.add(definition.name, formulas.shape, evaluate(formulas, symbols));
+    rates.add(definition, symbols);
     vocabulary.definitions.push_back(std::move(definition));
   }
 }

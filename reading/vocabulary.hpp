@@ -80,7 +80,8 @@ struct Vocabulary {
   };
   std::vector<Derived> derived = {};
 
-  // The table for a formula: parameters, arguments, and the definitions that need nothing else.
+  // The table for a formula: parameters, arguments, and the definitions that need nothing else; of those that
+  // coordinates and t give also their time derivatives along the velocity, as name'.
   // Throws FormulaError if a definition is wrong, std::invalid_argument if a name repeats or a size
   // is wrong.
   SymbolTable symbols(const Arguments& arguments) const;

@@ -116,11 +116,12 @@ void explain_level(const LadderReport& ladder, Index k, std::vector<Prose>& line
   const std::string M = "M" + subscript(k);
   if (k == 0) {
     const Index n = ladder.dimension.value_or(-1);
-    text += count == 0 ? "The equations put no constraint on the coordinates: " + M +
-                             " is all of M, of dimension " + std::to_string(n) + "."
-                       : M + " has dimension " + std::to_string(dim_M) + " of " +
-                             std::to_string(n) + ": the equations contain " +
-                             plural(count, "constraint") + " on the coordinates.";
+    text += count == 0
+                ? "The equations put no constraint on the coordinates near this point: " + M +
+                      " is all of M there, of dimension " + std::to_string(n) + "."
+                : "Near this point " + M + " has dimension " + std::to_string(dim_M) + " of " +
+                      std::to_string(n) + ": the equations contain " + plural(count, "constraint") +
+                      " on the coordinates.";
   } else {
     if (!steps.empty()) {
       lines.push_back(text + "Solutions stay on M" + subscript(k - 1) +
@@ -139,7 +140,7 @@ void explain_level(const LadderReport& ladder, Index k, std::vector<Prose>& line
   }
   const Index before = k == 0 ? -1 : ladder.levels[at - 1].fibre.value_or(-1);
   if (fibre == 0) {
-    text += " The velocity is determined at each of its points.";
+    text += " The velocity is determined at each of its points near this one.";
     if (ladder.elimination && found.velocities.empty())
       text += " No formula for it of up to five lines was found.";
   }
@@ -385,6 +386,16 @@ std::string family_in_words(const LadderReport& ladder) {
          " \u03bb, so that nothing says that \U0001d4db is a Lagrangian submanifold.";
 }
 
+std::vector<std::string> choices_in_words(const LadderReport& ladder) {
+  std::vector<std::string> lines;
+  for (const auto& [name, value, other] : ladder.choices)
+    lines.push_back(name + " = " + number_text(value) + " is a choice: " + name + " = " +
+                    number_text(other) +
+                    " solves the equations at the same point as well. A value of " + name +
+                    " in \"initial\" chooses.");
+  return lines;
+}
+
 LadderWords ladder_words(const LadderReport& ladder,
                          const std::optional<ConstraintBrackets>& brackets) {
   LadderWords words;
@@ -403,6 +414,7 @@ LadderWords ladder_words(const LadderReport& ladder,
     explain_freedom(ladder, words.freedom);
     if (brackets) explain_brackets(*brackets, words.freedom);
     explain_unknowns(ladder, words.freedom);
+    for (const std::string& line : choices_in_words(ladder)) words.freedom.push_back(line);
     const auto& [unknowns, gauge, determined, differentiations, redundant] = *ladder.end;
     if (!gauge.empty()) {
       words.freedom.push_back("Gauge: the velocity may be changed at will along");

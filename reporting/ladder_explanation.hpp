@@ -32,6 +32,9 @@ LadderWords ladder_words(const LadderReport& ladder,
 std::vector<Prose> ladder_explanation(
     const LadderReport& ladder, const std::optional<ConstraintBrackets>& brackets = std::nullopt);
 
+// That the value of an unknown is one of several, for each of the choices.
+std::vector<std::string> choices_in_words(const LadderReport& ladder);
+
 // Whether E(x, λ) is a Morse family at the point, in a sentence; empty of a system that is not given by
 // one.
 std::string family_in_words(const LadderReport& ladder);

@@ -88,27 +88,43 @@ Markup messages(std::span<const Run> runs, std::span<const std::string> labels) 
   return all;
 }
 
+// What tells two ladders apart: not the point, which every run has its own of.
+std::string kind_of(const LadderReport& ladder) {
+  std::string kind = to_string(ladder.verdict);
+  for (const LadderReport::Level& level : ladder.levels)
+    kind += " " + std::to_string(level.dim_S.value_or(-1)) + "/" +
+            std::to_string(level.dim_M.value_or(-1));
+  return kind + (ladder.is_ambiguous ? "?" : "");
+}
+
+// The names, or the first of many.
+std::string in_short(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 8;
+  if (names.size() <= most) return word_list(names, ", ");
+  return word_list(std::span(names).first(most - 1), ", ") + " and " +
+         std::to_string(names.size() - most + 1) + " more";
+}
+
 // Each ladder once, with the runs it belongs to.
 Markup ladders(std::span<const Run> runs, std::span<const std::string> labels) {
   struct Distinct {
     const LadderReport* ladder;
-    std::string text, owners;
+    std::string kind;
+    std::vector<std::string> owners;
   };
   std::vector<Distinct> distinct;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const auto& ladder = runs[i].summary.ladder;
     if (!ladder) continue;
-    const std::string text = to_json(*ladder).dump();
-    const auto same = std::find_if(distinct.begin(), distinct.end(),
-                                   [&](const Distinct& other) { return other.text == text; });
-    if (same == distinct.end())
-      distinct.push_back({&*ladder, text, labels[i]});
-    else
-      same->owners += ", " + labels[i];
+    const std::string kind = kind_of(*ladder);
+    auto same = std::find_if(distinct.begin(), distinct.end(),
+                             [&](const Distinct& other) { return other.kind == kind; });
+    if (same == distinct.end()) same = distinct.insert(same, {&*ladder, kind, {}});
+    same->owners.push_back(labels[i]);
   }
   Markup all;
-  for (const auto& [ladder, text, owners] : distinct) {
-    if (distinct.size() > 1) all += element("p", {{"class", "lead"}}, owners);
+  for (const auto& [ladder, kind, owners] : distinct) {
+    if (distinct.size() > 1) all += element("p", {{"class", "lead"}}, in_short(owners));
     all += element("p", {}, typeset(verdict_in_words(*ladder)));
     for (const std::string& doubt : doubts_in_words(*ladder))
       all += element("p", {{"class", "message"}}, typeset(doubt));

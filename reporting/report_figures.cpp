@@ -25,7 +25,13 @@ constexpr std::size_t most_small_panels = 12;
 std::vector<LegendEntry> entries(std::span<const Series> series) {
   std::vector<LegendEntry> legend;
   if (series.size() < 2) return legend;
-  for (const Series& one : series) legend.push_back({one.label, one.colour});
+  // More colours than there are cannot be told apart.
+  const std::size_t most = plot::palette().size();
+  for (const Series& one : series.first(std::min(series.size(), most)))
+    legend.push_back({one.label, one.colour});
+  if (series.size() > most)
+    legend.push_back(
+        {"and " + std::to_string(series.size() - most) + " more", series[most].colour});
   return legend;
 }
 

@@ -68,12 +68,13 @@ class Places {
   plot::Axis axis_;
 };
 
-// The swept places but the first, "theta=0.2, step=0.1".
-std::string label_of(const Json& settings) {
+// The swept places but the first, "theta=0.2, step=0.1", and what is tied to it.
+std::string label_of(const Json& settings, const Json& ranges) {
   std::string label;
-  std::size_t place = 0;
+  std::size_t place = 0, end = 1;
+  while (end < ranges.size() && ranges[end].value("tied", false)) ++end;
   for (const auto& [pointer, value] : settings.items())
-    if (place++ > 0)
+    if (place++ >= end)
       label += (label.empty() ? "" : ", ") + last_token(pointer) + " = " + text_of(value);
   return label;
 }
@@ -111,7 +112,7 @@ std::vector<std::pair<std::string, std::string>> shown_values(const Json& runs) 
 }
 
 Panel panel_of(const std::string& name, const std::string& label, const Json& runs,
-               const Places& places) {
+               const Json& ranges, const Places& places) {
   Panel panel;
   panel.title = label;
   panel.x = places.axis();
@@ -121,7 +122,7 @@ Panel panel_of(const std::string& name, const std::string& label, const Json& ru
   std::vector<double> all;
   for (const Json& run : runs) {
     const Json& settings = run.at("settings");
-    const std::string curve = label_of(settings);
+    const std::string curve = label_of(settings, ranges);
     auto found = std::ranges::find(panel.series, curve, &Series::label);
     if (found == panel.series.end())
       found = panel.series.insert(found, Series{curve, {}, {}, panel.series.size()});
@@ -147,12 +148,16 @@ std::optional<Figure> sweep_figure(const Json& table) {
   figure.name = "sweep";
   const auto shown = shown_values(runs);
   for (const auto& [name, label] : shown) {
-    figure.panels.push_back(panel_of(name, label, runs, places));
+    figure.panels.push_back(panel_of(name, label, runs, ranges, places));
     if (shown.size() > 3) figure.panels.back().width = 380;
   }
   if (figure.panels.empty()) return std::nullopt;
   for (const Series& one : figure.panels.front().series)
     if (!one.label.empty()) figure.legend.push_back({one.label, one.colour});
+  // More than there are colours cannot be told apart.
+  if (const std::size_t most = 2 * plot::palette().size(); figure.legend.size() > most)
+    figure.legend = {figure.legend.begin(),
+                     figure.legend.begin() + static_cast<std::ptrdiff_t>(most)};
   figure.caption = "A sweep over " + last_token(ranges.front().at("pointer"));
   for (std::size_t i = 1; i < ranges.size(); ++i)
     figure.caption +=

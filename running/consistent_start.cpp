@@ -14,6 +14,8 @@
 #include "courant/integrators/certificate/constraint_algorithm.hpp"
 #include "courant/integrators/certificate/ladder_in_units.hpp"
 #include "courant/integrators/methods/integrator_in_units.hpp"
+#include "courant/running/given_quantities.hpp"
+#include "courant/running/impulsive_start.hpp"
 #include "courant/running/undefined_formula.hpp"
 
 namespace courant {
@@ -233,6 +235,12 @@ class StartSearch {
 
   // Nothing is held.
   ConstraintLadder free() const { return ladders_.run(guess_); }
+  // From other coordinates, with velocities and unknowns that are held.
+  ConstraintLadder free_from(const VectorXd& x) const {
+    InitialGuess guess = holding(guess_, initial_.x.held, initial_.velocity.held, initial_.z.held);
+    guess.x = x;
+    return ladders_.run(guess);
+  }
 
  private:
   const Manifold& manifold_near_start() const {
@@ -306,9 +314,27 @@ class StartSearch {
   LadderSearch ladders_;
 };
 
-ConstraintLadder found_start(const Experiment& experiment) {
+// Which of the coordinates that are held a start without that would move.
+std::string held_moves(const Experiment& experiment, const ConstraintLadder& free) {
+  const auto& names = experiment.model.system->names().coordinates;
+  std::vector<std::string> moves;
+  for (const Movement& move : free.moves) {
+    const auto found = std::ranges::find(names, move.name);
+    if (found != names.end() && experiment.initial.x.held[found - names.begin()])
+      moves.push_back(move.name + " from " + number_text(move.from) + " to " +
+                      number_text(move.to));
+  }
+  constexpr std::size_t most = 6;
+  if (moves.empty()) return "";
+  return ": they hold near by with " +
+         word_list(std::span(moves).first(std::min(moves.size(), most))) +
+         (moves.size() > most ? ", …" : "");
+}
+
+ConsistentStart found_start(const Experiment& experiment) {
   const StartSearch search(experiment);
-  ConstraintLadder ladder = search.find();
+  ConsistentStart ladder = impulsive_start(experiment, search.find(),
+                                           [&](const VectorXd& x) { return search.free_from(x); });
   forget_moves_of_what_was_not_given(ladder, experiment);
   const InitialValues& initial = experiment.initial;
   const bool any_held = initial.x.held.any() || initial.velocity.held.any() || initial.z.held.any();
@@ -316,10 +342,10 @@ ConstraintLadder found_start(const Experiment& experiment) {
     if (!any_held) return ladder;
     const ConstraintLadder free = search.free();
     if (free.verdict == Verdict::inconsistent) return free;
-    throw ExperimentError("/hold",
-                          "what is held contradicts the constraints, which are violated by " +
-                              number_text(ladder.levels.back().residual, 3) +
-                              "; expected values that satisfy them. " + ladder.reason);
+    throw ExperimentError(
+        "/hold", "what is held contradicts the constraints, which are violated by " +
+                     number_text(ladder.levels.back().residual, 3) + held_moves(experiment, free) +
+                     "; expected values that satisfy them");
   }
   if (const auto missing = undetermined(experiment, ladder); !missing.empty()) {
     const auto told = std::span(missing).first(std::min<std::size_t>(missing.size(), 5));
@@ -332,7 +358,18 @@ ConstraintLadder found_start(const Experiment& experiment) {
 
 }  // namespace
 
-ConstraintLadder consistent_start(const Experiment& experiment) {
+ConsistentStart consistent_start(const Experiment& written) {
+  if (!written.initial.quantities.empty()) {
+    Experiment experiment = written;
+    experiment.initial = with_quantities(written);
+    experiment.initial.quantities.clear();
+    ConsistentStart ladder = consistent_start(experiment);
+    if (ladder.verdict != Verdict::inconsistent)
+      for (Movement& move : moved_quantities(written, ladder.point))
+        ladder.moves.push_back(std::move(move));
+    return ladder;
+  }
+  const Experiment& experiment = written;
   const auto fails = [&](const std::exception& error) {
     return ExperimentError("/initial", "the constraint algorithm fails at the initial values" +
                                            with_zeros(experiment) + ": " +

@@ -1,8 +1,7 @@
 // From the initial values of an experiment to a consistent point.
 #pragma once
 
-#include "courant/integrators/certificate/constraint_ladder.hpp"
-#include "courant/reading/experiment.hpp"
+#include "courant/running/impulsive_start.hpp"
 
 namespace courant {
 
@@ -13,6 +12,6 @@ namespace courant {
 // Throws ExperimentError where the equations are not finite at the initial values, where held
 // values contradict the constraints, and where a value is missing that nothing determines. An
 // inconsistent system is a finding: its ladder says so.
-ConstraintLadder consistent_start(const Experiment& experiment);
+ConsistentStart consistent_start(const Experiment& experiment);
 
 }  // namespace courant

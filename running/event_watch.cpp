@@ -62,22 +62,27 @@ std::optional<RunEnd> EventWatch::watch(const RunMoment& moment) {
   std::stable_sort(zeros.begin(), zeros.end(), [&](const Zero& a, const Zero& b) {
     return moment.step.h > 0.0 ? a.t < b.t : b.t < a.t;
   });
-  for (const Zero& zero : zeros) take(zero);
+  for (Zero& zero : zeros) {
+    take(zero);
+    if (!events_[zero.event].stops) continue;
+    stop_ = Stop{events_[zero.event].name, zero.t, std::move(zero.row), std::move(zero.part)};
+    return RunEnd{RunStatus::completed, ""};
+  }
   return std::nullopt;
 }
 
 EventWatch::Zero EventWatch::locate(std::size_t event, double before, const RunMoment& moment) {
   const Index column = first_ + static_cast<Index>(event);
   const double after = moment.row[column];
-  if (after == 0.0) return {event, moment.t, moment.row};
-  Zero nearest{event, moment.t, moment.row};
+  if (after == 0.0) return {event, moment.t, moment.row, moment.step};
+  Zero nearest{event, moment.t, moment.row, moment.step};
   double least = std::fabs(after);
   const auto value = [&](double s) {
     const Step part = stepper_->part(s);
     const VectorXd& row = measure_(part);
     if (std::fabs(row[column]) < least) {
       least = std::fabs(row[column]);
-      nearest = {event, part.after.t, row};
+      nearest = {event, part.after.t, row, part};
     }
     return row[column];
   };

@@ -46,8 +46,18 @@ class EventWatch final : public RunWatcher {
   // Both have to outlive the run; before this is called no state may be watched.
   void set_curve(Stepper& stepper, Measure measure);
 
-  // Ends the run as failed where a zero cannot be located.
+  // Ends the run as failed where a zero cannot be located, and as completed with a zero of an event that
+  // stops it.
   std::optional<RunEnd> watch(const RunMoment& moment) override;
+
+  // Where an event stopped the run, within the step that was watched last.
+  struct Stop {
+    std::string event;
+    double t;
+    VectorXd row;  // what is measured there
+    Step step;     // that ends there
+  };
+  const std::optional<Stop>& stop() const { return stop_; }
 
   // By the names of the events: how often each occurred, and what was measured at the occurrences
   // that are kept, the time as "t".
@@ -59,6 +69,7 @@ class EventWatch final : public RunWatcher {
     std::size_t event;
     double t;
     VectorXd row;
+    Step part;  // of the step, up to there
   };
   Zero locate(std::size_t event, double before, const RunMoment& moment);
   void take(const Zero& zero);
@@ -71,6 +82,7 @@ class EventWatch final : public RunWatcher {
   Stepper* stepper_ = nullptr;
   Measure measure_;
   Memory memory_;
+  std::optional<Stop> stop_;
 };
 
 }  // namespace courant

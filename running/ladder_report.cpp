@@ -136,16 +136,18 @@ const LadderReport::Velocity* LadderReport::Elimination::velocity(const std::str
 }
 
 LadderReport discrete_ladder_report(const ConstraintLadder& ladder, const ImplicitSystem& system) {
-  LadderReport report{.verdict = ladder.verdict,
-                      .index = known(ladder.index),
-                      .gauge_dimension = ladder.gauge_dimension,
-                      .degrees_of_freedom = known(ladder.degrees_of_freedom),
-                      .dimension = system.manifold()->dimension(),
-                      .moved = ladder.moved,
-                      .moves = ladder.moves,
-                      .is_ambiguous = ladder.is_ambiguous(),
-                      .doubts = ladder.doubts,
-                      .reason = ladder.reason};
+  LadderReport report{
+      .verdict = ladder.verdict,
+      .index = known(ladder.index),
+      .gauge_dimension = ladder.gauge_dimension,
+      .degrees_of_freedom = known(ladder.degrees_of_freedom),
+      .dimension = system.manifold()->dimension(),
+      .moved = ladder.moved,
+      // Where nothing is consistent nothing has moved to be so.
+      .moves = ladder.verdict == Verdict::inconsistent ? std::vector<Movement>() : ladder.moves,
+      .is_ambiguous = ladder.is_ambiguous(),
+      .doubts = ladder.doubts,
+      .reason = ladder.reason};
   for (const LadderLevel& level : ladder.levels) {
     LadderReport::Level told{.k = level.k, .residual = level.residual};
     if (!level.is_empty) {

@@ -39,6 +39,9 @@ struct LadderReport {
   Values consistent_point = {};
   double moved = 0.0;
   std::vector<Movement> moves = {};
+  bool is_impulse = false;  // they are the jumps of an impulse
+  // Of unknowns that have another value as well: from this one to that.
+  std::vector<Movement> choices = {};
   // Of a MorseFamily E(x, λ) that the system is given by, at the consistent point: how many λ there
   // are, and the rank of ∂_λ(∂_xE, ∂_λE).
   struct Family {

@@ -202,6 +202,10 @@ Json to_json(const LadderReport& ladder) {
                               {"residual", level.residual}});
   for (const Movement& move : ladder.moves)
     json["moves"].push_back({{"name", move.name}, {"from", move.from}, {"to", move.to}});
+  if (ladder.is_impulse) json["impulse"] = true;
+  for (const Movement& choice : ladder.choices)
+    json["choices"].push_back(
+        {{"name", choice.name}, {"value", choice.from}, {"other", choice.to}});
   if (ladder.family)
     json["family"] = {{"multipliers", ladder.family->multipliers},
                       {"rank", ladder.family->rank},
@@ -244,6 +248,11 @@ LadderReport read_ladder_report(const Json& json) {
     ladder.moves.push_back({.name = move.value("name", ""),
                             .from = number_at(move, "from"),
                             .to = number_at(move, "to")});
+  ladder.is_impulse = json.value("impulse", false);
+  for (const Json& choice : part(json, "choices"))
+    ladder.choices.push_back({.name = choice.value("name", ""),
+                              .from = number_at(choice, "value"),
+                              .to = number_at(choice, "other")});
   for (const Json& doubt : part(json, "doubts")) ladder.doubts.push_back(doubt.get<std::string>());
   if (const Json& family = part(json, "family"); !family.empty())
     ladder.family = {.multipliers = whole(family, "multipliers").value_or(0),

@@ -26,6 +26,7 @@ constexpr double kPartForSlopes = 1e-6;
 constexpr double kPartOfWay = 0.2;
 // A way below this part of the largest coordinate may be round-off.
 constexpr double kLeastWay = 1e-8;
+constexpr double kLeastOfOthers = 1e-2;
 
 // c at a state and Σ_j |∂c_i/∂x_j| s_j there; empty where they are not defined.
 struct MeasuredConstraints {
@@ -90,37 +91,53 @@ std::string left_constraints(Observer& observer, const QuantityStatistics& stati
              : left_sentence(i, "was up to " + number_text(greatest[i]) + " on the way", terms[i]);
 }
 
-std::string alternation(const Integrator& integrator, const Observer& observer,
-                        const QuantityStatistics& statistics, State end, double h) {
-  const Index n = end.x.size();
+std::string alternation(const Integrator& integrator, Observer& observer,
+                        const QuantityStatistics& statistics, const ImplicitSystem::Names& names,
+                        State end, double h) {
+  const Index n = end.x.size(), m = std::min<Index>(end.z.size(), std::ssize(names.auxiliary));
   if (n == 0 || n > kMostCoordinates || statistics.empty()) return "";
+  // All that is written of a state, and the unknowns, which have no statistics.
+  const auto count = static_cast<Index>(observer.first_constraint());
   const QuantityStatistics::Memory& all = statistics.memory();
-  const VectorXd way = all.max.head(n) - all.min.head(n);
   constexpr int steps = 4;
-  MatrixXd x(n, steps + 1);
-  x.col(0) = end.x;
+  MatrixXd x(count + m, steps + 1);
+  const auto look = [&](int k) {
+    x.col(k).head(count) = observer.row(end).head(count);
+    x.col(k).tail(m) = end.z.head(m);
+  };
   try {
+    look(0);
     const auto stepper = integrator.stepper();
     const double t = end.t;
     for (int k = 1; k <= steps; ++k) {
       stepper->step(end, h, t + k * h);
-      x.col(k) = end.x;
+      look(k);
     }
   } catch (const std::runtime_error&) {  // the run ends here
     return "";
   } catch (const std::domain_error&) {
     return "";
   }
+  VectorXd way(count + m), size(count + m);
+  way.head(count) = (all.max - all.min).head(count);
+  way.tail(m) = x.bottomRows(m).rowwise().maxCoeff() - x.bottomRows(m).rowwise().minCoeff();
+  size = x.cwiseAbs().rowwise().maxCoeff();
+  if (n > 0) size.head(n).setConstant(size.head(n).maxCoeff());
   const MatrixXd second =
       x.rightCols(steps - 1) - 2 * x.middleCols(1, steps - 1) + x.leftCols(steps - 1);
-  for (Index j = 0; j < n; ++j) {
-    if (!(way[j] > kLeastWay * x.lpNorm<Eigen::Infinity>())) continue;
+  for (Index j = 0; j < count + m; ++j) {
+    // Of what has no statistics, and may be zero but for round-off, more of its size.
+    const double least = j < n ? kLeastWay : kLeastOfOthers;
+    if (!(way[j] > least * size[j])) continue;
     const auto d = second.row(j);
     if (d[0] * d[1] < 0 && d[1] * d[2] < 0 && d.cwiseAbs().minCoeff() > kPartOfWay * way[j])
-      return observer.names()[static_cast<std::size_t>(j)] +
+      return (j < count ? observer.names()[static_cast<std::size_t>(j)]
+                        : names.auxiliary[static_cast<std::size_t>(j - count)]) +
              " goes to and fro with each step, by " + number_text(d.cwiseAbs().minCoeff() / 2, 3) +
-             " at the end: the steps do not resolve it, and the trajectory may be wrong. "
-             "Constrain-first has no such errors of algebraic equations.";
+             " at the end: the steps do not resolve it, and the trajectory may be wrong. " +
+             (j < n
+                  ? "Constrain-first has no such errors of algebraic equations."
+                  : "\"damping\": \"l-stable\" of the method damps what the steps do not resolve.");
   }
   return "";
 }

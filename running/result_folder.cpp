@@ -24,12 +24,6 @@ std::vector<fs::path> files_of(const fs::path& path, const std::string& kind) {
   return found;
 }
 
-Json result_in(const fs::path& path, const std::string& kind) {
-  std::ifstream stream(path / (kind + ".json"), std::ios::binary);
-  const Json result = Json::parse(stream, nullptr, false);
-  return result.is_object() && result.value("kind", Json()) == kind ? result : Json();
-}
-
 // The folders of its runs: names without a way out of the folder.
 std::vector<fs::path> run_folders(const fs::path& path, const Json& result) {
   std::vector<fs::path> folders;
@@ -53,13 +47,13 @@ void remove_all_of(const fs::path& path, const std::string& kind) {
     fs::remove(file, error);
     if (error) refuse_folder(file, "cannot be replaced: " + error.message());
   };
-  for (const fs::path& folder : run_folders(path, result_in(path, kind))) {
+  for (const fs::path& folder : run_folders(path, ResultFolder::result_in(path, kind))) {
     if (fs::is_symlink(folder)) {  // what it leads to was put elsewhere, to be kept
       remove(folder);
       continue;
     }
     RunFolder::remove(folder);
-    if (!result_in(folder, "study").is_null())
+    if (!ResultFolder::result_in(folder, "study").is_null())
       for (const fs::path& file : files_of(folder, "study")) remove(file);
     std::error_code not_empty;
     fs::remove(folder, not_empty);
@@ -72,7 +66,13 @@ constexpr const char* kResultIsWritten =
 
 }  // namespace
 
-void ResultFolder::check(const fs::path& path, const std::string& kind, bool replace) {
+Json ResultFolder::result_in(const fs::path& path, const std::string& kind) {
+  std::ifstream stream(path / (kind + ".json"), std::ios::binary);
+  const Json result = Json::parse(stream, nullptr, false);
+  return result.is_object() && result.value("kind", Json()) == kind ? result : Json();
+}
+
+void ResultFolder::check(const fs::path& path, const std::string& kind, bool replace, bool resume) {
   LockedFolder::check_place(path);
   if (LockedFolder::is_in_use(path)) refuse_folder(path, kResultIsWritten);
   const std::vector<fs::path> files = files_of(path, kind);
@@ -80,7 +80,7 @@ void ResultFolder::check(const fs::path& path, const std::string& kind, bool rep
   if (result_in(path, kind).is_null())
     refuse_folder(files.front(),
                   "is there already, and no " + kind + " wrote it; expected another folder (-o)");
-  if (!replace)
+  if (!replace && !resume)
     refuse_folder(path,
                   "there is " + article(kind) +
                       " in this folder; expected another folder (-o), or --force to replace it");
@@ -88,16 +88,16 @@ void ResultFolder::check(const fs::path& path, const std::string& kind, bool rep
 
 namespace {
 
-const fs::path& checked(const fs::path& path, const std::string& kind, bool replace) {
-  ResultFolder::check(path, kind, replace);
+const fs::path& checked(const fs::path& path, const std::string& kind, bool replace, bool resume) {
+  ResultFolder::check(path, kind, replace, resume);
   return path;
 }
 
 }  // namespace
 
-ResultFolder::ResultFolder(const fs::path& path, std::string kind, bool replace)
-    : folder_(checked(path, kind, replace), kResultIsWritten), kind_(std::move(kind)) {
-  remove_all_of(path, kind_);
+ResultFolder::ResultFolder(const fs::path& path, std::string kind, bool replace, bool resume)
+    : folder_(checked(path, kind, replace, resume), kResultIsWritten), kind_(std::move(kind)) {
+  if (!resume) remove_all_of(path, kind_);
 }
 
 fs::path ResultFolder::file(const std::string& extension) const {

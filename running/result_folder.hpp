@@ -18,11 +18,17 @@ class ResultFolder {
   // `kind` is "sweep" or "study". Throws UnusableFolder, before anything is changed, if there is one
   // that may not be replaced, another is being written, there are files of these names that nothing
   // like that wrote, or the folder cannot be written.
-  ResultFolder(const std::filesystem::path& path, std::string kind, bool replace);
+  // `resume`: one that is there goes on, and all that it wrote stays.
+  ResultFolder(const std::filesystem::path& path, std::string kind, bool replace,
+               bool resume = false);
 
   // Throws UnusableFolder if the constructor would; changes nothing. To be asked before anything is
   // computed.
-  static void check(const std::filesystem::path& path, const std::string& kind, bool replace);
+  static void check(const std::filesystem::path& path, const std::string& kind, bool replace,
+                    bool resume = false);
+
+  // <kind>.json of what is in the folder; null if there is none.
+  static Json result_in(const std::filesystem::path& path, const std::string& kind);
 
   const std::filesystem::path& path() const { return folder_.path(); }
   // <kind>.<extension> in the folder.

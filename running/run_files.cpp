@@ -198,6 +198,26 @@ void check_one_run(const Run& run, const std::filesystem::path& experiment,
 
 }  // namespace
 
+std::vector<std::filesystem::path> run_folders_in(const std::filesystem::path& directory) {
+  const std::filesystem::path table = directory / "sweep.json";
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(table, error)) return {directory};
+  std::vector<std::filesystem::path> folders;
+  try {
+    const nlohmann::ordered_json sweep = read_json(table);
+    for (const auto& row : sweep.at("runs")) {
+      const std::filesystem::path folder = row.at("folder").get<std::string>();
+      if (!folder.empty() && !folder.has_parent_path() && folder != "..")
+        if (std::filesystem::exists(directory / folder / "summary.json", error))
+          folders.push_back(directory / folder);
+    }
+  } catch (const nlohmann::ordered_json::exception&) {
+    throw RunFileError(table.string() + ": its table is not one of a sweep.");
+  }
+  if (folders.empty()) throw RunFileError(directory.string() + ": there is no run in this sweep.");
+  return folders;
+}
+
 Run read_run(const std::filesystem::path& directory) {
   std::error_code unreadable;
   if (!std::filesystem::is_directory(directory, unreadable))

@@ -68,6 +68,10 @@ struct Run {
 // of several runs.
 Run read_run(const std::filesystem::path& directory);
 
+// The folders of the runs that a folder stands for: those of its table that were made, where it is that of a sweep,
+// otherwise the folder itself.
+std::vector<std::filesystem::path> run_folders_in(const std::filesystem::path& directory);
+
 // The parts, each usable alone. Throw RunFileError.
 // `torn`: the last row may be cut off, and is then left out.
 TrajectoryTable read_trajectory_csv(const std::filesystem::path& file, bool torn = false);

@@ -56,9 +56,11 @@ RunSummary RunResults::summary(RunStatus told_status,
       .steps = steps,
       .ladder = ladder_report,
       .expectations = results};
+  const bool is_stopped = event_watch && event_watch->stop();
+  if (is_stopped) told.stopped_by = event_watch->stop()->event;
   if (const auto& time = experiment.time)
     told.time = {.start = time->start,
-                 .end = time->is_transformed() ? t : time->time(steps),
+                 .end = time->is_transformed() || is_stopped ? t : time->time(steps),
                  .step = time->step};
   if (!statistics.empty()) {
     for (std::size_t i = 0; i < observer.first_constraint(); ++i) {

@@ -213,6 +213,13 @@ void RunSteps::next() {
   ++k_;
 }
 
+void RunSteps::skip_to(const State& state) {
+  start_.state = state;
+  goes_on_ = false;
+  stepper_->forget();
+  ++k_;
+}
+
 const Step& RunSteps::ended() const { return ahead_ ? ahead_->step() : stepper_->ended(); }
 
 const State& RunSteps::reached() const { return goes_on_ ? stepper_->ended().after : start_.state; }

@@ -33,6 +33,8 @@ class RunSteps {
   void begin();
   // Makes a step, not one beyond the last. Throws what Stepper::step does.
   void next();
+  // In place of next(), of steps that are not made ahead: the step ended at this state.
+  void skip_to(const State& state);
   long k() const { return k_; }  // the step that it was, or that of the start
   // That step, without what it was evaluated at, and where it ended; valid until next(). Before the first one, where
   // that begins. `before` is where the step before ended, maybe prepared once more.

@@ -102,6 +102,7 @@ Json to_json(const RunSummary& summary) {
   json["expectations"] = Json::array();
   if (const auto& time = summary.time)
     json["time"] = {{"start", time->start}, {"end", time->end}, {"step", time->step}};
+  if (!summary.stopped_by.empty()) json["stopped_by"] = summary.stopped_by;
   for (const auto& [name, value] : summary.final) append_member(json["final"], name, value);
   for (const auto& [name, record] : summary.observables)
     json["observables"][name] = {
@@ -159,6 +160,7 @@ RunSummary read_run_summary(const Json& json) {
                      .steps_per_second = number(json, "steps_per_second")};
   if (json.contains("ladder")) summary.ladder = read_ladder(json.at("ladder"));
   for (const Json& warning : part(json, "warnings", nothing)) summary.warnings.push_back(warning);
+  summary.stopped_by = text_at(json, "stopped_by");
   if (const Json& time = part(json, "time", nothing); !time.empty())
     summary.time = {number(time, "start"), number(time, "end"), number(time, "step")};
   for (const auto& [name, value] : part(json, "final", nothing).items())

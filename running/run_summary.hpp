@@ -31,6 +31,7 @@ struct RunSummary {
     double start = kUnknown, end = kUnknown, step = kUnknown;
   };
   std::optional<Time> time = {};
+  std::string stopped_by = {};  // the event that ended it before its time
   std::vector<std::pair<std::string, double>> final = {};  // coordinates
   std::vector<std::pair<std::string, QuantityRecord>> observables = {};
   // What Noether's theorem says of the momentum of that name, which is an observable.

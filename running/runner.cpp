@@ -10,12 +10,14 @@
 
 #include "courant/core/words/message.hpp"
 #include "courant/integrators/certificate/ladder_watch.hpp"
+#include "courant/running/chosen_step.hpp"
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/energy_watch.hpp"
 #include "courant/running/folder_keeper.hpp"
 #include "courant/running/ladder_report.hpp"
 #include "courant/running/left_constraints.hpp"
 #include "courant/running/observer_elsewhere.hpp"
+#include "courant/running/other_values.hpp"
 #include "courant/running/run_backend.hpp"
 #include "courant/running/run_clock.hpp"
 #include "courant/running/run_failure.hpp"
@@ -69,7 +71,7 @@ class RunUnderway {
         options_(options),
         backend_(worthwhile(options.backend, experiment)),
         ladder_(consistent_start(experiment)),
-        ladder_report_(ladder_report(ladder_, *experiment.model.system)),
+        ladder_report_(report_of_start(experiment, ladder_)),
         symmetries_(check_symmetries(experiment, ladder_)),
         observer_(experiment, ladder_, backend_) {
     if (observer_.constraint_count() == 0 && ladder_.verdict != Verdict::inconsistent)
@@ -80,6 +82,8 @@ class RunUnderway {
   }
 
   RunOutcome operator()() {
+    for (const auto& [where, what] : experiment_.remarks)
+      results_.warnings.push_back(where + ": " + what);
     if (options_.on_ladder) options_.on_ladder(ladder_report_);
     const bool consistent = ladder_.verdict != Verdict::inconsistent;
     std::optional<PreparedMethod> method;
@@ -217,21 +221,33 @@ class RunUnderway {
                      .t = t,
                      .row = k == 0 ? observer_.begin(state) : observer_.advance(step),
                      .step = step};
+    std::optional<RunEnd> end;
+    if (event_watch_) end = event_watch_->watch(moment);
+    // Where an event stops the run, that is its last state.
+    if (event_watch_ && event_watch_->stop()) {
+      const EventWatch::Stop& stop = *event_watch_->stop();
+      return tell_all({.k = k, .steps = k, .t = stop.t, .row = stop.row, .step = stop.step},
+                      std::move(end));
+    }
     if (clock_.is_transformed()) {
       if (rows_.has_tau()) moment.tau = clock_.tau();
       rows_.keep(t, moment.row);
     }
-    results_.steps = k;
-    results_.t = t;
+    return tell_all(moment, std::move(end));
+  }
+
+  // Whether the run goes on after all that watch it were told of this moment; `end`: why it ends all the
+  // same.
+  bool tell_all(const RunMoment& moment, std::optional<RunEnd> end) {
+    results_.steps = moment.k;
+    results_.t = moment.t;
     keeper_.see(moment);
-    rows_.write(moment, keeper_);
-    std::optional<RunEnd> end;
+    rows_.write(moment, keeper_, event_watch_ && event_watch_->stop());
     const auto tell = [&](RunWatcher& watcher) {
       if (auto its_end = watcher.watch(moment); its_end && !end) end = std::move(its_end);
     };
     for (const auto& watcher : watchers_) tell(*watcher);
     if (energy_watch_) tell(*energy_watch_);
-    if (event_watch_) tell(*event_watch_);
     for (RunWatcher* watcher : options_.watchers) tell(*watcher);
     if (end) {
       results_.status = end->status;
@@ -329,7 +345,9 @@ class RunUnderway {
   }
 
   // Whether nobody needs more of a step than where it ended.
-  bool may_make_ahead() const { return options_.ahead && !is_told_whole() && !looks_into_steps(); }
+  bool may_make_ahead() const {
+    return options_.ahead && !is_told_whole() && !looks_into_steps() && !experiment_.time->division;
+  }
 
   // All steps, or those after a checkpoint.
   void integrate(const PreparedMethod& method, const Checkpoint* from) {
@@ -348,9 +366,13 @@ class RunUnderway {
       else
         going = goes_on(steps.ended(), 0);
       while (going && steps.k() < time.steps) {
-        steps.next();
-        if (looks_into_steps()) look_into(steps);
-        going = goes_on(is_told_whole() ? steps.stepper().last() : steps.ended(), steps.k());
+        const std::optional<Step> jump = next(steps, *method.integrator);
+        if (jump) {
+          going = goes_on(*jump, steps.k());
+        } else {
+          if (looks_into_steps()) look_into(steps);
+          going = goes_on(is_told_whole() ? steps.stepper().last() : steps.ended(), steps.k());
+        }
         if (!going || !steps.is_epoch_over()) continue;
         // What is not in the state is forgotten. The checkpoint is the same for those who made the steps
         // before and for those who begin with it.
@@ -362,7 +384,7 @@ class RunUnderway {
       }
     } catch (const SolveError& error) {
       fail(failure_in_words(error, experiment_, ladder_, steps.state()) +
-           (ladder_watch_ ? ladder_watch_->decline() : ""));
+           (ladder_watch_ ? ladder_watch_->decline() : examined_at(steps.state())));
     } catch (const std::domain_error& error) {
       fail((results_.steps == 0 ? "/method: " : "") + without_place(error.what()));
     }
@@ -381,6 +403,79 @@ class RunUnderway {
       warn_of_end(method, steps.state());
   }
 
+  // Makes a step. Where it fails at a corner, a coordinate may have to jump there: what comes back then is the step
+  // up to just before the corner, the jump, and the way on from there.
+  std::optional<Step> next(RunSteps& steps, const Integrator& integrator) {
+    try {
+      steps.next();
+      return std::nullopt;
+    } catch (const SolveError&) {
+      if (!experiment_.time->division || experiment_.time->division->corners.empty()) throw;
+      std::optional<Step> jump = over_corners(steps, integrator);
+      if (!jump) throw;
+      steps.skip_to(jump->after);
+      observer_.restart(jump->before);
+      return jump;
+    }
+  }
+
+  std::optional<Step> over_corners(RunSteps& steps, const Integrator& integrator) {
+    // A corner is as far from what is evaluated beside it.
+    constexpr double beside = 1e-9, near = 1e-3;
+    const TimeSpan& time = *experiment_.time;
+    const State before = steps.state();
+    const double begin = time.time(steps.k()), end = time.time(steps.k() + 1), h = time.step;
+    State state = before;
+    bool jumped = false;
+    for (const double corner : DividedIntegrator::corners_within(
+             time.division->corners, begin - near * h, (1.0 + 2.0 * near) * h)) {
+      if (const double way = corner - state.t - beside * h; way > near * h)
+        state = integrator.advance(state, way, 1);
+      const std::optional<State> there = beyond(state, corner);
+      if (!there) return std::nullopt;
+      state = *there;
+      jumped = true;
+    }
+    if (!jumped) return std::nullopt;
+    if (const double way = end - state.t; way > near * h) state = integrator.advance(state, way, 1);
+    state.t = end;
+    return Step{.h = h, .before = before, .after = state, .stage = state};
+  }
+
+  // The consistent state that impulses lead to on the other side of a corner; nothing where there is none.
+  std::optional<State> beyond(const State& before, double corner) {
+    Experiment there = experiment_;
+    there.time->start = corner;
+    InitialValues& initial = there.initial;
+    initial = {.x = PartialVector(before.x.size()),
+               .velocity = PartialVector(before.x.size()),
+               .z = PartialVector(initial.z.values.size()),
+               .weight = initial.weight};
+    initial.x.values = before.x;
+    initial.x.given.setConstant(true);
+    const ConsistentStart ladder = consistent_start(there);
+    if (ladder.verdict == Verdict::inconsistent || ladder.verdict == Verdict::not_reached)
+      return std::nullopt;
+    constexpr std::size_t most = 4;
+    std::string text;
+    std::size_t count = 0;
+    for (const Movement& move : ladder.moves)
+      if (++count <= most)
+        text += (text.empty() ? "" : ", ") + move.name + " from " + number_text(move.from) +
+                " to " + number_text(move.to);
+    if (count > most) text += " and " + std::to_string(count - most) + " more";
+    if (!text.empty() && ++jumps_ <= kMostJumpsTold)
+      results_.warnings.push_back("At the corner t = " + number_text(corner) +
+                                  " there is a jump: " + text +
+                                  (ladder.is_impulse ? ", as an impulse makes it." : "."));
+    State state = before;
+    state.t = corner;
+    state.x = ladder.point.x;
+    state.v = ladder.point.v;
+    state.z = ladder.point.z;
+    return state;
+  }
+
   void look_at(Stepper& stepper) {
     if (observer_.account() || observer_.tangent_map()) stepper.tell_parts();
     if (event_watch_)
@@ -395,11 +490,27 @@ class RunUnderway {
     rows_.write_between(steps.stepper(), steps.k(), elsewhere_, keeper_);
   }
 
+  // What an examination of the ladder between the start and a state says, where none was asked for.
+  std::string examined_at(const State& state) const {
+    constexpr Index most_coordinates = 200;
+    if (state.x.size() > most_coordinates || results_.steps == 0) return "";
+    try {
+      LadderWatch watch(experiment_.model.system, ladder_);
+      if (const std::string before = watch.examine(ladder_.point); !before.empty()) return "";
+      const std::string finding = watch.examine(state);
+      return finding.empty() ? watch.decline() : " " + finding;
+    } catch (const std::runtime_error&) {  // nothing is known of the point
+    } catch (const std::domain_error&) {
+    }
+    return "";
+  }
+
   void warn_of_end(const PreparedMethod& method, const State& end) {
     const QuantityStatistics& all = results_.statistics;
     std::string warning = left_constraints(observer_, all, method.initial, end);
     if (warning.empty())
-      warning = alternation(*method.integrator, observer_, all, end, experiment_.time->step);
+      warning = alternation(*method.integrator, observer_, all, experiment_.model.system->names(),
+                            end, experiment_.time->step);
     if (!warning.empty()) results_.warnings.push_back(std::move(warning));
   }
 
@@ -420,7 +531,7 @@ class RunUnderway {
   RunKeeper& keeper_;
   const RunOptions& options_;
   const Backend backend_;  // for the steps of the run
-  const ConstraintLadder ladder_;
+  const ConsistentStart ladder_;
   const LadderReport ladder_report_;
   const std::vector<SymmetryFinding> symmetries_;
   Observer observer_;
@@ -433,6 +544,8 @@ class RunUnderway {
                       .observer = observer_};
   std::string place_;  // in the experiment, of what is being made ready: "/examine: "
   std::optional<NotFinite> not_finite_;
+  static constexpr int kMostJumpsTold = 3;
+  int jumps_ = 0;
   RunClock clock_{experiment_.time};
   std::optional<LadderWatch> ladder_watch_;
   std::optional<EnergyWatch> energy_watch_;
@@ -449,6 +562,11 @@ bool RunOutcome::as_expected() const {
 }
 
 RunOutcome run(const Experiment& experiment, RunKeeper& keeper, const RunOptions& options) {
+  if (experiment.time && !experiment.time->is_chosen) {
+    const ChosenStep chosen =
+        chosen_step(experiment, worthwhile(options.backend, experiment), options.stop);
+    return run(*with_chosen_step(experiment, chosen), keeper, options);
+  }
   keeper.check(experiment);
   return RunUnderway(experiment, keeper, options)();
 }

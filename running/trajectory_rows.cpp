@@ -44,8 +44,8 @@ void TrajectoryRows::keep(double t, const VectorXd& row) const {
     if (moment == t) kept_[moment] = row;
 }
 
-void TrajectoryRows::write(const RunMoment& moment, RunKeeper& keeper) const {
-  if (!has_step(moment.k)) return;
+void TrajectoryRows::write(const RunMoment& moment, RunKeeper& keeper, bool is_end) const {
+  if (!is_end && !has_step(moment.k)) return;
   if (has_all_columns_)
     keeper.append(moment.t, moment.tau, moment.row.head(std::ssize(columns_)));
   else

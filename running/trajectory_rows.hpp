@@ -30,8 +30,8 @@ class TrajectoryRows {
   std::vector<std::string> column_names() const;
   std::vector<std::string> headings() const;
 
-  // The row of a state of the run, if it has one.
-  void write(const RunMoment& moment, RunKeeper& keeper) const;
+  // The row of a state of the run, if it has one, as that has with which an event ends it.
+  void write(const RunMoment& moment, RunKeeper& keeper, bool is_end = false) const;
   // The rows that are asked for between step k - 1 and the one that was made, step k. In transformed time
   // also those that expectations ask for; those at the end of a step, keep() has.
   void write_between(Stepper& stepper, long k, ObserverElsewhere& elsewhere,

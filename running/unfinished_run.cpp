@@ -27,6 +27,8 @@ void check_unfinished(const fs::path& folder, const std::string& id, const Exper
     refuse_folder(file, "is of another run than experiment.json");
   if (summary.status != RunStatus::completed && summary.status != RunStatus::not_finite) return;
   if (!experiment.time) refuse_folder(folder, "the run is complete");
+  if (!summary.stopped_by.empty())
+    refuse_folder(folder, "the run is complete: the event " + summary.stopped_by + " ended it");
   const TimeSpan& time = *experiment.time;
   const double reached =
       time.is_transformed() && summary.time ? summary.time->end : time.time(summary.steps);

@@ -173,6 +173,17 @@ class Evaluation final : public NetworkVariables {
   mutable std::vector<Known> known_;
 };
 
+// The own unknowns of branches.
+void know_unknowns(const std::vector<NetworkBranch>& branches, const std::vector<Index>& place,
+                   const ExprVector& z, Evaluation& evaluation) {
+  for (std::size_t k = 0; k < branches.size() && z.size() > 0; ++k) {
+    if (branches[k].kind == Kind::current)
+      evaluation.set_current(static_cast<Index>(k), z[place[k]]);
+    else if (branches[k].kind == Kind::voltage)
+      evaluation.set_voltage(static_cast<Index>(k), z[place[k]]);
+  }
+}
+
 }  // namespace
 
 Network::Network(Index node_count, std::vector<NetworkBranch> branches, Energy energy)
@@ -198,8 +209,8 @@ Network::Network(Index node_count, std::vector<NetworkBranch> branches, Energy e
   Graph graph;
   const ExprVector x = graph.variables("x", state);
   const Expr t = graph.variable("t");
-  ports(x, graph.variables("v", state), effort(x, ExprVector(0), t),
-        graph.variables("z", auxiliary_size()), t);
+  const ExprVector z = graph.variables("z", auxiliary_size());
+  ports(x, graph.variables("v", state), effort(x, z, t), z, t);
 }
 
 Network::~Network() = default;
@@ -208,14 +219,28 @@ Expr Network::do_generator(const ExprVector& x, const ExprVector&, const Expr& t
   return energy_(x, t);
 }
 
-ExprVector Network::do_effort(const ExprVector& x, const ExprVector&, const Expr& t) const {
+std::optional<Expr> Network::do_energy(const ExprVector& x, const ExprVector& z,
+                                       const Expr& t) const {
+  Expr sum = energy_(x, t);
+  const bool has_implicit = std::ranges::any_of(
+      branches_, [](const NetworkBranch& branch) { return static_cast<bool>(branch.energy); });
+  if (!has_implicit) return sum;
+  Evaluation evaluation(branches_, x, t);
+  know_unknowns(branches_, place_, z, evaluation);
+  for (const NetworkBranch& branch : branches_)
+    if (branch.energy) sum += branch.energy(evaluation);
+  return sum;
+}
+
+ExprVector Network::do_effort(const ExprVector& x, const ExprVector& z, const Expr& t) const {
   Graph graph;
   ExprVector from(x.size() + 1), to(x.size() + 1);
   from << graph.variables("x", x.size()), graph.variable("t");
   to << x, t;
   const ExprVector at_fresh = from.head(x.size());
   ExprVector effort = substitute(gradient(energy_(at_fresh, from[x.size()]), at_fresh), from, to);
-  const Evaluation evaluation(branches_, x, t);
+  Evaluation evaluation(branches_, x, t);
+  know_unknowns(branches_, place_, z, evaluation);
   for (std::size_t k = 0; k < branches_.size(); ++k)
     if (has_state(branches_[k]) && branches_[k].law)
       effort[place_[k]] = branches_[k].law(evaluation);

@@ -44,6 +44,8 @@ struct NetworkBranch {
   // Of `current` and `voltage`, in currents and voltages of other branches, states and t. Of a
   // charge or a flux it may stand for ∂H/∂x, where that is known better than H.
   Law law = {};
+  // Of a charge or a flux whose law has unknowns of other branches: what it stores, in terms of these.
+  Law energy = {};
   // The names of its through and its across variable.
   std::string current_name = {}, voltage_name = {};
   std::string state_name = {};  // of a charge or a flux
@@ -101,6 +103,8 @@ class Network final : public PortSystem {
   Network(Index node_count, std::vector<NetworkBranch> branches, Energy energy,
           std::unique_ptr<const Kirchhoff> structure);
   Expr do_generator(const ExprVector& x, const ExprVector& z, const Expr& t) const override;
+  std::optional<Expr> do_energy(const ExprVector& x, const ExprVector& z,
+                                const Expr& t) const override;
   ExprVector do_effort(const ExprVector& x, const ExprVector& z, const Expr& t) const override;
   bool do_is_free(Index port) const override;
   ExprVector do_output(const ExprVector& x, const ExprVector& alpha,

@@ -160,6 +160,84 @@ BOOST_AUTO_TEST_CASE(studies_are_swept) {
   BOOST_TEST(!std::filesystem::exists(folder / "sweep" / "2-method=rk4"));
 }
 
+// A table of cases, in two parts, one of which goes on after an interrupt: the bytes of one process.
+BOOST_AUTO_TEST_CASE(cases_of_a_table_in_parts_that_are_joined) {
+  const TemporaryFolder folder;
+  const std::string cases = (folder / "cases.csv").string();
+  std::string text = theta + ",/initial/q\n";
+  for (int i = 0; i < 12; ++i)
+    text += std::to_string(0.5 + i / 40.0) + "," + std::to_string(i) + "\n";
+  write_text(cases, text);
+  const auto sweep = [&](const std::string& name, std::vector<std::string> more,
+                         const std::atomic<bool>* stop = nullptr) {
+    std::vector<std::string> words = {"run",       "-",           "-o",    (folder / name).string(),
+                                      "--backend", "interpreter", "--set", "/expect=[]",
+                                      "--quiet",   "--sweep",     cases};
+    words.insert(words.end(), more.begin(), more.end());
+    return courant_command(words, oscillator, stop);
+  };
+  BOOST_TEST(sweep("whole", {}).status == 0);
+  const std::atomic<bool> stop{true};
+  BOOST_TEST(sweep("one", {"--shard", "1/2"}, &stop).status == 130);
+  const std::vector<std::string> merge = {"sweep",
+                                          "--merge",
+                                          (folder / "one").string(),
+                                          (folder / "two").string(),
+                                          "-o",
+                                          (folder / "both").string()};
+  BOOST_TEST(sweep("two", {"--shard", "2/2"}).status == 0);
+  const Answer unfinished = courant_command(merge, "");
+  BOOST_TEST(unfinished.status == 2);
+  BOOST_TEST(says(unfinished.err, "shard 1/2 is interrupted"), unfinished.err);
+  const Answer other = sweep("one", {"--shard", "2/2", "--resume"});
+  BOOST_TEST(other.status == 2);
+  BOOST_TEST(says(other.err, "the sweep in this folder is another one"), other.err);
+  BOOST_TEST(sweep("one", {"--shard", "1/2", "--resume"}).status == 0);
+  const Answer merged = courant_command(merge, "");
+  BOOST_TEST(merged.status == 0, merged.err);
+  for (const char* file : {"sweep.csv", "sweep.json", "sweep.svg"})
+    BOOST_TEST(read_text(folder / "both" / file) == read_text(folder / "whole" / file), file);
+  const Json table = read_json(folder / "both" / "sweep.json");
+  for (const Json& row : table["runs"]) {
+    const std::string run = row["folder"];
+    BOOST_TEST(read_text(folder / "both" / run / "trajectory.csv") ==
+               read_text(folder / "whole" / run / "trajectory.csv"));
+  }
+  // A page and figures of its runs.
+  const Answer page = courant_command({"report", (folder / "both").string()}, "");
+  BOOST_TEST(page.status == 0, page.err);
+  BOOST_TEST(says(page.out, "12-theta"), page.out);
+  const Answer figure = courant_command({"plot", (folder / "both").string(), "--figure", "phase",
+                                         "-o", (folder / "phase.svg").string()},
+                                        "");
+  BOOST_TEST(figure.status == 0, figure.err);
+}
+
+BOOST_AUTO_TEST_CASE(slips_are_refused) {
+  const TemporaryFolder folder;
+  const auto refused = [&](std::vector<std::string> words, const std::string& what) {
+    words.insert(words.begin(), {"run", "-", "-o", (folder / "none").string()});
+    const Answer answer = courant_command(words, oscillator);
+    BOOST_TEST(answer.status == 2);
+    BOOST_TEST(says(answer.err, what), answer.err);
+  };
+  refused({"--sweep", "cases"}, "--sweep cases: is no file");
+  refused({"--sweep", theta + "=0,1", "--shard", "3/2"}, "--shard 3/2: is no part");
+  refused({"--set", "/system/parameters={\"k\": 1}", "--set", "/system/parameters/kk=2"},
+          "--set /system/parameters/kk: nothing uses the parameter \"kk\"");
+  BOOST_TEST(!std::filesystem::exists(folder / "none"));
+}
+
+BOOST_AUTO_TEST_CASE(a_setting_of_a_method_in_its_short_form) {
+  const TemporaryFolder folder;
+  const Answer answer =
+      courant_command({"run", "-", "-o", (folder / "run").string(), "--backend", "interpreter",
+                       "--set", "/expect=[]", "--set", "/method=discretize-first", "--set",
+                       "/method/discretization=midpoint"},
+                      oscillator);
+  BOOST_TEST(answer.status == 0, answer.err);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
 
 }  // namespace courant

@@ -1,8 +1,10 @@
 #include "courant/reading/experiment.hpp"
 
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 #include <string>
 
+#include "courant/core/language/formula.hpp"
 #include "experiment_problems.hpp"
 
 namespace courant {
@@ -324,6 +326,27 @@ BOOST_AUTO_TEST_CASE(refuses_expectations_that_cannot_be_met_or_missed) {
   BOOST_TEST(expecting({{"ladder", {{1, 2, 3}}}}).find("/expect/0/ladder: ") == 0u);
   BOOST_TEST(expecting(Json::object()).find("/expect/0: expects nothing") == 0u);
   BOOST_TEST(expecting({{"max_drft", 1}}).find("/expect/0/max_drft: unknown key") == 0u);
+}
+
+// d/dt of l cos(a) + t is -l sin(a) a' + 1, and of a definition made of it the same times a factor; also in later definitions.
+BOOST_AUTO_TEST_CASE(definitions_have_time_derivatives) {
+  const Experiment experiment = read_experiment(R"json({
+    "system": { "type": "implicit", "coordinates": ["a", "b[2]"], "parameters": { "l": 2 },
+      "definitions": { "ax": "l*cos(a) + t", "twice": "2*ax", "rate": "ax'^2", "both": ["a*b[0]", "b[1]^2"] },
+      "equations": ["a' - 3", "b[0]' - 5", "b[1]' - rate"] },
+    "initial": { "a": 0.4, "b": [1, 2] } })json");
+  const SymbolTable symbols = experiment.model.symbols(
+      ExprVector{{Expr(0.4), Expr(1.0), Expr(2.0)}}, ExprVector{{Expr(3.0), Expr(5.0), Expr(7.0)}},
+      ExprVector(0), Expr(0.1));
+  const auto value = [&](const char* formula) { return parse_formula(formula, symbols).value(); };
+  const double rate = -2.0 * std::sin(0.4) * 3.0 + 1.0;
+  BOOST_TEST(std::abs(value("ax'") - rate) < 1e-14);
+  BOOST_TEST(std::abs(value("twice'") - 2.0 * rate) < 1e-14);
+  BOOST_TEST(std::abs(value("rate") - rate * rate) < 1e-13);
+  BOOST_TEST(std::abs(value("both[0]'") - (3.0 * 1.0 + 0.4 * 5.0)) < 1e-14);
+  BOOST_TEST(std::abs(value("both[1]'") - 28.0) < 1e-14);
+  // A velocity has no derivative here.
+  BOOST_CHECK_THROW(value("rate'"), FormulaError);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -40,6 +40,41 @@ BOOST_AUTO_TEST_CASE(values_go_where_there_is_a_place) {
     BOOST_CHECK_THROW(apply_setting({nowhere, 1}, document), ExperimentError);
 }
 
+BOOST_AUTO_TEST_CASE(a_word_stands_for_its_type) {
+  Json document = {{"method", "discretize-first"}};
+  apply_setting({"/method/discretization", "midpoint"}, document);
+  BOOST_TEST(document ==
+             Json({{"method", {{"type", "discretize-first"}, {"discretization", "midpoint"}}}}));
+}
+
+BOOST_AUTO_TEST_CASE(a_table_of_cases_has_its_rows_as_cases) {
+  const auto ranges =
+      read_cases("/a,/b/c\r\n1,\"x, \"\"y\"\"\"\n2.5,\"{\"\"d\"\": 3}\"\n", "cases.csv");
+  BOOST_TEST_REQUIRE(ranges.size() == 2u);
+  BOOST_TEST(ranges[1].pointer == "/b/c");
+  BOOST_TEST(ranges[1].is_tied);
+  const auto all = combinations(ranges);
+  BOOST_TEST_REQUIRE(all.size() == 2u);
+  BOOST_TEST(all[0][1].value == Json("x, \"y\""));
+  BOOST_TEST(all[1][0].value == Json(2.5));
+  BOOST_TEST(all[1][1].value == Json({{"d", 3}}));
+  std::vector<ValueRange> both = ranges;
+  both.push_back({"/e", {1, 2, 3}});
+  BOOST_TEST(combinations(both).size() == 6u);
+  const auto says = [](const char* text) {
+    try {
+      read_cases(text, "cases.csv");
+    } catch (const ExperimentError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  BOOST_TEST(says("/a,/b\n1\n").find("--sweep cases.csv: line 2 has 1 cells; expected 2") == 0u);
+  BOOST_TEST(says("a,b\n1,2\n").find("line 1 has \"a\"; expected a JSON pointer") !=
+             std::string::npos);
+  BOOST_TEST(says("/a\n").find("has no cases") != std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(ranges_have_both_ends_and_equal_distances) {
   BOOST_TEST(values("0:1:11") == Json({0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1}));
   BOOST_TEST(values("3:1:3") == Json({3, 2, 1}));

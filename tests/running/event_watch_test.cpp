@@ -201,6 +201,30 @@ BOOST_AUTO_TEST_CASE(what_is_wrong_with_events) {
                  .find("/expect/0/time: ") == 0u);
 }
 
+// The run ends at the first zero of such an event, with what is known of the state there.
+BOOST_AUTO_TEST_CASE(an_event_may_stop_the_run) {
+  const TemporaryFolder folder;
+  Json document = oscillator;
+  document["events"]["centre"] = {{"zero", "q"}, {"stop", true}};
+  document["output"] = {{"every", 7}};
+  const RunOutcome outcome = run_in(folder, document);
+  BOOST_TEST((outcome.status == RunStatus::completed), outcome.message);
+  const double expected = time_of(std::numbers::pi / 2.0);
+  const RunSummary summary = read_run(folder / "run").summary;
+  BOOST_TEST(summary.stopped_by == "centre");
+  BOOST_TEST(std::abs(summary.time->end - expected) < 1e-12);
+  BOOST_TEST(summary.steps == 16);
+  const TrajectoryTable table = read_run(folder / "run").trajectory;
+  BOOST_TEST(table.rows() == 4u);  // steps 0, 7, 14 and the zero
+  BOOST_TEST(std::abs(table.column("t").back() - expected) < 1e-12);
+  BOOST_TEST(std::abs(table.column("q").back()) < 1e-12);
+  BOOST_TEST(std::abs(final_value(outcome, "p_q") + 1.0) < 1e-12);
+  // It is complete: there is nothing to go on with.
+  BOOST_CHECK_THROW(run_in(folder, document, {.existing = ExistingRun::resume}), UnusableFolder);
+  document["events"]["centre"]["stop"] = 1;
+  BOOST_CHECK_THROW(read_experiment_document(document), ExperimentError);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
 
 }  // namespace courant

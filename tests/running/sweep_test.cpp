@@ -23,12 +23,14 @@ const Json oscillator = Json::parse(R"json({
 const std::vector<ValueRange> thetas = {{"/method/discretization/theta", {0.5, 1, 2}}};
 
 Json sweep_runs(const ResultFolder& folder, std::span<const ValueRange> ranges,
-                const std::atomic<bool>* stop = nullptr, unsigned threads = 2) {
-  return sweep(ranges, sweep_cases(oscillator, ranges),
+                const std::atomic<bool>* stop = nullptr, unsigned threads = 2,
+                const Shard& shard = {}, const Json& earlier = {}) {
+  return sweep(sweep_head(oscillator, ranges, shard), shard.take(sweep_cases(oscillator, ranges)),
                [&](const SweepCase& one) {
-                 return run_of_case(one, folder.path(), Backend::interpreter, stop);
+                 return run_of_case(one, folder.path(), Backend::interpreter, stop,
+                                    !earlier.is_null());
                },
-               {.threads = threads, .stop = stop, .folder = &folder});
+               {.threads = threads, .stop = stop, .folder = &folder, .earlier = earlier});
 }
 
 }  // namespace
@@ -78,7 +80,9 @@ BOOST_AUTO_TEST_CASE(a_table_says_what_became_of_each_run) {
   }
   Json written = read_json(folder.file("json"));
   BOOST_TEST(written["kind"] == "sweep");
-  BOOST_TEST(written["runs"] == runs);
+  Json told = runs;
+  for (Json& run : told) run.erase("seconds");
+  BOOST_TEST(written["runs"] == told);
   const std::string csv = read_text(folder.file("csv"));
   BOOST_TEST(csv == sweep_csv(table));
   BOOST_TEST(
@@ -97,10 +101,7 @@ BOOST_AUTO_TEST_CASE(the_number_of_threads_changes_nothing) {
     const TemporaryFolder temporary;
     Json table =
         sweep_runs(ResultFolder(temporary / "sweep", "sweep", false), ranges, nullptr, threads);
-    for (Json& run : table["runs"]) {
-      run["values"].erase("wall_seconds");
-      run["values"].erase("cpu_seconds");
-    }
+    for (Json& run : table["runs"]) run.erase("seconds");
     tables.insert(table.dump());
   }
   BOOST_TEST(tables.size() == 1u);
@@ -124,7 +125,7 @@ BOOST_AUTO_TEST_CASE(ladders_are_swept_too) {
     "system": { "type": "mechanical", "coordinates": ["x", "y"], "potential": "y", "holonomic": "x^2 + y^2 - l^2", "parameters": { "l": 1 } },
     "initial": { "x": 0.6, "y": -0.8, "p_x": 0.8, "p_y": 0.6 } })json");
   const std::vector<ValueRange> ranges = {{"/system/parameters/l", {1, 2}}};
-  const Json table = sweep(ranges, sweep_cases(pendulum, ranges),
+  const Json table = sweep(sweep_head(pendulum, ranges), sweep_cases(pendulum, ranges),
                            [](const SweepCase& one) { return ladder_of_case(one); }, {});
   for (const Json& run : table["runs"]) {
     BOOST_TEST(run["status"] == "completed", run["message"]);
@@ -134,6 +135,79 @@ BOOST_AUTO_TEST_CASE(ladders_are_swept_too) {
   }
   BOOST_TEST(table["runs"][0]["values"]["moved"].get<double>() < 1e-12);
   BOOST_TEST(table["runs"][1]["values"]["moved"].get<double>() > 0.1);
+}
+
+// A sweep that is stopped after some cases, and one whose table was lost after that: both go on to the bytes of one that was
+// not.
+BOOST_AUTO_TEST_CASE(an_interrupted_sweep_goes_on_to_the_same_bytes) {
+  const std::vector<ValueRange> ranges = {{"/system/parameters/k", {1, 2, 3, 4, 5, 6}}};
+  const TemporaryFolder temporary;
+  const ResultFolder whole(temporary / "whole", "sweep", false);
+  sweep_runs(whole, ranges);
+  {
+    const ResultFolder folder(temporary / "sweep", "sweep", false);
+    std::atomic<bool> stop{false};
+    const auto cases = sweep_cases(oscillator, ranges);
+    sweep(sweep_head(oscillator, ranges), cases,
+          [&](const SweepCase& one) {
+            if (one.name == cases[3].name) stop = true;
+            return run_of_case(one, folder.path(), Backend::interpreter, &stop);
+          },
+          {.threads = 1, .stop = &stop, .folder = &folder});
+  }
+  const Json earlier = ResultFolder::result_in(temporary / "sweep", "sweep");
+  BOOST_TEST(earlier["status"] == "interrupted");
+  BOOST_TEST(earlier["runs"][2]["status"] == "completed");
+  BOOST_TEST(earlier["runs"][5]["status"] == "interrupted");
+  const auto written = [&](const char* file) { return read_text(temporary / "sweep" / file); };
+  Json without_rows = earlier;  // as after a kill before the table was written again
+  for (Json& row : without_rows["runs"]) row["status"] = "interrupted";
+  for (const Json& known : {earlier, without_rows}) {
+    const ResultFolder folder(temporary / "sweep", "sweep", false, true);
+    const Json table = sweep_runs(folder, ranges, nullptr, 2, {}, known);
+    BOOST_TEST(table["status"] == "completed");
+    for (const char* file : {"sweep.json", "sweep.csv"})
+      BOOST_TEST(written(file) == read_text(temporary / "whole" / file), file);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(parts_of_a_sweep_make_the_whole) {
+  const std::vector<ValueRange> ranges = {{"/system/parameters/k", {1, 2, 3, 4, 5, 6, 7}}};
+  const TemporaryFolder temporary;
+  const ResultFolder whole(temporary / "whole", "sweep", false);
+  sweep_runs(whole, ranges);
+  std::vector<Json> parts;
+  for (const std::size_t k : {3u, 1u, 2u}) {
+    const ResultFolder folder(temporary / std::to_string(k), "sweep", false);
+    sweep_runs(folder, ranges, nullptr, 2, {k, 3});
+    parts.push_back(ResultFolder::result_in(folder.path(), "sweep"));
+  }
+  BOOST_TEST(parts[1]["runs"].size() == 3u);
+  const Json merged = merged_sweep(parts);
+  Json expected = ResultFolder::result_in(whole.path(), "sweep");
+  expected.erase("kind");
+  BOOST_TEST(merged == expected);
+  BOOST_TEST(sweep_csv(merged) == read_text(whole.file("csv")));
+  const auto refused = [](std::vector<Json> of) {
+    BOOST_CHECK_THROW(merged_sweep(of), std::invalid_argument);
+  };
+  refused({parts[0], parts[1]});
+  refused({parts[0], parts[1], parts[1]});
+  std::vector<Json> other = parts;
+  other[0]["experiment"]["title"] = "another";
+  refused(other);
+  other = parts;
+  other[2]["status"] = "interrupted";
+  refused(other);
+  BOOST_CHECK_THROW(Shard::read("5/4"), ExperimentError);
+  BOOST_CHECK_THROW(Shard::read("0/4"), ExperimentError);
+  BOOST_CHECK_THROW(Shard::read("2"), ExperimentError);
+}
+
+BOOST_AUTO_TEST_CASE(parameters_that_nothing_uses_are_not_swept) {
+  BOOST_CHECK_THROW(
+      sweep_cases(oscillator, std::vector<ValueRange>{{"/system/parameters/kk", {1, 2}}}),
+      ExperimentError);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,81 @@
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <ostream>
+#include <vector>
+
+#include "courant/cli/command.hpp"
+#include "courant/core/words/message.hpp"
+#include "courant/reporting/figure_file.hpp"
+#include "courant/reporting/sweep_figure.hpp"
+#include "courant/running/result_folder.hpp"
+#include "courant/running/run_files.hpp"
+#include "courant/running/sweep.hpp"
+
+namespace courant::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct MergeArguments {
+  std::vector<fs::path> folders;
+  std::string output;
+  bool force = false;
+};
+
+// The runs of a part, beside those of the others.
+void copy_runs(const fs::path& from, const Json& part, const fs::path& to) {
+  for (const Json& row : part.at("runs")) {
+    const std::string name = row.at("folder");
+    if (!name.empty()) fs::copy(from / name, to / name, fs::copy_options::recursive);
+  }
+}
+
+int merge(const Console& console, const MergeArguments& arguments) {
+  std::vector<Json> parts;
+  for (const fs::path& folder : arguments.folders) {
+    parts.push_back(ResultFolder::result_in(folder, "sweep"));
+    if (parts.back().is_null())
+      throw RunFileError(folder.string() +
+                         ": there is no sweep in this folder; expected a part of one");
+  }
+  Json table;
+  try {
+    table = merged_sweep(parts);
+  } catch (const std::invalid_argument& error) {
+    throw RunFileError(arguments.folders.front().string() + ", …: " + without_place(error.what()));
+  } catch (const Json::exception&) {
+    throw RunFileError(arguments.folders.front().string() + ", …: a table is not one of a sweep.");
+  }
+  const ResultFolder folder(arguments.output, "sweep", arguments.force);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    copy_runs(arguments.folders[i], parts[i], folder.path());
+  const auto figure = sweep_figure(table);
+  folder.write(table, sweep_csv(table), figure ? figure_svg(*figure) : "");
+  console.out << table.at("runs").size() << " cases of " << parts.size() << " parts; "
+              << folder.file("csv").string() << '\n';
+  return done;
+}
+
+}  // namespace
+
+void add_sweep_command(CLI::App& app, Session& session) {
+  auto arguments = std::make_shared<MergeArguments>();
+  CLI::App* sweep = app.add_subcommand("sweep", "Join the parts of a sweep that --shard made");
+  sweep
+      ->add_option("--merge", arguments->folders,
+                   "the folders of all parts, each finished; they stay as they are")
+      ->type_name("DIR")
+      ->required();
+  sweep
+      ->add_option("-o", arguments->output,
+                   "where the whole sweep goes, with the bytes that one process would have written")
+      ->type_name("DIR")
+      ->required();
+  sweep->add_flag("--force", arguments->force, "replace a sweep that is in the folder already");
+  sweep->callback([&session, arguments] {
+    session.action = [arguments](const Console& console) { return merge(console, *arguments); };
+  });
+}
+
+}  // namespace courant::cli

@@ -1,0 +1,102 @@
+#include "courant/running/impulsive_start.hpp"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "courant/core/expressions/function.hpp"
+#include "courant/core/linear/complete_orthogonal_decomposition.hpp"
+#include "courant/core/linear/rank_decision.hpp"
+
+namespace courant {
+namespace {
+
+constexpr Index kMostMovable = 500;
+constexpr int kMostJumps = 20;
+// Next to the sizes of coordinates: what is left of a movement along impulses is round-off.
+constexpr double kReached = 1e-10;
+constexpr double kRoundOffOfJump = 1e-14;
+
+// Columns: the directions of Δx (n), none where the residual has no derivative.
+MatrixXd impulse_directions(const Experiment& experiment, const State& at) {
+  const ImplicitSystem& system = *experiment.model.system;
+  const Index n = at.x.size(), m = at.z.size();
+  Graph graph;
+  const ExprVector x = graph.variables("x", n), v = graph.variables("v", n),
+                   z = graph.variables("z", m);
+  const Expr t = graph.variable("t");
+  const Function F("impulses", {{"v", v}, {"z", z}, {"x", x}, {"t", ExprVector{{t}}}},
+                   system.residual(x, v, z, t), {.differentiate = {"v", "z"}});
+  const MatrixXd J = F.jacobian({at.v, at.z, at.x, VectorXd::Constant(1, at.t)});
+  if (!J.allFinite()) return MatrixXd(n, 0);
+  std::vector<Index> held;
+  for (Index i = 0; i < n; ++i)
+    if (experiment.initial.x.held[i]) held.push_back(i);
+  MatrixXd conditions = MatrixXd::Zero(J.rows() + std::ssize(held), n + m);
+  conditions.topRows(J.rows()) = J;
+  for (std::size_t k = 0; k < held.size(); ++k)
+    conditions(J.rows() + static_cast<Index>(k), held[k]) = 1.0;
+  return kernel(conditions, {.data_error = 1e-9}).topRows(n);
+}
+
+bool is_start(const ConstraintLadder& ladder) {
+  return (ladder.verdict == Verdict::regular || ladder.verdict == Verdict::gauge) &&
+         !ladder.levels.empty() && ladder.levels.back().is_solved;
+}
+
+// With the moves from `begin`, of what was given.
+ConsistentStart as_impulse(const Experiment& experiment, ConstraintLadder ladder,
+                           const VectorXd& begin) {
+  const VectorXd& x = ladder.point.x;
+  const double least = kReached * begin.cwiseAbs().cwiseMax(x.cwiseAbs()).maxCoeff();
+  const auto& names = experiment.model.system->names().coordinates;
+  ladder.moves.clear();
+  for (Index i = 0; i < x.size(); ++i)
+    if (experiment.initial.x.given[i] && std::fabs(x[i] - begin[i]) > least)
+      ladder.moves.push_back({names[static_cast<std::size_t>(i)], begin[i], x[i]});
+  ladder.moved = (x - begin).norm();
+  return {std::move(ladder), true};
+}
+
+}  // namespace
+
+ConsistentStart impulsive_start(
+    const Experiment& experiment, ConstraintLadder nearest,
+    const std::function<ConstraintLadder(const VectorXd& x)>& nearest_to) {
+  const InitialValues& initial = experiment.initial;
+  const Manifold& M = *experiment.model.system->manifold();
+  const Index n = M.ambient_dimension();
+  if (!is_start(nearest) || n != M.tangent_dimension() || n > kMostMovable ||
+      !M.frame(nearest.point.x).is_identity() || !(initial.weight.array() == 1.0).all())
+    return nearest;
+  const VectorXd begin = initial.x.given.select(initial.x.values, nearest.point.x);
+  const auto size = [&](const VectorXd& x) {
+    return begin.cwiseAbs().cwiseMax(x.cwiseAbs()).maxCoeff();
+  };
+  if ((begin - nearest.point.x).lpNorm<Eigen::Infinity>() <= kReached * size(nearest.point.x))
+    return nearest;
+  VectorXd x = begin;
+  ConstraintLadder ladder = nearest;
+  double before = std::numeric_limits<double>::infinity();
+  try {
+    for (int step = 0; step < kMostJumps; ++step) {
+      const double beside = (x - ladder.point.x).lpNorm<Eigen::Infinity>();
+      const bool is_settled = beside <= kRoundOffOfJump * size(x) || beside >= before;
+      if (step > 0 && is_settled && beside > kReached * size(x)) return nearest;
+      if (step > 0 && is_settled) return as_impulse(experiment, std::move(ladder), begin);
+      before = step > 0 ? beside : before;
+      const MatrixXd K = impulse_directions(experiment, ladder.point), A = ladder.conormals();
+      if (K.cols() == 0 || A.rows() == 0) return nearest;
+      x = begin - K * CompleteOrthogonalDecomposition(A * K).solve(A * (begin - ladder.point.x));
+      ladder = nearest_to(x);
+      if (!is_start(ladder)) return nearest;
+    }
+  } catch (const std::runtime_error&) {  // impulses lead to where nothing is defined
+  } catch (const std::domain_error&) {
+  }
+  return nearest;
+}
+
+}  // namespace courant

@@ -1,0 +1,36 @@
+// Starts that impulses lead to.
+#pragma once
+
+#include <functional>
+#include <utility>
+
+#include "courant/integrators/certificate/constraint_ladder.hpp"
+#include "courant/reading/experiment.hpp"
+
+namespace courant {
+
+// The ladder at a start. `is_impulse`: what moved did so as an impulse moves it, which keeps what the equations
+// conserve.
+struct ConsistentStart : ConstraintLadder {
+  ConsistentStart() = default;
+  ConsistentStart(ConstraintLadder ladder, bool impulse = false)
+      : ConstraintLadder(std::move(ladder)), is_impulse(impulse) {}
+  bool is_impulse = false;
+};
+
+// Two charged capacitors that are connected keep their charge, two rotors that are joined their momentum: what is
+// given of a state and contradicts the constraints jumps to where impulses take it,
+//
+//   Δx ∈ π_v ker (∂F/∂v, ∂F/∂z)
+//
+// since in F(x, v, z, t) = 0 velocities and unknowns grow beyond all bounds while x stays finite: charges
+// round a loop, momenta along a reaction. Among these directions it is the least Δx.
+//
+// `nearest`: the start that moves least, whatever the directions; it is returned where nothing that was given
+// moved, where impulses alone do not lead to a consistent point (as from positions beside a constraint), and where
+// the experiment has weights, which choose another metric. `nearest_to`: the same from another x. On Rⁿ only.
+ConsistentStart impulsive_start(
+    const Experiment& experiment, ConstraintLadder nearest,
+    const std::function<ConstraintLadder(const VectorXd& x)>& nearest_to);
+
+}  // namespace courant

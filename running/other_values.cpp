@@ -1,0 +1,76 @@
+#include "courant/running/other_values.hpp"
+
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "courant/integrators/certificate/constraint_algorithm.hpp"
+
+namespace courant {
+namespace {
+
+constexpr Index kMostTried = 50;
+// Values that differ by less, next to their size, are one.
+constexpr double kDifferentValue = 1e-6;
+// A residual that is linear leaves this part of its size, round-off, at the middle of two points.
+constexpr double kLinear = 1e-12;
+
+// Whether the residual is no linear function on the way from z to -z in entry i.
+bool is_nonlinear(const ImplicitSystem& system, const State& at, Index i) {
+  const auto residual = [&](double value) {
+    VectorXd z = at.z;
+    z[i] = value;
+    return system.residual(at.x, at.v, z, at.t);
+  };
+  const VectorXd here = residual(at.z[i]), there = residual(-at.z[i]), middle = residual(0.0);
+  if (!middle.allFinite() || !there.allFinite()) return false;
+  const double size =
+      here.cwiseAbs().maxCoeff() + there.cwiseAbs().maxCoeff() + middle.cwiseAbs().maxCoeff();
+  return (here + there - 2.0 * middle).cwiseAbs().maxCoeff() > kLinear * size;
+}
+
+}  // namespace
+
+std::vector<Movement> other_values(const Experiment& experiment, const ConstraintLadder& ladder) {
+  const auto& system = experiment.model.system;
+  const State& at = ladder.point;
+  std::vector<Movement> others;
+  if (ladder.verdict != Verdict::regular || at.z.size() > kMostTried || at.x.size() > kMostTried)
+    return others;
+  ConstraintAlgorithm::Options options;
+  options.max_level = 0;
+  const ConstraintAlgorithm solve(options);
+  // Unknowns that have names.
+  for (Index i = 0; i < experiment.initial.z.given.size(); ++i) {
+    if (experiment.initial.z.given[i] || at.z[i] == 0.0) continue;
+    try {
+      if (!is_nonlinear(*system, at, i)) continue;
+      InitialGuess guess{.t = at.t, .x = at.x, .v = at.v, .z = at.z};
+      guess.z[i] = -at.z[i];
+      guess.hold_x.resize(static_cast<std::size_t>(at.x.size()));
+      std::iota(guess.hold_x.begin(), guess.hold_x.end(), Index{0});
+      const ConstraintLadder other = solve.run(system, guess);
+      if (other.levels.empty() || !other.levels.back().is_solved) continue;
+      const double value = other.point.z[i], size = std::fabs(value) + std::fabs(at.z[i]);
+      if (std::isfinite(value) && std::fabs(value - at.z[i]) > kDifferentValue * size)
+        others.push_back({system->names().auxiliary[static_cast<std::size_t>(i)], at.z[i], value});
+    } catch (const std::runtime_error&) {  // nothing is found there
+    } catch (const std::domain_error&) {
+    }
+  }
+  return others;
+}
+
+void tell_of_start(const Experiment& experiment, const ConsistentStart& start,
+                   LadderReport& report) {
+  report.is_impulse = start.is_impulse;
+  report.choices = other_values(experiment, start);
+}
+
+LadderReport report_of_start(const Experiment& experiment, const ConsistentStart& start) {
+  LadderReport report = ladder_report(start, *experiment.model.system);
+  tell_of_start(experiment, start, report);
+  return report;
+}
+
+}  // namespace courant

@@ -1,0 +1,70 @@
+#include "courant/running/chosen_step.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "courant/running/run_files.hpp"
+#include "run_in.hpp"
+
+namespace courant {
+BOOST_AUTO_TEST_SUITE(chosen_step_test)
+
+namespace {
+
+const Json oscillator = Json::parse(R"json({
+  "system": { "type": "hamiltonian", "coordinates": ["q"], "hamiltonian": "(p_q^2 + q^2)/2" },
+  "initial": { "q": 1, "p_q": 0 },
+  "method": "discretize-first",
+  "time": { "tolerance": 1e-6, "end": 20 },
+  "output": { "interval": 2 }
+})json");
+
+}  // namespace
+
+// The midpoint rule turns by 2 atan(h/2) in a step: after t it is late by t h²/12, of which the half has a quarter. So
+// half of 3/4 t h²/12, of a way of 2.
+BOOST_AUTO_TEST_CASE(the_difference_to_the_half_is_below_the_tolerance) {
+  for (const double tolerance : {1e-3, 1e-6}) {
+    Json document = oscillator;
+    document["time"]["tolerance"] = tolerance;
+    const ChosenStep chosen = chosen_step(read_experiment_document(document));
+    BOOST_TEST(chosen.estimate <= tolerance);
+    BOOST_TEST(chosen.estimate >= tolerance / 30.0);
+    const double late = 0.75 * 20.0 * chosen.step * chosen.step / 12.0;
+    BOOST_TEST(chosen.estimate <= 0.5 * late * 1.001);
+    BOOST_TEST(chosen.estimate >= 0.5 * late / 3.0);
+    BOOST_TEST(std::abs(std::log2(2.0 / chosen.step) - std::round(std::log2(2.0 / chosen.step))) <
+               1e-9);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_run_keeps_the_step_and_writes_at_the_interval) {
+  const TemporaryFolder folder;
+  const RunOutcome outcome = run_in(folder, oscillator);
+  BOOST_TEST((outcome.status == RunStatus::completed), outcome.message);
+  BOOST_TEST_REQUIRE(outcome.summary.time.has_value());
+  BOOST_TEST(outcome.summary.time->step < 0.01);
+  BOOST_TEST(std::abs(final_value(outcome, "q") - std::cos(20.0)) < 1e-5);
+  const Json written = read_json(folder / "run/experiment.json");
+  BOOST_TEST(written["time"]["step"] == outcome.summary.time->step);
+  BOOST_TEST(read_run(folder / "run").trajectory.rows() == 11u);
+  // The file is an experiment again, with the step.
+  BOOST_TEST(read_experiment_document(written).time->is_chosen);
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_chosen_is_told) {
+  Json document = oscillator;
+  // Where the best of the steps that were tried is not good enough, that is said.
+  const Experiment experiment = read_experiment_document(document);
+  BOOST_TEST(with_chosen_step(experiment, {0.5, 1e-5})->remarks.size() == 1u);
+  BOOST_TEST(with_chosen_step(experiment, {0.5, 1e-7})->remarks.empty());
+  document["time"]["tolerance"] = -1;
+  BOOST_CHECK_THROW(read_experiment_document(document), ExperimentError);
+  document = oscillator;
+  document["time"] = {{"step", 0.3}, {"end", 6}};
+  BOOST_CHECK_THROW(read_experiment_document(document), ExperimentError);  // 2 is no multiple of it
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace courant

@@ -1,0 +1,87 @@
+#include "courant/running/impulsive_start.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "courant/running/consistent_start.hpp"
+
+namespace courant {
+BOOST_AUTO_TEST_SUITE(impulsive_start_test)
+
+namespace {
+
+ConsistentStart start(const char* experiment) {
+  return consistent_start(read_experiment(experiment));
+}
+
+}  // namespace
+
+// 2 µF at 6 V and 4 µF at 0 V: the charge of both, 12 µC, is kept, and 2 V are left.
+BOOST_AUTO_TEST_CASE(capacitors_that_are_connected_keep_their_charge) {
+  const auto found = start(R"json({
+    "system": { "type": "network", "nodes": ["0", "a"], "elements": [
+      { "type": "capacitor", "name": "C1", "from": "a", "to": "0", "value": 2e-6 },
+      { "type": "capacitor", "name": "C2", "from": "a", "to": "0", "value": 4e-6 },
+      { "type": "resistor", "name": "R", "from": "a", "to": "0", "value": 1e5 } ] },
+    "initial": { "q_C1": 12e-6, "q_C2": 0 } })json");
+  BOOST_TEST(found.is_impulse);
+  BOOST_TEST(std::abs(found.point.x[0] - 4e-6) < 1e-17);
+  BOOST_TEST(std::abs(found.point.x[1] - 8e-6) < 1e-17);
+  BOOST_TEST_REQUIRE(found.moves.size() == 2u);
+  BOOST_TEST(found.moves[0].from == 12e-6);
+}
+
+BOOST_AUTO_TEST_CASE(rotors_that_are_joined_keep_their_momentum) {
+  const auto found = start(R"json({
+    "system": { "type": "network", "nodes": ["0", "a"], "elements": [
+      { "type": "inertia", "name": "J1", "at": "a", "value": 3 },
+      { "type": "inertia", "name": "J2", "at": "a", "value": 1 },
+      { "type": "rotational-damper", "name": "D", "from": "a", "to": "0", "value": 0.1 } ] },
+    "initial": { "l_J1": 6, "l_J2": -2 } })json");
+  BOOST_TEST(found.is_impulse);
+  BOOST_TEST(std::abs(found.point.x[0] - 3.0) < 1e-12);
+  BOOST_TEST(std::abs(found.point.x[1] - 1.0) < 1e-12);
+}
+
+// Of two masses on a rod the momenta move along the reaction, (x, y) of the bob and the opposite of the block's x; nothing that the given
+// metric says enters, and the masses do.
+BOOST_AUTO_TEST_CASE(momenta_move_along_the_reaction) {
+  const auto found = start(R"json({
+    "system": { "type": "mechanical", "coordinates": ["s", "x", "y"], "metric": [[5, 0, 0], [0, 1, 0], [0, 0, 1]],
+      "potential": "9.81*y", "holonomic": "(x - s)^2 + y^2 - 1" },
+    "initial": { "s": 0, "x": 0.6, "y": -0.8, "p_s": 0, "p_x": 1, "p_y": 1 } })json");
+  BOOST_TEST(found.is_impulse);
+  const VectorXd moved = found.point.x - VectorXd{{0.0, 0.6, -0.8, 0.0, 1.0, 1.0}};
+  BOOST_TEST(moved.head(3).norm() < 1e-12);
+  BOOST_TEST(std::abs(moved[3] + moved[4]) < 1e-12);              // the momentum along x
+  BOOST_TEST(std::abs(moved[4] * -0.8 - moved[5] * 0.6) < 1e-8);  // along the rod
+  const double vs = found.point.x[3] / 5.0, vx = found.point.x[4], vy = found.point.x[5];
+  BOOST_TEST(std::abs(0.6 * (vx - vs) - 0.8 * vy) < 1e-12);
+}
+
+// Positions beside a constraint: no impulse moves them.
+BOOST_AUTO_TEST_CASE(positions_move_as_before) {
+  const auto found = start(R"json({
+    "system": { "type": "mechanical", "coordinates": ["x", "y"], "potential": "y", "holonomic": "x^2 + y^2 - 1" },
+    "initial": { "x": 1.2, "y": 0, "p_x": 0, "p_y": 1 } })json");
+  BOOST_TEST(!found.is_impulse);
+  BOOST_TEST(std::abs(found.point.x[0] - 1.0) < 1e-10);
+}
+
+BOOST_AUTO_TEST_CASE(what_is_consistent_and_what_is_weighted_is_left_alone) {
+  const char* const consistent = R"json({
+    "system": { "type": "network", "nodes": ["0", "a"], "elements": [
+      { "type": "capacitor", "name": "C1", "from": "a", "to": "0", "value": 2 },
+      { "type": "capacitor", "name": "C2", "from": "a", "to": "0", "value": 4 },
+      { "type": "resistor", "name": "R", "from": "a", "to": "0", "value": 1 } ] },
+    "initial": { "q_C1": 2, "q_C2": 4 } })json";
+  BOOST_TEST(!start(consistent).is_impulse);
+  Json weighted = Json::parse(consistent);
+  weighted["initial"]["q_C2"] = 0;
+  weighted["weights"] = {{"q_C1", 2}};
+  BOOST_TEST(!consistent_start(read_experiment_document(weighted)).is_impulse);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace courant
