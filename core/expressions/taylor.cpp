@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "courant/core/numbers/digits.hpp"
 #include "courant/core/numbers/operation.hpp"
 #include "courant/core/numbers/quadruple.hpp"
 #include "courant/core/numbers/uncertain.hpp"
@@ -16,21 +17,27 @@ namespace {
 double value_of(double a) { return a; }
 double value_of(const Uncertain& a) { return a.value; }
 double value_of(const Quadruple& a) { return static_cast<double>(a); }
+double value_of(const Digits& a) { return static_cast<double>(a); }
 bool vanishes(double a) { return a == 0.0; }
 bool vanishes(const Uncertain& a) { return a.is_exactly(0.0); }
 bool vanishes(const Quadruple& a) { return a == 0.0; }
+bool vanishes(const Digits& a) { return a.is_zero(); }
 bool is_nonzero(double a) { return a != 0.0; }
 bool is_nonzero(const Uncertain& a) { return a.is_nonzero(); }
 bool is_nonzero(const Quadruple& a) { return !(a == 0.0); }
+bool is_nonzero(const Digits& a) { return !a.shrinks(); }
 double function(Op op, double a) { return evaluate(op, 0, a, 0.0, 0.0); }
 Uncertain function(Op op, const Uncertain& a) { return evaluate(op, a); }
 Quadruple function(Op op, const Quadruple& a) { return evaluate(op, a); }
+Digits function(Op op, const Digits& a) { return evaluate(op, a); }
 double power(double a, double p) { return std::pow(a, p); }
 Uncertain power(const Uncertain& a, const Uncertain& p) { return pow(a, p); }
 Quadruple power(const Quadruple& a, const Quadruple& p) { return pow(a, p); }
+Digits power(const Digits& a, const Digits& p) { return pow(a, p); }
 double angle(double y, double x) { return std::atan2(y, x); }
 Uncertain angle(const Uncertain& y, const Uncertain& x) { return atan2(y, x); }
 Quadruple angle(const Quadruple& y, const Quadruple& x) { return atan2(y, x); }
+Digits angle(const Digits& y, const Digits& x) { return atan2(y, x); }
 
 template <class T>
 void multiply(Index K, const T* a, const T* b, T* out) {
@@ -246,10 +253,13 @@ void stumpff_derivatives(Index K, std::int32_t k, const Uncertain& s, Uncertain*
   }
 }
 
-// By the series alone, which loses four digits up to 64.
-void stumpff_derivatives(Index K, std::int32_t k, const Quadruple& s, Quadruple* f) {
+// By the series alone, which loses four digits up to 64, and nine up to 400.
+template <class T>
+void stumpff_derivatives(Index K, std::int32_t k, const T& s, T* f) {
+  constexpr double most = std::is_same_v<T, Digits> ? 400.0 : 64.0;
   for (Index j = 0; j <= K; ++j) {
-    f[j] = value_of(s) < 64.0 ? stumpff_series(j, k, s) : std::numeric_limits<double>::quiet_NaN();
+    f[j] =
+        value_of(s) < most ? stumpff_series(j, k, s) : T(std::numeric_limits<double>::quiet_NaN());
     if (j % 2 != 0) f[j] = -f[j];
   }
 }
@@ -273,8 +283,9 @@ void arccos_factor_derivatives(Index K, std::int32_t k, const Uncertain& c, Unce
   }
 }
 
-void arccos_factor_derivatives(Index K, std::int32_t /*k*/, const Quadruple& /*c*/, Quadruple* f) {
-  std::fill(f, f + K + 1, Quadruple(std::numeric_limits<double>::quiet_NaN()));
+template <class T>
+void arccos_factor_derivatives(Index K, std::int32_t /*k*/, const T& /*c*/, T* f) {
+  std::fill(f, f + K + 1, T(std::numeric_limits<double>::quiet_NaN()));
 }
 
 template <class T>
@@ -450,6 +461,11 @@ void apply(Op op, std::int32_t k, Index K, const Uncertain* a, const Uncertain* 
 
 void apply(Op op, std::int32_t k, Index K, const Quadruple* a, const Quadruple* b,
            const Quadruple* c, Quadruple* out, Quadruple* scratch) {
+  carry_out(op, k, K, a, b, c, out, scratch);
+}
+
+void apply(Op op, std::int32_t k, Index K, const Digits* a, const Digits* b, const Digits* c,
+           Digits* out, Digits* scratch) {
   carry_out(op, k, K, a, b, c, out, scratch);
 }
 

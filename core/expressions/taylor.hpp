@@ -7,8 +7,9 @@
 #include "courant/core/numbers/uncertain.hpp"
 
 namespace courant {
+class Digits;
 class Quadruple;
-}
+}  // namespace courant
 
 namespace courant::taylor {
 
@@ -27,6 +28,10 @@ void apply(Op op, std::int32_t k, Index order, const Uncertain* a, const Uncerta
 // The same with 113 bits; NaN for arccos_factor, and for stumpff beyond 64.
 void apply(Op op, std::int32_t k, Index order, const Quadruple* a, const Quadruple* b,
            const Quadruple* c, Quadruple* out, Quadruple* scratch);
+
+// The same in two precisions; NaN for arccos_factor, and for stumpff beyond 400.
+void apply(Op op, std::int32_t k, Index order, const Digits* a, const Digits* b, const Digits* c,
+           Digits* out, Digits* scratch);
 
 inline Index scratch_size(Index order) { return 3 * (order + 1); }
 

@@ -1,0 +1,282 @@
+#include "courant/core/numbers/digits.hpp"
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <numbers>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace courant {
+namespace {
+
+namespace multiprecision = boost::multiprecision;
+template <unsigned bits>
+using FloatOfBits = multiprecision::number<
+    multiprecision::cpp_bin_float<bits, multiprecision::digit_base_2, void, std::int32_t>,
+    multiprecision::et_off>;
+using Coarse = FloatOfBits<128>;
+using Fine = FloatOfBits<256>;
+
+constexpr int kShrunkExponent = -64;
+
+template <class Number>
+Number unary_operation(Op op, const Number& a) {
+  switch (op) {
+    case Op::sqrt:
+      return a < 0 ? std::numeric_limits<Number>::quiet_NaN() : Number(sqrt(a));
+    case Op::exp:
+      return exp(a);
+    case Op::log:
+      return a <= 0 ? std::numeric_limits<Number>::quiet_NaN() : Number(log(a));
+    case Op::sin:
+      return sin(a);
+    case Op::cos:
+      return cos(a);
+    case Op::tan:
+      return tan(a);
+    case Op::asin:
+      return abs(a) > 1 ? std::numeric_limits<Number>::quiet_NaN() : Number(asin(a));
+    case Op::acos:
+      return abs(a) > 1 ? std::numeric_limits<Number>::quiet_NaN() : Number(acos(a));
+    case Op::atan:
+      return atan(a);
+    case Op::sinh:
+      return sinh(a);
+    case Op::cosh:
+      return cosh(a);
+    case Op::tanh:
+      return tanh(a);
+    default:
+      return std::numeric_limits<Number>::quiet_NaN();
+  }
+}
+
+// The shortest decimal that reads as this number, as its digits d₁d₂… and the exponent of d₁.
+struct ShortestDecimal {
+  std::string digits;
+  int exponent = 0;
+};
+
+ShortestDecimal shortest_decimal(double number) {
+  char text[40];
+  const auto end =
+      std::to_chars(text, text + sizeof text, std::fabs(number), std::chars_format::scientific).ptr;
+  const std::string_view written(text, static_cast<std::size_t>(end - text));
+  const std::size_t e = written.find('e');
+  ShortestDecimal result;
+  for (const char c : written.substr(0, e))
+    if (c != '.') result.digits += c;
+  const std::string_view power = written.substr(e + 1 + (written[e + 1] == '+' ? 1 : 0));
+  std::from_chars(power.data(), power.data() + power.size(), result.exponent);
+  return result;
+}
+
+template <class Number>
+Number number_that_reads(const ShortestDecimal& decimal) {
+  const Number digits(decimal.digits);
+  const int shift = decimal.exponent - static_cast<int>(decimal.digits.size()) + 1;
+  const Number power = pow(Number(10), std::abs(shift));
+  return shift < 0 ? Number(digits / power) : Number(digits * power);
+}
+
+template <class Number>
+Number ratio_of_circle() {
+  return acos(Number(-1));
+}
+
+// A fraction p/q, times π or over it, with p and q of at most three digits.
+struct ShortFraction {
+  int p = 0, q = 1, power_of_pi = 0;
+};
+
+bool find_fraction(double number, ShortFraction& found) {
+  constexpr int most = 400;
+  for (const int power : {0, 1, -1}) {
+    const double a = power == 0   ? std::fabs(number)
+                     : power == 1 ? std::fabs(number) / std::numbers::pi
+                                  : std::fabs(number) * std::numbers::pi;
+    if (a < 1.0 / most || a > most) continue;
+    for (int q = 1; q <= most; ++q) {
+      const double p = std::round(a * q);
+      if (p < 1 || p > most || std::fabs(a * q - p) > 1e-15 * p) continue;
+      found = {static_cast<int>(p), q, power};
+      return true;
+    }
+  }
+  return false;
+}
+
+template <class Number>
+Number number_that_reads(const ShortFraction& fraction) {
+  Number value = Number(fraction.p) / Number(fraction.q);
+  if (fraction.power_of_pi == 1) value *= ratio_of_circle<Number>();
+  if (fraction.power_of_pi == -1) value /= ratio_of_circle<Number>();
+  return value;
+}
+
+}  // namespace
+
+struct Digits::Pair {
+  Coarse coarse;
+  Fine fine;
+};
+
+Digits::Digits(const Pair& pair) : is_zero_(pair.coarse.is_zero() && pair.fine.is_zero()) {
+  static_assert(sizeof(Pair) <= sizeof(numbers_) && alignof(Pair) <= alignof(Digits) &&
+                std::is_trivially_destructible_v<Pair>);
+  ::new (numbers_.data()) Pair(pair);
+}
+
+const Digits::Pair& Digits::pair() const {
+  return *std::launder(reinterpret_cast<const Pair*>(numbers_.data()));
+}
+
+Digits::Pair& Digits::pair() { return *std::launder(reinterpret_cast<Pair*>(numbers_.data())); }
+
+Digits::Digits() { ::new (numbers_.data()) Pair{}; }
+
+Digits::Digits(double number) : Digits(Pair{Coarse(number), Fine(number)}) {}
+
+Digits::Digits(const Digits& other) : Digits(other.pair()) {}
+
+Digits& Digits::operator=(const Digits& other) {
+  if (this != &other) pair() = other.pair();
+  is_zero_ = other.is_zero_;
+  return *this;
+}
+
+Digits Digits::written(double number) {
+  // Longer decimals are results of a division, or of ratio_of_circle, as likely as decimals.
+  constexpr std::size_t long_decimal = 15;
+  if (!std::isfinite(number) || number == 0.0) return number;
+  const ShortestDecimal decimal = shortest_decimal(number);
+  ShortFraction fraction;
+  const bool is_fraction =
+      decimal.digits.size() >= long_decimal && find_fraction(number, fraction) &&
+      static_cast<double>(number_that_reads<Fine>(fraction)) == std::fabs(number);
+  const Pair pair =
+      is_fraction ? Pair{number_that_reads<Coarse>(fraction), number_that_reads<Fine>(fraction)}
+                  : Pair{number_that_reads<Coarse>(decimal), number_that_reads<Fine>(decimal)};
+  return number < 0 ? -Digits(pair) : Digits(pair);
+}
+
+double Digits::half_unit_written(double number, int least) {
+  if (!std::isfinite(number) || number == 0.0) return 0.0;
+  const ShortestDecimal decimal = shortest_decimal(number);
+  if (static_cast<int>(decimal.digits.size()) < least) return 0.0;
+  const int last = decimal.exponent - static_cast<int>(decimal.digits.size()) + 1;
+  return last >= 0 ? 0.0 : 0.5 * std::pow(10.0, last);
+}
+
+bool Digits::shrinks() const {
+  if (is_zero_) return true;
+  const auto& [coarse, fine] = pair();
+  if (coarse.is_zero() || fine.is_zero()) return true;
+  // |fine| ≤ 2⁻⁶⁴ |coarse| by exponents, which are enough.
+  if (!multiprecision::isfinite(coarse) || !multiprecision::isfinite(fine)) return false;
+  return static_cast<std::int64_t>(fine.backend().exponent()) -
+             static_cast<std::int64_t>(coarse.backend().exponent()) <=
+         kShrunkExponent;
+}
+
+bool Digits::is_finite() const {
+  return is_zero_ ||
+         (multiprecision::isfinite(pair().coarse) && multiprecision::isfinite(pair().fine));
+}
+
+Digits& Digits::settle() {
+  if (!is_zero_ && shrinks()) *this = Digits();
+  return *this;
+}
+
+Digits::operator double() const { return static_cast<double>(pair().fine); }
+
+double Digits::coarse() const { return static_cast<double>(pair().coarse); }
+
+std::int64_t Digits::exponent() const { return std::int64_t{pair().fine.backend().exponent()} + 1; }
+
+int Digits::sign() const { return is_zero_ ? 0 : pair().fine.sign(); }
+
+Digits Digits::times_power_of_two(std::int64_t exponent) const {
+  if (is_zero_) return *this;
+  const auto e = static_cast<int>(exponent);
+  return Digits(Pair{ldexp(pair().coarse, e), ldexp(pair().fine, e)});
+}
+
+Digits Digits::corrected(double a, double b) const {
+  return Digits(Pair{pair().coarse - a, pair().fine - b});
+}
+
+Digits Digits::fine_alone() const { return Digits(Pair{Coarse(0), pair().fine}); }
+
+Digits operator-(const Digits& a) { return Digits(Digits::Pair{-a.pair().coarse, -a.pair().fine}); }
+
+Digits operator+(const Digits& a, const Digits& b) {
+  if (a.is_zero_) return b;
+  if (b.is_zero_) return a;
+  return Digits(Digits::Pair{a.pair().coarse + b.pair().coarse, a.pair().fine + b.pair().fine});
+}
+
+Digits operator-(const Digits& a, const Digits& b) {
+  if (b.is_zero_) return a;
+  return Digits(Digits::Pair{a.pair().coarse - b.pair().coarse, a.pair().fine - b.pair().fine});
+}
+
+Digits operator*(const Digits& a, const Digits& b) {
+  if (a.is_zero_) return b.is_finite() ? a : b;
+  if (b.is_zero_) return a.is_finite() ? b : a;
+  return Digits(Digits::Pair{a.pair().coarse * b.pair().coarse, a.pair().fine * b.pair().fine});
+}
+
+Digits operator/(const Digits& a, const Digits& b) {
+  if (b.is_zero_) return std::numeric_limits<double>::quiet_NaN();
+  return Digits(Digits::Pair{a.pair().coarse / b.pair().coarse, a.pair().fine / b.pair().fine});
+}
+
+bool operator==(const Digits& a, const Digits& b) {
+  return a.pair().coarse == b.pair().coarse && a.pair().fine == b.pair().fine;
+}
+
+bool is_smaller(const Digits& a, const Digits& b) {
+  return abs(a.pair().fine) < abs(b.pair().fine);
+}
+
+void subtract_multiple(Digits* row, const Digits& factor, const Digits* pivot, std::size_t count) {
+  for (std::size_t j = 0; j < count; ++j) {
+    if (pivot[j].is_zero_) continue;
+    Digits::Pair& target = row[j].pair();
+    target.coarse -= factor.pair().coarse * pivot[j].pair().coarse;
+    target.fine -= factor.pair().fine * pivot[j].pair().fine;
+    row[j].is_zero_ = false;
+    row[j].settle();
+  }
+}
+
+Digits evaluate(Op op, const Digits& a) {
+  try {
+    return Digits(
+        Digits::Pair{unary_operation(op, a.pair().coarse), unary_operation(op, a.pair().fine)});
+  } catch (const std::exception&) {  // Boost's word for what is out of range
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+Digits pow(const Digits& a, const Digits& p) {
+  try {
+    return Digits(Digits::Pair{multiprecision::pow(a.pair().coarse, p.pair().coarse),
+                               multiprecision::pow(a.pair().fine, p.pair().fine)});
+  } catch (const std::exception&) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+Digits atan2(const Digits& y, const Digits& x) {
+  return Digits(Digits::Pair{multiprecision::atan2(y.pair().coarse, x.pair().coarse),
+                             multiprecision::atan2(y.pair().fine, x.pair().fine)});
+}
+
+}  // namespace courant
