@@ -11,8 +11,13 @@ using Arguments = NamedFunction::Arguments;
 
 constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
 
-template <Expr (*f)(const Expr&)>
+template <Expr (*f)(const Expr&), Op op = Op::constant>
 Value unary(std::size_t column, Arguments x) {
+  if (op != Op::constant)
+    if (auto result = known_value(op, x[0])) {
+      result->column = column;
+      return *result;
+    }
   return Value::number(column, f(as_number(x[0])));
 }
 
@@ -34,19 +39,19 @@ Value cross(std::size_t column, Arguments x) { return cross(column, x[0], x[1]);
 Value norm(std::size_t column, Arguments x) { return norm(column, x[0]); }
 
 constexpr std::array kFunctions{
-    NamedFunction{"sqrt", 1, 1, unary<sqrt>},
-    NamedFunction{"exp", 1, 1, unary<exp>},
-    NamedFunction{"log", 1, 1, unary<log>},
-    NamedFunction{"sin", 1, 1, unary<sin>},
-    NamedFunction{"cos", 1, 1, unary<cos>},
-    NamedFunction{"tan", 1, 1, unary<tan>},
-    NamedFunction{"asin", 1, 1, unary<asin>},
-    NamedFunction{"acos", 1, 1, unary<acos>},
-    NamedFunction{"atan", 1, 1, unary<atan>},
+    NamedFunction{"sqrt", 1, 1, unary<sqrt, Op::sqrt>},
+    NamedFunction{"exp", 1, 1, unary<exp, Op::exp>},
+    NamedFunction{"log", 1, 1, unary<log, Op::log>},
+    NamedFunction{"sin", 1, 1, unary<sin, Op::sin>},
+    NamedFunction{"cos", 1, 1, unary<cos, Op::cos>},
+    NamedFunction{"tan", 1, 1, unary<tan, Op::tan>},
+    NamedFunction{"asin", 1, 1, unary<asin, Op::asin>},
+    NamedFunction{"acos", 1, 1, unary<acos, Op::acos>},
+    NamedFunction{"atan", 1, 1, unary<atan, Op::atan>},
     NamedFunction{"atan2", 2, 2, binary<atan2>},
-    NamedFunction{"sinh", 1, 1, unary<sinh>},
-    NamedFunction{"cosh", 1, 1, unary<cosh>},
-    NamedFunction{"tanh", 1, 1, unary<tanh>},
+    NamedFunction{"sinh", 1, 1, unary<sinh, Op::sinh>},
+    NamedFunction{"cosh", 1, 1, unary<cosh, Op::cosh>},
+    NamedFunction{"tanh", 1, 1, unary<tanh, Op::tanh>},
     NamedFunction{"abs", 1, 1, unary<abs>},
     NamedFunction{"min", 2, kAny, folded<min>},
     NamedFunction{"max", 2, kAny, folded<max>},

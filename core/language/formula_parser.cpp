@@ -265,19 +265,20 @@ Value Parser::loop(const Token& name) {
   enter_loop(name, index.text, first, terms);
   const Token* term = token_;
   if (terms == 0) as_number(read(false, 0));
-  Expr total = is_sum ? 0 : 1;
+  const Token sign{is_sum ? TokenKind::plus : TokenKind::times, name.column, name.text};
+  Value total = Value::number(name.column, is_sum ? 0.0 : 1.0);
   for (Index i = first; i < first + terms; ++i) {
     token_ = term;
     loops_.back().value = i;
-    const Expr next_term = as_number(expression(0));
-    if (!next_term.is_constant() && ++open_terms_ > kMostOpenTerms)
+    const Value next_term = expression(0);
+    if (!as_number(next_term).is_constant() && ++open_terms_ > kMostOpenTerms)
       fail(name, quoted(name.text) + " is too long; expected at most " +
                      std::to_string(kMostOpenTerms) + " terms with unknowns in a formula");
-    is_sum ? total += next_term : total *= next_term;
+    total = combine(sign, total, next_term);
   }
   loops_.pop_back();
   expect(TokenKind::right_parenthesis, "\")\"", usage);
-  return Value::number(name.column, total);
+  return total;
 }
 
 const Token& Parser::new_index(std::string_view loop, std::string_view usage) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "courant/core/language/formula_error.hpp"
+#include "courant/core/language/known_number.hpp"
 
 namespace courant::formula {
 namespace {
@@ -34,6 +35,19 @@ std::string first_element(std::string_view name) {
   const bool is_velocity = name.ends_with('\'');
   if (is_velocity) name.remove_suffix(1);
   return std::string(name) + "[0]" + (is_velocity ? "'" : "");
+}
+
+bool is_known_number(const Value& value) {
+  return value.kind == Value::Kind::number && value.scalar.is_constant();
+}
+
+KnownNumber known_number(const Value& value) { return {value.scalar.value(), value.digits}; }
+
+std::optional<Value> value_of(std::size_t column, const std::optional<KnownNumber>& number) {
+  if (!number) return std::nullopt;
+  Value value = Value::number(column, number->value);
+  value.digits = number->digits;
+  return value;
 }
 
 bool is_array(const Value& value) { return value.kind == Value::Kind::array; }
@@ -107,21 +121,26 @@ Value combine(const Token& sign, const Value& a, const Value& b) {
   const bool are_arrays = is_array(a) && is_array(b);
   switch (sign.kind) {
     case TokenKind::plus:
+      if (const auto result = known_value(Op::add, a, b)) return *result;
       if (!are_arrays) return number(as_number(a) + as_number(b));
       check_sizes(sign.column, "sum", a, b);
       return array(a.entries + b.entries);
     case TokenKind::minus:
+      if (const auto result = known_value(Op::subtract, a, b)) return *result;
       if (!are_arrays) return number(as_number(a) - as_number(b));
       check_sizes(sign.column, "difference", a, b);
       return array(a.entries - b.entries);
     case TokenKind::times:
       if (is_array(a)) return array(a.entries * as_number(b));
       if (is_array(b)) return array(as_number(a) * b.entries);
+      if (const auto result = known_value(Op::multiply, a, b)) return *result;
       return number(as_number(a) * as_number(b));
     case TokenKind::over:
       if (is_array(a)) return array(a.entries / as_number(b));
+      if (const auto result = known_value(Op::divide, a, b)) return *result;
       return number(as_number(a) / as_number(b));
     case TokenKind::hat:
+      if (const auto result = known_value(Op::pow, a, b)) return *result;
       return number(pow(as_number(a), as_number(b)));
     case TokenKind::logical_and:
       return condition(logical_and(as_condition(a), as_condition(b)));
@@ -134,8 +153,20 @@ Value combine(const Token& sign, const Value& a, const Value& b) {
   }
 }
 
+std::optional<Value> known_value(Op op, const Value& a) {
+  return is_known_number(a) ? value_of(a.column, known(op, known_number(a))) : std::nullopt;
+}
+
+std::optional<Value> known_value(Op op, const Value& a, const Value& b) {
+  if (!is_known_number(a) || !is_known_number(b)) return std::nullopt;
+  return value_of(a.column, known(op, known_number(a), known_number(b)));
+}
+
 Value negative(std::size_t column, const Value& a) {
-  return is_array(a) ? Value::array(column, -a.entries) : Value::number(column, -as_number(a));
+  if (is_array(a)) return Value::array(column, -a.entries);
+  Value result = Value::number(column, -as_number(a));
+  if (a.digits) result.digits = std::make_shared<const Digits>(-*a.digits);
+  return result;
 }
 
 Value dot(std::size_t column, const Value& a, const Value& b) {

@@ -1,10 +1,13 @@
 // What a part of a formula stands for while it is read: a number, a condition or an array.
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string_view>
 
 #include "courant/core/expressions/expr.hpp"
 #include "courant/core/language/formula_lexer.hpp"
+#include "courant/core/numbers/digits.hpp"
 
 namespace courant::formula {
 
@@ -19,6 +22,8 @@ struct Value {
   Expr scalar = {};
   ExprVector entries = {};
   std::string_view name = {};
+  // Of a number that is known: more of it than the double `scalar` has; null if that says all.
+  std::shared_ptr<const Digits> digits = {};
 
   static Value number(std::size_t column, const Expr& scalar);
   static Value condition(std::size_t column, const Expr& scalar);
@@ -33,6 +38,9 @@ const ExprVector& as_array(const Value& value);
 // a + b, …, a^b, a < b, …, a && b. Arrays add and subtract; a number multiplies and divides them.
 Value combine(const Token& sign, const Value& a, const Value& b);
 Value negative(std::size_t column, const Value& a);
+// op of numbers that are known, as they are written (known_number.hpp); nothing where they are not.
+std::optional<Value> known_value(Op op, const Value& a);
+std::optional<Value> known_value(Op op, const Value& a, const Value& b);
 
 Value dot(std::size_t column, const Value& a, const Value& b);
 Value cross(std::size_t column, const Value& a, const Value& b);
