@@ -13,6 +13,7 @@
 #include "courant/core/linear/rank_decision.hpp"
 #include "courant/core/solve/gauss_newton.hpp"
 #include "courant/core/words/version.hpp"
+#include "courant/integrators/certificate/certificate.hpp"
 #include "courant/integrators/certificate/constraint_algorithm.hpp"
 #include "courant/integrators/certificate/constraint_classes.hpp"
 #include "courant/integrators/certificate/constraint_formulas.hpp"

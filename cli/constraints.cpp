@@ -151,7 +151,7 @@ void write_page(const Console& console, const OwnFiles& files, const std::filesy
 void add_constraints(CLI::App& app, Session& session) {
   struct Arguments {
     std::string file;
-    bool json = false, latex = false, markdown = false, discrete = false;
+    bool json = false, latex = false, markdown = false, discrete = false, digits = false;
     Index level = -1;
     std::vector<std::string> settings;
     SweepArguments sweep;
@@ -185,6 +185,11 @@ void add_constraints(CLI::App& app, Session& session) {
           ->excludes(json)
           ->excludes(latex)
           ->excludes("--sweep");
+  constraints
+      ->add_flag(
+          "--digits", arguments->digits,
+          "decide ranks in two precisions: a number is zero if it shrinks when the digits double")
+      ->excludes("--sweep");
   CLI::Option* level =
       constraints->add_option("--level", arguments->level, "stop at this level of the ladder")
           ->check(CLI::Range(0, 1000).description(""))
@@ -229,7 +234,8 @@ void add_constraints(CLI::App& app, Session& session) {
           [&](const Experiment& experiment) -> int {
             const bool as_page = !arguments->output.empty();
             std::optional<Waiting> waiting(std::in_place, console, "constraint algorithm");
-            const ConsistentStart start = consistent_start(experiment);
+            const ConsistentStart start =
+                consistent_start(experiment, arguments->digits ? Decider::digits : Decider::bounds);
             const ImplicitSystem& system = *experiment.model.system;
             const ConstraintFormulas formulas = constraint_formulas(system, start);
             LadderReport whole = ladder_report(start, system, formulas);

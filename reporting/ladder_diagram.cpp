@@ -112,7 +112,7 @@ std::string verdict_in_words(const LadderReport& ladder) {
 std::vector<std::string> doubts_in_words(const LadderReport& ladder) {
   if (!ladder.is_ambiguous) return {};
   std::vector<std::string> lines = {"Ambiguous: do not rely on the verdict."};
-  for (const std::string& doubt : ladder.doubts) lines.push_back("    " + doubt);
+  for (const Doubt& doubt : ladder.doubts) lines.push_back("    " + doubt.text);
   return lines;
 }
 

@@ -11,7 +11,6 @@
 #include "courant/core/linear/rank_decision.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/core/words/word_list.hpp"
-#include "courant/integrators/certificate/constraint_algorithm.hpp"
 #include "courant/integrators/certificate/ladder_in_units.hpp"
 #include "courant/integrators/methods/integrator_in_units.hpp"
 #include "courant/running/given_quantities.hpp"
@@ -153,8 +152,10 @@ bool has_no_start(const ConstraintLadder& ladder) {
 class LadderSearch {
  public:
   LadderSearch(std::shared_ptr<const ImplicitSystem> system, const InitialGuess& guess,
-               const VectorXd& weight)
-      : system_(std::move(system)), own_(algorithm(weight)) {
+               const VectorXd& weight, Decider decider)
+      : system_(std::move(system)), own_(algorithm(weight)), decider_(decider) {
+    in_digits_.metric = SparseMatrixXd(weight.asDiagonal());
+    if (decider_ == Decider::digits) return;  // which need no units
     const VectorXd z = guess.z.size() > 0 ? guess.z : system_->auxiliary_guess(guess.x, guess.v);
     const auto units = needed_units(system_, {.t = guess.t, .x = guess.x, .v = guess.v, .z = z});
     if (!units) return;
@@ -176,6 +177,7 @@ class LadderSearch {
   }
 
   ConstraintLadder run(const InitialGuess& guess) const {
+    if (decider_ == Decider::digits) return certificate(system_, guess, in_digits_);
     ConstraintLadder own = own_.run(system_, guess);
     if (!measured_) return own;
     const State start =
@@ -206,6 +208,8 @@ class LadderSearch {
 
   std::shared_ptr<const ImplicitSystem> system_;
   ConstraintAlgorithm own_;
+  ConstraintAlgorithm::Options in_digits_;
+  Decider decider_;
   std::shared_ptr<const SystemInUnits> measured_;
   std::optional<ConstraintAlgorithm> in_units_;
   double length_ = 1.0;
@@ -215,13 +219,14 @@ class LadderSearch {
 // coordinates; what is held does not.
 class StartSearch {
  public:
-  explicit StartSearch(const Experiment& experiment)
+  StartSearch(const Experiment& experiment, Decider decider)
       : experiment_(experiment),
         initial_(experiment.initial),
         coframe_(manifold_near_start().coframe(initial_.x.values)),
         guess_(first_guess()),
         weight_(initial_.x.given.cast<double>().matrix().cwiseProduct(initial_.weight)),
-        ladders_(experiment.model.system, guess_, weight_) {}
+        decider_(decider),
+        ladders_(experiment.model.system, guess_, weight_, decider) {}
 
   ConstraintLadder find() const {
     ConstraintLadder ladder = all_kept(guess_.x);
@@ -284,7 +289,8 @@ class StartSearch {
     if (const auto point = ladders_.nearly_solved(given))
       guess.x = initial_.x.given.select(guess.x, point->x);
     const VectorXd weight = initial_.x.given.select(weight_, 1.0);
-    ConstraintLadder ladder = LadderSearch(experiment_.model.system, guess, weight).run(guess);
+    ConstraintLadder ladder =
+        LadderSearch(experiment_.model.system, guess, weight, decider_).run(guess);
     ladder.moved = 0.0;  // what is given of x stays
     return ladder;
   }
@@ -311,6 +317,7 @@ class StartSearch {
   LinearMap<double> coframe_;
   InitialGuess guess_;
   VectorXd weight_;  // of the coordinates that are given
+  Decider decider_;
   LadderSearch ladders_;
 };
 
@@ -331,8 +338,8 @@ std::string held_moves(const Experiment& experiment, const ConstraintLadder& fre
          (moves.size() > most ? ", …" : "");
 }
 
-ConsistentStart found_start(const Experiment& experiment) {
-  const StartSearch search(experiment);
+ConsistentStart found_start(const Experiment& experiment, Decider decider) {
+  const StartSearch search(experiment, decider);
   ConsistentStart ladder = impulsive_start(experiment, search.find(),
                                            [&](const VectorXd& x) { return search.free_from(x); });
   forget_moves_of_what_was_not_given(ladder, experiment);
@@ -358,12 +365,12 @@ ConsistentStart found_start(const Experiment& experiment) {
 
 }  // namespace
 
-ConsistentStart consistent_start(const Experiment& written) {
+ConsistentStart consistent_start(const Experiment& written, Decider decider) {
   if (!written.initial.quantities.empty()) {
     Experiment experiment = written;
     experiment.initial = with_quantities(written);
     experiment.initial.quantities.clear();
-    ConsistentStart ladder = consistent_start(experiment);
+    ConsistentStart ladder = consistent_start(experiment, decider);
     if (ladder.verdict != Verdict::inconsistent)
       for (Movement& move : moved_quantities(written, ladder.point))
         ladder.moves.push_back(std::move(move));
@@ -376,7 +383,7 @@ ConsistentStart consistent_start(const Experiment& written) {
                                            without_place(error.what()));
   };
   try {
-    return found_start(experiment);
+    return found_start(experiment, decider);
   } catch (const ExperimentError&) {
     throw;
   } catch (const std::bad_alloc&) {

@@ -1,17 +1,18 @@
 // From the initial values of an experiment to a consistent point.
 #pragma once
 
+#include "courant/integrators/certificate/certificate.hpp"
 #include "courant/running/impulsive_start.hpp"
 
 namespace courant {
 
 // Runs the constraint algorithm at the initial values: what is not given is found, what is given is
 // kept when it can be (velocities and unknowns before coordinates give way), what is held is kept
-// in any case.
+// in any case. `decider`: what ranks are decided by.
 //
 // Throws ExperimentError where the equations are not finite at the initial values, where held
 // values contradict the constraints, and where a value is missing that nothing determines. An
 // inconsistent system is a finding: its ladder says so.
-ConsistentStart consistent_start(const Experiment& experiment);
+ConsistentStart consistent_start(const Experiment& experiment, Decider decider = Decider::bounds);
 
 }  // namespace courant

@@ -50,7 +50,7 @@ struct LadderReport {
   };
   std::optional<Family> family = {};
   bool is_ambiguous = false;
-  std::vector<std::string> doubts = {};
+  std::vector<Doubt> doubts = {};
   std::string reason = {};
 
   struct Classes {

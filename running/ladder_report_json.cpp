@@ -189,8 +189,10 @@ Json to_json(const LadderReport& ladder) {
             {"moved", ladder.moved},
             {"moves", Json::array()},
             {"ambiguous", ladder.is_ambiguous},
-            {"doubts", ladder.doubts},
+            {"doubts", Json::array()},
             {"reason", ladder.reason}};
+  for (const Doubt& doubt : ladder.doubts)
+    json["doubts"].push_back({{"kind", to_string(doubt.kind)}, {"text", doubt.text}});
   for (const LadderReport::Level& level : ladder.levels)
     json["levels"].push_back({{"k", level.k},
                               {"dim_S", written(level.dim_S)},
@@ -253,7 +255,9 @@ LadderReport read_ladder_report(const Json& json) {
     ladder.choices.push_back({.name = choice.value("name", ""),
                               .from = number_at(choice, "value"),
                               .to = number_at(choice, "other")});
-  for (const Json& doubt : part(json, "doubts")) ladder.doubts.push_back(doubt.get<std::string>());
+  for (const Json& doubt : part(json, "doubts"))
+    ladder.doubts.emplace_back(doubt_kind(doubt.value("kind", "neighbours")),
+                               doubt.value("text", ""));
   if (const Json& family = part(json, "family"); !family.empty())
     ladder.family = {.multipliers = whole(family, "multipliers").value_or(0),
                      .rank = whole(family, "rank").value_or(0)};

@@ -23,6 +23,30 @@ std::string to_string(Verdict verdict) {
   throw std::invalid_argument("to_string: not a Verdict.");
 }
 
+std::string to_string(Doubt::Kind kind) {
+  switch (kind) {
+    case Doubt::Kind::near_singular:
+      return "near-singular";
+    case Doubt::Kind::neighbours:
+      return "neighbours";
+    case Doubt::Kind::not_transversal:
+      return "not-transversal";
+    case Doubt::Kind::search:
+      return "search";
+    case Doubt::Kind::at_switch:
+      return "switch";
+  }
+  throw std::invalid_argument("to_string: not a kind of doubt.");
+}
+
+Doubt::Kind doubt_kind(const std::string& name) {
+  using Kind = Doubt::Kind;
+  for (const Kind kind : {Kind::near_singular, Kind::neighbours, Kind::not_transversal,
+                          Kind::search, Kind::at_switch})
+    if (to_string(kind) == name) return kind;
+  throw std::invalid_argument("doubt_kind: \"" + name + "\" is no kind of doubt.");
+}
+
 MatrixXd ConstraintLadder::conormals() const {
   const Index size = constraints.empty() ? point.v.size() : constraints.front().gradient.size();
   MatrixXd rows(static_cast<Index>(constraints.size()), size);

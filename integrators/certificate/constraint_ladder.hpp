@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "courant/core/linear/rank_decision.hpp"
@@ -40,6 +41,28 @@ struct LadderLevel {
     return all.ambiguous() || without_tangent.ambiguous() || without_point.ambiguous();
   }
 };
+
+// Why a ladder is not certain. There are five reasons, and each says which it is.
+struct Doubt {
+  enum class Kind {
+    near_singular,  // within half a unit of the last digit that was typed is a point with other ranks
+    neighbours,     // consistent points nearby have other ranks, or two ways to count disagree
+    not_transversal,  // Newton's method does not square its error at the zero: it may be a double one
+    search,     // the search for a consistent point did not end, or a derivative is not finite
+    at_switch,  // abs, sign, min, max or a comparison is at its edge
+  };
+  Kind kind = Kind::neighbours;
+  std::string text;
+
+  Doubt(Kind of, std::string sentence) : kind(of), text(std::move(sentence)) {}
+  Doubt(std::string sentence) : text(std::move(sentence)) {}  // NOLINT(google-explicit-constructor)
+  Doubt(const char* sentence) : text(sentence) {}             // NOLINT(google-explicit-constructor)
+};
+
+// "near-singular", "neighbours", "not-transversal", "search", "switch"
+std::string to_string(Doubt::Kind kind);
+// The kind of that name; throws std::invalid_argument if there is none.
+Doubt::Kind doubt_kind(const std::string& name);
 
 // A given value that had to move to be consistent.
 struct Movement {
@@ -104,7 +127,7 @@ struct ConstraintLadder {
   std::string reason;
   // Why the verdict is not certain, a sentence each: what the levels contradict, where two ways to
   // count disagree.
-  std::vector<std::string> doubts;
+  std::vector<Doubt> doubts;
 
   const LadderLevel& final_level() const { return levels.back(); }
   // Whether a rank is doubtful or there are doubts.

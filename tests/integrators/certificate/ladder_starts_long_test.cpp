@@ -45,7 +45,7 @@ std::string doubts(const ConstraintLadder& ladder) {
           std::to_string(
               std::min({level.all.above, level.without_tangent.above, level.without_point.above})) +
           "]";
-  for (const std::string& doubt : ladder.doubts) text += " [" + doubt + "]";
+  for (const Doubt& doubt : ladder.doubts) text += " [" + doubt.text + "]";
   return text;
 }
 

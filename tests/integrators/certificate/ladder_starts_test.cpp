@@ -58,8 +58,8 @@ BOOST_AUTO_TEST_CASE(the_uncertainty_of_a_point_hides_nothing_behind_planted_zer
     for (const KnownStart& start : ten_starts(known))
       for (int trial = 0; trial < 3; ++trial) {
         const Problem planted = with_planted_round_off(start.problem, generator);
-        for (const std::string& doubt : scaled(planted, generator).ladder().doubts)
-          if (doubt.find("not known well enough") != std::string::npos) ++hidden;
+        for (const Doubt& doubt : scaled(planted, generator).ladder().doubts)
+          if (doubt.text.find("not known well enough") != std::string::npos) ++hidden;
       }
   }
   BOOST_TEST(hidden <= 1);

@@ -1,0 +1,105 @@
+#include "courant/integrators/certificate/binary_scales.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace courant {
+namespace {
+
+constexpr std::int64_t no_exponent = std::numeric_limits<std::int64_t>::min();
+
+bool has_no_size(const Digits& a) { return a.shrinks() || !a.is_finite(); }
+
+struct SizedEntry {
+  std::size_t row, column;
+  std::int64_t exponent;
+};
+
+// Of each row the largest_of_rows entry among columns that are known; no_exponent where there is none.
+std::vector<std::int64_t> largest_of_rows(const std::vector<SizedEntry>& entries,
+                                          const BinaryScales& scales) {
+  std::vector<std::int64_t> found(scales.row.size(), no_exponent);
+  for (const SizedEntry& a : entries)
+    if (scales.is_known[a.column])
+      found[a.row] = std::max(found[a.row], a.exponent + scales.column[a.column]);
+  return found;
+}
+
+// Gives sizes to columns that have entries in rows that are known. Whether there were some.
+bool extend_sizes(const std::vector<SizedEntry>& entries, BinaryScales& scales) {
+  const std::vector<std::int64_t> of_row = largest_of_rows(entries, scales);
+  std::vector<std::int64_t> of_column(scales.column.size(), no_exponent);
+  for (const SizedEntry& a : entries)
+    if (!scales.is_known[a.column] && of_row[a.row] != no_exponent)
+      of_column[a.column] = std::max(of_column[a.column], a.exponent - of_row[a.row]);
+  bool any = false;
+  for (std::size_t j = 0; j < of_column.size(); ++j) {
+    if (of_column[j] == no_exponent) continue;
+    scales.column[j] = -of_column[j];
+    scales.is_known[j] = true;
+    any = true;
+  }
+  return any;
+}
+
+// An unknown that is next to nothing in every row in which it stands, as the cosine of a right angle, vanishes as far
+// as sizes go.
+void forget_negligible(const std::vector<SizedEntry>& entries, BinaryScales& scales) {
+  constexpr std::int64_t next_to_nothing = -30;
+  const std::vector<std::int64_t> of_row = largest_of_rows(entries, scales);
+  std::vector<bool> counts(scales.column.size(), false);
+  for (const SizedEntry& a : entries)
+    if (scales.is_known[a.column] &&
+        a.exponent + scales.column[a.column] >= of_row[a.row] + next_to_nothing)
+      counts[a.column] = true;
+  for (std::size_t j = 0; j < counts.size(); ++j)
+    if (!counts[j]) scales.is_known[j] = false;
+}
+
+std::vector<SizedEntry> exponents_of(const std::vector<JetEquations::Entry>& places,
+                                     const std::vector<Digits>& entries) {
+  std::vector<SizedEntry> result;
+  for (std::size_t e = 0; e < places.size(); ++e)
+    if (!has_no_size(entries[e]))
+      result.push_back({static_cast<std::size_t>(places[e].row),
+                        static_cast<std::size_t>(places[e].column), entries[e].exponent()});
+  return result;
+}
+
+void complete_sizes(const std::vector<SizedEntry>& entries, BinaryScales& scales) {
+  for (;;) {
+    while (extend_sizes(entries, scales)) {
+    }
+    // Nothing is known of what is left: the first column has the size 1.
+    const auto open = std::find_if(entries.begin(), entries.end(),
+                                   [&](const SizedEntry& a) { return !scales.is_known[a.column]; });
+    if (open == entries.end()) break;
+    scales.is_known[open->column] = true;
+  }
+  const std::vector<std::int64_t> of_row = largest_of_rows(entries, scales);
+  for (std::size_t i = 0; i < of_row.size(); ++i)
+    scales.row[i] = of_row[i] == no_exponent ? 0 : -of_row[i];
+}
+
+}  // namespace
+
+void BinaryScales::update(const std::vector<JetEquations::Entry>& places,
+                          const std::vector<Digits>& entries, const Jet& jet) {
+  const std::vector<SizedEntry> known = exponents_of(places, entries);
+  const bool is_first = std::none_of(is_known.begin(), is_known.end(), [](bool is) { return is; });
+  for (std::size_t j = 0; j < column.size(); ++j) {
+    const Digits& value = j < jet.y.size() ? jet.y[j] : jet.t;
+    if (is_known[j] || has_no_size(value)) continue;
+    column[j] = value.exponent();
+    is_known[j] = true;
+  }
+  if (is_first) forget_negligible(known, *this);
+  complete_sizes(known, *this);
+}
+
+void BinaryScales::update(const std::vector<JetEquations::Entry>& places,
+                          const std::vector<Digits>& entries) {
+  complete_sizes(exponents_of(places, entries), *this);
+}
+
+}  // namespace courant

@@ -1,0 +1,260 @@
+#include "courant/integrators/certificate/elimination_reading.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "courant/core/words/word_list.hpp"
+
+namespace courant {
+namespace {
+
+using EliminatedRow = StagedElimination::Row;
+
+// Rows of some stages with the pivots of the others among them eliminated too, as numbers with 1 in the pivot.
+std::vector<EliminatedRow> reduced_rows(const StagedElimination& elimination,
+                                        const std::vector<StagedElimination::Stage>& stages) {
+  std::vector<EliminatedRow> rows;
+  for (const StagedElimination::Stage stage : stages)
+    for (const EliminatedRow& row : elimination.rows())
+      if (row.stage == stage) rows.push_back(row);
+  for (std::size_t p = rows.size(); p-- > 0;) {
+    const auto column = static_cast<std::size_t>(rows[p].pivot);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (i == p || rows[i].entries[column].is_zero()) continue;
+      const Digits factor = rows[i].entries[column] / rows[p].entries[column];
+      subtract_multiple(rows[i].entries.data(), factor, rows[p].entries.data(),
+                        rows[i].entries.size());
+      rows[i].entries[column] = Digits();
+    }
+  }
+  return rows;
+}
+
+// A normalised_combination with 1 in the term of the highest derivative, and the factor that makes it so.
+Combination normalised_combination(const JetEquations& equations, const EliminatedRow& row,
+                                   double& factor) {
+  Combination result;
+  Digits lead;
+  Index highest = -1;
+  std::vector<std::pair<Index, Digits>> terms;  // of the equations of the system
+  for (Index i = 0; i < std::ssize(row.origin); ++i) {
+    const Digits& value = row.origin[static_cast<std::size_t>(i)];
+    if (value.is_zero() || i % equations.row_size() >= equations.system_rows()) continue;
+    const Index order = i / equations.row_size();
+    const Digits coefficient = value / Digits(std::tgamma(static_cast<double>(order) + 1.0));
+    terms.emplace_back(i, coefficient);
+    if (order > highest || (order == highest && is_smaller(lead, coefficient))) {
+      lead = coefficient;
+      highest = order;
+    }
+  }
+  factor = 1.0;
+  if (terms.empty()) return result;
+  for (const auto& [i, coefficient] : terms)
+    result.terms.push_back({i % equations.row_size(), i / equations.row_size(),
+                            static_cast<double>(coefficient / lead)});
+  factor = static_cast<double>(Digits(1.0) / lead);
+  return result;
+}
+
+// Of the velocities dx/ds that the equations leave free, a basis as columns.
+MatrixXd free_velocities(const JetEquations& equations, const StagedElimination& elimination) {
+  const Index N = equations.point_size();
+  const std::vector<EliminatedRow> rows =
+      reduced_rows(elimination, {StagedElimination::velocities});
+  std::vector<bool> is_pivot(static_cast<std::size_t>(N), false);
+  for (const EliminatedRow& row : rows) is_pivot[static_cast<std::size_t>(row.pivot - N)] = true;
+  MatrixXd directions(N, 0);
+  for (Index f = 0; f < N; ++f) {
+    if (is_pivot[static_cast<std::size_t>(f)]) continue;
+    directions.conservativeResize(Eigen::NoChange, directions.cols() + 1);
+    directions.rightCols(1).setZero();
+    directions(f, directions.cols() - 1) = 1.0;
+    for (const EliminatedRow& row : rows) {
+      const Digits& entry = row.entries[static_cast<std::size_t>(N + f)];
+      if (entry.is_zero()) continue;
+      directions(row.pivot - N, directions.cols() - 1) =
+          -static_cast<double>(entry / row.entries[static_cast<std::size_t>(row.pivot)]);
+    }
+  }
+  return directions;
+}
+
+std::vector<bool> determined_unknowns(const JetEquations& equations,
+                                      const StagedElimination& elimination) {
+  const Index N = equations.point_size(), m = equations.auxiliary_size();
+  const std::vector<EliminatedRow> rows =
+      reduced_rows(elimination, {StagedElimination::unknowns, StagedElimination::velocities});
+  std::vector<bool> determined(static_cast<std::size_t>(m), false);
+  for (const EliminatedRow& row : rows) {
+    if (row.stage != StagedElimination::unknowns) continue;
+    bool alone = true;
+    for (Index j = N; j < 2 * N + m; ++j)
+      if (j != row.pivot && !row.entries[static_cast<std::size_t>(j)].is_zero()) alone = false;
+    determined[static_cast<std::size_t>(row.pivot - 2 * N)] = alone;
+  }
+  return determined;
+}
+
+}  // namespace
+
+std::vector<LadderLevel> levels_of(const JetEquations& /*equations*/,
+                                   const StagedElimination& elimination, Index k) {
+  using Stage = StagedElimination::Stage;
+  // What is zero has shrunk by this much, and what is not has stayed.
+  constexpr double gap = 0x1p64;
+  std::vector<LadderLevel> levels;
+  for (Index l = 0; l <= k; ++l) {
+    LadderLevel level;
+    level.k = l;
+    level.dim_S = elimination.dim_S(l);
+    level.dim_M = elimination.dim_M(l);
+    const auto decided = [&](std::initializer_list<Stage> stages) {
+      RankDecision decision;
+      for (const Stage stage : stages) decision.rank += elimination.count(stage, l);
+      decision.gap = gap;
+      decision.above = 1.0;
+      decision.below = 1.0 / gap;
+      decision.threshold = 1.0 / gap;
+      decision.is_doubtful = false;
+      return decision;
+    };
+    level.without_tangent = decided({StagedElimination::jets, StagedElimination::unknowns});
+    level.without_point = decided(
+        {StagedElimination::jets, StagedElimination::unknowns, StagedElimination::velocities});
+    level.all = decided({StagedElimination::jets, StagedElimination::unknowns,
+                         StagedElimination::velocities, StagedElimination::point});
+    levels.push_back(level);
+  }
+  return levels;
+}
+
+State state_of(const JetEquations& equations, const Jet& jet) {
+  const Index N = equations.point_size(), m = equations.auxiliary_size();
+  const Manifold& M = *equations.system().manifold();
+  VectorXd y(2 * N + m);
+  for (Index j = 0; j < y.size(); ++j)
+    y[j] = static_cast<double>(jet.y[static_cast<std::size_t>(j)]);
+  State state{.t = static_cast<double>(jet.t), .x = y.head(N)};
+  state.v = M.has_identity_frame() ? VectorXd(y.segment(N, N))
+                                   : VectorXd(M.coframe(state.x) * y.segment(N, N));
+  state.z = y.tail(m);
+  return state;
+}
+
+VectorXd chart_jet(const JetEquations& equations, const Jet& jet) {
+  const Index N = equations.point_size(), m = equations.auxiliary_size(), k = jet.k;
+  const Manifold& M = *equations.system().manifold();
+  const Index n = M.dimension();
+  const auto number = [&](Index j) {
+    return static_cast<double>(jet.y[static_cast<std::size_t>(j)]);
+  };
+  VectorXd y = VectorXd::Zero(n + (k + 1) * (n + m));
+  const auto xi_offset = [&](Index i) { return i == 0 ? 0 : n + (i - 1) * (n + m); };
+  for (Index i = 0; i <= k; ++i)
+    for (Index j = 0; j < m; ++j) y[2 * n + i * (n + m) + j] = number(equations.z_offset(i) + j);
+  if (M.has_identity_frame()) {
+    for (Index i = 1; i <= k + 1; ++i)
+      for (Index j = 0; j < N; ++j) y[xi_offset(i) + j] = number(equations.x_offset(i) + j);
+    return y;
+  }
+  // ξ_i = Bᵀ C(x₀) (x_i - what ξ_1 … ξ_{i-1} make of R(x₀, B ξ)).
+  VectorXd x0(N);
+  for (Index j = 0; j < N; ++j) x0[j] = number(j);
+  const LinearMap<double> basis = M.tangent_basis(x0), coframe = M.coframe(x0);
+  const Graph graph;
+  const ExprVector xi = graph.variables("xi", n);
+  const SeriesFunction chart({xi}, M.chart(constants(x0), constants(basis), xi));
+  const Index width = k + 2;
+  std::vector<double> in(static_cast<std::size_t>(n * width), 0.0),
+      out(static_cast<std::size_t>(N * width));
+  for (Index i = 1; i <= k + 1; ++i) {
+    const double* group = in.data();
+    chart.run(&group, k + 1, out.data());
+    VectorXd left(N);
+    for (Index j = 0; j < N; ++j)
+      left[j] = number(equations.x_offset(i) + j) - out[static_cast<std::size_t>(j * width + i)];
+    const VectorXd coefficient = basis.transpose() * VectorXd(coframe * left);
+    for (Index j = 0; j < n; ++j) {
+      in[static_cast<std::size_t>(j * width + i)] = coefficient[j];
+      y[xi_offset(i) + j] = coefficient[j];
+    }
+  }
+  return y;
+}
+
+std::vector<int> differentiations(const JetEquations& equations,
+                                  const StagedElimination& elimination, Index index) {
+  std::vector<int> result(static_cast<std::size_t>(equations.system_rows()), 0);
+  for (const EliminatedRow& row : elimination.rows()) {
+    if (row.level > index ||
+        (row.stage != StagedElimination::velocities && row.stage != StagedElimination::point))
+      continue;
+    for (Index i = 0; i < std::ssize(row.origin); ++i) {
+      const Index equation = i % equations.row_size();
+      if (equation >= equations.system_rows() || row.origin[static_cast<std::size_t>(i)].is_zero())
+        continue;
+      int& count = result[static_cast<std::size_t>(equation)];
+      count = std::max(count, static_cast<int>(i / equations.row_size()));
+    }
+  }
+  return result;
+}
+
+void describe(ConstraintLadder& ladder, const JetEquations& equations,
+              const StagedElimination& elimination, const Jet& /*jet*/) {
+  const Index N = equations.point_size();
+  const Manifold& M = *equations.system().manifold();
+  const LinearMap<double> frame = M.frame(ladder.point.x), coframe = M.coframe(ladder.point.x);
+  // Covectors of M: of the rows of a manifold in space nothing is left of its own equations.
+  const Index expected = M.dimension() - ladder.degrees_of_freedom;
+  MatrixXd independent(M.tangent_dimension(), 0);
+  for (const EliminatedRow& row : elimination.rows()) {
+    if (row.stage == StagedElimination::dependent) {
+      double factor = 1.0;
+      Combination dependence = normalised_combination(equations, row, factor);
+      if (!dependence.terms.empty()) ladder.redundancies.push_back(std::move(dependence));
+      continue;
+    }
+    if (row.stage != StagedElimination::point || independent.cols() == expected) continue;
+    double factor = 1.0;
+    Combination origin = normalised_combination(equations, row, factor);
+    VectorXd differential(N);
+    for (Index j = 0; j < N; ++j)
+      differential[j] = factor * static_cast<double>(row.entries[static_cast<std::size_t>(j)]);
+    const VectorXd covector = frame.transpose() * differential;
+    const VectorXd direction = covector.normalized();
+    const VectorXd left = direction - independent * (independent.transpose() * direction);
+    if (!(left.norm() > 1e-9)) continue;
+    independent.conservativeResize(Eigen::NoChange, independent.cols() + 1);
+    independent.rightCols(1) = left.normalized();
+    ladder.constraints.push_back(
+        {row.level, covector, std::move(origin), 1e-15 * VectorXd(covector.cwiseAbs())});
+  }
+  const MatrixXd directions = free_velocities(equations, elimination);
+  const MatrixXd gauge = coframe * directions;
+  ladder.gauge_directions = gauge;
+  ladder.determined_velocities.resize(static_cast<std::size_t>(gauge.rows()));
+  const MatrixXd terms = absolute(coframe) * MatrixXd(directions.cwiseAbs());
+  for (Index i = 0; i < gauge.rows(); ++i)
+    ladder.determined_velocities[static_cast<std::size_t>(i)] =
+        (gauge.row(i).array().abs() <= 1e-12 * terms.row(i).array()).all();
+  ladder.determined = determined_unknowns(equations, elimination);
+}
+
+std::string equations_in_words(const JetEquations& equations, const EliminatedRow& row) {
+  std::set<Index> contained;
+  for (Index i = 0; i < std::ssize(row.origin); ++i)
+    if (!row.origin[static_cast<std::size_t>(i)].is_zero())
+      contained.insert(i % equations.row_size());
+  std::vector<std::string> names;
+  for (const Index e : contained)
+    names.push_back(e < equations.system_rows()
+                        ? equations.system().names().equations[static_cast<std::size_t>(e)]
+                        : "the equations of " + equations.system().manifold()->name());
+  return word_list(names);
+}
+
+}  // namespace courant

@@ -1,0 +1,444 @@
+#include "courant/integrators/certificate/nearest_jet.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "courant/core/linear/complete_orthogonal_decomposition.hpp"
+#include "courant/integrators/certificate/binary_scales.hpp"
+
+namespace courant {
+namespace {
+
+// What is zero but for rounding_exponent is zero.
+void settle_unknowns(Jet& jet) {
+  for (Digits& number : jet.y) number.settle();
+}
+
+bool are_all_finite(const std::vector<Digits>& numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), [](const Digits& a) { return a.is_finite(); });
+}
+
+// Columns, of the unknowns that are in it, of a matrix whose rows and columns are scaled_part.
+struct FreeColumns {
+  std::vector<Index> unknown;
+  std::vector<Index> column;  // by unknown, -1: not in it
+  void add(Index j) {
+    column[static_cast<std::size_t>(j)] = std::ssize(unknown);
+    unknown.push_back(j);
+  }
+  explicit FreeColumns(Index size) : column(static_cast<std::size_t>(size), -1) {}
+};
+
+// What is smaller than this, where 1 is the largest of its row, is taken for rounding_exponent in doubles (exponents of two).
+constexpr std::int64_t rounding_exponent = -43;
+
+// Entries of a step in doubles below this, of the largest, are rounding_exponent: where the equations leave an unknown open
+// they would be all that it has. What they were the next step corrects.
+constexpr double noise_of_step = 1e-13;
+
+// Rows and columns scaled_part so that they are alike: 2^row A 2^column.
+MatrixXd scaled_part(const std::vector<JetEquations::Entry>& places,
+                     const std::vector<Digits>& entries, const BinaryScales& scales,
+                     const FreeColumns& part) {
+  MatrixXd A = MatrixXd::Zero(std::ssize(scales.row), std::ssize(part.unknown));
+  for (std::size_t e = 0; e < places.size(); ++e) {
+    const auto unknown = static_cast<std::size_t>(places[e].column);
+    if (unknown >= part.column.size() || part.column[unknown] < 0) continue;
+    const Digits entry = entries[e].times_power_of_two(
+        scales.row[static_cast<std::size_t>(places[e].row)] + scales.column[unknown]);
+    if (!entry.is_zero() && entry.exponent() > rounding_exponent)
+      A(places[e].row, part.column[unknown]) = static_cast<double>(entry);
+  }
+  return A;
+}
+
+// Of an unknown in the unit of its column, and at least that.
+double size_of_unknown(const Jet& jet, const BinaryScales& scales, std::size_t j) {
+  return std::max(1.0,
+                  std::fabs(static_cast<double>(jet.y[j].times_power_of_two(-scales.column[j]))));
+}
+
+// Pivots below this, of the largest, are not divided by where a search goes on in doubles.
+constexpr double negligible_pivot = 1e-11;
+
+}  // namespace
+
+NearestJet::NearestJet(const JetEquations& equations, const InitialGuess& guess,
+                       const SparseMatrixXd& metric)
+    : equations_(equations),
+      guess_(guess),
+      rough_search_(equations.shared_system(), guess, metric),
+      rough_(rough_search_.start()),
+      metric_(metric) {
+  for (const double number : guess.x) given_x_.push_back(Digits::written(number));
+  before_ = jet_of(rough_, 0);
+}
+
+std::vector<bool> NearestJet::held_unknowns(Index k) const {
+  std::vector<bool> stays(static_cast<std::size_t>(equations_.unknown_count(k)), false);
+  const auto hold = [&](Index j) { stays[static_cast<std::size_t>(j)] = true; };
+  const Index N = equations_.point_size();
+  for (const Index j : guess_.hold_x) hold(j);
+  if (equations_.system().manifold()->has_identity_frame())
+    for (const Index j : guess_.hold_v) hold(N + j);
+  for (const Index j : guess_.hold_z) hold(2 * N + j);
+  return stays;
+}
+
+double NearestJet::distance(const Jet& jet) const {
+  VectorXd moved(std::ssize(given_x_));
+  for (std::size_t j = 0; j < given_x_.size(); ++j)
+    moved[static_cast<Index>(j)] = static_cast<double>(jet.y[j] - given_x_[j]);
+  return metric_.size() == 0 ? moved.norm() : std::sqrt(std::max(0.0, moved.dot(metric_ * moved)));
+}
+
+Jet NearestJet::jet_of(const ConsistentJet& rough, Index k) const {
+  const Index N = equations_.point_size(), m = equations_.auxiliary_size();
+  const DerivativeArray& array = rough.array;
+  const Manifold& M = *equations_.system().manifold();
+  const VectorXd &y = rough.zero.y, &reach = rough.zero.reach;
+  Jet jet{.k = k, .t = Digits::written(guess_.t), .y = {}};
+  jet.y.resize(static_cast<std::size_t>(equations_.unknown_count(k)));
+  // What a search leaves in unknowns that vanish is round-off of what they were on the way.
+  constexpr double round_off = 1e-12;
+  const auto number = [&](Index j) {
+    const double unit = j < reach.size() ? reach[j] : 0.0;
+    return std::fabs(y[j]) <= round_off * unit ? 0.0 : y[j];
+  };
+  const auto set = [&](Index j, double value) { jet.y[static_cast<std::size_t>(j)] = value; };
+  for (Index i = 0; i <= k; ++i)
+    for (Index j = 0; j < m; ++j) set(equations_.z_offset(i) + j, number(array.z_offset(i) + j));
+  if (M.has_identity_frame()) {
+    for (Index j = 0; j < N; ++j) set(j, array.origin()[j] + y[j]);
+    for (Index i = 1; i <= k + 1; ++i)
+      for (Index j = 0; j < N; ++j) set(equations_.x_offset(i) + j, number(array.x_offset(i) + j));
+  } else {
+    const Graph graph;
+    const Index n = M.dimension(), width = k + 2;
+    const ExprVector xi = graph.variables("xi", n);
+    const SeriesFunction chart({xi},
+                               M.chart(constants(array.origin()), constants(array.basis()), xi));
+    std::vector<double> in(static_cast<std::size_t>(n * width)),
+        out(static_cast<std::size_t>(N * width));
+    for (Index i = 0; i <= k + 1; ++i)
+      for (Index j = 0; j < n; ++j)
+        in[static_cast<std::size_t>(j * width + i)] = number(array.x_offset(i) + j);
+    const double* group = in.data();
+    chart.run(&group, k + 1, out.data());
+    for (Index i = 0; i <= k + 1; ++i) {
+      double largest = 0.0;
+      for (Index j = 0; j < N; ++j)
+        largest = std::max(largest, std::fabs(out[static_cast<std::size_t>(j * width + i)]));
+      for (Index j = 0; j < N; ++j) {
+        const double value = out[static_cast<std::size_t>(j * width + i)];
+        set(equations_.x_offset(i) + j, std::fabs(value) <= 1e-15 * largest ? 0.0 : value);
+      }
+    }
+  }
+  // What stayed where it was given is what was written.
+  for (Index j = 0; j < N; ++j)
+    if (std::fabs(static_cast<double>(jet.y[static_cast<std::size_t>(j)]) - guess_.x[j]) <=
+        4e-16 * std::max(std::fabs(guess_.x[j]), guess_.x.lpNorm<Eigen::Infinity>() * 0x1p-20))
+      jet.y[static_cast<std::size_t>(j)] = given_x_[static_cast<std::size_t>(j)];
+  const auto written = [&](Index offset, const VectorXd& given) {
+    for (Index j = 0; j < given.size(); ++j)
+      if (Digits& value = jet.y[static_cast<std::size_t>(offset + j)];
+          static_cast<double>(value) == given[j])
+        value = Digits::written(given[j]);
+  };
+  if (M.has_identity_frame()) written(N, guess_.v);
+  written(2 * N, guess_.z);
+  return jet;
+}
+
+// What a jet of the level below, with zeros for what is new, becomes if what is given of x stays: higher coefficients are
+// in the equations to the first power, so that nothing has to be searched.
+NearestJet::Found NearestJet::continued(Index k) const {
+  Jet jet = before_;
+  jet.k = k;
+  jet.y.resize(static_cast<std::size_t>(equations_.unknown_count(k)));
+  std::vector<bool> stays = held_unknowns(k);
+  for (Index j = 0; j < equations_.point_size(); ++j)
+    if (metric_.size() == 0 || metric_(j, j) != 0.0) stays[static_cast<std::size_t>(j)] = true;
+  const auto at = equations_.at(jet.t, jet.y, k);
+  Found found{.jet = jet};
+  if (!are_all_finite(at.residual) || !are_all_finite(at.entries)) return found;
+  for (const bool by_sizes : {true, false}) {
+    BinaryScales scales(equations_, k);
+    const std::vector<JetEquations::Entry> places = equations_.pattern(k);
+    by_sizes ? scales.update(places, at.entries, jet) : scales.update(places, at.entries);
+    found = refined(jet, stays, scales);
+    if (found.is_zero) return tidied(found, stays, scales);
+  }
+  return found;
+}
+
+NearestJet::Found NearestJet::find(Index k) {
+  Found found = continued(k);
+  if (!found.is_zero) found = searched(k);
+  if (found.is_zero) before_ = found.jet;
+  return found;
+}
+
+NearestJet::Found NearestJet::searched(Index k) {
+  rough_.zero.y = rough_.array.resized(rough_.zero.y, k);
+  const ConsistentJet next = rough_search_.find(rough_);
+  Found found{.jet = jet_of(next.zero.y.size() == rough_.zero.y.size() ? next : rough_, k)};
+  found.is_finite = next.zero.is_finite;
+  if (!next.zero.is_finite) return found;
+  if (!next.zero.found) {
+    found.is_stationary = rough_search_.is_contradiction(next);
+    found.residual = next.array.residual(next.zero.y).lpNorm<Eigen::Infinity>();
+    return found;
+  }
+  rough_ = next;
+  const std::vector<bool> held = held_unknowns(k);
+  // Coordinates that the search left where they were given stay there if they can.
+  std::vector<bool> unmoved = held;
+  for (std::size_t j = 0; j < given_x_.size(); ++j)
+    unmoved[j] = unmoved[j] || found.jet.y[j] == given_x_[j];
+  const Jet start = found.jet;
+  const std::vector<JetEquations::Entry> places = equations_.pattern(k);
+  const auto at = equations_.at(start.t, start.y, k);
+  for (const bool by_sizes : {true, false}) {
+    BinaryScales scales(equations_, k);
+    by_sizes ? scales.update(places, at.entries, start) : scales.update(places, at.entries);
+    for (const std::vector<bool>& stays : {unmoved, held}) {
+      found = refined(start, stays, scales);
+      found.was_near = true;
+      if (found.is_zero) return tidied(found, stays, scales);
+      if (unmoved == held) break;
+    }
+  }
+  return found;
+}
+
+NearestJet::Found NearestJet::refined(Jet jet, const std::vector<bool>& stays,
+                                      BinaryScales scales) const {
+  // Each precision ends where its own digits do: going on, the coarse part of an unknown that is zero would fall as
+  // far as the fine one, and would not tell.
+  constexpr int most_steps = 40;
+  constexpr double coarse_end = 0x1p-90, fine_end = 0x1p-252, slow = 0.25;
+  const Index k = jet.k;
+  const std::vector<JetEquations::Entry> places = equations_.pattern(k);
+  const auto at = equations_.at(jet.t, jet.y, k);
+  Found found{.jet = jet};
+  if (!are_all_finite(at.residual) || !are_all_finite(at.entries)) return found;
+  scales.update(places, at.entries, jet);
+  FreeColumns part(equations_.unknown_count(k));
+  for (std::size_t j = 0; j < stays.size(); ++j)
+    if (!stays[j]) part.add(static_cast<Index>(j));
+  const CompleteOrthogonalDecomposition inverse(scaled_part(places, at.entries, scales, part),
+                                                negligible_pivot);
+  std::vector<Digits> F = at.residual;
+  double before = -1.0;
+  for (int step = 0; step < most_steps; ++step) {
+    MatrixXd f(std::ssize(F), 2);
+    for (std::size_t i = 0; i < F.size(); ++i) {
+      const Digits scaled_row = F[i].times_power_of_two(scales.row[i]);
+      f(static_cast<Index>(i), 0) = scaled_row.coarse();
+      f(static_cast<Index>(i), 1) = static_cast<double>(scaled_row);
+    }
+    const MatrixXd d = inverse.solve(f);
+    if (!d.allFinite() || d.size() == 0) break;
+    // Each next to the size of its unknown.
+    MatrixXd relative = d;
+    for (std::size_t c = 0; c < part.unknown.size(); ++c)
+      relative.row(static_cast<Index>(c)) /=
+          size_of_unknown(jet, scales, static_cast<std::size_t>(part.unknown[c]));
+    const double length = relative.col(1).lpNorm<Eigen::Infinity>();
+    const bool moves_coarse = relative.col(0).lpNorm<Eigen::Infinity>() > coarse_end;
+    if (length <= fine_end || (before >= 0.0 && length > slow * before)) break;
+    before = length;
+    for (std::size_t c = 0; c < part.unknown.size(); ++c) {
+      const auto j = static_cast<std::size_t>(part.unknown[c]);
+      const auto row = static_cast<Index>(c);
+      if (std::fabs(relative(row, 1)) <= noise_of_step * length) continue;
+      const Digits change = Digits().corrected(moves_coarse ? -d(row, 0) : 0.0, -d(row, 1));
+      jet.y[j] -= change.times_power_of_two(scales.column[j]);
+    }
+    F = equations_.residual(jet.t, jet.y, k);
+  }
+  settle_unknowns(jet);
+  found.jet = jet;
+  found.is_zero =
+      std::all_of(F.begin(), F.end(), [](const Digits& a) { return a.is_finite() && a.shrinks(); });
+  for (std::size_t i = 0; i < F.size(); ++i)
+    found.residual = std::max(
+        found.residual, std::fabs(static_cast<double>(F[i].times_power_of_two(scales.row[i]))));
+  if (found.is_zero) return found;
+  Found by_newton = newton(found.jet, stays, scales);
+  return by_newton.is_zero ? by_newton : found;
+}
+
+NearestJet::Found NearestJet::tidied(const Found& found, std::vector<bool> stays,
+                                     const BinaryScales& scales) const {
+  constexpr std::int64_t tiny = -80;
+  Jet jet = found.jet;
+  bool any = false;
+  for (std::size_t j = 0; j < jet.y.size(); ++j) {
+    if (stays[j] || jet.y[j].is_zero() || jet.y[j].exponent() - scales.column[j] > tiny) continue;
+    jet.y[j] = Digits();
+    stays[j] = any = true;
+  }
+  if (!any) return found;
+  Found tidy = refined(std::move(jet), stays, scales);
+  return tidy.is_zero ? tidy : found;
+}
+
+// By Levenberg and Marquardt, from beside the last zero, which may be a critical point and no least one.
+bool NearestJet::is_least_residual(Index k) const {
+  constexpr int most_steps = 200;
+  constexpr double flat = 1e-7, small = 1e-6;
+  const Index size = equations_.unknown_count(k);
+  Jet jet = before_;
+  jet.k = k;
+  jet.y.resize(static_cast<std::size_t>(size));
+  const std::vector<JetEquations::Entry> entries = equations_.pattern(k);
+  const auto first = equations_.at(jet.t, jet.y, k);
+  if (!are_all_finite(first.residual) || !are_all_finite(first.entries)) return false;
+  BinaryScales scales(equations_, k);
+  scales.update(entries, first.entries, jet);
+  const double t = static_cast<double>(jet.t);
+  std::vector<double> y;
+  for (std::size_t j = 0; j < jet.y.size(); ++j)
+    y.push_back(static_cast<double>(jet.y[j]) + std::ldexp(std::cos(static_cast<double>(j)),
+                                                           static_cast<int>(scales.column[j]) - 8));
+  const auto residual_at = [&](const std::vector<double>& there) {
+    const std::vector<double> F = equations_.residual(t, there, k);
+    VectorXd f(std::ssize(F));
+    for (Index i = 0; i < f.size(); ++i)
+      f[i] = std::ldexp(F[static_cast<std::size_t>(i)],
+                        static_cast<int>(scales.row[static_cast<std::size_t>(i)]));
+    return f;
+  };
+  VectorXd f = residual_at(y);
+  double damping = 1.0;
+  for (int step = 0; step < most_steps && f.allFinite(); ++step) {
+    const auto at = equations_.at(t, y, k);
+    MatrixXd J = MatrixXd::Zero(f.size(), size);
+    for (std::size_t e = 0; e < entries.size(); ++e) {
+      const auto [i, j] = entries[e];
+      if (j < size)
+        J(i, j) =
+            std::ldexp(at.entries[e], static_cast<int>(scales.row[static_cast<std::size_t>(i)] +
+                                                       scales.column[static_cast<std::size_t>(j)]));
+    }
+    if (!J.allFinite() || f.norm() <= small) return false;
+    const VectorXd gradient = J.transpose() * f;
+    if (gradient.norm() <= flat * f.norm()) return true;
+    MatrixXd damped(J.rows() + size, size);
+    damped << J, std::sqrt(damping) * MatrixXd::Identity(size, size);
+    VectorXd right = VectorXd::Zero(J.rows() + size);
+    right.head(J.rows()) = -f;
+    const MatrixXd d = CompleteOrthogonalDecomposition(damped, 0.0).solve(right);
+    std::vector<double> there = y;
+    for (Index j = 0; j < size; ++j)
+      there[static_cast<std::size_t>(j)] +=
+          std::ldexp(d(j, 0), static_cast<int>(scales.column[static_cast<std::size_t>(j)]));
+    const VectorXd next = residual_at(there);
+    if (next.allFinite() && next.norm() < f.norm()) {
+      y = there;
+      f = next;
+      damping = std::max(1e-12, 0.3 * damping);
+    } else {
+      damping *= 4.0;
+      if (damping > 1e12) return false;
+    }
+  }
+  return false;
+}
+
+NearestJet::Found NearestJet::find_displaced(const Jet& from, const BinaryScales& scales) const {
+  return refined(from, std::vector<bool>(from.y.size(), false), scales);
+}
+
+// Newton's method in Digits by orthogonal rows: least change of the scaled_part unknowns.
+NearestJet::Found NearestJet::newton(Jet jet, const std::vector<bool>& stays,
+                                     BinaryScales scales) const {
+  constexpr int most_steps = 14;
+  constexpr std::int64_t negligible_row = -64, coarse_end = -90, fine_end = -240;
+  const Index k = jet.k;
+  const std::vector<JetEquations::Entry> places = equations_.pattern(k);
+  Found found{.jet = jet};
+  FreeColumns part(equations_.unknown_count(k));
+  for (std::size_t j = 0; j < stays.size(); ++j)
+    if (!stays[j]) part.add(static_cast<Index>(j));
+  const std::size_t columns = part.unknown.size();
+  for (int step = 0; step < most_steps; ++step) {
+    const auto at = equations_.at(jet.t, jet.y, k);
+    if (!are_all_finite(at.residual) || !are_all_finite(at.entries)) return found;
+    const std::size_t row_count = at.residual.size();
+    scales.update(places, at.entries, jet);
+    std::vector<std::vector<Digits>> rows(row_count, std::vector<Digits>(columns));
+    for (std::size_t e = 0; e < places.size(); ++e) {
+      const auto unknown = static_cast<std::size_t>(places[e].column);
+      if (unknown >= part.column.size() || part.column[unknown] < 0) continue;
+      const auto i = static_cast<std::size_t>(places[e].row);
+      Digits entry = at.entries[e].times_power_of_two(scales.row[i] + scales.column[unknown]);
+      rows[i][static_cast<std::size_t>(part.column[unknown])] = entry.settle();
+    }
+    std::vector<Digits> right(row_count);
+    for (std::size_t i = 0; i < row_count; ++i) {
+      right[i] = -at.residual[i].times_power_of_two(scales.row[i]);
+      right[i].settle();
+    }
+    const auto dot = [](const std::vector<Digits>& a, const std::vector<Digits>& b) {
+      Digits sum;
+      for (std::size_t j = 0; j < a.size(); ++j)
+        if (!a[j].is_zero() && !b[j].is_zero()) sum += a[j] * b[j];
+      return sum;
+    };
+    std::vector<Digits> change(columns);
+    std::vector<bool> done(row_count, false);
+    for (;;) {
+      std::size_t best = row_count;
+      std::int64_t largest = negligible_row;
+      for (std::size_t i = 0; i < row_count; ++i) {
+        if (done[i]) continue;
+        for (const Digits& entry : rows[i])
+          if (!entry.is_zero() && entry.exponent() > largest) {
+            largest = entry.exponent();
+            best = i;
+          }
+      }
+      if (best == row_count) break;
+      done[best] = true;
+      const std::vector<Digits>& q = rows[best];
+      const Digits square = dot(q, q);
+      const Digits along = right[best] / square;
+      for (std::size_t j = 0; j < columns; ++j)
+        if (!q[j].is_zero()) change[j] += along * q[j];
+      for (std::size_t i = 0; i < row_count; ++i) {
+        if (done[i]) continue;
+        const Digits product = dot(rows[i], q);
+        if (product.is_zero()) continue;
+        const Digits factor = product / square;
+        subtract_multiple(rows[i].data(), factor, q.data(), columns);
+        subtract_multiple(&right[i], factor, &right[best], 1);
+      }
+    }
+    std::int64_t length = fine_end;
+    for (std::size_t c = 0; c < columns; ++c)
+      if (!change[c].is_zero() && change[c].is_finite())
+        length = std::max(length, change[c].exponent() -
+                                      std::ilogb(size_of_unknown(
+                                          jet, scales, static_cast<std::size_t>(part.unknown[c]))));
+    for (std::size_t c = 0; c < columns; ++c) {
+      const auto j = static_cast<std::size_t>(part.unknown[c]);
+      const Digits d = change[c].times_power_of_two(scales.column[j]);
+      jet.y[j] += length > coarse_end ? d : d.fine_alone();
+    }
+    if (length > fine_end) continue;
+    const std::vector<Digits> F = equations_.residual(jet.t, jet.y, k);
+    settle_unknowns(jet);
+    found.jet = jet;
+    found.is_zero = std::all_of(F.begin(), F.end(),
+                                [](const Digits& a) { return a.is_finite() && a.shrinks(); });
+    return found;
+  }
+  found.jet = jet;
+  return found;
+}
+
+}  // namespace courant

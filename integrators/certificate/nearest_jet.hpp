@@ -1,0 +1,64 @@
+// NearestJet: the consistent point nearest to what was given, in the digits of the decision.
+#pragma once
+
+#include <vector>
+
+#include "courant/integrators/certificate/binary_scales.hpp"
+#include "courant/integrators/certificate/consistent_point.hpp"
+#include "courant/integrators/certificate/jet_equations.hpp"
+
+namespace courant {
+
+// Zeros of F^[k] near a guess: where x can stay, from the zero of the level below; else what a search in doubles
+// (ConsistentPoint) finds. Both are taken to the ends of both precisions by corrections with one factorisation, or,
+// where these do not converge, by Newton's method in Digits.
+//
+// A zero is one if every equation shrinks there: how it was found plays no part. What the search left where it was
+// given is what was written there (Digits::written), and stays if it can.
+class NearestJet {
+ public:
+  // Throws std::invalid_argument if sizes do not fit the system. `metric`: W, N × N; empty for 1.
+  NearestJet(const JetEquations& equations, const InitialGuess& guess,
+             const SparseMatrixXd& metric);
+
+  const Jet& start() const { return before_; }
+  struct Found {
+    Jet jet;  // the zero, or where the search ended
+    bool is_zero = false;
+    bool is_finite = true;       // F and its derivatives, on the way
+    bool was_near = false;       // in doubles it was one
+    bool is_stationary = false;  // it ended where the equations contradict each other
+    double residual = 0.0;       // the largest
+  };
+  // Of level k, after those of all levels below.
+  Found find(Index k);
+  // Near a jet that is displaced from a zero where unknowns have these sizes; what was given may change.
+  Found find_displaced(const Jet& from, const BinaryScales& scales) const;
+
+  // Whether F^[k] has no zero near the last one that was found: least squares of it, in doubles, end where it is not small
+  // and its gradient vanishes.
+  bool is_least_residual(Index k) const;
+
+  // ‖x - x_given‖_W.
+  double distance(const Jet& jet) const;
+
+ private:
+  Found continued(Index k) const;
+  Found searched(Index k);
+  Jet jet_of(const ConsistentJet& rough, Index k) const;
+  std::vector<bool> held_unknowns(Index k) const;
+  Found refined(Jet jet, const std::vector<bool>& stays, BinaryScales scales) const;
+  Found newton(Jet jet, const std::vector<bool>& stays, BinaryScales scales) const;
+  // The same zero with 0 for what is open and was left by rounding, where that is one.
+  Found tidied(const Found& found, std::vector<bool> stays, const BinaryScales& scales) const;
+
+  const JetEquations& equations_;
+  InitialGuess guess_;
+  ConsistentPoint rough_search_;
+  ConsistentJet rough_;
+  MatrixXd metric_;  // W; empty for 1
+  std::vector<Digits> given_x_;
+  Jet before_;  // the last that was found
+};
+
+}  // namespace courant
