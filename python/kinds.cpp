@@ -98,7 +98,9 @@ void add_projector(const KindDescription& description, const Source& source) {
                            const std::string text = py::str(object);
                            const auto projector = expected<Projector>(object, "Projector");
                            return std::optional(ProjectorChoice{
-                               text, [projector](const MethodSetting&) { return projector; }});
+                               text, [projector](const MethodSetting&) {
+                                 return ProjectorChoice::Made{.projector = projector};
+                               }});
                          }});
 }
 
