@@ -14,7 +14,7 @@ using formula::Token;
 using formula::TokenKind;
 using Kind = FormulaTree::Kind;
 
-constexpr int kDeepest = 100;
+constexpr int kDeepestNesting = 100;
 
 // What is no formula.
 struct NoFormula {};
@@ -31,7 +31,7 @@ class TreeParser {
 
  private:
   FormulaTree expression(int binding) {
-    if (++depth_ > kDeepest) throw NoFormula();
+    if (++depth_ > kDeepestNesting) throw NoFormula();
     FormulaTree left = operand();
     while (binding_of(tokens_[at_].kind) > binding) {
       const Token sign = next();
