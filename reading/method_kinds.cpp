@@ -15,6 +15,8 @@
 #include "courant/integrators/methods/reduced_map.hpp"
 #include "courant/integrators/methods/staggering.hpp"
 #include "courant/integrators/methods/verlet.hpp"
+#include "courant/integrators/step/projector_in_units.hpp"
+#include "courant/reading/method_in_units.hpp"
 #include "courant/reading/transformed_time.hpp"
 
 namespace courant {
@@ -176,15 +178,20 @@ std::optional<MethodChoice> discretize_first(ObjectReader& object) {
           throw std::invalid_argument(
               "the start \"rk2\" is about one step of a given length of time; expected "
               "\"on-manifold\" with a transformation of time");
-        PreparedMethod method = with_maps(
-            map, is_damped, order, at,
-            [&](const MapPointer& on_manifold) -> std::shared_ptr<const Integrator> {
-              if (map.is_half) return in_halves(at, on_manifold);
-              return std::make_shared<DiscretizeFirst>(
-                  at.system, on_manifold, DiscretizeFirst::Options{.backend = at.backend});
-            });
-        if (rk2) method.initial = start_of_method_1(at, *method.map);
-        return method;
+        return prepared_in_units(
+            [&](const MethodSetting& in_units) {
+              PreparedMethod method = with_maps(
+                  map, is_damped, order, in_units,
+                  [&](const MapPointer& on_manifold) -> std::shared_ptr<const Integrator> {
+                    if (map.is_half) return in_halves(in_units, on_manifold);
+                    return std::make_shared<DiscretizeFirst>(
+                        in_units.system, on_manifold,
+                        DiscretizeFirst::Options{.backend = in_units.backend});
+                  });
+              if (rk2) method.initial = start_of_method_1(in_units, *method.map);
+              return method;
+            },
+            at);
       },
       [is_damped = *is_damped](const MethodSetting&) { return !is_damped; }};
 }
@@ -193,6 +200,14 @@ std::optional<MethodChoice> discretize_first(ObjectReader& object) {
 bool is_default(const ObjectReader& object, const std::string& key, const Json& value) {
   const Json& word = object.declared_default(key);
   return value == word || value == Json{{"type", word}};
+}
+
+// The projector for a system, which may be the one that it was made for in other units.
+std::shared_ptr<const Projector> in_units_of(const ImplicitSystem& system,
+                                             const std::shared_ptr<const Projector>& projector) {
+  const auto* measured = dynamic_cast<const SystemInUnits*>(&system);
+  if (!measured) return projector;
+  return std::make_shared<ProjectorInUnits>(projector, measured->units());
 }
 
 std::optional<MethodChoice> constrain_first(ObjectReader& object) {
@@ -216,14 +231,19 @@ std::optional<MethodChoice> constrain_first(ObjectReader& object) {
        is_damped = *is_damped](const MethodSetting& at) {
         const ProjectorChoice::Made made =
             map.is_half ? ProjectorChoice::Made{} : projector_at(projector, at);
-        PreparedMethod method =
-            with_maps(map, is_damped, order, at,
-                      [&](const MapPointer& on_manifold) -> std::shared_ptr<const Integrator> {
-                        if (map.is_half) return in_halves(at, on_manifold);
-                        return std::make_shared<ConstrainFirst>(
-                            at.system, at.ladder, on_manifold, made.projector,
-                            ConstrainFirst::Options{.backend = at.backend});
-                      });
+        PreparedMethod method = prepared_in_units(
+            [&](const MethodSetting& in_units) {
+              return with_maps(
+                  map, is_damped, order, in_units,
+                  [&](const MapPointer& on_manifold) -> std::shared_ptr<const Integrator> {
+                    if (map.is_half) return in_halves(in_units, on_manifold);
+                    return std::make_shared<ConstrainFirst>(
+                        in_units.system, in_units.ladder, on_manifold,
+                        in_units_of(*in_units.system, made.projector),
+                        ConstrainFirst::Options{.backend = in_units.backend});
+                  });
+            },
+            at);
         // Without constraints nothing is projected.
         if (at.ladder.degrees_of_freedom < at.system->manifold()->dimension())
           method.metric = made.metric;
@@ -293,7 +313,9 @@ std::optional<MethodChoice> explicit_runge_kutta(ObjectReader& object) {
   const auto prepare = [](const MethodSetting& at) {
     return PreparedMethod{explicit_method(at, kind), at.initial};
   };
-  return MethodChoice{object.optional("type")->text().value(), prepare};
+  return MethodChoice{object.optional("type")->text().value(), [prepare](const MethodSetting& at) {
+                        return prepared_in_units(prepare, at);
+                      }};
 }
 
 }  // namespace

@@ -30,6 +30,13 @@ std::vector<Index> conditions_on_positions(const ImplicitSystem& system,
 // The matrix next to its size.
 ExprMatrix measured(const ExprMatrix& A) { return A * (1.0 / sqrt(A.squaredNorm())); }
 
+// Its rows next to these sizes, or to 1.
+ExprMatrix next_to(const VectorXd& sizes, const ExprMatrix& A) {
+  if (sizes.size() == 0) return measured(A);
+  return constants(sizes).asDiagonal() *
+         measured(constants(VectorXd(sizes.cwiseInverse())).asDiagonal() * A);
+}
+
 }  // namespace
 
 KineticProjector::KineticProjector(std::shared_ptr<const CotangentBundle> bundle,
@@ -84,6 +91,12 @@ std::shared_ptr<const KineticProjector> KineticProjector::of(
   return projector;
 }
 
+std::shared_ptr<const Projector> KineticProjector::balanced(const VectorXd& sizes) const {
+  const auto result = std::make_shared<KineticProjector>(*this);
+  result->balance_ = sizes;
+  return result;
+}
+
 ExprMatrix KineticProjector::do_directions(const ExprVector& x, const Expr& t,
                                            const LinearMap<Expr>& tangents,
                                            const ExprMatrix& conormals) const {
@@ -98,9 +111,9 @@ ExprMatrix KineticProjector::do_directions(const ExprVector& x, const Expr& t,
       const Expr square = ExprMatrix(J.row(i) * raised.col(i))(0, 0);
       seen.row(i) /= square + Expr(none);
     }
-    V.topRows(n) = measured(raised * seen);
+    V.topRows(n) = next_to(balance_.head(balance_.size() / 2), raised * seen);
   }
-  V.bottomRows(n) = measured(metric_.lower(x) * C_p);
+  V.bottomRows(n) = next_to(balance_.tail(balance_.size() / 2), metric_.lower(x) * C_p);
   return tangents * V;
 }
 

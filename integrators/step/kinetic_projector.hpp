@@ -33,6 +33,7 @@ class KineticProjector final : public Projector {
   bool is_always_complement() const override { return true; }
   // (√g, 1/√g), of the diagonal of g at the ladder's point: momenta of any unit are as good as positions.
   VectorXd conormal_sizes() const override { return sizes_; }
+  std::shared_ptr<const Projector> balanced(const VectorXd& sizes) const override;
 
  private:
   // (q, p), t ↦ the j_i, a row each in the tangent representation of Q.
@@ -49,6 +50,7 @@ class KineticProjector final : public Projector {
   Differentials conditions_;
   Index count_;  // of conditions
   VectorXd sizes_;
+  VectorXd balance_;  // sizes that V is balanced by; empty: 1
 };
 
 // The projector that Method 2 takes where none is asked for: that of the kinetic energy, else to the nearest point in the

@@ -51,6 +51,11 @@ class Projector {
   // Sizes s of the components of conormals, where n = Ñ, next to which they are kept and made orthonormal along a
   // trajectory; empty: 1. They matter to round-off alone.
   virtual VectorXd conormal_sizes() const { return {}; }
+  // The same projector, with vectors V that are of one size next to these sizes of the Ñ components of tangent vectors;
+  // nothing where V is as good as it is. It matters to round-off alone.
+  virtual std::shared_ptr<const Projector> balanced(const VectorXd& /*sizes*/) const {
+    return nullptr;
+  }
   // (x, B, C, t) ↦ these vectors, column by column, for conormals s C. Nothing where W is C.
   Function::Formulas span_formulas(const Manifold& manifold, Index codimension) const;
 
