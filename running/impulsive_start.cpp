@@ -46,6 +46,20 @@ bool is_start(const ConstraintLadder& ladder) {
          !ladder.levels.empty() && ladder.levels.back().is_solved;
 }
 
+// A search that begins within its tolerance of a zero ends there; from a little beside, along the conormals, it ends at
+// round-off.
+ConstraintLadder polished(ConstraintLadder ladder,
+                          const std::function<ConstraintLadder(const VectorXd& x)>& nearest_to) {
+  constexpr double beside = 1e-7;
+  const VectorXd& x = ladder.point.x;
+  const double size = x.lpNorm<Eigen::Infinity>();
+  const VectorXd across = ladder.conormals().rowwise().normalized().colwise().sum();
+  ConstraintLadder again = nearest_to(x + beside * size * across);
+  const bool same =
+      is_start(again) && (again.point.x - x).lpNorm<Eigen::Infinity>() <= kReached * size;
+  return same ? again : ladder;
+}
+
 // With the moves from `begin`, of what was given.
 ConsistentStart as_impulse(const Experiment& experiment, ConstraintLadder ladder,
                            const VectorXd& begin) {
@@ -85,7 +99,8 @@ ConsistentStart impulsive_start(
       const double beside = (x - ladder.point.x).lpNorm<Eigen::Infinity>();
       const bool is_settled = beside <= kRoundOffOfJump * size(x) || beside >= before;
       if (step > 0 && is_settled && beside > kReached * size(x)) return nearest;
-      if (step > 0 && is_settled) return as_impulse(experiment, std::move(ladder), begin);
+      if (step > 0 && is_settled)
+        return as_impulse(experiment, polished(std::move(ladder), nearest_to), begin);
       before = step > 0 ? beside : before;
       const MatrixXd K = impulse_directions(experiment, ladder.point), A = ladder.conormals();
       if (K.cols() == 0 || A.rows() == 0) return nearest;
