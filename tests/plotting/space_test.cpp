@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "courant/plotting/figure.hpp"
 #include "parsed_markup.hpp"
 
 using namespace courant::plot;

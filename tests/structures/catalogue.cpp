@@ -23,13 +23,13 @@ namespace courant::test {
 namespace {
 
 template <class T, class... Arguments>
-std::shared_ptr<const T> make(Arguments&&... arguments) {
+std::shared_ptr<const T> object(Arguments&&... arguments) {
   return std::make_shared<const T>(std::forward<Arguments>(arguments)...);
 }
 
 using ManifoldPointer = std::shared_ptr<const Manifold>;
 
-ManifoldPointer R(Index n) { return make<Euclidean>(n); }
+ManifoldPointer R(Index n) { return object<Euclidean>(n); }
 
 // The canonical bivector of R^{2k}, (q, p); its transpose is the matrix of dq ∧ dp.
 MatrixXd canonical(Index k) {
@@ -78,7 +78,7 @@ MatrixField contact() {
 
 // [J B; -Bᵀ 0] with J canonical on R², B = (0, g(q)) and a port coordinate.
 StructurePointer with_port(std::function<Expr(const ExprVector&)> g) {
-  return make<Poisson>(R(3), [=](const ExprVector& x) {
+  return object<Poisson>(R(3), [=](const ExprVector& x) {
     ExprMatrix A = ExprMatrix::Zero(3, 3);
     A(0, 1) = 1.0;
     A(1, 0) = -1.0;
@@ -89,17 +89,17 @@ StructurePointer with_port(std::function<Expr(const ExprVector&)> g) {
 }
 
 std::vector<StructureEntry> make_catalogue() {
-  const ManifoldPointer sphere = make<Sphere>(2), rotations = make<SpecialOrthogonal3>();
+  const ManifoldPointer sphere = object<Sphere>(2), rotations = object<SpecialOrthogonal3>();
   // On the sphere α ↦ x × α is the Poisson structure of the area; v ↦ its matrix is the area form.
   const MatrixField area = [](const ExprVector& x) { return hat(x); };
   const auto canonical_of = [](const ManifoldPointer& Q) {
-    return make<CanonicalSymplectic>(make<CotangentBundle>(Q));
+    return object<CanonicalSymplectic>(object<CotangentBundle>(Q));
   };
   const ManifoldPointer plane = R(2), space = R(3);
-  const auto symplectic_plane = make<Poisson>(plane, constant_field(canonical(1)));
+  const auto symplectic_plane = object<Poisson>(plane, constant_field(canonical(1)));
   const SmoothMap inclusion(sphere, space, [](const ExprVector& x) { return x; });
-  const auto ball = make<LiePoisson>(LieAlgebra::so3(), space);
-  const auto volume_part = make<Presymplectic>(space, [](const ExprVector& x) { return hat(x); });
+  const auto ball = object<LiePoisson>(LieAlgebra::so3(), space);
+  const auto volume_part = object<Presymplectic>(space, [](const ExprVector& x) { return hat(x); });
   // (x, y) ↦ (x, y + x²) and back.
   const SmoothMap shear(plane, plane, [](const ExprVector& x) {
     return vector({x[0], x[1] + square(x[0])});
@@ -113,143 +113,145 @@ std::vector<StructureEntry> make_catalogue() {
       {"canonical on T*S²", canonical_of(sphere), true, 4},
       {"canonical on T*SO(3)", canonical_of(rotations), true, 6},
       {"canonical on a point", canonical_of(R(0)), true, 0},
-      {"ω = 0 on R¹", make<Presymplectic>(R(1), constant_field(MatrixXd::Zero(1, 1))), true, 1},
+      {"ω = 0 on R¹", object<Presymplectic>(R(1), constant_field(MatrixXd::Zero(1, 1))), true, 1},
       {"(1+x²) dx∧dy on R³",
-       make<Presymplectic>(space,
-                           plane_form(3, [](const ExprVector& x) { return 1.0 + square(x[0]); })),
+       object<Presymplectic>(space,
+                             plane_form(3, [](const ExprVector& x) { return 1.0 + square(x[0]); })),
        true, 3},
       {"z dx∧dy on R³, not closed",
-       make<Presymplectic>(space, plane_form(3, [](const ExprVector& x) { return x[2]; })), false,
+       object<Presymplectic>(space, plane_form(3, [](const ExprVector& x) { return x[2]; })), false,
        3},
-      {"area form on S²", make<Presymplectic>(sphere, area), true, 2},
+      {"area form on S²", object<Presymplectic>(sphere, area), true, 2},
       {"Σ x_i e_j∧e_k on SO(3), not closed",
-       make<Presymplectic>(rotations,
-                           [](const ExprVector& R) {
-                             return hat(vector({R[0], R[3], R[6]}));
-                           }),
+       object<Presymplectic>(rotations,
+                             [](const ExprVector& R) {
+                               return hat(vector({R[0], R[3], R[6]}));
+                             }),
        false, 3},
-      {"bivector of the area on S²", make<Poisson>(sphere, area), true, 2},
+      {"bivector of the area on S²", object<Poisson>(sphere, area), true, 2},
       {"Λ constant on R³",
-       make<Poisson>(space, plane_form(3, [](const ExprVector&) { return 1.0; })), true, 2},
+       object<Poisson>(space, plane_form(3, [](const ExprVector&) { return 1.0; })), true, 2},
       {"Λ = ∂_x∧(∂_y + x ∂_z), not Poisson",
-       make<Poisson>(space,
-                     [](const ExprVector& x) {
-                       ExprMatrix A = ExprMatrix::Zero(3, 3);
-                       A(0, 1) = 1.0;
-                       A(1, 0) = -1.0;
-                       A(0, 2) = x[0] * x[1];
-                       A(2, 0) = -A(0, 2);
-                       A(1, 2) = x[2];
-                       A(2, 1) = -x[2];
-                       return A;
-                     }),
+       object<Poisson>(space,
+                       [](const ExprVector& x) {
+                         ExprMatrix A = ExprMatrix::Zero(3, 3);
+                         A(0, 1) = 1.0;
+                         A(1, 0) = -1.0;
+                         A(0, 2) = x[0] * x[1];
+                         A(2, 0) = -A(0, 2);
+                         A(1, 2) = x[2];
+                         A(2, 1) = -x[2];
+                         return A;
+                       }),
        false, 2},
       {"Lotka–Volterra bivector",
-       make<Poisson>(plane, plane_form(2, [](const ExprVector& x) { return x[0] * x[1]; })), true,
+       object<Poisson>(plane, plane_form(2, [](const ExprVector& x) { return x[0] * x[1]; })), true,
        2},
-      {"so(3)*", make<LiePoisson>(LieAlgebra::so3()), true, 2},
-      {"so(3)*, plus", make<LiePoisson>(LieAlgebra::so3(), LiePoisson::Sign::plus), true, 2},
-      {"se(3)*", make<LiePoisson>(LieAlgebra::se3()), true, 4},
-      {"so(4)*", make<LiePoisson>(LieAlgebra::so(4)), true, 4},
+      {"so(3)*", object<LiePoisson>(LieAlgebra::so3()), true, 2},
+      {"so(3)*, plus", object<LiePoisson>(LieAlgebra::so3(), LiePoisson::Sign::plus), true, 2},
+      {"se(3)*", object<LiePoisson>(LieAlgebra::se3()), true, 4},
+      {"so(4)*", object<LiePoisson>(LieAlgebra::so(4)), true, 4},
       {"T*SO(3), trivialised",
-       make<LiePoisson>(LieAlgebra::so3(), std::vector<MatrixXd>(), LiePoisson::Sign::minus,
-                        rotations),
+       object<LiePoisson>(LieAlgebra::so3(), std::vector<MatrixXd>(), LiePoisson::Sign::minus,
+                          rotations),
        true, 6},
       {"T*SO(3) × R³*, trivialised",
-       make<LiePoisson>(LieAlgebra::so3(), turns_of_space(), LiePoisson::Sign::minus, rotations),
+       object<LiePoisson>(LieAlgebra::so3(), turns_of_space(), LiePoisson::Sign::minus, rotations),
        true, 6},
-      {"abelian", make<LiePoisson>(LieAlgebra::abelian(2)), true, 0},
+      {"abelian", object<LiePoisson>(LieAlgebra::abelian(2)), true, 0},
       {"contact planes, not involutive",
-       make<Distribution>(Distribution::annihilated_by(space, 1, contact())), false, 2},
+       object<Distribution>(Distribution::annihilated_by(space, 1, contact())), false, 2},
       {"planes z = const",
-       make<Distribution>(
+       object<Distribution>(
            Distribution::annihilated_by(space, 1, column([](const ExprVector& x) {
                                           return vector({0.0, 0.0, 1.0 + square(x[0])});
                                         }))),
        true, 2},
       {"contact planes by fields",
-       make<Distribution>(Distribution::spanned_by(space, 2,
-                                                   [](const ExprVector& x) {
-                                                     ExprMatrix X = ExprMatrix::Zero(3, 2);
-                                                     X(0, 0) = 1.0;
-                                                     X(2, 0) = x[1];
-                                                     X(1, 1) = 1.0;
-                                                     return X;
-                                                   })),
+       object<Distribution>(Distribution::spanned_by(space, 2,
+                                                     [](const ExprVector& x) {
+                                                       ExprMatrix X = ExprMatrix::Zero(3, 2);
+                                                       X(0, 0) = 1.0;
+                                                       X(2, 0) = x[1];
+                                                       X(1, 1) = 1.0;
+                                                       return X;
+                                                     })),
        false, 2},
       {"the zero distribution",
-       make<Distribution>(Distribution::spanned_by(plane, 0, constant_field(MatrixXd::Zero(2, 0)))),
+       object<Distribution>(
+           Distribution::spanned_by(plane, 0, constant_field(MatrixXd::Zero(2, 0)))),
        true, 0},
       {"a left-invariant plane field on SO(3), not involutive",
-       make<Distribution>(Distribution::annihilated_by(
+       object<Distribution>(Distribution::annihilated_by(
            rotations, 1, constant_field(MatrixXd{{0.0}, {0.0}, {1.0}}))),
        false, 2},
       {"a left-invariant line field on SO(3)",
-       make<Distribution>(
+       object<Distribution>(
            Distribution::spanned_by(rotations, 1, constant_field(MatrixXd{{0.0}, {0.6}, {0.8}}))),
        true, 1},
       {"circles of latitude on S²",
-       make<Distribution>(Distribution::annihilated_by(
+       object<Distribution>(Distribution::annihilated_by(
            sphere, 1, column([](const ExprVector& x) {
              return vector({-x[0] * x[2], -x[1] * x[2], 1.0 - square(x[2])});
            }))),
        true, 1},
       {"dq∧dp on a nonholonomic distribution of T*R²",
-       make<RestrictedTwoForm>(R(4), constant_field(J4), 1, column([](const ExprVector& x) {
-                                 return vector({-sin(x[1]), cos(x[1]), 0.0, 0.0});
-                               })),
+       object<RestrictedTwoForm>(R(4), constant_field(J4), 1, column([](const ExprVector& x) {
+                                   return vector({-sin(x[1]), cos(x[1]), 0.0, 0.0});
+                                 })),
        true, 3},
       {"dq∧dp on contact directions of T*R³",
-       make<RestrictedTwoForm>(R(6), constant_field(canonical(3)), 1,
-                               column([](const ExprVector& x) {
-                                 return vector({-x[1], 0.0, 1.0, 0.0, 0.0, 0.0});
-                               })),
+       object<RestrictedTwoForm>(R(6), constant_field(canonical(3)), 1,
+                                 column([](const ExprVector& x) {
+                                   return vector({-x[1], 0.0, 1.0, 0.0, 0.0, 0.0});
+                                 })),
        false, 5},
       {"area form on circles of S²",
-       make<RestrictedTwoForm>(sphere, area, 1, column([](const ExprVector& x) {
-                                 return vector({-x[0] * x[2], -x[1] * x[2], 1.0 - square(x[2])});
-                               })),
+       object<RestrictedTwoForm>(sphere, area, 1, column([](const ExprVector& x) {
+                                   return vector({-x[0] * x[2], -x[1] * x[2], 1.0 - square(x[2])});
+                                 })),
        true, 1},
       {"canonical bivector on p₂ = const",
-       make<RestrictedBivector>(R(4), constant_field(J4), 1,
-                                constant_field(MatrixXd{{0.0}, {0.0}, {0.0}, {1.0}})),
+       object<RestrictedBivector>(R(4), constant_field(J4), 1,
+                                  constant_field(MatrixXd{{0.0}, {0.0}, {0.0}, {1.0}})),
        true, 3},
       {"canonical bivector, contact fields",
-       make<RestrictedBivector>(R(6), constant_field(canonical(3)), 1,
-                                column([](const ExprVector& x) {
-                                  return vector({0.0, 0.0, 0.0, -x[1], 0.0, 1.0});
-                                })),
+       object<RestrictedBivector>(R(6), constant_field(canonical(3)), 1,
+                                  column([](const ExprVector& x) {
+                                    return vector({0.0, 0.0, 0.0, -x[1], 0.0, 1.0});
+                                  })),
        false, 5},
       {"open port-Hamiltonian",
-       make<OpenPortHamiltonian>(R(2), constant_field(canonical(1)), 1,
-                                 constant_field(MatrixXd{{0.0}, {1.0}})),
+       object<OpenPortHamiltonian>(R(2), constant_field(canonical(1)), 1,
+                                   constant_field(MatrixXd{{0.0}, {1.0}})),
        false, 2},
       {"open without ports",
-       make<OpenPortHamiltonian>(R(2), constant_field(canonical(1)), 0,
-                                 constant_field(MatrixXd::Zero(2, 0))),
+       object<OpenPortHamiltonian>(R(2), constant_field(canonical(1)), 0,
+                                   constant_field(MatrixXd::Zero(2, 0))),
        true, 2},
       {"closed port-Hamiltonian",
-       make<ClosedPortHamiltonian>(R(4), constant_field(J4), 1, column([](const ExprVector& x) {
-                                     return vector({0.0, 0.0, -sin(x[1]), cos(x[1])});
-                                   })),
+       object<ClosedPortHamiltonian>(R(4), constant_field(J4), 1, column([](const ExprVector& x) {
+                                       return vector({0.0, 0.0, -sin(x[1]), cos(x[1])});
+                                     })),
        true, 3},
       {"so(3)* gauged by a closed form",
-       make<GaugeTransformed>(ball, plane_form(3, [](const ExprVector& x) { return x[0]; })), true,
-       2},
+       object<GaugeTransformed>(ball, plane_form(3, [](const ExprVector& x) { return x[0]; })),
+       true, 2},
       {"canonical gauged by a form that is not closed",
-       make<GaugeTransformed>(make<Poisson>(R(4), constant_field(J4)),
-                              plane_form(4, [](const ExprVector& x) { return x[2]; })),
+       object<GaugeTransformed>(object<Poisson>(R(4), constant_field(J4)),
+                                plane_form(4, [](const ExprVector& x) { return x[2]; })),
        false, 4},
       {"T*S² × so(3)*",
-       make<ProductStructure>(std::vector<StructurePointer>{canonical_of(sphere), ball}), true, 6},
-      {"the empty product", make<ProductStructure>(std::vector<StructurePointer>{}), true, 0},
+       object<ProductStructure>(std::vector<StructurePointer>{canonical_of(sphere), ball}), true,
+       6},
+      {"the empty product", object<ProductStructure>(std::vector<StructurePointer>{}), true, 0},
       {"two oscillators with a common port",
-       make<Composed>(with_port([](const ExprVector&) { return 1.0; }), plane,
-                      with_port([](const ExprVector& x) { return 2.0 + sin(x[0]); }), plane, 1),
+       object<Composed>(with_port([](const ExprVector&) { return 1.0; }), plane,
+                        with_port([](const ExprVector& x) { return 2.0 + sin(x[0]); }), plane, 1),
        true, 3},
-      {"dx form pulled back to S²", make<Pullback>(inclusion, volume_part), true, 2},
-      {"so(3)* pulled back to S²", make<Pullback>(inclusion, ball), true, 2},
-      {"the plane pushed forward by a shear", make<Pushforward>(shear, unshear, symplectic_plane),
+      {"dx form pulled back to S²", object<Pullback>(inclusion, volume_part), true, 2},
+      {"so(3)* pulled back to S²", object<Pullback>(inclusion, ball), true, 2},
+      {"the plane pushed forward by a shear", object<Pushforward>(shear, unshear, symplectic_plane),
        true, 2},
   };
 }
