@@ -64,15 +64,15 @@ std::string FactorTable::text(const Polynomial& sum) const {
   std::string result;
   for (const auto& [monomial, c] : in_order(sum)) {
     result += result.empty() ? (c < 0 ? "-" : "") : (c < 0 ? " - " : " + ");
-    result += text(monomial, std::fabs(c));
+    result += text(monomial, c);
     // Each term, not only the sum: a term has the texts of its factors, which have those of theirs.
     if (result.size() > longest) throw std::length_error("FactorTable: the text is too long.");
   }
   return result;
 }
 
-std::string FactorTable::text(const Monomial& monomial, double size) const {
-  const WrittenNumber number = written_number(size);
+std::string FactorTable::text(const Monomial& monomial, double coefficient) const {
+  const WrittenNumber number = written_number(std::fabs(coefficient));
   std::string above = number.above, below = number.below;
   int count_below = below.empty() ? 0 : below.find('*') == std::string::npos ? 1 : 2;
   // Numbers, variables and functions in their order, then sums.
@@ -82,7 +82,7 @@ std::string FactorTable::text(const Monomial& monomial, double size) const {
       if (entry.is_sum != sums) continue;
       const int k = std::abs(exponent);
       std::string piece = entry.text;
-      if (entry.is_sum && exponent == 1 && monomial.size() == 1 && size == 1.0)
+      if (entry.is_sum && exponent == 1 && monomial.size() == 1 && coefficient == 1.0)
         return piece.substr(1, piece.size() - 2);
       if (k > 1) piece += "^" + std::to_string(k);
       std::string& side = exponent > 0 ? above : below;

@@ -43,7 +43,8 @@ class FactorTable {
   bool is_before(int a, int b) const;
   Terms with_sorted_factors(const Polynomial& sum) const;
   bool is_above(const Monomial& a, const Monomial& b) const;  // both sorted
-  std::string text(const Monomial& monomial, double size) const;
+  // Without the sign of the coefficient, which stands before it.
+  std::string text(const Monomial& monomial, double coefficient) const;
 
   std::deque<Factor> factors_;
   std::map<std::string, int> numbers_;

@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <stdexcept>
 
 #include "courant/core/algebra/normal_form.hpp"
 #include "courant/core/algebra/simplified.hpp"
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/core/expressions/subgraph.hpp"
+#include "courant/core/language/declaration.hpp"
+#include "courant/core/language/formula.hpp"
 #include "courant/core/numbers/parallel.hpp"
 
 namespace courant {
@@ -23,6 +27,46 @@ ExprVector named(const Graph& graph, const std::vector<std::string>& names) {
   for (std::size_t i = 0; i < names.size(); ++i)
     result[static_cast<Index>(i)] = graph.variable(names[i]);
   return result;
+}
+
+// A table in which formulas of these names can be read: x, r[2][1], x', with an array of each r. Elements that nobody
+// names are 0. Empty where one of them is no name of the language.
+std::optional<SymbolTable> readable(const std::vector<std::string>& names,
+                                    const ExprVector& values) {
+  struct Array {
+    Shape shape;
+    std::vector<std::pair<std::vector<Index>, Expr>> elements = {};
+  };
+  std::map<std::pair<std::string, bool>, Array> arrays;  // by name, and whether it is a velocity
+  try {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const Reference reference = parse_reference(names[i]);
+      Array& array = arrays[{reference.name, reference.is_velocity}];
+      array.shape.resize(std::max(array.shape.size(), reference.indices.size()), 0);
+      for (std::size_t k = 0; k < reference.indices.size(); ++k)
+        array.shape[k] = std::max(array.shape[k], reference.indices[k] + 1);
+      array.elements.emplace_back(reference.indices, values[static_cast<Index>(i)]);
+    }
+    SymbolTable symbols;
+    for (const auto& [name, array] : arrays) {
+      ExprVector entries = ExprVector::Constant(element_count(array.shape), Expr(0.0));
+      for (const auto& [indices, value] : array.elements) {
+        Index place = 0;
+        for (std::size_t k = 0; k < indices.size(); ++k)
+          place = place * array.shape[k] + indices[k];
+        entries[place] = value;
+      }
+      if (name.second)
+        symbols.add_velocity(name.first, array.shape, entries);
+      else
+        symbols.add(name.first, array.shape, entries);
+    }
+    return symbols;
+  } catch (const FormulaError&) {
+    return std::nullopt;
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
 }
 
 bool is_number(const std::string& text) {
@@ -63,6 +107,11 @@ class EquationReduction {
       normal_form_.emplace(variables(), relations);
       on_vectors_.relations = normal_form_->basis();
     }
+    std::vector<std::string> names = system.names().coordinates;
+    names.emplace_back("t");
+    for (const auto& more : {velocity_names(system), system.names().auxiliary})
+      names.insert(names.end(), more.begin(), more.end());
+    symbols_ = readable(names, variables());
     const ExprVector equations = system.residual(x_, v, z, t_);
     is_too_large_ = Subgraph(equations).size() > most_operations;
     if (is_too_large_) return;
@@ -136,11 +185,16 @@ class EquationReduction {
     return result;
   }
 
+  // Texts are read again, and nothing is written that says other numbers at the point; then they are empty, as those
+  // that are too long.
   std::string written(const Expr& function) const {
-    return short_enough(simplified(function, given(function)));
+    const std::string text = short_enough(simplified(function, given(function)));
+    return says(text, value(function)) ? text : "";
   }
   std::string written_equation(const Expr& function) const {
-    return short_enough(simplified_equation(function, given(function)));
+    const std::string text = short_enough(simplified_equation(function, given(function)));
+    const bool holds = std::abs(value(function)) <= 1e-8 * change(function);
+    return !holds || says(text, 0.0) ? text : "";
   }
   // Of some unknowns (velocities first) that are functions of the point, in x and t. Their expressions are made before
   // the threads begin, in one order.
@@ -152,6 +206,8 @@ class EquationReduction {
     in_parallel(of.size(), core_count(), [&](std::size_t i) {
       texts[i] = short_enough(simplified(functions[i], on_solutions));
     });
+    for (std::size_t i = 0; i < texts.size(); ++i)
+      if (!says(texts[i], value(functions[i]))) texts[i].clear();
     return texts;
   }
   Expr solution(Index u) { return reduced(unknowns_[u]); }
@@ -177,6 +233,30 @@ class EquationReduction {
     return has_unknown(function) ? on_vectors_ : on_points_;
   }
 
+  // Whether a formula has this value at the point, up to the six digits that its numbers are written with.
+  bool says(const std::string& text, double number) const {
+    constexpr double digits = 1e-4;
+    if (text.empty() || !symbols_ || !std::isfinite(number)) return true;
+    Expr read;
+    try {
+      read = parse_formula(text, *symbols_);
+    } catch (const FormulaError&) {
+      return false;
+    }
+    const double there = value(read);
+    return !std::isfinite(there) ||
+           std::abs(there - number) <= digits * (std::abs(number) + change(read));
+  }
+  // How far a function moves when each variable does by its size, or by 1 where that is less.
+  double change(const Expr& function) const {
+    double size = 0.0;
+    const ExprVector along = gradient(function, variables());
+    for (Index i = 0; i < along.size(); ++i)
+      if (!along[i].is_constant(0.0))
+        size += std::abs(value(along[i])) * std::max(1.0, std::abs(numbers_[i]));
+    return size;
+  }
+
   double largest(const ExprVector& functions) const {
     double found = 0.0;
     for (const Expr& function : functions) found = std::max(found, std::abs(value(function)));
@@ -187,11 +267,7 @@ class EquationReduction {
   bool vanishes(const Expr& function, double others) const {
     const double least = others > 1e-6 ? 1e-10 * others : 1e-6;
     if (!(std::abs(value(function)) > least)) return true;
-    double size = 0.0;
-    const ExprVector along = gradient(function, variables());
-    for (Index i = 0; i < along.size(); ++i)
-      size += std::abs(value(along[i])) * std::max(1.0, std::abs(numbers_[i]));
-    return !(std::abs(value(function)) > 1e-6 * size);
+    return !(std::abs(value(function)) > 1e-6 * change(function));
   }
 
   ExprVector variables() const {
@@ -253,9 +329,10 @@ class EquationReduction {
   ExprVector x_;
   Expr t_;
   Index velocity_count_ = 0;
-  ExprVector unknowns_, solution_;  // velocities, then auxiliary unknowns
-  ExprVector motion_;               // ẋ
-  VectorXd numbers_;                // of variables(), at the point
+  ExprVector unknowns_, solution_;      // velocities, then auxiliary unknowns
+  ExprVector motion_;                   // ẋ
+  VectorXd numbers_;                    // of variables(), at the point
+  std::optional<SymbolTable> symbols_;  // of variables()
   Simplification on_points_, on_vectors_;
   std::optional<NormalForm> normal_form_;
   std::vector<Expr> constraints_;

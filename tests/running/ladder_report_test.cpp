@@ -1,7 +1,9 @@
 #include "courant/running/ladder_report.hpp"
 
 #include <boost/test/unit_test.hpp>
+#include <numbers>
 
+#include "courant/core/language/formula.hpp"
 #include "courant/reading/experiment.hpp"
 #include "courant/running/consistent_start.hpp"
 
@@ -141,6 +143,27 @@ BOOST_AUTO_TEST_CASE(words_that_are_not_known_are_refused) {
       read_ladder_report(
           {{"verdict", "gauge"}, {"formulas", Json::array()}, {"steps", {{{"kind", "odd"}}}}}),
       std::invalid_argument);
+}
+
+// A product less another one: with its parentheses it has the value of what was written, at any point.
+BOOST_AUTO_TEST_CASE(formulas_have_the_values_of_the_equations) {
+  const LadderReport ladder =
+      report({{"system",
+               {{"type", "implicit"},
+                {"coordinates", {"x", "u"}},
+                {"equations", {"x'-((x-u)*(x^2+u)-(x-u)*(u^2+x))/pi/((x^2+u)*(u^2+x))", "u'-1"}}}},
+              {"initial", {{"x", 0.3}, {"u", 0.5}}}});
+  const LadderReport::Velocity* velocity = ladder.elimination->velocity("x'");
+  BOOST_REQUIRE(velocity != nullptr);
+  for (const auto& [x, u] : {std::pair(0.3, 0.5), std::pair(1.7, -0.4), std::pair(2.0, 5.0)}) {
+    SymbolTable symbols;
+    symbols.add("x", Expr(x));
+    symbols.add("u", Expr(u));
+    const double above = (x - u) * (x * x + u) - (x - u) * (u * u + x);
+    const double value = above / std::numbers::pi / ((x * x + u) * (u * u + x));
+    BOOST_TEST(parse_formula(velocity->formula, symbols).value() == value,
+               boost::test_tools::tolerance(1e-5));
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()
