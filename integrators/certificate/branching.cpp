@@ -25,23 +25,20 @@ class PointsLeftOut {
         at_(at),
         ladder_(ladder),
         level_(level),
-        here_(at.zero.y.head(at.array.base_size())) {}
+        here_(at.zero().y.head(at.array().base_size())) {}
 
   // Whether those in two directions lead back to another velocity of the point: no value if they do not,
   // else whether they are zeros with 113 bits too.
   std::optional<bool> lead_back() const {
     constexpr int directions = 4, needed = 2;
-    ConsistentJet lower = at_;
-    lower.zero.y = at_.array.resized(at_.zero.y, level_);
-    lower.zero.reach = at_.array.resized(at_.zero.reach, level_);
-    lower.zero.uncertainty = at_.array.resized(at_.zero.uncertainty, level_);
-    TangentDisplacement tangents(lower.array, lower.zero.y, lower.zero.reach);
+    const ConsistentJet lower = at_.at_level(level_);
+    TangentDisplacement tangents(lower.array(), lower.zero().y, lower.zero().reach);
     int met = 0;
     bool is_confirmed = true;
     for (int direction = 0; direction < directions && met < needed; ++direction) {
       ConsistentJet near =
           consistent_.find_displaced(lower, 1e-3 * tangents.next(), tangents.magnitude()).jet;
-      if (!near.zero.found || !is_across(near.zero.y)) continue;
+      if (!near.zero().found || !is_across(near.zero().y)) continue;
       const std::optional<bool> is_zero = leads_back(std::move(near));
       if (!is_zero) return std::nullopt;
       is_confirmed = is_confirmed && *is_zero;
@@ -54,7 +51,7 @@ class PointsLeftOut {
   // Whether constraints of M_{k+1} leave the point of the jet out.
   bool is_across(const VectorXd& y) const {
     constexpr double away = 0.05;  // of a displacement: its part across M_{k+1}
-    const VectorXd moved = at_.array.basis() * (y.head(here_.size()) - here_);
+    const VectorXd moved = at_.array().basis() * (y.head(here_.size()) - here_);
     return std::ranges::any_of(ladder_.constraints, [&](const PointConstraint& constraint) {
       return constraint.level == level_ + 1 &&
              std::fabs(constraint.gradient.dot(moved)) >
@@ -63,17 +60,18 @@ class PointsLeftOut {
   }
 
   std::optional<bool> leads_back(ConsistentJet near) const {
-    const Index n = here_.size(), top = at_.array.level_of(at_.zero.y);
-    for (Index above = level_ + 1; near.zero.found && above <= std::min(level_ + 2, top); ++above) {
-      near.zero.y = at_.array.resized(near.zero.y, above);
-      near = consistent_.find_at(near, near.zero.y.head(n));
+    const Index n = here_.size(), top = at_.level();
+    for (Index above = level_ + 1; near.zero().found && above <= std::min(level_ + 2, top);
+         ++above) {
+      near = near.at_level(above);
+      near = consistent_.find_at(near, near.zero().y.head(n));
     }
-    if (!near.zero.found) return std::nullopt;
+    if (!near.zero().found) return std::nullopt;
     // Errors may hide that a point across has no velocity: with more digits the zero moves back, or is none.
-    const std::optional<RefinedArray> refined = RefinedArray::at(near.array, near.zero);
-    if (refined && !is_across(near.zero.y + refined->correction())) return std::nullopt;
+    const std::optional<RefinedArray> refined = RefinedArray::at(near.array(), near.zero());
+    if (refined && !is_across(near.zero().y + refined->correction())) return std::nullopt;
     const ConsistentJet back = consistent_.find_at(near, here_);
-    if (!back.zero.found) return std::nullopt;
+    if (!back.zero().found) return std::nullopt;
     const std::vector<LadderLevel> there = levels_at(back);
     if (!are_certain(there) || !is_larger(there, ladder_.levels)) return std::nullopt;
     return refined.has_value();
@@ -92,7 +90,7 @@ Branching branching(const ConsistentPoint& consistent, const ConsistentJet& at,
                     const ConstraintLadder& ladder) {
   constexpr Index dense_limit = 200;
   const std::vector<LadderLevel>& levels = ladder.levels;
-  if (at.array.has_constant_jacobian() || at.zero.y.size() > dense_limit) return {};
+  if (at.array().has_constant_jacobian() || at.zero().y.size() > dense_limit) return {};
   for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
     if (levels[k + 1].is_empty || levels[k + 1].dim_M >= levels[k].dim_M) continue;
     const PointsLeftOut points(consistent, at, ladder, static_cast<Index>(k));

@@ -109,11 +109,25 @@ void ConsistentPoint::drop_round_off() {
   array_ = array_->at(guess_.t, guess_.x);
 }
 
+ConsistentJet::ConsistentJet(DerivativeArray array, Zero zero)
+    : array_(std::move(array)), zero_(std::move(zero)) {
+  level_ = array_.level_of(zero_.y);
+  if (zero_.reach.size() != zero_.y.size() || zero_.uncertainty.size() != zero_.y.size())
+    throw std::invalid_argument(
+        "ConsistentJet::ConsistentJet: y, reach and uncertainty have " +
+        std::to_string(zero_.y.size()) + ", " + std::to_string(zero_.reach.size()) + " and " +
+        std::to_string(zero_.uncertainty.size()) + " entries, expected as many of each.");
+}
+
+ConsistentJet ConsistentJet::at_level(Index k) const {
+  Zero there = zero_;
+  for (VectorXd* numbers : {&there.y, &there.reach, &there.uncertainty})
+    *numbers = array_.resized(*numbers, k);
+  return {array_, std::move(there)};
+}
+
 ConsistentJet ConsistentPoint::start() const {
-  Zero zero;
-  zero.y = array_->jet(guess_.v, guess_.z);
-  zero.reach = zero.y.cwiseAbs();
-  return {*array_, zero};
+  return {*array_, Zero(array_->jet(guess_.v, guess_.z))};
 }
 
 LinearizableMap ConsistentPoint::conditions(const DerivativeArray& array, bool hold) const {
@@ -146,10 +160,10 @@ LinearizableMap ConsistentPoint::conditions(const DerivativeArray& array, bool h
 }
 
 Mobility ConsistentPoint::mobility(const ConsistentJet& from, bool x_is_free) const {
-  const Index n = from.array.base_size(), size = from.zero.y.size();
+  const Index n = from.array().base_size(), size = from.zero().y.size();
   Mobility result;
   result.frozen = x_is_free ? 0 : n;
-  result.has_exponentials = from.array.has_exponentials();
+  result.has_exponentials = from.array().has_exponentials();
   // Where x or a velocity can give way, the velocity does: by a factor of 1000 in the squares.
   result.cost = VectorXd::Constant(size, 0.03);
   result.cost.head(n).setOnes();
@@ -157,15 +171,15 @@ Mobility ConsistentPoint::mobility(const ConsistentJet& from, bool x_is_free) co
   // the guess chooses between branches.
   if (z_is_given_ && guess_.v.size() == 0)
     result.cost.segment(2 * n, guess_.z.size()).setConstant(0.3);
-  result.typical = from.array.resized(from.zero.reach, from.array.level_of(from.zero.y));
-  result.offset = from.array.origin_size();
+  result.typical = from.array().resized(from.zero().reach, from.array().level_of(from.zero().y));
+  result.offset = from.array().origin_size();
   result.typical.head(n) = result.typical.head(n).cwiseMax(result.offset);
   if (x_is_free)
-    result.admits = [extent = system_->manifold()->extent_at(from.array.origin()),
-                     basis = from.array.basis()](const VectorXd& y) {
+    result.admits = [extent = system_->manifold()->extent_at(from.array().origin()),
+                     basis = from.array().basis()](const VectorXd& y) {
       return extent(basis * y.head(basis.cols())) < 0.9;
     };
-  const double radius = system_->manifold()->injectivity_radius(from.array.origin());
+  const double radius = system_->manifold()->injectivity_radius(from.array().origin());
   if (std::isfinite(radius))  // angles
     result.typical.head(n) = result.typical.head(n).cwiseMax(radius / std::numbers::pi);
   return result;
@@ -192,83 +206,84 @@ double ConsistentPoint::distance(const VectorXd& x) const {
 
 ConsistentJet ConsistentPoint::recentred(const DerivativeArray& array, const Zero& zero) const {
   const State state = array.state(zero.y);
-  ConsistentJet there = {array.at(array.t(), state.x), zero};
-  const VectorXd first = there.array.jet(state.v, state.z);
-  there.zero.y.head(first.size()) = first;
+  const DerivativeArray at_point = array.at(array.t(), state.x);
+  Zero there = zero;
+  const VectorXd first = at_point.jet(state.v, state.z);
+  there.y.head(first.size()) = first;
   // ξ_0 = 0 and ξ_1, z_0 are those of the same state; higher coefficients change with the chart.
-  const Zero polished =
-      find_zero(conditions(there.array, true), there.zero.y, mobility(there, false));
-  if (polished.found) {
-    there.zero = polished;
-    there.zero.iterations += zero.iterations;
-    // The origin of the chart is no better known than where it was found.
-    const Index n = array.base_size();
-    there.zero.uncertainty.head(n) =
-        there.zero.uncertainty.head(n).cwiseMax(zero.uncertainty.head(n));
-  }
-  return there;
+  Zero polished = find_zero(conditions(at_point, true), there.y,
+                            mobility(ConsistentJet(at_point, there), false));
+  if (!polished.found) return {at_point, std::move(there)};
+  polished.iterations += zero.iterations;
+  // The origin of the chart is no better known than where it was found.
+  const Index n = array.base_size();
+  polished.uncertainty.head(n) = polished.uncertainty.head(n).cwiseMax(zero.uncertainty.head(n));
+  return {at_point, std::move(polished)};
 }
 
 std::optional<ConsistentJet> ConsistentPoint::find_beyond(const ConsistentJet& ended) const {
   constexpr int most_charts = 20;
   constexpr double outside = 0.5;  // of the domain of a chart; searches end at 0.9 of it
   ConsistentJet at = ended;
-  const Index n = at.array.base_size();
+  const Index n = at.array().base_size();
   for (int chart = 0; chart < most_charts; ++chart) {
-    const auto extent = system_->manifold()->extent_at(at.array.origin());
-    if (at.zero.found || !at.zero.is_finite ||
-        !(extent(at.array.basis() * at.zero.y.head(n)) > outside))
+    const auto extent = system_->manifold()->extent_at(at.array().origin());
+    if (at.zero().found || !at.zero().is_finite ||
+        !(extent(at.array().basis() * at.zero().y.head(n)) > outside))
       return std::nullopt;
-    const State state = at.array.state(at.zero.y);
-    at.array = at.array.at(at.array.t(), state.x);
-    const VectorXd first = at.array.jet(state.v, state.z);
-    at.zero.y.head(first.size()) = first;
-    const LinearizableMap F = conditions(at.array, true);
-    const Mobility free = mobility(at, true);
-    at.zero = find_confirmed(F, at.zero.y, free);
-    if (!at.zero.found) continue;
-    at.zero = least_zero(
-        F, [&](const VectorXd& y) { return displacement(at.array, y); }, at.zero, free);
-    return recentred(at.array, at.zero);
+    const State state = at.array().state(at.zero().y);
+    const DerivativeArray there = at.array().at(at.array().t(), state.x);
+    Zero zero = at.zero();
+    const VectorXd first = there.jet(state.v, state.z);
+    zero.y.head(first.size()) = first;
+    const LinearizableMap F = conditions(there, true);
+    const Mobility free = mobility(ConsistentJet(there, zero), true);
+    zero = find_confirmed(F, zero.y, free);
+    at = ConsistentJet(there, zero);
+    if (!zero.found) continue;
+    return recentred(there,
+                     least_zero(
+                         F, [&](const VectorXd& y) { return displacement(there, y); }, zero, free));
   }
   return std::nullopt;
 }
 
 ConsistentJet ConsistentPoint::find(const ConsistentJet& from) const {
-  const LinearizableMap F = conditions(from.array, true);
-  const Index n = from.array.base_size();
-  Zero zero = find_zero(F, from.zero.y, mobility(from, false));
-  const bool has_exponentials = from.array.has_exponentials();
-  if (zero.found && !(has_exponentials && !is_met(F(zero.y)))) return {from.array, zero};
-  if (const auto start = from.array.beyond_exponentials(from.zero.y))
+  const LinearizableMap F = conditions(from.array(), true);
+  const Index n = from.array().base_size();
+  Zero zero = find_zero(F, from.zero().y, mobility(from, false));
+  const bool has_exponentials = from.array().has_exponentials();
+  if (zero.found && !(has_exponentials && !is_met(F(zero.y)))) return {from.array(), zero};
+  if (const auto start = from.array().beyond_exponentials(from.zero().y))
     if (const Zero other = find_zero(F, *start, mobility(from, false));
         other.found && is_met(F(other.y)))
-      return {from.array, other};
-  if (zero.found) return {from.array, zero};
+      return {from.array(), other};
+  if (zero.found) return {from.array(), zero};
   const Mobility free = mobility(from, true);
-  zero = find_confirmed(F, from.zero.y, free);
-  if (const auto far = find_beyond({from.array, zero}); far) return *far;
+  zero = find_confirmed(F, from.zero().y, free);
+  if (const auto far = find_beyond({from.array(), zero}); far) return *far;
   // At a point where equations have no linear part, as x² + y² = 1 at 0, no step leads anywhere.
   if (!zero.found && zero.is_finite) {
-    TangentDisplacement displacements(from.array, from.zero.y,
-                                      free.typical.cwiseMax(from.zero.y.cwiseAbs()));
+    TangentDisplacement displacements(from.array(), from.zero().y,
+                                      free.typical.cwiseMax(from.zero().y.cwiseAbs()));
     for (const double size : {0.1, 0.3, 1.0, 1e2, 1e4, 1e6, 1e8}) {
       VectorXd displacement = displacements.next();
       displacement.head(n) *= size;
       displacement.tail(displacement.size() - n) *= std::min(size, 1.0);
-      const Zero other = find_confirmed(F, from.zero.y + displacement, free);
-      if (other.found || (other.is_finite && !is_contradiction({from.array, other}))) zero = other;
+      const Zero other = find_confirmed(F, from.zero().y + displacement, free);
+      if (other.found || (other.is_finite && !is_contradiction({from.array(), other})))
+        zero = other;
       if (zero.found) break;
     }
   }
-  if (!zero.found) return {from.array, zero};
+  if (!zero.found) return {from.array(), zero};
   zero = least_zero(
-      F, [&](const VectorXd& y) { return displacement(from.array, y); }, zero, free);
-  return recentred(from.array, zero);
+      F, [&](const VectorXd& y) { return displacement(from.array(), y); }, zero, free);
+  return recentred(from.array(), zero);
 }
 
 bool ConsistentPoint::is_contradiction(const ConsistentJet& jet) const {
-  const Linearization at = conditions(jet.array, true)(jet.zero.y);
+  const Linearization at = conditions(jet.array(), true)(jet.zero().y);
   UncertainMatrix J{at.jacobian, at.error}, with_F = J;
   for (SparseMatrixXd* matrix : {&with_F.value, &with_F.error})
     matrix->conservativeResize(matrix->rows(), matrix->cols() + 1);
@@ -284,28 +299,27 @@ bool ConsistentPoint::is_contradiction(const ConsistentJet& jet) const {
 }
 
 ConsistentJet ConsistentPoint::again(const ConsistentJet& jet) const {
-  return recentred(jet.array, jet.zero);
+  return recentred(jet.array(), jet.zero());
 }
 
 ConsistentPoint::Neighbour ConsistentPoint::find_displaced(const ConsistentJet& from,
                                                            const VectorXd& displacement,
                                                            const SparseMatrixXd& magnitude) const {
-  return find_around(from, from.array, from.zero.y, displacement, magnitude);
+  return find_around(from, from.array(), from.zero().y, displacement, magnitude);
 }
 
 ConsistentJet ConsistentPoint::find_at(const ConsistentJet& from, const VectorXd& xi) const {
-  ConsistentJet jet = from;
-  jet.zero.y.head(xi.size()) = xi;
-  jet.zero = find_zero(conditions(jet.array, false), jet.zero.y, mobility(jet, false));
-  return jet;
+  VectorXd y = from.zero().y;
+  y.head(xi.size()) = xi;
+  return {from.array(), find_zero(conditions(from.array(), false), y, mobility(from, false))};
 }
 
 ConsistentPoint::Neighbour ConsistentPoint::find_later(const ConsistentJet& from,
                                                        const VectorXd& displacement,
                                                        double later) const {
   // Entries that contain t may vanish now and not later, so that magnitudes of now tell nothing.
-  return find_around(from, from.array.at(from.array.t() + later, from.array.origin()),
-                     from.array.carried(from.zero.y, later), displacement, SparseMatrixXd());
+  return find_around(from, from.array().at(from.array().t() + later, from.array().origin()),
+                     from.array().carried(from.zero().y, later), displacement, SparseMatrixXd());
 }
 
 ConsistentPoint::Neighbour ConsistentPoint::find_around(const ConsistentJet& from,

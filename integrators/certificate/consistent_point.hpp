@@ -7,11 +7,24 @@
 
 namespace courant {
 
-// A jet y that solves F^[k] = 0 (if zero.found) in the chart of `array`, whose origin is its point
-// (ξ_0 = 0) unless it is a neighbour of one. zero.reach has the sizes of the unknowns on the way there.
-struct ConsistentJet {
-  DerivativeArray array;
-  Zero zero;
+// A jet y that solves F^[k] = 0 (if zero().found) in the chart of array(), whose origin is its point
+// (ξ_0 = 0) unless it is a neighbour of one. zero().reach has the sizes of the unknowns on the way there.
+// y, its reach and its uncertainty are always of one level of that array.
+class ConsistentJet {
+ public:
+  // Throws std::invalid_argument if they are not.
+  ConsistentJet(DerivativeArray array, Zero zero);
+
+  const DerivativeArray& array() const { return array_; }
+  const Zero& zero() const { return zero_; }
+  Index level() const { return level_; }  // k
+  // The same of level k: with zeros appended, or cut.
+  ConsistentJet at_level(Index k) const;
+
+ private:
+  DerivativeArray array_;
+  Zero zero_;
+  Index level_ = 0;
 };
 
 // Where F^[k] vanishes near a guess.

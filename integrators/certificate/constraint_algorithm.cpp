@@ -38,17 +38,17 @@ std::vector<Movement> movements(const ImplicitSystem& system, const InitialGuess
 // that leaves it, nor that of a rope that hangs straight until its crane begins to move. Sizes are those of the jet, `reach`.
 void count_differentiations_nearby(ConstraintLadder& ladder, const ConsistentPoint& consistent,
                                    const ConsistentJet& at, const VectorXd& reach) {
-  TangentDisplacement tangents(at.array, at.zero.y, reach);
+  TangentDisplacement tangents(at.array(), at.zero().y, reach);
   constexpr double nearby = 1e-2;
-  const int looks = at.array.depends_on_time() ? 4 : 2;
+  const int looks = at.array().depends_on_time() ? 4 : 2;
   for (int i = 0; i < looks; ++i) {
     const VectorXd displacement = nearby * tangents.next();
     const auto near = i < 2
                           ? consistent.find_displaced(at, displacement, tangents.magnitude())
                           : consistent.find_later(at, displacement, nearby * tangents.time_unit());
-    if (!near.jet.zero.found) continue;
+    if (!near.jet.zero().found) continue;
     const std::vector<int> counts = needed_differentiations(
-        near.jet.array, near.jet.zero.y, near.jet.zero.uncertainty, ladder.index);
+        near.jet.array(), near.jet.zero().y, near.jet.zero().uncertainty, ladder.index);
     for (std::size_t e = 0; e < counts.size(); ++e)
       ladder.differentiations[e] = std::max(ladder.differentiations[e], counts[e]);
   }
@@ -58,9 +58,9 @@ void count_differentiations_nearby(ConstraintLadder& ladder, const ConsistentPoi
 // needed as near as that.
 void count_differentiations_nearby(ConstraintLadder& ladder, const ConsistentPoint& consistent,
                                    const ConsistentJet& at) {
-  const Index n = at.array.base_size();
-  if (at.array.has_constant_jacobian() || n == 0) return;
-  VectorXd reach = at.zero.reach;
+  const Index n = at.array().base_size();
+  if (at.array().has_constant_jacobian() || n == 0) return;
+  VectorXd reach = at.zero().reach;
   count_differentiations_nearby(ladder, consistent, at, reach);
   if (reach.head(n).minCoeff() == reach.head(n).maxCoeff()) return;
   for (const Index first : {Index{0}, n})
@@ -107,8 +107,8 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
 
   ConstraintLadder ladder;
   ladder.levels = ascent.levels;
-  ladder.point = jet.array.state(jet.zero.y);
-  ladder.jet = jet.zero.y;
+  ladder.point = jet.array().state(jet.zero().y);
+  ladder.jet = jet.zero().y;
   ladder.moved = consistent.distance(ladder.point.x);
   ladder.moves = movements(*system, guess, ladder.point);
   const std::vector<std::string> found = doubts(consistent, ascent, evidence);
@@ -130,7 +130,7 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
   }
   ladder.index = last.k - 1;
   ladder.verdict = ladder.gauge_dimension == 0 ? Verdict::regular : Verdict::gauge;
-  describe(ladder, jet.array, jet.zero.y, jet.zero.uncertainty);
+  describe(ladder, jet.array(), jet.zero().y, jet.zero().uncertainty);
   if (!is_branching(ladder, consistent, jet, evidence))
     count_differentiations_nearby(ladder, consistent, jet);
   return ladder;

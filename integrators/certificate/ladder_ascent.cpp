@@ -31,7 +31,7 @@ std::vector<LadderLevel> levels_at(const ConsistentPoint& consistent, Consistent
   std::vector<LadderLevel> levels = levels_at(jet);
   if (are_certain(levels)) return levels;
   ConsistentJet other = consistent.again(jet);
-  if (!other.zero.found) return levels;
+  if (!other.zero().found) return levels;
   std::vector<LadderLevel> second = levels_at(other);
   if (!are_certain(second)) return levels;
   jet = std::move(other);
@@ -92,15 +92,13 @@ LadderAscent::LadderAscent(const ConsistentPoint& consistent, const ImplicitSyst
 
 // To level k; whether the way goes on.
 bool LadderAscent::climb(const ConsistentPoint& consistent, const ImplicitSystem& system, Index k) {
-  jet.zero.y = jet.array.resized(jet.zero.y, k);
-  const ConsistentJet next = consistent.find(jet);
-  if (!next.zero.is_finite) {
-    reason = not_finite(system, next.array, next.array.resized(jet.zero.y, k)) +
+  const ConsistentJet next = consistent.find(jet.at_level(k));
+  if (!next.zero().is_finite) {
+    reason = not_finite(system, next.array(), next.zero().y) +
              ": the algorithm stops before level " + std::to_string(k) + ".";
-    jet.zero.y = next.array.resized(jet.zero.y, k);
     return false;
   }
-  if (!next.zero.found) {
+  if (!next.zero().found) {
     end_without_point(consistent, system, next, k);
     return false;
   }
@@ -122,7 +120,6 @@ void LadderAscent::end_without_point(const ConsistentPoint& consistent,
                                      Index k) {
   // Where zeros of the last level are singular, those of this one need not be near.
   if (k > 0) {
-    jet.zero.y = jet.array.resized(jet.zero.y, k - 1);
     singular = singularity(consistent, jet, levels, true);
     if (is_singular()) return;
   }
@@ -136,12 +133,12 @@ void LadderAscent::end_without_point(const ConsistentPoint& consistent,
   LadderLevel empty;
   empty.k = k;
   empty.is_empty = true;
-  empty.residual = ended.array.residual(ended.zero.y).lpNorm<Eigen::Infinity>();
+  empty.residual = ended.array().residual(ended.zero().y).lpNorm<Eigen::Infinity>();
   levels.push_back(empty);
   reason = "No point of S" + subscript(k) +
            " was found near the given values: these equations contradict each other: " +
-           contradiction(system, ended.zero) + ".";
-  jet.zero.y = ended.array.resized(ended.zero.y, k);
+           contradiction(system, ended.zero()) + ".";
+  jet = ended;
 }
 
 }  // namespace courant

@@ -16,12 +16,10 @@ namespace {
 std::string asked_above(const ConsistentPoint& consistent, const ConsistentJet& at,
                         const std::vector<LadderLevel>& levels) {
   const LadderLevel& last = levels.back();
-  if (at.array.has_constant_jacobian() || last.all.rank == last.all.rows) return "";
-  ConsistentJet start = at;
-  start.zero.y = at.array.resized(at.zero.y, last.k + 1);
-  const ConsistentJet above = consistent.find(start);
+  if (at.array().has_constant_jacobian() || last.all.rank == last.all.rows) return "";
+  const ConsistentJet above = consistent.find(at.at_level(last.k + 1));
   const std::string place = "S" + subscript(last.k + 1);
-  if (!above.zero.found)
+  if (!above.zero().found)
     return "No point of " + place +
            " was found, though equations follow from others up to the level before.";
   const std::vector<LadderLevel> there = levels_at(above);
@@ -38,18 +36,18 @@ std::string asked_above(const ConsistentPoint& consistent, const ConsistentJet& 
 // by.
 bool is_known_well(const ConsistentJet& at) {
   constexpr double certain = 1.0;
-  const VectorXd& y = at.zero.y;
+  const VectorXd& y = at.zero().y;
   Linearization here =
-      at.array.linearize(y, at.zero.uncertainty.cwiseMax(Prolongation::rounding(y)));
-  const SparseMatrixXd nearby = GenericScaling(at.array, y, at.zero.reach).magnitude;
+      at.array().linearize(y, at.zero().uncertainty.cwiseMax(Prolongation::rounding(y)));
+  const SparseMatrixXd nearby = GenericScaling(at.array(), y, at.zero().reach).magnitude;
   // Of what vanishes around the point too, as sin² + cos² - 1 does, the uncertainty of the point makes
   // nothing.
-  const SparseMatrixXd rounding = at.array.linearize(y).error;
+  const SparseMatrixXd rounding = at.array().linearize(y).error;
   for (Index j = 0; j < here.error.outerSize(); ++j)
     for (SparseMatrixXd::InnerIterator it(here.error, j); it; ++it)
       if (nearby.coeff(it.row(), j) == 0.0)
         it.valueRef() = std::min(it.value(), rounding.coeff(it.row(), j));
-  const NaturalScaling units({VectorXd::Zero(here.value.size()), nearby}, at.zero.reach, 1e-9,
+  const NaturalScaling units({VectorXd::Zero(here.value.size()), nearby}, at.zero().reach, 1e-9,
                              1e-10);
   // Of one measure alone too little is known: units come from equations whose entries may vanish, sizes
   // from unknowns that may.
@@ -63,7 +61,7 @@ bool is_known_well(const ConsistentJet& at) {
     };
     return largest_by_row(here.error).array() <= certain * largest_by_row(nearby).array();
   };
-  return (is_small(units.column_scale) || is_small(at.zero.reach)).all();
+  return (is_small(units.column_scale) || is_small(at.zero().reach)).all();
 }
 
 }  // namespace

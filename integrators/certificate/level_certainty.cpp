@@ -25,7 +25,7 @@ void clear_doubts(std::vector<LadderLevel>& levels, const IsSure& is_sure) {
 }  // namespace
 
 std::vector<LadderLevel> levels_at(const ConsistentJet& jet) {
-  return ladder_levels(jet.array, jet.zero.y, jet.zero.uncertainty);
+  return ladder_levels(jet.array(), jet.zero().y, jet.zero().uncertainty);
 }
 
 bool are_certain(const std::vector<LadderLevel>& levels) {
@@ -36,9 +36,10 @@ bool are_certain(const std::vector<LadderLevel>& levels) {
 
 std::optional<RefinedArray> refined_with(const ConsistentJet& at,
                                          const std::vector<LadderLevel>& levels) {
-  std::optional<RefinedArray> refined = RefinedArray::at(at.array, at.zero);
+  std::optional<RefinedArray> refined = RefinedArray::at(at.array(), at.zero());
   if (!refined) return std::nullopt;
-  const std::vector<LadderLevel> exact = ladder_levels(*refined, at.zero.y, at.zero.uncertainty);
+  const std::vector<LadderLevel> exact =
+      ladder_levels(*refined, at.zero().y, at.zero().uncertainty);
   const bool is_alike =
       std::ranges::equal(exact, levels, [](const LadderLevel& a, const LadderLevel& b) {
         return a.is_solved && a.all.rank == b.all.rank &&
@@ -68,10 +69,10 @@ void settle(std::vector<LadderLevel>& levels) {
 
 bool are_ranks_of_pattern(const ConsistentJet& at, const std::vector<LadderLevel>& levels) {
   if (!are_proven(levels)) return false;
-  const SparseMatrixXd pattern = GenericScaling(at.array, at.zero.y, at.zero.reach).magnitude;
-  const Index n = at.array.base_size();
+  const SparseMatrixXd pattern = GenericScaling(at.array(), at.zero().y, at.zero().reach).magnitude;
+  const Index n = at.array().base_size();
   return std::ranges::all_of(levels, [&](const LadderLevel& level) {
-    const Index rows = at.array.row_count(level.k), columns = at.array.unknown_count(level.k);
+    const Index rows = at.array().row_count(level.k), columns = at.array().unknown_count(level.k);
     const auto largest_from = [&](Index first) {
       return structural_rank(pattern.block(0, first, rows, columns - first));
     };

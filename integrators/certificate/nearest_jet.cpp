@@ -94,9 +94,9 @@ double NearestJet::distance(const Jet& jet) const {
 
 Jet NearestJet::jet_of(const ConsistentJet& rough, Index k) const {
   const Index N = equations_.point_size(), m = equations_.auxiliary_size();
-  const DerivativeArray& array = rough.array;
+  const DerivativeArray& array = rough.array();
   const Manifold& M = *equations_.system().manifold();
-  const VectorXd &y = rough.zero.y, &reach = rough.zero.reach;
+  const VectorXd &y = rough.zero().y, &reach = rough.zero().reach;
   Jet jet{.k = k, .t = Digits::written(guess_.t), .y = {}};
   jet.y.resize(static_cast<std::size_t>(equations_.unknown_count(k)));
   // What a search leaves in unknowns that vanish is round-off of what they were on the way.
@@ -181,14 +181,14 @@ NearestJet::Found NearestJet::find(Index k) {
 }
 
 NearestJet::Found NearestJet::searched(Index k) {
-  rough_.zero.y = rough_.array.resized(rough_.zero.y, k);
+  rough_ = rough_.at_level(k);
   const ConsistentJet next = rough_search_.find(rough_);
-  Found found{.jet = jet_of(next.zero.y.size() == rough_.zero.y.size() ? next : rough_, k)};
-  found.is_finite = next.zero.is_finite;
-  if (!next.zero.is_finite) return found;
-  if (!next.zero.found) {
+  Found found{.jet = jet_of(next.zero().y.size() == rough_.zero().y.size() ? next : rough_, k)};
+  found.is_finite = next.zero().is_finite;
+  if (!next.zero().is_finite) return found;
+  if (!next.zero().found) {
     found.is_stationary = rough_search_.is_contradiction(next);
-    found.residual = next.array.residual(next.zero.y).lpNorm<Eigen::Infinity>();
+    found.residual = next.array().residual(next.zero().y).lpNorm<Eigen::Infinity>();
     return found;
   }
   rough_ = next;

@@ -43,8 +43,7 @@ class ZeroSearch {
       : map_(map), start_(start), mobility_(mobility), is_careful_(is_careful) {}
 
   Zero run() {
-    zero_.y = start_;
-    zero_.reach = start_.cwiseAbs();
+    zero_ = Zero(start_);
     if (mobility_.typical.size() > 0) zero_.reach = zero_.reach.cwiseMax(mobility_.typical);
     zero_.defect = std::numeric_limits<double>::infinity();
     at_ = map_(start_);

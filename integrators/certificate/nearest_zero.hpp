@@ -1,6 +1,7 @@
 // Zeros of maps with more unknowns than conditions, or the reverse, near a given point.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "courant/integrators/certificate/mobility.hpp"
@@ -10,6 +11,11 @@ namespace courant {
 
 // A zero y of a map, or where its search ended: found starts as false.
 struct Zero {
+  Zero() = default;
+  // Before a search: where it begins, with its sizes and nothing uncertain.
+  explicit Zero(VectorXd start)
+      : y(std::move(start)), uncertainty(VectorXd::Zero(y.size())), reach(y.cwiseAbs()) {}
+
   bool found = false;
   VectorXd y;
   // NaturalScaling::defect at y, and F there in these units. Where no zero was found Jᵀ F = 0: F is
@@ -20,7 +26,7 @@ struct Zero {
   // Whether F and its derivatives are finite where the search began.
   bool is_finite = true;
   // How far from y, entry by entry, the zero that is meant may be: the Gauss–Newton step that was
-  // not made, and steps that roundings of F would make.
+  // not made, and steps that roundings of F would make. 0 where no zero was found.
   VectorXd uncertainty;
   VectorXd reach;  // the largest |y_j| that was met, `typical` included
   int iterations = 0;

@@ -8,7 +8,7 @@ RefinedObstruction::RefinedObstruction(const ConsistentJet& at,
     : at_(at),
       levels_(levels),
       magnitude_(magnitude),
-      rough_(at.array, at.zero.y, at.zero.uncertainty, levels.back().all.rank, magnitude) {}
+      rough_(at.array(), at.zero().y, at.zero().uncertainty, levels.back().all.rank, magnitude) {}
 
 Obstruction::Answer RefinedObstruction::is_seen_along(const VectorXd& direction) {
   using Answer = Obstruction::Answer;
@@ -19,7 +19,7 @@ Obstruction::Answer RefinedObstruction::is_seen_along(const VectorXd& direction)
     array_ = refined_with(at_, levels_);
     has_refined_ranks_ = array_.has_value();
     if (array_)
-      refined_.emplace(*array_, at_.zero.y, at_.zero.uncertainty, levels_.back().all.rank,
+      refined_.emplace(*array_, at_.zero().y, at_.zero().uncertainty, levels_.back().all.rank,
                        magnitude_, blurred);
   }
   return refined_ && refined_->is_seen_along(direction) == Answer::no ? Answer::no : answer;

@@ -56,7 +56,7 @@ Comparison compare_along(const VectorXd& tangent, const ConsistentPoint& consist
   using Answer = Obstruction::Answer;
   const auto near = consistent.find_displaced(at, 1e-3 * tangent, magnitude);
   Comparison result;
-  if (near.jet.zero.found) {
+  if (near.jet.zero().found) {
     const std::vector<LadderLevel> there = levels_at(near.jet);
     result = compare(levels, there);
     result.is_certain = are_certain(there);
@@ -129,10 +129,10 @@ class Votes {
 void look_later(Votes& votes, const ConsistentPoint& consistent, const ConsistentJet& at,
                 const std::vector<LadderLevel>& levels, double time_unit) {
   constexpr std::array moments = {1e-3, 1e-2};
-  const VectorXd nothing = VectorXd::Zero(at.zero.y.size());
+  const VectorXd nothing = VectorXd::Zero(at.zero().y.size());
   for (const double moment : moments) {
     const auto near = consistent.find_later(at, nothing, moment * time_unit);
-    if (!near.jet.zero.found) continue;
+    if (!near.jet.zero().found) continue;
     const std::vector<LadderLevel> there = levels_at(near.jet);
     const Comparison comparison = compare(levels, there, "a moment later");
     if (comparison.outcome == Comparison::Outcome::different && are_certain(there))
@@ -144,10 +144,10 @@ void look_later(Votes& votes, const ConsistentPoint& consistent, const Consisten
 
 Singularity singularity(const ConsistentPoint& consistent, const ConsistentJet& at,
                         const std::vector<LadderLevel>& levels, bool follow) {
-  if (at.array.has_constant_jacobian()) return {.is_confirmed = true};
+  if (at.array().has_constant_jacobian()) return {.is_confirmed = true};
   constexpr Index dense_limit = 200;
-  const bool is_small = at.zero.y.size() <= dense_limit;
-  TangentDisplacement tangents(at.array, at.zero.y, at.zero.reach);
+  const bool is_small = at.zero().y.size() <= dense_limit;
+  TangentDisplacement tangents(at.array(), at.zero().y, at.zero().reach);
   std::optional<RefinedObstruction> obstruction;
   if (follow && is_small) obstruction.emplace(at, levels, tangents.magnitude());
   using Units = TangentDisplacement::Units;
@@ -161,7 +161,7 @@ Singularity singularity(const ConsistentPoint& consistent, const ConsistentJet& 
     if (votes.are_decided()) break;
   }
   Singularity result;
-  if (at.array.depends_on_time() && votes.different() == 0) {
+  if (at.array().depends_on_time() && votes.different() == 0) {
     look_later(votes, consistent, at, levels, tangents.time_unit());
     if (votes.different() == 2) result.reason = votes.difference();
   }
@@ -180,7 +180,7 @@ bool is_same_rank_at(const ConsistentJet& at, const std::vector<LadderLevel>& le
       }))
     return true;
   const std::vector<LadderLevel> exact =
-      ladder_levels(at.array, at.zero.y, (lowered ? 0.0 : far_below) * at.zero.uncertainty);
+      ladder_levels(at.array(), at.zero().y, (lowered ? 0.0 : far_below) * at.zero().uncertainty);
   return compare(levels, exact).outcome != Comparison::Outcome::different ||
          (!lowered && !are_certain(exact));
 }
@@ -188,12 +188,13 @@ bool is_same_rank_at(const ConsistentJet& at, const std::vector<LadderLevel>& le
 bool is_lower_where_given(const ConsistentPoint& consistent, const ConsistentJet& at,
                           const std::vector<LadderLevel>& levels) {
   constexpr double next_to = 1e-3;
-  const DerivativeArray given = consistent.start().array;
-  const VectorXd moved = at.array.origin() - given.origin();
-  if (moved.isZero(0.0) || at.array.has_constant_jacobian() || given.base_size() != moved.size() ||
+  const DerivativeArray given = consistent.start().array();
+  const VectorXd moved = at.array().origin() - given.origin();
+  if (moved.isZero(0.0) || at.array().has_constant_jacobian() ||
+      given.base_size() != moved.size() ||
       moved.lpNorm<Eigen::Infinity>() > next_to * given.origin().lpNorm<Eigen::Infinity>())
     return false;
-  return compare(ladder_levels(given, at.zero.y, at.zero.uncertainty), levels).outcome ==
+  return compare(ladder_levels(given, at.zero().y, at.zero().uncertainty), levels).outcome ==
          Comparison::Outcome::different;
 }
 

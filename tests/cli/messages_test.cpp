@@ -59,6 +59,20 @@ BOOST_AUTO_TEST_CASE(numbers_beyond_the_range_of_an_option_are_refused_in_words)
   }
 }
 
+// Formulas that have no derivative, no value or no real one where they begin, in systems of every kind.
+BOOST_AUTO_TEST_CASE(starts_without_derivatives_are_answered) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator("tests/corpus/starts")) {
+    const std::string file = entry.path().string();
+    const Answer answer = courant_command({"constraints", file});
+    BOOST_TEST((answer.status == 0 || answer.status == 2), file << " gives " << answer.status);
+    check_words(answer.out, file);
+    if (answer.status == 2) check_errors(answer, file, file);
+    ++files;
+  }
+  BOOST_TEST(files == 90);
+}
+
 // Nothing is written where the experiment is wrong, and a summary where the numerics failed.
 BOOST_AUTO_TEST_CASE(a_bad_experiment_is_refused_with_its_place_or_fails_with_a_summary) {
   const auto files = bad_experiments();

@@ -38,7 +38,7 @@ BOOST_AUTO_TEST_CASE(it_ends_where_dimensions_repeat) {
   BOOST_TEST(repeats(found.levels));
   BOOST_TEST(!repeats({found.levels[0]}));
   BOOST_TEST(!repeats({found.levels[0], found.levels[1]}));
-  BOOST_TEST(found.jet.array.level_of(found.jet.zero.y) == 3);
+  BOOST_TEST(found.jet.level() == 3);
 }
 
 BOOST_AUTO_TEST_CASE(or_at_the_highest_level_allowed) {
@@ -46,6 +46,33 @@ BOOST_AUTO_TEST_CASE(or_at_the_highest_level_allowed) {
   BOOST_TEST(!found.is_stopped);
   BOOST_TEST(found.has_point());
   BOOST_TEST(found.levels.size() == 2u);
+}
+
+// x = √t, y² = x at t = 0: the derivatives of level 1 are not finite, and those of level 0 are where the way ends.
+BOOST_AUTO_TEST_CASE(or_where_derivatives_are_not_finite) {
+  const SystemPointer root = flat(2, 0, 2, [](V x, V, V, T t) {
+    return equations({x[0] - sqrt(t), square(x[1]) - x[0]});
+  });
+  const LadderAscent found = ascent(root, at({1.0, 0.0}));
+  BOOST_TEST(!found.is_stopped);
+  BOOST_TEST(found.levels.size() == 1u);
+  BOOST_TEST(found.reason.find("not finite") != std::string::npos, found.reason);
+  BOOST_TEST(found.jet.level() == 0);
+  BOOST_TEST(found.jet.zero().reach.size() == found.jet.zero().y.size());
+  BOOST_TEST(found.jet.zero().uncertainty.size() == found.jet.zero().y.size());
+}
+
+// What is of two levels is no jet.
+BOOST_AUTO_TEST_CASE(a_jet_has_one_level) {
+  const DerivativeArray array(rod(), 0.0, Eigen::Vector4d(0.6, -0.8, 0.8, 0.6));
+  const ConsistentJet jet(array, Zero(VectorXd::Ones(array.unknown_count(0))));
+  const ConsistentJet above = jet.at_level(2);
+  BOOST_TEST(above.level() == 2);
+  BOOST_TEST(above.zero().uncertainty.size() == array.unknown_count(2));
+  BOOST_TEST(above.at_level(0).zero().y == jet.zero().y);
+  Zero torn = jet.zero();
+  torn.y = array.resized(torn.y, 1);
+  BOOST_CHECK_THROW(ConsistentJet(array, torn), std::invalid_argument);
 }
 
 // x' = 1 beside x = 0: nothing contradicts before x' does.

@@ -22,8 +22,8 @@ struct Setting {
       : consistent(system, at(x), {}),
         jet(consistent.find(consistent.start())),
         levels(levels_at(jet)),
-        tangents(jet.array, jet.zero.y, jet.zero.reach) {
-    BOOST_TEST_REQUIRE(jet.zero.found);
+        tangents(jet.array(), jet.zero().y, jet.zero().reach) {
+    BOOST_TEST_REQUIRE(jet.zero().found);
   }
 
   ConsistentPoint consistent;
@@ -60,7 +60,7 @@ BOOST_AUTO_TEST_CASE(what_doubles_can_tell_needs_no_more_digits) {
 BOOST_AUTO_TEST_CASE(what_round_off_hides_is_told_by_more_digits) {
   Setting hidden(circle_twice(1e12), {0.6, -0.8});
   const VectorXd tangent = hidden.tangents.next();
-  const Obstruction rough(hidden.jet.array, hidden.jet.zero.y, hidden.jet.zero.uncertainty,
+  const Obstruction rough(hidden.jet.array(), hidden.jet.zero().y, hidden.jet.zero().uncertainty,
                           hidden.levels.back().all.rank, hidden.tangents.magnitude());
   BOOST_TEST_REQUIRE((rough.is_seen_along(tangent) == Answer::unknown));
   RefinedObstruction refined(hidden.jet, hidden.levels, hidden.tangents.magnitude());

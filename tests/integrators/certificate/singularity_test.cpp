@@ -26,7 +26,7 @@ SystemPointer circle(double r) {
 Singularity at_level_0(const SystemPointer& system, std::initializer_list<double> x) {
   const ConsistentPoint consistent(system, at(x), {});
   const ConsistentJet jet = consistent.find(consistent.start());
-  BOOST_TEST_REQUIRE(jet.zero.found);
+  BOOST_TEST_REQUIRE(jet.zero().found);
   return singularity(consistent, jet, levels_at(jet), true);
 }
 
