@@ -7,6 +7,8 @@
 #include "courant/reading/findings.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * a check that failed exits with 0
 BOOST_AUTO_TEST_SUITE(check_command)
 
 namespace {

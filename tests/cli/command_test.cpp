@@ -11,6 +11,15 @@
 #include "courant/running/run_files.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * a run that failed exits with 0 (cli/run.cpp)
+//  * an interrupt exits with 0 (cli/run.cpp)
+//  * what was not as expected exits with 0 (cli/run.cpp)
+//  * a wrong experiment exits with 0 (cli/experiment_file.cpp)
+//  * help that is lost is not told
+//  * an empty name of a folder means the default one
+//  * descriptions go on at the left edge (cli/help_formatter.cpp)
+//  * lists of kinds are one word (cli/help_formatter.cpp)
 BOOST_AUTO_TEST_SUITE(command)
 
 namespace {

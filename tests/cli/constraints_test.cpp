@@ -9,6 +9,9 @@
 #include "courant/tests/core/says.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * a right-hand side that is longer than a line stands on one (cli/text.cpp)
+//  * the ladder of pairs is taken for that of Method 2
 BOOST_AUTO_TEST_SUITE(constraints_test)
 
 namespace {

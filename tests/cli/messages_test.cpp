@@ -10,6 +10,9 @@
 #include "courant/running/run_files.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * a range is printed with all the digits of the greatest double (cli/constraints.cpp)
+//  * the cause follows a full stop and a colon (running/run_failure.cpp)
 BOOST_AUTO_TEST_SUITE(messages)
 
 namespace {

@@ -8,6 +8,9 @@
 #include "courant/cli/manual_page.hpp"
 
 namespace courant::cli {
+// Mistakes that these cases have to notice:
+//  * what is hidden in --help has a manual page
+//  * a text that begins with a dot is obeyed by roff (cli/manual_page.cpp)
 BOOST_AUTO_TEST_SUITE(synopsis_test)
 
 namespace {

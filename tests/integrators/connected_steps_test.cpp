@@ -13,6 +13,15 @@
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/tests/integrators/example_systems.hpp"
 
+// Mistakes that these cases have to notice:
+//  * what was found first is taken, connected or not (integrators/step/step_solver.cpp)
+//  * every solution is near enough to the prediction (integrators/step/step_solver.cpp)
+//  * a step advances by its confirmation, which is right to some seven digits
+//    (integrators/step/step_solver.cpp)
+//  * turning points are stepped over (integrators/step/step_continuation.cpp)
+//  * any contraction will do (integrators/step/step_continuation.cpp)
+//  * a curve begins where the matrix has lost its rank to round-off
+//    (integrators/step/step_continuation.cpp)
 BOOST_AUTO_TEST_SUITE(connected_steps)
 
 using namespace courant;

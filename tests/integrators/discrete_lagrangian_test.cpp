@@ -5,6 +5,8 @@
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/tests/integrators/vortices.hpp"
 
+// Mistakes that these cases have to notice:
+//  * the momenta of a lift are exchanged (integrators/maps/cotangent_lift.cpp)
 BOOST_AUTO_TEST_SUITE(discrete_lagrangian)
 
 using namespace courant;

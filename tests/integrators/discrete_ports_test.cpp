@@ -10,6 +10,8 @@
 #include "courant/structures/open_port_hamiltonian.hpp"
 #include "courant/structures/port_hamiltonian_system.hpp"
 
+// Mistakes that these cases have to notice:
+//  * distances forget the time step (integrators/maps/discrete_dirac_structure.cpp)
 BOOST_AUTO_TEST_SUITE(discrete_ports)
 
 using namespace courant;

@@ -9,6 +9,17 @@
 #include "courant/integrators/methods/explicit_runge_kutta.hpp"
 #include "courant/tests/integrators/certificate/ladder_catalogue.hpp"
 
+// Mistakes that these cases have to notice:
+//  * Method 1 evaluates at the start of a step (integrators/step/stage_step.cpp)
+//  * steps forget when they started (integrators/step/stepper.cpp)
+//  * Method 2 evaluates in the middle, wherever its stage is
+//    (integrators/methods/constrain_first_trace.cpp)
+//  * Method 2 projects at the time where the step began (integrators/methods/constrain_first.cpp)
+//  * Method 2 brings its start to M_f of time 0 (integrators/methods/constrain_first.cpp)
+//  * the stages of explicit methods are those of a step from time 0
+//    (integrators/methods/explicit_runge_kutta.cpp)
+//  * two nodes of Fehlberg's method change places (integrators/methods/explicit_runge_kutta.cpp)
+//  * the stage is on the other side of the middle (integrators/maps/theta.cpp)
 BOOST_AUTO_TEST_SUITE(explicit_time)
 
 using namespace courant;

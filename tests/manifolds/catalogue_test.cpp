@@ -5,6 +5,8 @@
 
 #include "courant/manifolds/laws.hpp"
 
+// Mistakes that these cases have to notice:
+//  * the inverse of half the length (manifolds/special_orthogonal.cpp)
 BOOST_AUTO_TEST_SUITE(manifold_catalogue)
 
 using namespace courant;

@@ -6,6 +6,9 @@
 #include "catalogue.hpp"
 #include "courant/core/expressions/derivative.hpp"
 
+// Mistakes that these cases have to notice:
+//  * the sign of the torsion
+//  * the frame of a flat space is a matrix
 BOOST_AUTO_TEST_SUITE(cotangent_bundle)
 
 using namespace courant;

@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+// Mistakes that these cases have to notice:
+//  * distances of the sphere
 BOOST_AUTO_TEST_SUITE(hyperbolic)
 
 using namespace courant;

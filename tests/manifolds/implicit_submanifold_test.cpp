@@ -5,6 +5,10 @@
 
 #include "catalogue.hpp"
 
+// Mistakes that these cases have to notice:
+//  * the inverse is not tangent
+//  * a point counts as on it when it is on the surrounding manifold
+//  * a radius that does not see the curvature
 BOOST_AUTO_TEST_SUITE(implicit_submanifold)
 
 using namespace courant;

@@ -6,6 +6,10 @@
 #include <sstream>
 #include <stdexcept>
 
+// Mistakes that these cases have to notice:
+//  * a defect that is NaN is no defect
+//  * the last defect instead of the worst
+//  * a law that was not measured passes
 BOOST_AUTO_TEST_SUITE(law_result)
 
 using namespace courant;

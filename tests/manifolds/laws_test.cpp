@@ -10,6 +10,21 @@
 
 #include "courant/manifolds/sphere.hpp"
 
+// Mistakes that these cases have to notice:
+//  * M1 never fails
+//  * M2 takes an order above 1 for 2
+//  * M3 never fails
+//  * M4 lets the inverse leave the tangent space
+//  * M4 does not ask whether the inverse leads to y
+//  * M5 does not hold the coframe against the frame
+//  * M5 does not count the dimension
+//  * M5 takes dependent constraints
+//  * M7 never fails
+//  * M7 is not asked of those that claim it
+//  * M8 lets the projection move points
+//  * M9 never fails
+//  * M9 lets the unit be no point
+//  * a dilation may leave the manifold
 BOOST_AUTO_TEST_SUITE(manifold_laws)
 
 using namespace courant;

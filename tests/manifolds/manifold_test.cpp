@@ -5,6 +5,12 @@
 
 #include "courant/manifolds/euclidean.hpp"
 
+// Mistakes that these cases have to notice:
+//  * velocities across the tangent space pass for tangent
+//  * the greatest constraint counts, negative ones not
+//  * Newton's method for the inverse takes what is far for found
+//  * a projection takes what is far for found
+//  * random tangent vectors of the wrong length
 BOOST_AUTO_TEST_SUITE(manifold)
 
 using namespace courant;

@@ -3,6 +3,9 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+// Mistakes that these cases have to notice:
+//  * the slope is taken of errors that are round-off
+//  * the second derivative is not looked at
 BOOST_AUTO_TEST_SUITE(measurement)
 
 using namespace courant;

@@ -11,6 +11,13 @@
 #include "courant/manifolds/sphere.hpp"
 #include "courant/manifolds/torus.hpp"
 
+// Mistakes that these cases have to notice:
+//  * the largest radius of the factors
+//  * one factor off its manifold hides behind the next
+//  * separations of the factors do not add up
+//  * factors share their units
+//  * angles have units (manifolds/torus.cpp)
+//  * momenta have the units of positions (manifolds/vector_bundle.cpp)
 BOOST_AUTO_TEST_SUITE(product)
 
 using namespace courant;

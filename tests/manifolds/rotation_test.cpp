@@ -8,6 +8,9 @@
 
 #include "courant/core/expressions/derivative.hpp"
 
+// Mistakes that these cases have to notice:
+//  * rotations by more than a half turn come out negative
+//  * a reflection is taken for near a rotation
 BOOST_AUTO_TEST_SUITE(rotation)
 
 using namespace courant;

@@ -6,6 +6,8 @@
 
 #include "courant/manifolds/rotation.hpp"
 
+// Mistakes that these cases have to notice:
+//  * the screw of an exponential is a translation
 BOOST_AUTO_TEST_SUITE(special_euclidean3)
 
 using namespace courant;

@@ -4,6 +4,8 @@
 #include <boost/test/unit_test.hpp>
 #include <numbers>
 
+// Mistakes that these cases have to notice:
+//  * reflections pass for rotations
 BOOST_AUTO_TEST_SUITE(special_orthogonal3)
 
 using namespace courant;

@@ -5,6 +5,8 @@
 #include "courant/core/linear/lu_decomposition.hpp"
 #include "courant/manifolds/special_orthogonal3.hpp"
 
+// Mistakes that these cases have to notice:
+//  * reflections are points
 BOOST_AUTO_TEST_SUITE(special_orthogonal)
 
 using namespace courant;

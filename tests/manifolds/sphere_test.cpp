@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+// Mistakes that these cases have to notice:
+//  * the velocity along a geodesic does not turn
 BOOST_AUTO_TEST_SUITE(sphere)
 
 using namespace courant;

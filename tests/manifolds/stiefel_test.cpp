@@ -4,6 +4,8 @@
 
 #include "courant/core/linear/lu_decomposition.hpp"
 
+// Mistakes that these cases have to notice:
+//  * dependent columns are projected somewhere
 BOOST_AUTO_TEST_SUITE(stiefel)
 
 using namespace courant;

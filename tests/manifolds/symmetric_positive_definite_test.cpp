@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+// Mistakes that these cases have to notice:
+//  * indefinite matrices pass
 BOOST_AUTO_TEST_SUITE(symmetric_positive_definite)
 
 using namespace courant;

@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <numbers>
 
+// Mistakes that these cases have to notice:
+//  * points a turn apart are apart
 BOOST_AUTO_TEST_SUITE(torus)
 
 using namespace courant;

@@ -10,6 +10,10 @@
 #include "courant/manifolds/sphere.hpp"
 #include "courant/manifolds/tangent_bundle.hpp"
 
+// Mistakes that these cases have to notice:
+//  * covectors are not made tangent after a step
+//  * fibres do not turn with the point
+//  * off a bundle momenta become positions
 BOOST_AUTO_TEST_SUITE(vector_bundle)
 
 using namespace courant;

@@ -10,6 +10,12 @@
 #include "courant/plotting/drawing.hpp"
 
 namespace courant::plot {
+// Mistakes that these cases have to notice:
+//  * times with a gap are taken for even
+//  * the last time, which may be between two rows, spoils the distance of all
+//  * steps of 256 rows are written in one byte
+//  * a curve in space has more rows than can be turned at once
+//  * steps are not counted among the letters
 BOOST_AUTO_TEST_SUITE(curve_data_test)
 
 namespace {

@@ -6,6 +6,9 @@
 
 using namespace courant::plot;
 
+// Mistakes that these cases have to notice:
+//  * indices are units
+//  * a power that is negative is not raised
 BOOST_AUTO_TEST_SUITE(drawing)
 
 // By Python: base64.b64encode(struct.pack("<4f", 1, -2.5, inf, 0)), and of the first 1, 2, 3.

@@ -9,6 +9,10 @@
 #include "courant/plotting/drawing.hpp"
 #include "parsed_markup.hpp"
 
+// Mistakes that these cases have to notice:
+//  * a rough path has a vertex for each of its rows
+//  * points of a section are joined by lines
+//  * Greek letters are written out (plotting/drawing.cpp)
 BOOST_AUTO_TEST_SUITE(figure)
 
 using namespace courant::plot;

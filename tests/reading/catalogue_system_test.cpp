@@ -8,6 +8,10 @@
 #include "experiment_problems.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * values that an experiment gives to a ready-made system are not used
+//  * a negative mass is taken
+//  * problems of parameters are told at a place that the experiment does not have
 BOOST_AUTO_TEST_SUITE(catalogue_system_test)
 
 namespace {

@@ -4,6 +4,8 @@
 #include <cmath>
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * couplings of three inductors that cannot be are taken
 BOOST_AUTO_TEST_SUITE(coupled_inductors_test)
 
 namespace {

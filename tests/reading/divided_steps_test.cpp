@@ -6,6 +6,8 @@
 #include "experiment_problems.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * the number of halvings is not read
 BOOST_AUTO_TEST_SUITE(divided_steps)
 
 namespace {

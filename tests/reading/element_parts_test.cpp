@@ -7,6 +7,8 @@
 #include "experiment_problems.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * the value of a spring is its compliance
 BOOST_AUTO_TEST_SUITE(element_parts_test)
 
 namespace {

@@ -8,6 +8,10 @@
 #include "experiment_problems.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * a time between two steps is taken for a step (reading/expectation.cpp)
+//  * a value may be given twice (reading/initial_values.cpp)
+//  * a step is a whole period
 BOOST_AUTO_TEST_SUITE(experiment)
 
 namespace {

@@ -7,6 +7,8 @@
 #include "courant/structures/dirac_system.hpp"
 #include "experiment_problems.hpp"
 
+// Mistakes that these cases have to notice:
+//  * two-forms are taken for symmetric matrices (reading/read_euler_poincare.cpp)
 BOOST_AUTO_TEST_SUITE(mechanics_keys_test)
 
 using namespace courant;

@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <string>
 
+// Mistakes that these cases have to notice:
+//  * a problem of a subcircuit is told for each instance
 BOOST_AUTO_TEST_SUITE(netlist_cards)
 
 using namespace courant;

@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <string>
 
+// Mistakes that these cases have to notice:
+//  * an instance has the parameters of the one before
 BOOST_AUTO_TEST_SUITE(netlist_circuit)
 
 using namespace courant;

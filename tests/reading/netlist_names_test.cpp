@@ -2,6 +2,8 @@
 
 #include <boost/test/unit_test.hpp>
 
+// Mistakes that these cases have to notice:
+//  * a new name is that of a later word
 BOOST_AUTO_TEST_SUITE(netlist_names)
 
 using courant::netlist::DifferentNames;

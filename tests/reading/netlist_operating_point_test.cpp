@@ -5,6 +5,9 @@
 #include <random>
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * capacitors carry the current of a source
+//  * inductors side by side have equal currents
 BOOST_AUTO_TEST_SUITE(netlist_operating_point_test)
 
 namespace {

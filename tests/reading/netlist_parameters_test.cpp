@@ -2,6 +2,9 @@
 
 #include <boost/test/unit_test.hpp>
 
+// Mistakes that these cases have to notice:
+//  * defaults of a subcircuit see the parameters outside before its own
+//  * a parameter of an instance that mentions its own name is a circle
 BOOST_AUTO_TEST_SUITE(netlist_parameters)
 
 using namespace courant;

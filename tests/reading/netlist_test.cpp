@@ -8,6 +8,19 @@
 #include "courant/reading/netlist_sources.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * a state that has decayed to the least numbers is to be followed by a curve
+//    (integrators/step/step_solver.cpp)
+//  * a start with a current through a diode is looked for without limits on its exponential
+//    (integrators/certificate/consistent_point.cpp)
+//  * netlists with diodes are integrated by the midpoint rule
+//  * potentials of .ic are no initial voltages of capacitors
+//  * a corner of a pulse stands for the first period alone (reading/netlist_sources.cpp)
+//  * AC behind a waveform is a value of it (reading/netlist_sources.cpp)
+//  * names that look alike are one (reading/netlist_names.cpp)
+//  * an error that changes its sign after the edge of a pulse is taken for none of the method
+//    (running/energy_watch.cpp)
+//  * a change of H that ports account for is a finding (running/energy_watch.cpp)
 BOOST_AUTO_TEST_SUITE(netlist_test)
 
 namespace {

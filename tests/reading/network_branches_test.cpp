@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * temperatures are looked for at 0 K
 BOOST_AUTO_TEST_SUITE(network_branches_test)
 
 namespace {

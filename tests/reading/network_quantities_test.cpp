@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * a formula that is repeated is wrong in each turn
 BOOST_AUTO_TEST_SUITE(network_quantities_test)
 
 namespace {

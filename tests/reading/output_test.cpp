@@ -5,6 +5,9 @@
 #include "courant/reading/experiment.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * rows between steps are written at the steps too
+//  * the name of an array stands for none of its elements
 BOOST_AUTO_TEST_SUITE(output)
 
 namespace {

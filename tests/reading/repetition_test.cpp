@@ -7,6 +7,12 @@
 #include "experiment_problems.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * an index ends before its last value
+//  * names get a minus sign
+//  * what is wrong in all turns is told of each
+//  * an index takes the name of a parameter
+//  * ten thousand problems at one place are ten thousand lines (reading/findings.cpp)
 BOOST_AUTO_TEST_SUITE(repetition)
 
 namespace {

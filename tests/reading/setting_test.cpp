@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * the last value of a range has the round-off of what is in between
 BOOST_AUTO_TEST_SUITE(setting)
 
 namespace {

@@ -5,6 +5,10 @@
 
 #include "some_runs.hpp"
 
+// Mistakes that these cases have to notice:
+//  * what is dissipated counts as an error
+//  * the sign of what is supplied
+//  * round-off is measured by what is stored alone
 BOOST_AUTO_TEST_SUITE(energy_error_test)
 
 using namespace courant;

@@ -5,6 +5,8 @@
 
 #include "some_runs.hpp"
 
+// Mistakes that these cases have to notice:
+//  * H itself is drawn beside what was supplied since the start
 BOOST_AUTO_TEST_SUITE(energy_figures_test)
 
 using namespace courant;

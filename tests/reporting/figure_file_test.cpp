@@ -8,6 +8,8 @@
 #include "courant/core/files/output_file.hpp"
 #include "courant/core/files/own_file.hpp"
 
+// Mistakes that these cases have to notice:
+//  * the numbers of somebody are replaced
 BOOST_AUTO_TEST_SUITE(figure_file)
 
 using namespace courant;

@@ -6,6 +6,21 @@
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/ladder_report.hpp"
 
+// Mistakes that these cases have to notice:
+//  * the velocity of a pendulum that is given by its Lagrangian on a sphere is not found
+//    (integrators/certificate/constraint_formulas.cpp)
+//  * velocities are told as if the constraints did not hold
+//    (integrators/certificate/constraint_formulas.cpp)
+//  * constraints that only elimination of powers finds are left out
+//    (integrators/certificate/constraint_formulas.cpp)
+//  * constraints without a common zero are not noticed
+//    (integrators/certificate/constraint_formulas.cpp)
+//  * a knife edge is said to have gauge transformations
+//    (integrators/certificate/constraint_classes.cpp)
+//  * where all velocities are known, those of level 0 are not told
+//  * a family that is none is said to be a Morse family
+//  * a ladder that stops on the way says what is known at its end (running/ladder_report.cpp)
+//  * a report read from a file knows no singular constraints (running/ladder_report_json.cpp)
 BOOST_AUTO_TEST_SUITE(ladder_explanation_test)
 
 using namespace courant;

@@ -6,6 +6,10 @@
 
 #include "some_runs.hpp"
 
+// Mistakes that these cases have to notice:
+//  * where no beginning is legible all rows are drawn
+//  * a section is drawn over a coordinate that is the same at all of its points
+//    (reporting/section_figures.cpp)
 BOOST_AUTO_TEST_SUITE(report_figures)
 
 using namespace courant;

@@ -4,6 +4,9 @@
 
 #include "some_runs.hpp"
 
+// Mistakes that these cases have to notice:
+//  * equations of the first run stand above several that have other ones
+//  * elements of a network are told without their names
 BOOST_AUTO_TEST_SUITE(report_head_test)
 
 using namespace courant;

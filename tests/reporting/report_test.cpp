@@ -10,6 +10,10 @@
 #include "courant/reporting/report_script.hpp"
 #include "some_runs.hpp"
 
+// Mistakes that these cases have to notice:
+//  * pages of long runs have few rows
+//  * the rest of the page is not counted
+//  * the table of one run names it in each row (reporting/report_tables.cpp)
 BOOST_AUTO_TEST_SUITE(report)
 
 using namespace courant;

@@ -5,6 +5,8 @@
 
 #include "some_runs.hpp"
 
+// Mistakes that these cases have to notice:
+//  * a section is drawn in a coordinate that stands still on it
 BOOST_AUTO_TEST_SUITE(section_figures)
 
 using namespace courant;

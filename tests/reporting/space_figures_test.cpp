@@ -37,6 +37,8 @@ double helix(std::size_t c, double t) { return c == 1 ? std::cos(t) : c == 2 ? s
 
 }  // namespace
 
+// Mistakes that these cases have to notice:
+//  * any array of which something has the norm is a vector
 BOOST_AUTO_TEST_SUITE(space_figures_test)
 
 BOOST_AUTO_TEST_CASE(rotations_are_shown_by_the_axes_of_the_body) {

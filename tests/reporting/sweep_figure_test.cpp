@@ -5,6 +5,8 @@
 
 #include "courant/reporting/study_figure.hpp"
 
+// Mistakes that these cases have to notice:
+//  * references that differ are not told (reporting/study_figure.cpp)
 BOOST_AUTO_TEST_SUITE(sweep_figure_test)
 
 using namespace courant;

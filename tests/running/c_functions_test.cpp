@@ -4,6 +4,8 @@
 #include <limits>
 #include <string>
 
+// Mistakes that these cases have to notice:
+//  * two question marks in a comment begin a trigraph
 BOOST_AUTO_TEST_SUITE(c_functions)
 
 using namespace courant;

@@ -11,6 +11,31 @@
 #include "courant/running/c_program_text.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * a step of redundant equations is written, and solved as if it were regular
+//    (running/c_functions.cpp)
+//  * a title ends the comment that it is in (running/c_functions.cpp)
+//  * the fifth stage of Dormand and Prince in C is another one
+//    (integrators/methods/explicit_runge_kutta.cpp)
+//  * a composition in C is its middle method (integrators/methods/composition.cpp)
+//  * steps in C choose the degrees of their predictions at other times
+//    (integrators/step/predictor.cpp)
+//  * programs know no second attempt (running/c_program/looks.c)
+//  * programs end on the bits that their own way leads to (running/c_program/looks.c)
+//  * a curve that Newton's method does not begin is given up (running/c_program/looks.c)
+//  * programs measure displacements in one basis by those of another (running/c_program/looks.c)
+//  * programs find velocities in the first units alone (running/c_program/field.c)
+//  * programs without exponentials hold what is for these
+//  * a second attempt ends on the bits that its curve leads to (integrators/step/step_solver.cpp)
+//  * programs take the first of the columns for the longest (running/c_program/longest_column.c)
+//  * programs let points leave the space (running/c_program/round_off.c)
+//  * programs keep the combination of directions of the first step (running/c_program/turning.c)
+//  * programs look for conormals near one reference alone (running/c_program/turning.c)
+//  * programs project once, whatever the directions become (running/c_program/projected_part.c)
+//  * programs make bases orthonormal to first order (running/c_program/orthonormal.c)
+//  * programs measure velocities in the basis of the point before (running/c_rows.cpp)
+//  * the basis of the velocities that programs measure goes on where an epoch begins
+//    (running/c_rows.cpp)
 BOOST_AUTO_TEST_SUITE(c_programs)
 
 namespace {

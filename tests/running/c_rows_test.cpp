@@ -5,6 +5,8 @@
 #include "problems.hpp"
 
 namespace courant::test {
+// Mistakes that these cases have to notice:
+//  * observables at the stage are not known before the first step
 BOOST_AUTO_TEST_SUITE(c_rows_test)
 
 namespace {

@@ -4,6 +4,8 @@
 #include <vector>
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * each checkpoint is written
 BOOST_AUTO_TEST_SUITE(checkpoint_keeper)
 
 namespace {

@@ -11,6 +11,9 @@
 #include "courant/running/run_files.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * numbers that are not finite become null
+//  * a checkpoint does not keep the images of the tangent map
 BOOST_AUTO_TEST_SUITE(checkpoint)
 
 namespace {

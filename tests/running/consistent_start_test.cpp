@@ -4,6 +4,23 @@
 #include <cmath>
 #include <fstream>
 
+// Mistakes that these cases have to notice:
+//  * residuals that are a visible part of their terms count as none
+//    (integrators/certificate/consistent_point.cpp)
+//  * an unknown that is given goes to another branch with the velocity
+//    (integrators/certificate/consistent_point.cpp)
+//  * round-off of an exponential stays as a voltage at rest
+//    (integrators/certificate/nearest_zero.cpp)
+//  * units may be no numbers when they are multiplied (integrators/methods/integrator_in_units.cpp)
+//  * coordinates give way before velocities
+//  * velocities that can be kept at the point that was found are not
+//  * what nothing determines is taken as it was guessed
+//  * what was to be kept is kept though nothing was found with it
+//  * a point that solves nothing is taken because it has what is given
+//  * velocities that give way forget the momenta that belong to them
+//  * coordinates that are given move where velocities contradict an equation
+//  * momenta of velocities that contradict an equation of the system are forgotten
+//  * momenta that nobody gave may move at will
 BOOST_AUTO_TEST_SUITE(consistent_start_test)
 
 using namespace courant;

@@ -3,6 +3,9 @@
 #include "run_in.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * displacements are solved for next to coordinates that no equation contains
+//    (integrators/step/displacement_stepper.cpp)
 BOOST_AUTO_TEST_SUITE(energy_drift)
 
 // A free body in space, far from the origin: its equations do not contain its place, so that its energy is kept as

@@ -5,6 +5,8 @@
 #include "run_in.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * short steps from a state beside the constraints have the last word on the energy
 BOOST_AUTO_TEST_SUITE(energy_watch_test)
 
 namespace {

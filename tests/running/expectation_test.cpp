@@ -8,6 +8,13 @@
 #include "courant/running/run_files.hpp"
 #include "run_in.hpp"
 
+// Mistakes that these cases have to notice:
+//  * a downward drift passes (reading/expectation.cpp)
+//  * a value below the one expected passes (reading/expectation.cpp)
+//  * lower bounds are upper ones (reading/expectation.cpp)
+//  * a value below its closed form passes (running/observer.cpp)
+//  * violations of positive values only (running/run_results.cpp)
+//  * the violation of the first constraint only (running/run_results.cpp)
 BOOST_AUTO_TEST_SUITE(expectations)
 
 using namespace courant;

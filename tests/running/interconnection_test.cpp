@@ -5,6 +5,8 @@
 #include "../reading/experiment_problems.hpp"
 #include "run_in.hpp"
 
+// Mistakes that these cases have to notice:
+//  * matrices of joints are read by columns (reading/read_interconnection.cpp)
 BOOST_AUTO_TEST_SUITE(interconnection)
 
 using namespace courant;

@@ -8,6 +8,10 @@
 #include "courant/running/consistent_start.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * what elimination found is not read (running/ladder_report_json.cpp)
+//  * levels that only confirm are told again
+//  * every family is a Morse family
 BOOST_AUTO_TEST_SUITE(ladder_report_test)
 
 namespace {

@@ -8,6 +8,12 @@
 namespace courant {
 namespace {
 
+// Mistakes that these cases have to notice:
+//  * of many equations only those that give an unknown explicitly are kept
+//    (integrators/step/vector_field.cpp)
+//  * equations that no conormal contains take others with them
+//    (integrators/step/moving_conormals.cpp)
+//  * charges that are not given are asked for (running/consistent_start.cpp)
 BOOST_AUTO_TEST_SUITE(large_networks)
 
 BOOST_AUTO_TEST_CASE(a_line_of_many_cells_swings_in_its_mode) {

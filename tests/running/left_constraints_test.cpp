@@ -6,6 +6,11 @@
 #include "run_in.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * a constraint that is a twelfth of its terms is met
+//  * what the middle of steps leaves of constraints is a finding
+//  * what was left on the way is not looked at
+//  * errors that alternate are not seen
 BOOST_AUTO_TEST_SUITE(left_constraints_test)
 
 namespace {

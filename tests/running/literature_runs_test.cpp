@@ -66,6 +66,19 @@ Json on_a_circle_of_latitude(const Json& point) {
 }  // namespace
 }  // namespace courant
 
+// Mistakes that these cases have to notice:
+//  * unknowns whose coefficients cancel stay in the equations (core/algebra/elimination.cpp)
+//  * a shorter step is advised where equations contradict each other
+//    (integrators/step/step_solver.cpp)
+//  * a constraint takes the place of a velocity of the structure, and is singular elsewhere
+//    (integrators/step/vector_field.cpp)
+//  * a step back to where it began is no step (integrators/methods/constrain_first_projection.cpp)
+//  * the weight of a body at rest tells no unit of time (integrators/step/natural_units.cpp)
+//  * components of a vector have units of their own (integrators/step/natural_units.cpp)
+//  * slopes count next to the size of the energy (running/observed_quantities.cpp)
+//  * a search that found no point in the units of the experiment is a doubt
+//    (running/consistent_start.cpp)
+//  * what is normal to a sphere has the mass of 1 (structures/generating_family.cpp)
 BOOST_AUTO_TEST_SUITE(literature_runs)
 
 using namespace courant;

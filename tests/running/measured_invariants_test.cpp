@@ -6,6 +6,8 @@
 #include "problems.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * the first point alone says what is invariant
 BOOST_AUTO_TEST_SUITE(measured_invariants_test)
 
 namespace {

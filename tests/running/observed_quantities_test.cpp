@@ -5,6 +5,8 @@
 #include "problems.hpp"
 
 namespace courant::test {
+// Mistakes that these cases have to notice:
+//  * the hidden constraint has no column
 BOOST_AUTO_TEST_SUITE(observed_quantities)
 
 namespace {

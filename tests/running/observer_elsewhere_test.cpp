@@ -6,6 +6,8 @@
 #include "problems.hpp"
 
 namespace courant::test {
+// Mistakes that these cases have to notice:
+//  * parts of steps begin without what was dissipated before
 BOOST_AUTO_TEST_SUITE(observer_elsewhere_test)
 
 namespace {

@@ -6,6 +6,10 @@
 #include "problems.hpp"
 
 namespace courant::test {
+// Mistakes that these cases have to notice:
+//  * what H is made of leaves out the errors of unknowns
+//  * small coordinates are rounded next to themselves
+//  * terms that cancel are no terms of H
 BOOST_AUTO_TEST_SUITE(observer_test)
 
 namespace {

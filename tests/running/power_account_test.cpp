@@ -9,6 +9,17 @@
 #include "courant/running/run_files.hpp"
 #include "run_in.hpp"
 
+// Mistakes that these cases have to notice:
+//  * reactions count as ports (reading/energy_words.cpp)
+//  * losses count as supply
+//  * what a step does not balance at its stage is not seen
+//  * the stage is that of the state (running/observer.cpp)
+//  * a closed form of the balance is compared with the balance of the step before
+//    (running/observer.cpp)
+//  * the energies at an event are those of its part of the step alone
+//    (running/observer_elsewhere.cpp)
+//  * rows between two steps have no energies (running/trajectory_rows.cpp)
+//  * observers are told of the stage of another step (running/runner.cpp)
 BOOST_AUTO_TEST_SUITE(power_account_test)
 
 using namespace courant;

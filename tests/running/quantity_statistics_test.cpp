@@ -5,6 +5,12 @@
 
 namespace courant {
 
+// Mistakes that these cases have to notice:
+//  * drifts downwards are not seen
+//  * a NaN is forgotten
+//  * a value that is not a number is forgotten
+//  * after a stop, a value that was not a number is forgotten
+//  * deviations are from the mean before
 BOOST_AUTO_TEST_SUITE(quantity_statistics)
 
 BOOST_AUTO_TEST_CASE(of_a_line_and_an_oscillation) {

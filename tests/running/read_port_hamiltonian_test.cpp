@@ -3,6 +3,9 @@
 #include "../reading/experiment_problems.hpp"
 #include "run_in.hpp"
 
+// Mistakes that these cases have to notice:
+//  * resistors that give energy are taken (reading/read_port_hamiltonian.cpp)
+//  * resistance need not be symmetric (reading/read_port_hamiltonian.cpp)
 BOOST_AUTO_TEST_SUITE(read_port_hamiltonian_test)
 
 using namespace courant;

@@ -6,6 +6,8 @@
 #include "courant/running/run_folder.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * --force goes up and removes runs elsewhere
 BOOST_AUTO_TEST_SUITE(result_folder)
 
 namespace {

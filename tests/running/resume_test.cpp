@@ -7,6 +7,20 @@
 #include "resumed_run.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * the observer knows at an epoch what it knew before, after a stop it does not
+//    (running/runner.cpp)
+//  * iterations before the stop are not counted (running/runner.cpp)
+//  * statistics begin at the checkpoint (running/runner.cpp)
+//  * rows at times before the stop are lost (running/runner.cpp)
+//  * what was not finite before the stop is forgotten (running/runner.cpp)
+//  * the account of powers begins at the checkpoint (running/runner.cpp)
+//  * so does the method (running/run_steps.cpp)
+//  * a run that goes on confirms its first step, one that was not stopped does not
+//    (running/run_steps.cpp)
+//  * rows after the checkpoint stay in the file (running/growing_file.cpp)
+//  * a checkpoint at the end counts a row that a longer run has not (running/run_steps.hpp)
+//  * the report of the run as it was stays (running/run_folder.cpp)
 BOOST_AUTO_TEST_SUITE(resume)
 
 namespace {

@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * short runs wait for a compiler that takes longer than they do
 BOOST_AUTO_TEST_SUITE(run_backend_test)
 
 namespace {

@@ -5,6 +5,8 @@
 #include "problems.hpp"
 
 namespace courant::test {
+// Mistakes that these cases have to notice:
+//  * a guess stays beside the cause
 BOOST_AUTO_TEST_SUITE(run_failure)
 
 namespace {

@@ -10,6 +10,8 @@
 
 #include "vortex_runs.hpp"
 
+// Mistakes that these cases have to notice:
+//  * the name of an event is taken for a number
 BOOST_AUTO_TEST_SUITE(run_files)
 
 using namespace courant;

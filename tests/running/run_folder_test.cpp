@@ -6,6 +6,10 @@
 #include "run_in.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * a run writes into the folder of another (running/locked_folder.cpp)
+//  * a folder whose name is too long is refused after the computation (running/locked_folder.cpp)
+//  * the attempt to make a folder leaves folders (running/locked_folder.cpp)
 BOOST_AUTO_TEST_SUITE(run_folder)
 
 namespace {

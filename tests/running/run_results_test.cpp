@@ -7,6 +7,8 @@
 #include "problems.hpp"
 
 namespace courant::test {
+// Mistakes that these cases have to notice:
+//  * constraints are listed as observables
 BOOST_AUTO_TEST_SUITE(run_results_test)
 
 namespace {

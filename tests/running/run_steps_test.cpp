@@ -9,6 +9,14 @@
 #include "resumed_run.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * a state that was moved is not where the next step begins
+//  * steps that have not been read are overwritten
+//  * steps that are made ahead have no epochs
+//  * an attempt that failed is not counted
+//  * what a step took is not told
+//  * all steps begin where the run does
+//  * a run that goes on is prepared as one that begins
 BOOST_AUTO_TEST_SUITE(run_steps)
 
 namespace {

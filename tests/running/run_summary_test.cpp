@@ -6,6 +6,9 @@
 #include "vortex_runs.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * a number that is missing is zero
+//  * a ladder that is a number is answered in words of the JSON library
 BOOST_AUTO_TEST_SUITE(run_summary)
 
 namespace {

@@ -8,6 +8,18 @@
 #include "run_in.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * bounds along a run are met by runs that failed (reading/expectation.cpp)
+//  * a value that is not a number meets its bound (reading/expectation.cpp)
+//  * every verdict is the one expected (reading/expectation.cpp)
+//  * observables see velocities of the stage (running/observed_quantities.cpp)
+//  * the last step of a run is not written (reading/output.cpp)
+//  * a failed solve is a completed run
+//  * inconsistent systems are run
+//  * a watcher of one's own is told of the stage of another step
+//  * all coordinates have columns whatever is asked for (running/trajectory_rows.cpp)
+//  * what shorter steps from the start do not explain either is explained
+//    (running/energy_watch.cpp)
 BOOST_AUTO_TEST_SUITE(runner)
 
 namespace {

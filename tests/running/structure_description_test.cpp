@@ -5,6 +5,8 @@
 #include "problems.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * open ports are a Dirac structure as closed ones are
 BOOST_AUTO_TEST_SUITE(structure_description_test)
 
 namespace {

@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+// Mistakes that these cases have to notice:
+//  * the reader takes one count for another
 BOOST_AUTO_TEST_SUITE(study_report)
 
 using namespace courant;

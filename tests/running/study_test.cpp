@@ -5,6 +5,12 @@
 #include "courant/tests/core/says.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * the error is that of the end, not the greatest
+//  * the reference is taken for better than it is
+//  * the reference is of order 5
+//  * a reference is said to be that of all methods if it is that of the first
+//    (running/study_report.cpp)
 BOOST_AUTO_TEST_SUITE(study_test)
 
 namespace {

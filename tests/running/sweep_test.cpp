@@ -8,6 +8,8 @@
 #include "courant/running/run_folder.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * a sweep that was interrupted passes for a whole one
 BOOST_AUTO_TEST_SUITE(sweep_test)
 
 namespace {

@@ -8,6 +8,9 @@
 #include "problems.hpp"
 #include "run_in.hpp"
 
+// Mistakes that these cases have to notice:
+//  * what is no symmetry is accepted
+//  * momenta have no column (running/observed_quantities.cpp)
 BOOST_AUTO_TEST_SUITE(symmetry_check)
 
 using namespace courant;

@@ -12,6 +12,19 @@
 #include "resumed_run.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * at rest or on an axis, coordinates that are constant on the constraint set are equations
+//    (integrators/methods/constrain_first_differential.cpp)
+//  * equations whose coefficients vary are chosen as readily as others
+//    (integrators/step/vector_field.cpp)
+//  * the tangent map does not go on with the steps (running/observer.cpp)
+//  * the defects stand in each other's columns (running/observer.cpp)
+//  * a resumed run begins its tangent map anew (running/observer.cpp)
+//  * composed steps have no parts where defects are asked for (running/runner.cpp)
+//  * rows between steps have no defects (running/observer_elsewhere.cpp)
+//  * constraints are not looked at
+//  * gauge freedom is found out at the first step, in other words
+//  * a defect that is not defined is not refused
 BOOST_AUTO_TEST_SUITE(tangent_of_run_test)
 
 namespace {

@@ -9,6 +9,10 @@
 #include "problems.hpp"
 
 namespace courant::test {
+// Mistakes that these cases have to notice:
+//  * a time within a step is a share of the whole run
+//  * columns that nobody asked for are written
+//  * a row is kept for an expectation at another time
 BOOST_AUTO_TEST_SUITE(trajectory_rows_test)
 
 namespace {

@@ -13,6 +13,17 @@
 #include "resumed_run.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * energies through ports are those of a step of h in t (integrators/step/step_energies.cpp)
+//  * a rate that is not positive at the start is taken (reading/transformed_time.cpp)
+//  * the plain transformation stands for the symplectic one (reading/transformed_time.cpp)
+//  * a discrete gradient corrects along time (reading/transformed_time.cpp)
+//  * the last step goes beyond the end (running/run_clock.cpp)
+//  * round-off of time is a step of its own (running/run_clock.cpp)
+//  * the last tau is that of a whole step (running/run_clock.cpp)
+//  * the momentum of time is not kept in a checkpoint (running/checkpoint.cpp)
+//  * rows at times have the tau of the step (running/trajectory_rows.cpp)
+//  * a complete run in transformed time is not known for one (running/unfinished_run.cpp)
 BOOST_AUTO_TEST_SUITE(transformed_time)
 
 namespace {

@@ -5,6 +5,12 @@
 #include "resumed_run.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * a run goes on with another experiment
+//  * a checkpoint at the new end is gone on from
+//  * a run that is complete goes on
+//  * rows that were damaged are kept
+//  * a checkpoint that was edited is gone on from (running/checkpoint.cpp)
 BOOST_AUTO_TEST_SUITE(unfinished_run_test)
 
 namespace {

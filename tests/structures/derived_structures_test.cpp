@@ -19,6 +19,11 @@
 #include "courant/structures/pushforward.hpp"
 #include "courant/structures/rank_profile.hpp"
 
+// Mistakes that these cases have to notice:
+//  * a gauge transformation goes the wrong way
+//  * flows of a shared port do not change sign
+//  * a pull-back without the derivative of the map
+//  * a null structure is used before it is refused
 BOOST_AUTO_TEST_SUITE(derived_structures)
 
 using namespace courant;

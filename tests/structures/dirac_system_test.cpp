@@ -8,6 +8,9 @@
 #include "courant/structures/open_port_hamiltonian.hpp"
 #include "courant/structures/poisson.hpp"
 
+// Mistakes that these cases have to notice:
+//  * parameters and ports are exchanged among the unknowns
+//  * stationarity is that at time 0
 BOOST_AUTO_TEST_SUITE(dirac_system)
 
 using namespace courant;

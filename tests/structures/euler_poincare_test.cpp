@@ -2,6 +2,8 @@
 
 #include <boost/test/unit_test.hpp>
 
+// Mistakes that these cases have to notice:
+//  * the energy of a reduced Lagrangian with the wrong sign
 BOOST_AUTO_TEST_SUITE(euler_poincare)
 
 using namespace courant;

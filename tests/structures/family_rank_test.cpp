@@ -6,6 +6,9 @@
 #include "courant/manifolds/sphere.hpp"
 #include "courant/structures/morse_family.hpp"
 
+// Mistakes that these cases have to notice:
+//  * the rank of a family counts what is normal to the manifold
+//  * the rank is that of the second derivatives by multipliers alone
 BOOST_AUTO_TEST_SUITE(family_rank_test)
 
 using namespace courant;

@@ -15,6 +15,11 @@
 #include "courant/structures/laws.hpp"
 #include "courant/structures/poisson.hpp"
 
+// Mistakes that these cases have to notice:
+//  * the energy of a Lagrangian with the wrong sign
+//  * nothing determines the normal part of a velocity
+//  * the differential is not brought to the frame
+//  * derivatives of large energies are differences of rounding errors (structures/laws.cpp)
 BOOST_AUTO_TEST_SUITE(generating_family)
 
 using namespace courant;

@@ -4,6 +4,8 @@
 
 #include "courant/manifolds/euclidean.hpp"
 
+// Mistakes that these cases have to notice:
+//  * a residual of the wrong size is passed on
 BOOST_AUTO_TEST_SUITE(implicit_system)
 
 using namespace courant;

@@ -16,6 +16,11 @@
 #include "courant/structures/poisson.hpp"
 #include "courant/structures/presymplectic.hpp"
 
+// Mistakes that these cases have to notice:
+//  * a term of the Courant tensor has the other sign
+//  * coordinate fields are taken for constant
+//  * points where the rank changes are judged
+//  * structures that are not Dirac are judged
 BOOST_AUTO_TEST_SUITE(integrability_test)
 
 using namespace courant;

@@ -8,6 +8,10 @@
 #include "courant/structures/network.hpp"
 #include "courant/structures/port_hamiltonian_system.hpp"
 
+// Mistakes that these cases have to notice:
+//  * a joint may make power
+//  * joined ports keep the equations of their systems
+//  * power comes out where a port takes it in (structures/network.cpp)
 BOOST_AUTO_TEST_SUITE(interconnection_test)
 
 using namespace courant;

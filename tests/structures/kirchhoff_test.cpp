@@ -7,6 +7,9 @@
 #include "courant/structures/kirchhoff_laws.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * loops of the forest against their orientation
+//  * K3 never fails (structures/kirchhoff_laws.cpp)
 BOOST_AUTO_TEST_SUITE(kirchhoff_test)
 
 namespace {

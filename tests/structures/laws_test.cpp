@@ -10,6 +10,18 @@
 #include "courant/structures/poisson.hpp"
 #include "courant/structures/rank_profile.hpp"
 
+// Mistakes that these cases have to notice:
+//  * S1 takes too small dimensions for right
+//  * S2 never fails
+//  * S3 never fails
+//  * S4 never fails
+//  * S5 never fails
+//  * S5 looks at zero alone
+//  * S5' never fails
+//  * S6 never fails
+//  * S7 never fails
+//  * coisotropy is not asked of open structures
+//  * attitudes do not turn (structures/matrix_structures.cpp)
 BOOST_AUTO_TEST_SUITE(structure_laws)
 
 using namespace courant;

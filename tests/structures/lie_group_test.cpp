@@ -10,6 +10,8 @@
 #include "courant/manifolds/sphere.hpp"
 #include "courant/structures/representation.hpp"
 
+// Mistakes that these cases have to notice:
+//  * any representation is taken for polynomials
 BOOST_AUTO_TEST_SUITE(lie_group)
 
 using namespace courant;

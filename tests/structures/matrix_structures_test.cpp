@@ -22,6 +22,19 @@
 #include "courant/structures/restricted_bivector.hpp"
 #include "courant/structures/restricted_two_form.hpp"
 
+// Mistakes that these cases have to notice:
+//  * the sign of the multiplier in Theorem 2.4
+//  * the sign of the multipliers in Theorem 2.5 and of closed ports
+//  * the sign of the multipliers of F ⊕ F° by one-forms
+//  * the sign of the coefficients of F ⊕ F° by fields
+//  * the sign of ω in the graph of a form
+//  * the sign of Λ in the graph of a bivector
+//  * open ports act with the wrong sign
+//  * the two Lie-Poisson structures are exchanged
+//  * the torsion of a frame is forgotten (structures/canonical_symplectic.cpp)
+//  * what cancels to rounding is scaled up to an equation (structures/paired_subspace.cpp)
+//  * the Jacobi identity is not asked for (structures/lie_algebra.cpp)
+//  * so(n) with the opposite brackets (structures/lie_algebra.cpp)
 BOOST_AUTO_TEST_SUITE(matrix_structures)
 
 using namespace courant;

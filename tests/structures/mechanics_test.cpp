@@ -10,6 +10,15 @@
 #include "courant/structures/lagrangian_system.hpp"
 #include "courant/structures/laws.hpp"
 
+// Mistakes that these cases have to notice:
+//  * reactions pull the other way (structures/dirac_system.cpp)
+//  * the parts of the gradient of a constraint are exchanged (structures/dirac_system.cpp)
+//  * forces are velocities
+//  * affine constraints are called a distribution
+//  * the vakonomic Lagrangian is L - κ g
+//  * the canonical form without torsion (structures/canonical_symplectic.cpp)
+//  * the canonical bivector with the torsion of the other side
+//    (structures/canonical_symplectic.cpp)
 BOOST_AUTO_TEST_SUITE(mechanics)
 
 using namespace courant;

@@ -8,6 +8,9 @@
 #include "courant/structures/dirac_system.hpp"
 #include "courant/structures/laws.hpp"
 
+// Mistakes that these cases have to notice:
+//  * abnormal extremals know the cost
+//  * derivatives of a family are measured over one distance (structures/laws.cpp)
 BOOST_AUTO_TEST_SUITE(morse_family)
 
 using namespace courant;

@@ -4,6 +4,8 @@
 #include <random>
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * corners of equations are not named (running/undefined_formula.cpp)
 BOOST_AUTO_TEST_SUITE(network_test)
 
 namespace {

@@ -5,6 +5,9 @@
 #include <sstream>
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * a sum doubts as little as the better of its parts
+//  * subspaces of different dimensions may be close
 BOOST_AUTO_TEST_SUITE(paired_subspace_test)
 
 namespace {

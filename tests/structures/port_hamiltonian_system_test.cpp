@@ -12,6 +12,12 @@
 #include "courant/structures/closed_port_hamiltonian.hpp"
 #include "courant/structures/dirac_system.hpp"
 
+// Mistakes that these cases have to notice:
+//  * resistors give energy instead of taking it
+//  * ports act with the wrong sign
+//  * inputs are those at time 0
+//  * the energy of the equations is that at time 0
+//  * what is missing is used before it is checked
 BOOST_AUTO_TEST_SUITE(port_hamiltonian_system)
 
 using namespace courant;

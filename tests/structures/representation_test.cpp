@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <stdexcept>
 
+// Mistakes that these cases have to notice:
+//  * matrices are turned on one side only
 BOOST_AUTO_TEST_SUITE(representation)
 
 using namespace courant;

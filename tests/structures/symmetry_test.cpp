@@ -11,6 +11,12 @@
 #include "courant/structures/lagrangian_system.hpp"
 #include "courant/structures/lie_poisson.hpp"
 
+// Mistakes that these cases have to notice:
+//  * the lift turns momenta the wrong way
+//  * holonomic constraints are not looked at
+//  * forces and reactions never act
+//  * the energy is measured off the Lagrangian submanifold
+//  * the terms of the energy hide asymmetries in large units
 BOOST_AUTO_TEST_SUITE(symmetry)
 
 using namespace courant;

@@ -11,6 +11,12 @@
 #include "courant/structures/dirac_system.hpp"
 #include "courant/structures/generating_family.hpp"
 
+// Mistakes that these cases have to notice:
+//  * residuals are of unknowns in other units
+//  * units that round numbers are taken
+//  * components of a vector may have any units
+//  * numbers without a unit may have one
+//  * in other units equations are no vectors
 BOOST_AUTO_TEST_SUITE(system_in_units)
 
 using namespace courant;

@@ -11,6 +11,15 @@
 
 using namespace courant;
 
+// Mistakes that these cases have to notice:
+//  * the momentum of time has the sign of the energy
+//  * the energy is that of the parameters that are given, also where they are none of the point
+//  * p_t is left out: the flow is another one off E = 0
+//  * velocities are those of the transformed time
+//  * time goes on at its own rate
+//  * what is dissipated is told in a unit of t
+//  * the energy of the extended system does not know that it depends on time
+//  * what is carried is computed anew
 BOOST_AUTO_TEST_SUITE(time_transformation)
 
 namespace {

@@ -9,6 +9,9 @@
 #include "courant/core/linear/lu_decomposition.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * the sign of the energy of vortices
+//  * strengths of the one-form count twice
 BOOST_AUTO_TEST_SUITE(point_vortices)
 
 namespace {

@@ -8,6 +8,18 @@
 #include "courant/core/expressions/function.hpp"
 #include "courant/core/numbers/uncertain.hpp"
 
+// Mistakes that these cases have to notice:
+//  * coefficients that are round-off stay (core/algebra/sum_of_terms.cpp)
+//  * terms with a known factor are scaled by numbers that round (core/algebra/sum_of_terms.cpp)
+//  * what is known of a sum is added up last (core/algebra/sum_of_terms.cpp)
+//  * sums that are needed elsewhere are never taken apart
+//  * a quotient by a number is a product with it
+//  * sums are written anew though no terms meet
+//  * sums without terms that meet lose their parentheses
+//  * numbers in a row are joined that make another number by rounding
+//  * two known factors in a row are rounded together
+//  * a product in a product with what is known loses its parentheses
+//  * what depends on what varies is taken for known (core/expressions/subgraph.cpp)
 BOOST_AUTO_TEST_SUITE(collected_terms)
 
 using namespace courant;

@@ -6,6 +6,9 @@
 #include "../numbers/operation_catalogue.hpp"
 #include "courant/core/expressions/derivative.hpp"
 
+// Mistakes that these cases have to notice:
+//  * of a product one factor is taken at the start alone
+//  * plain differences where they cancel
 BOOST_AUTO_TEST_SUITE(divided_difference_test)
 
 using namespace courant;

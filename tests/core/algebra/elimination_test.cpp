@@ -10,6 +10,14 @@
 #include "courant/core/linear/qr_decomposition.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * a parameter that may vanish is divided by
+//  * a small pivot is taken
+//  * a coarse unknown gives a fine one
+//  * a long chain is filled
+//  * round-off of identities passes for equations
+//  * what is left of contradictions passes for an identity
+//  * what a bound of round-off does not see is zero
 BOOST_AUTO_TEST_SUITE(elimination_test)
 
 namespace {

@@ -4,6 +4,9 @@
 #include <stdexcept>
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * factors stand as they came
+//  * a negative term may come first
 BOOST_AUTO_TEST_SUITE(factor_table_test)
 
 BOOST_AUTO_TEST_CASE(factors_with_one_text_are_one) {

@@ -27,6 +27,13 @@ struct Sphere {
   NormalForm on_sphere() const { return {variables(), {dot(x, x) - 1.0, dot(x, v)}}; }
 };
 
+// Mistakes that these cases have to notice:
+//  * a square root is no longer what is under it
+//  * an equation that is no polynomial of the unknowns is dropped
+//  * a relation with a denominator is left out
+//  * a root is not eliminated, so that nothing follows
+//  * what stands below may be zero, so that the consequence has a factor too many
+//  * relations that contradict each other are not noticed (core/algebra/polynomial_relations.cpp)
 BOOST_FIXTURE_TEST_SUITE(normal_form_test, Sphere)
 
 BOOST_AUTO_TEST_CASE(projections_of_tangent_vectors_are_nothing) {

@@ -3,6 +3,10 @@
 #include <boost/test/unit_test.hpp>
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * the number in front is that of the leading term
+//  * denominators of some terms stay in the primitive part (core/algebra/polynomial_relations.hpp)
+//  * factors of the terms before are taken out of all (core/algebra/polynomial_relations.hpp)
 BOOST_AUTO_TEST_SUITE(polynomial_content_test)
 
 namespace {

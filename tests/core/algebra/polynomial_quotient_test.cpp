@@ -3,6 +3,9 @@
 #include <boost/test/unit_test.hpp>
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * 1 + cos² becomes a sine
+//  * the lowest terms need not divide each other
 BOOST_AUTO_TEST_SUITE(polynomial_quotient_test)
 
 namespace {

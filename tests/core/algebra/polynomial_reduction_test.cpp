@@ -4,6 +4,11 @@
 #include <stdexcept>
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * round-off of numbers that cancel is written
+//  * part of a relation is taken for a multiple of it
+//  * there is no end to what is written
+//  * polynomials have any number of terms
 BOOST_AUTO_TEST_SUITE(polynomial_reduction_test)
 
 namespace {

@@ -41,6 +41,11 @@ std::vector<Polynomial> cotangent_bundle() {
 
 }  // namespace
 
+// Mistakes that these cases have to notice:
+//  * consequences of several relations are not found, and x·p stays on T*S²
+//  * what an element makes reducible is dropped from the basis
+//  * factors that are to be eliminated stay in all relations
+//  * low powers lead high ones
 BOOST_AUTO_TEST_SUITE(polynomial_relations_test)
 
 BOOST_AUTO_TEST_CASE(products_and_quotients_of_monomials) {

@@ -28,6 +28,12 @@ struct Fractions : Sums {
 
 }  // namespace
 
+// Mistakes that these cases have to notice:
+//  * an equation is divided by what may vanish
+//  * terms over the same sum stand one by one
+//  * what divides both sides of a fraction stays
+//  * a sum that is 0 stands in a denominator
+//  * pairs of roots stay roots
 BOOST_FIXTURE_TEST_SUITE(sum_arithmetic_test, Sums)
 
 BOOST_AUTO_TEST_CASE(products_of_sums_are_multiplied_out_or_not) {

@@ -17,6 +17,8 @@
 #include "courant/core/files/work_folder.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * the sources of somebody are compiled code (core/expressions/native_cache.cpp)
 BOOST_AUTO_TEST_SUITE(c_compiler_test, *boost::unit_test::precondition([](auto) {
                         return machine_compiler()->is_available();
                       }))

@@ -9,6 +9,15 @@
 #include "courant/core/numbers/special_functions.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * the sign of the derivative of a quotient
+//  * the derivative of arccos is that of arcsin
+//  * the arguments of atan2 are exchanged
+//  * a minimum is differentiated like a maximum
+//  * what is needed on one way only hides the other
+//  * an unknown of the result itself has no derivative
+//  * the 2 of a square stands before every product
+//  * a choice by an unknown is taken for an affine map
 BOOST_AUTO_TEST_SUITE(derivative_test)
 
 namespace {

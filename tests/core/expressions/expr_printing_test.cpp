@@ -4,6 +4,8 @@
 #include "courant/core/expressions/expr.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * a formula with 0/0 is told as -nan/x (core/expressions/expr.cpp)
 BOOST_AUTO_TEST_SUITE(expr_printing_test)
 
 namespace {

@@ -6,6 +6,10 @@
 #include "courant/core/numbers/operation.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * the power 2 is the power 1
+//  * a select of a known condition takes the other branch
+//  * the difference of a number and itself is its negative
 BOOST_AUTO_TEST_SUITE(expr_test)
 
 namespace {

@@ -7,6 +7,9 @@
 #include "courant/core/expressions/derivative.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * the Jacobian is transposed
+//  * what a Jacobian by other groups is made of is taken for that by the first
 BOOST_AUTO_TEST_SUITE(function_test)
 
 namespace {

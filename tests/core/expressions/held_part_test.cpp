@@ -9,6 +9,11 @@
 #include "courant/core/expressions/native.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * parts of what is held are held too
+//  * outputs that stay are worked out each time
+//  * what is held is not worked out for a single value (core/expressions/function.cpp)
+//  * leaves of another graph are taken (core/expressions/subgraph.cpp)
 BOOST_AUTO_TEST_SUITE(held_part_test)
 
 namespace {

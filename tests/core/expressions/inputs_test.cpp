@@ -6,6 +6,9 @@
 
 using namespace courant;
 
+// Mistakes that these cases have to notice:
+//  * a solver moves unknowns that are not those that its equations read
+//  * places behind the last group are read (core/solve/newton.cpp)
 BOOST_AUTO_TEST_SUITE(inputs)
 
 // f(y; a, b) = (a - 2 b y), at places in an order of their own.

@@ -3,6 +3,9 @@
 #include <boost/test/unit_test.hpp>
 #include <random>
 
+// Mistakes that these cases have to notice:
+//  * a pivot that is identically zero is divided by
+//  * elimination adds
 BOOST_AUTO_TEST_SUITE(linear_algebra)
 
 using namespace courant;

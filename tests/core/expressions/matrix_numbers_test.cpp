@@ -4,6 +4,10 @@
 
 #include "courant/core/expressions/derivative.hpp"
 
+// Mistakes that these cases have to notice:
+//  * affine equations are solved by the matrix of another step
+//  * points that change with each step are numbers that a matrix is made of
+//  * the matrix of equations that are not affine counts as theirs
 BOOST_AUTO_TEST_SUITE(matrix_numbers)
 
 using namespace courant;

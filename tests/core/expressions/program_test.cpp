@@ -6,6 +6,13 @@
 
 #include "courant/core/expressions/expr_vectors.hpp"
 
+// Mistakes that these cases have to notice:
+//  * operands of even stretches are those of the next instruction
+//  * stretches that go down are turned around though results are operands of others
+//  * results that go down the workspace go up
+//  * inputs with gaps between them are taken as if they were side by side
+//  * outputs are taken as if they were side by side
+//  * stretches whose results are far apart are taken for even ones
 BOOST_AUTO_TEST_SUITE(programs)
 
 using namespace courant;

@@ -7,6 +7,8 @@
 #include "temporary_folder.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * parts that changed places are the same
 BOOST_AUTO_TEST_SUITE(content_hash_test)
 
 namespace {

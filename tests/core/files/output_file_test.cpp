@@ -11,6 +11,11 @@
 
 namespace courant {
 
+// Mistakes that these cases have to notice:
+//  * what is longer stays
+//  * an error has the name of a file on the way
+//  * a link is replaced by a file
+//  * a file on the way is written through a link
 BOOST_AUTO_TEST_SUITE(output_file_test)
 
 BOOST_AUTO_TEST_CASE(writes_and_overwrites) {

@@ -7,6 +7,8 @@
 #include "temporary_folder.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * what was edited is still ours
 BOOST_AUTO_TEST_SUITE(own_file_test)
 
 namespace {

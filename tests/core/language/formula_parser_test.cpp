@@ -4,6 +4,8 @@
 
 #include "courant/core/language/formula.hpp"
 
+// Mistakes that these cases have to notice:
+//  * sums of a million terms with unknowns are read, and take minutes
 BOOST_AUTO_TEST_SUITE(formula_parser_test)
 
 using namespace courant;

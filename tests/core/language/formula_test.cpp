@@ -10,6 +10,13 @@
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/core/expressions/function.hpp"
 
+// Mistakes that these cases have to notice:
+//  * a cross product of the other hand (core/language/formula_value.cpp)
+//  * a norm without its root (core/language/formula_value.cpp)
+//  * greater or equal is greater (core/language/formula_value.cpp)
+//  * a sum ends before its last term (core/language/formula_parser.cpp)
+//  * the last element of an array is out of range (core/language/formula_parser.cpp)
+//  * what does not count is computed (core/language/formula_parser.cpp)
 BOOST_AUTO_TEST_SUITE(formula_test)
 
 using namespace courant;

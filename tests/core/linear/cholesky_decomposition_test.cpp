@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <limits>
 
+// Mistakes that these cases have to notice:
+//  * what is not a number is taken for positive
 BOOST_AUTO_TEST_SUITE(cholesky_decomposition)
 
 using namespace courant;

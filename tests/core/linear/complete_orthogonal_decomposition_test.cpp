@@ -6,6 +6,9 @@
 
 #include "../random_matrix.hpp"
 
+// Mistakes that these cases have to notice:
+//  * the data error is not taken into account
+//  * solutions are not those of least norm
 BOOST_AUTO_TEST_SUITE(complete_orthogonal_decomposition)
 
 using namespace courant;

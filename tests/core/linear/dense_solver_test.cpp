@@ -5,6 +5,10 @@
 #include <limits>
 #include <random>
 
+// Mistakes that these cases have to notice:
+//  * what is open is taken as predicted
+//  * what is open is set to zero, not to where the state has it
+//  * the factors of a regular matrix answer for a singular one
 BOOST_AUTO_TEST_SUITE(dense_solver)
 
 using namespace courant;

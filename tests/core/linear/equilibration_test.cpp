@@ -5,6 +5,8 @@
 #include <random>
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * what is left of a zero is scaled up to no number
 BOOST_AUTO_TEST_SUITE(equilibration_test)
 
 namespace {

@@ -6,6 +6,10 @@
 
 #include "../random_matrix.hpp"
 
+// Mistakes that these cases have to notice:
+//  * the sign of the exchanges is forgotten
+//  * rows of large matrices are exchanged the other way
+//  * rows of an inverse end before the diagonal
 BOOST_AUTO_TEST_SUITE(lu_decomposition)
 
 using namespace courant;

@@ -4,6 +4,8 @@
 #include <boost/test/unit_test.hpp>
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * rows are taken for columns
 BOOST_AUTO_TEST_SUITE(matching_test)
 
 namespace {

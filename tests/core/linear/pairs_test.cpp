@@ -6,6 +6,12 @@
 
 namespace courant {
 
+// Mistakes that these cases have to notice:
+//  * the last of an odd number is left out
+//  * every other number is no maximum
+//  * numbers are added from left to right, not as programs in C do
+//  * the first two numbers are looked at again and again
+//  * of eight numbers at once the last ones are not looked at
 BOOST_AUTO_TEST_SUITE(pairs)
 
 BOOST_AUTO_TEST_CASE(each_number_is_visited_once) {

@@ -2,6 +2,9 @@
 
 #include <boost/test/unit_test.hpp>
 
+// Mistakes that these cases have to notice:
+//  * the last of the columns is taken for the longest
+//  * products leave out their first terms
 BOOST_AUTO_TEST_SUITE(plain_products)
 
 using namespace courant;

@@ -5,6 +5,8 @@
 #include <random>
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * the length of a path is forgotten
 BOOST_AUTO_TEST_SUITE(product_scaling_test)
 
 namespace {

@@ -5,6 +5,8 @@
 #include <type_traits>
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * a transposed factor on the left is taken as it stands
 BOOST_AUTO_TEST_SUITE(products_test)
 
 namespace {

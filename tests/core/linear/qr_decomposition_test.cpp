@@ -5,6 +5,8 @@
 
 #include "../random_matrix.hpp"
 
+// Mistakes that these cases have to notice:
+//  * the columns' order is not undone
 BOOST_AUTO_TEST_SUITE(qr_decomposition)
 
 using namespace courant;

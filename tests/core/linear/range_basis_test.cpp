@@ -5,6 +5,9 @@
 
 #include "courant/core/linear/qr_decomposition.hpp"
 
+// Mistakes that these cases have to notice:
+//  * the columns that are left keep their parts along those before
+//  * zeros that are round-off stay numbers
 BOOST_AUTO_TEST_SUITE(range_bases)
 
 using namespace courant;

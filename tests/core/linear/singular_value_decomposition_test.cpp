@@ -6,6 +6,8 @@
 #include "courant/core/linear/qr_decomposition.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * V is left as its transpose (core/linear/singular_value_decomposition_lapack.cpp)
 BOOST_AUTO_TEST_SUITE(singular_value_decomposition_test)
 
 namespace {

@@ -9,6 +9,15 @@
 #include "courant/core/linear/lu_decomposition.hpp"
 #include "courant/core/linear/solver_choice.hpp"
 
+// Mistakes that these cases have to notice:
+//  * singular matrices are solved as if they were regular
+//  * the solution is left in the units of the scaled unknowns
+//  * units of rows and columns are forgotten
+//  * pivots that were chosen for another matrix are kept when they vanish
+//    (core/linear/sparse_lu_klu.cpp)
+//  * the determinant has the sign of a permuted matrix (core/linear/sparse_lu_klu.cpp)
+//  * large sparse systems are inverted (core/linear/linear_solver.cpp)
+//  * matrices that are solved with once are inverted (core/linear/linear_solver.cpp)
 BOOST_AUTO_TEST_SUITE(sparse_solver)
 
 using namespace courant;

@@ -6,6 +6,8 @@
 #include "courant/core/linear/rank_decision.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * stored zeros count as entries
 BOOST_AUTO_TEST_SUITE(structural_rank_test)
 
 namespace {

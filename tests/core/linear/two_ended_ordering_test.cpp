@@ -7,6 +7,11 @@
 #include <set>
 #include <utility>
 
+// Mistakes that these cases have to notice:
+//  * one half comes after the other
+//  * a graph is cut where it is wide
+//  * what cuts a graph does not come last
+//  * levels are counted from the middle
 BOOST_AUTO_TEST_SUITE(two_ended_ordering)
 
 namespace {

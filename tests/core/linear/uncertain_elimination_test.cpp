@@ -6,6 +6,10 @@
 #include <random>
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * errors of other entries hide a small pivot (core/linear/uncertain_matrix.cpp)
+//  * a pivot that may be zero counts
+//  * elimination forgets errors of entries that are zero within them
 BOOST_AUTO_TEST_SUITE(uncertain_elimination_test)
 
 namespace {

@@ -8,6 +8,11 @@
 #include "courant/core/linear/singular_value_decomposition.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * scales that small entries mislead lose ranks
+//  * a pivot is taken that hides numbers in errors
+//  * no scales heed errors
+//  * errors times 10⁸ leave the range of doubles
 BOOST_AUTO_TEST_SUITE(uncertain_matrix_test)
 
 namespace {

@@ -3,6 +3,9 @@
 #include <boost/test/unit_test.hpp>
 #include <limits>
 
+// Mistakes that these cases have to notice:
+//  * numbers near a power of two count as one
+//  * a size is rounded down
 BOOST_AUTO_TEST_SUITE(power_of_two)
 
 using namespace courant;

@@ -6,6 +6,10 @@
 #include "courant/core/expressions/function.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * sine and cosine are exchanged
+//  * a series that loses its digits is taken for right to the last one
+//    (core/expressions/taylor.cpp)
 BOOST_AUTO_TEST_SUITE(quadruple_test)
 
 namespace {

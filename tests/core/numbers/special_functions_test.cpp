@@ -5,6 +5,9 @@
 #include <limits>
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * the series of the Stumpff functions alternates no more
+//  * the logarithm beyond c = 1 by the wrong sign
 BOOST_AUTO_TEST_SUITE(special_functions_test)
 
 namespace {

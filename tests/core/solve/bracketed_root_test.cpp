@@ -5,6 +5,8 @@
 #include <exception>
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * the search stops at an interval that is too long
 BOOST_AUTO_TEST_SUITE(bracketed_root_test)
 
 namespace {

@@ -6,6 +6,11 @@
 #include "../random_matrix.hpp"
 #include "courant/core/linear/lu_decomposition.hpp"
 
+// Mistakes that these cases have to notice:
+//  * an update forgets the units of the unknowns
+//  * the secant equation does not hold
+//  * an inverse of little use is made worse
+//  * an update goes the other way
 BOOST_AUTO_TEST_SUITE(broyden_update)
 
 using namespace courant;

@@ -10,6 +10,10 @@
 #include "courant/core/linear/small_product.hpp"
 #include "courant/core/linear/static_size.hpp"
 
+// Mistakes that these cases have to notice:
+//  * a matrix that contracts badly is gone on with
+//  * the change before is that of after learning
+//  * the last of an odd number of columns is left out (core/linear/small_product.hpp)
 BOOST_AUTO_TEST_SUITE(contraction_test)
 
 using namespace courant;

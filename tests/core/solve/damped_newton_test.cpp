@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+// Mistakes that these cases have to notice:
+//  * steps are not damped
+//  * all blocks are measured alike
 BOOST_AUTO_TEST_SUITE(damped_newton_method)
 
 using namespace courant;

@@ -7,6 +7,8 @@
 #include "courant/core/solve/newton.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * unknowns that follow are not written (core/solve/newton.cpp)
 BOOST_AUTO_TEST_SUITE(equation_system_test)
 
 namespace {

@@ -2,6 +2,9 @@
 
 #include <boost/test/unit_test.hpp>
 
+// Mistakes that these cases have to notice:
+//  * a short change far from where the matrix was made settles exponentials
+//  * exponentials that are nothing settle no step
 BOOST_AUTO_TEST_SUITE(exponential_watch_test)
 
 using namespace courant;

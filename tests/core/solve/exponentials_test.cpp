@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+// Mistakes that these cases have to notice:
+//  * exponentials are followed to wherever their tangents point
 BOOST_AUTO_TEST_SUITE(exponentials)
 
 using namespace courant;

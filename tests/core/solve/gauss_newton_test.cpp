@@ -3,6 +3,9 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+// Mistakes that these cases have to notice:
+//  * the iteration stops where the defect is small, not at round-off
+//  * a point that is no zero is taken for one
 BOOST_AUTO_TEST_SUITE(gauss_newton_test)
 
 using namespace courant;

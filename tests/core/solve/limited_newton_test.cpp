@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+// Mistakes that these cases have to notice:
+//  * a matrix that determines nothing any more is taken for a zero
 BOOST_AUTO_TEST_SUITE(limited_newton)
 
 using namespace courant;

@@ -5,6 +5,27 @@
 
 #include "newton_problem.hpp"
 
+// Mistakes that these cases have to notice:
+//  * a matrix that is nearly singular is taken for regular (core/linear/regular_matrix.hpp)
+//  * an accidental contraction is taken for that of the matrix (core/solve/contraction.hpp)
+//  * the way back from far away is taken for convergence (core/solve/contraction.hpp)
+//  * a short step after a long one is taken for convergence (core/solve/contraction.hpp)
+//  * a kept inverse never learns (core/solve/contraction.hpp)
+//  * an error that passes from one group of unknowns to another and back is not seen
+//    (core/solve/contraction.hpp)
+//  * a long change by the matrix of affine equations is taken for the last one
+//    (core/solve/contraction.hpp)
+//  * a stall a thousand times longer is taken for round-off
+//  * equal steps down an exponential are taken for round-off
+//  * least squares of contradicting equations are a solution
+//  * residuals of 1e-8 are taken for round-off
+//  * blocks are not measured by their own scale
+//  * slow changes with a matrix from far away pass for round-off
+//  * unknowns are settled that nothing is known of yet
+//  * halfway down an exponential a step by a matrix of a point further up is taken for convergence
+//  * what equations hold stays that of the first parameters
+//  * a redundant system is called determined (core/linear/dense_solver.cpp)
+//  * an iterate that is not finite is accepted (core/solve/unknown_change.hpp)
 BOOST_AUTO_TEST_SUITE(newton)
 
 using namespace courant;

@@ -4,6 +4,8 @@
 #include <boost/test/unit_test.hpp>
 #include <random>
 
+// Mistakes that these cases have to notice:
+//  * letters that are exchanged count two
 BOOST_AUTO_TEST_SUITE(spelling_test)
 
 using namespace courant;

@@ -6,6 +6,9 @@
 
 #include "courant/core/words/word_list.hpp"
 
+// Mistakes that these cases have to notice:
+//  * a column counts bytes, and what follows Greek letters is out of line
+//  * the first term of a sum loses its sign
 BOOST_AUTO_TEST_SUITE(text_layout_test)
 
 using namespace courant;

@@ -4,6 +4,9 @@
 #include <numbers>
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * what is near a fraction is taken for it
+//  * a decimal with round-off becomes a fraction
 BOOST_AUTO_TEST_SUITE(written_number_test)
 
 namespace {

@@ -8,6 +8,9 @@
 #include "ladder_catalogue.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * velocities of points nearby are no branches
+//  * whatever velocity leads back is that of a branch
 BOOST_AUTO_TEST_SUITE(branching_test)
 
 using namespace courant::examples;

@@ -14,6 +14,11 @@
 #include "courant/structures/pullback.hpp"
 #include "ladder_catalogue.hpp"
 
+// Mistakes that these cases have to notice:
+//  * primary constraints are called first class by their fields rather than their brackets
+//  * the border is not taken off the rank of a two-form on M_f
+//  * a Casimir is counted as a gauge direction
+//  * numbers that the structure says exactly are uncertain
 BOOST_AUTO_TEST_SUITE(constraint_classes_test)
 
 using namespace courant;

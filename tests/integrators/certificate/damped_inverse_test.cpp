@@ -4,6 +4,8 @@
 #include <limits>
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * matrices that are not finite are factored
 BOOST_AUTO_TEST_SUITE(damped_inverse_test)
 
 // x + y = -g: the second unknown costs twice as much, and moves a quarter as far.

@@ -6,6 +6,8 @@
 #include "ladder_catalogue.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * the way goes on from levels that repeat
 BOOST_AUTO_TEST_SUITE(ladder_ascent_test)
 
 using namespace courant::examples;

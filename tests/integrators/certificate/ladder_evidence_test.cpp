@@ -6,6 +6,11 @@
 #include "ladder_catalogue.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * redundant equations are not asked for their next derivatives
+//  * the uncertainty of a point is said to hide numbers behind what is identically zero
+//  * what more digits said on the way is asked again
+//  * ranks that fill the pattern of the equations stay doubtful
 BOOST_AUTO_TEST_SUITE(ladder_evidence_test)
 
 using namespace courant::examples;

@@ -6,6 +6,9 @@
 
 #include "ladder_catalogue.hpp"
 
+// Mistakes that these cases have to notice:
+//  * combinations of equations are those of equations in other units
+//  * coefficients of powers of time have another unit of time
 BOOST_AUTO_TEST_SUITE(ladder_in_units)
 
 using namespace courant;

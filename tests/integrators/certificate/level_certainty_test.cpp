@@ -7,6 +7,10 @@
 #include "ladder_catalogue.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * whatever was neglected is far from what counts
+//  * ranks that the bound of their errors hardly allows are confirmed
+//  * ranks lower than those of the pattern are taken for proven
 BOOST_AUTO_TEST_SUITE(level_certainty_test)
 
 using namespace courant::examples;

@@ -6,6 +6,16 @@
 
 #include "ladder_catalogue.hpp"
 
+// Mistakes that these cases have to notice:
+//  * no zero is looked for beyond the sizes that are given
+//    (integrators/certificate/consistent_point.cpp)
+//  * numbers near a point are taken for noise of the search
+//    (integrators/certificate/consistent_point.cpp)
+//  * derivatives are counted at one moment only (integrators/certificate/constraint_algorithm.cpp)
+//  * ranks are compared at one moment only (integrators/certificate/singularity.cpp)
+//  * the ranks at the given values are not compared with those of the point next to them
+//    (integrators/certificate/singularity.cpp)
+//  * the damping that exponentials need is stepped over (integrators/certificate/nearest_zero.cpp)
 BOOST_AUTO_TEST_SUITE(literature_test)
 
 using namespace courant;

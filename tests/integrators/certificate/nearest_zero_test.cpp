@@ -5,6 +5,11 @@
 #include <cmath>
 #include <limits>
 
+// Mistakes that these cases have to notice:
+//  * a residual that is round-off chooses units and makes steps
+//    (integrators/certificate/natural_scaling.cpp)
+//  * a unit is made of rounding errors (integrators/certificate/natural_scaling.cpp)
+//  * what a step leaves of an unknown looks like a number
 BOOST_AUTO_TEST_SUITE(nearest_zero_test)
 
 using namespace courant;

@@ -6,6 +6,15 @@
 #include "courant/integrators/certificate/natural_scaling.hpp"
 #include "ladder_catalogue.hpp"
 
+// Mistakes that these cases have to notice:
+//  * a direction that is no tangent makes a point look singular
+//  * a vanishing gradient is certain though errors turn what the Jacobian does not see
+//  * where round-off hides everything nothing is taken to be there
+//  * what the error of a zero may make of numbers is doubted, though they are small
+//  * rows that vanish at the point are measured in units that they do not have
+//  * directions beside the tangent space are evidence that nothing is hidden
+//  * squares that bounds cover are not seen
+//  * squares that errors of the unseen combination may explain say that nothing is hidden
 BOOST_AUTO_TEST_SUITE(obstruction_test)
 
 using namespace courant;

@@ -6,6 +6,13 @@
 #include "courant/integrators/certificate/level_certainty.hpp"
 #include "ladder_catalogue.hpp"
 
+// Mistakes that these cases have to notice:
+//  * bounds of numbers of 113 bits are those of doubles (core/numbers/quadruple.hpp)
+//  * a zero is corrected the wrong way
+//  * what contradicts itself with more digits is taken for a zero
+//  * of the terms of one entry the last is taken (integrators/certificate/derivative_array.cpp)
+//  * other ranks with more digits are taken for the same
+//    (integrators/certificate/level_certainty.cpp)
 BOOST_AUTO_TEST_SUITE(refined_array_test)
 
 using namespace courant;

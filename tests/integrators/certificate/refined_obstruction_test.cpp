@@ -6,6 +6,8 @@
 #include "ladder_catalogue.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * what round-off hides is not asked with more digits
 BOOST_AUTO_TEST_SUITE(refined_obstruction_test)
 
 using namespace courant::examples;

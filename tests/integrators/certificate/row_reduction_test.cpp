@@ -3,6 +3,9 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+// Mistakes that these cases have to notice:
+//  * elimination with the largest pivots does not believe its bounds
+//  * a pivot that is hardly more than its error comes first because it is large
 BOOST_AUTO_TEST_SUITE(row_reduction_test)
 
 using namespace courant;

@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * the nearest point is not searched where factors break down
 BOOST_AUTO_TEST_SUITE(saddle_point_test)
 
 // ½ (2 x² + 3 y²) - a·(x, y) where x + y = 1: by hand x = (a₁ - a₂ + 3)/5.

@@ -5,6 +5,12 @@
 
 #include "ladder_catalogue.hpp"
 
+// Mistakes that these cases have to notice:
+//  * what an uncertain point hides of a rank leaves no doubt
+//  * entries of a tangent that are round-off bend equations
+//    (integrators/certificate/ladder_levels.cpp)
+//  * a tangent is one to 10⁻¹³ where units are far apart
+//    (integrators/certificate/ladder_levels.cpp)
 BOOST_AUTO_TEST_SUITE(singularity_test)
 
 using namespace courant;

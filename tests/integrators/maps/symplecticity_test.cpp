@@ -7,6 +7,8 @@
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/sphere.hpp"
 
+// Mistakes that these cases have to notice:
+//  * d_Tω without its second part
 BOOST_AUTO_TEST_SUITE(symplecticity)
 
 using namespace courant;

@@ -6,6 +6,12 @@
 #include "../step/integrator_catalogue.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * the order of a stiff system is measured in long steps
+//  * steps that are exact up to round-off have any order
+//  * where round-off hides an order, longer steps are not asked
+//  * an order may be that of any longer step
+//  * the order of other steps than that of the setting may be any
 BOOST_AUTO_TEST_SUITE(claimed_order_test)
 
 namespace {

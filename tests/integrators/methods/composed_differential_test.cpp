@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <stdexcept>
 
+// Mistakes that these cases have to notice:
+//  * all parts have the differential of the first
 BOOST_AUTO_TEST_SUITE(composed_differential)
 
 using namespace courant;

@@ -81,6 +81,10 @@ std::vector<long> counts(int order) {
 
 }  // namespace
 
+// Mistakes that these cases have to notice:
+//  * each stage finds directions and derivatives anew
+//  * stages learn from those after them in the same step, as if they were over
+//  * work of stages does not count (integrators/step/step_parts.hpp)
 BOOST_AUTO_TEST_SUITE(composition)
 
 // Σ γ = 1 and Σ γ^k = 0 for odd k below the order: necessary in every method.

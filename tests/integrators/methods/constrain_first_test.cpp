@@ -11,6 +11,13 @@
 #include "courant/tests/integrators/example_systems.hpp"
 #include "courant/tests/integrators/vortices.hpp"
 
+// Mistakes that these cases have to notice:
+//  * unknowns that no equation contains are those of an older step
+//    (integrators/step/step_solver.hpp)
+//  * a projection may end anywhere on M_f (integrators/methods/constrain_first_projection.cpp)
+//  * what the projection leaves open is extrapolated
+//    (integrators/methods/constrain_first_projection.cpp)
+//  * what a step leaves open is extrapolated
 BOOST_AUTO_TEST_SUITE(constrain_first)
 
 using namespace courant;

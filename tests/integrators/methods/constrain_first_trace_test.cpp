@@ -10,6 +10,8 @@
 #include "courant/tests/integrators/certificate/ladder_catalogue.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * W leads away from the point that is projected
 BOOST_AUTO_TEST_SUITE(constrain_first_trace_test)
 
 namespace {

@@ -81,6 +81,10 @@ SystemPointer rod() {
 
 }  // namespace
 
+// Mistakes that these cases have to notice:
+//  * the two theta steps have another theta and order 1
+//  * the parts of a damped step are halves
+//  * the second part of a damped step begins at another time
 BOOST_AUTO_TEST_SUITE(damped_composition)
 
 BOOST_AUTO_TEST_CASE(conditions_of_order) {

@@ -15,6 +15,9 @@
 #include "courant/manifolds/sphere.hpp"
 #include "courant/structures/generating_family.hpp"
 
+// Mistakes that these cases have to notice:
+//  * the energy is not exact
+//  * units do not count
 BOOST_AUTO_TEST_SUITE(discrete_differential_test)
 
 using namespace courant;

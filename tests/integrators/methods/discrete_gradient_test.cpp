@@ -17,6 +17,8 @@
 #include "courant/structures/network.hpp"
 #include "courant/structures/port_hamiltonian_system.hpp"
 
+// Mistakes that these cases have to notice:
+//  * a holonomic constraint holds in the middle
 BOOST_AUTO_TEST_SUITE(discrete_gradient_test)
 
 using namespace courant;

@@ -7,6 +7,8 @@
 #include "courant/manifolds/sphere.hpp"
 #include "courant/tests/integrators/vortices.hpp"
 
+// Mistakes that these cases have to notice:
+//  * a step that did not converge is taken (integrators/step/step_solver.hpp)
 BOOST_AUTO_TEST_SUITE(discretize_first)
 
 using namespace courant;

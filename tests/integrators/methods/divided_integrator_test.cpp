@@ -47,6 +47,12 @@ State at(double x, double t = 0.0) { return {.t = t, .x = VectorXd::Constant(1, 
 
 }  // namespace
 
+// Mistakes that these cases have to notice:
+//  * a step that is refused is never made in halves
+//  * halves are never halved again
+//  * a corner in each period is the first alone
+//  * a step back meets its corners in the wrong order
+//  * corners next to the end of a step make pieces of round-off
 BOOST_AUTO_TEST_SUITE(divided_integrator)
 
 BOOST_AUTO_TEST_CASE(corners_of_a_step) {

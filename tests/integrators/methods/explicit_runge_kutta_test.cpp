@@ -10,6 +10,8 @@
 #include "courant/integrators/certificate/constraint_algorithm.hpp"
 #include "courant/tests/integrators/certificate/ladder_catalogue.hpp"
 
+// Mistakes that these cases have to notice:
+//  * a coefficient of Fehlberg's method is another one
 BOOST_AUTO_TEST_SUITE(explicit_runge_kutta_test)
 
 using namespace courant;

@@ -17,6 +17,19 @@
 #include "courant/structures/dirac_system.hpp"
 #include "courant/tests/integrators/example_systems.hpp"
 
+// Mistakes that these cases have to notice:
+//  * the stage of a step is told in the units of its making
+//  * the images of the tangent map are told in the units of its making
+//  * no units are needed for numbers that are far apart
+//  * a message recommends a step in another unit of time
+//  * small entries are no units of small numbers (integrators/step/natural_units.cpp)
+//  * what is at rest and connected with nothing has units of nothing
+//    (integrators/step/natural_units.cpp)
+//  * angles have units (integrators/step/natural_units.cpp)
+//  * differences are as long for all numbers of a state
+//    (integrators/methods/measured_differential.cpp)
+//  * units of what nothing tells are quotients of rounding errors
+//    (integrators/step/unit_equations.cpp)
 BOOST_AUTO_TEST_SUITE(integrator_in_units)
 
 using namespace courant;

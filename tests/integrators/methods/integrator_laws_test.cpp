@@ -13,6 +13,12 @@
 #include "courant/integrators/methods/discretize_first.hpp"
 #include "courant/structures/canonical_symplectic.hpp"
 
+// Mistakes that these cases have to notice:
+//  * Method 1 is called symplectic on any system (integrators/methods/discretize_first.hpp)
+//  * tangent blocks are differentiated as the ladder's basis happened to lie
+//    (integrators/certificate/local_formulation.cpp)
+//  * multipliers have to be right before the velocity is known
+//    (integrators/step/step_continuation.cpp)
 BOOST_AUTO_TEST_SUITE(integrator_laws)
 
 using namespace courant;

@@ -6,6 +6,9 @@
 #include "../step/integrator_catalogue.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * no errors are round-off but those below 1e-12
+//  * errors of any size that stay are round-off
 BOOST_AUTO_TEST_SUITE(order_measurement_test)
 
 namespace {

@@ -14,6 +14,12 @@
 #include "courant/structures/euler_poincare.hpp"
 #include "courant/structures/representation.hpp"
 
+// Mistakes that these cases have to notice:
+//  * advected parameters are turned by half a step
+//  * right-invariant systems go the other way
+//  * the attitude goes on to the stage
+//  * torques are those of the beginning
+//  * the stage of maps without an inverse is the start (integrators/step/stage_step.cpp)
 BOOST_AUTO_TEST_SUITE(reduced_map)
 
 using namespace courant;

@@ -6,6 +6,8 @@
 #include "courant/structures/system_in_units.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * states are compared in the units of the experiment
 BOOST_AUTO_TEST_SUITE(state_separation_test)
 
 BOOST_AUTO_TEST_CASE(distances_are_next_to_the_size_of_the_first_state) {

@@ -16,6 +16,9 @@
 #include "courant/manifolds/measurement.hpp"
 #include "courant/structures/canonical_symplectic.hpp"
 
+// Mistakes that these cases have to notice:
+//  * the volume is that of the square of the form
+//  * the form is that of the first point all along
 BOOST_AUTO_TEST_SUITE(tangent_map)
 
 using namespace courant;

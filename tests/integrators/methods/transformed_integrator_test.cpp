@@ -25,6 +25,13 @@
 using namespace courant;
 using examples::Kepler;
 
+// Mistakes that these cases have to notice:
+//  * a step may go back in time
+//  * the rate of a step is not told
+//  * the parts of a step are told as if time were theirs
+//  * the state before the last step stays
+//  * the extended space is moved in from its other end (integrators/step/fixed_time_projector.cpp)
+//  * times within a step are told by its ends alone (integrators/step/stepper.cpp)
 BOOST_AUTO_TEST_SUITE(transformed_integrator)
 
 namespace {

@@ -7,6 +7,9 @@
 #include "courant/structures/system_in_units.hpp"
 #include "courant/tests/integrators/example_systems.hpp"
 
+// Mistakes that these cases have to notice:
+//  * a method in other units is compared with numbers as they are
+//  * a method of another system is taken
 BOOST_AUTO_TEST_SUITE(wrapping_integrator)
 
 using namespace courant;

@@ -7,6 +7,8 @@
 #include "courant/manifolds/euclidean.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * slopes of nothing are the least of all
 BOOST_AUTO_TEST_SUITE(dimensionless_arguments_test)
 
 namespace {

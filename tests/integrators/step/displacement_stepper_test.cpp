@@ -6,6 +6,9 @@
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/tests/integrators/example_systems.hpp"
 
+// Mistakes that these cases have to notice:
+//  * the size of a state is that of coordinates which the equations do not contain
+//  * what is kept is that of a step that failed
 BOOST_AUTO_TEST_SUITE(displacement_stepper)
 
 using namespace courant;

@@ -7,6 +7,9 @@
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/sphere.hpp"
 
+// Mistakes that these cases have to notice:
+//  * given fields are taken for one-forms on the basis of the point
+//  * fields that vary are called the same everywhere
 BOOST_AUTO_TEST_SUITE(field_projector)
 
 using namespace courant;

@@ -10,6 +10,8 @@
 #include "courant/structures/constrained_family.hpp"
 #include "courant/structures/dirac_system.hpp"
 
+// Mistakes that these cases have to notice:
+//  * numbers that are round-off are a metric
 BOOST_AUTO_TEST_SUITE(kinetic_metric_test)
 
 using namespace courant;

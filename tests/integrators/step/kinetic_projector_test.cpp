@@ -13,6 +13,9 @@
 #include "courant/structures/constrained_family.hpp"
 #include "courant/structures/dirac_system.hpp"
 
+// Mistakes that these cases have to notice:
+//  * positions move as little as possible in the numbers
+//  * momenta move as little as possible in the numbers
 BOOST_AUTO_TEST_SUITE(kinetic_projector)
 
 using namespace courant;

@@ -11,6 +11,8 @@
 #include "courant/manifolds/sphere.hpp"
 #include "courant/manifolds/stiefel.hpp"
 
+// Mistakes that these cases have to notice:
+//  * after a long step the basis is made afresh
 BOOST_AUTO_TEST_SUITE(moving_basis)
 
 using namespace courant;

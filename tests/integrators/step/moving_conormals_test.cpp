@@ -5,6 +5,11 @@
 
 #include "courant/core/linear/qr_decomposition.hpp"
 
+// Mistakes that these cases have to notice:
+//  * all conormals are the first one
+//  * what equations leave open is taken for a contradiction
+//  * combinations of equations stay those of the last point
+//  * conormals begin near one reference alone
 BOOST_AUTO_TEST_SUITE(moving_conormals)
 
 using namespace courant;

@@ -7,6 +7,12 @@
 #include "courant/core/linear/qr_decomposition.hpp"
 #include "courant/manifolds/euclidean.hpp"
 
+// Mistakes that these cases have to notice:
+//  * directions that meet the tangent space on the way are not refused
+//  * directions go along as they were, whatever the projector says now
+//  * a step that is taken back leaves its directions behind
+//  * directions are made afresh where units are far apart
+//  * what combines the vectors of the projector stays as it was
 BOOST_AUTO_TEST_SUITE(moving_directions)
 
 using namespace courant;

@@ -7,6 +7,11 @@
 #include "courant/core/linear/qr_decomposition.hpp"
 #include "courant/core/linear/singular_value_decomposition.hpp"
 
+// Mistakes that these cases have to notice:
+//  * what is far from orthonormal is given up
+//  * what is far from orthonormal is not measured by its own size first
+//  * steps to the nearest orthonormal matrix end too early
+//  * steps to the nearest orthonormal matrix are of second order where they have to be of third
 BOOST_AUTO_TEST_SUITE(nearest_orthonormal)
 
 using namespace courant;

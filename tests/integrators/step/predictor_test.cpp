@@ -4,6 +4,13 @@
 #include <cmath>
 #include <random>
 
+// Mistakes that these cases have to notice:
+//  * the last of an odd number of unknowns is not extrapolated
+//  * sequences of another kind are believed
+//  * what equations leave open grows by what sequences hand to each other
+//  * what changes its sign in each step is predicted from all of them
+//  * every second step is extrapolated where all of them are as good
+//  * the last of eight unknowns are not extrapolated
 BOOST_AUTO_TEST_SUITE(predictor)
 
 using namespace courant;

@@ -8,6 +8,10 @@
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/sphere.hpp"
 
+// Mistakes that these cases have to notice:
+//  * the momentum projector ignores its metric
+//  * the momentum projector ignores units
+//  * a constant is no term of its equation (integrators/step/natural_units.cpp)
 BOOST_AUTO_TEST_SUITE(projector)
 
 using namespace courant;

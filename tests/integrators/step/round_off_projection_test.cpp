@@ -7,6 +7,9 @@
 #include "courant/manifolds/special_orthogonal3.hpp"
 #include "courant/manifolds/sphere.hpp"
 
+// Mistakes that these cases have to notice:
+//  * round-off of equations that repeat others is a direction to move in
+//  * what is left of an equation is not told of the movements before
 BOOST_AUTO_TEST_SUITE(round_off_projection)
 
 using namespace courant;

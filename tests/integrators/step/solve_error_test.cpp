@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <string>
 
+// Mistakes that these cases have to notice:
+//  * a step that would do is as long as one that would not
 BOOST_AUTO_TEST_SUITE(solve_error)
 
 using namespace courant;

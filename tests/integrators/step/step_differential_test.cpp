@@ -11,6 +11,17 @@
 #include "courant/manifolds/euclidean.hpp"
 #include "integrator_catalogue.hpp"
 
+// Mistakes that these cases have to notice:
+//  * the differential of Method 1 forgets the unknowns z
+//    (integrators/step/stage_step_differential.cpp)
+//  * where the map has no inverse the displacement is not h v
+//    (integrators/step/stage_step_differential.cpp)
+//  * W does not turn (integrators/methods/constrain_first_differential.cpp)
+//  * steps of Method 2 end before they are projected
+//    (integrators/methods/constrain_first_differential.cpp)
+//  * the stages of an explicit method are not differentiated with those before
+//    (integrators/methods/explicit_runge_kutta.cpp)
+//  * the reduced map is differentiated away from its step (integrators/methods/reduced_map.cpp)
 BOOST_AUTO_TEST_SUITE(step_differential)
 
 using namespace courant;

@@ -15,6 +15,9 @@
 #include "courant/structures/dirac_system.hpp"
 #include "courant/structures/port_hamiltonian_system.hpp"
 
+// Mistakes that these cases have to notice:
+//  * what time changes is left out
+//  * of a composition the last stage counts alone
 BOOST_AUTO_TEST_SUITE(step_energies_test)
 
 using namespace courant;

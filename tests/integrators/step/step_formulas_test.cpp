@@ -9,6 +9,9 @@
 #include "courant/tests/integrators/vortices.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * equations are taken for affine in what they are not solved for
+//  * all variables are taken for contained
 BOOST_AUTO_TEST_SUITE(step_formulas_test)
 
 namespace {

@@ -13,6 +13,8 @@
 #include "courant/manifolds/sphere.hpp"
 #include "courant/tests/integrators/example_systems.hpp"
 
+// Mistakes that these cases have to notice:
+//  * a program makes one step of a composition (integrators/methods/composition.cpp)
 BOOST_AUTO_TEST_SUITE(step_program)
 
 using namespace courant;

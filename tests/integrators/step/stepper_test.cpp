@@ -13,6 +13,13 @@
 #include "courant/manifolds/sphere.hpp"
 #include "courant/tests/integrators/example_systems.hpp"
 
+// Mistakes that these cases have to notice:
+//  * the first step after forgetting is confirmed though the motion is known
+//    (integrators/step/step_solver.cpp)
+//  * much is expected of a motion that was not predictable (integrators/step/step_solver.cpp)
+//  * a step goes on from a state that was forgotten
+//  * a step that goes on begins before the last one
+//  * all steps of a method end at the time of the first (integrators/step/integrator.hpp)
 BOOST_AUTO_TEST_SUITE(stepper)
 
 using namespace courant;

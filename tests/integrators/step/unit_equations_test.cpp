@@ -6,6 +6,8 @@
 #include "courant/manifolds/manifold.hpp"
 
 namespace courant {
+// Mistakes that these cases have to notice:
+//  * sizes that are known are not those of the units
 BOOST_AUTO_TEST_SUITE(unit_equations_test)
 
 namespace {

@@ -22,6 +22,10 @@ VectorXd velocity(const examples::SystemPointer& system, const InitialGuess& gue
 
 }  // namespace
 
+// Mistakes that these cases have to notice:
+//  * derivatives of high order are lost as round-off
+//  * equations that were chosen elsewhere are believed where they say nothing
+//  * all equations are believed whatever they leave
 BOOST_AUTO_TEST_SUITE(vector_field)
 
 // m q'' = -m g e_y - 2 λ q on q² = l², from (l, 0) with the velocity 0.1 √l downwards: λ = m v²/(2 l²).
