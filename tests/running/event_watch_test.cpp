@@ -220,7 +220,9 @@ BOOST_AUTO_TEST_CASE(an_event_may_stop_the_run) {
   BOOST_TEST(std::abs(table.column("q").back()) < 1e-12);
   BOOST_TEST(std::abs(final_value(outcome, "p_q") + 1.0) < 1e-12);
   // It is complete: there is nothing to go on with.
-  BOOST_CHECK_THROW(run_in(folder, document, {.existing = ExistingRun::resume}), UnusableFolder);
+  RunOptions onward;
+  onward.existing = ExistingRun::resume;
+  BOOST_CHECK_THROW(run_in(folder, document, onward), UnusableFolder);
   document["events"]["centre"]["stop"] = 1;
   BOOST_CHECK_THROW(read_experiment_document(document), ExperimentError);
 }
