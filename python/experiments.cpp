@@ -91,7 +91,9 @@ void bind_experiments(py::module_& module) {
     py::dict words;
     words["verdict"] = verdict_in_words(ladder);
     words["diagram"] = ladder_diagram(ladder).str();
-    words["explanation"] = ladder_explanation(ladder);
+    py::list explanation;
+    for (const Prose& line : ladder_explanation(ladder)) explanation.append(line.str());
+    words["explanation"] = explanation;
     words["html"] = ladder_in_words(ladder).str();
     return words;
   });
