@@ -111,7 +111,7 @@ int with_experiment(const Console& console, const std::string& file,
         const Experiment experiment = read_experiment_document(document);
         waiting.reset();
         for (const auto& [where, what] : experiment.remarks)
-          print_error(console, "warning: " + file + ": " + where + ": " + what);
+          print_error(console, file + ": " + where + ": warning: " + what);
         return action(experiment);
       },
       settings, tables);

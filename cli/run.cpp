@@ -62,8 +62,8 @@ int run_experiment(const Console& console, const RunArguments& arguments,
                     "  ");
     const auto whole = with_chosen_step(experiment, chosen);
     for (std::size_t i = experiment.remarks.size(); i < whole->remarks.size(); ++i)
-      print_error(console, "warning: " + arguments.file + ": " + whole->remarks[i].where + ": " +
-                               whole->remarks[i].what);
+      print_error(console, arguments.file + ": " + whole->remarks[i].where +
+                               ": warning: " + whole->remarks[i].what);
     return run_experiment(console, arguments, *whole);
   }
   RunOptions options{.folder = arguments.output(),

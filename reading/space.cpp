@@ -158,10 +158,17 @@ std::optional<ManifoldPointer> implicit_submanifold(ObjectReader& object,
   try {
     std::mt19937 generator(1);
     const VectorXd x = submanifold->random_point(generator);
-    if (submanifold->tangent_basis(x).entries().allFinite()) return submanifold;
-    key->problem(
-        "are not independent where they are zero; expected equations with independent "
-        "gradients");
+    if (!submanifold->tangent_basis(x).entries().allFinite()) {
+      key->problem(
+          "are not independent where they are zero; expected equations with independent "
+          "gradients");
+      return std::nullopt;
+    }
+    // Where gradients vanish, as that of a square does, what is left of them is round-off: then the surface is
+    // curved without bound.
+    constexpr double sharpest = 1e-7;
+    if (submanifold->injectivity_radius(x) > sharpest * (1.0 + x.norm())) return submanifold;
+    throw std::domain_error("no chart");
   } catch (const std::domain_error&) {
     key->problem("have no zero that could be found in " + (*surrounding)->name() +
                  "; expected equations that hold somewhere, with independent gradients there");

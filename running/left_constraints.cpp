@@ -28,18 +28,18 @@ constexpr double kPartOfWay = 0.2;
 constexpr double kLeastWay = 1e-8;
 constexpr double kLeastOfOthers = 1e-2;
 
-// c at a state and Σ_j |∂c_i/∂x_j| s_j there; empty where they are not defined.
-struct MeasuredConstraints {
+// Some columns c of a row at a state and Σ_j |∂c_i/∂x_j| s_j there; empty where they are not defined.
+struct MeasuredColumns {
   VectorXd value = {}, terms = {};
 };
 
-MeasuredConstraints constraints_at(Observer& observer, const State& state, const VectorXd& size) {
-  const auto count = static_cast<Index>(observer.constraint_count());
+MeasuredColumns columns_at(Observer& observer, const State& state, const VectorXd& size,
+                           Index first, Index count) {
   const auto value = [&](const State& at) -> VectorXd {
-    return observer.row(at).segment(static_cast<Index>(observer.first_constraint()), count);
+    return observer.row(at).segment(first, count);
   };
   try {
-    MeasuredConstraints result{value(state), VectorXd::Zero(count)};
+    MeasuredColumns result{value(state), VectorXd::Zero(count)};
     State moved = state;
     for (Index j = 0; j < size.size(); ++j) {
       moved.x[j] += kPartForSlopes * size[j];
@@ -50,6 +50,11 @@ MeasuredConstraints constraints_at(Observer& observer, const State& state, const
   } catch (const std::domain_error&) {  // of what is not defined there nothing is said
   }
   return {};
+}
+
+MeasuredColumns constraints_at(Observer& observer, const State& state, const VectorXd& size) {
+  return columns_at(observer, state, size, static_cast<Index>(observer.first_constraint()),
+                    static_cast<Index>(observer.constraint_count()));
 }
 
 // The first that is not met, or -1.
@@ -74,12 +79,12 @@ std::string left_constraints(Observer& observer, const QuantityStatistics& stati
   const QuantityStatistics::Memory& all = statistics.memory();
   VectorXd size = all.min.head(n).cwiseAbs().cwiseMax(all.max.head(n).cwiseAbs());
   size = size.cwiseMax(kSmallPart * size.maxCoeff());
-  const MeasuredConstraints last = constraints_at(observer, end, size);
+  const MeasuredColumns last = constraints_at(observer, end, size);
   if (last.value.size() == 0) return "";
   if (const Index i = not_met(last.value, last.terms); i >= 0)
     return left_sentence(i, "is " + number_text(last.value[i]) + " at the end", last.terms[i]);
 
-  const MeasuredConstraints first = constraints_at(observer, start, size);
+  const MeasuredColumns first = constraints_at(observer, start, size);
   if (first.value.size() == 0) return "";
   const auto column = static_cast<Index>(observer.first_constraint());
   const VectorXd greatest =
@@ -130,13 +135,19 @@ std::string alternation(const Integrator& integrator, Observer& observer,
     const double least = j < n ? kLeastWay : kLeastOfOthers;
     if (!(way[j] > least * size[j])) continue;
     const auto d = second.row(j);
-    if (d[0] * d[1] < 0 && d[1] * d[2] < 0 && d.cwiseAbs().minCoeff() > kPartOfWay * way[j])
-      return (j < count ? observer.names()[static_cast<std::size_t>(j)]
-                        : names.auxiliary[static_cast<std::size_t>(j - count)]) +
-             " goes to and fro with each step, by " + number_text(d.cwiseAbs().minCoeff() / 2, 3) +
-             " at the end: the steps do not resolve it, and the trajectory may be wrong. " +
-             (j < n
-                  ? "Constrain-first has no such errors of algebraic equations."
+    const bool alternates =
+        d[0] * d[1] < 0 && d[1] * d[2] < 0 && d.cwiseAbs().minCoeff() > kPartOfWay * way[j];
+    if (!alternates) continue;
+    // What terms cancel in, as a conserved quantity is zero, has their round-off.
+    if (j >= n && j < count) {
+      const VectorXd terms = columns_at(observer, end, size.head(n), j, 1).terms;
+      if (terms.size() == 0 || !(way[j] > kLeastWay * terms[0])) continue;
+    }
+    return (j < count ? observer.names()[static_cast<std::size_t>(j)]
+                      : names.auxiliary[static_cast<std::size_t>(j - count)]) +
+           " goes to and fro with each step, by " + number_text(d.cwiseAbs().minCoeff() / 2, 3) +
+           " at the end: the steps do not resolve it, and the trajectory may be wrong. " +
+           (j < n ? "Constrain-first has no such errors of algebraic equations."
                   : "\"damping\": \"l-stable\" of the method damps what the steps do not resolve.");
   }
   return "";

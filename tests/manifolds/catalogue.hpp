@@ -129,7 +129,7 @@ inline std::set<std::string> final_classes(const std::filesystem::path& folder,
                                            const std::string& bases) {
   const std::regex declaration("class (\\w+) final\\s*:\\s*public (?:" + bases + ")\\b");
   std::set<std::string> result;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     if (entry.path().extension() != ".hpp") continue;
     std::ifstream file(entry.path());
     const std::string text(std::istreambuf_iterator<char>(file), {});
