@@ -148,7 +148,7 @@ int sweep_of(const Console& console, const SweepTask& task, const Json& document
              .earlier = earlier});
   if (console.heeds_stop) *console.heeds_stop = false;
   const auto figure = folder ? sweep_figure(table) : std::nullopt;
-  if (figure) folder->write(table, sweep_csv(table), figure_svg(*figure));
+  if (figure) folder->write(without_seconds(table), sweep_csv(table), figure_svg(*figure));
   if (task.json)
     console.out << table.dump(2) << '\n';
   else if (!task.quiet)

@@ -298,7 +298,7 @@ void explain_brackets(const ConstraintBrackets& found, std::vector<Prose>& lines
   }
   if (!found.hamiltonian.empty()) {
     lines.push_back(
-        "Total Hamiltonian, where velocities that nothing determines multiply constraints:");
+        "Total Hamiltonian, with what is known of the unknowns put in:");
     lines.push_back("    " + Prose::formula("H = " + found.hamiltonian));
   }
   for (std::size_t i = 0; i < shown_of(found.generators.size()); ++i) {

@@ -18,6 +18,7 @@ constexpr int kMostJumps = 20;
 // Next to the sizes of coordinates: what is left of a movement along impulses is round-off.
 constexpr double kReached = 1e-10;
 constexpr double kRoundOffOfJump = 1e-14;
+constexpr double kLeastSine = 1e-9;
 
 // Columns: the directions of Δx (n), none where the residual has no derivative.
 MatrixXd impulse_directions(const Experiment& experiment, const State& at) {
@@ -102,9 +103,13 @@ ConsistentStart impulsive_start(
       if (step > 0 && is_settled)
         return as_impulse(experiment, polished(std::move(ladder), nearest_to), begin);
       before = step > 0 ? beside : before;
-      const MatrixXd K = impulse_directions(experiment, ladder.point), A = ladder.conormals();
+      const MatrixXd K = impulse_directions(experiment, ladder.point);
+      const MatrixXd A = ladder.conormals().rowwise().normalized();
       if (K.cols() == 0 || A.rows() == 0) return nearest;
-      x = begin - K * CompleteOrthogonalDecomposition(A * K).solve(A * (begin - ladder.point.x));
+      // Sines of angles between impulses and constraints: where these are round-off, no impulse acts.
+      const MatrixXd sines = A * K;
+      const MatrixXd acting = (sines.array().abs() > kLeastSine).select(sines, 0.0);
+      x = begin - K * CompleteOrthogonalDecomposition(acting).solve(A * (begin - ladder.point.x));
       ladder = nearest_to(x);
       if (!is_start(ladder)) return nearest;
     }

@@ -97,19 +97,16 @@ std::string left_constraints(Observer& observer, const QuantityStatistics& stati
 }
 
 std::string alternation(const Integrator& integrator, Observer& observer,
-                        const QuantityStatistics& statistics, const ImplicitSystem::Names& names,
-                        State end, double h) {
-  const Index n = end.x.size(), m = std::min<Index>(end.z.size(), std::ssize(names.auxiliary));
+                        const QuantityStatistics& statistics, State end, double h) {
+  const Index n = end.x.size();
   if (n == 0 || n > kMostCoordinates || statistics.empty()) return "";
-  // All that is written of a state, and the unknowns, which have no statistics.
+  // All that is written of a state. An unknown that nobody asks for may alternate and move nothing: the multiplier
+  // of a rod does by Method 1.
   const auto count = static_cast<Index>(observer.first_constraint());
   const QuantityStatistics::Memory& all = statistics.memory();
   constexpr int steps = 4;
-  MatrixXd x(count + m, steps + 1);
-  const auto look = [&](int k) {
-    x.col(k).head(count) = observer.row(end).head(count);
-    x.col(k).tail(m) = end.z.head(m);
-  };
+  MatrixXd x(count, steps + 1);
+  const auto look = [&](int k) { x.col(k) = observer.row(end).head(count); };
   try {
     look(0);
     const auto stepper = integrator.stepper();
@@ -123,15 +120,12 @@ std::string alternation(const Integrator& integrator, Observer& observer,
   } catch (const std::domain_error&) {
     return "";
   }
-  VectorXd way(count + m), size(count + m);
-  way.head(count) = (all.max - all.min).head(count);
-  way.tail(m) = x.bottomRows(m).rowwise().maxCoeff() - x.bottomRows(m).rowwise().minCoeff();
-  size = x.cwiseAbs().rowwise().maxCoeff();
+  const VectorXd way = (all.max - all.min).head(count);
+  VectorXd size = x.cwiseAbs().rowwise().maxCoeff();
   if (n > 0) size.head(n).setConstant(size.head(n).maxCoeff());
   const MatrixXd second =
       x.rightCols(steps - 1) - 2 * x.middleCols(1, steps - 1) + x.leftCols(steps - 1);
-  for (Index j = 0; j < count + m; ++j) {
-    // Of what has no statistics, and may be zero but for round-off, more of its size.
+  for (Index j = 0; j < count; ++j) {
     const double least = j < n ? kLeastWay : kLeastOfOthers;
     if (!(way[j] > least * size[j])) continue;
     const auto d = second.row(j);
@@ -139,13 +133,12 @@ std::string alternation(const Integrator& integrator, Observer& observer,
         d[0] * d[1] < 0 && d[1] * d[2] < 0 && d.cwiseAbs().minCoeff() > kPartOfWay * way[j];
     if (!alternates) continue;
     // What terms cancel in, as a conserved quantity is zero, has their round-off.
-    if (j >= n && j < count) {
+    if (j >= n) {
       const VectorXd terms = columns_at(observer, end, size.head(n), j, 1).terms;
       if (terms.size() == 0 || !(way[j] > kLeastWay * terms[0])) continue;
     }
-    return (j < count ? observer.names()[static_cast<std::size_t>(j)]
-                      : names.auxiliary[static_cast<std::size_t>(j - count)]) +
-           " goes to and fro with each step, by " + number_text(d.cwiseAbs().minCoeff() / 2, 3) +
+    return observer.names()[static_cast<std::size_t>(j)] + " goes to and fro with each step, by " +
+           number_text(d.cwiseAbs().minCoeff() / 2, 3) +
            " at the end: the steps do not resolve it, and the trajectory may be wrong. " +
            (j < n ? "Constrain-first has no such errors of algebraic equations."
                   : "\"damping\": \"l-stable\" of the method damps what the steps do not resolve.");

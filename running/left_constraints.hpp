@@ -21,7 +21,7 @@ namespace courant {
 std::string left_constraints(Observer& observer, const QuantityStatistics& statistics,
                              const State& start, const State& end);
 
-// Empty, or a sentence about the coordinate x_j, the observable or the unknown that goes to and fro with each step: the second
+// Empty, or a sentence about the coordinate x_j or the observable that goes to and fro with each step: the second
 // differences of four steps of h after the end have alternating signs, and are more than a fifth of
 // the distance from the least to the greatest x_j of the run. Nothing that the steps resolve does so. A
 // method does it whose factor is near -1 for what decays fast or is algebraic, as Method 1 by
@@ -29,7 +29,6 @@ std::string left_constraints(Observer& observer, const QuantityStatistics& stati
 // lost in it, though each constraint may be a small part of its terms, which have grown as well.
 // For up to 500 coordinates.
 std::string alternation(const Integrator& integrator, Observer& observer,
-                        const QuantityStatistics& statistics, const ImplicitSystem::Names& names,
-                        State end, double h);
+                        const QuantityStatistics& statistics, State end, double h);
 
 }  // namespace courant

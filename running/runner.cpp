@@ -509,8 +509,7 @@ class RunUnderway {
     const QuantityStatistics& all = results_.statistics;
     std::string warning = left_constraints(observer_, all, method.initial, end);
     if (warning.empty())
-      warning = alternation(*method.integrator, observer_, all, experiment_.model.system->names(),
-                            end, experiment_.time->step);
+      warning = alternation(*method.integrator, observer_, all, end, experiment_.time->step);
     if (!warning.empty()) results_.warnings.push_back(std::move(warning));
   }
 

@@ -29,11 +29,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* kDidNotBegin = "did not begin";
 
-Json without_seconds(Json table) {
-  for (Json& row : table["runs"]) row.erase("seconds");
-  return table;
-}
-
 std::string text_of(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
@@ -225,6 +220,11 @@ Json sweep(const Json& head, std::span<const SweepCase> cases,
       table["runs"], [](const Json& row) { return row["status"] == "interrupted"; });
   table["status"] = interrupted ? "interrupted" : "completed";
   write();
+  return table;
+}
+
+Json without_seconds(Json table) {
+  for (Json& row : table["runs"]) row.erase("seconds");
   return table;
 }
 

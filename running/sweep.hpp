@@ -60,6 +60,9 @@ struct SweepOptions {
 Json sweep(const Json& head, std::span<const SweepCase> cases,
            const std::function<Json(const SweepCase&)>& action, const SweepOptions& options);
 
+// A table as files have it: without how long its cases took, which no two processes agree on.
+Json without_seconds(Json table);
+
 // The table of all parts of a sweep, as one process would have made it. Throws std::invalid_argument where they are not
 // all parts of one sweep, or one of them is not finished.
 Json merged_sweep(std::span<const Json> parts);

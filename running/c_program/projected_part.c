@@ -112,7 +112,7 @@ static int is_aimed(const struct stepper *S, const double *aimed, double moved, 
     return goes_on && 10.0 * S->directions.turning * length * largest_of(moved, size * of_jets) <= 1e-16 * size;
   }
   return moved <= 1e-15 * size || moved / previous * moved <= 1e-16 * size ||
-         (moved / previous >= 0.5 && moved < 1e-12 * (1.0 + size));
+         (moved / previous >= 0.5 && moved < 1e-10 * (1.0 + size));
 }
 #endif
 

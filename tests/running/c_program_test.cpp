@@ -269,7 +269,7 @@ BOOST_AUTO_TEST_CASE(what_has_no_program_is_refused_by_name) {
       refusal(experiment_named("geodesic_stiefel")).find("operations, which takes a compiler") !=
       std::string::npos);
   BOOST_TEST(refusal(experiment_named("toda_lattice")) ==
-             "/method: cannot be exported: solves 600 equations together; expected at most 63 in "
+             "/method: cannot be exported: solves 200 equations together; expected at most 63 in "
              "a program in C");
   BOOST_TEST(refusal(experiment_named("rolling_disk")).find("least squares") != std::string::npos);
   BOOST_TEST(refusal(experiment_named("martinet_abnormal")).find("/method: is missing") == 0u);
