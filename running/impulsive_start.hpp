@@ -10,12 +10,12 @@
 namespace courant {
 
 // The ladder at a start. `is_impulse`: what moved did so as an impulse moves it, which keeps what the equations
-// conserve.
+// conserve. `is_nearest`: where given values could not be kept, the conditions of optimality of the nearest start are met.
 struct ConsistentStart : ConstraintLadder {
   ConsistentStart() = default;
   ConsistentStart(ConstraintLadder ladder, bool impulse = false)
       : ConstraintLadder(std::move(ladder)), is_impulse(impulse) {}
-  bool is_impulse = false;
+  bool is_impulse = false, is_nearest = true;
 };
 
 // Two charged capacitors that are connected keep their charge, two rotors that are joined their momentum: what is

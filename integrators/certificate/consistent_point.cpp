@@ -1,5 +1,6 @@
 #include "courant/integrators/certificate/consistent_point.hpp"
 
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -8,6 +9,7 @@
 
 #include "courant/integrators/certificate/ladder_levels.hpp"
 #include "courant/integrators/certificate/natural_scaling.hpp"
+#include "courant/integrators/certificate/saddle_point.hpp"
 
 namespace courant {
 namespace {
@@ -27,19 +29,63 @@ void check_finite(const char* argument, const VectorXd& values) {
                                   " is not a finite number.");
 }
 
+// Whether the zero is one, and every F_i is small next to the terms that it is the sum of at this point, or nothing next
+// to those that it has of the given values. A search has units of its own, which may be those of what it met on its way:
+// a point that it came by 10⁹ from. Of what grows like exp (v/25 mV) fewer digits are known, and small numbers count.
+bool is_confirmed(const Zero& zero, const Linearization& at, bool has_exponentials,
+                  const VectorXd& given) {
+  if (!zero.found || at.value_error.size() != at.value.size()) return zero.found;
+  const double unseen = (has_exponentials ? 1e-6 : 1e-9) / Uncertain::unit;
+  const auto F = at.value.array().abs();
+  const auto nothing = has_exponentials ? Eigen::ArrayXd(64.0 * Uncertain::unit * given.array())
+                                        : Eigen::ArrayXd(1e-12 * (1.0 + given.array()));
+  return (F <= unseen * at.value_error.array() || F <= nothing).all();
+}
+
 // A zero that is one by the sizes that numbers have there. Those that were met on the way, as after a
-// first step of 10⁸, are no sizes of the problem, and next to them residuals of 1 are round-off. Among
-// exponentials each search may go astray so, and its zero has to be one by its terms too.
-Zero find_confirmed(const LinearizableMap& map, const VectorXd& start, const Mobility& mobility) {
+// first step of 10⁸, are no sizes of the problem, and next to them residuals of 1 are round-off.
+Zero find_confirmed(const LinearizableMap& map, const VectorXd& start, const Mobility& mobility,
+                    const VectorXd& given) {
   constexpr double accepted = 1e-10;
+  constexpr int most_looks = 60;  // from 10⁹ to 1, halved each time
   Zero zero = find_zero(map, start, mobility);
-  for (int look = 0; look < 5 && zero.found && zero.iterations > 0; ++look) {
+  for (int look = 0; look < most_looks && zero.found && zero.iterations > 0; ++look) {
     Zero again = find_zero(map, zero.y, mobility);
-    if (again.history.front() <= accepted) break;
+    if (again.history.front() <= accepted &&
+        (again.iterations == 0 ||
+         is_confirmed(zero, map(zero.y), mobility.has_exponentials, given)))
+      break;
     zero = std::move(again);
   }
-  if (mobility.has_exponentials && zero.found && !is_met(map(zero.y))) zero.found = false;
+  if (zero.found && !is_confirmed(zero, map(zero.y), mobility.has_exponentials, given))
+    zero.found = false;
   return zero;
+}
+
+// L with L Lᵀ = M ⪰ 0, transposed; that of a diagonal matrix is as sparse.
+SparseMatrixXd root_of_displacement(const SparseMatrixXd& metric) {
+  const bool is_diagonal =
+      metric.nonZeros() == SparseMatrixXd(metric.diagonal().asDiagonal()).nonZeros();
+  if (is_diagonal) return sparse_diagonal(metric.diagonal().cwiseMax(0.0).cwiseSqrt());
+  const Eigen::LDLT<MatrixXd> factors((MatrixXd(metric)));
+  const MatrixXd upper = factors.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
+                         MatrixXd(factors.matrixU()) * factors.transpositionsP();
+  return upper.sparseView();
+}
+
+Deviation change_at(const LeastChange& change, const DerivativeArray& array, const VectorXd& y) {
+  const Linearization state = array.state_map(y);
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> by_row = state.jacobian;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t i = 0; i < change.rows.size(); ++i)
+    for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(by_row, change.rows[i]); it;
+         ++it)
+      entries.emplace_back(static_cast<int>(i), static_cast<int>(it.col()), it.value());
+  SparseMatrixXd rows(std::ssize(change.rows), state.jacobian.cols());
+  rows.setFromTriplets(entries.begin(), entries.end());
+  const VectorXd there = state.value(change.rows);
+  return {change.root * (there - change.given), change.root * rows,
+          (change.root * change.given).norm() + (change.root * there).norm()};
 }
 
 }  // namespace
@@ -130,10 +176,10 @@ ConsistentJet ConsistentPoint::start() const {
   return {*array_, Zero(array_->jet(guess_.v, guess_.z))};
 }
 
-LinearizableMap ConsistentPoint::conditions(const DerivativeArray& array, bool hold) const {
-  return [this, &array, hold](const VectorXd& y) {
+LinearizableMap ConsistentPoint::conditions(const DerivativeArray& array, const Values& held) {
+  return [&array, held](const VectorXd& y) {
     Linearization at = array.linearize(y);
-    if (hold && !held_.empty()) {
+    if (!held.empty()) {
       const Linearization state = array.state_map(y);
       const Eigen::SparseMatrix<double, Eigen::RowMajor> by_row = state.jacobian;
       std::vector<Eigen::Triplet<double>> entries;
@@ -141,9 +187,9 @@ LinearizableMap ConsistentPoint::conditions(const DerivativeArray& array, bool h
         for (SparseMatrixXd::InnerIterator it(at.jacobian, j); it; ++it)
           entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(j), it.value());
       Index row = at.value.size();
-      at.value.conservativeResize(row + static_cast<Index>(held_.size()));
+      at.value.conservativeResize(row + std::ssize(held));
       at.value_error.conservativeResize(at.value.size());
-      for (const auto& [component, value] : held_) {
+      for (const auto& [component, value] : held) {
         at.value[row] = state.value[component] - value;
         at.value_error[row] = 4.0 * Uncertain::unit * std::fabs(value);
         for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(by_row, component); it;
@@ -185,17 +231,23 @@ Mobility ConsistentPoint::mobility(const ConsistentJet& from, bool x_is_free) co
   return result;
 }
 
-Quadratic ConsistentPoint::displacement(const DerivativeArray& array, const VectorXd& y) const {
-  const Index N = system_->manifold()->ambient_dimension(), n = array.base_size();
-  const Linearization state = array.state_map(y);
-  const VectorXd moved = state.value.head(N) - guess_.x;
-  const SparseMatrixXd d_x = state.jacobian.topLeftCorner(N, n);
-  if (metric_.size() == 0)
-    return {0.5 * moved.squaredNorm(), d_x.transpose() * moved,
-            SparseMatrixXd(d_x.transpose() * d_x)};
-  const VectorXd force = metric_ * moved;
-  return {0.5 * moved.dot(force), d_x.transpose() * force,
-          SparseMatrixXd(d_x.transpose() * metric_ * d_x)};
+VectorXd ConsistentPoint::given_terms(Index level) const {
+  const ConsistentJet given = start().at_level(level);
+  const Linearization at = conditions(given.array(), held_)(given.zero().y);
+  VectorXd sizes = given.zero().reach;
+  sizes.head(array_->base_size()) = array_->origin_size();
+  const VectorXd terms = at.jacobian.cwiseAbs() * sizes;
+  return terms.allFinite() ? terms : VectorXd(VectorXd::Zero(terms.size()));
+}
+
+LeastChange ConsistentPoint::displacement() const {
+  const Index N = system_->manifold()->ambient_dimension();
+  LeastChange change;
+  for (Index i = 0; i < N; ++i) change.rows.push_back(i);
+  change.given = guess_.x;
+  change.root =
+      metric_.size() == 0 ? sparse_diagonal(VectorXd::Ones(N)) : root_of_displacement(metric_);
+  return change;
 }
 
 double ConsistentPoint::distance(const VectorXd& x) const {
@@ -204,14 +256,15 @@ double ConsistentPoint::distance(const VectorXd& x) const {
   return std::sqrt(std::max(0.0, moved.dot(VectorXd(metric_ * moved))));
 }
 
-ConsistentJet ConsistentPoint::recentred(const DerivativeArray& array, const Zero& zero) const {
+ConsistentJet ConsistentPoint::recentred(const DerivativeArray& array, const Zero& zero,
+                                         const Values& held) const {
   const State state = array.state(zero.y);
   const DerivativeArray at_point = array.at(array.t(), state.x);
   Zero there = zero;
   const VectorXd first = at_point.jet(state.v, state.z);
   there.y.head(first.size()) = first;
   // ξ_0 = 0 and ξ_1, z_0 are those of the same state; higher coefficients change with the chart.
-  Zero polished = find_zero(conditions(at_point, true), there.y,
+  Zero polished = find_zero(conditions(at_point, held), there.y,
                             mobility(ConsistentJet(at_point, there), false));
   if (!polished.found) return {at_point, std::move(there)};
   polished.iterations += zero.iterations;
@@ -236,32 +289,47 @@ std::optional<ConsistentJet> ConsistentPoint::find_beyond(const ConsistentJet& e
     Zero zero = at.zero();
     const VectorXd first = there.jet(state.v, state.z);
     zero.y.head(first.size()) = first;
-    const LinearizableMap F = conditions(there, true);
+    const LinearizableMap F = conditions(there, held_);
     const Mobility free = mobility(ConsistentJet(there, zero), true);
-    zero = find_confirmed(F, zero.y, free);
+    zero = find_confirmed(F, zero.y, free, given_terms(at.level()));
     at = ConsistentJet(there, zero);
     if (!zero.found) continue;
-    return recentred(there,
-                     least_zero(
-                         F, [&](const VectorXd& y) { return displacement(there, y); }, zero, free));
+    return least_changed(at, displacement(), {}).jet;
+  }
+  return std::nullopt;
+}
+
+std::optional<ConsistentJet> ConsistentPoint::find_onward(ConsistentJet ended) const {
+  constexpr int most_charts = 20;
+  constexpr double far = 10.0;
+  for (int chart = 0; chart < most_charts && ended.zero().is_finite; ++chart) {
+    const State state = ended.array().state(ended.zero().y);
+    const bool is_near = ended.array().origin().norm() <= far * state.x.norm();
+    if (is_near && (chart == 0 || !ended.zero().found)) return std::nullopt;
+    if (is_near) return least_changed(ended, displacement(), {}).jet;
+    ended = find_from(state.x, state.v, state.z, ended);
   }
   return std::nullopt;
 }
 
 ConsistentJet ConsistentPoint::find(const ConsistentJet& from) const {
-  const LinearizableMap F = conditions(from.array(), true);
+  const LinearizableMap F = conditions(from.array(), held_);
   const Index n = from.array().base_size();
   Zero zero = find_zero(F, from.zero().y, mobility(from, false));
   const bool has_exponentials = from.array().has_exponentials();
-  if (zero.found && !(has_exponentials && !is_met(F(zero.y)))) return {from.array(), zero};
+  const VectorXd given = given_terms(from.level());
+  const auto is_one = [&](const Zero& found) {
+    return is_confirmed(found, F(found.y), has_exponentials, given);
+  };
+  if (is_one(zero)) return {from.array(), zero};
   if (const auto start = from.array().beyond_exponentials(from.zero().y))
-    if (const Zero other = find_zero(F, *start, mobility(from, false));
-        other.found && is_met(F(other.y)))
+    if (const Zero other = find_zero(F, *start, mobility(from, false)); is_one(other))
       return {from.array(), other};
-  if (zero.found) return {from.array(), zero};
+  if (zero.found && has_exponentials) return {from.array(), zero};
   const Mobility free = mobility(from, true);
-  zero = find_confirmed(F, from.zero().y, free);
+  zero = find_confirmed(F, from.zero().y, free, given);
   if (const auto far = find_beyond({from.array(), zero}); far) return *far;
+  if (const auto far = find_onward({from.array(), zero}); far) return *far;
   // At a point where equations have no linear part, as x² + y² = 1 at 0, no step leads anywhere.
   if (!zero.found && zero.is_finite) {
     TangentDisplacement displacements(from.array(), from.zero().y,
@@ -270,20 +338,21 @@ ConsistentJet ConsistentPoint::find(const ConsistentJet& from) const {
       VectorXd displacement = displacements.next();
       displacement.head(n) *= size;
       displacement.tail(displacement.size() - n) *= std::min(size, 1.0);
-      const Zero other = find_confirmed(F, from.zero().y + displacement, free);
-      if (other.found || (other.is_finite && !is_contradiction({from.array(), other})))
+      const Zero other = find_confirmed(F, from.zero().y + displacement, free, given);
+      // Nearer to a zero than here, and no contradiction: then what is here is none either.
+      constexpr double nearer = 0.9;
+      if (other.found || (other.is_finite && !is_contradiction({from.array(), other}) &&
+                          F(other.y).value.norm() < nearer * F(zero.y).value.norm()))
         zero = other;
       if (zero.found) break;
     }
   }
   if (!zero.found) return {from.array(), zero};
-  zero = least_zero(
-      F, [&](const VectorXd& y) { return displacement(from.array(), y); }, zero, free);
-  return recentred(from.array(), zero);
+  return least_changed({from.array(), zero}, displacement(), {}).jet;
 }
 
 bool ConsistentPoint::is_contradiction(const ConsistentJet& jet) const {
-  const Linearization at = conditions(jet.array(), true)(jet.zero().y);
+  const Linearization at = conditions(jet.array(), held_)(jet.zero().y);
   UncertainMatrix J{at.jacobian, at.error}, with_F = J;
   for (SparseMatrixXd* matrix : {&with_F.value, &with_F.error})
     matrix->conservativeResize(matrix->rows(), matrix->cols() + 1);
@@ -298,8 +367,35 @@ bool ConsistentPoint::is_contradiction(const ConsistentJet& jet) const {
   return together.rank > decide_rank(J).rank && !together.ambiguous();
 }
 
+ConsistentPoint::Least ConsistentPoint::least_changed(const ConsistentJet& from,
+                                                      const LeastChange& change,
+                                                      const Values& kept) const {
+  Values held = held_;
+  held.insert(held.end(), kept.begin(), kept.end());
+  const DerivativeArray& array = from.array();
+  LeastZero found = least_zero(
+      conditions(array, held), [&](const VectorXd& y) { return change_at(change, array, y); },
+      from.zero(), mobility(from, true));
+  return {recentred(array, found.zero, held), found};
+}
+
+ConsistentJet ConsistentPoint::find_from(const VectorXd& x, const VectorXd& v, const VectorXd& z,
+                                         const ConsistentJet& like) const {
+  const auto M = system_->manifold();
+  const DerivativeArray array =
+      like.array().at(like.array().t(), M->point_defect(x) == 0.0 ? x : M->project(x));
+  const ConsistentJet start = ConsistentJet(array, Zero(array.jet(v, z))).at_level(like.level());
+  return {array, find_confirmed(conditions(array, held_), start.zero().y, mobility(start, true),
+                                given_terms(start.level()))};
+}
+
+bool ConsistentPoint::is_met_at(const ConsistentJet& jet) const {
+  return is_confirmed(jet.zero(), conditions(jet.array(), held_)(jet.zero().y), false,
+                      given_terms(jet.level()));
+}
+
 ConsistentJet ConsistentPoint::again(const ConsistentJet& jet) const {
-  return recentred(jet.array(), jet.zero());
+  return recentred(jet.array(), jet.zero(), held_);
 }
 
 ConsistentPoint::Neighbour ConsistentPoint::find_displaced(const ConsistentJet& from,
@@ -311,7 +407,7 @@ ConsistentPoint::Neighbour ConsistentPoint::find_displaced(const ConsistentJet& 
 ConsistentJet ConsistentPoint::find_at(const ConsistentJet& from, const VectorXd& xi) const {
   VectorXd y = from.zero().y;
   y.head(xi.size()) = xi;
-  return {from.array(), find_zero(conditions(from.array(), false), y, mobility(from, false))};
+  return {from.array(), find_zero(conditions(from.array(), {}), y, mobility(from, false))};
 }
 
 ConsistentPoint::Neighbour ConsistentPoint::find_later(const ConsistentJet& from,
@@ -334,7 +430,7 @@ ConsistentPoint::Neighbour ConsistentPoint::find_around(const ConsistentJet& fro
     y = start + part * displacement;
   free.magnitude = magnitude;
   free.noise *= 1e-3;  // of displacements that are thousandths of natural units
-  const Zero zero = find_zero(conditions(array, false), y, free);
+  const Zero zero = find_zero(conditions(array, {}), y, free);
   if (!zero.found) return {{array, zero}, VectorXd::Zero(y.size())};
   return {{array, zero}, zero.y - y};
 }

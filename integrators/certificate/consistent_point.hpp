@@ -27,6 +27,13 @@ class ConsistentJet {
   Index level_ = 0;
 };
 
+// What of a state is to change least: ‖root ((x, v, z)[rows] - given)‖.
+struct LeastChange {
+  std::vector<Index> rows;  // of the N + Ñ + m numbers (x, v, z)
+  VectorXd given;
+  SparseMatrixXd root;  // of the metric, with as many columns
+};
+
 // Where F^[k] vanishes near a guess.
 //
 // Values that are held are conditions beside F^[k]; x stays exactly where it is if the other
@@ -45,6 +52,21 @@ class ConsistentPoint {
   ConsistentJet start() const;
   // The zero of F^[k] near `from`, whose jet is of level k.
   ConsistentJet find(const ConsistentJet& from) const;
+  // The zero of F^[k] near `from`, a zero, at which `change` is least, and those of the held values and `kept`, rows
+  // of (x, v, z), what they are.
+  using Values = std::vector<std::pair<Index, double>>;  // row of (x, v, z), value
+  struct Least {
+    ConsistentJet jet;
+    LeastZero found;
+  };
+  Least least_changed(const ConsistentJet& from, const LeastChange& change,
+                      const Values& kept) const;
+  // A zero of F^[k] near the point x, from v and z, which may be empty: 0. Its level and its time are those of `like`.
+  ConsistentJet find_from(const VectorXd& x, const VectorXd& v, const VectorXd& z,
+                          const ConsistentJet& like) const;
+  // Whether each equation of F^[k], and each held value, vanishes at the jet next to the terms that it is the sum of
+  // there.
+  bool is_met_at(const ConsistentJet& jet) const;
   // Whether the linear parts of the equations contradict each other at a jet that is no zero: whether
   // rank (J | F) exceeds rank J. Elsewhere a search that ended has merely not converged.
   bool is_contradiction(const ConsistentJet& jet) const;
@@ -70,13 +92,20 @@ class ConsistentPoint {
   double distance(const VectorXd& x) const;
 
  private:
-  LinearizableMap conditions(const DerivativeArray& array, bool hold) const;
+  static LinearizableMap conditions(const DerivativeArray& array, const Values& held);
   Mobility mobility(const ConsistentJet& from, bool x_is_free) const;
-  Quadratic displacement(const DerivativeArray& array, const VectorXd& y) const;
+  // x in the metric.
+  LeastChange displacement() const;
+  // How large the terms of the equations of a level, and of what is held, are at the given values.
+  VectorXd given_terms(Index level) const;
   // From where a search ended at the edge of a chart, as that of the sphere does on T*S², the zero
   // that it was on the way to, in charts farther on; empty if there is none or no edge.
   std::optional<ConsistentJet> find_beyond(const ConsistentJet& ended) const;
-  ConsistentJet recentred(const DerivativeArray& array, const Zero& zero) const;
+  // From where a search ended among numbers so much smaller than those of the origin of its chart that these hide its
+  // digits, as at a circle of radius 1 from (10⁹, 1): the zero in charts that begin there; empty if there is none, or
+  // the chart is near enough.
+  std::optional<ConsistentJet> find_onward(ConsistentJet ended) const;
+  ConsistentJet recentred(const DerivativeArray& array, const Zero& zero, const Values& held) const;
 
   Neighbour find_around(const ConsistentJet& from, const DerivativeArray& array,
                         const VectorXd& start, const VectorXd& displacement,
@@ -87,8 +116,8 @@ class ConsistentPoint {
   InitialGuess guess_;
   bool z_is_given_ = false;
   SparseMatrixXd metric_;
-  std::optional<DerivativeArray> array_;        // at the given point
-  std::vector<std::pair<Index, double>> held_;  // row of (x, v, z), value
+  std::optional<DerivativeArray> array_;  // at the given point
+  Values held_;
 };
 
 }  // namespace courant

@@ -36,11 +36,12 @@ Zero nearest(const ChainArray& chain, const VectorXd& start, const VectorXd& typ
   SparseMatrixXd identity(n, n);
   identity.setIdentity();
   return least_zero(
-      F,
-      [&](const VectorXd& y) {
-        return Quadratic{0.5 * y.head(n).squaredNorm(), y.head(n), identity};
-      },
-      zero, mobility);
+             F,
+             [&](const VectorXd& y) {
+               return Deviation{y.head(n), identity, typical.norm()};
+             },
+             zero, mobility)
+      .zero;
 }
 
 }  // namespace
