@@ -45,7 +45,7 @@ static double largest(const double *x, int count) {
   return result;
 }
 
-static void forget_matrix(struct newton *N) {
+static __attribute__((unused)) void forget_matrix(struct newton *N) {
   N->is_factorized = 0;
   N->round_off = 0.0;
 }
@@ -374,7 +374,7 @@ static int iterate(struct newton *N, const double *const *in, const double *scal
 }
 
 /* in[0] is y, which holds what the iteration begins with, and in the end the solution. */
-static int solve(struct newton *N, double *y, const double *const *in, const double *scales) {
+static __attribute__((unused)) int solve(struct newton *N, double *y, const double *const *in, const double *scales) {
   const double *of_kept[INPUTS];
   int i, converged;
   for (i = 1; i < INPUTS; ++i) of_kept[i] = in[i];
