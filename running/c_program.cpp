@@ -240,6 +240,14 @@ class CProgram {
     return out.str();
   }
 
+  // Of the largest matrix that is factored.
+  std::string factored_sizes() const {
+    Index most = functions_.most_size();
+    if (step_.solve && step_.solve->projection && step_.solve->projection->turning)
+      most = std::max(most, step_.solve->projection->turning->conormals.A.rows);
+    return c_define("MOST_FACTORED", most) + c_define("MOST_FACTORS", most * most);
+  }
+
   std::string sizes(const State& first) const {
     const TimeSpan& time = *experiment_.time;
     std::vector<std::string> names = observed_.names;
@@ -258,7 +266,7 @@ class CProgram {
                       c_define("MOST_SIZE", functions_.most_size()) +
                       c_define("MOST_ENTRIES", functions_.most_entries()) +
                       c_define("MOST_ARGUMENTS", functions_.most_arguments()) +
-                      c_define("INPUTS", 6);
+                      c_define("INPUTS", 6) + factored_sizes();
     if (const auto* field = this->field())
       all += c_define("FIELD_UNKNOWNS", field->start.size()) +
              c_define("FIELD_Z", field->z_offset) + c_define("LEFT_OUT", field->left_out.size());

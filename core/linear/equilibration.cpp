@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "courant/core/linear/plain_products.hpp"
 #include "courant/core/words/message.hpp"
 
 namespace courant {
@@ -60,7 +61,7 @@ class Scaling {
     std::erase_if(entries_, [&](const Entry& entry) { return scaled_size(entry) <= least; });
   }
 
-  // The least squares problem of Curtis and Reid by conjugate gradients. Half a bit is all that
+  // The least squares problem of Curtis and Reid by conjugate gradients, whose products programs in C repeat. Half a bit is all that
   // rounding to powers of two leaves of the result, and on a graph of m + n vertices whose diameter
   // is beyond the limit of iterations, far ends need not be comparable to that accuracy.
   void level_sizes() {
@@ -79,7 +80,7 @@ class Scaling {
     for (int iteration = 0; iteration < 300; ++iteration) {
       const VectorXd preconditioned = residual.cwiseQuotient(count);
       if (preconditioned.size() == 0 || preconditioned.lpNorm<Eigen::Infinity>() < 0.05) break;
-      const double current = residual.dot(preconditioned);
+      const double current = plain_product(residual.data(), preconditioned.data(), m + n);
       direction = preconditioned + (current / previous) * direction;
       VectorXd image = VectorXd::Zero(m + n);
       for (const Entry& entry : entries_) {
@@ -87,7 +88,7 @@ class Scaling {
         image[entry.row] += sum;
         image[m + entry.column] += sum;
       }
-      const double length = current / direction.dot(image);
+      const double length = current / plain_product(direction.data(), image.data(), m + n);
       step += length * direction;
       residual -= length * image;
       previous = current;

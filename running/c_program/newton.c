@@ -112,12 +112,130 @@ static void equilibrate(const double *A, double *S, double *row, double *column,
   }
 }
 
-/* The inverse of the Jacobian, by rows and columns of comparable size. Zero if it is singular, or nearly so. */
-static int factorize(struct newton *N, const double *const *in) {
-  static double A[MOST_SIZE * MOST_SIZE], S[MOST_SIZE * MOST_SIZE];
-  double row[MOST_SIZE], column[MOST_SIZE];
-  const int n = N->of->size;
+/* Sizes of the entries of a matrix of n rows and columns, and logarithms of the scales of both, rows first. An entry that is
+   none, or is left out, has the size -INFINITY. */
+static double scaled_size(const double *sizes, const double *exponent, int n, int i, int j) {
+  return sizes[i + j * n] + exponent[i] + exponent[n + j];
+}
+
+/* Brings every row and column maximum to 1. */
+static void level_maxima(const double *sizes, double *exponent, double *most, int n) {
+  int i, j, k, sweep;
+  for (sweep = 0; sweep < 8; ++sweep) {
+    for (k = 0; k < 2 * n; ++k) most[k] = -INFINITY;
+    for (j = 0; j < n; ++j)
+      for (i = 0; i < n; ++i) {
+        const double size = scaled_size(sizes, exponent, n, i, j);
+        most[i] = largest_of(most[i], size);
+        most[n + j] = largest_of(most[n + j], size);
+      }
+    for (k = 0; k < 2 * n; ++k) exponent[k] -= 0.5 * (isfinite(most[k]) ? most[k] : 0.0);
+  }
+}
+
+/* In two parts, even places and odd ones. */
+static double dot(const double *a, const double *b, int n) {
+  double even = 0.0, odd = 0.0;
+  int i;
+  for (i = 0; i + 1 < n; i += 2) {
+    even += a[i] * b[i];
+    odd += a[i + 1] * b[i + 1];
+  }
+  if (i < n) even += a[i] * b[i];
+  return even + odd;
+}
+
+/* The least squares problem of Curtis and Reid by conjugate gradients. space: 12 n numbers. */
+static void level_sizes(const double *sizes, double *exponent, double *space, int n) {
+  const int both = 2 * n;
+  double *const count = space, *const residual = count + both, *const step = residual + both,
+         *const direction = step + both, *const image = direction + both, *const weighted = image + both;
+  double previous = 1.0, current, length;
+  int i, j, k, iteration;
+  for (k = 0; k < both; ++k) count[k] = residual[k] = step[k] = direction[k] = 0.0;
+  for (j = 0; j < n; ++j)
+    for (i = 0; i < n; ++i) {
+      const double size = scaled_size(sizes, exponent, n, i, j);
+      if (!isfinite(size)) continue;
+      count[i] += 1.0;
+      residual[i] -= size;
+      count[n + j] += 1.0;
+      residual[n + j] -= size;
+    }
+  for (k = 0; k < both; ++k) count[k] = largest_of(count[k], 1.0);
+  for (iteration = 0; iteration < 300; ++iteration) {
+    for (k = 0; k < both; ++k) weighted[k] = residual[k] / count[k];
+    if (largest(weighted, both) < 0.05) break;
+    current = dot(residual, weighted, both);
+    for (k = 0; k < both; ++k) direction[k] = weighted[k] + (current / previous) * direction[k];
+    for (k = 0; k < both; ++k) image[k] = 0.0;
+    for (j = 0; j < n; ++j)
+      for (i = 0; i < n; ++i)
+        if (isfinite(sizes[i + j * n])) {
+          const double sum = direction[i] + direction[n + j];
+          image[i] += sum;
+          image[n + j] += sum;
+        }
+    length = current / dot(direction, image, both);
+    for (k = 0; k < both; ++k) step[k] += length * direction[k];
+    for (k = 0; k < both; ++k) residual[k] -= length * image[k];
+    previous = current;
+  }
+  for (k = 0; k < both; ++k) exponent[k] += step[k];
+}
+
+static double power_of_two(double exponent) {
+  const double whole = round(exponent);
+  return exp2(whole < -1022.0 ? -1022.0 : whole > 1022.0 ? 1022.0 : whole);
+}
+
+/* The same for entries that are far apart: all of them, but those below 1e-14 of the largest of their row and column, are brought
+   near to 1. */
+static void equilibrate_sizes(const double *A, double *S, double *row, double *column, int n) {
+  static double sizes[MOST_FACTORS], exponent[2 * MOST_FACTORED], space[12 * MOST_FACTORED];
   int i, j, k;
+  for (k = 0; k < n * n; ++k) sizes[k] = fabs(A[k]) >= DBL_MIN ? log2(fabs(A[k])) : -INFINITY;
+  for (k = 0; k < 2 * n; ++k) exponent[k] = 0.0;
+  level_maxima(sizes, exponent, space, n);
+  for (j = 0; j < n; ++j)
+    for (i = 0; i < n; ++i)
+      if (scaled_size(sizes, exponent, n, i, j) <= log2(1e-14)) sizes[i + j * n] = -INFINITY;
+  level_sizes(sizes, exponent, space, n);
+  level_maxima(sizes, exponent, space, n);
+  for (i = 0; i < n; ++i) {
+    row[i] = power_of_two(exponent[i]);
+    column[i] = power_of_two(exponent[n + i]);
+  }
+  for (j = 0; j < n; ++j)
+    for (i = 0; i < n; ++i) S[i + j * n] = isfinite(sizes[i + j * n]) ? A[i + j * n] * row[i] * column[j] : 0.0;
+}
+
+/* The last columns of the inverse of A into X. Zero if A is singular. */
+static int invert(const double *A, double *X, int n, int columns) {
+  static double S[MOST_FACTORS];
+  double row[MOST_FACTORED], column[MOST_FACTORED];
+  int i, j, k, is_regular = 0, way;
+  for (way = 0; !is_regular && way < 2; ++way) {
+    (way == 0 ? equilibrate : equilibrate_sizes)(A, S, row, column, n);
+    for (k = 0; k < n * columns; ++k) X[k] = 0.0;
+    for (j = 0; j < columns; ++j) X[n - columns + j + j * n] = 1.0;
+    is_regular = factor(S, X, n, columns) > (way == 0 ? 1e-7 : 1e-13);
+  }
+  if (!is_regular) return 0;
+  substitute(S, X, n, columns);
+  for (j = 0; j < columns; ++j)
+    for (i = 0; i < n; ++i) {
+      X[i + j * n] = column[i] * X[i + j * n] * row[n - columns + j];
+      if (!isfinite(X[i + j * n])) return 0;
+    }
+  return 1;
+}
+
+/* The inverse of the Jacobian. Zero if it is singular, or nearly so. */
+static int factorize(struct newton *N, const double *const *in) {
+  static double A[MOST_SIZE * MOST_SIZE];
+  const int n = N->of->size;
+  int k;
   ++N->factorizations;
   N->is_factorized = 0;
   N->of->value_and_jacobian(in, N->all);
@@ -128,17 +246,7 @@ static int factorize(struct newton *N, const double *const *in) {
     if (!isfinite(N->all[n + k])) return 0;
     A[N->of->row[k] + N->of->contained_column[k] * n] = N->all[n + k];
   }
-  equilibrate(A, S, row, column, n);
-  for (k = 0; k < n * n; ++k) N->inverse[k] = 0.0;
-  for (i = 0; i < n; ++i) N->inverse[i + i * n] = 1.0;
-  if (!(factor(S, N->inverse, n, n) > 1e-7)) return 0;
-  substitute(S, N->inverse, n, n);
-  for (j = 0; j < n; ++j)
-    for (i = 0; i < n; ++i) {
-      N->inverse[i + j * n] = column[i] * N->inverse[i + j * n] * row[j];
-      if (!isfinite(N->inverse[i + j * n])) return 0;
-    }
-  return N->is_factorized = 1;
+  return N->is_factorized = invert(A, N->inverse, n, n);
 }
 
 /* x = A b, column by column; up to eight columns in two parts, even ones and odd ones. */
@@ -185,18 +293,6 @@ static double improve(struct newton *N, const double *scales, double *slowest) {
     result = largest_of(result, moved);
   }
   return isfinite(total) ? result : INFINITY;
-}
-
-/* In two parts, even places and odd ones. */
-static double dot(const double *a, const double *b, int n) {
-  double even = 0.0, odd = 0.0;
-  int i;
-  for (i = 0; i + 1 < n; i += 2) {
-    even += a[i] * b[i];
-    odd += a[i + 1] * b[i + 1];
-  }
-  if (i < n) even += a[i] * b[i];
-  return even + odd;
 }
 
 /* The inverse learns from two changes s and r that it made, so that A (G(u) - G(u - s)) = s (Broyden): A <- A

@@ -30,28 +30,21 @@ static void transposed_product(const double *A, int columns, const double *B, in
 /* Those covectors whose parts along the old ones are unit vectors, by linear equations. in[4]: the old ones. Zero where
    these are at right angles to them. */
 static int are_conormals_found(struct directions *D, const double *const *in) {
-  static double entries[CONORMAL_ENTRIES], A[CONORMAL_SIZE * CONORMAL_SIZE], S[CONORMAL_SIZE * CONORMAL_SIZE],
-      u[CONORMAL_SIZE * SHIFTS];
-  double row[CONORMAL_SIZE], column[CONORMAL_SIZE], covectors[DIRECTIONS];
+  static double entries[CONORMAL_ENTRIES], A[CONORMAL_SIZE * CONORMAL_SIZE], u[CONORMAL_SIZE * SHIFTS];
+  double covectors[DIRECTIONS];
   const int n = CONORMAL_SIZE;
-  int i, j, k;
+  int j, k;
   conormal_matrices(in, entries);
   memset(A, 0, sizeof A);
   for (k = 0; k < CONORMAL_OF_A; ++k) {
     if (!isfinite(entries[k])) return 0;
     A[conormal_row[k] + conormal_column[k] * n] = entries[k];
   }
-  equilibrate(A, S, row, column, n);
-  memset(u, 0, sizeof u);
-  for (j = 0; j < SHIFTS; ++j) u[n - SHIFTS + j + j * n] = row[n - SHIFTS + j];
-  if (!(factor(S, u, n, SHIFTS) > 1e-7)) return 0;
-  substitute(S, u, n, SHIFTS);
+  if (!invert(A, u, n, SHIFTS)) return 0;
   memset(covectors, 0, sizeof covectors);
-  for (j = 0; j < SHIFTS; ++j) {
-    for (i = 0; i < n; ++i) u[i + j * n] *= column[i];
+  for (j = 0; j < SHIFTS; ++j)
     for (k = CONORMAL_OF_A; k < CONORMAL_ENTRIES; ++k)
       covectors[conormal_row[k] + j * DIMENSION] += entries[k] * u[conormal_column[k] + j * n];
-  }
   return is_made_orthonormal(covectors, DIMENSION, SHIFTS, 0, D->conormals) ||
          is_made_orthonormal_from_afar(covectors, DIMENSION, SHIFTS, D->conormals);
 }
