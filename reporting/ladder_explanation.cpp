@@ -297,8 +297,7 @@ void explain_brackets(const ConstraintBrackets& found, std::vector<Prose>& lines
     tell("that are not 0 on M_f:", brackets);
   }
   if (!found.hamiltonian.empty()) {
-    lines.push_back(
-        "Total Hamiltonian, with what is known of the unknowns put in:");
+    lines.push_back("Total Hamiltonian, with what is known of the unknowns put in:");
     lines.push_back("    " + Prose::formula("H = " + found.hamiltonian));
   }
   for (std::size_t i = 0; i < shown_of(found.generators.size()); ++i) {
