@@ -58,6 +58,14 @@ if(COURANT_SANITIZE)
   add_link_options(${sanitizers})
 endif()
 
+# Release builds are hardened, as Debian's packages are.
+if(NOT COURANT_SANITIZE)
+  add_compile_options(-fstack-protector-strong "$<$<CONFIG:Release>:SHELL:-U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2>")
+  if(CMAKE_SYSTEM_NAME STREQUAL Linux)
+    add_link_options(-Wl,-z,relro,-z,now)
+  endif()
+endif()
+
 # courant_settings(<target>): language, warnings and floating point of a target of this project.
 function(courant_settings target)
   target_compile_features(${target} PUBLIC cxx_std_20)
