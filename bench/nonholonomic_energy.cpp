@@ -25,6 +25,7 @@
 #include "courant/integrators/methods/composition.hpp"
 #include "courant/integrators/methods/constrain_first.hpp"
 #include "courant/integrators/methods/discretize_first.hpp"
+#include "courant/integrators/step/kinetic_metric.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/structures/lagrangian_system.hpp"
 
@@ -277,7 +278,7 @@ int main(int count, char** words) {
     const auto map = std::make_shared<CotangentLift>(M, std::make_shared<Theta>(Q));
     const auto momenta = MomentumProjector::momenta_of(*M);
     const auto projector = std::make_shared<MomentumProjector>(
-        M, MomentumProjector::kinetic_metric(equations, momenta, ladder.point.x));
+        M, kinetic_metric(equations, momenta, ladder.point.x).value().lower);
     const auto second = std::make_shared<ConstrainFirst>(equations, ladder, map, projector);
     run(DiscretizeFirst(equations, map), ladder.point, system, steps, "Method 1");
     run(*second, ladder.point, system, steps, "Method 2");
