@@ -1,6 +1,7 @@
 // What the keys of constraints and forces take, and what is said of what they do not.
 #include "courant/reading/mechanics_keys.hpp"
 
+#include <Eigen/Geometry>
 #include <boost/test/unit_test.hpp>
 
 #include "courant/reading/experiment.hpp"

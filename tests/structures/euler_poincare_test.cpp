@@ -1,5 +1,6 @@
 #include "courant/structures/euler_poincare.hpp"
 
+#include <Eigen/Geometry>
 #include <boost/test/unit_test.hpp>
 
 // Mistakes that these cases have to notice:

@@ -1,5 +1,6 @@
 #include "courant/integrators/methods/reduced_map.hpp"
 
+#include <Eigen/Geometry>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
