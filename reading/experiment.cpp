@@ -325,6 +325,7 @@ Experiment read_document(const Json& written, const Model* given) {
                                 : std::nullopt;
     const auto initial = object.required("initial");
     const auto hold = object.optional("hold");
+    if (const auto start = object.optional("start")) start->word({"nearest"});
     const auto method = object.optional("method");
     if (method) experiment.method = method_kinds().read(*method);
     const auto time = object.optional("time");

@@ -54,6 +54,7 @@ constexpr std::pair<const char*, const char*> kFrame[] = {
      "values by name, in full or in part: what is missing is found by the constraint algorithm; x' "
      "is the velocity of x, an array takes an array"},
     {"hold", "names of initial values that must not be moved to be consistent: [\"x\"]"},
+    {"start", "\"nearest\": begins at the nearest consistent start, however far from these values"},
     {"time", "step and end, numbers or formulas of the parameters: a whole number of steps"},
     {"events", "named formulas of the state whose zeros are found: passages, turning points"},
     {"observe", "named formulas of coordinates, momenta, velocities, unknowns and t: columns"},

@@ -13,8 +13,8 @@
 #include "courant/running/c_program_limits.hpp"
 #include "courant/running/c_program_text.hpp"
 #include "courant/running/c_rows.hpp"
-#include "courant/running/consistent_start.hpp"
 #include "courant/running/observed_quantities.hpp"
+#include "courant/running/start_moves.hpp"
 
 namespace courant {
 namespace {
@@ -79,7 +79,7 @@ class CProgram {
  private:
   static ConstraintLadder start(const Experiment& experiment) {
     check_exportable(experiment);
-    ConstraintLadder ladder = consistent_start(experiment);
+    ConstraintLadder ladder = start_of_run(experiment);
     if (ladder.verdict == Verdict::inconsistent)
       throw ExperimentError("/initial",
                             "the system is inconsistent near the initial values. " + ladder.reason);

@@ -11,10 +11,13 @@
 #include "courant/core/linear/rank_decision.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/core/words/word_list.hpp"
+#include "courant/integrators/certificate/consistent_point.hpp"
 #include "courant/integrators/certificate/ladder_in_units.hpp"
+#include "courant/integrators/certificate/nearest_start.hpp"
 #include "courant/integrators/methods/integrator_in_units.hpp"
 #include "courant/running/given_quantities.hpp"
 #include "courant/running/impulsive_start.hpp"
+#include "courant/running/start_stages.hpp"
 #include "courant/running/undefined_formula.hpp"
 
 namespace courant {
@@ -147,6 +150,38 @@ bool has_no_start(const ConstraintLadder& ladder) {
   return ladder.verdict == Verdict::inconsistent || ladder.verdict == Verdict::not_reached;
 }
 
+// Whether the equations of a ladder, and what was held, vanish at its point next to their terms: a search has units of its
+// own, which may be those of what it met on its way.
+bool is_met(const InitialGuess& held, const ConstraintLadder& ladder,
+            const std::shared_ptr<const ImplicitSystem>& system) {
+  if (has_no_start(ladder) || ladder.levels.empty() || ladder.jet.size() == 0) return true;
+  const ConsistentPoint consistent(system, held, {});
+  return consistent.is_met_at(consistent.jet_of(ladder));
+}
+
+// The values that are given and are others at the point: coordinates, velocities dx/dt, unknowns, in the numbers of the
+// experiment.
+std::vector<Movement> movements_of_given(const Experiment& experiment, const State& point) {
+  constexpr double round_off = 1e-12;  // of the largest number of a kind
+  const InitialValues& initial = experiment.initial;
+  const ImplicitSystem::Names& names = experiment.model.system->names();
+  std::vector<Movement> moves;
+  const auto compare = [&](const PartialVector& given, const VectorXd& found,
+                           const std::vector<std::string>& of, const char* mark) {
+    const double size =
+        std::max(given.values.lpNorm<Eigen::Infinity>(), found.lpNorm<Eigen::Infinity>());
+    for (Index i = 0; i < given.values.size(); ++i)
+      if (given.given[i] && std::fabs(found[i] - given.values[i]) > round_off * size)
+        moves.push_back({of[static_cast<std::size_t>(i)] + mark, given.values[i], found[i]});
+  };
+  if (initial.x.given.any()) compare(initial.x, point.x, names.coordinates, "");
+  if (initial.velocity.given.any())
+    compare(initial.velocity, experiment.model.system->manifold()->frame(point.x) * point.v,
+            names.coordinates, "'");
+  if (initial.z.given.any()) compare(initial.z, point.z, names.auxiliary, "");
+  return moves;
+}
+
 // The ladder of a system whose numbers may be far apart: then that in natural units, and where that in the units of
 // the experiment has another verdict about a point, a doubt.
 class LadderSearch {
@@ -215,8 +250,9 @@ class LadderSearch {
   double length_ = 1.0;
 };
 
-// The search for a start that keeps what is given if it can: velocities and unknowns give way first, then
-// coordinates; what is held does not.
+// The search for a start that keeps what is given if it can. If velocities or coordinates cannot be kept, it is the
+// nearest: positions change least, then velocities and momenta, in the metric of the kinetic energy where there is one,
+// then unknowns; what is held does not.
 class StartSearch {
  public:
   StartSearch(const Experiment& experiment, Decider decider)
@@ -228,13 +264,16 @@ class StartSearch {
         decider_(decider),
         ladders_(experiment.model.system, guess_, weight_, decider) {}
 
-  ConstraintLadder find() const {
-    ConstraintLadder ladder = all_kept(guess_.x);
-    if (has_no_start(ladder) && more_is_given()) ladder = coordinates_kept();
+  ConsistentStart find() const {
+    ConsistentStart ladder = all_kept(guess_.x);
+    if (has_no_start(ladder) && more_is_given()) {
+      ladder = coordinates_kept();
+      if (!has_no_start(ladder) && initial_.velocity.given.any()) ladder = nearest(ladder);
+    }
     if (has_no_start(ladder)) return coordinates_moved();
     if (ladder.levels.back().is_solved) return ladder;
     // Equations that contradict what is given may nearly hold far away.
-    ConstraintLadder moved = coordinates_moved();
+    ConsistentStart moved = coordinates_moved();
     return has_no_start(moved) || moved.is_ambiguous() ? ladder : moved;
   }
 
@@ -244,7 +283,16 @@ class StartSearch {
   ConstraintLadder free_from(const VectorXd& x) const {
     InitialGuess guess = holding(guess_, initial_.x.held, initial_.velocity.held, initial_.z.held);
     guess.x = x;
-    return ladders_.run(guess);
+    return met(guess, ladders_.run(guess));
+  }
+
+  // What is held, which a point has to round-off.
+  void keep_to_the_bit(State& point) const {
+    const InitialGuess held =
+        holding(guess_, initial_.x.held, initial_.velocity.held, initial_.z.held);
+    for (const Index i : held.hold_x) point.x[i] = guess_.x[i];
+    for (const Index i : held.hold_v) point.v[i] = guess_.v[i];
+    for (const Index i : held.hold_z) point.z[i] = guess_.z[i];
   }
 
  private:
@@ -275,41 +323,121 @@ class StartSearch {
 
   // All that is given, of coordinates what x has.
   ConstraintLadder all_kept(const VectorXd& x) const {
-    InitialGuess guess =
-        holding(guess_, initial_.x.given, initial_.velocity.given, initial_.z.given);
+    InitialGuess guess = guess_;
     guess.x = x;
-    return ladders_.run(guess);
+    return all_kept(guess);
+  }
+  // All that is given, with the values that the guess has.
+  ConstraintLadder all_kept(const InitialGuess& guess) const {
+    const InitialGuess held =
+        holding(guess, initial_.x.given, initial_.velocity.given, initial_.z.given);
+    return met(held, ladders_.run(held));
+  }
+  ConstraintLadder met(const InitialGuess& held, ConstraintLadder ladder) const {
+    if (is_met(held, ladder, experiment_.model.system)) return ladder;
+    ladder.verdict = Verdict::not_reached;
+    ladder.reason = "The equations, and what was held, do not vanish where the search ended.";
+    return ladder;
+  }
+  // Of what is held alone. Among numbers so large that they hide the digits of a point, the search begins again at the
+  // point that it came to.
+  ConstraintLadder free_ladder() const {
+    constexpr int most_searches = 10;
+    InitialGuess guess = holding(guess_, initial_.x.held, initial_.velocity.held, initial_.z.held);
+    ConstraintLadder ladder = ladders_.run(guess);
+    for (int search = 1;
+         search < most_searches && !is_met(guess, ladder, experiment_.model.system) &&
+         ladder.point.x.norm() < guess.x.norm();
+         ++search) {
+      guess.x = initial_.x.held.select(guess.x, ladder.point.x);
+      ladder = ladders_.run(guess);
+    }
+    return ladder;
   }
 
-  // From the momenta that belong to the velocities, which move no farther than they must.
-  ConstraintLadder coordinates_kept() const {
-    InitialGuess guess = holding(guess_, initial_.x.given, initial_.velocity.held, initial_.z.held);
+  // With the momenta that belong to the velocities by the equations themselves, where they are not given.
+  InitialGuess with_what_follows() const {
+    InitialGuess guess = guess_;
     const InitialGuess given =
         holding(guess_, initial_.x.given, initial_.velocity.given, initial_.z.given);
     if (const auto point = ladders_.nearly_solved(given))
       guess.x = initial_.x.given.select(guess.x, point->x);
+    return guess;
+  }
+
+  // From the momenta that belong to the velocities, which move no farther than they must.
+  ConstraintLadder coordinates_kept() const {
+    const InitialGuess guess =
+        holding(with_what_follows(), initial_.x.given, initial_.velocity.held, initial_.z.held);
     const VectorXd weight = initial_.x.given.select(weight_, 1.0);
     ConstraintLadder ladder =
-        LadderSearch(experiment_.model.system, guess, weight, decider_).run(guess);
+        met(guess, LadderSearch(experiment_.model.system, guess, weight, decider_).run(guess));
     ladder.moved = 0.0;  // what is given of x stays
     return ladder;
   }
 
-  // With velocities and unknowns that can be kept at the point that is found.
-  ConstraintLadder coordinates_moved() const {
-    const ConstraintLadder ladder =
-        ladders_.run(holding(guess_, initial_.x.held, initial_.velocity.held, initial_.z.held));
-    if (has_no_start(ladder) || !more_is_given()) return ladder;
+  // With velocities and unknowns that can be kept at the point that is found; where they cannot, the nearest start.
+  ConsistentStart coordinates_moved() const {
+    const ConstraintLadder ladder = free_ladder();
+    if (has_no_start(ladder)) return ladder;
+    if (!more_is_given()) return nearest(ladder);
     ConstraintLadder kept = all_kept(ladder.point.x);
-    if (has_no_start(kept) || (kept.is_ambiguous() && !ladder.is_ambiguous())) return ladder;
-    std::vector<Movement> moves = ladder.moves;
-    const std::vector<std::string>& coordinates = experiment_.model.system->names().coordinates;
-    std::erase_if(moves, [&](const Movement& move) {
-      return std::find(coordinates.begin(), coordinates.end(), move.name) == coordinates.end();
-    });
-    kept.moves.insert(kept.moves.begin(), moves.begin(), moves.end());
+    if (has_no_start(kept) || (kept.is_ambiguous() && !ladder.is_ambiguous())) {
+      const InitialGuess follows =
+          holding(with_what_follows(), initial_.x.held, initial_.velocity.held, initial_.z.held);
+      const ConstraintLadder moving = met(follows, ladders_.run(follows));
+      return nearest(has_no_start(moving) ? ladder : moving);
+    }
     kept.moved = ladder.moved;
+    kept.moves = movements_of_given(experiment_, kept.point);
     return kept;
+  }
+
+  // The nearest start of the last level of a ladder, which has one; that of the ladder if it is none.
+  ConsistentStart nearest(const ConstraintLadder& ladder) const {
+    const InitialGuess guess = holding(more_is_given() ? with_what_follows() : guess_,
+                                       initial_.x.held, initial_.velocity.held, initial_.z.held);
+    const NearestStart start(experiment_.model.system, guess, ladder,
+                             start_stages(experiment_, guess_));
+    if (start.outcomes().empty()) return met(guess, ladder);
+    if (!start.is_consistent()) {
+      ConsistentStart there = met(guess, ladder);
+      there.is_nearest = false;
+      there.moves = movements_of_given(experiment_, there.point);
+      return there;
+    }
+    const State& point = start.point();
+    ConsistentStart there = all_kept({.t = point.t, .x = point.x, .v = point.v, .z = point.z});
+    if (has_no_start(there) || (there.is_ambiguous() && !ladder.is_ambiguous())) {
+      there = ladder;
+      there.point = point;
+    }
+    there.is_nearest = start.is_proven();
+    constexpr double round_off = 1e-12;
+    const double distance = start.outcomes().front().distance;
+    there.moved = distance > round_off * guess_.x.norm() ? distance : 0.0;
+    there.moves = movements_of_given(experiment_, there.point);
+    there.impasse = impasse(there.point);
+    if (!there.impasse.empty()) there.doubts.emplace_back(there.impasse);
+    return there;
+  }
+
+  // A sentence where velocities or unknowns grow beyond all bounds as the given values are approached, so that there is
+  // a start as near to them as one likes, and none at them; else empty.
+  std::string impasse(const State& point) const {
+    constexpr double near = 1e-9, large = 1e6, aside = 1e-3, fall = 1e3;
+    const auto largest = [](const State& state) {
+      return std::max(state.v.size() > 0 ? state.v.cwiseAbs().maxCoeff() : 0.0,
+                      state.z.size() > 0 ? state.z.cwiseAbs().maxCoeff() : 0.0);
+    };
+    const VectorXd way = point.x - guess_.x;
+    const double moved = way.norm(), size = 1.0 + guess_.x.norm(), there = largest(point);
+    if (!(moved > 0.0) || moved > near * size || there < large * size) return "";
+    const ConstraintLadder beside = free_from(guess_.x + aside * size / moved * way);
+    if (has_no_start(beside) || fall * largest(beside.point) > there) return "";
+    return "the equations have no solution at the initial values: as near as " +
+           number_text(moved, 2) + " velocities or unknowns are " + number_text(there, 2) +
+           ", and they grow beyond all bounds, as at an impasse or a pole";
   }
 
   const Experiment& experiment_;
@@ -340,20 +468,30 @@ std::string held_moves(const Experiment& experiment, const ConstraintLadder& fre
 
 ConsistentStart found_start(const Experiment& experiment, Decider decider) {
   const StartSearch search(experiment, decider);
-  ConsistentStart ladder = impulsive_start(experiment, search.find(),
-                                           [&](const VectorXd& x) { return search.free_from(x); });
+  const ConsistentStart nearest = search.find();
+  ConsistentStart ladder =
+      impulsive_start(experiment, nearest, [&](const VectorXd& x) { return search.free_from(x); });
+  ladder.is_nearest = ladder.is_impulse || nearest.is_nearest;
+  if (!ladder.is_impulse) ladder.impasse = nearest.impasse;
   forget_moves_of_what_was_not_given(ladder, experiment);
   const InitialValues& initial = experiment.initial;
   const bool any_held = initial.x.held.any() || initial.velocity.held.any() || initial.z.held.any();
-  if (ladder.verdict == Verdict::inconsistent) {
+  if (has_no_start(ladder)) {
+    ladder.moves.clear();
+    ladder.moved = 0.0;
     if (!any_held) return ladder;
     const ConstraintLadder free = search.free();
-    if (free.verdict == Verdict::inconsistent) return free;
+    if (has_no_start(free)) return free;
+    const bool is_empty = !ladder.levels.empty() && ladder.levels.back().is_empty;
     throw ExperimentError(
-        "/hold", "what is held contradicts the constraints, which are violated by " +
-                     number_text(ladder.levels.back().residual, 3) + held_moves(experiment, free) +
-                     "; expected values that satisfy them");
+        "/hold",
+        "what is held contradicts the constraints" +
+            (is_empty ? ", which are violated by " + number_text(ladder.levels.back().residual, 3) +
+                            held_moves(experiment, free)
+                      : std::string()) +
+            "; expected values that satisfy them");
   }
+  search.keep_to_the_bit(ladder.point);
   if (const auto missing = undetermined(experiment, ladder); !missing.empty()) {
     const auto told = std::span(missing).first(std::min<std::size_t>(missing.size(), 5));
     throw ExperimentError("/initial", "nothing determines " + word_list(told) +

@@ -15,6 +15,8 @@ namespace {
 
 constexpr Index kMostMovable = 500;
 constexpr int kMostJumps = 20;
+// Next to coordinates so much larger, those that were given are round-off: no impulse does this.
+constexpr double kMostGrowth = 1e6;
 // Next to the sizes of coordinates: what is left of a movement along impulses is round-off.
 constexpr double kReached = 1e-10;
 constexpr double kRoundOffOfJump = 1e-14;
@@ -110,6 +112,7 @@ ConsistentStart impulsive_start(
       const MatrixXd sines = A * K;
       const MatrixXd acting = (sines.array().abs() > kLeastSine).select(sines, 0.0);
       x = begin - K * CompleteOrthogonalDecomposition(acting).solve(A * (begin - ladder.point.x));
+      if (size(x) > kMostGrowth * size(nearest.point.x)) return nearest;
       ladder = nearest_to(x);
       if (!is_start(ladder)) return nearest;
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <utility>
 
 #include "courant/integrators/certificate/constraint_ladder.hpp"
@@ -10,12 +11,14 @@
 namespace courant {
 
 // The ladder at a start. `is_impulse`: what moved did so as an impulse moves it, which keeps what the equations
-// conserve.
+// conserve. `is_nearest`: where given values could not be kept, the conditions of optimality of the nearest start are met.
+// `impasse`: empty, or a sentence that says why nothing begins at the given values, only as near to them as one likes.
 struct ConsistentStart : ConstraintLadder {
   ConsistentStart() = default;
   ConsistentStart(ConstraintLadder ladder, bool impulse = false)
       : ConstraintLadder(std::move(ladder)), is_impulse(impulse) {}
-  bool is_impulse = false;
+  bool is_impulse = false, is_nearest = true;
+  std::string impasse;
 };
 
 // Two charged capacitors that are connected keep their charge, two rotors that are joined their momentum: what is

@@ -24,6 +24,7 @@
 #include "courant/running/run_results.hpp"
 #include "courant/running/run_steps.hpp"
 #include "courant/running/run_watchers.hpp"
+#include "courant/running/start_moves.hpp"
 #include "courant/running/symmetry_check.hpp"
 #include "courant/running/tangent_of_run.hpp"
 #include "courant/running/trajectory_rows.hpp"
@@ -70,10 +71,12 @@ class RunUnderway {
         keeper_(keeper),
         options_(options),
         backend_(worthwhile(options.backend, experiment)),
-        ladder_(consistent_start(experiment)),
+        ladder_(start_of_run(experiment)),
         ladder_report_(report_of_start(experiment, ladder_)),
         symmetries_(check_symmetries(experiment, ladder_)),
         observer_(experiment, ladder_, backend_) {
+    if (const StartMoves moves = start_moves(experiment, ladder_); !moves.warning.empty())
+      results_.warnings.push_back(moves.warning);
     if (observer_.constraint_count() == 0 && ladder_.verdict != Verdict::inconsistent)
       for (const std::string& pointer : experiment.expect.violations)
         throw ExperimentError(pointer,

@@ -13,8 +13,8 @@
 #include "courant/core/words/spelling.hpp"
 #include "courant/reading/divided_steps.hpp"
 #include "courant/reading/transformed_time.hpp"
-#include "courant/running/consistent_start.hpp"
 #include "courant/running/observer.hpp"
+#include "courant/running/start_moves.hpp"
 
 namespace courant {
 namespace {
@@ -40,7 +40,7 @@ class StudiedProblem {
   StudiedProblem(const StudySubject& subject, const StudyOptions& options)
       : subject_(subject),
         options_(options),
-        ladder_(consistent_start(experiment())),
+        ladder_(start_of_run(experiment())),
         observer_(experiment(), ladder_, options.backend) {
     if (!experiment().method || !experiment().time)
       throw ExperimentError("/method", "is missing; a study is one of a method and its steps");
@@ -331,7 +331,8 @@ StudyReport::Method method_report(const StudySubject& subject, const StudiedProb
 // What has to be the same for two subjects to have the same reference.
 std::string problem_of(const Experiment& experiment) {
   Json parts = Json::object();
-  for (const char* key : {"system", "initial", "hold", "weights", "time", "observe", "expect"})
+  for (const char* key :
+       {"system", "initial", "hold", "start", "weights", "time", "observe", "expect"})
     parts[key] = experiment.document.value(key, Json());
   return parts.dump();
 }

@@ -42,6 +42,37 @@ Zero find_confirmed(const LinearizableMap& map, const VectorXd& start, const Mob
   return zero;
 }
 
+Deviation change_at(const LeastChange& change, const DerivativeArray& array, const VectorXd& y) {
+  const Linearization state = array.state_map(y);
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> by_row = state.jacobian;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t i = 0; i < change.rows.size(); ++i)
+    for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(by_row, change.rows[i]); it;
+         ++it)
+      entries.emplace_back(static_cast<int>(i), static_cast<int>(it.col()), it.value());
+  SparseMatrixXd rows(std::ssize(change.rows), state.jacobian.cols());
+  rows.setFromTriplets(entries.begin(), entries.end());
+  const VectorXd there = state.value(change.rows);
+  return {change.root * (there - change.given), change.root * rows,
+          (change.root * change.given).norm() + (change.root * there).norm()};
+}
+
+// The largest number of each part (ξ_0, ξ_1, z_0, ξ_2, …) of a jet, for every entry of it.
+VectorXd sizes_of_parts(const ConsistentJet& jet, Index unknowns) {
+  const Index n = jet.array().base_size();
+  VectorXd sizes = jet.zero().y.cwiseAbs();
+  sizes.head(n) += jet.array().origin_size();
+  const auto level = [&](Index first, Index size) {
+    if (size > 0) sizes.segment(first, size).setConstant(sizes.segment(first, size).maxCoeff());
+  };
+  level(0, n);
+  for (Index first = n; first < sizes.size(); first += n + unknowns) {
+    level(first, n);
+    level(first + n, unknowns);
+  }
+  return sizes;
+}
+
 }  // namespace
 
 ConsistentPoint::ConsistentPoint(std::shared_ptr<const ImplicitSystem> system, InitialGuess guess,
@@ -130,10 +161,10 @@ ConsistentJet ConsistentPoint::start() const {
   return {*array_, Zero(array_->jet(guess_.v, guess_.z))};
 }
 
-LinearizableMap ConsistentPoint::conditions(const DerivativeArray& array, bool hold) const {
-  return [this, &array, hold](const VectorXd& y) {
+LinearizableMap ConsistentPoint::conditions(const DerivativeArray& array, const Values& held) {
+  return [&array, held](const VectorXd& y) {
     Linearization at = array.linearize(y);
-    if (hold && !held_.empty()) {
+    if (!held.empty()) {
       const Linearization state = array.state_map(y);
       const Eigen::SparseMatrix<double, Eigen::RowMajor> by_row = state.jacobian;
       std::vector<Eigen::Triplet<double>> entries;
@@ -141,9 +172,9 @@ LinearizableMap ConsistentPoint::conditions(const DerivativeArray& array, bool h
         for (SparseMatrixXd::InnerIterator it(at.jacobian, j); it; ++it)
           entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(j), it.value());
       Index row = at.value.size();
-      at.value.conservativeResize(row + static_cast<Index>(held_.size()));
+      at.value.conservativeResize(row + std::ssize(held));
       at.value_error.conservativeResize(at.value.size());
-      for (const auto& [component, value] : held_) {
+      for (const auto& [component, value] : held) {
         at.value[row] = state.value[component] - value;
         at.value_error[row] = 4.0 * Uncertain::unit * std::fabs(value);
         for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(by_row, component); it;
@@ -204,14 +235,15 @@ double ConsistentPoint::distance(const VectorXd& x) const {
   return std::sqrt(std::max(0.0, moved.dot(VectorXd(metric_ * moved))));
 }
 
-ConsistentJet ConsistentPoint::recentred(const DerivativeArray& array, const Zero& zero) const {
+ConsistentJet ConsistentPoint::recentred(const DerivativeArray& array, const Zero& zero,
+                                         const Values& held) const {
   const State state = array.state(zero.y);
   const DerivativeArray at_point = array.at(array.t(), state.x);
   Zero there = zero;
   const VectorXd first = at_point.jet(state.v, state.z);
   there.y.head(first.size()) = first;
   // ξ_0 = 0 and ξ_1, z_0 are those of the same state; higher coefficients change with the chart.
-  Zero polished = find_zero(conditions(at_point, true), there.y,
+  Zero polished = find_zero(conditions(at_point, held), there.y,
                             mobility(ConsistentJet(at_point, there), false));
   if (!polished.found) return {at_point, std::move(there)};
   polished.iterations += zero.iterations;
@@ -236,20 +268,21 @@ std::optional<ConsistentJet> ConsistentPoint::find_beyond(const ConsistentJet& e
     Zero zero = at.zero();
     const VectorXd first = there.jet(state.v, state.z);
     zero.y.head(first.size()) = first;
-    const LinearizableMap F = conditions(there, true);
+    const LinearizableMap F = conditions(there, held_);
     const Mobility free = mobility(ConsistentJet(there, zero), true);
     zero = find_confirmed(F, zero.y, free);
     at = ConsistentJet(there, zero);
     if (!zero.found) continue;
     return recentred(there,
                      least_zero(
-                         F, [&](const VectorXd& y) { return displacement(there, y); }, zero, free));
+                         F, [&](const VectorXd& y) { return displacement(there, y); }, zero, free),
+                     held_);
   }
   return std::nullopt;
 }
 
 ConsistentJet ConsistentPoint::find(const ConsistentJet& from) const {
-  const LinearizableMap F = conditions(from.array(), true);
+  const LinearizableMap F = conditions(from.array(), held_);
   const Index n = from.array().base_size();
   Zero zero = find_zero(F, from.zero().y, mobility(from, false));
   const bool has_exponentials = from.array().has_exponentials();
@@ -279,11 +312,11 @@ ConsistentJet ConsistentPoint::find(const ConsistentJet& from) const {
   if (!zero.found) return {from.array(), zero};
   zero = least_zero(
       F, [&](const VectorXd& y) { return displacement(from.array(), y); }, zero, free);
-  return recentred(from.array(), zero);
+  return recentred(from.array(), zero, held_);
 }
 
 bool ConsistentPoint::is_contradiction(const ConsistentJet& jet) const {
-  const Linearization at = conditions(jet.array(), true)(jet.zero().y);
+  const Linearization at = conditions(jet.array(), held_)(jet.zero().y);
   UncertainMatrix J{at.jacobian, at.error}, with_F = J;
   for (SparseMatrixXd* matrix : {&with_F.value, &with_F.error})
     matrix->conservativeResize(matrix->rows(), matrix->cols() + 1);
@@ -298,8 +331,59 @@ bool ConsistentPoint::is_contradiction(const ConsistentJet& jet) const {
   return together.rank > decide_rank(J).rank && !together.ambiguous();
 }
 
+ConsistentPoint::Least ConsistentPoint::least_changed(const ConsistentJet& from,
+                                                      const LeastChange& change,
+                                                      const Values& kept) const {
+  Values held = held_;
+  held.insert(held.end(), kept.begin(), kept.end());
+  const DerivativeArray& array = from.array();
+  LeastDeviation found = least_deviation(
+      conditions(array, held), [&](const VectorXd& y) { return change_at(change, array, y); },
+      from.zero(), mobility(from, true));
+  return {recentred(array, found.zero, held), found};
+}
+
+ConsistentJet ConsistentPoint::find_from(const VectorXd& x, const VectorXd& v, const VectorXd& z,
+                                         const ConsistentJet& like) const {
+  constexpr int most_charts = 20;
+  constexpr double far = 10.0;
+  const auto M = system_->manifold();
+  const auto search = [&](const VectorXd& x, const VectorXd& v, const VectorXd& z) {
+    const DerivativeArray array =
+        like.array().at(like.array().t(), M->point_defect(x) == 0.0 ? x : M->project(x));
+    const ConsistentJet start = ConsistentJet(array, Zero(array.jet(v, z))).at_level(like.level());
+    return ConsistentJet(
+        array, find_confirmed(conditions(array, held_), start.zero().y, mobility(start, true)));
+  };
+  ConsistentJet jet = search(x, v, z);
+  for (int chart = 1; chart < most_charts && jet.zero().is_finite; ++chart) {
+    const State state = jet.array().state(jet.zero().y);
+    if (!(jet.array().origin().norm() > far * state.x.norm())) break;
+    jet = search(state.x, state.v, state.z);
+  }
+  return jet;
+}
+
+ConsistentJet ConsistentPoint::jet_of(const ConstraintLadder& ladder) const {
+  Zero zero(ladder.jet);
+  zero.found = true;
+  return {array_->at(ladder.point.t, ladder.point.x), std::move(zero)};
+}
+
+bool ConsistentPoint::is_met_at(const ConsistentJet& jet) const {
+  const Linearization at = conditions(jet.array(), held_)(jet.zero().y);
+  if (!jet.zero().found || at.value_error.size() != at.value.size()) return jet.zero().found;
+  // Of what grows like exp (v/25 mV) fewer digits are known. What is nothing next to the terms that an equation may
+  // have at numbers of these sizes, as the product of a velocity of 10⁻¹⁷ with a coordinate, is nothing.
+  const double unseen = (jet.array().has_exponentials() ? 1e-6 : 1e-9) / Uncertain::unit;
+  constexpr double nothing = 1e-12;
+  const VectorXd terms = at.jacobian.cwiseAbs() * sizes_of_parts(jet, system_->auxiliary_size());
+  const auto F = at.value.array().abs();
+  return (F <= unseen * at.value_error.array() || F <= nothing * (1.0 + terms.array())).all();
+}
+
 ConsistentJet ConsistentPoint::again(const ConsistentJet& jet) const {
-  return recentred(jet.array(), jet.zero());
+  return recentred(jet.array(), jet.zero(), held_);
 }
 
 ConsistentPoint::Neighbour ConsistentPoint::find_displaced(const ConsistentJet& from,
@@ -311,7 +395,7 @@ ConsistentPoint::Neighbour ConsistentPoint::find_displaced(const ConsistentJet& 
 ConsistentJet ConsistentPoint::find_at(const ConsistentJet& from, const VectorXd& xi) const {
   VectorXd y = from.zero().y;
   y.head(xi.size()) = xi;
-  return {from.array(), find_zero(conditions(from.array(), false), y, mobility(from, false))};
+  return {from.array(), find_zero(conditions(from.array(), {}), y, mobility(from, false))};
 }
 
 ConsistentPoint::Neighbour ConsistentPoint::find_later(const ConsistentJet& from,
@@ -334,7 +418,7 @@ ConsistentPoint::Neighbour ConsistentPoint::find_around(const ConsistentJet& fro
     y = start + part * displacement;
   free.magnitude = magnitude;
   free.noise *= 1e-3;  // of displacements that are thousandths of natural units
-  const Zero zero = find_zero(conditions(array, false), y, free);
+  const Zero zero = find_zero(conditions(array, {}), y, free);
   if (!zero.found) return {{array, zero}, VectorXd::Zero(y.size())};
   return {{array, zero}, zero.y - y};
 }

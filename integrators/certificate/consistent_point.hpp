@@ -1,8 +1,10 @@
 // Consistent points: zeros of a derivative array near given values.
 #pragma once
 
+#include "courant/integrators/certificate/constraint_ladder.hpp"
 #include "courant/integrators/certificate/derivative_array.hpp"
 #include "courant/integrators/certificate/initial_guess.hpp"
+#include "courant/integrators/certificate/least_deviation.hpp"
 #include "courant/integrators/certificate/least_zero.hpp"
 
 namespace courant {
@@ -27,6 +29,13 @@ class ConsistentJet {
   Index level_ = 0;
 };
 
+// What of a state is to change least: ‖root ((x, v, z)[rows] - given)‖.
+struct LeastChange {
+  std::vector<Index> rows;  // of the N + Ñ + m numbers (x, v, z)
+  VectorXd given;
+  SparseMatrixXd root;  // of the metric, with as many columns
+};
+
 // Where F^[k] vanishes near a guess.
 //
 // Values that are held are conditions beside F^[k]; x stays exactly where it is if the other
@@ -45,6 +54,25 @@ class ConsistentPoint {
   ConsistentJet start() const;
   // The zero of F^[k] near `from`, whose jet is of level k.
   ConsistentJet find(const ConsistentJet& from) const;
+  // The zero of F^[k] near `from`, a zero, at which `change` is least, and those of the held values and `kept`, rows
+  // of (x, v, z), what they are.
+  using Values = std::vector<std::pair<Index, double>>;  // row of (x, v, z), value
+  struct Least {
+    ConsistentJet jet;
+    LeastDeviation found;
+  };
+  Least least_changed(const ConsistentJet& from, const LeastChange& change,
+                      const Values& kept) const;
+  // A zero of F^[k] near the point x, from v and z, which may be empty: 0. Its level and its time are those of `like`.
+  // Where a search ends among numbers so much smaller than those that it began with that these hide its digits, as at
+  // a circle of radius 1 from (10⁹, 1), it begins again there.
+  ConsistentJet find_from(const VectorXd& x, const VectorXd& v, const VectorXd& z,
+                          const ConsistentJet& like) const;
+  // The jet of a ladder that has a point, as a zero: whether it is one, is_met_at says.
+  ConsistentJet jet_of(const ConstraintLadder& ladder) const;
+  // Whether each equation of F^[k], and each held value, vanishes at the jet next to the terms that it is the sum of
+  // there. A search has units of its own, which may be those of what it met on its way.
+  bool is_met_at(const ConsistentJet& jet) const;
   // Whether the linear parts of the equations contradict each other at a jet that is no zero: whether
   // rank (J | F) exceeds rank J. Elsewhere a search that ended has merely not converged.
   bool is_contradiction(const ConsistentJet& jet) const;
@@ -70,13 +98,13 @@ class ConsistentPoint {
   double distance(const VectorXd& x) const;
 
  private:
-  LinearizableMap conditions(const DerivativeArray& array, bool hold) const;
+  static LinearizableMap conditions(const DerivativeArray& array, const Values& held);
   Mobility mobility(const ConsistentJet& from, bool x_is_free) const;
   Quadratic displacement(const DerivativeArray& array, const VectorXd& y) const;
   // From where a search ended at the edge of a chart, as that of the sphere does on T*S², the zero
   // that it was on the way to, in charts farther on; empty if there is none or no edge.
   std::optional<ConsistentJet> find_beyond(const ConsistentJet& ended) const;
-  ConsistentJet recentred(const DerivativeArray& array, const Zero& zero) const;
+  ConsistentJet recentred(const DerivativeArray& array, const Zero& zero, const Values& held) const;
 
   Neighbour find_around(const ConsistentJet& from, const DerivativeArray& array,
                         const VectorXd& start, const VectorXd& displacement,
@@ -87,8 +115,8 @@ class ConsistentPoint {
   InitialGuess guess_;
   bool z_is_given_ = false;
   SparseMatrixXd metric_;
-  std::optional<DerivativeArray> array_;        // at the given point
-  std::vector<std::pair<Index, double>> held_;  // row of (x, v, z), value
+  std::optional<DerivativeArray> array_;  // at the given point
+  Values held_;
 };
 
 }  // namespace courant

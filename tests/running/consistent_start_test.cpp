@@ -9,11 +9,12 @@
 //    (integrators/certificate/consistent_point.cpp)
 //  * an unknown that is given goes to another branch with the velocity
 //    (integrators/certificate/consistent_point.cpp)
+//  * a point is consistent next to what a search came by (integrators/certificate/consistent_point.cpp)
+//  * velocities that cannot be kept are forgotten (running/start_stages.cpp)
 //  * round-off of an exponential stays as a voltage at rest
 //    (integrators/certificate/nearest_zero.cpp)
 //  * units may be no numbers when they are multiplied (integrators/methods/integrator_in_units.cpp)
 //  * coordinates give way before velocities
-//  * velocities that can be kept at the point that was found are not
 //  * what nothing determines is taken as it was guessed
 //  * what was to be kept is kept though nothing was found with it
 //  * a point that solves nothing is taken because it has what is given
@@ -471,6 +472,151 @@ BOOST_AUTO_TEST_CASE(an_inconsistent_system_is_a_finding) {
       {"system", {{"type", "lagrangian"}, {"coordinates", {"q"}}, {"lagrangian", "q' + q"}}},
       {"initial", {{"q", 0}}}};
   BOOST_TEST((start(experiment).verdict == Verdict::inconsistent));
+}
+
+// A position and a velocity of a pendulum in four digits: both move in the fifth.
+BOOST_AUTO_TEST_CASE(a_rounded_start_keeps_its_speed) {
+  const ConstraintLadder ladder =
+      start({{"system",
+              {{"type", "mechanical"},
+               {"coordinates", {"x", "y"}},
+               {"potential", "9.81*y"},
+               {"holonomic", "x^2 + y^2 - 1"}}},
+             {"initial", {{"x", 0.8415}, {"y", -0.5403}, {"x'", 0.7024}, {"y'", 1.0939}}}});
+  BOOST_TEST((ladder.verdict == Verdict::regular));
+  BOOST_TEST(!ladder.is_ambiguous());
+  const VectorXd& x = ladder.point.x;
+  BOOST_TEST(std::fabs(x[0] * x[3] - x[1] * x[2] - 1.3) < 1e-4);
+  BOOST_TEST(std::fabs(x[0] * x[2] + x[1] * x[3]) < 1e-14);
+  BOOST_TEST(ladder.moves.size() == 4u);
+  BOOST_TEST(ladder.moved < 1e-4);
+}
+
+// The component of the velocity along the point goes, and no other.
+BOOST_AUTO_TEST_CASE(a_rounded_start_on_a_sphere_keeps_its_velocity) {
+  const ConstraintLadder ladder =
+      start({{"system",
+              {{"type", "mechanical"},
+               {"manifold", "sphere"},
+               {"coordinates", {"x[3]"}},
+               {"potential", "x[2]"}}},
+             {"initial", {{"x", {0.4801, 0.6, 0.64}}, {"x'", {0.5, -0.4, 0.01}}}}});
+  BOOST_TEST((ladder.verdict == Verdict::regular));
+  const Eigen::Vector3d given(0.4801, 0.6, 0.64), velocity(0.5, -0.4, 0.01), q = given.normalized();
+  BOOST_TEST((ladder.point.x.head(3) - q).norm() < 1e-12);
+  BOOST_TEST((ladder.point.v.head(3) - (velocity - q * q.dot(velocity))).norm() < 1e-9);
+}
+
+// Positions first: those of an ellipse that is a millionth away, and p there without its part along the gradient.
+BOOST_AUTO_TEST_CASE(momenta_are_projected_at_the_nearest_position) {
+  const ConstraintLadder ladder =
+      start({{"system",
+              {{"type", "mechanical"},
+               {"coordinates", {"x", "y"}},
+               {"metric", 1.0},
+               {"potential", "9.81*y"},
+               {"holonomic", {"x^2 + 9*y^2 - 9"}}}},
+             {"initial", {{"x", 3}, {"y", 0.001}, {"p_x", 0.001}, {"p_y", 1}}}});
+  BOOST_TEST((ladder.verdict == Verdict::regular));
+  BOOST_TEST(ladder.moved < 1.6e-6);
+  const Eigen::Vector2d q = ladder.point.x.head(2), p(0.001, 1), normal(q[0], 9.0 * q[1]);
+  BOOST_TEST((q - Eigen::Vector2d(3, 0.001)).norm() < 1.6e-6);
+  BOOST_TEST((ladder.point.x.tail(2) - (p - normal * normal.dot(p) / normal.squaredNorm())).norm() <
+             1e-9);
+}
+
+// What SciPy finds: the position moves by 0.0106, the momentum by 0.861.
+BOOST_AUTO_TEST_CASE(a_slider_crank_with_a_momentum_that_does_not_fit_starts_near) {
+  const ConstraintLadder ladder = start(
+      {{"system",
+        {{"type", "mechanical"},
+         {"coordinates", {"a", "b", "s"}},
+         {"metric", {1, 1, 1}},
+         {"holonomic", {"cos(a)+3*cos(b)-s", "sin(a)-3*sin(b)"}}}},
+       {"initial", {{"a", 0.5}, {"b", 0.16}, {"s", 3.8}, {"p_a", 0.001}, {"p_b", 0}, {"p_s", 1}}}});
+  BOOST_TEST((ladder.verdict == Verdict::regular));
+  const VectorXd given{{0.5, 0.16, 3.8, 0.001, 0.0, 1.0}};
+  const double position = (ladder.point.x - given).head(3).norm();
+  BOOST_TEST(position < 0.05);
+  BOOST_TEST(position == ladder.moved, boost::test_tools::tolerance(1e-6));
+  BOOST_TEST((ladder.point.x - given).norm() < 0.9);
+}
+
+BOOST_AUTO_TEST_CASE(held_momenta_against_held_positions_are_an_error) {
+  Json experiment = {{"system",
+                      {{"type", "mechanical"},
+                       {"coordinates", {"x", "y"}},
+                       {"metric", 1.0},
+                       {"potential", "9.81*y"},
+                       {"holonomic", {"x^2+y^2-1"}}}},
+                     {"initial", {{"x", 1}, {"y", 0}, {"p_x", 1}, {"p_y", 0}}},
+                     {"hold", {"x", "y", "p_x"}}};
+  BOOST_TEST(problem(experiment).find("/hold: what is held contradicts the constraints") == 0u,
+             problem(experiment));
+}
+
+// An angle of four bars and its velocity, which are meant, beside values of the others that are guesses.
+BOOST_AUTO_TEST_CASE(what_is_held_is_held_to_the_bit) {
+  const ConstraintLadder ladder =
+      start({{"system",
+              {{"type", "mechanical"},
+               {"coordinates", {"u", "v", "w"}},
+               {"parameters",
+                {{"a", 0.25},
+                 {"b", 0.6},
+                 {"c", 0.5},
+                 {"d", 0.65},
+                 {"m1", 0.7},
+                 {"m2", 1.86},
+                 {"g", 9.81}}},
+               {"metric",
+                {{"(m1/3+m2)*a^2", "m2*a*b*cos(u-v)/2", 0},
+                 {"m2*a*b*cos(u-v)/2", "m2*b^2/3", 0},
+                 {0, 0, "1.4*c^2/3"}}},
+               {"potential", "g*(m1*a*sin(u)/2 + m2*(a*sin(u)+b*sin(v)/2) + 0.7*c*sin(w))"},
+               {"holonomic", {"a*cos(u)+b*cos(v)-c*cos(w)-d", "a*sin(u)+b*sin(v)-c*sin(w)"}}}},
+             {"initial", {{"u", 1.1}, {"v", 0.5}, {"w", 1.5}, {"u'", 0.6}, {"v'", 0}, {"w'", 0}}},
+             {"hold", {"u", "u'"}}});
+  BOOST_TEST((ladder.verdict == Verdict::regular));
+  BOOST_TEST(ladder.point.x[0] == 1.1);
+  BOOST_TEST(ladder.point.v[0] == 0.6);
+  const double u = 1.1, v = ladder.point.x[1], w = ladder.point.x[2];
+  BOOST_TEST(std::fabs(0.25 * std::sin(u) + 0.6 * std::sin(v) - 0.5 * std::sin(w)) < 1e-13);
+  for (const Movement& move : ladder.moves)
+    BOOST_TEST((move.name != "u" && move.name != "u'"), move.name);
+}
+
+BOOST_AUTO_TEST_CASE(nothing_moves_where_nothing_is_consistent) {
+  const ConstraintLadder ladder =
+      start({{"system",
+              {{"type", "implicit"},
+               {"coordinates", {"x", "y"}},
+               {"equations", {"x' + x + y", "y' - y - 1", "x + 2*y - 3"}}}},
+             {"initial", {{"x", 1}, {"y", 1}}}});
+  BOOST_TEST((ladder.verdict == Verdict::inconsistent));
+  BOOST_TEST(ladder.moves.empty());
+  BOOST_TEST(ladder.moved == 0.0);
+}
+
+// At (10⁹, 1) residuals of thousands are round-off next to the numbers of the start, and none at a point.
+BOOST_AUTO_TEST_CASE(a_point_is_consistent_by_its_own_numbers) {
+  const ConstraintLadder ladder = start(pendulum({{"x", 1e9}, {"y", 1}, {"v", 0}, {"w", 0}}));
+  const VectorXd& x = ladder.point.x;
+  BOOST_TEST((ladder.verdict == Verdict::regular));
+  BOOST_TEST(std::fabs(x[0] * x[0] + x[1] * x[1] - 1.0) < 1e-12);
+}
+
+// y y' = -1 has a point as near to y = 0 as one likes, with a velocity beyond all bounds, and none at 0.
+BOOST_AUTO_TEST_CASE(an_impasse_is_no_start) {
+  Json experiment = {
+      {"system", {{"type", "implicit"}, {"coordinates", {"y"}}, {"equations", {"y*y'+1"}}}},
+      {"initial", {{"y", 0}}}};
+  const auto found = [&] { return consistent_start(read_experiment(experiment.dump())); };
+  BOOST_TEST(found().impasse.find("the equations have no solution at the initial values") == 0u,
+             found().impasse);
+  BOOST_TEST(found().is_ambiguous());
+  experiment["initial"]["y"] = 0.01;
+  BOOST_TEST(found().impasse == "");
 }
 
 BOOST_AUTO_TEST_SUITE_END()
