@@ -47,15 +47,14 @@ std::optional<RunEnd> EnergyWatch::watch(const RunMoment& moment) {
   if (moment.k == 0) memory_.initial = H;
   memory_.largest = std::max(memory_.largest, std::fabs(H));
   const double change = std::fabs(H - memory_.initial);
-  if (!(change > std::max(kFurther * memory_.looked_at, kLeast * memory_.largest)) ||
-      moment.k == 0 || !finding().empty())
+  if (!(change > std::max(kFurther * memory_.looked_at, kLeast * memory_.largest)) || moment.k == 0)
     return std::nullopt;
   memory_.looked_at = change;
   // Where H is a sum of terms that cancel, |H| is no measure of them, nor of its round-off.
   const auto [terms, round_off] = sizes(moment.step.after);
   const double noise = (kFirstSteps + static_cast<double>(moment.k)) * round_off;
   if (!(change > std::max(noise, kLeast * terms))) return std::nullopt;
-  if (!is_explained(moment, terms)) {
+  if (finding().empty() && !is_explained(moment, terms)) {
     memory_.found_at = change;
     memory_.finding =
         "H has changed by " + number_text(H - memory_.initial) +
@@ -63,7 +62,7 @@ std::optional<RunEnd> EnergyWatch::watch(const RunMoment& moment) {
         ", and shorter steps would not change it less: not the method's order explains it. "
         "The trajectory may be wrong from there on.";
   }
-  return std::nullopt;
+  return end_where_broken(moment);
 }
 
 std::string EnergyWatch::finding() const {
@@ -97,6 +96,52 @@ bool EnergyWatch::converges(const State& from, double h, long count, double agre
   return !(stays && first + second > agreed) && !(first + second > most);
 }
 
+std::optional<RunEnd> EnergyWatch::end_where_broken(const RunMoment& moment) const {
+  const Step& step = moment.step;
+  double end[3], least = std::numeric_limits<double>::infinity();
+  try {
+    int parts = 1;
+    for (double& H : end) {
+      const State there = integrator_->advance(step.before, step.h / parts, parts);
+      H = energy_(there);
+      least = std::min(least, sizes(there).terms);
+      parts *= 3;
+    }
+  } catch (const std::runtime_error&) {  // a shorter step that cannot be made says nothing
+    return std::nullopt;
+  } catch (const std::domain_error&) {
+    return std::nullopt;
+  }
+  const double size = std::max(sizes(step.before).terms, least);
+  const double error = std::fabs(end[0] - end[1]) + std::fabs(end[1] - end[2]);
+  if (!(size > 0.0) || !(error > size)) return std::nullopt;
+  constexpr double all_parts = 1 + 3 + 9;
+  if (all_parts * work_from_start(moment) <= kMostWork &&
+      converges(start_, step.h, moment.k, 0.0, kMostOfTerms * size))
+    return std::nullopt;
+  return RunEnd{RunStatus::failed,
+                "The step to t = " + number_text(moment.t) + " led to H = " + number_text(end[0]) +
+                    "; in three and in nine parts it leads to " + number_text(end[1]) + " and " +
+                    number_text(end[2]) +
+                    ". The steps do not resolve the solution there, as at a collision or a pole, "
+                    "and its end is no state of it."};
+}
+
+double EnergyWatch::work_from_start(const RunMoment& moment) const {
+  return static_cast<double>(moment.k * std::max<Index>(1, start_.x.size()));
+}
+
+bool EnergyWatch::agrees_from_start(const RunMoment& moment, double most) const {
+  try {
+    const State end = integrator_->advance(start_, moment.step.h / 3.0, 3 * moment.k);
+    return std::fabs(energy_(end) - moment.row[columns_.energy]) <= most;
+  } catch (const std::runtime_error&) {
+    return false;
+  } catch (const std::domain_error&) {
+    return false;
+  }
+}
+
 bool EnergyWatch::is_explained(const RunMoment& moment, double terms) const {
   const Step& step = moment.step;
   constexpr double any = std::numeric_limits<double>::infinity();
@@ -111,9 +156,10 @@ bool EnergyWatch::is_explained(const RunMoment& moment, double terms) const {
       converges(step.before, step.h / 9.0, 9, agreed, any))
     return true;
   constexpr double all_parts = 1 + 3 + 9;
-  const double work =
-      all_parts * static_cast<double>(moment.k * std::max<Index>(1, start_.x.size()));
-  return work <= kMostWork && converges(start_, step.h, moment.k, agreed, kMostOfTerms * terms);
+  const double work = work_from_start(moment);
+  if (all_parts * work <= kMostWork)
+    return converges(start_, step.h, moment.k, agreed, kMostOfTerms * terms);
+  return 3 * work <= kMostWork && agrees_from_start(moment, kAgreed * change);
 }
 
 }  // namespace courant

@@ -21,11 +21,14 @@ namespace courant {
 // States that a method leaves beside the constraints, by its order, are no starts for shorter steps:
 // these go from one side to the other, the faster the shorter they are. So the run up to the step is
 // made again in steps of a third and a ninth as well, from the start: where H converges, and is wrong by no more
-// than a hundredth of its terms, there is no finding. That is left
-// out where it would take more than 10⁵ steps times coordinates, of large systems or late in a run.
+// than a hundredth of its terms, there is no finding. Of steps of a ninth that is left out where all together would
+// take more than 10⁵ steps times coordinates: then H from steps of a third has to agree to a hundredth of its change.
+// Large systems, and what is late in a run, are not made again.
 //
-// H need not be conserved; what is round-off of its terms, which may cancel, is not looked at. Looks no
-// further after a finding.
+// Where the parts of a step lead to values of H that differ by more than H is the sum of, before the step and after the
+// parts, the step has no digits: so it is at a collision, a pole. The run ends there.
+//
+// H need not be conserved; what is round-off of its terms, which may cancel, is not looked at.
 class EnergyWatch final : public RunWatcher {
  public:
   // Where numbers are in the rows of the run.
@@ -62,6 +65,12 @@ class EnergyWatch final : public RunWatcher {
   // differs by less and less, or by no more than `agreed`; and by no more than `most`.
   bool converges(const State& from, double h, long count, double agreed, double most) const;
   bool is_explained(const RunMoment& moment, double terms) const;
+  // Why the run ends where the last step has no digits; nothing elsewhere.
+  std::optional<RunEnd> end_where_broken(const RunMoment& moment) const;
+  // Steps times coordinates of the run so far.
+  double work_from_start(const RunMoment& moment) const;
+  // Whether the run so far, made again in steps of a third, leads to H up to `most`.
+  bool agrees_from_start(const RunMoment& moment, double most) const;
   EnergySizes sizes(const State& state) const;
 
   std::shared_ptr<const Integrator> integrator_;

@@ -19,6 +19,11 @@ constexpr double kPartOfTerms = 0.03;
 // largest one is measured by that part.
 constexpr double kSmallPart = 1e-6;
 
+// What methods leave of constraints by their order is said where it does not fall with the step, above this part of the
+// terms, and where the run can be made again in so much work.
+constexpr double kPartByOrder = 1e-4, kNotFalling = 0.6;
+constexpr double kMostWorkAgain = 1e5;
+
 // Of a coordinate, for slopes.
 constexpr double kPartForSlopes = 1e-6;
 
@@ -94,6 +99,43 @@ std::string left_constraints(Observer& observer, const QuantityStatistics& stati
   return i < 0
              ? ""
              : left_sentence(i, "was up to " + number_text(greatest[i]) + " on the way", terms[i]);
+}
+
+std::string kept_violation(const Integrator& integrator, Observer& observer,
+                           const QuantityStatistics& statistics, const State& start,
+                           const State& end, const StepsOfRun& run) {
+  const Index n = end.x.size(), count = static_cast<Index>(observer.constraint_count());
+  constexpr long both_parts = 3 + 9;
+  if (n == 0 || count == 0 || run.steps == 0 || statistics.empty() ||
+      static_cast<double>(both_parts * run.steps * n) > kMostWorkAgain)
+    return "";
+  const QuantityStatistics::Memory& all = statistics.memory();
+  VectorXd size = all.min.head(n).cwiseAbs().cwiseMax(all.max.head(n).cwiseAbs());
+  size = size.cwiseMax(kSmallPart * size.maxCoeff());
+  const MeasuredColumns last = constraints_at(observer, end, size);
+  if (last.value.size() == 0) return "";
+  Index i = 0;
+  const double part =
+      (last.value.cwiseAbs().array() / last.terms.array().max(kSmallPart * last.terms.maxCoeff()))
+          .maxCoeff(&i);
+  if (!(part > kPartByOrder)) return "";
+  double before = std::fabs(last.value[i]);
+  try {
+    for (const int parts : {3, 9}) {
+      const State again = integrator.advance(start, run.h / parts, parts * run.steps);
+      const double now =
+          std::fabs(observer.row(again)[static_cast<Index>(observer.first_constraint()) + i]);
+      if (!(now > kNotFalling * before)) return "";
+      before = now;
+    }
+  } catch (const std::runtime_error&) {  // shorter steps that cannot be made say nothing
+    return "";
+  } catch (const std::domain_error&) {
+    return "";
+  }
+  return "constraint[" + std::to_string(i) + "] is " + number_text(last.value[i]) +
+         " at the end, and with steps of a ninth it is " + number_text(before) +
+         ": the method does not converge for this system, and the trajectory may be wrong.";
 }
 
 std::string alternation(const Integrator& integrator, Observer& observer,

@@ -10,6 +10,8 @@
 
 #include "courant/core/words/message.hpp"
 #include "courant/integrators/certificate/ladder_watch.hpp"
+#include "courant/integrators/methods/explicit_runge_kutta.hpp"
+#include "courant/manifolds/cotangent_bundle.hpp"
 #include "courant/running/chosen_step.hpp"
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/energy_watch.hpp"
@@ -25,6 +27,7 @@
 #include "courant/running/run_steps.hpp"
 #include "courant/running/run_watchers.hpp"
 #include "courant/running/start_moves.hpp"
+#include "courant/running/step_watch.hpp"
 #include "courant/running/symmetry_check.hpp"
 #include "courant/running/tangent_of_run.hpp"
 #include "courant/running/trajectory_rows.hpp"
@@ -123,6 +126,7 @@ class RunUnderway {
             bool consistent) {
     const long first = checkpoint ? checkpoint->k : 0;
     if (method) watch_energy(*method);
+    if (method && experiment_.time) watch_steps(*method);
     place_ = "/examine: ";
     watch_ladder();
     place_.clear();
@@ -251,6 +255,7 @@ class RunUnderway {
     };
     for (const auto& watcher : watchers_) tell(*watcher);
     if (energy_watch_) tell(*energy_watch_);
+    if (step_watch_) tell(*step_watch_);
     for (RunWatcher* watcher : options_.watchers) tell(*watcher);
     if (end) {
       results_.status = end->status;
@@ -279,6 +284,19 @@ class RunUnderway {
           EnergyWatch::Columns{.energy = *H,
                                .balance = observer_.account() ? column("balance") : std::nullopt},
           method.initial);
+  }
+
+  // Explicit methods alone: others solve equations, which have no solution where there is none.
+  void watch_steps(const PreparedMethod& method) {
+    const auto* const explicit_method =
+        dynamic_cast<const ExplicitRungeKutta*>(method.integrator.get());
+    if (!explicit_method || experiment_.time->division) return;
+    const auto M = experiment_.model.system->manifold();
+    const Index N = M->ambient_dimension();
+    const auto bundle = std::dynamic_pointer_cast<const CotangentBundle>(M);
+    const Index positions = bundle ? bundle->base()->ambient_dimension() : N;
+    step_watch_.emplace(method.integrator, std::vector<std::pair<Index, Index>>{
+                                               {0, positions}, {positions, N - positions}});
   }
 
   void watch_events(const Checkpoint* from) {
@@ -381,6 +399,7 @@ class RunUnderway {
         // before and for those who begin with it.
         const Motion motion = steps.end_epoch();
         observer_.restart(steps.state());
+        if (step_watch_) step_watch_->forget();
         keeper_.keep([&] {
           return checkpoint(steps.k(), steps.state(), motion, steps.statistics(), watch);
         });
@@ -511,6 +530,9 @@ class RunUnderway {
   void warn_of_end(const PreparedMethod& method, const State& end) {
     const QuantityStatistics& all = results_.statistics;
     std::string warning = left_constraints(observer_, all, method.initial, end);
+    if (warning.empty() && !clock_.is_transformed() && !experiment_.time->division)
+      warning = kept_violation(*method.integrator, observer_, all, method.initial, end,
+                               {.h = experiment_.time->step, .steps = results_.steps});
     if (warning.empty())
       warning = alternation(*method.integrator, observer_, all, end, experiment_.time->step);
     if (!warning.empty()) results_.warnings.push_back(std::move(warning));
@@ -551,6 +573,7 @@ class RunUnderway {
   RunClock clock_{experiment_.time};
   std::optional<LadderWatch> ladder_watch_;
   std::optional<EnergyWatch> energy_watch_;
+  std::optional<StepWatch> step_watch_;
   TrajectoryRows rows_{experiment_, observer_, clock_, results_.rows_at_times};
   std::optional<EventWatch> event_watch_;
   std::vector<std::unique_ptr<RunWatcher>> watchers_;

@@ -7,6 +7,8 @@
 namespace courant {
 // Mistakes that these cases have to notice:
 //  * short steps from a state beside the constraints have the last word on the energy
+//  * late in a run nothing but such steps has a word
+//  * a step whose parts lead to other energies goes on
 BOOST_AUTO_TEST_SUITE(energy_watch_test)
 
 namespace {
@@ -75,6 +77,49 @@ BOOST_AUTO_TEST_CASE(round_off_of_an_energy_that_is_zero_is_no_finding) {
     for (const std::string& warning : outcome.summary.warnings)
       BOOST_TEST(warning.find("H has changed") == std::string::npos, warning);
   }
+}
+
+// A step over a singularity of the energy ends at an H that its parts do not have.
+BOOST_AUTO_TEST_CASE(a_run_ends_where_the_energy_breaks) {
+  const Json fall = {
+      {"system",
+       {{"type", "hamiltonian"}, {"coordinates", {"x"}}, {"hamiltonian", "p_x^2/2-1/x^2"}}},
+      {"initial", {{"x", 1}, {"p_x", 0}}},
+      {"method", "rk4"},
+      {"time", {{"step", 0.01}, {"end", 2}}}};
+  const TemporaryFolder folder;
+  const RunOutcome outcome = run_in(folder, fall);
+  BOOST_TEST((outcome.status == RunStatus::failed));
+  // x² = 1 - 2 t²
+  BOOST_TEST(outcome.summary.steps >= 70);
+  BOOST_TEST(outcome.summary.steps <= 72);
+  BOOST_TEST(outcome.message.find("led to H = ") != std::string::npos, outcome.message);
+}
+
+// Friction takes from H of equations, which say nothing of ports, and Method 1 leaves its states beside the constraint:
+// steps of a third take as much, late in the run as well.
+BOOST_AUTO_TEST_CASE(friction_is_no_finding) {
+  const Json bob = {
+      {"system",
+       {{"type", "implicit"},
+        {"parameters", {{"m", 0.5}, {"M", 1}, {"l", 0.8}, {"k", 0.1}, {"g", 9.81}}},
+        {"coordinates", {"x", "y", "th", "u", "v", "w"}},
+        {"unknowns", {"lam"}},
+        {"equations",
+         {"x' - u", "y' - v", "th' - w",
+          "(M + m)*u' + m*l*cos(th)*w' - m*l*sin(th)*w^2 - lam*x + k*u",
+          "(M + m)*v' + m*l*sin(th)*w' + m*l*cos(th)*w^2 + (M + m)*g + lam + k*v",
+          "m*l*cos(th)*u' + m*l*sin(th)*v' + m*l^2*w' + m*g*l*sin(th)", "y - x^2/2"}},
+        {"energy",
+         "(M + m)/2*(u^2 + v^2) + m*l*w*(u*cos(th) + v*sin(th)) + m*l^2*w^2/2 + (M + m)*g*y - "
+         "m*g*l*cos(th)"}}},
+      {"initial", {{"x", 0.6}, {"y", 0.18}, {"th", 1.2}, {"u", 0}, {"v", 0}, {"w", 0}}},
+      {"method", "discretize-first"},
+      {"time", {{"step", 0.002}, {"end", 5}}}};
+  const TemporaryFolder folder;
+  const RunOutcome outcome = run_in(folder, bob);
+  BOOST_TEST((outcome.status == RunStatus::completed));
+  for (const std::string& warning : outcome.summary.warnings) BOOST_TEST(warning == "");
 }
 
 BOOST_AUTO_TEST_SUITE_END()
