@@ -9,8 +9,12 @@
 #include "courant/core/words/message.hpp"
 #include "courant/integrators/certificate/ladder_laws.hpp"
 #include "courant/integrators/maps/laws.hpp"
+#include "courant/integrators/methods/explicit_runge_kutta.hpp"
 #include "courant/integrators/methods/integrator_laws.hpp"
+#include "courant/integrators/methods/state_separation.hpp"
 #include "courant/integrators/methods/transformed_integrator.hpp"
+#include "courant/integrators/step/vector_field.hpp"
+#include "courant/manifolds/measurement.hpp"
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/measured_invariants.hpp"
 #include "courant/running/momentum_drifts.hpp"
@@ -169,6 +173,9 @@ class Check {
     if (!symmetries_.empty())
       momentum_drifts_ = momentum_drifts(experiment_, *method->integrator, method->initial);
     add_laws(checks, "method", report.laws);
+    if (!transformed)
+      if (const auto law = convergence(integrator, method->initial))
+        add_laws(checks, "method", {*law});
     const auto json_of = [](const std::optional<double>& value) {
       return value ? number(*value) : Json();
     };
@@ -182,6 +189,47 @@ class Check {
             {"symplectic", is_symplectic(integrator, setting, report)},
             {"symplecticity_defect", json_of(report.symplecticity)},
             {"structure_defect", json_of(report.preservation)}};
+  }
+
+  // P12: over several steps the method converges to the solution of the equations, which an explicit method of order 8
+  // makes of the field that the ladder leaves. A method that converges to something else, as for an index that it does not
+  // bear, has any order by P1. Nothing where the field is not one of the state, or that solution has fewer digits.
+  std::optional<LawResult> convergence(const Integrator& integrator, const State& initial) const {
+    constexpr int steps = 8, finest = 64;
+    constexpr double least_order = 0.5, round_off = 1e-9, known = 0.1;
+    constexpr Index most_coordinates = 200;
+    if (ladder_.verdict != Verdict::regular || manifold_.dimension() > most_coordinates)
+      return std::nullopt;
+    const double time = steps * experiment_.time->step;
+    const StateSeparation separation(manifold_, integrator.units(), initial.x);
+    std::vector<double> sizes, errors;
+    double unknown = 0.0;
+    try {
+      const ExplicitRungeKutta way(
+          std::make_shared<VectorField>(experiment_.model.system, ladder_, Backend::interpreter),
+          ExplicitRungeKutta::Kind::fehlberg);
+      const State end = way.advance(initial, time / finest, finest);
+      unknown = separation(end, way.advance(initial, 2.0 * time / finest, finest / 2));
+      for (int count = steps; count <= finest; count *= 2) {
+        sizes.push_back(1.0 / count);
+        errors.push_back(separation(integrator.advance(initial, time / count, count), end));
+      }
+    } catch (const std::exception&) {  // steps that cannot be made say nothing
+      return std::nullopt;
+    }
+    if (!(unknown <= known * std::ranges::min(errors))) return std::nullopt;
+    LawResult law{
+        .subject = integrator.name(),
+        .law = "P12 steps converge to the solution of the equations (shortfall of order 1/2)",
+        .defect = 0.0,
+        .bound = 0.0,
+        .where = ""};
+    law.where = "t from " + number_text(initial.t) + " on, for " + number_text(time, 3) +
+                ": errors from " + number_text(errors.front(), 3) + " to " +
+                number_text(errors.back(), 3);
+    if (std::ranges::max(errors) > round_off)
+      law.defect = std::max(0.0, least_order - log_log_slope(sizes, errors, 0.0));
+    return law;
   }
 
   // In transformed time steps keep the laws of methods on the extended manifold.
