@@ -150,13 +150,14 @@ bool has_no_start(const ConstraintLadder& ladder) {
   return ladder.verdict == Verdict::inconsistent || ladder.verdict == Verdict::not_reached;
 }
 
-// Whether the equations of a ladder, and what was held, vanish at its point next to their terms: a search has units of its
-// own, which may be those of what it met on its way.
+// Whether the equations of a ladder, and what was held, hold at its point to four digits: a search has units of its own,
+// which may be those of what it met on its way. Those of a ladder of a rounded start hold to less than round-off.
 bool is_met(const InitialGuess& held, const ConstraintLadder& ladder,
             const std::shared_ptr<const ImplicitSystem>& system) {
   if (has_no_start(ladder) || ladder.levels.empty() || ladder.jet.size() == 0) return true;
   const ConsistentPoint consistent(system, held, {});
-  return consistent.is_met_at(consistent.jet_of(ladder));
+  constexpr double four_digits = 1e-4;
+  return consistent.is_met_at(consistent.jet_of(ladder), four_digits, four_digits);
 }
 
 // The values that are given and are others at the point: coordinates, velocities dx/dt, unknowns, in the numbers of the

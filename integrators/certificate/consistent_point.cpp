@@ -1,5 +1,6 @@
 #include "courant/integrators/certificate/consistent_point.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -370,16 +371,17 @@ ConsistentJet ConsistentPoint::jet_of(const ConstraintLadder& ladder) const {
   return {array_->at(ladder.point.t, ladder.point.x), std::move(zero)};
 }
 
-bool ConsistentPoint::is_met_at(const ConsistentJet& jet) const {
+bool ConsistentPoint::is_met_at(const ConsistentJet& jet, double unseen, double nothing) const {
+  constexpr double of_exponentials =
+      1e-6;  // of what grows like exp (v/25 mV) fewer digits are known
   const Linearization at = conditions(jet.array(), held_)(jet.zero().y);
   if (!jet.zero().found || at.value_error.size() != at.value.size()) return jet.zero().found;
-  // Of what grows like exp (v/25 mV) fewer digits are known. What is nothing next to the terms that an equation may
-  // have at numbers of these sizes, as the product of a velocity of 10⁻¹⁷ with a coordinate, is nothing.
-  const double unseen = (jet.array().has_exponentials() ? 1e-6 : 1e-9) / Uncertain::unit;
-  constexpr double nothing = 1e-12;
+  const double part = jet.array().has_exponentials() ? std::max(unseen, of_exponentials) : unseen;
   const VectorXd terms = at.jacobian.cwiseAbs() * sizes_of_parts(jet, system_->auxiliary_size());
   const auto F = at.value.array().abs();
-  return (F <= unseen * at.value_error.array() || F <= nothing * (1.0 + terms.array())).all();
+  return (F <= part / Uncertain::unit * at.value_error.array() ||
+          F <= nothing * (1.0 + terms.array()))
+      .all();
 }
 
 ConsistentJet ConsistentPoint::again(const ConsistentJet& jet) const {

@@ -71,8 +71,9 @@ class ConsistentPoint {
   // The jet of a ladder that has a point, as a zero: whether it is one, is_met_at says.
   ConsistentJet jet_of(const ConstraintLadder& ladder) const;
   // Whether each equation of F^[k], and each held value, vanishes at the jet next to the terms that it is the sum of
-  // there. A search has units of its own, which may be those of what it met on its way.
-  bool is_met_at(const ConsistentJet& jet) const;
+  // there, or, as the product of a velocity of 10⁻¹⁷ with a coordinate, next to 1 and the terms that numbers of the sizes
+  // there may make. A search has units of its own, which may be those of what it met on its way.
+  bool is_met_at(const ConsistentJet& jet, double unseen = 1e-9, double nothing = 1e-12) const;
   // Whether the linear parts of the equations contradict each other at a jet that is no zero: whether
   // rank (J | F) exceeds rank J. Elsewhere a search that ended has merely not converged.
   bool is_contradiction(const ConsistentJet& jet) const;
