@@ -220,13 +220,11 @@ void bind_formulas(py::module_& module) {
         return py::make_tuple(writer.definitions(), writer.formulas());
       },
       "(definitions, formulas) of traced outputs.");
-  module.def(
-      "evaluate",
-      [](const py::object& outputs, const py::object& variables, const VectorXd& at) {
-        const Function f("f", {{"x", to_vector(variables)}}, to_vector(outputs));
-        return f({at});
-      },
-      "The numbers of traced outputs where the variables have these values.");
+  py::class_<Function>(module, "Function", "Variables to the numbers of traced outputs.")
+      .def(py::init([](const py::object& outputs, const py::object& variables) {
+        return Function("f", {{"x", to_vector(variables)}}, to_vector(outputs));
+      }))
+      .def("__call__", [](const Function& f, const VectorXd& at) { return f({at}); });
   module.def("variables_of",
              [](const py::object& outputs) { return variables_of(to_vector(outputs)); });
 }
