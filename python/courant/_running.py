@@ -74,7 +74,8 @@ def run(experiment, *, folder=None, existing="refuse", backend="auto", dense_out
     dense_output : bool
         Whether ``run.curve`` is kept.
     progress : bool or callable, optional
-        A bar, by default on terminals and in notebooks; or what is called with (step, steps, seconds, drift).
+        A bar, by default on terminals and in notebooks; or what is called with (step, steps, seconds, drift), some times a
+        second. Where it returns False the run ends there, with the status ``"interrupted"`` and the rows so far.
     **settings
         Other values than those of the experiment: keys of it, parameters, initial values, ``step``, ``end``, or JSON
         pointers.

@@ -29,7 +29,7 @@ def pair(solve, energy, start, forces, size, **options):
 @pytest.mark.parametrize("name", FORCES)
 @pytest.mark.parametrize("size", [1, 2])
 def test_a_force_by_numbers_makes_the_steps_of_its_formulas(name, size):
-    start = [1.0, 0.3][:size], [0.0, 1.0][:size]
+    start = [1.0, 0.3][:size], [0.4, 1.0][:size]
     ours, theirs = pair(courant.solve_lagrangian, kinetic, start, FORCES[name], size, step=0.05)
     assert ours.success and theirs.success
     assert np.abs(ours.y - theirs.y).max() < 1e-12
