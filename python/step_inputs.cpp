@@ -7,16 +7,23 @@
 
 #include "courant/integrators/methods/wrapping_integrator.hpp"
 #include "courant/integrators/step/step_parts.hpp"
+#include "courant/reading/findings.hpp"
 
 namespace courant::python {
 namespace {
 
-constexpr int kMostTurns = 60;
+constexpr int kMostTurns = 100;
 // A turn that changes u by less, next to its greatest entry, is the last: some roundings of a step.
 constexpr double kSettled = 1e-13;
-// Functions in single precision do not come closer than their rounding. A change that is below this and no longer halves
-// is that; a hundred roundings of 6e-8.
+// Functions in single precision do not come closer than their rounding: changes that become no smaller in so many turns,
+// and are below this next to u, a hundred roundings of 6e-8, are that. So are those of a sum near zero, which are as great
+// as u itself, but move the state by some roundings only.
+constexpr int kIdleTurns = 4;
 constexpr double kNoise = 6e-6;
+constexpr double kNoiseOfState = 1e-14;
+// The stage of a method of order 2 is in the middle of its step, up to roundings of the time: steps of several stages,
+// of which only the last is known, would be of order 1 with a function in them.
+constexpr double kOffMiddle = 1e-6;
 
 class IntegratorWithInputs final : public WrappingIntegrator {
  public:
@@ -33,7 +40,6 @@ class IntegratorWithInputs final : public WrappingIntegrator {
     ask_ = held((*inputs.ask_of)(coordinates, system()->names().auxiliary));
   }
 
-  int order() const override { return std::min(2, wrapped()->order()); }
   std::optional<bool> is_symplectic() const override { return std::nullopt; }
   bool has_exact_energy() const override { return false; }
 
@@ -66,7 +72,10 @@ class IntegratorWithInputs::Trajectory final : public Stepper {
     State begin = before;
     VectorXd u(static_cast<Index>(places_.size()));
     for (Index k = 0; k < u.size(); ++k) u[k] = before.x[place(k)];
-    double change = std::numeric_limits<double>::infinity();
+    const double size_before = u.lpNorm<Eigen::Infinity>();
+    double least = std::numeric_limits<double>::infinity();
+    int idle = 0;
+    VectorXd reached;
     for (int turn = 0; turn < kMostTurns; ++turn) {
       for (Index k = 0; k < u.size(); ++k) begin.x[place(k)] = u[k];
       after = begin;
@@ -74,12 +83,28 @@ class IntegratorWithInputs::Trajectory final : public Stepper {
         const CountedWork counted(statistics_, *stepper_);
         stepper_->step(after, h, end);
       }
-      const VectorXd next = asked(stepper_->last().stage, before.t, h);
+      const State& stage = stepper_->last().stage;
+      if (method_of_steps_->order() >= 2 &&
+          std::fabs(stage.t - (before.t + 0.5 * h)) > kOffMiddle * std::fabs(h))
+        throw ExperimentError(
+            "/method",
+            "makes steps of several stages, but a numeric function has one value in a step; "
+            "expected "
+            "\"discretize-first\" or \"constrain-first\" with the midpoint rule or another map "
+            "whose stage is in the middle, without \"order\" and \"damping\", or \"rk2\"");
+      const VectorXd next = asked(stage, before.t, h);
       const double difference = (next - u).lpNorm<Eigen::Infinity>();
-      const double size = next.lpNorm<Eigen::Infinity>();
+      const double size = std::max(next.lpNorm<Eigen::Infinity>(), size_before);
       if (difference <= kSettled * size) return;
-      if (difference <= kNoise * size && difference > 0.5 * change) return;
-      change = difference;
+      idle = difference < 0.9 * least ? 0 : idle + 1;
+      least = std::min(least, difference);
+      VectorXd here = after.x;
+      for (Index k = 0; k < u.size(); ++k) here[place(k)] = 0.0;
+      if (idle >= kIdleTurns &&
+          (difference <= kNoise * size || (here - reached).lpNorm<Eigen::Infinity>() <=
+                                              kNoiseOfState * here.lpNorm<Eigen::Infinity>()))
+        return;
+      reached = std::move(here);
       u = next;
     }
     throw SolveError(SolveError::Reason::diverged, method(), before.t, h,

@@ -19,9 +19,9 @@ struct StepInputs {
 };
 
 // The method whose steps have u = ask(stage), by fixed point iteration over steps of the one that is given. With the
-// midpoint rule that is the midpoint rule of the system in which the function stands in the place of u; methods of higher
-// order become of order 2, since u stands still in a step. Throws std::invalid_argument where the system has no such
-// coordinates.
+// midpoint rule that is the midpoint rule of the system in which the function stands in the place of u. Throws
+// std::invalid_argument where the system has no such coordinates; a step throws ExperimentError where the method is of
+// several stages.
 std::shared_ptr<const Integrator> with_inputs(const std::shared_ptr<const Integrator>& method,
                                               const StepInputs& inputs);
 

@@ -86,11 +86,51 @@ def test_a_table_gives_steps_of_order_two():
     assert slope == pytest.approx(-2, abs=0.1)
 
 
+ONE_STAGE = ["discretize-first", "constrain-first", "rk2", {"type": "discretize-first", "discretization": {"type": "theta", "theta": 1.0}}]
+SEVERAL_STAGES = [{"type": "discretize-first", "discretization": "verlet"}, {"type": "discretize-first", "order": 4},
+                  {"type": "constrain-first", "order": 4}, "rk4", "dopri5", {"type": "discretize-first", "damping": "l-stable"}]
+
+
+@pytest.mark.parametrize("method", ONE_STAGE, ids=str)
+def test_methods_of_one_stage_keep_their_order(method):
+    hook = courant.numeric(lambda q, v: -np.sin(q) - 0.1*v)
+    options = {"forces": lambda q, v: [hook(q[0], v[0])], "method": method}
+    exact = courant.solve_lagrangian(kinetic, (0, 4), [1.0], [0.3], forces=lambda q, v: -np.sin(q) - 0.1*v, step=1e-3, method="rk4")
+    errors = [abs(courant.solve_lagrangian(kinetic, (0, 4), [1.0], [0.3], step=4/n, **options)["q"][0, -1] - exact["q"][0, -1])
+              for n in (40, 80, 160, 320)]
+    slope = -np.polyfit(np.log([40, 80, 160, 320]), np.log(errors), 1)[0]
+    assert slope == pytest.approx(1 if isinstance(method, dict) else 2, abs=0.1)
+
+
+@pytest.mark.parametrize("method", SEVERAL_STAGES, ids=str)
+def test_methods_of_several_stages_are_refused(method):
+    hook = courant.numeric(lambda q: -q)
+    with pytest.raises(courant.ExperimentError, match="/method: makes steps of several stages"):
+        courant.solve_lagrangian(kinetic, (0, 1), [1.0], [0.3], step=0.1, forces=lambda q, v: [hook(q[0])], method=method)
+
+
 def test_functions_in_single_precision_settle():
     network = courant.numeric(lambda q: np.tanh(q.astype(np.float32)) * np.float32(-1.0), 2)
     sol = courant.solve_lagrangian(kinetic, (0, 5), [1.0, 0.3], [0.0, 0.0], forces=lambda q, v: network(q), step=0.05)
     exact = courant.solve_lagrangian(kinetic, (0, 5), [1.0, 0.3], [0.0, 0.0], forces=lambda q, v: -np.tanh(q), step=0.05)
     assert sol.success and np.abs(sol.y - exact.y).max() < 1e-5
+
+
+def test_a_function_that_vanishes_but_for_rounding_settles():
+    # At rest on a spring: weight less its force is 0 up to the rounding of the two, at a place that no double is.
+    rest = 9.81/3
+    spring = courant.numeric(lambda q: 9.81 - 3*q)
+    for start in rest + np.arange(-5, 6)*1e-16:
+        sol = courant.solve_lagrangian(kinetic, (0, 2), [start], [0.0], forces=lambda q, v: [spring(q[0])], step=0.1)
+        assert sol.success and np.abs(sol["q"] - rest).max() < 1e-14
+
+
+def test_a_slow_fixed_point_is_found_and_not_taken_early():
+    # (h/2)² k = 0.7: each turn is wrong by 0.7 of what the turn before was.
+    force, h = courant.numeric(lambda q: -280.0*q), 0.1
+    sol = courant.solve_lagrangian(kinetic, (0, 2), [1.0], [0.0], forces=lambda q, v: [force(q[0])], step=h)
+    exact = courant.solve_lagrangian(kinetic, (0, 2), [1.0], [0.0], forces=lambda q, v: -280.0*q, step=h)
+    assert sol.success and np.abs(sol["q"] - exact["q"]).max() < 1e-10
 
 
 def test_one_function_may_be_an_argument_of_another():
