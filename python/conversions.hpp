@@ -73,6 +73,7 @@ void bind_formulas(py::module_& module);
 void bind_manifolds(py::module_& module);
 void bind_structures(py::module_& module);
 void bind_methods(py::module_& module);
+void bind_step_inputs(py::module_& module);
 void bind_laws(py::module_& module);
 void bind_kinds(py::module_& module);
 void bind_experiments(py::module_& module);

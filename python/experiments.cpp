@@ -1,8 +1,10 @@
 // Experiments, and what is asked of them without a run.
+#include "courant/plotting/palette.hpp"
 #include "courant/python/objects.hpp"
 #include "courant/reading/catalogue.hpp"
 #include "courant/reading/experiment.hpp"
 #include "courant/reading/netlist.hpp"
+#include "courant/reporting/formula_typesetting.hpp"
 #include "courant/reporting/ladder_diagram.hpp"
 #include "courant/reporting/ladder_explanation.hpp"
 #include "courant/reporting/ladder_page.hpp"
@@ -96,6 +98,12 @@ void bind_experiments(py::module_& module) {
     words["explanation"] = explanation;
     words["html"] = ladder_in_words(ladder).str();
     return words;
+  });
+  module.def("latex_formula", [](const std::string& formula) { return latex_math(formula); });
+  module.def("palette", [] {
+    std::vector<std::string> colours;
+    for (const plot::PaletteColour& colour : plot::palette()) colours.emplace_back(colour.light);
+    return colours;
   });
   module.def("imported_netlist",
              [](const std::string& text) { return import_netlist(text).dump(); });

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "courant/core/expressions/function.hpp"
+#include "courant/core/expressions/function_name.hpp"
+#include "courant/core/language/formula_functions.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/python/conversions.hpp"
 
@@ -45,47 +47,6 @@ Text number(double value) {
                           " in it; expected a finite one");
   if (std::signbit(value)) return {'-' + exact_text(-value), kSum};
   return {exact_text(value)};
-}
-
-const char* function_name(Op op) {
-  switch (op) {
-    case Op::sqrt:
-      return "sqrt";
-    case Op::exp:
-      return "exp";
-    case Op::log:
-      return "log";
-    case Op::sin:
-      return "sin";
-    case Op::cos:
-      return "cos";
-    case Op::tan:
-      return "tan";
-    case Op::asin:
-      return "asin";
-    case Op::acos:
-      return "acos";
-    case Op::atan:
-      return "atan";
-    case Op::sinh:
-      return "sinh";
-    case Op::cosh:
-      return "cosh";
-    case Op::tanh:
-      return "tanh";
-    case Op::abs:
-      return "abs";
-    case Op::sign:
-      return "sign";
-    case Op::atan2:
-      return "atan2";
-    case Op::min:
-      return "min";
-    case Op::max:
-      return "max";
-    default:
-      return nullptr;
-  }
 }
 
 // Writes expressions as formulas that read back to the same expressions. What is long and stands in several places
@@ -189,7 +150,8 @@ class FormulaWriter {
         break;
     }
     const char* const name = function_name(node.op);
-    if (name == nullptr) throw py::type_error("a formula has no word for a part of the function");
+    if (name == nullptr || formula::find_function(name) == nullptr)
+      throw py::type_error("a formula has no word for a part of the function");
     const std::uint32_t operands[] = {node.a, node.b, node.c};
     std::string text = name;
     for (int k = 0; k < arity(node.op); ++k)
@@ -258,13 +220,11 @@ void bind_formulas(py::module_& module) {
         return py::make_tuple(writer.definitions(), writer.formulas());
       },
       "(definitions, formulas) of traced outputs.");
-  module.def(
-      "evaluate",
-      [](const py::object& outputs, const py::object& variables, const VectorXd& at) {
-        const Function f("f", {{"x", to_vector(variables)}}, to_vector(outputs));
-        return f({at});
-      },
-      "The numbers of traced outputs where the variables have these values.");
+  py::class_<Function>(module, "Function", "Variables to the numbers of traced outputs.")
+      .def(py::init([](const py::object& outputs, const py::object& variables) {
+        return Function("f", {{"x", to_vector(variables)}}, to_vector(outputs));
+      }))
+      .def("__call__", [](const Function& f, const VectorXd& at) { return f({at}); });
   module.def("variables_of",
              [](const py::object& outputs) { return variables_of(to_vector(outputs)); });
 }

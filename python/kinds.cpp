@@ -1,6 +1,7 @@
 // Classes of Python as words of experiments.
 #include "courant/integrators/maps/cotangent_lift.hpp"
 #include "courant/python/objects.hpp"
+#include "courant/python/step_inputs.hpp"
 #include "courant/reading/method_kinds.hpp"
 #include "courant/reading/space.hpp"
 #include "courant/reading/structure_kinds.hpp"
@@ -26,6 +27,23 @@ py::object entry(ObjectReader& reader) {
     throw py::index_error("no such object");
   }
   return objects_now()[static_cast<std::size_t>(k)];
+}
+
+// Another method, with inputs that a function of Python says.
+std::optional<MethodChoice> method_with_inputs(ObjectReader& reader) {
+  const py::gil_scoped_acquire locked;
+  const StepInputs inputs = entry(reader).cast<StepInputs>();
+  auto choice = method_kinds().read_key(reader, "method");
+  if (!choice) return std::nullopt;
+  return MethodChoice{choice->description + ", with numbers of functions of Python",
+                      [choice = *choice, inputs](const MethodSetting& at) {
+                        PreparedMethod prepared = choice.prepare(at);
+                        return PreparedMethod{
+                            .integrator = with_inputs(prepared.integrator, inputs),
+                            .initial = prepared.initial,
+                            .map = prepared.map,
+                            .metric = prepared.metric};
+                      }};
 }
 
 // An object, or what a class or a function makes of the argument.
@@ -158,6 +176,12 @@ void bind_kinds(py::module_& module) {
          "an object of a program in Python",
          {required_key("object", takes::integer(0), "its number")}},
         entry);
+  method_kinds().add(
+      {{"python-inputs",
+        "a method of a system in which functions of a program in Python stand",
+        {required_key("object", takes::integer(0), "the number of its inputs"),
+         default_key("method", takes::kind("method"), "discretize-first", "the method")}},
+       method_with_inputs});
   module.def(
       "register",
       [](const std::string& noun, const std::string& word, py::object factory, const py::dict& keys,

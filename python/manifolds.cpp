@@ -64,8 +64,12 @@ class ManifoldOfPython final : public Manifold {
     const py::gil_scoped_acquire locked;
     return to_vector(required<Manifold>(this, name)(traced(arguments)...));
   }
+  // On an open subset of Rⁿ velocities are their own coordinates, unless the class says otherwise.
   ExprMatrix matrix(const char* name, const ExprVector& x) const {
     const py::gil_scoped_acquire locked;
+    const bool is_open = dimension() == ambient_dimension() && dimension() == tangent_dimension();
+    if (is_open && !override_of<Manifold>(this, name))
+      return ExprMatrix::Identity(dimension(), dimension());
     return to_matrix(required<Manifold>(this, name)(traced(x)));
   }
 };
@@ -146,38 +150,54 @@ void bind_manifolds(py::module_& module) {
       .def_property_readonly("dimension", &Manifold::dimension)
       .def_property_readonly("ambient_dimension", &Manifold::ambient_dimension)
       .def_property_readonly("tangent_dimension", &Manifold::tangent_dimension)
-      .def("retract",
-           [](const Manifold& M, const py::object& x, const py::object& v) {
-             return known_or_traced(M.retract(to_vector(x), to_vector(v)));
-           })
-      .def("inverse_retract",
-           [](const Manifold& M, const py::object& x, const py::object& y) {
-             return known_or_traced(M.inverse_retract(to_vector(x), to_vector(y)));
-           })
-      .def("frame",
-           [](const Manifold& M, const py::object& x) {
-             return known_or_traced(M.frame(to_vector(x)).matrix());
-           })
-      .def("coframe",
-           [](const Manifold& M, const py::object& x) {
-             return known_or_traced(M.coframe(to_vector(x)).matrix());
-           })
-      .def("constraint",
-           [](const Manifold& M, const py::object& x) {
-             return known_or_traced(M.constraint(to_vector(x)));
-           })
-      .def("project", &Manifold::project)
-      .def("separation", &Manifold::separation)
-      .def("injectivity_radius", &Manifold::injectivity_radius)
-      .def("point_defect", &Manifold::point_defect)
-      .def("tangent_defect", &Manifold::tangent_defect)
+      .def(
+          "retract",
+          [](const Manifold& M, const py::object& x, const py::object& v) {
+            return known_or_traced(M.retract(to_vector(x), to_vector(v)));
+          },
+          py::arg("x"), py::arg("v"),
+          "R(x, v), a point (N,), of a point x (N,) and a tangent vector v (Ñ,).")
+      .def(
+          "inverse_retract",
+          [](const Manifold& M, const py::object& x, const py::object& y) {
+            return known_or_traced(M.inverse_retract(to_vector(x), to_vector(y)));
+          },
+          py::arg("x"), py::arg("y"), "v (Ñ,) with R(x, v) = y, of points x, y (N,).")
+      .def(
+          "frame",
+          [](const Manifold& M, const py::object& x) {
+            return known_or_traced(M.frame(to_vector(x)).matrix());
+          },
+          py::arg("x"), "E(x), N × Ñ: dx/dt = E(x) v.")
+      .def(
+          "coframe",
+          [](const Manifold& M, const py::object& x) {
+            return known_or_traced(M.coframe(to_vector(x)).matrix());
+          },
+          py::arg("x"), "C(x), Ñ × N: v = C(x) dx/dt.")
+      .def(
+          "constraint",
+          [](const Manifold& M, const py::object& x) {
+            return known_or_traced(M.constraint(to_vector(x)));
+          },
+          py::arg("x"),
+          "Functions that vanish on the manifold, (c,); none on an open subset of Rⁿ.")
+      .def("project", &Manifold::project, py::arg("x"), "A point of the manifold near x, (N,).")
+      .def("separation", &Manifold::separation, py::arg("x"), py::arg("y"),
+           "The distance of two points, or what the class says it is.")
+      .def("injectivity_radius", &Manifold::injectivity_radius, py::arg("x"),
+           "How long tangent vectors at x may be for R(x, ·) to be inverted.")
+      .def("point_defect", &Manifold::point_defect, py::arg("x"),
+           "How far x is from the manifold: the greatest entry of its constraint.")
+      .def("tangent_defect", &Manifold::tangent_defect, py::arg("x"), py::arg("v"),
+           "How far v is from a tangent vector at x.")
       .def(
           "random_point",
           [](const Manifold& M, std::uint32_t seed) {
             std::mt19937 generator(seed);
             return M.random_point(generator);
           },
-          py::arg("seed") = 1)
+          py::arg("seed") = 1, "A point of the manifold, (N,), the same for a seed.")
       .def("__repr__", &Manifold::name);
   bind_catalogue(module);
 }

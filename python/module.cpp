@@ -42,6 +42,7 @@ PYBIND11_MODULE(_courant, module) {
   bind_manifolds(module);
   bind_structures(module);
   bind_methods(module);
+  bind_step_inputs(module);
   bind_laws(module);
   bind_kinds(module);
   bind_experiments(module);

@@ -12,29 +12,35 @@
 namespace courant::python {
 namespace {
 
-std::atomic<bool> interrupted = false;
+std::atomic<bool> interrupted = false;  // by a signal
+std::atomic<bool> stopped = false;      // the run in the main thread
 
-extern "C" void interrupt(int) { interrupted = true; }
+extern "C" void interrupt(int) {
+  interrupted = true;
+  stopped = true;
+}
 
-// While this lives SIGINT ends a run after its step, rather than setting a flag that Python would look at when the run
-// is over. In the main thread alone, as everywhere in Python.
-class InterruptedBySignal {
+// What stops a run after its step. In the main thread that is SIGINT too while this lives, rather than a flag that Python
+// would look at when the run is over.
+class Stop {
  public:
-  explicit InterruptedBySignal(bool is_main_thread) : is_main_thread_(is_main_thread) {
+  explicit Stop(bool is_main_thread) : is_main_thread_(is_main_thread) {
     if (!is_main_thread_) return;
     interrupted = false;
+    stopped = false;
     before_ = PyOS_setsig(SIGINT, interrupt);
   }
-  ~InterruptedBySignal() {
+  ~Stop() {
     if (is_main_thread_) PyOS_setsig(SIGINT, before_);
   }
-  InterruptedBySignal(const InterruptedBySignal&) = delete;
-  InterruptedBySignal& operator=(const InterruptedBySignal&) = delete;
+  Stop(const Stop&) = delete;
+  Stop& operator=(const Stop&) = delete;
 
-  const std::atomic<bool>* flag() const { return is_main_thread_ ? &interrupted : nullptr; }
+  std::atomic<bool>& flag() { return is_main_thread_ ? stopped : own_; }
 
  private:
   bool is_main_thread_;
+  std::atomic<bool> own_ = false;
   PyOS_sighandler_t before_ = nullptr;
 };
 
@@ -59,14 +65,17 @@ struct Settings {
   py::object progress;
 };
 
-RunOptions options_of(const Settings& settings, const InterruptedBySignal& signals) {
+// What is called with the progress may answer False, which stops the run.
+RunOptions options_of(const Settings& settings, Stop& stop) {
   RunOptions options;
   options.backend = backend_of(settings.backend);
-  options.stop = signals.flag();
+  options.stop = &stop.flag();
   if (!settings.progress.is_none())
-    options.on_progress = [&settings](const Progress& progress) {
+    options.on_progress = [&settings, &stop](const Progress& progress) {
       const py::gil_scoped_acquire locked;
-      settings.progress(progress.step, progress.steps, progress.seconds, progress.energy_drift);
+      const py::object answer =
+          settings.progress(progress.step, progress.steps, progress.seconds, progress.energy_drift);
+      if (answer.is(py::bool_(false))) stop.flag() = true;
     };
   return options;
 }
@@ -84,8 +93,8 @@ py::tuple parts_of(RunInMemory&& run) {
 py::tuple run_here(const Experiment& experiment, const Settings& settings) {
   RunInMemory run;
   {
-    const InterruptedBySignal signals(settings.is_main_thread);
-    const RunInMemoryOptions options{.run = options_of(settings, signals),
+    Stop stop(settings.is_main_thread);
+    const RunInMemoryOptions options{.run = options_of(settings, stop),
                                      .has_curve = settings.has_curve};
     const py::gil_scoped_release free;
     run = run_in_memory(experiment, options);
@@ -119,8 +128,8 @@ py::list run_all(const std::vector<std::shared_ptr<Experiment>>& experiments,
 
 void run_in_folder(const Experiment& experiment, const std::filesystem::path& folder,
                    const std::string& existing, const Settings& settings) {
-  const InterruptedBySignal signals(settings.is_main_thread);
-  RunOptions options = options_of(settings, signals);
+  Stop stop(settings.is_main_thread);
+  RunOptions options = options_of(settings, stop);
   options.folder = folder;
   options.existing = existing == "replace"  ? ExistingRun::replace
                      : existing == "resume" ? ExistingRun::resume

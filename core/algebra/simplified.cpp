@@ -1,11 +1,11 @@
 #include "courant/core/algebra/simplified.hpp"
 
 #include <initializer_list>
-#include <map>
 #include <stdexcept>
 #include <unordered_map>
 
 #include "courant/core/algebra/sum_arithmetic.hpp"
+#include "courant/core/expressions/function_name.hpp"
 #include "courant/core/expressions/subgraph.hpp"
 
 namespace courant {
@@ -60,14 +60,6 @@ class Simplifier {
   Sum value(const Graph& graph, std::uint32_t index) {
     const Node& node = graph.node(index);
     const auto operand = [&](std::uint32_t i) -> const Sum& { return known_.at(i); };
-    static const std::map<Op, const char*> functions = {
-        {Op::exp, "exp"},   {Op::log, "log"},   {Op::tan, "tan"},   {Op::asin, "asin"},
-        {Op::acos, "acos"}, {Op::atan, "atan"}, {Op::sinh, "sinh"}, {Op::cosh, "cosh"},
-        {Op::tanh, "tanh"}, {Op::abs, "abs"},   {Op::sign, "sign"}, {Op::atan2, "atan2"},
-        {Op::min, "min"},   {Op::max, "max"}};
-    if (const auto function = functions.find(node.op); function != functions.end())
-      return arity(node.op) == 1 ? call(function->second, {&operand(node.a)})
-                                 : call(function->second, {&operand(node.a), &operand(node.b)});
     switch (node.op) {
       case Op::constant:
         return SumArithmetic::number(graph.constant(index));
@@ -102,11 +94,21 @@ class Simplifier {
         const std::string exponent = arithmetic_.text(operand(node.b));
         return arithmetic_.factor({.text = "(" + base + ")^(" + exponent + ")"});
       }
-      default: {  // conditions, and what only the library writes
-        const std::string as_it_is = to_string(graph.expression(index), 200);
-        return arithmetic_.factor({.text = "(" + as_it_is + ")"});
+      case Op::select:  // what only the library writes
+      case Op::stumpff:
+      case Op::arccos_factor:
+        return as_it_is(graph, index);
+      default: {
+        const char* const name = function_name(node.op);
+        if (name == nullptr) return as_it_is(graph, index);  // conditions
+        return arity(node.op) == 1 ? call(name, {&operand(node.a)})
+                                   : call(name, {&operand(node.a), &operand(node.b)});
       }
     }
+  }
+
+  Sum as_it_is(const Graph& graph, std::uint32_t index) {
+    return arithmetic_.factor({.text = "(" + to_string(graph.expression(index), 200) + ")"});
   }
 
   SumArithmetic arithmetic_;

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "courant/core/expressions/expr.hpp"
+#include "courant/core/expressions/function_name.hpp"
 #include "courant/core/words/message.hpp"
 
 namespace courant {
@@ -20,53 +21,6 @@ struct Piece {
   bool first =
       true;  // nothing stands before it inside its parentheses: it may begin with a minus sign
 };
-
-const char* name_of(Op op) {
-  switch (op) {
-    case Op::sqrt:
-      return "sqrt";
-    case Op::exp:
-      return "exp";
-    case Op::log:
-      return "log";
-    case Op::sin:
-      return "sin";
-    case Op::cos:
-      return "cos";
-    case Op::tan:
-      return "tan";
-    case Op::asin:
-      return "asin";
-    case Op::acos:
-      return "acos";
-    case Op::atan:
-      return "atan";
-    case Op::sinh:
-      return "sinh";
-    case Op::cosh:
-      return "cosh";
-    case Op::tanh:
-      return "tanh";
-    case Op::abs:
-      return "abs";
-    case Op::sign:
-      return "sign";
-    case Op::atan2:
-      return "atan2";
-    case Op::min:
-      return "min";
-    case Op::max:
-      return "max";
-    case Op::select:
-      return "if";
-    case Op::stumpff:
-      return "stumpff";
-    case Op::arccos_factor:
-      return "arccos_factor";
-    default:
-      return nullptr;
-  }
-}
 
 Binding binding(const Node& node) {
   switch (node.op) {
@@ -231,7 +185,7 @@ class Printer {
   }
 
   void add_call(const Graph& graph, const Node& node) {
-    add(name_of(node.op));
+    add(function_name(node.op));
     add("(");
     if (node.op == Op::stumpff || node.op == Op::arccos_factor) {
       add(node.k, kOr, true);

@@ -1,6 +1,7 @@
 """The documents as a site: see scripts/docs. The Markdown is that of the tree, as it reads on any host of repositories; what only
 the site can do is made of it here: the reading order, formulas, the drawing of the rooms, links into the reference."""
 
+import base64
 import json
 import os
 import pathlib
@@ -21,7 +22,8 @@ author = "The Courant authors"
 project_copyright = "2026, The Courant authors"
 version = release = os.environ["COURANT_VERSION"]
 root_doc = "docs/index"
-include_patterns = ["README.md", "*/README.md", "docs/*.md", "docs/tour/*.md"]
+include_patterns = ["README.md", "*/README.md", "docs/*.md", "docs/tour/*.md", "docs/notebooks/*.ipynb"]
+source_suffix = {".rst": "restructuredtext", ".md": "markdown", ".ipynb": "markdown"}
 exclude_patterns = ["build*", "include", ".git", "runs", "node_modules"]
 extensions = ["myst_parser", "sphinx.ext.graphviz"]
 myst_heading_anchors = 4
@@ -76,7 +78,7 @@ def reading_order(text):
     """The table of contents on the left: the links of each list of docs/index.md, under its heading."""
     parts = []
     for section in text.split("\n## ")[1:]:
-        entries = re.findall(r"^(?:[-*]|(\d+\.)) \[([^\]]*)\]\(([^):]+)\.md\)", section, re.M)
+        entries = re.findall(r"^(?:[-*]|(\d+\.)) \[([^\]]*)\]\(([^):]+)\.(?:md|ipynb)\)", section, re.M)
         if entries:
             lines = "\n".join(f"{f'{number} {title}'.strip()} <{page}>" for number, title, page in entries)
             parts.append("```{toctree}\n:hidden:\n:caption: " + section.split("\n")[0] + f"\n\n{lines}\n```\n")
@@ -91,7 +93,36 @@ def dot(flowchart):
             f" color=\"#0b6e99\" fontname=\"DejaVu Sans\" fontsize=11 height=0.35];\nedge [color=\"#0b6e99\" arrowsize=0.7];\n{edges}}}\n```")
 
 
+def shown(output):
+    """What a cell of a notebook printed, or its richest form of a result."""
+    if output["output_type"] == "stream":
+        return "```text\n" + "".join(output["text"]).rstrip("\n") + "\n```"
+    data = {kind: "".join(content) for kind, content in output.get("data", {}).items()}
+    if "text/html" in data:
+        return "```{raw} html\n<div class=\"output\">" + data["text/html"] + "</div>\n```"
+    if "image/svg+xml" in data:
+        figure = data["image/svg+xml"][data["image/svg+xml"].index("<svg"):]
+        figure = base64.b64encode(figure.encode()).decode()
+        return f"```{{raw}} html\n<img class=\"output\" alt=\"figure\" src=\"data:image/svg+xml;base64,{figure}\">\n```"
+    return "```text\n" + data.get("text/plain", "") + "\n```"
+
+
+def notebook_in_markdown(text):
+    """A notebook as a page: its words, its code, what it printed and drew."""
+    parts = []
+    for cell in json.loads(text)["cells"]:
+        content = "".join(cell["source"])
+        if cell["cell_type"] == "markdown":
+            content = re.sub(r"\$\$(.+?)\$\$", r"\n```{math}\n\1\n```\n", content, flags=re.S)
+            parts.append(re.sub(r"\$([^$\n]+)\$", r"{math}`\1`", content))
+        else:
+            parts += ["```python\n" + content + "\n```", *map(shown, cell["outputs"])]
+    return "\n\n".join(parts) + "\n"
+
+
 def prepare(app, docname, source):
+    if docname.startswith("docs/notebooks/"):
+        source[0] = notebook_in_markdown(source[0])
     text = re.sub(r"^```math$", "```{math}", source[0], flags=re.M)
     # A formula in a sentence, as hosts of repositories write it: $`x^2`$.
     text = re.sub(r"``.*?``|\$`([^`\n]+)`\$", lambda found: f"{{math}}`{found[1]}`" if found[1] else found[0], text)

@@ -32,7 +32,7 @@ def _metadata():
         description = file.read()
     return (f"Metadata-Version: 2.1\nName: courant\nVersion: {_version()}\n"
             "Summary: Geometric integrators from Dirac structures and the constraint algorithm\n"
-            "Requires-Python: >=3.11\nRequires-Dist: numpy>=1.24\n"
+            "License: BSD-3-Clause\nLicense-File: LICENSE\nRequires-Python: >=3.11\nRequires-Dist: numpy>=1.24\n"
             "Provides-Extra: plots\nRequires-Dist: matplotlib; extra == 'plots'\n"
             "Provides-Extra: tables\nRequires-Dist: pandas; extra == 'tables'\n"
             "Description-Content-Type: text/markdown\n\n" + description)
@@ -66,6 +66,8 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
                     files[os.path.relpath(path, prefix).replace(os.sep, "/")] = file.read()
     info = f"courant-{_version()}.dist-info"
     files[f"{info}/METADATA"] = _metadata().encode()
+    with open(os.path.join(ROOT, "LICENSE"), "rb") as file:
+        files[f"{info}/LICENSE"] = file.read()
     files[f"{info}/WHEEL"] = ("Wheel-Version: 1.0\nGenerator: courant_backend\nRoot-Is-Purelib: false\n"
                               f"Tag: {_tag()}\n").encode()
     record = io.StringIO()

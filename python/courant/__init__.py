@@ -15,6 +15,7 @@ from courant._courant import (
     SymmetricPositiveDefinite, TangentBundle, Torus, __version__,
 )
 from courant._trace import TracedArray, where, zeros
+from courant._numeric import numeric
 from courant._classes import (
     DiracStructure, DiscretizationMap, ImplicitSystem, Integrator, Manifold, Projector, laws, register,
 )
@@ -31,6 +32,6 @@ __all__ = [
     "Ladder", "Law", "Level", "Manifold", "Product",
     "Projector", "Run", "SE3", "SO3", "Solution", "SolveError", "SpecialOrthogonal", "Sphere", "Stiefel", "Study", "Sweep",
     "SymmetricPositiveDefinite", "Table", "TangentBundle", "Torus", "TraceError", "TracedArray", "certificate", "check",
-    "ensemble", "experiment", "laws", "load", "mechanism", "read_run", "register", "run", "solve_dae", "solve_hamiltonian",
+    "ensemble", "experiment", "laws", "load", "mechanism", "numeric", "read_run", "register", "run", "solve_dae", "solve_hamiltonian",
     "solve_lagrangian", "study", "sweep", "where", "zeros", "__version__",
 ]

@@ -11,6 +11,23 @@ def _name(self, name):
     return name or type(self).__name__
 
 
+# What C++ holds of an object is made anew from the arguments that its base was made with.
+
+def _again(cls, base, arguments, state):
+    made = cls.__new__(cls)
+    base.__init__(made, **arguments)
+    made.__dict__.update(state)
+    return made
+
+
+def _reduce(base):
+    def reduce(self):
+        state = dict(self.__dict__)
+        return (_again, (type(self), base, state.pop("_made_with"), state))
+
+    return reduce
+
+
 class Manifold(core.Manifold):
     """A manifold of one's own: points x in R^N, tangent vectors v in R^Ñ.
 
@@ -24,8 +41,9 @@ class Manifold(core.Manifold):
     name : str, optional
 
     To define: ``retract(self, x, v)``, ``frame(self, x)`` (N × Ñ: v ↦ ẋ), ``coframe(self, x)`` (Ñ × N, its left inverse),
-    and where N > n ``constraint(self, x)``, which vanishes on the manifold. May define: ``inverse_retract(self, x, y)``,
-    ``is_geodesic(self)``, ``injectivity_radius(self, x)`` and ``separation(self, x, y)``, the last two of numbers.
+    and where N > n ``constraint(self, x)``, which vanishes on the manifold. On an open subset of Rⁿ frame and coframe are
+    the identity unless they are defined. May define: ``inverse_retract(self, x, y)``, ``is_geodesic(self)``,
+    ``injectivity_radius(self, x)`` and ``separation(self, x, y)``, the last two of numbers. ``super()`` has the defaults.
     :func:`courant.laws` measures whether they fit together.
 
     Examples
@@ -40,6 +58,7 @@ class Manifold(core.Manifold):
     """
 
     def __init__(self, dimension, ambient_dimension=None, tangent_dimension=None, *, name=None):
+        self._made_with = dict(dimension=dimension, ambient_dimension=ambient_dimension, tangent_dimension=tangent_dimension, name=name)
         N = dimension if ambient_dimension is None else ambient_dimension
         super().__init__(_name(self, name), dimension, N, N if tangent_dimension is None else tangent_dimension)
 
@@ -65,6 +84,7 @@ class DiracStructure(core.DiracStructure):
     """
 
     def __init__(self, manifold, equations=None, ports=0, *, name=None):
+        self._made_with = dict(manifold=manifold, equations=equations, ports=ports, name=name)
         manifold = _space(manifold)
         count = manifold.tangent_dimension if equations is None else equations
         super().__init__(_name(self, name), manifold, ports, count)
@@ -87,6 +107,7 @@ class ImplicitSystem(core.ImplicitSystem):
     """
 
     def __init__(self, manifold, equations, unknowns=(), coordinates=(), *, names=()):
+        self._made_with = dict(manifold=manifold, equations=equations, unknowns=unknowns, coordinates=coordinates, names=names)
         if isinstance(unknowns, (int, np.integer)):
             unknowns = [f"z[{i}]" for i in range(unknowns)]
         super().__init__(_space(manifold), equations, list(unknowns), list(coordinates), list(names))
@@ -108,17 +129,23 @@ class DiscretizationMap(core.DiscretizationMap):
     """
 
     def __init__(self, manifold, order=1, symmetric=False, stage_time=0.5, *, name=None):
+        self._made_with = dict(manifold=manifold, order=order, symmetric=symmetric, stage_time=stage_time, name=name)
         super().__init__(_name(self, name), _space(manifold), order, symmetric, stage_time)
 
 
 class Projector(core.Projector):
     """A projector of one's own: the directions along which points are brought to M_f.
 
+    Parameters
+    ----------
+    name : str, optional
+
     To define: ``directions(self, x, tangents, conormals)``, a matrix of d columns; ``tangents`` is Ñ × Ñ, ``conormals``
     is Ñ × d.
     """
 
     def __init__(self, *, name=None):
+        self._made_with = dict(name=name)
         super().__init__(_name(self, name))
 
 
@@ -136,7 +163,12 @@ class Integrator(core.Integrator):
     """
 
     def __init__(self, system, order=1, symmetric=False, *, name=None):
+        self._made_with = dict(system=system, order=order, symmetric=symmetric, name=name)
         super().__init__(system, _name(self, name), order, symmetric)
+
+
+for _class in (Manifold, DiracStructure, ImplicitSystem, DiscretizationMap, Projector, Integrator):
+    setattr(_class, "__reduce__", _reduce(_class))
 
 
 def laws(obj, **at):

@@ -13,6 +13,7 @@ import numpy as np
 
 from courant import _courant as core
 from courant._errors import ExperimentError
+from courant._numeric import StepInputs
 
 _OBJECTS = (core.Manifold, core.DiracStructure, core.ImplicitSystem, core.DiscretizationMap, core.Projector,
             core.Integrator)
@@ -27,6 +28,9 @@ def _words(value, objects):
     if _is_object(value):
         objects.append(value)
         return {"type": "python", "object": len(objects) - 1}
+    if isinstance(value, StepInputs):
+        objects.append(value.core())
+        return {"type": "python-inputs", "object": len(objects) - 1, "method": _words(value.method, objects)}
     if isinstance(value, Mapping):
         return {str(key): _words(entry, objects) for key, entry in value.items()}
     if isinstance(value, np.ndarray):
@@ -45,7 +49,7 @@ def _from_file(path) -> str:
 
 def _document(source) -> Any:
     if isinstance(source, Experiment):
-        return copy.deepcopy(source.document)
+        return _copied(source.document)
     if isinstance(source, Mapping):
         return source
     if isinstance(source, str) and source.lstrip().startswith("{"):
@@ -69,8 +73,9 @@ def _at(document, pointer):
     return document, int(parts[-1]) if isinstance(document, list) else parts[-1]
 
 
-_TOP = ("title", "description", "system", "initial", "hold", "weights", "method", "time", "symmetries", "defects", "observe",
-        "events", "expect", "output", "examine", "nominal", "start", "ensemble")
+# Those of an experiment, beside those of its system.
+KEYS = ("title", "description", "system", "initial", "hold", "weights", "method", "time", "symmetries", "defects", "observe",
+        "events", "expect", "output", "examine")
 
 
 def changed(document, settings) -> dict:
@@ -86,7 +91,7 @@ def changed(document, settings) -> dict:
             container[key] = value
         elif name in ("step", "end", "tolerance"):
             result.setdefault("time", {})[name] = value
-        elif name in _TOP:
+        elif name in KEYS:
             result[name] = value
         elif isinstance(result.get("system"), Mapping) and name in result["system"].get("parameters", {}):
             result["system"]["parameters"][name] = value

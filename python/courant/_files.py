@@ -7,6 +7,7 @@ import os
 from collections.abc import Mapping
 
 from courant import _courant as core
+from courant import experiment
 from courant._experiment import Experiment
 
 
@@ -19,8 +20,13 @@ def mechanism(description: Mapping, **keys) -> Experiment:
         The keys of a system of the kind ``mechanism``; ``type`` may be left out.
     **keys
         Of the experiment: ``initial``, ``method``, ``time``, …
+
+    Raises
+    ------
+    AttributeError
+        Where the library has no such kind.
     """
-    return Experiment({"system": {"type": "mechanism", **description}, "initial": {}, **keys})
+    return experiment.mechanism(**{key: value for key, value in description.items() if key != "type"}, **keys)
 
 
 def load(path, **keys) -> Experiment:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from courant import _courant as core
+from courant._figures import house_axes
 
 
 def _gathered(names, rows, name):
@@ -150,7 +151,15 @@ class Certificate:
                              + f"{letter}_{{{level.k}}}^{{{'' if dim is None else dim}}}")
             return "".join(parts)
 
-        return f"$\\begin{{array}}{{l}} {sets('S', 'dim_S')} \\\\ {sets('M', 'dim_M')} \\end{{array}}$"
+        set_as = core.latex_formula
+        lines = [sets("S", "dim_S"), sets("M", "dim_M")]
+        lines += [f"M_{{{entry['level']}}}:\\quad {set_as(entry['formula'])} = 0" for entry in self.json.get("formulas") or []]
+        lines += [f"S_{{{step['level']}}}:\\quad {set_as(step['derivative'])} = 0 \\;\\Rightarrow\\; {set_as(step['result'])} = 0"
+                  for step in self.json.get("steps") or []]
+        classes = self.json.get("classes")
+        if classes and classes.get("first_class") is not None:
+            lines.append(f"\\text{{first class: {classes['first_class']}, second class: {classes['second_class']}}}")
+        return "$\\displaystyle\\begin{array}{l} " + " \\\\ ".join(lines) + " \\end{array}$"
 
     def __eq__(self, other):
         return isinstance(other, Certificate) and self.json == other.json
@@ -246,18 +255,14 @@ class Run:
         -------
         matplotlib.axes.Axes
         """
-        import matplotlib.pyplot as plt
-
         if not names:
             names = tuple(name for name in self.summary.get("final", {}))[:6] or tuple(self.names[1:7])
-        if axes is None:
-            axes = plt.subplots(figsize=(6.4, 3.6), constrained_layout=True)[1]
+        axes = house_axes(axes)
         for name in names:
             column = self[name]
             for i, line in enumerate(np.atleast_2d(column).reshape(-1, len(self.t))):
                 axes.plot(self.t, line, lw=1.2, label=name if column.ndim == 1 else f"{name}[{i}]")
         axes.set_xlabel("t")
-        axes.spines[["top", "right"]].set_visible(False)
         axes.legend(frameon=False)
         return axes
 
@@ -274,6 +279,9 @@ class Run:
         lines += [html.escape(warning) for warning in self.summary.get("warnings", [])]
         return (f"<div><b>{title}</b><br>{html.escape(self.summary.get('method', ''))}<br>"
                 + "<br>".join(line for line in lines if line) + self.ladder._repr_html_() + "</div>")
+
+    def _repr_latex_(self):
+        return self.ladder._repr_latex_()
 
     def __getstate__(self):
         state = dict(self.__dict__)
@@ -304,8 +312,9 @@ class Solution(Run):
     ``sol["q"]``, ``energy``, ``constraints``, ``ladder`` and ``to_dataframe()`` are those of :class:`Run`.
     """
 
-    def __init__(self, parts, experiment, states, aliases, kept=None, events=(), step=None, error=None):
+    def __init__(self, parts, experiment, states, aliases, kept=None, events=(), step=None, error=None, ladder=None):
         super().__init__(parts, experiment)
+        self._ladder = ladder
         self.states = list(states)
         self._aliases = dict(aliases)
         if kept is not None:
@@ -321,6 +330,10 @@ class Solution(Run):
         self.t_events = [self.events[event]["t"] if event in self.events else np.empty(0) for event, _ in events] or None
         self.y_events = [_columns(self.events[event].names, self.events[event].rows, self.states)
                          if event in self.events else np.empty((0, len(self.states))) for event, _ in events] or None
+
+    @property
+    def ladder(self) -> Certificate:
+        return self._ladder or super().ladder
 
     @property
     def success(self) -> bool:
@@ -424,12 +437,23 @@ class Study:
                          f"<table><tr><th>step</th><th>error</th></tr>{rows}</table>")
         return "".join(parts)
 
+    def _repr_latex_(self):
+        def number(value):
+            if value is None:
+                return "-"
+            digits, _, power = f"{value:.3g}".partition("e")
+            return digits + (f" \\cdot 10^{{{int(power)}}}" if power else "")
+
+        lines = []
+        for entry in self.methods:
+            name = entry["method"].replace("_", "\\_")
+            lines.append(f"\\text{{{name}}} & \\text{{order {number(entry.get('order'))}}}")
+            lines += [f"h = {number(row['step'])} & {number(row['error'])}" for row in entry["rows"]]
+        return "$\\displaystyle\\begin{array}{ll} " + " \\\\ ".join(lines) + " \\end{array}$"
+
     def plot(self, axes=None):
         """log(error) over log(step) by matplotlib."""
-        import matplotlib.pyplot as plt
-
-        if axes is None:
-            axes = plt.subplots(figsize=(5.2, 3.8), constrained_layout=True)[1]
+        axes = house_axes(axes, figsize=(5.2, 3.8))
         for entry in self.methods:
             rows = [row for row in entry["rows"] if row["error"]]
             axes.loglog([row["step"] for row in rows], [row["error"] for row in rows], "o-", label=entry["method"])

@@ -74,7 +74,8 @@ def run(experiment, *, folder=None, existing="refuse", backend="auto", dense_out
     dense_output : bool
         Whether ``run.curve`` is kept.
     progress : bool or callable, optional
-        A bar, by default on terminals and in notebooks; or what is called with (step, steps, seconds, drift).
+        A bar, by default on terminals and in notebooks; or what is called with (step, steps, seconds, drift), some times a
+        second. Where it returns False the run ends there, with the status ``"interrupted"`` and the rows so far.
     **settings
         Other values than those of the experiment: keys of it, parameters, initial values, ``step``, ``end``, or JSON
         pointers.
@@ -106,7 +107,21 @@ def run(experiment, *, folder=None, existing="refuse", backend="auto", dense_out
 
 
 def read_run(folder) -> Run:
-    """The run in a folder that ``courant run`` or :func:`run` wrote."""
+    """The run in a folder that ``courant run`` or :func:`run` wrote.
+
+    Parameters
+    ----------
+    folder : path
+
+    Returns
+    -------
+    Run
+
+    Raises
+    ------
+    OSError
+        Where the files of a run are not there, or damaged.
+    """
     *parts, document = core.run_of_folder(os.fspath(folder))
     document.pop("$run", None)
     return Run(parts, Experiment(document))
@@ -162,7 +177,19 @@ def certificate(system, guess=None, hold=(), **options) -> Certificate:
 
 
 def check(experiment, **settings) -> Check:
-    """Measures the laws of the manifold, the structure, the map and the method of an experiment."""
+    """Measures the laws of the manifold, the structure, the map and the method of an experiment.
+
+    Parameters
+    ----------
+    experiment : dict, path or Experiment
+    **settings
+        As of :func:`run`.
+
+    Returns
+    -------
+    Check
+        True where all laws hold.
+    """
     return Check(core.check(Experiment(experiment, **settings).core))
 
 
@@ -176,6 +203,13 @@ def study(*experiments, steps=5, quantities=(), **settings) -> Study:
         How many step sizes.
     quantities : sequence of str
         Whose error it is; all coordinates by default.
+    **settings
+        As of :func:`run`, for all of them.
+
+    Returns
+    -------
+    Study
+        Errors at the end, in the units of the quantities; ``orders`` are the slopes.
     """
     return Study(core.study([Experiment(one, **settings).core for one in experiments], steps, list(quantities)))
 

@@ -11,8 +11,9 @@ import numpy as np
 from courant import _courant as core
 from courant._errors import ExperimentError
 from courant._experiment import Experiment
+from courant._numeric import Input, StepInputs, used_by
 from courant._results import Solution
-from courant._running import carried_out
+from courant._running import carried_out, certificate
 
 _DEFAULT_TOLERANCE = 1e-4
 _MOST_STEPS = 1 << 20
@@ -41,9 +42,27 @@ class _Words:
         self.t = self.graph.variable("t")
         self.definitions: dict = {}
         self.count = 0
+        self.all = [self.t]
+        self.names = ["t"]
+        self.inputs: list = []
 
     def variables(self, names, shape):
-        return self.graph.variables(list(names), list(shape))
+        made = self.graph.variables(list(names), list(shape))
+        self.all += np.ravel(made).tolist()
+        self.names += names
+        return made
+
+    def input_of(self, function, arguments, shape):
+        """What stands for the value of a numeric function."""
+        first = sum(len(one.names) for one in self.inputs)
+        names = [f"numeric{first + k}" for k in range(math.prod(shape))]
+        self.inputs.append(Input(names, function, arguments))
+        made = self.variables(names, shape)
+        return made if shape else made[()]
+
+    @property
+    def input_names(self):
+        return [name for one in self.inputs for name in one.names]
 
     def formulas(self, outputs) -> list:
         self.count += 1
@@ -62,11 +81,17 @@ def _required(function):
             if p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD) and p.default is p.empty]
 
 
-def _called(function, what, arguments: Mapping, forms: Sequence[str], parameters: Mapping):
+def _called(function, what, arguments: Mapping, forms: Sequence[str], parameters: Mapping, words=None, also=()):
     """Calls a function with traced arguments: by its parameters' names, if all are known, else by how many there are.
 
-    `forms`: the signatures that it may have, such as "q, p" and "t, q, p".
+    `forms`: the signatures that it may have, such as "q, p" and "t, q, p"; `also`: names that it may have besides.
+    `words`: where numeric functions in it become inputs; None: they may not stand in it.
     """
+    with used_by(words):
+        return _called_plainly(function, what, arguments, forms, parameters, also)
+
+
+def _called_plainly(function, what, arguments, forms, parameters, also):
     given = {}
     try:
         accepted = inspect.signature(function).parameters
@@ -77,7 +102,8 @@ def _called(function, what, arguments: Mapping, forms: Sequence[str], parameters
     names = [name for name in _required(function) or [] if name not in given]
     if not names and _required(function) is None:
         names = forms[0].split(", ")
-    by_name = bool(names) and all(name in arguments for name in names)
+    known = {*also, *(role for form in forms for role in form.split(", "))}
+    by_name = bool(names) and all(name in known for name in names)
     if by_name:
         return function(*(arguments[name] for name in names), **given)
     for form in forms:
@@ -192,13 +218,16 @@ def _choose_steps(document, states, start, end, tolerance, backend, order=2):
 
 
 def _solved(document, words, *, t_span, step, tolerance, events, t_eval, dense_output, backend, progress, states, aliases,
-            arguments, parameters, order=2):
+            arguments, parameters, places, order=2):
     start, end = _span(t_span)
     watched, known = _events(words, events, arguments, parameters)
     if words.definitions:
         document["system"]["definitions"] = words.definitions
     if watched:
         document["events"] = watched
+    frozen = None
+    if words.inputs:
+        frozen, document = document, _with_inputs(document, words, places)
     error = None
     if step is not None:
         count = max(1, round((end - start) / float(step)))
@@ -214,7 +243,54 @@ def _solved(document, words, *, t_span, step, tolerance, events, t_eval, dense_o
     experiment = Experiment(document)
     parts = carried_out(experiment, backend=backend, dense_output=dense_output, progress=progress)
     kept = None if t_eval is None else _kept(t_eval, parts[3][1][:, 0])
-    return Solution(parts, experiment, states, aliases, kept, known, document["time"]["step"], error)
+    # Inputs are no degrees of freedom: the certificate is that of the system with their values at the start.
+    ladder = certificate({key: frozen[key] for key in ("system", "initial", "hold") if key in frozen}) if frozen else None
+    return Solution(parts, experiment, states, aliases, kept, known, document["time"]["step"], error, ladder)
+
+
+# --- inputs: values of numeric functions, which stand still in a step
+
+def _with_inputs(document, words, places):
+    """The experiment whose inputs are coordinates u with u' = 0, and whose method asks for their values.
+
+    In the one that is given they are parameters.
+    """
+    names = words.input_names
+    system = dict(document["system"])
+    start = {name: value for name, value in system.pop("parameters").items()}
+    initial = {**document["initial"], **start}
+    system["coordinates"] = [*system["coordinates"], *names]
+    if system["type"] == "implicit":
+        system["equations"] = [*system["equations"], *(name + "'" for name in names)]
+    else:
+        momenta = system["type"] == "hamiltonian"
+        if system.get("structure") is not None:
+            raise TypeError("numeric functions have no place beside a structure of one's own: the forces are on T*Q")
+        system["forces"] = [*system["forces"], *("0" for _ in names)]
+        if not momenta:  # at rest
+            system["lagrangian"] = " + ".join([system["lagrangian"], *(f"{name}'^2/2" for name in names)])
+        initial.update({f"p_{name}" if momenta else name + "'": 0.0 for name in names})
+        if "manifold" in system:
+            lines = ["euclidean"]*len(names)
+            bundle = system["manifold"]
+            base = bundle["base"] if momenta else bundle
+            base = {"type": "product", "factors": [base, *lines]}
+            system["manifold"] = {"type": "cotangent-bundle", "base": base} if momenta else base
+    method = StepInputs(document["method"], words.inputs, words.all, words.names, places)
+    return {**document, "system": system, "initial": initial, "method": method,
+            "hold": [*document.get("hold", []), *names]}
+
+
+def _freeze(document, words, places, known):
+    """Gives the inputs their values at the start, as parameters."""
+    if words.inputs:
+        names = words.input_names
+        inputs = StepInputs(None, words.inputs, words.all, words.names, places)
+        values = dict(known)
+        for one in words.inputs:  # one may be an argument of the next
+            found = dict(zip(names, inputs.at_start(values)))
+            values.update({name: found[name] for name in one.names})
+        document["system"]["parameters"] = {name: values[name] for name in names}
 
 
 # --- F(t, y, y') = 0
@@ -236,7 +312,7 @@ class _Dae:
                           "yp": words.variables([name + "'" for name in self.names], [n]),
                           "z": words.variables(unknowns, [len(unknowns)])}
         forms = ("t, y, yp, z",) if unknowns else ("t, y, yp",)
-        residual = _vector(_called(F, "F", self.arguments, forms, parameters), "F")
+        residual = _vector(_called(F, "F", self.arguments, forms, parameters, words), "F")
         used = core.variables_of(residual)
         self.differential = [name for name in self.names if name + "'" in used]
         self.algebraic = [name for name in self.names if name + "'" not in used]
@@ -253,6 +329,16 @@ class _Dae:
                             if name in self.differential})
         self.document = {"system": system, "initial": initial}
         self.unknowns = unknowns
+        known = dict(values)
+        if yp0 is not None:
+            known.update({name + "'": value for name, value in zip(self.names, yp0.tolist())})
+        _freeze(self.document, words, self.places, known)
+
+    def places(self, coordinates, unknowns):
+        """Where a step has the numbers of the traced variables."""
+        return {"t": ("t", 0), **{name: ("x", k) for k, name in enumerate(coordinates)},
+                **{name + "'": ("v", k) for k, name in enumerate(coordinates)},
+                **{name: ("z", k) for k, name in enumerate(unknowns)}}
 
     def hold(self, hold):
         names = [self.names[entry] if isinstance(entry, (int, np.integer)) else entry for entry in hold]
@@ -283,6 +369,7 @@ def solve_dae(F: Callable, t_span, y0, yp0=None, *, hold=(), unknowns=(), step=N
         traced arrays: numpy's functions, loops over ranges and ``np.where`` work. Entries of y whose derivative F does not
         contain are found to be algebraic.
     t_span : (float, float)
+        In the unit of time that F has; nothing is converted anywhere.
     y0 : array_like, (n,)
         Where the start is looked for. What had to move is in ``sol.ladder.moves``.
     yp0 : array_like, (n,), optional
@@ -291,7 +378,7 @@ def solve_dae(F: Callable, t_span, y0, yp0=None, *, hold=(), unknowns=(), step=N
     unknowns : sequence of str or int
         Names of z, or how many there are.
     step : float, optional
-        One size for all steps, so that the end is a whole number of them.
+        In the unit of time; one size for all steps, so that the end is a whole number of them.
     tolerance : float, optional
         Without `step`: the error that a step is chosen for, next to the size of y; 1e-4 by default.
     method : str or dict
@@ -330,7 +417,8 @@ def solve_dae(F: Callable, t_span, y0, yp0=None, *, hold=(), unknowns=(), step=N
         document["observe"] = {name: name for name in observed}
     return _solved(document, dae.words, t_span=t_span, step=step, tolerance=tolerance, events=events, t_eval=t_eval,
                    dense_output=dense_output, backend=backend, progress=progress, states=dae.names,
-                   aliases={"z": dae.unknowns} if dae.unknowns else {}, arguments=dae.arguments, parameters=parameters)
+                   aliases={"z": dae.unknowns} if dae.unknowns else {}, arguments=dae.arguments, parameters=parameters,
+                   places=dae.places)
 
 
 # --- Hamiltonians and Lagrangians
@@ -356,8 +444,8 @@ class _Mechanics:
                           "p": words.variables(self.p_names, self.fibre),
                           "v": words.variables(self.v_names, self.fibre)}
 
-    def traced(self, function, what, forms):
-        return _called(function, what, self.arguments, forms, self.parameters)
+    def traced(self, function, what, forms, words=None, also=()):
+        return _called(function, what, self.arguments, forms, self.parameters, words, also)
 
     def constraints(self, system, holonomic, nonholonomic, forces, momenta):
         words = self.words
@@ -369,11 +457,22 @@ class _Mechanics:
                 _vector(self.traced(nonholonomic, "nonholonomic", ("q, v", "t, q, v")), "nonholonomic"))
         if forces is not None:
             forms = ("q, p", "t, q, p") if momenta else ("q, v", "t, q, v")
-            system["forces"] = words.formulas(_vector(self.traced(forces, "forces", forms), "forces"))
+            system["forces"] = words.formulas(_vector(self.traced(forces, "forces", forms, words, ("q", "p", "v")), "forces"))
 
     def start(self, momenta, values):
         names = "p_q" if momenta else ("v_q" if self.is_group else "q'")
         return {"q": _key(self.q0), names: _key(np.reshape(values, self.fibre))}
+
+    def freeze(self, document, momenta, values):
+        known = dict(zip(self.q_names, np.ravel(self.q0).tolist()))
+        known.update(zip(self.p_names if momenta else self.v_names, np.ravel(values).tolist()))
+        _freeze(document, self.words, self.places, known)
+
+    def places(self, coordinates, unknowns):
+        """Where a step has the numbers of the traced variables; velocities of q come first in its tangent vector."""
+        del unknowns
+        return {"t": ("t", 0), **{name: ("v", k) for k, name in enumerate(self.v_names)},
+                **{name: ("x", k) for k, name in enumerate(coordinates)}}
 
 
 def _method_of(method, is_singular, holonomic, nonholonomic):
@@ -433,13 +532,14 @@ def solve_hamiltonian(H: Callable, t_span, q0, p0=None, *, manifold=None, struct
     m.constraints(system, holonomic, nonholonomic, forces, True)
     document = {"system": system, "initial": m.start(True, p0),
                 "method": _method_of(method, False, holonomic, nonholonomic)}
+    m.freeze(document, True, p0)
     if hold:
         document["hold"] = list(hold)
     arguments = dict(m.arguments)
     arguments["y"] = np.concatenate([np.ravel(arguments["q"]), np.ravel(arguments["p"])])
     return _solved(document, m.words, t_span=t_span, step=step, tolerance=tolerance, events=events, t_eval=t_eval,
                    dense_output=dense_output, backend=backend, progress=progress, states=m.q_names + m.p_names,
-                   aliases={"p": "p_q"}, arguments=arguments, parameters=parameters)
+                   aliases={"p": "p_q"}, arguments=arguments, parameters=parameters, places=m.places)
 
 
 def _solve_on_structure(H, t_span, x0, *, manifold, structure, holonomic, hold, parameters, method, **options):
@@ -461,7 +561,7 @@ def _solve_on_structure(H, t_span, x0, *, manifold, structure, holonomic, hold, 
         document["hold"] = list(hold)
     arguments["y"] = np.ravel(arguments["x"])
     return _solved(document, words, states=names, aliases={"q": "x"}, arguments=arguments, parameters=parameters,
-                   t_span=t_span, **options)
+                   places=None, t_span=t_span, **options)
 
 
 def solve_lagrangian(L: Callable, t_span, q0, v0, *, manifold=None, holonomic=None, nonholonomic=None, forces=None, step=None,
@@ -491,10 +591,11 @@ def solve_lagrangian(L: Callable, t_span, q0, v0, *, manifold=None, holonomic=No
     velocities = [f"v{i}" for i in range(len(m.v_names))]
     document = {"system": system, "initial": m.start(False, v0), "method": _method_of(method, True, holonomic, nonholonomic),
                 "observe": dict(zip(velocities, m.v_names))}
+    m.freeze(document, False, v0)
     if hold:
         document["hold"] = list(hold)
     arguments = dict(m.arguments)
     arguments["y"] = np.concatenate([np.ravel(arguments["q"]), np.ravel(arguments["v"])])
     return _solved(document, m.words, t_span=t_span, step=step, tolerance=tolerance, events=events, t_eval=t_eval,
                    dense_output=dense_output, backend=backend, progress=progress, states=m.q_names + velocities,
-                   aliases={"p": "p_q", "v": velocities}, arguments=arguments, parameters=parameters)
+                   aliases={"p": "p_q", "v": velocities}, arguments=arguments, parameters=parameters, places=m.places)

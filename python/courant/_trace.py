@@ -74,6 +74,12 @@ def refuse_number():
     _refuse("a number is asked for that is not known while the function is traced", instead)
 
 
+def refuse_numeric():
+    """Called where a numeric function is used that has no place there."""
+    _refuse("a numeric function has values and no formula, and here derivatives are needed",
+            "Use it in forces, or in F of solve_dae.")
+
+
 # --- functions by elements
 
 def _sum_power(x, k):

@@ -1,16 +1,19 @@
 """A function for each kind of system: ``courant.experiment.mechanical(coordinates=["q"], potential="q^2/2", …)``.
 
 The arguments are the keys of the kind, then those of experiments (``initial``, ``method``, ``time``, …); a hyphen of a
-kind is an underscore here. ``help(courant.experiment.mechanical)`` lists them with what they take.
+kind is an underscore here, and the key ``lambda`` is ``lambda_``. ``help(courant.experiment.mechanical)`` lists them with
+what they take.
 """
 
 from __future__ import annotations
 
-import inspect
-import textwrap
+import inspect as _inspect
+import keyword as _keyword
+import textwrap as _textwrap
 
-from courant import _courant as core
+from courant import _courant as _core
 from courant._experiment import Experiment
+from courant._experiment import KEYS as _KEYS
 
 _REST = {
     "initial": "values by name, in full or in part",
@@ -26,7 +29,11 @@ _REST = {
 
 
 def _systems():
-    return {kind["type"].replace("-", "_"): kind for kind in core.catalogue()["systems"] if kind["type"] != "python"}
+    return {kind["type"].replace("-", "_"): kind for kind in _core.catalogue()["systems"] if kind["type"] != "python"}
+
+
+def _argument(key):
+    return key + "_" if _keyword.iskeyword(key) else key
 
 
 def _docstring(kind):
@@ -35,7 +42,7 @@ def _docstring(kind):
         takes = key["takes"]
         if not key["required"]:
             takes += ", optional" if key["default"] is None else f", default {key['default']!r}"
-        lines += [f"{key['key']} : {takes}", *textwrap.wrap(key["summary"], 100, initial_indent="    ",
+        lines += [f"{_argument(key['key'])} : {takes}", *_textwrap.wrap(key["summary"], 100, initial_indent="    ",
                                                            subsequent_indent="    ")]
     for name, text in _REST.items():
         lines += [f"{name} : optional", "    " + text]
@@ -47,8 +54,8 @@ def _maker(name, kind):
     required = [key["key"] for key in kind["keys"] if key["required"]]
 
     def make(**keys):
-        unknown = [key for key in keys if key not in own and key not in _REST and key not in ("weights", "symmetries",
-                                                                                              "defects", "examine")]
+        keys = {key[:-1] if key.endswith("_") and _keyword.iskeyword(key[:-1]) else key: value for key, value in keys.items()}
+        unknown = [key for key in keys if key not in own and key not in _KEYS]
         if unknown:
             raise TypeError(f"{name}() got an unknown key {unknown[0]!r}; it takes {', '.join([*own, *_REST])}")
         missing = [key for key in required if key not in keys]
@@ -61,11 +68,11 @@ def _maker(name, kind):
     make.__name__ = make.__qualname__ = name
     make.__module__ = __name__
     make.__doc__ = _docstring(kind)
-    keyword = inspect.Parameter.KEYWORD_ONLY
-    make.__signature__ = inspect.Signature(
-        [inspect.Parameter(key, keyword, default=inspect.Parameter.empty if key in required else None)
+    keyword = _inspect.Parameter.KEYWORD_ONLY
+    make.__signature__ = _inspect.Signature(
+        [_inspect.Parameter(_argument(key), keyword, default=_inspect.Parameter.empty if key in required else None)
          for key in own if key.isidentifier()]
-        + [inspect.Parameter(key, keyword, default=None) for key in _REST if key not in own],
+        + [_inspect.Parameter(key, keyword, default=None) for key in _REST if key not in own],
         return_annotation=Experiment)
     return make
 
@@ -80,4 +87,4 @@ def __getattr__(name):
 
 
 def __dir__():
-    return sorted([*_systems(), *(name for name in globals() if not name.startswith("_"))])
+    return sorted([*_systems(), "Experiment"])

@@ -1,7 +1,7 @@
 """Experiments: run, check, study, sweep, ensemble; pickles, threads, interrupts, memory."""
 
 import concurrent.futures
-import gc
+import inspect
 import json
 import multiprocessing
 import os
@@ -10,16 +10,12 @@ import signal
 import subprocess
 import sys
 import time
-import tracemalloc
 
 import numpy as np
 import pytest
 
 import courant
-
-OSCILLATOR = {"system": {"type": "hamiltonian", "coordinates": ["q"], "parameters": {"k": 1},
-                         "hamiltonian": "(p_q^2 + k*q^2)/2"},
-              "initial": {"q": 1, "p_q": 0}, "method": "discretize-first", "time": {"step": 0.1, "end": 1}}
+from objects import OSCILLATOR, Decay, Euler, Line, Middle, Rotation
 
 
 def angle(h, omega=1.0):
@@ -34,7 +30,7 @@ def test_a_run_has_rows_under_names():
     assert run.success and run.ladder.verdict == "regular"
     assert run.to_dataframe().loc[1.0, "q"] == run["q"][-1]
     assert "completed" in run._repr_html_() and "svg" in run.ladder._repr_html_()
-    assert run.ladder._repr_latex_().startswith("$")
+    assert run._repr_latex_() == run.ladder._repr_latex_() and run._repr_latex_().startswith("$")
 
 
 def test_rows_reach_numpy_without_a_copy():
@@ -84,6 +80,20 @@ def test_check_and_study():
     assert check and check.structure["dirac"] and "✓" in check._repr_html_()
     study = courant.study(OSCILLATOR, steps=4)
     assert list(study.orders.values())[0] == pytest.approx(2, abs=0.1)
+    assert "order 2" in study._repr_latex_() and "h = 0.1 & " in study._repr_latex_()
+
+
+def test_a_certificate_is_set_with_its_equations():
+    found = courant.certificate({"system": {"type": "implicit", "coordinates": ["x", "y", "v", "w"], "unknowns": ["T"],
+                                            "equations": ["x'-v", "y'-w", "v'+T*x", "w'+T*y+1", "x*x+y*y-1"]},
+                                 "initial": {"x": 0.6, "y": -0.8, "v": 0.8, "w": 0.6}})
+    latex, html = found._repr_latex_(), found._repr_html_()
+    assert "S_{0}^{4} \\supseteq S_{1}^{3} \\supseteq S_{2}^{2} = S_{3}^{2}" in latex
+    assert "M_{0}:\\quad {x}^{2} + {y}^{2} - 1 = 0" in latex and "S_{1}:\\quad x\\,\\dot{x} + y\\,\\dot{y} = 0" in latex
+    assert html.count("<math") > 8 and "S₁ adds" in html.replace("<sub>1</sub>", "₁").replace("<i>", "").replace("</i>", "")
+    vortices = courant.certificate({"system": {"type": "point-vortices", "strengths": [1, 1, -1, -1]},
+                                    "initial": {"x": [-1, 1, -1, 1], "y": [2, 2, -2, -2]}})
+    assert "second class: 8" in vortices._repr_latex_() and "second class" in vortices._repr_html_()
 
 
 def test_kinds_are_functions():
@@ -99,6 +109,35 @@ def test_kinds_are_functions():
         courant.experiment.hamiltonain
 
 
+def systems():
+    from courant import _courant as core
+    return {kind["type"]: kind for kind in core.catalogue()["systems"] if kind["example"]}
+
+
+@pytest.mark.parametrize("kind", systems())
+def test_every_kind_is_a_function_of_its_keys(kind):
+    """The example of the catalogue, by arguments."""
+    example = systems()[kind]["example"]
+    system = dict(example["system"])
+    make = getattr(courant.experiment, system.pop("type").replace("-", "_"))
+    if "lambda" in system:
+        system["lambda_"] = system.pop("lambda")
+    made = make(**system, **{key: value for key, value in example.items() if key != "system"})
+    assert made.complete == courant.Experiment(example).complete
+    for key in systems()[kind]["keys"]:
+        argument = "lambda_" if key["key"] == "lambda" else key["key"]
+        assert f"{argument} : " in make.__doc__ and argument in inspect.signature(make).parameters
+    with pytest.raises(TypeError, match="unknown key 'nonsense'"):
+        make(**system, nonsense=1)
+
+
+def test_functions_of_kinds_know_the_keys_of_experiments():
+    from courant._experiment import KEYS
+    schema = os.path.join(os.path.dirname(__file__), "..", "..", "experiments", "schema.json")
+    with open(schema, encoding="utf-8") as file:
+        assert sorted(KEYS) == sorted(key for key in json.load(file)["properties"] if not key.startswith("$"))
+
+
 def test_a_sweep():
     settings = [{"k": float(k)} for k in (1, 4, 9)]
     sweep = courant.sweep(OSCILLATOR, settings)
@@ -111,6 +150,7 @@ def test_a_thousand_settings_take_little():
     sweep = courant.sweep(OSCILLATOR, [{"k": 1 + i/1000} for i in range(1000)])
     seconds = time.process_time() - begin
     assert all(run.success for run in sweep)
+    assert sweep.column("q") == pytest.approx([np.cos(10*angle(0.1, np.sqrt(1 + i/1000))) for i in range(1000)], abs=1e-12)
     print(f"1,000 settings: {seconds:.2f} s of the processor")
 
 
@@ -139,6 +179,20 @@ def test_pickles():
         assert (pool.map(in_another_process, [courant.Experiment(OSCILLATOR)])[0] == run.rows).all()
 
 
+def test_experiments_with_objects_of_python_are_pickled():
+    """Classes that can be imported, with what their instances hold; rows come out the same in another process."""
+    experiment = courant.Experiment({"system": Decay(), "initial": {"x[0]": 1.0}, "method": Euler,
+                                     "time": {"step": 0.1, "end": 1}})
+    expected = experiment.run()
+    assert expected["x[0]"] == pytest.approx(0.9**np.arange(11), abs=1e-15)
+    assert (pickle.loads(pickle.dumps(experiment)).run().rows == expected.rows).all()
+    assert (pickle.loads(pickle.dumps(expected)).rows == expected.rows).all()
+    line = Line()
+    line.note = "kept"
+    again = pickle.loads(pickle.dumps(line))
+    assert again.note == "kept" and again.dimension == 1 and again.retract(np.ones(1), np.ones(1)) == 2
+
+
 def test_threads():
     expected = courant.run(OSCILLATOR, end=100).rows
     with concurrent.futures.ThreadPoolExecutor(4) as pool:
@@ -150,6 +204,19 @@ def test_progress_is_told():
     told = []
     courant.run(OSCILLATOR, end=10000, progress=lambda step, steps, seconds, drift: told.append((step, steps)))
     assert told[-1] == (100000, 100000)
+
+
+@pytest.mark.parametrize("in_thread", [False, True])
+def test_progress_stops_a_run(in_thread):
+    def run():
+        return courant.run(OSCILLATOR, end=1e6, output={"every": 10000}, progress=lambda step, *_: step < 200000)
+
+    if in_thread:
+        with concurrent.futures.ThreadPoolExecutor(1) as pool:
+            stopped = pool.submit(run).result()
+    else:
+        stopped = run()
+    assert stopped.status == "interrupted" and 20 <= len(stopped.t) < 1000
 
 
 INTERRUPTED = """
@@ -169,6 +236,54 @@ except KeyboardInterrupt:
 """
 
 
+INTERRUPTED_IN_PYTHON = """
+import courant, signal, threading, os, time
+force = courant.numeric(lambda q: -q)
+threading.Thread(target=lambda: (time.sleep(1.0), os.kill(os.getpid(), signal.SIGINT)), daemon=True).start()
+begin = time.monotonic()
+try:
+    courant.solve_lagrangian(lambda q, v: v @ v/2, (0, 1e4), [1.0], [0.0], forces=lambda q, v: [force(q[0])], step=1e-3, progress=False)
+except KeyboardInterrupt as stop:
+    print(stop.run.status, time.monotonic() - begin < 20)
+"""
+
+
+def test_an_interrupt_ends_a_run_that_calls_python():
+    result = subprocess.run([sys.executable, "-c", INTERRUPTED_IN_PYTHON], capture_output=True, text=True, timeout=120)
+    assert result.stdout == "interrupted True\n", result.stderr
+
+
+@pytest.mark.parametrize("where", ["residual", "step", "progress", "retract", "membership", "forward"])
+def test_what_hooks_raise_arrives(where):
+    class Mine(Exception):
+        pass
+
+    def raising(*_):
+        raise Mine(where)
+
+    def run(system, method, **options):
+        courant.run({"system": system, "initial": {"x": [1.0]} if isinstance(system, Decay) else {"q": 1, "p_q": 0}, "method": method,
+                     "time": {"step": 0.1, "end": 1}}, **options)
+
+    def child(base):
+        return type("Child", (base,), {where: raising})
+
+    hamiltonian = OSCILLATOR["system"]
+    with pytest.raises(Mine, match=where):
+        if where == "residual":
+            run(child(Decay)(), "rk4")
+        elif where == "step":
+            run(Decay(), child(Euler))
+        elif where == "progress":
+            courant.run(OSCILLATOR, end=100000, progress=raising)
+        elif where == "retract":
+            run({**hamiltonian, "manifold": {"type": "cotangent-bundle", "base": child(Line)()}}, "discretize-first")
+        elif where == "membership":
+            courant.solve_hamiltonian(lambda x: x @ x/2, (0, 1), [1.0, 0.0], structure=child(Rotation)(), step=0.1)
+        else:
+            run(hamiltonian, {"type": "discretize-first", "discretization": child(Middle)})
+
+
 def test_an_interrupt_ends_a_run():
     result = subprocess.run([sys.executable, "-c", INTERRUPTED.format(e=OSCILLATOR)], capture_output=True, text=True,
                             timeout=120, check=True)
@@ -176,53 +291,10 @@ def test_an_interrupt_ends_a_run():
     assert result.stdout.splitlines()[1] == "as before"
 
 
-def resident():
-    with open("/proc/self/statm", encoding="ascii") as file:
-        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
-
-
-def test_nothing_leaks():
-    def construct():
-        bundle = courant.CotangentBundle(courant.Product([courant.Sphere(2), courant.SO3()]))
-        courant.Experiment(OSCILLATOR).core
-        return bundle.retract(np.r_[1.0, 0, 0, np.eye(3).ravel(), np.zeros(6)], np.zeros(12))
-
-    for _ in range(1000):
-        construct()
-    gc.collect()
-    tracemalloc.start()
-    begin, before = resident(), tracemalloc.get_traced_memory()[0]
-    for _ in range(10000):
-        construct()
-    gc.collect()
-    traced = tracemalloc.get_traced_memory()[0] - before
-    tracemalloc.stop()
-    assert traced < 200_000
-    assert resident() - begin < 30e6
-
-
 def test_the_import_is_quick():
     code = "import numpy, time; t = time.process_time(); import courant; print(time.process_time() - t)"
     seconds = float(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout)
     print(f"import: {seconds:.3f} s")
-
-
-def test_objects_die_in_any_order():
-    code = """
-import courant, numpy as np
-class Kept(courant.Manifold):
-    def __init__(self): super().__init__(1)
-courant.register("manifold", "kept-to-the-end", Kept)
-from courant import _courant as core
-q = core.Graph().variables(["a"], [1])
-kept = np.sin(q)
-del q
-e = courant.Experiment({e!r}); c = e.core; del e
-r = courant.run({e!r}, dense_output=True); curve = r.curve; rows = r["q"]; del r
-print(curve(np.array([0.5])).shape, rows.shape, kept)
-"""
-    result = subprocess.run([sys.executable, "-c", code.format(e=OSCILLATOR)], capture_output=True, text=True)
-    assert result.returncode == 0, result.stderr
 
 
 def test_signals_are_pythons_afterwards():

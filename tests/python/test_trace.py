@@ -76,7 +76,7 @@ def _unpacked(a, b, c):
 def traced(f, x=X):
     names = [f"x{i}" for i in range(len(x))]
     variables = core.Graph().variables(names, [len(x)])
-    return core.evaluate(f(variables), variables, x)
+    return core.Function(f(variables), variables)(x)
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
