@@ -1,10 +1,10 @@
 #include "courant/reading/linear_spectrum.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "courant/core/expressions/function.hpp"
+#include "courant/core/linear/generalized_eigenvalues.hpp"
 
 namespace courant {
 
@@ -30,13 +30,13 @@ double fastest_decay(const ImplicitSystem& system, const VectorXd& at) {
     A.row(i) /= scale;
     B.row(i) /= scale;
   }
-  const Eigen::GeneralizedEigenSolver<MatrixXd> eigen(A, B, false);
+  const auto [alphas, betas] = generalized_eigenvalues(A, B);
   double fastest = 0.0;
   for (Index i = 0; i < size; ++i) {
     // λ = α/β; where β is round-off, λ is one of the algebraic equations.
-    const double beta = std::abs(eigen.betas()[i]), alpha = std::abs(eigen.alphas()[i]);
+    const double beta = std::abs(betas[i]), alpha = std::abs(alphas[i]);
     if (beta <= 1e-15 * alpha) continue;
-    fastest = std::max(fastest, -eigen.alphas()[i].real() / eigen.betas()[i]);
+    fastest = std::max(fastest, -alphas[i].real() / betas[i]);
   }
   return fastest;
 }

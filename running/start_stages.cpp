@@ -1,9 +1,8 @@
 #include "courant/running/start_stages.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-
 #include "courant/core/expressions/expr_vectors.hpp"
+#include "courant/core/linear/cholesky_decomposition.hpp"
+#include "courant/core/linear/lu_decomposition.hpp"
 #include "courant/integrators/step/kinetic_metric.hpp"
 #include "courant/manifolds/cotangent_bundle.hpp"
 
@@ -27,8 +26,8 @@ LeastChange given_entries(const Chosen& which, const VectorXd& values, Index off
 MatrixXd root_of_metric(const MatrixXd& metric, const std::vector<Index>& entries) {
   const auto count = std::ssize(entries);
   if (metric.size() > 0) {
-    const Eigen::LLT<MatrixXd> factors(metric(entries, entries));
-    if (factors.info() == Eigen::Success) return factors.matrixU();
+    const CholeskyDecomposition factors(MatrixXd(metric(entries, entries)));
+    if (factors.is_positive_definite()) return factors.L().transpose();
   }
   return MatrixXd::Identity(count, count);
 }
@@ -64,8 +63,9 @@ class MotionStage {
     for (const Index row : velocities_.rows) velocities.push_back(row - N);
     const bool is_weighted = weights_.size() > 0 && (weights_.array() != 1.0).any();
     const MatrixXd of_momenta =
-        is_weighted ? MatrixXd(weights_.cwiseSqrt().asDiagonal())
-                    : root_of_metric(g.size() == 0 ? MatrixXd() : MatrixXd(g.inverse()), momenta);
+        is_weighted
+            ? MatrixXd(weights_.cwiseSqrt().asDiagonal())
+            : root_of_metric(g.size() == 0 ? MatrixXd() : LuDecomposition(g).inverse(), momenta);
     MatrixXd whole = MatrixXd::Identity(system_->manifold()->tangent_dimension(),
                                         system_->manifold()->tangent_dimension());
     if (g.size() > 0) whole.topLeftCorner(g.rows(), g.cols()) = g;
@@ -100,7 +100,7 @@ class MotionStage {
     const auto kinetic = kinetic_metric(system_, MomentumProjector::momenta_of(*bundle), x);
     if (!kinetic) return {};
     const MatrixXd g = values(kinetic->lower(constants(x)));
-    return g.allFinite() && Eigen::LLT<MatrixXd>(g).info() == Eigen::Success ? g : MatrixXd();
+    return g.allFinite() && CholeskyDecomposition(g).is_positive_definite() ? g : MatrixXd();
   }
 
   std::shared_ptr<const ImplicitSystem> system_;

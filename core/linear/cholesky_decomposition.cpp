@@ -25,4 +25,14 @@ MatrixXd CholeskyDecomposition::solve_lower(const Eigen::Ref<const MatrixXd>& B)
   return L_.triangularView<Eigen::Lower>().solve(B);
 }
 
+MatrixXd semidefinite_solution(const Eigen::Ref<const MatrixXd>& A,
+                               const Eigen::Ref<const MatrixXd>& B) {
+  if (A.rows() != A.cols() || B.rows() != A.rows())
+    throw std::invalid_argument("semidefinite_solution: A is " + std::to_string(A.rows()) + " × " +
+                                std::to_string(A.cols()) + " and B has " +
+                                std::to_string(B.rows()) +
+                                " rows; expected a square matrix, and as many.");
+  return Eigen::LDLT<MatrixXd>(A).solve(B);
+}
+
 }  // namespace courant

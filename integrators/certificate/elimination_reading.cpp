@@ -1,6 +1,5 @@
 #include "courant/integrators/certificate/elimination_reading.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <set>

@@ -1,6 +1,5 @@
 #include "courant/integrators/certificate/least_deviation.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +8,7 @@
 
 #include "courant/core/linear/complete_orthogonal_decomposition.hpp"
 #include "courant/core/linear/singular_value_decomposition.hpp"
+#include "courant/core/linear/symmetric_eigenvalues.hpp"
 #include "courant/integrators/certificate/damped_inverse.hpp"
 #include "courant/integrators/certificate/saddle_point.hpp"
 
@@ -123,10 +123,9 @@ class DeviationDescent {
       H.col(i) = (gradient_at(y, deviation_(y)) - here) / size;
     }
     if (!H.allFinite()) return -along.gradient;
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(0.5 * (H + H.transpose()));
-    best_.curvature = eigen.eigenvalues()[0];
-    const VectorXd divisors = eigen.eigenvalues().cwiseAbs().cwiseMax(least_curvature);
-    const MatrixXd& Q = eigen.eigenvectors();
+    const auto [curvatures, Q] = symmetric_eigenvectors(0.5 * (H + H.transpose()));
+    best_.curvature = curvatures[0];
+    const VectorXd divisors = curvatures.cwiseAbs().cwiseMax(least_curvature);
     return -(Q * (Q.transpose() * along.gradient).cwiseQuotient(divisors));
   }
 

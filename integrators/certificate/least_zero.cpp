@@ -1,11 +1,11 @@
 #include "courant/integrators/certificate/least_zero.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <limits>
 #include <optional>
 #include <vector>
 
+#include "courant/core/linear/cholesky_decomposition.hpp"
 #include "courant/core/linear/complete_orthogonal_decomposition.hpp"
 #include "courant/integrators/certificate/damped_inverse.hpp"
 #include "courant/integrators/certificate/saddle_point.hpp"
@@ -20,7 +20,7 @@ VectorXd step_in_kernel(const SparseMatrixXd& P, const SparseMatrixXd& S, const 
   const CompleteOrthogonalDecomposition rows(MatrixXd(S.transpose()), DampedInverse::kNegligible);
   const MatrixXd Z = rows.Q().rightCols(S.cols() - rows.rank());
   const MatrixXd reduced = Z.transpose() * (P * Z).eval();
-  return Z * reduced.ldlt().solve(Z.transpose() * a);
+  return Z * semidefinite_solution(reduced, Z.transpose() * a);
 }
 
 // Tangential Newton steps from zero to zero.

@@ -36,4 +36,15 @@ BOOST_AUTO_TEST_CASE(sizes_are_checked) {
       std::invalid_argument);
 }
 
+// A = v vᵀ sees v alone.
+BOOST_AUTO_TEST_CASE(solutions_of_semidefinite_equations) {
+  const Eigen::Vector3d v(1.0, -2.0, 0.5), b = 3.0 * v;
+  const MatrixXd A = v * v.transpose(), x = semidefinite_solution(A, b);
+  BOOST_TEST((A * x - b).norm() < 1e-14);
+  BOOST_TEST((semidefinite_solution(A + MatrixXd::Identity(3, 3), b) - b / (1.0 + v.squaredNorm()))
+                 .norm() < 1e-14);
+  BOOST_CHECK_THROW(semidefinite_solution(MatrixXd::Ones(2, 3), b), std::invalid_argument);
+  BOOST_CHECK_THROW(semidefinite_solution(MatrixXd::Ones(2, 2), b), std::invalid_argument);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

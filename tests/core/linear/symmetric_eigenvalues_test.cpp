@@ -15,4 +15,14 @@ BOOST_AUTO_TEST_CASE(increasing_from_the_lower_triangle) {
                     std::invalid_argument);
 }
 
+BOOST_AUTO_TEST_CASE(vectors_that_the_matrix_stretches_by_its_values) {
+  const Eigen::MatrixXd half = Eigen::MatrixXd::Random(5, 5), A = half + half.transpose();
+  const auto [values, Q] = courant::symmetric_eigenvectors(A);
+  BOOST_TEST((A * Q - Q * values.asDiagonal()).norm() < 1e-13);
+  BOOST_TEST((Q.transpose() * Q - Eigen::MatrixXd::Identity(5, 5)).norm() < 1e-13);
+  BOOST_TEST(courant::symmetric_eigenvectors(Eigen::MatrixXd(0, 0)).values.size() == 0);
+  BOOST_CHECK_THROW(courant::symmetric_eigenvectors(Eigen::MatrixXd::Ones(1, 2)),
+                    std::invalid_argument);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
