@@ -1,12 +1,9 @@
-// Singular values of matrices that are too large for rotations: by LAPACK where it is. Not installed API:
-// singular_value_decomposition is.
+// Singular values of matrices that are too large for rotations: by LAPACK where it is. Not installed API.
 #pragma once
 
-#include "courant/core/linear/singular_value_decomposition.hpp"
+#include "courant/core/linear/singular_vectors.hpp"
 
 namespace courant {
-
-enum class Vectors { none, all };
 
 // A has entries, all of them finite; U and V are empty where no vectors are asked for. Throws std::runtime_error if LAPACK does
 // not converge.
