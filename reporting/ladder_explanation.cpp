@@ -435,7 +435,11 @@ LadderWords ladder_words(const LadderReport& ladder,
   const LadderReport::Level* weakest = nullptr;
   for (const LadderReport::Level& level : ladder.levels)
     if (!std::isnan(level.gap) && (!weakest || level.gap < weakest->gap)) weakest = &level;
-  if (weakest) {
+  if (weakest && std::isnan(weakest->smallest_counted)) {
+    words.certainty.push_back(
+        "How sure: dimensions are differences of ranks, and a number counts unless it shrinks by "
+        "2\u2076\u2074 or more when its digits double.");
+  } else if (weakest) {
     words.certainty.push_back(
         "How sure: dimensions are differences of ranks, and a rank counts the "
         "singular values that "

@@ -11,6 +11,7 @@
 #include "courant/core/linear/rank_decision.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/core/words/word_list.hpp"
+#include "courant/integrators/certificate/certificate_in_digits.hpp"
 #include "courant/integrators/certificate/consistent_point.hpp"
 #include "courant/integrators/certificate/ladder_in_units.hpp"
 #include "courant/integrators/certificate/nearest_start.hpp"
@@ -189,9 +190,12 @@ class LadderSearch {
  public:
   LadderSearch(std::shared_ptr<const ImplicitSystem> system, const InitialGuess& guess,
                const VectorXd& weight, Decider decider)
-      : system_(std::move(system)), own_(algorithm(weight)), decider_(decider) {
-    in_digits_.metric = SparseMatrixXd(weight.asDiagonal());
-    if (decider_ == Decider::digits) return;  // which need no units
+      : system_(std::move(system)),
+        weight_(weight),
+        decider_(decider),
+        equations_(equations_in_digits(system_, decider)),
+        own_(algorithm(weight)) {
+    if (equations_) return;
     const VectorXd z = guess.z.size() > 0 ? guess.z : system_->auxiliary_guess(guess.x, guess.v);
     const auto units = needed_units(system_, {.t = guess.t, .x = guess.x, .v = guess.v, .z = z});
     if (!units) return;
@@ -213,7 +217,13 @@ class LadderSearch {
   }
 
   ConstraintLadder run(const InitialGuess& guess) const {
-    if (decider_ == Decider::digits) return certificate(system_, guess, in_digits_);
+    if (equations_) {
+      ConstraintAlgorithm::Options options;
+      options.metric = SparseMatrixXd(weight_.asDiagonal());
+      if (auto found = decided_in_digits(*equations_, guess, options, decider_))
+        return *std::move(found);
+      return LadderSearch(system_, guess, weight_, Decider::bounds).run(guess);
+    }
     ConstraintLadder own = own_.run(system_, guess);
     if (!measured_) return own;
     const State start =
@@ -243,9 +253,10 @@ class LadderSearch {
   }
 
   std::shared_ptr<const ImplicitSystem> system_;
-  ConstraintAlgorithm own_;
-  ConstraintAlgorithm::Options in_digits_;
+  VectorXd weight_;
   Decider decider_;
+  std::shared_ptr<const JetEquations> equations_;  // null: decided by bounds
+  ConstraintAlgorithm own_;
   std::shared_ptr<const SystemInUnits> measured_;
   std::optional<ConstraintAlgorithm> in_units_;
   double length_ = 1.0;

@@ -164,14 +164,6 @@ Digits Digits::written(double number) {
   return number < 0 ? -Digits(pair) : Digits(pair);
 }
 
-double Digits::half_unit_written(double number, int least) {
-  if (!std::isfinite(number) || number == 0.0) return 0.0;
-  const ShortestDecimal decimal = shortest_decimal(number);
-  if (static_cast<int>(decimal.digits.size()) < least) return 0.0;
-  const int last = decimal.exponent - static_cast<int>(decimal.digits.size()) + 1;
-  return last >= 0 ? 0.0 : 0.5 * std::pow(10.0, last);
-}
-
 bool Digits::shrinks() const {
   if (is_zero_) return true;
   const auto& [coarse, fine] = pair();

@@ -31,9 +31,6 @@ class Digits {
   // lie on the circle; a fraction or a fraction of π whose terms are small if that reads as the same
   // double and the decimal is long, so that 1/3 is a third. Not finite numbers as they are.
   static Digits written(double number);
-  // The half of a unit of the last decimal of that decimal; 0 for integers and for decimals of fewer than `least`
-  // digits, which people mean as they stand.
-  static double half_unit_written(double number, int least = 4);
 
   bool is_zero() const { return is_zero_; }  // exactly, in both
   bool shrinks() const;                      // zero by the rule above

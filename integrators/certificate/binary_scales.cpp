@@ -42,16 +42,22 @@ bool extend_sizes(const std::vector<SizedEntry>& entries, BinaryScales& scales) 
   return any;
 }
 
+// Of each column that is known, whether it is more than 2^limit of the largest entry of some row in which it stands.
+std::vector<bool> counting_columns(const std::vector<SizedEntry>& entries,
+                                   const BinaryScales& scales, std::int64_t limit) {
+  const std::vector<std::int64_t> of_row = largest_of_rows(entries, scales);
+  std::vector<bool> counts(scales.column.size(), false);
+  for (const SizedEntry& a : entries)
+    if (scales.is_known[a.column] && a.exponent + scales.column[a.column] >= of_row[a.row] + limit)
+      counts[a.column] = true;
+  return counts;
+}
+
 // An unknown that is next to nothing in every row in which it stands, as the cosine of a right angle, vanishes as far
 // as sizes go.
 void forget_negligible(const std::vector<SizedEntry>& entries, BinaryScales& scales) {
   constexpr std::int64_t next_to_nothing = -30;
-  const std::vector<std::int64_t> of_row = largest_of_rows(entries, scales);
-  std::vector<bool> counts(scales.column.size(), false);
-  for (const SizedEntry& a : entries)
-    if (scales.is_known[a.column] &&
-        a.exponent + scales.column[a.column] >= of_row[a.row] + next_to_nothing)
-      counts[a.column] = true;
+  const std::vector<bool> counts = counting_columns(entries, scales, next_to_nothing);
   for (std::size_t j = 0; j < counts.size(); ++j)
     if (!counts[j]) scales.is_known[j] = false;
 }
@@ -82,6 +88,25 @@ void complete_sizes(const std::vector<SizedEntry>& entries, BinaryScales& scales
 }
 
 }  // namespace
+
+std::vector<Index> rounded_unknowns(const JetEquations& equations, const Jet& jet) {
+  constexpr std::int64_t rounding = -50;
+  const auto at = equations.at(jet.t, jet.y, jet.k);
+  BinaryScales sizes(equations, jet.k);
+  for (std::size_t j = 0; j < jet.y.size(); ++j) {
+    if (has_no_size(jet.y[j])) continue;
+    sizes.column[j] = jet.y[j].exponent();
+    sizes.is_known[j] = true;
+  }
+  const std::vector<SizedEntry> entries = exponents_of(equations.pattern(jet.k), at.entries);
+  const std::vector<bool> counts = counting_columns(entries, sizes, rounding);
+  std::vector<bool> stands(counts.size(), false);
+  for (const SizedEntry& a : entries) stands[a.column] = true;
+  std::vector<Index> found;
+  for (std::size_t j = 0; j < jet.y.size(); ++j)
+    if (sizes.is_known[j] && stands[j] && !counts[j]) found.push_back(static_cast<Index>(j));
+  return found;
+}
 
 void BinaryScales::update(const std::vector<JetEquations::Entry>& places,
                           const std::vector<Digits>& entries, const Jet& jet) {

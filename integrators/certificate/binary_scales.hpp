@@ -30,4 +30,8 @@ struct BinaryScales {
   void update(const std::vector<JetEquations::Entry>& places, const std::vector<Digits>& entries);
 };
 
+// The unknowns of a jet that are below 2⁻⁵⁰ of other terms in every equation in which they stand, and not zero: what is
+// left where an angle was typed as a double.
+std::vector<Index> rounded_unknowns(const JetEquations& equations, const Jet& jet);
+
 }  // namespace courant

@@ -2,45 +2,61 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <limits>
 
-#include "courant/core/words/word_list.hpp"
+#include "courant/core/words/text_layout.hpp"
 
 namespace courant {
 namespace {
 
 using EliminatedRow = StagedElimination::Row;
 
-// Rows of some stages with the pivots of the others among them eliminated too, as numbers with 1 in the pivot.
+// Rows of some stages, of their entries those in columns from `first` up to `end`, with the pivots of the others among
+// them eliminated too.
 std::vector<EliminatedRow> reduced_rows(const StagedElimination& elimination,
-                                        const std::vector<StagedElimination::Stage>& stages) {
+                                        const std::vector<StagedElimination::Stage>& stages,
+                                        Index first, Index end) {
   std::vector<EliminatedRow> rows;
+  std::vector<std::vector<std::size_t>> rows_with(static_cast<std::size_t>(end - first));
   for (const StagedElimination::Stage stage : stages)
-    for (const EliminatedRow& row : elimination.rows())
-      if (row.stage == stage) rows.push_back(row);
+    for (const EliminatedRow& row : elimination.rows()) {
+      if (row.stage != stage) continue;
+      EliminatedRow part;
+      part.level = row.level;
+      part.stage = stage;
+      part.pivot = row.pivot;
+      for (const auto& [column, value] : row.entries) {
+        if (column < first || column >= end) continue;
+        part.entries.append(column, value);
+        rows_with[static_cast<std::size_t>(column - first)].push_back(rows.size());
+      }
+      rows.push_back(std::move(part));
+    }
   for (std::size_t p = rows.size(); p-- > 0;) {
-    const auto column = static_cast<std::size_t>(rows[p].pivot);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (i == p || rows[i].entries[column].is_zero()) continue;
-      const Digits factor = rows[i].entries[column] / rows[p].entries[column];
-      subtract_multiple(rows[i].entries.data(), factor, rows[p].entries.data(),
-                        rows[i].entries.size());
-      rows[i].entries[column] = Digits();
+    const Index pivot = rows[p].pivot;
+    for (const std::size_t i : rows_with[static_cast<std::size_t>(pivot - first)]) {
+      const Digits& entry = rows[i].entries[pivot];
+      if (i >= p || entry.is_zero()) continue;
+      const Digits factor = entry / rows[p].entries[pivot];
+      std::vector<Index> filled;
+      rows[i].entries.eliminate(pivot, factor, rows[p].entries, filled);
+      for (const Index column : filled)
+        rows_with[static_cast<std::size_t>(column - first)].push_back(i);
     }
   }
   return rows;
 }
 
 // A normalised_combination with 1 in the term of the highest derivative, and the factor that makes it so.
-Combination normalised_combination(const JetEquations& equations, const EliminatedRow& row,
+Combination normalised_combination(const JetEquations& equations,
+                                   const StagedElimination& elimination, const EliminatedRow& row,
                                    double& factor) {
   Combination result;
   Digits lead;
   Index highest = -1;
   std::vector<std::pair<Index, Digits>> terms;  // of the equations of the system
-  for (Index i = 0; i < std::ssize(row.origin); ++i) {
-    const Digits& value = row.origin[static_cast<std::size_t>(i)];
-    if (value.is_zero() || i % equations.row_size() >= equations.system_rows()) continue;
+  for (const auto& [i, value] : elimination.origin(row)) {
+    if (i % equations.row_size() >= equations.system_rows()) continue;
     const Index order = i / equations.row_size();
     const Digits coefficient = value / Digits(std::tgamma(static_cast<double>(order) + 1.0));
     terms.emplace_back(i, coefficient);
@@ -62,7 +78,7 @@ Combination normalised_combination(const JetEquations& equations, const Eliminat
 MatrixXd free_velocities(const JetEquations& equations, const StagedElimination& elimination) {
   const Index N = equations.point_size();
   const std::vector<EliminatedRow> rows =
-      reduced_rows(elimination, {StagedElimination::velocities});
+      reduced_rows(elimination, {StagedElimination::velocities}, N, 2 * N);
   std::vector<bool> is_pivot(static_cast<std::size_t>(N), false);
   for (const EliminatedRow& row : rows) is_pivot[static_cast<std::size_t>(row.pivot - N)] = true;
   MatrixXd directions(N, 0);
@@ -72,10 +88,10 @@ MatrixXd free_velocities(const JetEquations& equations, const StagedElimination&
     directions.rightCols(1).setZero();
     directions(f, directions.cols() - 1) = 1.0;
     for (const EliminatedRow& row : rows) {
-      const Digits& entry = row.entries[static_cast<std::size_t>(N + f)];
+      const Digits& entry = row.entries[N + f];
       if (entry.is_zero()) continue;
       directions(row.pivot - N, directions.cols() - 1) =
-          -static_cast<double>(entry / row.entries[static_cast<std::size_t>(row.pivot)]);
+          -static_cast<double>(entry / row.entries[row.pivot]);
     }
   }
   return directions;
@@ -84,47 +100,48 @@ MatrixXd free_velocities(const JetEquations& equations, const StagedElimination&
 std::vector<bool> determined_unknowns(const JetEquations& equations,
                                       const StagedElimination& elimination) {
   const Index N = equations.point_size(), m = equations.auxiliary_size();
-  const std::vector<EliminatedRow> rows =
-      reduced_rows(elimination, {StagedElimination::unknowns, StagedElimination::velocities});
+  const std::vector<EliminatedRow> rows = reduced_rows(
+      elimination, {StagedElimination::unknowns, StagedElimination::velocities}, N, 2 * N + m);
   std::vector<bool> determined(static_cast<std::size_t>(m), false);
   for (const EliminatedRow& row : rows) {
     if (row.stage != StagedElimination::unknowns) continue;
-    bool alone = true;
-    for (Index j = N; j < 2 * N + m; ++j)
-      if (j != row.pivot && !row.entries[static_cast<std::size_t>(j)].is_zero()) alone = false;
-    determined[static_cast<std::size_t>(row.pivot - 2 * N)] = alone;
+    determined[static_cast<std::size_t>(row.pivot - 2 * N)] =
+        std::none_of(row.entries.begin(), row.entries.end(),
+                     [&](const auto& entry) { return entry.column != row.pivot; });
   }
   return determined;
 }
 
 }  // namespace
 
-std::vector<LadderLevel> levels_of(const JetEquations& /*equations*/,
+std::vector<LadderLevel> levels_of(const JetEquations& equations,
                                    const StagedElimination& elimination, Index k) {
   using Stage = StagedElimination::Stage;
-  // What is zero has shrunk by this much, and what is not has stayed.
-  constexpr double gap = 0x1p64;
+  // What is zero has shrunk by this much, and what is not has stayed. There are no singular values.
+  constexpr double gap = 0x1p64, unknown = std::numeric_limits<double>::quiet_NaN();
+  // Ranks are those in a chart, without the equations of M, which have a pivot in each x_i.
+  const Manifold& M = *equations.system().manifold();
+  const Index codimension = M.ambient_dimension() - M.dimension();
   std::vector<LadderLevel> levels;
   for (Index l = 0; l <= k; ++l) {
     LadderLevel level;
     level.k = l;
     level.dim_S = elimination.dim_S(l);
     level.dim_M = elimination.dim_M(l);
-    const auto decided = [&](std::initializer_list<Stage> stages) {
+    const auto decided = [&](Index rank, Index coefficients) {
       RankDecision decision;
-      for (const Stage stage : stages) decision.rank += elimination.count(stage, l);
+      decision.rank = rank - coefficients * codimension;
       decision.gap = gap;
-      decision.above = 1.0;
-      decision.below = 1.0 / gap;
-      decision.threshold = 1.0 / gap;
+      decision.above = decision.below = decision.threshold = unknown;
       decision.is_doubtful = false;
       return decision;
     };
-    level.without_tangent = decided({StagedElimination::jets, StagedElimination::unknowns});
-    level.without_point = decided(
-        {StagedElimination::jets, StagedElimination::unknowns, StagedElimination::velocities});
-    level.all = decided({StagedElimination::jets, StagedElimination::unknowns,
-                         StagedElimination::velocities, StagedElimination::point});
+    const Index without_tangent =
+        elimination.count(Stage::jets, l) + elimination.count(Stage::unknowns, l);
+    const Index without_point = without_tangent + elimination.count(Stage::velocities, l);
+    level.without_tangent = decided(without_tangent, l);
+    level.without_point = decided(without_point, l + 1);
+    level.all = decided(without_point + elimination.count(Stage::point, l), l + 2);
     levels.push_back(level);
   }
   return levels;
@@ -191,10 +208,9 @@ std::vector<int> differentiations(const JetEquations& equations,
     if (row.level > index ||
         (row.stage != StagedElimination::velocities && row.stage != StagedElimination::point))
       continue;
-    for (Index i = 0; i < std::ssize(row.origin); ++i) {
+    for (const auto& [i, coefficient] : elimination.origin(row)) {
       const Index equation = i % equations.row_size();
-      if (equation >= equations.system_rows() || row.origin[static_cast<std::size_t>(i)].is_zero())
-        continue;
+      if (equation >= equations.system_rows()) continue;
       int& count = result[static_cast<std::size_t>(equation)];
       count = std::max(count, static_cast<int>(i / equations.row_size()));
     }
@@ -213,16 +229,15 @@ void describe(ConstraintLadder& ladder, const JetEquations& equations,
   for (const EliminatedRow& row : elimination.rows()) {
     if (row.stage == StagedElimination::dependent) {
       double factor = 1.0;
-      Combination dependence = normalised_combination(equations, row, factor);
+      Combination dependence = normalised_combination(equations, elimination, row, factor);
       if (!dependence.terms.empty()) ladder.redundancies.push_back(std::move(dependence));
       continue;
     }
     if (row.stage != StagedElimination::point || independent.cols() == expected) continue;
     double factor = 1.0;
-    Combination origin = normalised_combination(equations, row, factor);
+    Combination origin = normalised_combination(equations, elimination, row, factor);
     VectorXd differential(N);
-    for (Index j = 0; j < N; ++j)
-      differential[j] = factor * static_cast<double>(row.entries[static_cast<std::size_t>(j)]);
+    for (Index j = 0; j < N; ++j) differential[j] = factor * static_cast<double>(row.entries[j]);
     const VectorXd covector = frame.transpose() * differential;
     const VectorXd direction = covector.normalized();
     const VectorXd left = direction - independent * (independent.transpose() * direction);
@@ -243,17 +258,20 @@ void describe(ConstraintLadder& ladder, const JetEquations& equations,
   ladder.determined = determined_unknowns(equations, elimination);
 }
 
-std::string equations_in_words(const JetEquations& equations, const EliminatedRow& row) {
-  std::set<Index> contained;
-  for (Index i = 0; i < std::ssize(row.origin); ++i)
-    if (!row.origin[static_cast<std::size_t>(i)].is_zero())
-      contained.insert(i % equations.row_size());
-  std::vector<std::string> names;
-  for (const Index e : contained)
-    names.push_back(e < equations.system_rows()
-                        ? equations.system().names().equations[static_cast<std::size_t>(e)]
-                        : "the equations of " + equations.system().manifold()->name());
-  return word_list(names);
+std::string equations_in_words(const JetEquations& equations, const StagedElimination& elimination,
+                               const EliminatedRow& row) {
+  constexpr int most = 6;
+  std::string names;
+  int listed = 0;
+  for (const auto& [i, coefficient] : elimination.origin(row)) {
+    if (++listed > most) return names + ", …";
+    const Index e = i % equations.row_size();
+    const std::string name = e < equations.system_rows()
+                                 ? equations.system().names().equations[static_cast<std::size_t>(e)]
+                                 : "the equations of " + equations.system().manifold()->name();
+    names += (names.empty() ? "" : ", ") + time_derivative(name, i / equations.row_size());
+  }
+  return names;
 }
 
 }  // namespace courant

@@ -15,8 +15,7 @@ std::vector<LadderLevel> levels_of(const JetEquations& equations,
 State state_of(const JetEquations& equations, const Jet& jet);
 VectorXd chart_jet(const JetEquations& equations, const Jet& jet);
 
-// Constraints, redundancies, gauge directions, and what is determined. The elimination has origins; the ladder has its
-// levels and its index.
+// Constraints, redundancies, gauge directions, and what is determined. The ladder has its levels and its index.
 void describe(ConstraintLadder& ladder, const JetEquations& equations,
               const StagedElimination& elimination, const Jet& jet);
 
@@ -25,6 +24,7 @@ std::vector<int> differentiations(const JetEquations& equations,
                                   const StagedElimination& elimination, Index index);
 
 // The equations of a combination of rows, by name, for a sentence.
-std::string equations_in_words(const JetEquations& equations, const StagedElimination::Row& row);
+std::string equations_in_words(const JetEquations& equations, const StagedElimination& elimination,
+                               const StagedElimination::Row& row);
 
 }  // namespace courant

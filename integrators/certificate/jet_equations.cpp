@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/core/expressions/expr_vectors.hpp"
@@ -96,8 +97,25 @@ JetEquations::JetEquations(std::shared_ptr<const ImplicitSystem> system)
   constexpr Index time_group = 3;
   values_ = SeriesFunction(inputs, equations, time_group);
   equations_ = SeriesFunction(inputs, joined(equations, derivative.values), time_group);
-  for (std::size_t e = 0; e < derivative.row.size(); ++e)
-    jacobian_.push_back({derivative.row[e], derivative.col[e]});
+  places_.resize(static_cast<std::size_t>(rows_));
+  for (std::size_t e = 0; e < derivative.row.size(); ++e) {
+    std::vector<Place>& row = places_[static_cast<std::size_t>(derivative.row[e])];
+    const auto output = static_cast<Index>(e) + rows_;
+    const Index column = derivative.col[e];
+    const bool of_rate = column >= N_ && column < 2 * N_;
+    const Place place = column < 2 * N_        ? Place{Argument::x, of_rate ? column - N_ : column}
+                        : column < 2 * N_ + m_ ? Place{Argument::z, column - 2 * N_}
+                                               : Place{Argument::t, 0};
+    auto found = std::find_if(row.begin(), row.end(), [&](const Place& other) {
+      return other.argument == place.argument && other.column == place.column;
+    });
+    if (found == row.end()) found = row.insert(row.end(), place);
+    (of_rate ? found->of_rate : found->of_value) = output;
+  }
+  for (std::vector<Place>& row : places_)
+    std::sort(row.begin(), row.end(), [](const Place& a, const Place& b) {
+      return std::pair(a.argument, a.column) < std::pair(b.argument, b.column);
+    });
 }
 
 JetEquations JetEquations::on_side(int side) const {
@@ -106,51 +124,36 @@ JetEquations JetEquations::on_side(int side) const {
   return result;
 }
 
-namespace {
-
-// The column and the coefficient of the series, times a factor, that an entry of the Jacobian of F adds to row block i
-// of level k, for each j; add(row, column, coefficient, factor).
 template <class Add>
-void each_jacobian_term(const JetEquations& of, const JetEquations::Entry& entry, Index k,
-                        const Add& add) {
-  const Index N = of.point_size(), m = of.auxiliary_size();
-  for (Index i = 0; i <= k; ++i) {
-    const Index row = i * of.row_size() + entry.row;
-    if (entry.column == 2 * N + m) {
-      add(row, of.unknown_count(k), i, 1.0);
-      continue;
+void JetEquations::each_place(Index k, const Add& add) const {
+  for (Index i = 0; i <= k; ++i)
+    for (Index r = 0; r < rows_; ++r) {
+      const std::vector<Place>& places = places_[static_cast<std::size_t>(r)];
+      const auto of_argument = [&](Argument argument, Index j) {
+        for (const Place& place : places) {
+          if (place.argument != argument) continue;
+          const bool is_x = argument == Argument::x;
+          if (is_x && !(place.of_value >= 0 && j <= i) && !(place.of_rate >= 0 && j >= 1)) continue;
+          const Index offset = is_x                      ? x_offset(j)
+                               : argument == Argument::z ? z_offset(j)
+                                                         : unknown_count(k);
+          add(i * rows_ + r, offset + place.column, place, i, j);
+        }
+      };
+      of_argument(Argument::x, 0);
+      for (Index j = 0; j <= i; ++j) {
+        of_argument(Argument::x, j + 1);
+        of_argument(Argument::z, j);
+      }
+      of_argument(Argument::t, 0);
     }
-    for (Index j = 0; j <= i; ++j) {
-      if (entry.column < N)
-        add(row, of.x_offset(j) + entry.column, i - j, 1.0);
-      else if (entry.column < 2 * N)
-        add(row, of.x_offset(j + 1) + entry.column - N, i - j, static_cast<double>(j + 1));
-      else
-        add(row, of.z_offset(j) + entry.column - 2 * N, i - j, 1.0);
-    }
-  }
 }
-
-using JacobianPlaces = std::map<std::pair<Index, Index>, std::size_t>;
-
-JacobianPlaces jacobian_places(const JetEquations& of,
-                               const std::vector<JetEquations::Entry>& jacobian, Index k) {
-  JacobianPlaces found;
-  for (const JetEquations::Entry& entry : jacobian)
-    each_jacobian_term(of, entry, k, [&](Index row, Index column, Index, double) {
-      found.try_emplace({row, column}, 0);
-    });
-  std::size_t next = 0;
-  for (auto& [place, number] : found) number = next++;
-  return found;
-}
-
-}  // namespace
 
 std::vector<JetEquations::Entry> JetEquations::pattern(Index k) const {
   std::vector<Entry> result;
-  for (const auto& [place, number] : jacobian_places(*this, jacobian_, k))
-    result.push_back({place.first, place.second});
+  each_place(k, [&](Index row, Index column, const Place&, Index, Index) {
+    result.push_back({row, column});
+  });
   return result;
 }
 
@@ -210,17 +213,18 @@ JetEquations::Values<Number> JetEquations::at(const Number& t, const std::vector
     for (Index e = 0; e < rows_; ++e)
       result.residual[static_cast<std::size_t>(i * rows_ + e)] =
           series[static_cast<std::size_t>(e * (k + 1) + i)];
-  const JacobianPlaces where = jacobian_places(*this, jacobian_, k);
-  result.entries.assign(where.size(), Number(0.0));
-  for (std::size_t e = 0; e < jacobian_.size(); ++e) {
-    const Number* coefficients =
-        series.data() + (static_cast<std::size_t>(rows_) + e) * static_cast<std::size_t>(k + 1);
-    each_jacobian_term(
-        *this, jacobian_[e], k, [&](Index row, Index column, Index i, double factor) {
-          Number& entry = result.entries[where.at({row, column})];
-          entry += factor == 1.0 ? coefficients[i] : Number(factor) * coefficients[i];
-        });
-  }
+  each_place(k, [&](Index, Index, const Place& place, Index i, Index j) {
+    const auto coefficient = [&](Index output, Index order) -> const Number& {
+      return series[static_cast<std::size_t>(output * (k + 1) + order)];
+    };
+    Number entry(0.0);
+    if (place.of_value >= 0 && j <= i) entry = coefficient(place.of_value, i - j);
+    if (place.of_rate >= 0 && j >= 1) {
+      const Number& rate = coefficient(place.of_rate, i - j + 1);
+      entry += j == 1 ? rate : Number(static_cast<double>(j)) * rate;
+    }
+    result.entries.push_back(entry);
+  });
   return result;
 }
 

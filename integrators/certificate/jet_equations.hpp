@@ -1,6 +1,7 @@
 // JetEquations: an implicit system and its time derivatives, on jets in the space around the manifold.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -52,7 +53,8 @@ class JetEquations {
   struct Entry {
     Index row, column;
   };
-  // The places of the Jacobian of level k that are not identically zero, each once; column unknown_count(k) is t.
+  // The places of the Jacobian of level k that are not identically zero, each once, by rows and in a row by columns;
+  // column unknown_count(k) is t.
   std::vector<Entry> pattern(Index k) const;
 
   // F^[k](y), and the entries of its Jacobian at these places, added up as written.
@@ -71,15 +73,27 @@ class JetEquations {
   JetEquations on_side(int side) const;
 
  private:
+  // A place of ∂F/∂(x, ẋ, z, t) by its row: the derivatives of F that it is made of, as numbers among the outputs of
+  // equations_, -1 where they are identically zero. Of z and t `of_value` alone.
+  enum class Argument : std::uint8_t { x, z, t };
+  struct Place {
+    Argument argument;
+    Index column;  // in its argument
+    Index of_value = -1, of_rate = -1;
+  };
+  // add(row, column, place, i, j) for each place of the Jacobian of level k, in the order of pattern().
+  template <class Add>
+  void each_place(Index k, const Add& add) const;
+
   template <class Number>
   bool run(const SeriesFunction& f, const Number& t, const std::vector<Number>& y, Index k,
            std::vector<Number>& out) const;
 
   std::shared_ptr<const ImplicitSystem> system_;
-  SeriesFunction values_;          // (x, ẋ, z, t) ↦ the equations
-  SeriesFunction equations_;       // and their derivatives at the places of jacobian_
-  std::vector<Entry> jacobian_;    // columns: x, ẋ, z, t side by side
-  std::vector<double> constants_;  // a last group of inputs of both
+  SeriesFunction values_;                   // (x, ẋ, z, t) ↦ the equations
+  SeriesFunction equations_;                // and their derivatives at the places of jacobian_
+  std::vector<std::vector<Place>> places_;  // by row of F: those of x, of z, of t
+  std::vector<double> constants_;           // a last group of inputs of both
   std::vector<Digits> written_constants_;
   Index N_, m_, rows_ = 0;
   bool of_time_ = false;

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "courant/core/linear/complete_orthogonal_decomposition.hpp"
-#include "courant/integrators/certificate/binary_scales.hpp"
+#include "courant/integrators/certificate/least_solution.hpp"
 
 namespace courant {
 namespace {
@@ -36,19 +37,23 @@ constexpr std::int64_t rounding_exponent = -43;
 // they would be all that it has. What they were the next step corrects.
 constexpr double noise_of_step = 1e-13;
 
-// Rows and columns scaled_part so that they are alike: 2^row A 2^column.
-MatrixXd scaled_part(const std::vector<JetEquations::Entry>& places,
-                     const std::vector<Digits>& entries, const BinaryScales& scales,
-                     const FreeColumns& part) {
-  MatrixXd A = MatrixXd::Zero(std::ssize(scales.row), std::ssize(part.unknown));
+// Rows and columns scaled so that they are alike: 2^row A 2^column.
+SparseMatrixXd scaled_part(const std::vector<JetEquations::Entry>& places,
+                           const std::vector<Digits>& entries, const BinaryScales& scales,
+                           const FreeColumns& part) {
+  std::vector<Eigen::Triplet<double>> triplets;
+  triplets.reserve(places.size());
   for (std::size_t e = 0; e < places.size(); ++e) {
     const auto unknown = static_cast<std::size_t>(places[e].column);
-    if (unknown >= part.column.size() || part.column[unknown] < 0) continue;
-    const Digits entry = entries[e].times_power_of_two(
-        scales.row[static_cast<std::size_t>(places[e].row)] + scales.column[unknown]);
-    if (!entry.is_zero() && entry.exponent() > rounding_exponent)
-      A(places[e].row, part.column[unknown]) = static_cast<double>(entry);
+    if (unknown >= part.column.size() || part.column[unknown] < 0 || entries[e].is_zero()) continue;
+    const std::int64_t scale =
+        scales.row[static_cast<std::size_t>(places[e].row)] + scales.column[unknown];
+    if (entries[e].exponent() + scale > rounding_exponent)
+      triplets.emplace_back(static_cast<int>(places[e].row), static_cast<int>(part.column[unknown]),
+                            static_cast<double>(entries[e].times_power_of_two(scale)));
   }
+  SparseMatrixXd A(std::ssize(scales.row), std::ssize(part.unknown));
+  A.setFromTriplets(triplets.begin(), triplets.end());
   return A;
 }
 
@@ -58,8 +63,24 @@ double size_of_unknown(const Jet& jet, const BinaryScales& scales, std::size_t j
                   std::fabs(static_cast<double>(jet.y[j].times_power_of_two(-scales.column[j]))));
 }
 
-// Pivots below this, of the largest, are not divided by where a search goes on in doubles.
-constexpr double negligible_pivot = 1e-11;
+// Up to as many unknowns Newton's method in Digits, and least squares, whose matrices are dense.
+constexpr std::size_t most_dense = 200;
+
+// Whether the unknowns that are held are, but for the rounding of doubles, what they were.
+bool are_rounded(const Jet& jet, const Jet& start, const std::vector<bool>& held) {
+  constexpr double rounding = 1e-14;
+  double largest = 0.0, change = 0.0;
+  for (std::size_t j = 0; j < held.size(); ++j) {
+    if (!held[j]) continue;
+    largest = std::max(largest, std::fabs(static_cast<double>(start.y[j])));
+    change = std::max(change, std::fabs(static_cast<double>(jet.y[j] - start.y[j])));
+  }
+  return change <= rounding * largest;
+}
+
+// What is left of a zero in the fine digits, next to the terms of an equation: where a search ends earlier what depends on
+// it shrinks by hardly as much as a zero has to.
+constexpr double deep = 0x1p-200;
 
 }  // namespace
 
@@ -151,26 +172,51 @@ Jet NearestJet::jet_of(const ConsistentJet& rough, Index k) const {
   return jet;
 }
 
-// What a jet of the level below, with zeros for what is new, becomes if what is given of x stays: higher coefficients are
-// in the equations to the first power, so that nothing has to be searched.
+// What a jet of the level below, with zeros for what is new, becomes if x stays, or what is given of it: higher
+// coefficients are in the equations to the first power, so that nothing has to be searched.
 NearestJet::Found NearestJet::continued(Index k) const {
   Jet jet = before_;
   jet.k = k;
   jet.y.resize(static_cast<std::size_t>(equations_.unknown_count(k)));
-  std::vector<bool> stays = held_unknowns(k);
-  for (Index j = 0; j < equations_.point_size(); ++j)
-    if (metric_.size() == 0 || metric_(j, j) != 0.0) stays[static_cast<std::size_t>(j)] = true;
+  const Index N = equations_.point_size();
+  std::vector<bool> given = held_unknowns(k);
+  for (Index j = 0; j < N; ++j)
+    if (metric_.size() == 0 || metric_.coeff(j, j) != 0.0)
+      given[static_cast<std::size_t>(j)] = true;
+  std::vector<bool> all = given;
+  std::fill_n(all.begin(), N, true);
   const auto at = equations_.at(jet.t, jet.y, k);
   Found found{.jet = jet};
   if (!are_all_finite(at.residual) || !are_all_finite(at.entries)) return found;
-  for (const bool by_sizes : {true, false}) {
-    BinaryScales scales(equations_, k);
-    const std::vector<JetEquations::Entry> places = equations_.pattern(k);
-    by_sizes ? scales.update(places, at.entries, jet) : scales.update(places, at.entries);
-    found = refined(jet, stays, scales);
-    if (found.is_zero) return tidied(found, stays, scales);
-  }
+  const std::vector<JetEquations::Entry> places = equations_.pattern(k);
+  for (const bool with_digits : {false, true})
+    for (const std::vector<bool>& stays : {all, given}) {
+      for (const bool by_sizes : {true, false}) {
+        BinaryScales scales(equations_, k);
+        by_sizes ? scales.update(places, at.entries, jet) : scales.update(places, at.entries);
+        found = refined(jet, stays, scales, with_digits);
+        if (found.is_zero && keeps_velocities(found.jet)) return tidied(found, stays, scales);
+      }
+      if (all == given) break;
+    }
+  found.is_zero = false;
   return found;
+}
+
+// Whether velocities that are held are what was given, on manifolds where they are no unknowns of a jet.
+bool NearestJet::keeps_velocities(const Jet& jet) const {
+  constexpr double rounding = 1e-12;
+  const Manifold& M = *equations_.system().manifold();
+  if (guess_.hold_v.empty() || M.has_identity_frame()) return true;
+  const Index N = equations_.point_size();
+  VectorXd y(2 * N);
+  for (Index j = 0; j < y.size(); ++j)
+    y[j] = static_cast<double>(jet.y[static_cast<std::size_t>(j)]);
+  const VectorXd v = M.coframe(VectorXd(y.head(N))) * VectorXd(y.tail(N));
+  const double most =
+      rounding * std::max(guess_.v.lpNorm<Eigen::Infinity>(), v.lpNorm<Eigen::Infinity>());
+  return std::all_of(guess_.hold_v.begin(), guess_.hold_v.end(),
+                     [&](Index i) { return std::fabs(v[i] - guess_.v[i]) <= most; });
 }
 
 NearestJet::Found NearestJet::find(Index k) {
@@ -181,6 +227,12 @@ NearestJet::Found NearestJet::find(Index k) {
 }
 
 NearestJet::Found NearestJet::searched(Index k) {
+  // The nearest zero is found level by level, also where those below needed no search.
+  for (; next_level_ < k; ++next_level_) {
+    ConsistentJet below = rough_search_.find(rough_.at_level(next_level_));
+    if (below.zero().found) rough_ = std::move(below);
+  }
+  next_level_ = k + 1;
   rough_ = rough_.at_level(k);
   const ConsistentJet next = rough_search_.find(rough_);
   Found found{.jet = jet_of(next.zero().y.size() == rough_.zero().y.size() ? next : rough_, k)};
@@ -209,12 +261,20 @@ NearestJet::Found NearestJet::searched(Index k) {
       if (found.is_zero) return tidied(found, stays, scales);
       if (unmoved == held) break;
     }
+    // Doubles that are held are as exact as they are.
+    const std::vector<bool> free(held.size(), false);
+    if (held == free) continue;
+    Found moved = refined(start, free, scales);
+    if (moved.is_zero && are_rounded(moved.jet, start, held)) {
+      moved.was_near = true;
+      return tidied(moved, held, scales);
+    }
   }
   return found;
 }
 
-NearestJet::Found NearestJet::refined(Jet jet, const std::vector<bool>& stays,
-                                      BinaryScales scales) const {
+NearestJet::Found NearestJet::refined(Jet jet, const std::vector<bool>& stays, BinaryScales scales,
+                                      bool with_digits) const {
   // Each precision ends where its own digits do: going on, the coarse part of an unknown that is zero would fall as
   // far as the fine one, and would not tell.
   constexpr int most_steps = 40;
@@ -228,8 +288,26 @@ NearestJet::Found NearestJet::refined(Jet jet, const std::vector<bool>& stays,
   FreeColumns part(equations_.unknown_count(k));
   for (std::size_t j = 0; j < stays.size(); ++j)
     if (!stays[j]) part.add(static_cast<Index>(j));
-  const CompleteOrthogonalDecomposition inverse(scaled_part(places, at.entries, scales, part),
-                                                negligible_pivot);
+  const auto residual_of = [&](const std::vector<Digits>& F) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < F.size(); ++i)
+      largest =
+          std::max(largest, std::fabs(static_cast<double>(F[i].times_power_of_two(scales.row[i]))));
+    return largest;
+  };
+  // An equation that nothing that is free stands in stays as it is.
+  std::vector<bool> is_open(at.residual.size(), false);
+  for (const JetEquations::Entry& place : places) {
+    const auto unknown = static_cast<std::size_t>(place.column);
+    if (unknown < part.column.size() && part.column[unknown] >= 0)
+      is_open[static_cast<std::size_t>(place.row)] = true;
+  }
+  for (std::size_t i = 0; i < is_open.size(); ++i)
+    if (!is_open[i] && !at.residual[i].shrinks()) {
+      found.residual = residual_of(at.residual);
+      return found;
+    }
+  const LeastSolution inverse(scaled_part(places, at.entries, scales, part));
   std::vector<Digits> F = at.residual;
   double before = -1.0;
   for (int step = 0; step < most_steps; ++step) {
@@ -263,10 +341,9 @@ NearestJet::Found NearestJet::refined(Jet jet, const std::vector<bool>& stays,
   found.jet = jet;
   found.is_zero =
       std::all_of(F.begin(), F.end(), [](const Digits& a) { return a.is_finite() && a.shrinks(); });
-  for (std::size_t i = 0; i < F.size(); ++i)
-    found.residual = std::max(
-        found.residual, std::fabs(static_cast<double>(F[i].times_power_of_two(scales.row[i]))));
-  if (found.is_zero) return found;
+  found.residual = residual_of(F);
+  const bool is_deep = found.is_zero && found.residual <= deep;
+  if (is_deep || !with_digits || part.unknown.size() > most_dense) return found;
   Found by_newton = newton(found.jet, stays, scales);
   return by_newton.is_zero ? by_newton : found;
 }
@@ -291,6 +368,7 @@ bool NearestJet::is_least_residual(Index k) const {
   constexpr int most_steps = 200;
   constexpr double flat = 1e-7, small = 1e-6;
   const Index size = equations_.unknown_count(k);
+  if (size > static_cast<Index>(most_dense)) return false;
   Jet jet = before_;
   jet.k = k;
   jet.y.resize(static_cast<std::size_t>(size));
@@ -358,6 +436,7 @@ NearestJet::Found NearestJet::newton(Jet jet, const std::vector<bool>& stays,
                                      BinaryScales scales) const {
   constexpr int most_steps = 14;
   constexpr std::int64_t negligible_row = -64, coarse_end = -90, fine_end = -240;
+  std::int64_t before = std::numeric_limits<std::int64_t>::max(), left_before = before;
   const Index k = jet.k;
   const std::vector<JetEquations::Entry> places = equations_.pattern(k);
   Found found{.jet = jet};
@@ -418,6 +497,13 @@ NearestJet::Found NearestJet::newton(Jet jet, const std::vector<bool>& stays,
         subtract_multiple(&right[i], factor, &right[best], 1);
       }
     }
+    // What dependent rows leave falls like the square of the error next to a zero.
+    constexpr std::int64_t much_less = 4;
+    std::int64_t left = fine_end;
+    for (std::size_t i = 0; i < row_count; ++i)
+      if (!done[i] && !right[i].is_zero()) left = std::max(left, right[i].exponent());
+    if (left > fine_end && step > 2 && left > left_before - much_less) break;
+    left_before = left;
     std::int64_t length = fine_end;
     for (std::size_t c = 0; c < columns; ++c)
       if (!change[c].is_zero() && change[c].is_finite())
@@ -429,6 +515,9 @@ NearestJet::Found NearestJet::newton(Jet jet, const std::vector<bool>& stays,
       const Digits d = change[c].times_power_of_two(scales.column[j]);
       jet.y[j] += length > coarse_end ? d : d.fine_alone();
     }
+    // The error is not squared, nor halved.
+    if (length > fine_end && step > 2 && length >= before) break;
+    before = length;
     if (length > fine_end) continue;
     const std::vector<Digits> F = equations_.residual(jet.t, jet.y, k);
     settle_unknowns(jet);

@@ -44,10 +44,13 @@ class NearestJet {
 
  private:
   Found continued(Index k) const;
+  bool keeps_velocities(const Jet& jet) const;
   Found searched(Index k);
   Jet jet_of(const ConsistentJet& rough, Index k) const;
   std::vector<bool> held_unknowns(Index k) const;
-  Found refined(Jet jet, const std::vector<bool>& stays, BinaryScales scales) const;
+  // `with_digits`: by Newton's method in Digits where steps in doubles do not end at a zero.
+  Found refined(Jet jet, const std::vector<bool>& stays, BinaryScales scales,
+                bool with_digits = true) const;
   Found newton(Jet jet, const std::vector<bool>& stays, BinaryScales scales) const;
   // The same zero with 0 for what is open and was left by rounding, where that is one.
   Found tidied(const Found& found, std::vector<bool> stays, const BinaryScales& scales) const;
@@ -56,7 +59,8 @@ class NearestJet {
   InitialGuess guess_;
   ConsistentPoint rough_search_;
   ConsistentJet rough_;
-  MatrixXd metric_;  // W; empty for 1
+  Index next_level_ = 0;   // that rough_search_ has not looked at
+  SparseMatrixXd metric_;  // W; empty for 1
   std::vector<Digits> given_x_;
   Jet before_;  // the last that was found
 };

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "courant/core/linear/complete_orthogonal_decomposition.hpp"
 #include "courant/integrators/certificate/binary_scales.hpp"
+#include "courant/integrators/certificate/least_solution.hpp"
 
 namespace courant {
 namespace {
@@ -21,8 +20,7 @@ bool have_same_ranks(const StagedElimination& a, const StagedElimination& b, Ind
 }  // namespace
 
 Neighbourhood::Neighbourhood(const JetEquations& equations, const NearestJet& nearest,
-                             const Jet& jet, const StagedElimination& here, int looks)
-    : distance_(std::numeric_limits<double>::infinity()) {
+                             const Jet& jet, const StagedElimination& here, int looks) {
   const Index k = jet.k, unknown_count = equations.unknown_count(k);
   const std::vector<JetEquations::Entry> places = equations.pattern(k);
   const auto at = equations.at(jet.t, jet.y, k);
@@ -34,21 +32,26 @@ Neighbourhood::Neighbourhood(const JetEquations& equations, const NearestJet& ne
     by_sizes ? scales.update(places, at.entries, jet) : scales.update(places, at.entries);
     // With time, which moves where the equations let it.
     const Index columns = unknown_count + (equations.depends_on_time() ? 1 : 0);
-    MatrixXd A = MatrixXd::Zero(equations.row_count(k), columns);
+    std::vector<Eigen::Triplet<double>> triplets;
     for (std::size_t e = 0; e < places.size(); ++e) {
       const auto [i, j] = places[e];
-      if (j == columns) continue;
-      A(i, j) = static_cast<double>(at.entries[e].times_power_of_two(
-          scales.row[static_cast<std::size_t>(i)] + scales.column[static_cast<std::size_t>(j)]));
+      if (j == columns || at.entries[e].is_zero()) continue;
+      triplets.emplace_back(static_cast<int>(i), static_cast<int>(j),
+                            static_cast<double>(at.entries[e].times_power_of_two(
+                                scales.row[static_cast<std::size_t>(i)] +
+                                scales.column[static_cast<std::size_t>(j)])));
     }
-    const CompleteOrthogonalDecomposition inverse(A, 1e-11);
+    SparseMatrixXd A(equations.row_count(k), columns);
+    A.setFromTriplets(triplets.begin(), triplets.end());
+    const LeastSolution inverse(A);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     for (const int away : {kAway, 2 * kAway}) {
       if (away != kAway && !is_singular()) break;
       for (int i = 0; i < looks; ++i) {
         VectorXd direction(columns);
         for (double& entry : direction) entry = uniform(generator);
-        for (int again = 0; again < 2; ++again) direction -= inverse.solve(A * direction).col(0);
+        for (int again = 0; again < 2; ++again)
+          direction -= inverse.solve(MatrixXd(A * direction)).col(0);
         Jet there = jet;
         for (Index j = 0; j < columns; ++j) {
           if (std::fabs(direction[j]) <= 1e-13) continue;
@@ -58,11 +61,10 @@ Neighbourhood::Neighbourhood(const JetEquations& equations, const NearestJet& ne
         }
         const NearestJet::Found found = nearest.find_displaced(there, scales);
         const auto values = equations.at(found.jet.t, found.jet.y, k);
-        StagedElimination elimination(equations, values, found.jet, true);
+        StagedElimination elimination(equations, values, found.jet);
         looks_.push_back({.jet = found.jet,
                           .is_zero = found.is_zero,
                           .has_same_ranks = found.is_zero && have_same_ranks(here, elimination, k),
-                          .smallest_pivot = elimination.smallest_pivot(),
                           .elimination = std::move(elimination)});
       }
     }

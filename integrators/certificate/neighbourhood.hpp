@@ -16,9 +16,8 @@ class Neighbourhood {
  public:
   struct Look {
     Jet jet;
-    bool is_zero = false;             // Newton's method came back, and squared its error
-    bool has_same_ranks = false;      // as the point itself, at all levels
-    std::int64_t smallest_pivot = 0;  // of the elimination there
+    bool is_zero = false;         // Newton's method came back, and squared its error
+    bool has_same_ranks = false;  // as the point itself, at all levels
     StagedElimination elimination;
   };
 
@@ -31,13 +30,8 @@ class Neighbourhood {
   bool is_divided() const;      // some have and some have not
   bool is_transversal() const;  // some look came back
 
-  // How far away, next to the size of the unknowns, the smallest pivot vanishes, if it goes on as it does from look
-  // to look; infinite if it does not change.
-  double distance_to_singular() const { return distance_; }
-
  private:
   std::vector<Look> looks_;
-  double distance_;
 };
 
 }  // namespace courant

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "courant/integrators/certificate/jet_equations.hpp"
+#include "courant/integrators/certificate/sparse_row.hpp"
 
 namespace courant {
 
@@ -21,11 +22,12 @@ namespace courant {
 //   dim S_l = 2N - r_velocities - r_point,   dim M_l = N - r_point                 (of an instant, where t is one)
 //
 // A row with a pivot in `point` is the differential of a constraint, a row of which nothing is left a
-// dependence; `origin` says of which equations. If its residual is not zero the equations
+// dependence; origin() says of which equations. If its residual is not zero the equations
 // contradict each other at this point, to first order.
 //
-// Entries that shrink are zero (Digits); pivots are chosen by powers of two that make rows and columns alike, which
-// decide nothing.
+// Entries that shrink are zero (Digits); pivots are chosen by powers of two that make rows and columns alike, and by
+// what they leave of rows that are nearly empty, which decides nothing. Rows are sparse: a chain takes a time in
+// proportion to its length, but for the choice of pivots.
 class StagedElimination {
  public:
   enum Stage : std::uint8_t { jets, unknowns, velocities, point, dependent };
@@ -34,35 +36,39 @@ class StagedElimination {
   struct Row {
     Index level = 0;
     Stage stage = dependent;
-    Index pivot = -1;             // column
-    std::vector<Digits> entries;  // by column
-    Digits residual;              // of the same combination of equations
-    std::vector<Digits> origin;   // coefficients, by row of F^[k]; empty if not asked for
+    Index pivot = -1;   // column
+    SparseRow entries;  // by column
+    Digits residual;    // of the same combination of equations
+    // What it was made by: row `source` of F^[k], and less `factor` times these of rows().
+    Index source = -1;
+    struct Step {
+      std::size_t row;
+      Digits factor;
+    };
+    std::vector<Step> steps;
   };
 
   StagedElimination(const JetEquations& equations, const JetEquations::Values<Digits>& values,
-                    const Jet& jet, bool with_origins);
+                    const Jet& jet);
 
   const std::vector<Row>& rows() const { return rows_; }  // in the order in which they were found
-  Index count(Stage stage, Index level) const;            // of rows of levels ≤ level
+  // The combination of rows of F^[k] that one of rows() is: coefficients, by row.
+  SparseRow origin(const Row& row) const;
+  Index count(Stage stage, Index level) const;  // of rows of levels ≤ level
 
   Index dim_S(Index level) const { return dim_M(level) + size_ - count(velocities, level); }
   Index dim_M(Index level) const { return size_ - count(point, level); }
 
-  // The exponent of two of the smallest pivot next to the largest possible one, 0 or less: what would have to
-  // change for another rank.
-  std::int64_t smallest_pivot() const { return smallest_pivot_; }
-
  private:
+  class Block;
   void reduce(Row& row) const;
-  void find_pivots(std::vector<Row>& block, Index level);
-  Stage stage_of(Index column) const { return stages_[static_cast<std::size_t>(column)]; }
+  void subtract(Row& row, std::size_t pivot, std::vector<Index>& filled) const;
 
   Index size_;  // N
   std::vector<Stage> stages_;
   std::vector<std::int64_t> column_scale_;
   std::vector<Row> rows_;
-  std::int64_t smallest_pivot_ = 0;
+  std::vector<std::size_t> row_of_pivot_;  // by column; no_row
 };
 
 }  // namespace courant

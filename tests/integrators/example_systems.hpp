@@ -6,7 +6,7 @@
 #include <random>
 #include <string>
 
-#include "courant/integrators/certificate/constraint_algorithm.hpp"
+#include "courant/integrators/certificate/certificate.hpp"
 #include "courant/structures/implicit_system.hpp"
 
 namespace courant::examples {
@@ -39,7 +39,7 @@ struct Problem {
   MatrixXd metric = MatrixXd();
 
   ConstraintLadder ladder() const {
-    return ConstraintAlgorithm({.metric = metric.sparseView()}).run(system, guess);
+    return certificate(system, guess, {.metric = metric.sparseView()});
   }
 };
 

@@ -1,5 +1,7 @@
 // The certificate that decides in two precisions: the catalogue, in other orders, coordinates and units that are
 // far apart, and what bounds of errors in doubles get wrong.
+#include "courant/integrators/certificate/certificate_in_digits.hpp"
+
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
@@ -7,6 +9,11 @@
 #include "courant/integrators/certificate/certificate.hpp"
 #include "ladder_catalogue.hpp"
 
+// Mistakes that these cases have to notice:
+//  * numbers that are held are held to digits that a double does not have (integrators/certificate/nearest_jet.cpp)
+//  * what nobody gave moves where it need not (integrators/certificate/nearest_jet.cpp)
+//  * a switch is doubted whose sides are the same (integrators/certificate/certificate_in_digits.cpp)
+//  * an unknown that rounding left decides a rank without a word (integrators/certificate/binary_scales.cpp)
 BOOST_AUTO_TEST_SUITE(certificate_in_digits_test)
 
 using namespace courant;
@@ -18,8 +25,8 @@ using V = const ExprVector&;
 using T = const Expr&;
 
 Certificate in_digits(const Problem& problem) {
-  return constraint_ladder(problem.system, problem.guess, {.metric = problem.metric.sparseView()},
-                           Decider::digits);
+  return certificate_in_digits(JetEquations(problem.system), problem.guess,
+                               {.metric = problem.metric.sparseView()});
 }
 
 void check_known(const KnownLadder& known, const Certificate& found) {
@@ -122,6 +129,8 @@ BOOST_AUTO_TEST_CASE(what_holds_at_an_instant_only_is_inconsistent) {
   const Certificate found = certificate(system, at({0, 1}));
   BOOST_TEST(to_string(found.verdict) == "inconsistent");
   BOOST_TEST(!found.is_ambiguous());
+  BOOST_TEST(found.reason.find("at this instant") != std::string::npos, found.reason);
+  BOOST_TEST(found.levels.back().is_empty);
 }
 
 BOOST_AUTO_TEST_CASE(a_residual_that_stays_is_inconsistent) {
@@ -146,6 +155,55 @@ BOOST_AUTO_TEST_CASE(a_switch_at_its_edge_is_doubted_and_says_both_sides) {
   BOOST_TEST(to_string(at_rest.doubts[0].kind) == "switch");
   BOOST_TEST(at_rest.doubts[0].text.find("above the edge") != std::string::npos);
   BOOST_TEST(!certificate(friction, at({0, 1})).is_ambiguous());
+}
+
+// x |x| bends at 0 in its second derivative alone.
+BOOST_AUTO_TEST_CASE(a_switch_whose_sides_are_the_same_is_none) {
+  const auto smooth =
+      flat(1, 0, 1, [](V x, V v, V, T) { return equations({v[0] - x[0] * abs(x[0])}); });
+  check_known({"smooth", {}, {{1, 1}, {1, 1}}, Verdict::regular, 0}, certificate(smooth, at({0})));
+}
+
+// The cosine and the sine of 0.4 are on the circle as far as doubles are, and are held.
+BOOST_AUTO_TEST_CASE(doubles_that_are_held_are_as_exact_as_they_are) {
+  InitialGuess guess = at({std::cos(0.4), -std::sin(0.4), 0, 0});
+  guess.hold_x = {0, 1, 2, 3};
+  const Certificate found = certificate_in_digits(JetEquations(cartesian_pendulum()), guess);
+  check_known({"pendulum", {}, {{4, 3}, {3, 2}, {2, 2}, {2, 2}}, Verdict::regular, 2}, found);
+  BOOST_TEST(found.moves.empty());
+}
+
+// Of x' = y, y' = -x only x is given: y stays 0, though x' could give way as well.
+BOOST_AUTO_TEST_CASE(what_nobody_gave_stays_if_it_can) {
+  const auto oscillator = flat(2, 0, 2, [](V x, V v, V, T) {
+    return equations({v[0] - x[1], v[1] + x[0]});
+  });
+  MatrixXd given = MatrixXd::Zero(2, 2);
+  given(0, 0) = 1.0;
+  InitialGuess guess = at({1, 0});
+  guess.v = VectorXd{{0.3, 0.0}};
+  const Certificate found =
+      certificate_in_digits(JetEquations(oscillator), guess, {.metric = given.sparseView()});
+  BOOST_TEST(found.point.x[0] == 1.0);
+  BOOST_TEST(found.point.x[1] == 0.0);
+}
+
+// x' + f_1 = 0 with f of a chain of springs sinh(f_i) in 300 pieces: one solution through each x.
+BOOST_AUTO_TEST_CASE(long_chains_with_exponentials) {
+  constexpr Index n = 300;
+  const auto chain = flat(1, n, n + 1, [](V x, V v, V z, T) {
+    ExprVector F(n + 1);
+    const double stiffness = static_cast<double>(n * n);
+    F[n] = v[0] + z[0];
+    for (Index i = 0; i < n; ++i) {
+      const Expr before = i == 0 ? Expr(0.0) : z[i - 1], after = i == n - 1 ? z[i] : z[i + 1];
+      F[i] = (before - 2 * z[i] + after) * stiffness - sinh(z[i]);
+    }
+    F[0] += x[0];
+    return F;
+  });
+  check_known({"chain", {}, {{1, 1}, {1, 1}}, Verdict::regular, 0},
+              certificate(chain, at({1}), {}, Decider::digits));
 }
 
 // Twice (sin² + cos² - 1) is no term, and a third of a coordinate is one.

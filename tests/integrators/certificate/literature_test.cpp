@@ -32,7 +32,7 @@ bool is_right(const ConstraintLadder& ladder, Verdict verdict, const Dimensions&
 
 void check(const std::string& name, const SystemPointer& system, const InitialGuess& guess,
            Verdict verdict, const Dimensions& expected) {
-  const ConstraintLadder ladder = ConstraintAlgorithm().run(system, guess);
+  const ConstraintLadder ladder = certificate(system, guess);
   BOOST_TEST_CONTEXT(name << ": " << ladder.reason) {
     BOOST_TEST(to_string(ladder.verdict) == to_string(verdict));
     BOOST_TEST(is_right(ladder, verdict, expected));
@@ -113,7 +113,7 @@ BOOST_AUTO_TEST_CASE(transistor_amplifier) {
   });
   const Dimensions expected = {{8, 5}, {5, 5}, {5, 5}};
   check("as published", amplifier, at({0, 3, 3, 6, 3, 3, 6, 0}), Verdict::regular, expected);
-  const ConstraintLadder far = ConstraintAlgorithm().run(amplifier, zeros(8));
+  const ConstraintLadder far = certificate(amplifier, zeros(8));
   BOOST_TEST((is_right(far, Verdict::regular, expected) || far.is_ambiguous()));
 }
 
@@ -133,7 +133,7 @@ BOOST_AUTO_TEST_CASE(an_impasse_is_not_called_regular) {
   const auto fold = flat(2, 0, 2, [](V x, V v, V, T) {
     return equations({v[0] - x[1], x[0] - square(x[1]) * x[1] / 3 + x[1]});
   });
-  const ConstraintLadder at_fold = ConstraintAlgorithm().run(fold, at({-2.0 / 3, 1}));
+  const ConstraintLadder at_fold = certificate(fold, at({-2.0 / 3, 1}));
   BOOST_TEST((at_fold.verdict != Verdict::regular || at_fold.is_ambiguous()));
   check("before it", fold, at({0, 0.5}), Verdict::regular, {{2, 1}, {1, 1}, {1, 1}});
 }
@@ -199,7 +199,7 @@ BOOST_AUTO_TEST_CASE(a_flux_behind_a_diode_stays) {
     return equations({v[0] + current, v[1] - x[0] / 1e-6 + z[0],
                       1e-9 * (exp(z[0] / 0.025852) - 1.0) + 1e-4 * z[0] - current});
   });
-  const ConstraintLadder ladder = ConstraintAlgorithm().run(circuit, at({1e-5, 1e-4}));
+  const ConstraintLadder ladder = certificate(circuit, at({1e-5, 1e-4}));
   BOOST_TEST(is_right(ladder, Verdict::regular, {{2, 2}, {2, 2}}));
   BOOST_TEST(ladder.point.x[1] == 1e-4);
 }
@@ -241,8 +241,8 @@ BOOST_AUTO_TEST_CASE(a_crane_from_rest) {
   InitialGuess moving = at({0.1, 0.6, 0, 0, 4, 0, 4, 0});
   moving.t = 0.3;
   check("moving", crane, moving, Verdict::regular, expected);
-  const ConstraintLadder rest = ConstraintAlgorithm().run(crane, at({0, 0, 0, 0, 4, 0, 4, 0}));
-  const ConstraintLadder later = ConstraintAlgorithm().run(crane, moving);
+  const ConstraintLadder rest = certificate(crane, at({0, 0, 0, 0, 4, 0, 4, 0}));
+  const ConstraintLadder later = certificate(crane, moving);
   BOOST_TEST(rest.differentiations[6] == 2);  // of the tension
   BOOST_TEST(rest.differentiations == later.differentiations, boost::test_tools::per_element());
 }
