@@ -1,11 +1,11 @@
-#include "courant/reading/netlist_circuit.hpp"
+#include "courant/reading/netlist_circuit_reader.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <string>
 
 // Mistakes that these cases have to notice:
 //  * an instance has the parameters of the one before
-BOOST_AUTO_TEST_SUITE(netlist_circuit)
+BOOST_AUTO_TEST_SUITE(netlist_circuit_reader_test)
 
 using namespace courant;
 using namespace courant::netlist;
