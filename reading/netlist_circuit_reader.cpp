@@ -1,6 +1,7 @@
 #include "courant/reading/netlist_circuit_reader.hpp"
 
 #include <algorithm>
+#include <string_view>
 #include <tuple>
 
 namespace courant::netlist {
@@ -167,10 +168,30 @@ void CircuitReader::add_element(const Part& part, const Line& line, const std::s
       throw LineError{line.number,
                       std::string("only linear sources are supported; expected ") + expected};
   };
+  if (std::string_view("rcdi").find(type) != std::string_view::npos) {
+    const auto [from, to] = nodes(1);
+    if (from == to) {
+      circuit_.notes.emplace_back(line.number, named.name + " is passed over: both its ends are " +
+                                                   "at the node " + card.words[1]);
+      return;
+    }
+  }
   switch (type) {
     case 'r':
     case 'c':
     case 'l': {
+      if (type == 'r' && depends_on_circuit(card)) {
+        element["type"] = "resistor";
+        fixed.kind = StaticElement::Kind::current;
+        between();
+        const std::string resistance =
+            behaviour_of(card.words.size() > 3 ? card.words[3] : *card.value("r"), scope, prefix,
+                         map, line.number);
+        law_of(element, fixed, difference(fixed.from, fixed.to) + "/(" + resistance + ")", prefix,
+               line.number);
+        element["value"] = resistance;
+        break;
+      }
       element["type"] = type == 'r' ? "resistor" : type == 'c' ? "capacitor" : "inductor";
       fixed.kind = type == 'r'   ? StaticElement::Kind::resistor
                    : type == 'c' ? StaticElement::Kind::capacitor
@@ -228,6 +249,10 @@ void CircuitReader::add_element(const Part& part, const Line& line, const std::s
     }
     case 'd':
       return add_diode(card, part, prefix, map, scope);
+    case 'q':
+      return add_bipolar(card, part, prefix, map, scope);
+    case 'm':
+      return add_mos(card, part, prefix, map, scope);
     case 's':
     case 'w':
       return add_switch(card, part, prefix, map, scope);
@@ -276,18 +301,44 @@ void CircuitReader::add_element(const Part& part, const Line& line, const std::s
     default:
       throw LineError{line.number, "the element " + line.written[0] +
                                        " is not supported; expected R, L, C, V, I, K, D, E, F, "
-                                       "G, H, B, S, W or X"};
+                                       "G, H, B, S, W, Q, M or X"};
   }
   named.element = put(element, fixed, line.number);
 }
 
-std::size_t CircuitReader::put(const Json& element, const StaticElement& fixed, int line) {
+std::size_t CircuitReader::add_static(const StaticElement& fixed, const std::string& name,
+                                      int line) {
   circuit_.fixed.elements.push_back(fixed);
-  circuit_.names.push_back(element["name"].get<std::string>());
+  circuit_.names.push_back(name);
   circuit_.lines.push_back(line);
+  return circuit_.fixed.elements.size() - 1;
+}
+
+std::size_t CircuitReader::put(const Json& element, const StaticElement& fixed, int line) {
   circuit_.elements.push_back(element);
   circuit_.element_lines.push_back(line);
-  return circuit_.fixed.elements.size() - 1;
+  return add_static(fixed, element["name"].get<std::string>(), line);
+}
+
+std::string CircuitReader::size_by_geometry(const Card& card, const std::string& key,
+                                            const UsedModel& used, const Scope& scope) {
+  const int line = card.line->number;
+  const auto side = [&](const char* name, const char* otherwise) {
+    const auto given = card.value(name);
+    const std::string size = given ? formula(*given, scope, line) : used.formula(otherwise, "0");
+    return "(" + size + " - " + used.formula("narrow", "0") + ")";
+  };
+  const auto is_given = [&](const char* name) { return used.model->values.contains(name); };
+  const bool has_length = card.value("l") || is_given("defl");
+  if (key == "r" && is_given("rsh") && has_length && (card.value("w") || is_given("defw")))
+    return "(" + used.formula("rsh", "0") + ")*" + side("l", "defl") + "/" + side("w", "defw");
+  if (key == "c" && (is_given("cj") || is_given("cjsw")) && has_length &&
+      (card.value("w") || is_given("defw"))) {
+    const std::string l = side("l", "defl"), w = side("w", "defw");
+    return "((" + used.formula("cj", "0") + ")*" + l + "*" + w + " + 2*(" +
+           used.formula("cjsw", "0") + ")*(" + l + " + " + w + "))";
+  }
+  throw LineError{line, "has a model without a value of its own; expected a number"};
 }
 
 std::string CircuitReader::size_of(const Card& card, const std::string& key, const Part& part,
@@ -313,14 +364,18 @@ std::string CircuitReader::size_of(const Card& card, const std::string& key, con
                                        : key == "c" ? "cap"
                                                     : "ind"},
                                  part, scope, line);
-    const std::string name = key == "r" ? "r" : key == "c" ? "c" : "l";
-    if (card.value(key))
+    if (card.words.size() > 4) {  // the value behind its model
+      size = formula(card.words[4], scope, line);
+      words = 5;
+    } else if (card.value(key)) {
       size = formula(*card.value(key), scope, line);
-    else if (used.model->values.contains(name))
-      size = used.formula(name, "0");
-    else
-      throw LineError{line, "has a model without a value of its own; expected a number"};
-    words = 4;
+    } else if (used.model->values.contains(key)) {
+      size = used.formula(key, "0");
+    } else {
+      size = size_by_geometry(card, key, used, scope);
+      std::erase(passed, "l");
+      std::erase(passed, "w");
+    }
   } else {
     size = formula(card.value_of(3, key), scope, line);
     // A model behind the value, whose coefficients are of the temperature.

@@ -16,6 +16,10 @@
 
 namespace courant::netlist {
 
+// k T/e at 27 °C, the temperature of SPICE, and the conductance that it puts beside each diode.
+inline constexpr double kThermalVoltage = 0.02586492;
+inline constexpr double kLeastConductance = 1e-12;
+
 class CircuitReader {
  public:
   CircuitReader(const Deck& deck, LineProblems& problems);
@@ -69,13 +73,24 @@ class CircuitReader {
   void add_element(const Part& part, const Line& line, const std::string& prefix,
                    const NodeMap& map, const Scope& scope);
 
-  // Both of an element; the index among the static ones.
+  // Both of an element, or only what it is for direct currents; the index among the static ones.
+  std::size_t add_static(const StaticElement& fixed, const std::string& name, int line);
   std::size_t put(const Json& element, const StaticElement& fixed, int line);
 
   // The value of R, C or L: a number, key=value, or that of a model. What belongs to temperatures other than the nominal one
   // has no effect.
   std::string size_of(const Card& card, const std::string& key, const Part& part,
                       const Scope& scope);
+
+  // … from rsh, or cj and cjsw, of the model and the sides l and w.
+  static std::string size_by_geometry(const Card& card, const std::string& key,
+                                      const UsedModel& used, const Scope& scope);
+  // The current of a source of the importer's own that holds a capacitor of 1 F at the value of the formula.
+  std::string derivative_of(const std::string& formula, const std::string& prefix, int line);
+  // Whether the value of a resistor is an expression of potentials and currents.
+  static bool depends_on_circuit(const Card& card);
+  std::string behaviour_of(const std::string& expression, const Scope& scope,
+                           const std::string& prefix, const NodeMap& map, int line);
 
   // What stands behind `key =` in a line as it is written, without braces or quotes around it; up to the next
   // assignment.
@@ -107,6 +122,22 @@ class CircuitReader {
   // thousandth of vt.
   void add_switch(const Card& card, const Part& part, const std::string& prefix, const NodeMap& map,
                   const Scope& scope);
+
+  void add_bipolar(const Card& card, const Part& part, const std::string& prefix,
+                   const NodeMap& map, const Scope& scope);
+  void add_mos(const Card& card, const Part& part, const std::string& prefix, const NodeMap& map,
+               const Scope& scope);
+  // The node behind a series resistance of the importer's own; the node itself where it is 0 Ω.
+  std::size_t behind_resistance(std::size_t node, const std::string& resistance,
+                                const std::string& name, int line);
+  // A diode of the importer's own.
+  struct OwnJunction {
+    std::string name;
+    std::size_t from, to;
+    std::string saturation, capacitance, voltage, grading, forward;  // formulas
+    double leak = 0.0;
+  };
+  void add_junction(const OwnJunction& junction, int line);
 
   void add_instance(const Card& card, const std::string& prefix, const NodeMap& map,
                     const Scope& scope);

@@ -6,14 +6,6 @@
 #include "courant/reading/netlist_circuit_reader.hpp"
 
 namespace courant::netlist {
-namespace {
-
-// k T/e at 27 °C, the temperature of SPICE, and the conductance that it puts beside each diode.
-constexpr double kThermalVoltage = 0.02586492;
-constexpr double kLeastConductance = 1e-12;
-
-}  // namespace
-
 void CircuitReader::add_diode(const Card& card, const Part& part, const std::string& prefix,
                               const NodeMap& map, const Scope& scope) {
   const int line = card.line->number;

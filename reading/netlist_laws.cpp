@@ -48,18 +48,59 @@ std::string CircuitReader::table_after(const Line& line) {
   return text + ")";
 }
 
+std::string CircuitReader::behaviour_of(const std::string& expression, const Scope& scope,
+                                        const std::string& prefix, const NodeMap& map, int line) {
+  const BehaviourWords words{
+      [&](const std::string& name) {
+        const std::size_t place = node(name, prefix, map, line);
+        return place == 0 ? std::string("0") : "potential_" + circuit_.name_of(place);
+      },
+      [&](const std::string& name) {
+        return "i_" + names_.at(reference(name, 'v', prefix, line)).name;
+      },
+      [&](const std::string& of) { return derivative_of(of, prefix, line); }};
+  return behaviour(expression, scope, line, words);
+}
+
+std::string CircuitReader::derivative_of(const std::string& formula, const std::string& prefix,
+                                         int line) {
+  const std::string name =
+      names_of_elements_.of(prefix + "ddt_" + std::to_string(circuit_.elements.size()));
+  const std::size_t at = own_node(name, line);
+  Json source = {{"type", "voltage-source"},
+                 {"name", name},
+                 {"from", circuit_.nodes[at]},
+                 {"to", circuit_.nodes[0]}};
+  StaticElement fixed{.kind = StaticElement::Kind::voltage, .from = at};
+  law_of(source, fixed, formula, prefix, line);
+  names_.insert_or_assign(" " + name, Named{name, line, put(source, fixed, line)});
+  circuit_.storages.push_back(
+      {"C_" + name, "q_C_" + name, "1", circuit_.fixed.elements.size(), true, std::nullopt, line});
+  put({{"type", "capacitor"},
+       {"name", "C_" + name},
+       {"from", circuit_.nodes[at]},
+       {"to", circuit_.nodes[0]},
+       {"value", 1.0}},
+      {.kind = StaticElement::Kind::capacitor, .from = at, .value = 1.0}, line);
+  return "(-i_" + name + ")";
+}
+
+bool CircuitReader::depends_on_circuit(const Card& card) {
+  const auto given = card.value("r");
+  const std::string value = card.words.size() > 3 ? card.words[3] : given.value_or("");
+  if (value.empty() || value[0] != '{') return false;
+  for (std::size_t i = 1; i < value.size(); ++i)
+    if (value[i] == '(' && (value[i - 1] == 'v' || value[i - 1] == 'i') &&
+        (i < 2 ||
+         (std::isalnum(static_cast<unsigned char>(value[i - 2])) == 0 && value[i - 2] != '_')))
+      return true;
+  return false;
+}
+
 void CircuitReader::law_of(Json& element, StaticElement& fixed, const std::string& expression,
                            const Scope& scope, const std::string& prefix, const NodeMap& map,
                            int line) {
-  const BehaviourWords words{[&](const std::string& name) {
-                               const std::size_t place = node(name, prefix, map, line);
-                               return place == 0 ? std::string("0")
-                                                 : "potential_" + circuit_.name_of(place);
-                             },
-                             [&](const std::string& name) {
-                               return "i_" + names_.at(reference(name, 'v', prefix, line)).name;
-                             }};
-  law_of(element, fixed, behaviour(expression, scope, line, words), prefix, line);
+  law_of(element, fixed, behaviour_of(expression, scope, prefix, map, line), prefix, line);
 }
 
 void CircuitReader::law_of(Json& element, StaticElement& fixed, const std::string& law,
