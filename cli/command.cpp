@@ -75,7 +75,8 @@ int command(const std::vector<std::string>& arguments, const Console& console) {
   Session session{console};
   CLI::App app("Geometric integrators from Dirac structures and the constraint algorithm.",
                "courant");
-  app.formatter(std::make_shared<HelpFormatter>());
+  app.formatter(std::make_shared<HelpFormatter>(
+      console.columns < Console::kUsualColumns ? console.columns : HelpFormatter::kMostColumns));
   app.require_subcommand(1);
   app.set_version_flag("--version", "courant " COURANT_VERSION_STRING);
   add_run(app, session);

@@ -21,10 +21,11 @@ struct Console {
   std::istream& in;
   std::ostream& out;
   std::ostream& err;
-  bool is_terminal = false;                 // of err: progress is shown
-  bool colour = false;                      // of out
-  bool unicode = true;                      // of out
-  std::size_t columns = 98;                 // of out: text is wrapped there
+  bool is_terminal = false;  // of err: progress is shown
+  bool colour = false;       // of out
+  bool unicode = true;       // of out
+  static constexpr std::size_t kUsualColumns = 98;
+  std::size_t columns = kUsualColumns;      // of out: text is wrapped there
   const std::atomic<bool>* stop = nullptr;  // set by an interrupt
   // Set by the command while it looks at `stop`; at other times an interrupt ends the program.
   std::atomic<bool>* heeds_stop = nullptr;

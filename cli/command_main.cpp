@@ -47,7 +47,7 @@ bool is_utf8() {
 
 // Of the terminal, or what COLUMNS says; wider text is hard to read.
 std::size_t columns_of_text() {
-  constexpr std::size_t least = 40, otherwise = 98, most = 120;
+  constexpr std::size_t least = 40, otherwise = courant::cli::Console::kUsualColumns, most = 120;
   std::size_t columns = otherwise;
   winsize size{};
   if (set("COLUMNS")) {

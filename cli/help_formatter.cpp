@@ -7,7 +7,6 @@
 namespace courant::cli {
 namespace {
 
-constexpr std::size_t columns = 100;
 constexpr std::size_t further = 6;
 
 // Where the next word ends, with the | or before the space that follows it.
@@ -16,7 +15,7 @@ std::size_t word_end(const std::string& text, std::size_t begin) {
   return end == std::string::npos ? text.size() : text[end] == '|' ? end + 1 : end;
 }
 
-std::string folded(const std::string& line, std::size_t description) {
+std::string folded(const std::string& line, std::size_t description, std::size_t columns) {
   if (text_width(line) <= columns) return line;
   const bool is_described = line.size() > description && line[description] != ' ' &&
                             line.find_first_not_of(' ') <= description &&
@@ -43,7 +42,7 @@ std::string HelpFormatter::make_help(const CLI::App* app, std::string name,
                                      CLI::AppFormatMode mode) const {
   std::istringstream lines(CLI::Formatter::make_help(app, std::move(name), mode));
   std::string text, line;
-  while (std::getline(lines, line)) text += folded(line, get_column_width()) + '\n';
+  while (std::getline(lines, line)) text += folded(line, get_column_width(), columns_) + '\n';
   return text;
 }
 

@@ -58,24 +58,9 @@ std::optional<NetworkElement> read_mutual_inductance(ObjectReader& object,
   return reader.result();
 }
 
-// The charge of a junction beside the branch that conducts, of index `first`: a state q, which q = q(v) ties to the
-// voltage of that branch. Where it is tied, the voltage of the charge is that of the branch, as it is side by side.
-void store_in_junction(ElementReader& reader, const JunctionCharge& junction,
-                       const NetworkTerminal& from, const NetworkTerminal& to) {
-  reader.implicit_storage(
-      domains::electrical, from, to, "q_", "_charge",
-      [junction](const NetworkVariables& variables, Index first, const Expr& charge) {
-        const Expr v = variables.voltage(first);
-        return v + (charge - junction.charge(v)) / junction.size();
-      },
-      [junction](const NetworkVariables& variables, Index first) {
-        return junction.energy(variables.voltage(first));
-      });
-}
-
 std::optional<NetworkElement> read_diode(ObjectReader& object, const NetworkSite& site) {
   ElementReader reader(object, site);
-  const double saturation = reader.positive("saturation"), emission = reader.positive("emission"),
+  const double saturation = reader.constant("saturation"), emission = reader.positive("emission"),
                thermal = reader.positive("thermal_voltage"), leak = reader.constant("leak");
   const double breakdown = reader.constant("breakdown"),
                breakdown_current = reader.constant("breakdown_current");
@@ -96,7 +81,7 @@ std::optional<NetworkElement> read_diode(ObjectReader& object, const NetworkSite
                   return current;
                 });
   if (junction.capacitance > 0.0 || junction.transit > 0.0)
-    store_in_junction(reader, junction, from, to);
+    store_in_junction(reader, junction, 0, from, to);
   return reader.result();
 }
 
@@ -186,7 +171,7 @@ ElementKinds electrical_elements() {
         "i = saturation (exp(v/(emission thermal_voltage)) - 1) + leak v, with a breakdown and a "
         "charge",
         {name(), current_from(), current_to(),
-         default_key("saturation", takes::formula(), 1e-14, "in A"),
+         default_key("saturation", takes::formula(), 1e-14, "in A; 0: it conducts nothing"),
          default_key("emission", takes::formula(), 1.0, "the emission coefficient"),
          default_key("thermal_voltage", takes::formula(), 0.025852, "k T/e in V"),
          default_key("leak", takes::formula(), 0.0, "a conductance beside it, in S"),

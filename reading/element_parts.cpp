@@ -57,4 +57,19 @@ void transform(ElementReader& reader, double ratio, const Side& first, const Sid
       second.suffix);
 }
 
+void store_in_junction(ElementReader& reader, const JunctionCharge& junction, Index beside,
+                       const NetworkTerminal& from, const NetworkTerminal& to,
+                       const std::string& part) {
+  const std::string between = part.empty() ? "_" : "_" + part + "_";
+  reader.implicit_storage(
+      domains::electrical, from, to, "q" + between, between + "charge",
+      [junction, beside](const NetworkVariables& variables, Index first, const Expr& charge) {
+        const Expr v = variables.voltage(first + beside);
+        return v + junction.about_voltage(charge) - junction.about_voltage(junction.charge(v));
+      },
+      [junction, beside](const NetworkVariables& variables, Index first) {
+        return junction.energy(variables.voltage(first + beside));
+      });
+}
+
 }  // namespace courant::element_parts

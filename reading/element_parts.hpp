@@ -1,6 +1,7 @@
 // What the elements of several domains are made of.
 #pragma once
 
+#include "courant/reading/junction_charge.hpp"
 #include "courant/reading/network_element.hpp"
 
 namespace courant::element_parts {
@@ -33,5 +34,12 @@ struct Side {
   std::string suffix;
 };
 void transform(ElementReader& reader, double ratio, const Side& first, const Side& second);
+
+// The charge of a junction beside the branch that conducts, number `beside` of the element: a state q_<name>, or
+// q_<part>_<name>, which q = q(v) ties to the voltage of that branch. Where it is tied, the voltage of the charge is
+// that of the branch, as it is side by side.
+void store_in_junction(ElementReader& reader, const JunctionCharge& junction, Index beside,
+                       const NetworkTerminal& from, const NetworkTerminal& to,
+                       const std::string& part = "");
 
 }  // namespace courant::element_parts

@@ -1,6 +1,5 @@
 #include "courant/reading/junction_charge.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace courant {
@@ -47,8 +46,19 @@ Expr JunctionCharge::energy(const Expr& v) const {
   return stored + select(v < Expr(top), depletion(min(v, Expr(top))), beyond);
 }
 
-double JunctionCharge::size() const {
-  return std::max({capacitance, transit * saturation / scale, 1e-15});
+Expr JunctionCharge::about_voltage(const Expr& q) const {
+  const double diffused = transit * saturation, m = grading;
+  const Expr positive = max(q, Expr(0.0));
+  const Expr curved = diffused == 0.0 ? Expr(0.0) : Expr(scale * log(1.0 + positive / diffused));
+  if (capacitance == 0.0) return select(q <= Expr(0.0), (scale / diffused) * q, curved);
+  // Below 0 by (1 - v/v_j)^(1-m); above it, side by side, by v = q/C₀ and v = scale log (1 + q/(τ saturation)).
+  const double part = capacitance / (capacitance + diffused / scale);
+  const Expr root = 1.0 - min(q, Expr(0.0)) * (1.0 - m) / (capacitance * junction);
+  const Expr below = part * junction * (1.0 - pow(root, Expr(1.0 / (1.0 - m))));
+  const Expr straight = positive / capacitance;
+  constexpr double least = 1e-300;  // V, for 0/0
+  const Expr above = diffused == 0.0 ? straight : straight * curved / (straight + curved + least);
+  return select(q <= Expr(0.0), below, above);
 }
 
 }  // namespace courant

@@ -17,8 +17,9 @@ struct JunctionCharge {
 
   Expr charge(const Expr& v) const;
   Expr energy(const Expr& v) const;
-  // A capacitance to compare with: greater than 0.
-  double size() const;
+  // An increasing function of a charge, in V, that is about the voltage which it belongs to: the inverse of q(v) for
+  // q < 0, where a depletion has one. Equations in it are nearly linear where q grows like exp (v/25 mV).
+  Expr about_voltage(const Expr& q) const;
 };
 
 // exp of an argument; beyond 60 its tangent, since Newton's method may ask for more.

@@ -259,15 +259,19 @@ std::optional<Mechanics> read_mechanics(ObjectReader& system, const PhaseWords& 
     right = right && damped;
   }
   if (!right) return std::nullopt;
-  if (written || damped)
-    mechanics.force = [written, damped, words, projected = words.bundle()->base()](
-                          const ExprVector& x, const ExprVector& w, const Expr& t) {
-      ExprVector force = ExprVector::Zero(w.size());
-      if (written) force += evaluate(*written, words.at(x, w, t));
-      if (damped) force += (*damped)(x, w, t);
+  const auto projected = [base = words.bundle()->base(), words](Mechanics::Formula force) {
+    return [base, words, force = std::move(force)](const ExprVector& x, const ExprVector& w,
+                                                   const Expr& t) {
       const ExprVector q = words.bundle()->position(x);
-      return ExprVector(projected->tangent_projector(q).transpose() * force);
+      return ExprVector(base->tangent_projector(q).transpose() * force(x, w, t));
     };
+  };
+  if (written)
+    mechanics.force = projected(
+        [written = *written, words](const ExprVector& x, const ExprVector& w, const Expr& t) {
+          return evaluate(written, words.at(x, w, t));
+        });
+  if (damped) mechanics.damping = projected(*damped);
   return mechanics;
 }
 
@@ -279,7 +283,7 @@ std::string described(const Mechanics& mechanics) {
   if (const Index m = mechanics.holonomic.count(); m > 0) add(counted(m, "holonomic constraint"));
   if (const Index m = mechanics.nonholonomic.count(); m > 0)
     add(counted(m, mechanics.vakonomic ? "vakonomic constraint" : "nonholonomic constraint"));
-  if (mechanics.force) add("forces");
+  if (mechanics.force || mechanics.damping) add("forces");
   return text;
 }
 

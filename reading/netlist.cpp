@@ -9,7 +9,7 @@
 #include "courant/core/words/spelling.hpp"
 #include "courant/reading/experiment.hpp"
 #include "courant/reading/linear_spectrum.hpp"
-#include "courant/reading/netlist_circuit.hpp"
+#include "courant/reading/netlist_circuit_reader.hpp"
 
 namespace courant {
 namespace {

@@ -185,6 +185,7 @@ class Translation {
       return "if(" + values[0] + ", " + values[1] + ", " + values[2] + ")";
     }
     if (name == "pwl" || name == "table") return table(values);
+    if (name == "ddt" && words_.derivative) return needs(1), words_.derivative(values[0]);
     throw LineError{line_, "the function " + name + " is not supported"};
   }
 

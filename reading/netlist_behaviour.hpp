@@ -9,10 +9,12 @@
 
 namespace courant::netlist {
 
-// What an expression may ask for: the formula of the potential of a node, and that of the current of an element.
+// What an expression may ask for: the formula of the potential of a node, that of the current of an element, and, if there is one, that
+// of d/dt of a formula.
 struct BehaviourWords {
   std::function<std::string(const std::string& node)> potential;
   std::function<std::string(const std::string& source)> current;
+  std::function<std::string(const std::string& of)> derivative = {};
 };
 
 // `V(a,b)*max(I(V1), 0) > 1 ? 2 : time` as a formula: potentials and currents by their words, names of

@@ -199,10 +199,18 @@ Card card_of(const Line& line) {
   if (first == card.words.end()) return card;
   const auto i = static_cast<std::size_t>(first - card.words.begin());
   if (i == 0) throw LineError{line.number, "begins with ="};
-  for (std::size_t k = i - 1; k < card.words.size(); k += 3) {
-    if (k + 2 >= card.words.size() || card.words[k + 1] != "=")
+  for (std::size_t k = i - 1; k < card.words.size();) {
+    if (k + 2 >= card.words.size() || card.words[k + 1] != "=" || card.words[k + 2] == "=")
       throw LineError{line.number, "expected name = value at the end"};
-    card.assigned.push_back({card.words[k], card.words[k + 2], line.number});
+    std::string value = card.words[k + 2];
+    // Several values, as of tc=1m,2u: up to the next name.
+    std::size_t next = k + 3;
+    for (; next < card.words.size() && number(card.words[next]) &&
+           (next + 1 == card.words.size() || card.words[next + 1] != "=");
+         ++next)
+      value += "," + card.words[next];
+    card.assigned.push_back({card.words[k], value, line.number});
+    k = next;
   }
   card.words.resize(i - 1);
   return card;

@@ -66,6 +66,4 @@ struct NetlistCircuit {
 // A number where the formula is one.
 Json written_value(const std::string& formula);
 
-NetlistCircuit read_circuit(const Deck& deck, LineProblems& problems);
-
 }  // namespace courant::netlist

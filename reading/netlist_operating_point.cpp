@@ -70,6 +70,22 @@ class StaticEquations {
     return number < 0 ? nullptr : &balances_[as_size(number)];
   }
 
+  // Whether the current of a source of current depends on its own voltage, as that of a switch does.
+  bool conducts(const StaticElement& source) const {
+    const auto is_own = [&](std::size_t node) {
+      return node != 0 && (node == source.from || node == source.to);
+    };
+    if (source.gain != 0.0 && !source.control &&
+        (is_own(source.control_from) || is_own(source.control_to)))
+      return true;
+    return source.law && std::ranges::any_of(source.law->controls, [&](const auto& control) {
+             if (control.element) return false;
+             if (!control.junction) return is_own(control.node);
+             const StaticElement& junction = circuit_.elements[*control.junction];
+             return is_own(junction.from) || is_own(junction.to);
+           });
+  }
+
   // Capacitors in a spanning forest that takes all that conducts first: each is in a cut-set of
   // capacitors and sources of current. Inductors outside a forest of sources of voltage and
   // inductors: each closes a loop of them.
@@ -78,9 +94,9 @@ class StaticEquations {
     std::vector<std::size_t> of_ideal;
     for (std::size_t k = 0; k < circuit_.elements.size(); ++k) {
       const StaticElement& element = circuit_.elements[k];
-      const double weight = element.kind == StaticKind::capacitor ? 1.0
-                            : element.kind == StaticKind::current ? 2.0
-                                                                  : 0.0;
+      const double weight = element.kind == StaticKind::capacitor                       ? 1.0
+                            : element.kind == StaticKind::current && !conducts(element) ? 2.0
+                                                                                        : 0.0;
       add_edge(element.from, element.to, CircuitElement{"", weight}, all);
       if (element.kind != StaticKind::voltage && element.kind != StaticKind::inductor) continue;
       add_edge(element.from, element.to,
@@ -169,13 +185,21 @@ class StaticEquations {
         if (!element.law) return;
         const auto [value, gradient] = value_of(*element.law);
         double rest = value;
-        for (std::size_t c = 0; c < element.law->controls.size(); ++c) {
-          const Index column = column_of(element.law->controls[c]);
-          if (column < 0) continue;
-          const double slope = gradient[static_cast<Index>(c)];
+        const auto add = [&](Index column, double slope) {
           linear.add(row, column, sign * slope);
           linear.add(other, column, -sign * slope);
-          rest -= slope * y_[column];
+        };
+        for (std::size_t c = 0; c < element.law->controls.size(); ++c) {
+          const StaticLaw::Control& by = element.law->controls[c];
+          const double slope = gradient[static_cast<Index>(c)];
+          if (by.junction) {
+            const StaticElement& junction = circuit_.elements[*by.junction];
+            add(row_of(junction.from), slope);
+            add(row_of(junction.to), -slope);
+          } else {
+            add(column_of(by), slope);
+          }
+          rest -= slope * value_of(by);
         }
         linear.add(row, -sign * rest);
         linear.add(other, sign * rest);
@@ -300,11 +324,13 @@ class StaticEquations {
   // At y_.
   std::pair<double, VectorXd> value_of(const StaticLaw& law) const {
     VectorXd u(static_cast<Index>(law.controls.size()));
-    for (Index c = 0; c < u.size(); ++c) {
-      const Index column = column_of(law.controls[as_size(c)]);
-      u[c] = column < 0 ? 0.0 : y_[column];
-    }
+    for (Index c = 0; c < u.size(); ++c) u[c] = value_of(law.controls[as_size(c)]);
     return law.value(u);
+  }
+  double value_of(const StaticLaw::Control& control) const {
+    if (control.junction) return at_[static_cast<Index>(*control.junction)];
+    const Index column = column_of(control);
+    return column < 0 ? 0.0 : y_[column];
   }
 
   // The next voltage of a diode on the way to v: that of SPICE, which grows no faster than the

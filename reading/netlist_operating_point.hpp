@@ -15,11 +15,13 @@ namespace courant::netlist {
 
 // An element for direct voltages and currents, from node `from` to node `to`; 0 is the ground. Its
 // current i counts positive from `from` to `to`, its voltage is v = φ_from - φ_to.
-// A value f(u) of potentials of nodes and of currents of elements that are sources of voltage, and its gradient.
+// A value f(u) of potentials of nodes, of voltages of diodes and of currents of elements that are sources of voltage, and its
+// gradient. Laws that are exponential in a voltage ask for that of a diode, which grows no faster than the logarithm of its current.
 struct StaticLaw {
   struct Control {
-    std::optional<std::size_t> element = {};  // its current, else
-    std::size_t node = 0;                     // the potential of this node
+    std::optional<std::size_t> element = {};   // its current, else
+    std::optional<std::size_t> junction = {};  // the voltage of this diode, else
+    std::size_t node = 0;                      // the potential of this node
   };
   std::vector<Control> controls = {};
   std::function<std::pair<double, VectorXd>(const VectorXd& u)> value = {};

@@ -162,6 +162,8 @@ double ElementReader::nonzero(const std::string& key) {
   return 1.0;
 }
 
+std::string ElementReader::word(const std::string& key) { return object_.word(key); }
+
 std::optional<WrittenFormula> ElementReader::formula(const std::string& key) {
   const auto given = object_.optional(key);
   auto formula = given ? read_formula(*given) : std::nullopt;

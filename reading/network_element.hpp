@@ -92,6 +92,7 @@ Registry<NetworkElement, NetworkSite>& element_kinds();
 // One file each: the kinds of a domain.
 using ElementKinds = std::vector<Registry<NetworkElement, NetworkSite>::Kind>;
 ElementKinds electrical_elements();
+ElementKinds transistor_elements();
 ElementKinds mechanical_elements();
 ElementKinds thermofluid_elements();
 ElementKinds transducer_elements();
@@ -119,6 +120,8 @@ class ElementReader {
   double constant(const std::string& key);
   double positive(const std::string& key);
   double nonzero(const std::string& key);
+  // One of the words of its key.
+  std::string word(const std::string& key);
   std::optional<WrittenFormula> formula(const std::string& key);
 
   // Branches, in the order of their indices.

@@ -102,7 +102,8 @@ Registry<NetworkElement, NetworkSite>& element_kinds() {
   static Registry<NetworkElement, NetworkSite> kinds([] {
     ElementKinds all = electrical_elements();
     for (const ElementKinds& more :
-         {mechanical_elements(), transducer_elements(), thermofluid_elements(), port_elements()})
+         {transistor_elements(), mechanical_elements(), transducer_elements(),
+          thermofluid_elements(), port_elements()})
       all.insert(all.end(), more.begin(), more.end());
     for (auto& kind : all)
       kind.description.keys.push_back(optional_key(

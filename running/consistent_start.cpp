@@ -18,6 +18,7 @@
 #include "courant/integrators/methods/integrator_in_units.hpp"
 #include "courant/running/given_quantities.hpp"
 #include "courant/running/impulsive_start.hpp"
+#include "courant/running/solved_unknowns.hpp"
 #include "courant/running/start_stages.hpp"
 #include "courant/running/undefined_formula.hpp"
 
@@ -46,6 +47,24 @@ void check_near_manifold(const Experiment& experiment, const VectorXd& x) {
                                           with_zeros(experiment) + ": " +
                                           without_place(error.what()));
   }
+}
+
+// F is not finite where an unknown that was given nothing is tried at 0 and divides: then what equations give it.
+void solve_unknowns(const Experiment& experiment, InitialGuess& guess) {
+  constexpr Index most = 200;
+  const ImplicitSystem& system = *experiment.model.system;
+  const Index m = system.auxiliary_size();
+  if (m == 0 || m > most) return;
+  const VectorXd v =
+      guess.v.size() > 0 ? guess.v : VectorXd::Zero(system.manifold()->tangent_dimension());
+  const VectorXd z = guess.z.size() > 0 ? guess.z : system.auxiliary_guess(guess.x, guess.v);
+  if (system.residual(guess.x, v, z, guess.t).allFinite()) return;
+  std::vector<Index> open;
+  for (Index i = 0; i < m; ++i)
+    if (!experiment.initial.z.given[i]) open.push_back(i);
+  const VectorXd solved =
+      solved_unknowns(system, {.t = guess.t, .x = guess.x, .v = v, .z = z}, std::move(open));
+  if (system.residual(guess.x, v, solved, guess.t).allFinite()) guess.z = solved;
 }
 
 void check_finite(const Experiment& experiment, const InitialGuess& guess) {
@@ -317,6 +336,7 @@ class StartSearch {
     InitialGuess guess{.t = experiment_.start(), .x = initial_.x.values};
     if (initial_.velocity.given.any()) guess.v = coframe_ * initial_.velocity.values;
     if (initial_.z.given.any()) guess.z = initial_.z.values;
+    solve_unknowns(experiment_, guess);
     check_finite(experiment_, guess);
     return guess;
   }

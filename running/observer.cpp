@@ -50,10 +50,9 @@ const double* const* Observer::arguments(const State& state) {
   arguments_ = {state.x.data(), state.v.data(), state.z.data(),
                 &state.t,       nullptr,        energies_.data()};
   if (evaluate_field_) {
-    if (is_field_)
-      (*evaluate_field_)(state.x, rate_, state.t);
-    else
-      (*evaluate_field_)(state, rate_);
+    // From the values at the last state; where these are far, as after a diode began to conduct, from those that the step
+    // ended with.
+    if (!is_field_ || !evaluate_from_last(state)) (*evaluate_field_)(state, rate_);
     arguments_[4] = evaluate_field_->left_out().data();
   }
   if (is_field_) {
@@ -61,6 +60,15 @@ const double* const* Observer::arguments(const State& state) {
     arguments_[2] = evaluate_field_->z().data();
   }
   return arguments_.data();
+}
+
+bool Observer::evaluate_from_last(const State& state) {
+  try {
+    (*evaluate_field_)(state.x, rate_, state.t);
+    return true;
+  } catch (const std::domain_error&) {
+    return false;
+  }
 }
 
 EnergySizes Observer::energy_sizes(const State& state) {

@@ -92,6 +92,7 @@ class Observer {
  private:
   // What quantities_ takes at a state by itself.
   const double* const* arguments(const State& state);
+  bool evaluate_from_last(const State& state);
   // All of a row but the balance, which is settled with its H, and the deviations.
   void measure(const State& state);
   // These two, which complete it.

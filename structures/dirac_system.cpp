@@ -51,6 +51,19 @@ ImplicitSystem::Names completed(ImplicitSystem::Names names, const DiracStructur
   return names;
 }
 
+// A law of the exterior; 0 without one.
+ExprVector source_of(const DiracSystem::Law& law, const ExprVector& x, const ExprVector& v,
+                     const ExprVector& alpha, const Expr& t) {
+  const Index expected = 2 * v.size();
+  if (!law) return ExprVector::Zero(expected);
+  ExprVector e = law(x, v, alpha, t);
+  if (e.size() != expected)
+    throw std::invalid_argument("DiracSystem: the source has " + std::to_string(e.size()) +
+                                " entries; expected a tangent vector and a covector, " +
+                                std::to_string(expected) + ".");
+  return e;
+}
+
 }  // namespace
 
 DiracSystem::DiracSystem(std::shared_ptr<const DiracStructure> structure,
@@ -77,16 +90,10 @@ DiracSystem::DiracSystem(std::shared_ptr<const DiracStructure> structure,
                                 "; expected a constraint if and only if the count is positive.");
 }
 
-ExprVector DiracSystem::source(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,
-                               const Expr& t) const {
-  const Index expected = 2 * v.size();
-  if (!exterior_.source) return ExprVector::Zero(expected);
-  ExprVector e = exterior_.source(x, v, alpha, t);
-  if (e.size() != expected)
-    throw std::invalid_argument("DiracSystem: the source has " + std::to_string(e.size()) +
-                                " entries; expected a tangent vector and a covector, " +
-                                std::to_string(expected) + ".");
-  return e;
+ExprVector DiracSystem::sources(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,
+                                const Expr& t) const {
+  const ExprVector e = source_of(exterior_.source, x, v, alpha, t);
+  return exterior_.damping ? ExprVector(e + source_of(exterior_.damping, x, v, alpha, t)) : e;
 }
 
 ExprVector DiracSystem::constraint(const ExprVector& x, const ExprVector& v,
@@ -135,7 +142,7 @@ ExprVector DiracSystem::do_equations(const ExprVector& x, const ExprVector& v,
   const ExprVector lambda = z.head(family_->parameter_size()), u = z.tail(structure_->port_size());
   ExprVector pair(2 * n);
   pair << v, alpha;
-  if (exterior_.source) pair -= source(x, v, alpha, t);
+  if (exterior_.has_sources()) pair -= sources(x, v, alpha, t);
   if (m > 0) pair -= reaction(x, v, alpha, z.segment(family_->parameter_size(), m), t);
   ExprVector equations(equation_count());
   equations.head(equation_count() - m) << structure_->membership(x, pair.head(n), pair.tail(n), u),
@@ -156,8 +163,13 @@ EnergySystem::Powers DiracSystem::do_powers(const ExprVector& x, const ExprVecto
   ExprVector pair(2 * n);
   pair << v, alpha;
   Powers powers;
-  const ExprVector e = source(x, v, alpha, t);
-  if (exterior_.source) powers.supplied.push_back({"forces", pairing(e, pair) - work(e)});
+  const ExprVector given = source_of(exterior_.source, x, v, alpha, t),
+                   damping = source_of(exterior_.damping, x, v, alpha, t), e = given + damping;
+  if (exterior_.source) powers.supplied.push_back({"forces", pairing(given, pair) - work(given)});
+  // What is left of ⟪e, (v, α)⟫ - ⟨e⟩.
+  if (exterior_.damping)
+    powers.dissipated.push_back(
+        {"damping", work(damping) + pairing(damping, given) - pairing(damping, pair)});
   ExprVector rest = pair - e;
   if (m > 0) {
     const ExprVector r = reaction(x, v, alpha, z.segment(family_->parameter_size(), m), t);

@@ -26,7 +26,7 @@ namespace courant {
 // of a bivector a closed port (Theorem 2.5, equation (23)).
 //
 // Power is supplied by "forces", the sources, by "constraints" that move and, where D is no Dirac
-// structure, by its "ports". A Dirac structure is isotropic, so ⟨α, v⟩ is what is left of the pairing with
+// structure, by its "ports"; it is dissipated by "damping", the sources that damp. A Dirac structure is isotropic, so ⟨α, v⟩ is what is left of the pairing with
 // sources and reactions.
 class DiracSystem final : public EnergySystem {
  public:
@@ -34,9 +34,12 @@ class DiracSystem final : public EnergySystem {
   using Law = std::function<ExprVector(const ExprVector& x, const ExprVector& v,
                                        const ExprVector& alpha, const Expr& t)>;
   struct Exterior {
-    Law source = {};      // e as one vector of 2Ñ, a tangent vector and a covector; empty: none
+    Law source = {};      // of e, one vector of 2Ñ, a tangent vector and a covector; empty: none
+    Law damping = {};     // what else e has, such as friction: what it takes is dissipated
     Law constraint = {};  // g, size `constraint_count`
     Index constraint_count = 0;
+
+    bool has_sources() const { return source || damping; }
   };
 
   // Both on the same manifold; throws std::invalid_argument otherwise. `names` as in
@@ -50,10 +53,13 @@ class DiracSystem final : public EnergySystem {
   std::shared_ptr<const DiracStructure> structure() const override { return structure_; }
   const std::shared_ptr<const GeneratingFamily>& family() const { return family_; }
   const Exterior& exterior() const { return exterior_; }
+  // e, 2Ñ: 0 where there are no sources.
+  ExprVector sources(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,
+                     const Expr& t) const;
   Index tangent_blocks() const override { return structure_->tangent_blocks(); }
   // S = ♯_ω(𝓛): where the structure is canonical, S is as Lagrangian as 𝓛 is.
   std::optional<bool> is_lagrangian() const override {
-    const bool closed = !exterior_.source && !exterior_.constraint;
+    const bool closed = !exterior_.has_sources() && !exterior_.constraint;
     return closed && structure_->is_canonical() ? family_->is_morse() : std::nullopt;
   }
 
@@ -69,8 +75,6 @@ class DiracSystem final : public EnergySystem {
   std::optional<Expr> do_energy(const ExprVector& x, const ExprVector& z,
                                 const Expr& t) const override;
   VectorXd do_auxiliary_guess(const VectorXd& x, const VectorXd& v) const override;
-  ExprVector source(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,
-                    const Expr& t) const;
   ExprVector constraint(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,
                         const Expr& t) const;
   ExprVector reaction(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,

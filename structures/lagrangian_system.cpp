@@ -73,7 +73,7 @@ std::shared_ptr<const DiracSystem> hamiltonian_system(
     const std::vector<std::string>& coordinates, const Mechanics& mechanics,
     const std::vector<std::string>& parameters) {
   const auto phase_space = std::dynamic_pointer_cast<const CotangentBundle>(structure->manifold());
-  if (!phase_space && (mechanics.force || mechanics.nonholonomic.count() > 0))
+  if (!phase_space && (mechanics.force || mechanics.damping || mechanics.nonholonomic.count() > 0))
     throw std::invalid_argument("hamiltonian_system: there are velocities of configurations on " +
                                 structure->manifold()->name() + "; expected a cotangent bundle.");
   ImplicitSystem::Names names{coordinates, {}, {}};

@@ -51,15 +51,18 @@ std::shared_ptr<const GeneratingFamily> constrained_family(
 DiracSystem::Exterior mechanical_exterior(const std::shared_ptr<const CotangentBundle>& phase_space,
                                           const Mechanics& mechanics) {
   DiracSystem::Exterior exterior;
-  if (mechanics.force)
-    exterior.source = [phase_space, force = mechanics.force](const ExprVector& x,
-                                                             const ExprVector& v, const ExprVector&,
-                                                             const Expr& t) {
+  const auto vertical = [&](const Mechanics::Formula& force) -> DiracSystem::Law {
+    if (!force) return {};
+    return [phase_space, force](const ExprVector& x, const ExprVector& v, const ExprVector&,
+                                const Expr& t) {
       const Index n = phase_space->base()->tangent_dimension();
       ExprVector source = ExprVector::Zero(4 * n);
       source.segment(2 * n, n) = force(x, phase_space->horizontal(v), t);
       return source;
     };
+  };
+  exterior.source = vertical(mechanics.force);
+  exterior.damping = vertical(mechanics.damping);
   if (mechanics.nonholonomic.count() > 0 && !mechanics.vakonomic) {
     exterior.constraint = [phase_space, formula = mechanics.nonholonomic.formula](
                               const ExprVector& x, const ExprVector& v, const ExprVector&,

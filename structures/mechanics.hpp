@@ -13,7 +13,7 @@ namespace courant {
 // velocity w of q in the representation of Q (Ñ) and t. m_h holonomic and m_n nonholonomic
 // constraints, multipliers λ and κ:
 //
-//   q̇ = ∂E/∂p,   ṗ = -∂E/∂q + F(x, w, t) + Σ κ_a ∂g_a/∂w,   E = E₀ + Σ λ_b φ_b(q, t)
+//   q̇ = ∂E/∂p,   ṗ = -∂E/∂q + F(x, w, t) + R(x, w, t) + Σ κ_a ∂g_a/∂w,   E = E₀ + Σ λ_b φ_b(q, t)
 //   φ(q, t) = 0,   g(q, w, t) = μ(q, t) w + b(q, t) = 0
 //
 // (Section 8 of the paper, with the frame's torsion on curved Q; d'Alembert's principle.) With
@@ -30,6 +30,7 @@ struct Mechanics {
   Constraints holonomic = {};     // φ; w is not used
   Constraints nonholonomic = {};  // g, affine in w
   Formula force = {};             // F, a covector of Q (Ñ); empty: none
+  Formula damping = {};           // R, the same; what it takes is dissipated
   bool vakonomic = false;
 };
 

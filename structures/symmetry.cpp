@@ -150,7 +150,7 @@ class Measurement {
                     const Expr& t, const ExprVector& X, const ExprVector& dJ) {
     const DiracSystem::Exterior& outside = system_.exterior();
     const Index n = alpha.size(), N = x.size();
-    if (!outside.source && !outside.constraint) return;
+    if (!outside.has_sources() && !outside.constraint) return;
     const auto canonical =
         std::dynamic_pointer_cast<const CanonicalSymplectic>(system_.structure());
     const ExprVector v = canonical->bivector(x) * alpha;
@@ -162,8 +162,8 @@ class Measurement {
       outputs.push_back(power.size);
       exterior_.push_back(std::move(name));
     };
-    if (outside.source) {
-      const ExprVector e = outside.source(x, v, alpha, t);
+    if (outside.has_sources()) {
+      const ExprVector e = system_.sources(x, v, alpha, t);
       add(e.head(n), e.tail(n), "the forces");
     }
     if (!outside.constraint) return;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "courant/core/words/text_layout.hpp"
 #include "courant/integrators/certificate/level_certainty.hpp"
 
 namespace courant {
@@ -96,8 +97,8 @@ Branching branching(const ConsistentPoint& consistent, const ConsistentJet& at,
     const PointsLeftOut points(consistent, at, ladder, static_cast<Index>(k));
     const std::optional<bool> is_confirmed = points.lead_back();
     if (!is_confirmed) continue;
-    return {.reason = "Solutions branch here: M_" + std::to_string(k + 1) + " has dimension " +
-                      std::to_string(levels[k + 1].dim_M) +
+    return {.reason = "Solutions branch here: M" + subscript(static_cast<Index>(k) + 1) +
+                      " has dimension " + std::to_string(levels[k + 1].dim_M) +
                       " along the velocity of the point, and more along another one.",
             .is_confirmed = *is_confirmed};
   }

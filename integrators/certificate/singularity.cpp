@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "courant/core/words/text_layout.hpp"
 #include "courant/integrators/certificate/refined_obstruction.hpp"
 
 namespace courant {
@@ -37,9 +38,9 @@ Comparison compare(const std::vector<LadderLevel>& here, const std::vector<Ladde
       result.outcome = Outcome::lower;
       continue;
     }
-    const std::string level = std::to_string(k);
+    const std::string level = subscript(static_cast<Index>(k));
     return {.outcome = Outcome::different,
-            .difference = "(dim S_" + level + ", dim M_" + level + ") is (" +
+            .difference = "(dim S" + level + ", dim M" + level + ") is (" +
                           std::to_string(a.dim_S) + ", " + std::to_string(a.dim_M) +
                           ") here and (" + std::to_string(b.dim_S) + ", " +
                           std::to_string(b.dim_M) + ") " + place + "."};

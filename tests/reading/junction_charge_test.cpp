@@ -34,6 +34,26 @@ BOOST_AUTO_TEST_CASE(slopes_are_capacitance_and_power) {
   BOOST_TEST(junction.energy(0.0).value() == 0.0);
 }
 
+// What equations of charges are written in: where the charge grows like an exponential it still grows like the voltage,
+// by a factor near 1 from -30 V to 1 V.
+BOOST_AUTO_TEST_CASE(charges_as_voltages) {
+  constexpr double h = 1e-5;
+  for (const double capacitance : {0.0, 3e-12})
+    for (const double transit : {0.0, 2e-8}) {
+      if (capacitance == 0.0 && transit == 0.0) continue;
+      const JunctionCharge junction{
+          .capacitance = capacitance, .junction = 0.7, .grading = 0.35, .transit = transit};
+      const auto at = [&](double v) { return junction.about_voltage(junction.charge(v)).value(); };
+      for (const double v : {-30.0, -2.0, -0.1, 0.0, 0.2, 0.5, 0.65, 0.8, 1.0}) {
+        if (capacitance == 0.0 && v < 0.0) continue;  // nothing is stored there
+        const double slope = (at(v + h) - at(v - h)) / (2.0 * h);
+        BOOST_TEST((slope > 0.2 && slope < 4.0),
+                   capacitance << ", " << transit << ", " << v << ": " << slope);
+        if (transit == 0.0 && v <= 0.0) BOOST_TEST(std::abs(at(v) - v) < 1e-12 * (1.0 - v));
+      }
+    }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
 
 }  // namespace courant

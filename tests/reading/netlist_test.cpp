@@ -138,9 +138,9 @@ BOOST_AUTO_TEST_CASE(methods_of_netlists) {
 
 BOOST_AUTO_TEST_CASE(what_is_wrong_is_told_by_line) {
   refused("R1 a 0", "line 2: has no value; expected one");
-  refused("V1 a 0 1\nQ1 a b c npn",
-          "line 3: the element Q1 is not supported; expected R, L, C, V, "
-          "I, K, D, E, F, G, H, B, S, W or X");
+  refused("V1 a 0 1\nJ1 a b c npn",
+          "line 3: the element J1 is not supported; expected R, L, C, V, "
+          "I, K, D, E, F, G, H, B, S, W, Q, M or X");
   refused("R1 a 0 {r}", "line 2: unknown parameter \"r\"");
   refused("D1 a 0 missing", "line 2: unknown model \"missing\"");
   refused("D1 a 0 q\n.model q npn", "line 2: the model q is of the type npn; expected d");

@@ -619,4 +619,31 @@ BOOST_AUTO_TEST_CASE(an_impasse_is_no_start) {
   BOOST_TEST(found().impasse == "");
 }
 
+// Unknowns that were given nothing, where their being 0 has no value: what equations give them, one after the other.
+BOOST_AUTO_TEST_CASE(unknowns_that_divide) {
+  const auto find = [](const Json& unknowns, const Json& equations, const Json& initial) {
+    return start({{"system",
+                   {{"type", "implicit"},
+                    {"coordinates", {"x"}},
+                    {"unknowns", unknowns},
+                    {"equations", equations}}},
+                  {"initial", initial}});
+  };
+  const ConstraintLadder one = find({"z"}, {"x' - 1/z", "z - x"}, {{"x", 2}});
+  BOOST_TEST((one.verdict == Verdict::regular));
+  BOOST_TEST(one.point.z[0] == 2.0);
+  BOOST_TEST(std::abs(one.point.v[0] - 0.5) < 1e-15);
+  // w by z, z by x; the equation of z is not linear.
+  const ConstraintLadder chain =
+      find({"w", "z"}, {"x' - 1/w", "w*z - 6", "exp(z) - x"}, {{"x", std::exp(3.0)}});
+  BOOST_TEST((chain.verdict == Verdict::regular));
+  BOOST_TEST(std::abs(chain.point.z[0] - 2.0) < 1e-14);
+  BOOST_TEST(std::abs(chain.point.z[1] - 3.0) < 1e-14);
+  // A value that is given is one too.
+  const ConstraintLadder given =
+      find({"w", "z"}, {"x' - 1/w", "w - z", "z^2 - x"}, {{"x", 4}, {"z", -2}});
+  BOOST_TEST((given.verdict == Verdict::regular));
+  BOOST_TEST(given.point.z[0] == -2.0);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

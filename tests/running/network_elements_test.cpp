@@ -60,6 +60,24 @@ const std::vector<Case>& cases() {
        R"({})",
        0.0001,
        {{"v_D1", 1.5 * 0.025852 * std::log1p(1e11)}}},
+      // Bipolar transistor as a diode, whose current is saturation (1 + 1/gain) (exp (v/V_T) - 1)
+      {R"(["0", "a", "b"])",
+       R"json([{"type":"current-source","name":"I1","from":"0","to":"a","value":0.001},
+          {"type":"bipolar-transistor","name":"Q1","collector":"a","base":"a","emitter":"0","forward_gain":50},
+          {"type":"resistor","name":"R1","from":"b","to":"0","value":1000.0},
+          {"type":"capacitor","name":"C1","from":"b","to":"0","value":1e-06}])json",
+       R"({})",
+       0.0001,
+       {{"v_Q1_be", 0.025852 * std::log1p(1e13 / 1.02)}}},
+      // Field-effect transistor that empties a capacitor from a = 2 V, where it ceases to be saturated:
+      // v = 2 a/(1 + exp (β a t/C))
+      {R"(["0", "a", "g"])",
+       R"json([{"type":"voltage-source","name":"V1","from":"g","to":"0","value":3},
+          {"type":"mos-transistor","name":"M1","drain":"a","gate":"g","source":"0","bulk":"0","threshold":1,"transconductance":1e-3},
+          {"type":"capacitor","name":"C1","from":"a","to":"0","value":1e-9}])json",
+       R"({"q_C1": 2e-9})",
+       1e-6,
+       {{"potential_a", 4.0 / (1.0 + std::exp(2.0))}}},
       // Ideal transformer
       {R"(["0", "a", "b", "c"])",
        R"json([{"type":"voltage-source","name":"V1","from":"a","to":"0","value":6},

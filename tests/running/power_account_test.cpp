@@ -308,4 +308,41 @@ BOOST_AUTO_TEST_CASE(all_experiments_with_ports_expect_the_balance) {
   BOOST_TEST(count >= 30);
 }
 
+// What dampers take is dissipated, by a matrix, by a Rayleigh function and beside forces, which supply.
+BOOST_AUTO_TEST_CASE(dampers_dissipate) {
+  for (const Json& damping : {Json{0.3}, Json("0.15*x'^2")}) {
+    Json oscillator = {{"system",
+                        {{"type", "mechanical"},
+                         {"coordinates", {"x"}},
+                         {"metric", {2.0}},
+                         {"potential", "x^2"},
+                         {"damping", damping}}},
+                       {"initial", {{"x", 1}, {"x'", 0}}},
+                       {"method", "constrain-first"},
+                       {"time", {{"step", 0.01}, {"end", 3}}}};
+    const auto account = [&] {
+      const TemporaryFolder folder;
+      const RunOutcome outcome = run_in(folder, oscillator);
+      BOOST_TEST((outcome.status == RunStatus::completed), outcome.message);
+      return *outcome.summary.power_balance;
+    };
+    const auto alone = account();
+    BOOST_TEST(alone.supplied.empty());
+    BOOST_REQUIRE(alone.dissipated.size() == 1u);
+    BOOST_TEST(alone.dissipated[0].first == "damping");
+    // x = e^{-γt}(cos ωt + γ/ω sin ωt), γ = 0.075, ω² = 1 - γ²
+    const double g = 0.075, w = std::sqrt(1.0 - g * g), decay = std::exp(-3.0 * g);
+    const double x = decay * (std::cos(3.0 * w) + g / w * std::sin(3.0 * w)),
+                 v = -decay / w * std::sin(3.0 * w);
+    BOOST_TEST(std::abs(alone.dissipated[0].second - (1.0 - x * x - v * v)) < 1e-4);
+    oscillator["system"]["forces"] = {{"x", "0.2*cos(t)"}};
+    const auto driven = account();
+    BOOST_REQUIRE(driven.supplied.size() == 1u);
+    BOOST_TEST(driven.supplied[0].first == "forces");
+    BOOST_TEST(std::abs(driven.stored - driven.supplied[0].second + driven.dissipated[0].second) <
+               1e-4);
+    BOOST_TEST(driven.dissipated[0].second > 0.0);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

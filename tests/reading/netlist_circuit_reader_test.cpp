@@ -1,11 +1,11 @@
-#include "courant/reading/netlist_circuit.hpp"
+#include "courant/reading/netlist_circuit_reader.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <string>
 
 // Mistakes that these cases have to notice:
 //  * an instance has the parameters of the one before
-BOOST_AUTO_TEST_SUITE(netlist_circuit)
+BOOST_AUTO_TEST_SUITE(netlist_circuit_reader_test)
 
 using namespace courant;
 using namespace courant::netlist;
@@ -89,6 +89,87 @@ BOOST_AUTO_TEST_CASE(coupled_inductors) {
   BOOST_TEST(std::abs(half.fixed.couplings[0].mutual - 1e-3) < 1e-18);
 }
 
+// By hand: two resistances of the model over the area, a substrate at the collector, charges at both junctions.
+BOOST_AUTO_TEST_CASE(bipolar_transistors) {
+  const NetlistCircuit circuit = circuit_of(
+      "V1 a 0 5\nQ1 a a b 0 small 2\nQ2 0 a b big off\nR1 b 0 1\n"
+      ".model small npn(is=1e-15 bf=50 rb=8 re=2 cje=1p cjc=2p cjs=3p ise=1e-13)\n"
+      ".model big pnp(bf=20 vaf=30)");
+  const auto& elements = circuit.elements;
+  BOOST_TEST_REQUIRE(elements.size() == 7u);  // V1, two resistances, Q1, its substrate, Q2, R1
+  BOOST_TEST(elements[1].at("name") == "Q1_rb");
+  BOOST_TEST(elements[1].at("value") == "(8)/(2)");
+  BOOST_TEST(elements[3].at("type") == "bipolar-transistor");
+  BOOST_TEST(elements[3].at("collector") == "a");
+  BOOST_TEST(elements[3].at("base") == "q1_rb_inside");
+  BOOST_TEST(elements[3].at("emitter") == "q1_re_inside");
+  BOOST_TEST(elements[3].at("emitter_leak") == "1e-13*2");
+  BOOST_TEST(elements[4].at("type") == "diode");
+  BOOST_TEST(elements[4].at("from") == "0");
+  BOOST_TEST(elements[4].at("to") == "a");
+  BOOST_TEST(elements[4].at("saturation") == 0.0);
+  BOOST_TEST(elements[5].at("polarity") == "pnp");
+  BOOST_TEST(elements[5].at("early_forward") == 30.0);
+  BOOST_TEST(!elements[5].contains("emitter_capacitance"));
+  BOOST_TEST(circuit.junctions.size() == 3u);
+  BOOST_TEST(circuit.junctions[0].state == "q_be_Q1");
+  BOOST_TEST(circuit.junctions[0].charge.capacitance == 2e-12);
+  BOOST_TEST(refusal("Q1 a b 0 q\n.model q npn level=8")
+                 .starts_with("line 3: a bipolar model of level 8"));
+}
+
+// From KP and the sides, or from how the silicon is doped: mobility 600 cm²/Vs and 3.9 ε₀/tox.
+BOOST_AUTO_TEST_CASE(field_effect_transistors) {
+  const NetlistCircuit circuit = circuit_of(
+      "V1 a 0 5\nM1 a b 0 0 n1 l=3u w=30u ad=10p\nM2 a b a a p1 m=2\nR1 b 0 1\n"
+      ".model n1 nmos(vto=0.7 kp=50u ld=0.5u cgdo=1n cj=1m)\n"
+      ".model p1 pmos(level=1 vto=-0.8 tox=50n)");
+  const auto& elements = circuit.elements;
+  BOOST_TEST(elements[1].at("type") == "mos-transistor");
+  BOOST_TEST(std::abs(elements[1].at("length").get<double>() - 2e-6) < 1e-20);
+  BOOST_TEST(elements[1].at("transconductance") == 5e-5);
+  BOOST_TEST(elements[2].at("name") == "M1_bulk_drain");
+  BOOST_TEST(std::abs(circuit.value_of(elements[2].at("capacitance").dump(), 1) - 1e-14) < 1e-28);
+  BOOST_TEST(elements[3].at("name") == "M1_gate_drain");  // the bulk is the source
+  BOOST_TEST(std::abs(elements[3].at("value").get<double>() - 3e-14) < 1e-28);
+  BOOST_TEST(elements[4].at("polarity") == "p");
+  BOOST_TEST(elements[4].at("width") == 2e-4);
+  BOOST_TEST(std::abs(elements[4].at("transconductance").get<double>() /
+                          (0.06 * 3.9 * 8.854214871e-12 / 50e-9) -
+                      1.0) < 1e-12);
+  BOOST_TEST(!circuit.notes.empty());
+  BOOST_TEST(refusal("M1 a b 0 0 n\n.model n nmos level=8") ==
+             "line 3: a model of level 8 is not supported; expected level 1");
+  BOOST_TEST(refusal("M1 a b 0 0 n l=1u\n.model n nmos ld=0.5u")
+                 .starts_with("line 2: has a channel without length"));
+}
+
+// Values by the sides of a resistor or a capacitor, behind its model, or as an expression of potentials.
+BOOST_AUTO_TEST_CASE(values_of_models) {
+  const NetlistCircuit circuit = circuit_of(
+      "V1 a 0 5\nR1 a b sheet l=11u w=2u\nR2 b 0 sheet 7k\nR3 b 0 {1+v(a)^2} \nC1 b 0 plate l=11u "
+      "w=5u\n"
+      "R4 a a 1\nR5 b 0 1 tc=1m,2u\n.model sheet r rsh=1000 narrow=1u\n"
+      ".model plate c cj=1m cjsw=1u narrow=1u");
+  BOOST_TEST(std::abs(circuit.fixed.elements[1].value - 1e4) < 1e-9);
+  BOOST_TEST(circuit.fixed.elements[2].value == 7e3);
+  BOOST_TEST(circuit.elements[3].at("value") == "(1+potential_a^2)");
+  BOOST_TEST(std::abs(circuit.fixed.elements[4].value - (1e-3 * 40e-12 + 2e-6 * 14e-6)) < 1e-18);
+  BOOST_TEST(circuit.elements.size() == 6u);
+  BOOST_TEST(circuit.notes.size() == 2u);
+}
+
+// d/dt of a potential is the current of a capacitor of 1 F that a source holds at it.
+BOOST_AUTO_TEST_CASE(derivatives_of_potentials) {
+  const NetlistCircuit circuit = circuit_of("V1 a 0 5\nB1 b 0 V=2*ddt(V(a))\nR1 b 0 1");
+  BOOST_TEST(circuit.elements.size() == 5u);
+  BOOST_TEST(circuit.elements[1].at("value") == "potential_a");
+  BOOST_TEST(circuit.elements[2].at("type") == "capacitor");
+  BOOST_TEST(circuit.elements[3].at("value") ==
+             "2*(-i_" + circuit.elements[1].at("name").get<std::string>() + ")");
+  BOOST_TEST(circuit.storages.size() == 1u);
+}
+
 // A network needs a state.
 BOOST_AUTO_TEST_CASE(a_circuit_without_storage_gets_one_that_rests) {
   const NetlistCircuit circuit = circuit_of("V1 a 0 1\nR1 a 0 1");
@@ -99,7 +180,7 @@ BOOST_AUTO_TEST_CASE(a_circuit_without_storage_gets_one_that_rests) {
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_built_is_refused_at_its_line) {
   BOOST_TEST(refusal("R1 a 0 1\nr1 a 0 2") == "line 3: the name r1 is that of line 2 again");
-  BOOST_TEST(refusal("Q1 a b c npn").starts_with("line 2: the element Q1 is not supported"));
+  BOOST_TEST(refusal("J1 a b c jf").starts_with("line 2: the element J1 is not supported"));
   BOOST_TEST(refusal("X1 a 0 part") == "line 2: unknown subcircuit \"part\"");
   BOOST_TEST(refusal(".subckt p a b\nx1 a b p\n.ends\nx1 a 0 p") ==
              "line 3: the subcircuit p contains itself");

@@ -1,0 +1,193 @@
+#include "courant/reading/bipolar_transistor.hpp"
+#include "courant/reading/element_parts.hpp"
+#include "courant/reading/junction_charge.hpp"
+#include "courant/reading/mos_channel.hpp"
+
+namespace courant {
+namespace {
+
+using namespace element_parts;
+using Kind = NetworkBranch::Kind;
+using Role = NetworkBranch::Role;
+
+// The voltage between two terminals as that of a branch of the element; 0 where they are the same node, which needs no
+// branch.
+struct Across {
+  std::optional<Index> branch;  // counted from the first of the element
+
+  Expr at(const NetworkVariables& variables, Index first) const {
+    return branch ? variables.voltage(first + *branch) : Expr(0.0);
+  }
+};
+
+// Adds the branches of an element whose terminals may be joined.
+class Terminals {
+ public:
+  // From the first to the second, for `reversed` from the second to the first.
+  Terminals(ElementReader& reader, bool reversed) : reader_(reader), reversed_(reversed) {}
+
+  Across across(const NetworkTerminal& from, const NetworkTerminal& to) {
+    if (from.node == to.node) return {};
+    return {count_++};
+  }
+  void conduct(const Across& across, const NetworkTerminal& from, const NetworkTerminal& to,
+               const std::string& suffix, ElementReader::OwnLaw current) {
+    if (!across.branch) return;
+    reader_.branch(domains::electrical, reversed_ ? to : from, reversed_ ? from : to, Kind::voltage,
+                   Role::resistor, std::move(current), suffix);
+  }
+  void store(const Across& across, const NetworkTerminal& from, const NetworkTerminal& to,
+             const std::string& suffix, const JunctionCharge& charge) {
+    if (!across.branch || (charge.capacitance == 0.0 && charge.transit == 0.0)) return;
+    store_in_junction(reader_, charge, *across.branch, reversed_ ? to : from, reversed_ ? from : to,
+                      suffix);
+  }
+
+ private:
+  ElementReader& reader_;
+  bool reversed_;
+  Index count_ = 0;
+};
+
+std::optional<NetworkElement> read_bipolar(ObjectReader& object, const NetworkSite& site) {
+  ElementReader reader(object, site);
+  const double thermal = reader.positive("thermal_voltage");
+  BipolarTransistor law;
+  law.saturation = reader.positive("saturation");
+  law.forward_gain = reader.positive("forward_gain");
+  law.reverse_gain = reader.positive("reverse_gain");
+  law.forward_scale = thermal * reader.positive("forward_emission");
+  law.reverse_scale = thermal * reader.positive("reverse_emission");
+  law.emitter_leak = {reader.constant("emitter_leak"),
+                      thermal * reader.positive("emitter_leak_emission")};
+  law.collector_leak = {reader.constant("collector_leak"),
+                        thermal * reader.positive("collector_leak_emission")};
+  law.early_forward = reader.constant("early_forward");
+  law.early_reverse = reader.constant("early_reverse");
+  law.knee_forward = reader.constant("knee_forward");
+  law.knee_reverse = reader.constant("knee_reverse");
+  law.leak = reader.constant("leak");
+  const double forward = reader.constant("forward");
+  const JunctionCharge at_emitter{.capacitance = reader.constant("emitter_capacitance"),
+                                  .junction = reader.positive("emitter_junction"),
+                                  .grading = reader.constant("emitter_grading"),
+                                  .forward = forward,
+                                  .transit = reader.constant("forward_transit"),
+                                  .saturation = law.saturation,
+                                  .scale = law.forward_scale};
+  const JunctionCharge at_collector{.capacitance = reader.constant("collector_capacitance"),
+                                    .junction = reader.positive("collector_junction"),
+                                    .grading = reader.constant("collector_grading"),
+                                    .forward = forward,
+                                    .transit = reader.constant("reverse_transit"),
+                                    .saturation = law.saturation,
+                                    .scale = law.reverse_scale};
+  const NetworkTerminal collector = reader.node("collector"), base = reader.node("base"),
+                        emitter = reader.node("emitter");
+  Terminals terminals(reader, reader.word("polarity") == "pnp");
+  const Across e = terminals.across(base, emitter), c = terminals.across(base, collector);
+  terminals.conduct(e, base, emitter, "_be", [=](const NetworkVariables& variables, Index first) {
+    const Expr v_e = e.at(variables, first);
+    return law.emitter_current(v_e) + law.transport(v_e, c.at(variables, first));
+  });
+  terminals.conduct(c, base, collector, "_bc", [=](const NetworkVariables& variables, Index first) {
+    const Expr v_c = c.at(variables, first);
+    return law.collector_current(v_c) - law.transport(e.at(variables, first), v_c);
+  });
+  terminals.store(e, base, emitter, "be", at_emitter);
+  terminals.store(c, base, collector, "bc", at_collector);
+  return reader.result();
+}
+
+std::optional<NetworkElement> read_mos(ObjectReader& object, const NetworkSite& site) {
+  ElementReader reader(object, site);
+  const bool is_p = reader.word("polarity") == "p";
+  MosChannel channel;
+  channel.threshold = (is_p ? -1.0 : 1.0) * reader.constant("threshold");
+  channel.transconductance =
+      reader.positive("transconductance") * reader.positive("width") / reader.positive("length");
+  channel.modulation = reader.constant("modulation");
+  channel.body = reader.constant("body");
+  channel.surface = reader.positive("surface");
+  const NetworkTerminal drain = reader.node("drain"), gate = reader.node("gate"),
+                        source = reader.node("source"), bulk = reader.node("bulk");
+  Terminals terminals(reader, is_p);
+  const Across d = terminals.across(drain, source), g = terminals.across(gate, source),
+               b = terminals.across(bulk, source);
+  terminals.conduct(d, drain, source, "_ds", [=](const NetworkVariables& variables, Index first) {
+    return channel.current(g.at(variables, first), d.at(variables, first), b.at(variables, first));
+  });
+  const auto none = [](const NetworkVariables&, Index) { return Expr(0.0); };
+  terminals.conduct(g, gate, source, "_gs", none);
+  terminals.conduct(b, bulk, source, "_bs", none);
+  return reader.result();
+}
+
+Key terminal(const char* name, const char* summary) {
+  return required_key(name, takes::text(), summary);
+}
+
+}  // namespace
+
+ElementKinds transistor_elements() {
+  const auto number = [](const char* key, double otherwise, const char* summary) {
+    return default_key(key, takes::formula(), otherwise, summary);
+  };
+  return {
+      {{"bipolar-transistor",
+        "of Ebers and Moll, with the base charge of Gummel and Poon where early and knee values "
+        "are given, and with "
+        "charges",
+        {name(),
+         terminal("collector", "a node"),
+         terminal("base", "a node"),
+         terminal("emitter", "a node"),
+         default_key("polarity", takes::word({"npn", "pnp"}), "npn", "which way it conducts"),
+         number("saturation", 1e-16, "in A"),
+         number("forward_gain", 100.0, "β_f"),
+         number("reverse_gain", 1.0, "β_r"),
+         number("forward_emission", 1.0, "its coefficient"),
+         number("reverse_emission", 1.0, "its coefficient"),
+         number("thermal_voltage", 0.025852, "k T/e in V"),
+         number("emitter_leak", 0.0, "saturation of the leaking junction at the emitter, in A"),
+         number("emitter_leak_emission", 1.5, "its coefficient"),
+         number("collector_leak", 0.0, "saturation of the leaking junction at the collector, in A"),
+         number("collector_leak_emission", 2.0, "its coefficient"),
+         number("early_forward", 0.0, "the Early voltage in V; 0: infinite"),
+         number("early_reverse", 0.0, "that of reverse operation, in V; 0: infinite"),
+         number("knee_forward", 0.0,
+                "the current at which the gain begins to fall, in A; 0: infinite"),
+         number("knee_reverse", 0.0, "that of reverse operation, in A; 0: infinite"),
+         number("leak", 0.0, "a conductance beside each junction, in S"),
+         number("emitter_capacitance", 0.0,
+                "C₀ of C₀/(1 - v/junction)^grading in F; with it or with forward_transit there is "
+                "a charge "
+                "q_be_<name>"),
+         number("emitter_junction", 0.75, "in V"),
+         number("emitter_grading", 0.33, "less than 1"),
+         number("collector_capacitance", 0.0,
+                "in F; with it or with reverse_transit there is a charge q_bc_<name>"),
+         number("collector_junction", 0.75, "in V"),
+         number("collector_grading", 0.33, "less than 1"),
+         number("forward", 0.5,
+                "the part of junction from which on the capacitance goes on as its tangent"),
+         number("forward_transit", 0.0, "the time whose product with i_f is a charge, in s"),
+         number("reverse_transit", 0.0, "the time whose product with i_r is a charge, in s")}},
+       read_bipolar},
+      {{"mos-transistor",
+        "the channel of Shichman and Hodges (level 1 of SPICE); junctions and capacitances are "
+        "elements besides",
+        {name(), terminal("drain", "a node"), terminal("gate", "a node"),
+         terminal("source", "a node"), terminal("bulk", "a node; mostly that of the source"),
+         default_key("polarity", takes::word({"n", "p"}), "n", "of the channel"),
+         number("threshold", 0.0, "in V; negative for a p-channel that is off at 0 V"),
+         number("transconductance", 2e-5, "in A/V², for a width equal to the length"),
+         number("width", 1e-4, "in m"), number("length", 1e-4, "in m"),
+         number("modulation", 0.0, "λ in 1/V: of the length of the channel"),
+         number("body", 0.0, "γ in √V: of the voltage of the bulk"),
+         number("surface", 0.6, "the surface potential in V")}},
+       read_mos},
+  };
+}
+
+}  // namespace courant
