@@ -1,8 +1,7 @@
 // A parameter that is fitted to a trajectory: the gradient of a sum over all steps, by the adjoint.
 #include <cmath>
+#include <courant/courant.hpp>
 #include <iostream>
-
-#include "courant.hpp"
 
 using namespace courant;
 
