@@ -2,6 +2,7 @@
 
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/core/expressions/expr_vectors.hpp"
+#include "courant/core/expressions/graph_parameters.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/core/words/text_layout.hpp"
 
@@ -102,7 +103,7 @@ std::optional<WrittenFormulas> read_forces(const JsonReader& value, const PhaseW
 // F = -∂R/∂w for a Rayleigh function R(x, w, t), differentiated at fresh variables.
 ExprVector rayleigh_force(const WrittenFormula& formula, const PhaseWords& words,
                           const ExprVector& x, const ExprVector& w, const Expr& t) {
-  Graph graph;
+  const Graph graph = fresh_graph({x, w, ExprVector::Constant(1, t)});
   const ExprVector from = graph.variables("xwt", x.size() + w.size() + 1);
   const ExprVector velocity = from.segment(x.size(), w.size());
   const Expr R = evaluate(formula, words.at(from.head(x.size()), velocity, from[from.size() - 1]));

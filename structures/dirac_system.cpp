@@ -5,6 +5,7 @@
 
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/core/expressions/expr_vectors.hpp"
+#include "courant/core/expressions/graph_parameters.hpp"
 
 namespace courant {
 namespace {
@@ -110,7 +111,7 @@ ExprVector DiracSystem::constraint(const ExprVector& x, const ExprVector& v,
 ExprVector DiracSystem::reaction(const ExprVector& x, const ExprVector& v, const ExprVector& alpha,
                                  const ExprVector& kappa, const Expr& t) const {
   const Index N = x.size(), n = v.size();
-  Graph graph;
+  const Graph graph = fresh_graph({x, v, alpha, ExprVector::Constant(1, t)});
   ExprVector from(N + 2 * n + 1);
   from << graph.variables("x", N), graph.variables("pair", 2 * n), graph.variable("t");
   const ExprVector pair = from.segment(N, 2 * n);

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "courant/core/expressions/derivative.hpp"
+#include "courant/core/expressions/graph_parameters.hpp"
 #include "courant/structures/morse_family.hpp"
 
 namespace courant {
@@ -18,7 +19,7 @@ std::shared_ptr<const GeneratingFamily> reduced_lagrangian(
         return x.head(n).dot(xi) - lagrangian(xi, x.segment(n, d), t);
       },
       [lagrangian, n, d](const ExprVector& x, const ExprVector& xi, const Expr& t) {
-        Graph graph;
+        const Graph graph = fresh_graph({x, xi, ExprVector::Constant(1, t)});
         const ExprVector from = graph.variables("from", n + d + 1);
         const ExprVector velocity = from.head(n);
         const Expr l = lagrangian(velocity, from.segment(n, d), from[n + d]);

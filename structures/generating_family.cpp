@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "courant/core/expressions/derivative.hpp"
+#include "courant/core/expressions/graph_parameters.hpp"
 #include "courant/core/numbers/power_of_two.hpp"
 
 namespace courant {
@@ -30,7 +31,7 @@ Expr GeneratingFamily::value(const ExprVector& x, const ExprVector& lambda, cons
 // expressions.
 ExprVector GeneratingFamily::derivative(const ExprVector& x, const ExprVector& lambda,
                                         const Expr& t, bool by_lambda) const {
-  Graph graph;
+  const Graph graph = fresh_graph({x, lambda, ExprVector::Constant(1, t)});
   ExprVector from(x.size() + lambda.size() + 1);
   from << graph.variables("x", x.size()), graph.variables("lambda", lambda.size()),
       graph.variable("t");
@@ -103,7 +104,7 @@ Expr Lagrangian::do_value(const ExprVector& x, const ExprVector& w, const Expr& 
 }
 
 Expr Lagrangian::do_energy(const ExprVector& x, const ExprVector& w, const Expr& t) const {
-  Graph graph;
+  const Graph graph = fresh_graph({x, w, ExprVector::Constant(1, t)});
   ExprVector from(x.size() + w.size() + 1);
   from << graph.variables("x", x.size()), graph.variables("w", w.size()), graph.variable("t");
   const ExprVector q = phase_space_->position(from.head(x.size()));

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "courant/core/expressions/derivative.hpp"
+#include "courant/core/expressions/graph_parameters.hpp"
 #include "courant/core/numbers/as_size.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/structures/kirchhoff.hpp"
@@ -233,7 +234,7 @@ std::optional<Expr> Network::do_energy(const ExprVector& x, const ExprVector& z,
 }
 
 ExprVector Network::do_effort(const ExprVector& x, const ExprVector& z, const Expr& t) const {
-  Graph graph;
+  const Graph graph = fresh_graph({x, z, ExprVector::Constant(1, t)});
   ExprVector from(x.size() + 1), to(x.size() + 1);
   from << graph.variables("x", x.size()), graph.variable("t");
   to << x, t;

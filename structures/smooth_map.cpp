@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "courant/core/expressions/derivative.hpp"
+#include "courant/core/expressions/graph_parameters.hpp"
 #include "courant/structures/structure_checks.hpp"
 
 namespace courant {
@@ -26,7 +27,7 @@ ExprVector SmoothMap::operator()(const ExprVector& x) const {
 }
 
 ExprMatrix SmoothMap::tangent(const ExprVector& x) const {
-  Graph graph;
+  const Graph graph = fresh_graph({x});
   const ExprVector point = graph.variables("x", x.size());
   const ExprMatrix derivative = jacobian((*this)(point), point).dense();
   const ExprMatrix local = target_->coframe((*this)(point)) * (derivative * source_->frame(point));

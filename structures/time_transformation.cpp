@@ -6,6 +6,7 @@
 
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/core/expressions/expr_vectors.hpp"
+#include "courant/core/expressions/graph_parameters.hpp"
 #include "courant/core/solve/gauss_newton.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/product.hpp"
@@ -183,7 +184,7 @@ class PlainEnergySystem final : public EnergySystem {
 
   // ∂E/∂t, at fresh variables: x may be constants.
   Expr time_slope(const ExprVector& x, const ExprVector& z) const {
-    Graph graph;
+    const Graph graph = fresh_graph({x, z});
     ExprVector from(x.size() + z.size());
     from << graph.variables("x", x.size()), graph.variables("z", z.size());
     const ExprVector at = from.head(x.size());

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "courant/core/expressions/graph_parameters.hpp"
 #include "courant/core/expressions/subgraph.hpp"
 
 namespace courant {
@@ -371,14 +372,31 @@ SparseExprMatrix jacobian(const ExprVector& y, const ExprVector& x) {
   return result;
 }
 
+namespace {
+
+// The parameter of the same name in another graph; itself where there is none.
+Expr moved_parameter(const Expr& parameter, const Graph& target) {
+  const std::vector<std::string> names = parameter_names(parameter.graph());
+  return parameter_of(target, names[parameter.node()], parameter);
+}
+
+}  // namespace
+
 ExprVector substitute(const ExprVector& y, const ExprVector& x, const ExprVector& replacement) {
   check_size("substitute", "replacement", replacement.size(), x.size());
   const Subgraph subgraph(y);
   const auto index = indices("substitute", x, subgraph);
+  // Parameters of the graph are those of the graph that this leads to.
+  const Graph target = graph_of(replacement);
+  std::size_t parameters = 0;
+  if (!target.is_none() && !subgraph.graph().is_none() && !(target == subgraph.graph()))
+    parameters = parameter_names(subgraph.graph()).size();
   std::vector<Expr> image(subgraph.size());
   for (std::size_t at = 0; at < subgraph.size(); ++at) {
     const Operation operation(subgraph, at);
-    if (operation.count == 0)
+    if (operation.count == 0 && index[at] == kNoIndex && subgraph.nodes()[at] < parameters)
+      image[at] = moved_parameter(operation.value, target);
+    else if (operation.count == 0)
       image[at] = index[at] != kNoIndex ? replacement[index[at]] : operation.value;
     else
       image[at] = apply(operation.node.op, operation.node.k, image[operation.at[0]],

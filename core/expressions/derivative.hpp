@@ -41,7 +41,8 @@ SparseExprMatrix jacobian(const ExprVector& y, const ExprVector& x);
 bool is_affine(const ExprVector& y, const ExprVector& x);
 
 // y with the variables x replaced, all at once, by `replacement` (same size), which may be in
-// another graph or constant.
+// another graph or constant. Parameters (graph_parameters.hpp) that are not among x become those of the
+// other graph.
 ExprVector substitute(const ExprVector& y, const ExprVector& x, const ExprVector& replacement);
 Expr substitute(const Expr& y, const ExprVector& x, const ExprVector& replacement);
 

@@ -23,6 +23,9 @@ class ComposedDifferential final : public StepDifferential {
 
   // Throws std::invalid_argument where the step does not know its parts.
   MatrixXd do_images(const Step& step, const MatrixXd& V) const override;
+  MatrixXd do_pull_back(const Step& step, const MatrixXd& Lambda) const override;
+  void require_parts(const Step& step) const;
+  const StepDifferential& of_part(std::size_t i) const { return *of_parts_[i % of_parts_.size()]; }
 
   std::string method_;
   Parts of_parts_;

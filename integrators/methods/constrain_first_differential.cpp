@@ -46,6 +46,30 @@ class ConstrainFirst::Differential final : public StepDifferential {
 
  private:
   MatrixXd do_images(const Step& step, const MatrixXd& V) const override {
+    const Ends at = ends(step);
+    const MatrixXd along = at.coordinates * V;
+    if ((at.velocities * along - V).norm() > kAlongConstraints * V.norm())
+      throw std::domain_error(
+          "ConstrainFirst: no step begins in a given direction; expected directions along the "
+          "constraints.");
+    return at.to_end *
+           implicit_derivative("ConstrainFirst", at.to_start, -along, at.to_start.cols());
+  }
+
+  MatrixXd do_pull_back(const Step& step, const MatrixXd& Lambda) const override {
+    const Ends at = ends(step);
+    return -at.coordinates.transpose() * implicit_adjoint("ConstrainFirst", at.to_start,
+                                                          at.to_end.transpose() * Lambda,
+                                                          at.to_start.cols());
+  }
+
+  // What the directions of T_{x̄}M_f lead to: in a basis of T_{x₀}M_f, where coordinates that are constant, as at rest or on
+  // an axis, are no equations; and as ambient velocities at x₁.
+  struct Ends {
+    MatrixXd to_start, to_end;
+    MatrixXd velocities, coordinates;  // of that basis: as ambient velocities, and back
+  };
+  Ends ends(const Step& step) const {
     const State& stage = step.stage;
     const Site at = site(stage);
     const MatrixXd tangent = at.velocities;
@@ -57,22 +81,16 @@ class ConstrainFirst::Differential final : public StepDifferential {
                       J.rightCols(displaced.rows()) * displaced);
     };
     const VectorXd w = step.h * stage.v;
-    const MatrixXd to_start = projected(step.before, first_({stage.x, w}), moved(first_));
-    const MatrixXd to_end = projected(step.after, second_({stage.x, w}), moved(second_));
-    // In a basis of T_{x₀}M_f: coordinates that are constant there, as at rest or on an axis, are no equations.
     const Site start = site(step.before);
-    const auto coordinates = [&](const MatrixXd& velocities) -> MatrixXd {
-      const MatrixXd components = M_.coframe(step.before.x).matrix() * velocities;
-      return start.directions.transpose() *
-             (start.evaluation.basis().matrix().transpose() * components);
-    };
-    const MatrixXd along = coordinates(V);
-    if ((start.velocities * along - V).norm() > kAlongConstraints * V.norm())
-      throw std::domain_error(
-          "ConstrainFirst: no step begins in a given direction; expected directions along the "
-          "constraints.");
-    return to_end *
-           implicit_derivative("ConstrainFirst", coordinates(to_start), -along, to_start.cols());
+    Ends result;
+    result.velocities = start.velocities;
+    result.coordinates =
+        start.directions.transpose() *
+        (start.evaluation.basis().matrix().transpose() * M_.coframe(step.before.x).matrix());
+    result.to_start =
+        result.coordinates * projected(step.before, first_({stage.x, w}), moved(first_));
+    result.to_end = projected(step.after, second_({stage.x, w}), moved(second_));
+    return result;
   }
 
   // A point of M_f with its tangent and conormal directions.

@@ -221,6 +221,13 @@ class ExplicitRungeKutta::Differential final : public StepDifferential {
     return combined(V, images, tableau.times.size() - 1);
   }
 
+  // By the images of a basis.
+  MatrixXd do_pull_back(const Step& step, const MatrixXd& Lambda) const override {
+    const Manifold& M = *method_.system()->manifold();
+    const MatrixXd basis = (M.frame(step.before.x) * M.tangent_basis(step.before.x)).matrix();
+    return pull_back_by(basis, do_images(step, basis), Lambda);
+  }
+
   const ExplicitRungeKutta method_;  // its functions are shared, not copied
   VectorFieldDifferential differential_;
 };

@@ -92,10 +92,16 @@ class IntegratorInUnits::Differential final : public StepDifferential {
 
  private:
   MatrixXd do_images(const Step& step, const MatrixXd& V) const override {
-    const Step measured = in_other_units(step, 1.0 / units_.time,
-                                         [&](const State& state) { return units_.measure(state); });
     const auto u = units_.tangent.asDiagonal();
-    return u * (*measured_)(measured, u.inverse() * V);
+    return u * (*measured_)(measured(step), u.inverse() * V);
+  }
+  MatrixXd do_pull_back(const Step& step, const MatrixXd& Lambda) const override {
+    const auto u = units_.tangent.asDiagonal();
+    return u.inverse() * measured_->pull_back(measured(step), u * Lambda);
+  }
+  Step measured(const Step& step) const {
+    return in_other_units(step, 1.0 / units_.time,
+                          [&](const State& state) { return units_.measure(state); });
   }
 
   Units units_;

@@ -167,6 +167,13 @@ class ReducedMap::Differential final : public StepDifferential {
                implicit_derivative("ReducedMap", F.leftCols(y.size()), F.rightCols(N) * V, 2 * n_);
   }
 
+  // By the images of a basis.
+  MatrixXd do_pull_back(const Step& step, const MatrixXd& Lambda) const override {
+    const Manifold& M = *method_.reduced_->manifold();
+    const MatrixXd basis = (M.frame(step.before.x) * M.tangent_basis(step.before.x)).matrix();
+    return pull_back_by(basis, do_images(step, basis), Lambda);
+  }
+
   const ReducedMap method_;  // its functions are shared, not copied
   Index n_;
   Function equations_, advance_;  // y; x₀, h, t ↦ each, with Jacobian by y and x₀

@@ -5,6 +5,7 @@
 
 #include "courant/core/linear/lu_decomposition.hpp"
 #include "courant/core/linear/rank_decision.hpp"
+#include "courant/integrators/methods/discrete_flow.hpp"
 
 namespace courant {
 namespace {
@@ -28,10 +29,7 @@ TangentMap::TangentMap(const Integrator& method, const MatrixXd& conormals,
 }
 
 MatrixXd TangentMap::start(const VectorXd& x) const {
-  const MatrixXd basis = manifold_->tangent_basis(x);
-  const MatrixXd frame = manifold_->frame(x);
-  if (is_whole()) return frame * basis;
-  return frame * basis * kernel(conormals_ * basis, {.data_error = 1e-9});
+  return consistent_directions(*manifold_, conormals_, x);
 }
 
 TangentMap::Site TangentMap::site(const VectorXd& x, const MatrixXd& velocities) const {

@@ -499,9 +499,14 @@ class Verlet::Differential final : public StepDifferential {
 
  private:
   MatrixXd do_images(const Step& step, const MatrixXd& V) const override {
-    return step_.jacobian({step.before.x, VectorXd::Constant(1, step.h),
-                           VectorXd::Constant(1, step.before.t)}) *
-           V;
+    return jacobian(step) * V;
+  }
+  MatrixXd do_pull_back(const Step& step, const MatrixXd& Lambda) const override {
+    return jacobian(step).transpose() * Lambda;
+  }
+  MatrixXd jacobian(const Step& step) const {
+    return step_.jacobian(
+        {step.before.x, VectorXd::Constant(1, step.h), VectorXd::Constant(1, step.before.t)});
   }
 
   Function step_;

@@ -5,6 +5,7 @@
 
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/core/expressions/expr_vectors.hpp"
+#include "courant/core/expressions/graph_parameters.hpp"
 #include "courant/core/expressions/linear_algebra.hpp"
 #include "courant/core/linear/cholesky_decomposition.hpp"
 #include "courant/core/linear/rank_decision.hpp"
@@ -42,7 +43,7 @@ MatrixFormula of_energy(const std::shared_ptr<const ImplicitSystem>& system,
                         const std::vector<Index>& momenta) {
   return [system, momenta](const ExprVector& at) -> ExprMatrix {
     const Manifold& M = *system->manifold();
-    Graph graph;
+    const Graph graph = fresh_graph({at});
     const ExprVector y = graph.variables("x", at.size());
     const ExprVector z = graph.variables("z", system->auxiliary_size());
     const Expr t = graph.variable("t");
@@ -70,7 +71,7 @@ MatrixFormula of_lagrangian(const std::shared_ptr<const ImplicitSystem>& system,
   const auto bundle = std::dynamic_pointer_cast<const CotangentBundle>(system->manifold());
   if (!dirac || !bundle || momenta != MomentumProjector::momenta_of(*bundle)) return {};
   return [family = dirac->family(), bundle](const ExprVector& at) -> ExprMatrix {
-    Graph graph;
+    const Graph graph = fresh_graph({at});
     const ExprVector y = graph.variables("x", at.size());
     const ExprVector lambda = graph.variables("lambda", family->parameter_size());
     const Expr t = graph.variable("t");

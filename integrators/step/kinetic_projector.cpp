@@ -5,6 +5,7 @@
 
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/core/expressions/expr_vectors.hpp"
+#include "courant/core/expressions/graph_parameters.hpp"
 #include "courant/core/linear/qr_decomposition.hpp"
 
 namespace courant {
@@ -57,7 +58,7 @@ std::shared_ptr<const KineticProjector> KineticProjector::of(
   const std::vector<Index> rows = conditions_on_positions(*system, *bundle);
   const auto conditions = [system, bundle, rows](const ExprVector& at,
                                                  const Expr& t) -> ExprMatrix {
-    Graph graph;
+    const Graph graph = fresh_graph({at});
     const ExprVector y = graph.variables("x", at.size());
     const ExprVector v = graph.variables("v", bundle->tangent_dimension());
     const ExprVector z = graph.variables("z", system->auxiliary_size());

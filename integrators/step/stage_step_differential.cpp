@@ -50,21 +50,45 @@ class StageStep::Differential final : public StepDifferential {
 
  private:
   MatrixXd do_images(const Step& step, const MatrixXd& V) const override {
-    return method_.map_->has_inverse() ? by_ends(step, V) : by_stage(step, V);
+    if (!method_.map_->has_inverse()) {
+      const Linear at = by_stage(step);
+      MatrixXd B = MatrixXd::Zero(at.A.rows(), V.cols());
+      B.topRows(at.start.rows()) = at.start * V;
+      return at.end * solved(at, B);
+    }
+    const Linear at = by_ends(step);
+    return at.end * solved(at, at.start * V);
   }
 
-  MatrixXd by_ends(const Step& step, const MatrixXd& V) const {
-    const Index N = step.before.x.size(), n = manifold().dimension();
+  MatrixXd do_pull_back(const Step& step, const MatrixXd& Lambda) const override {
+    const Linear at = method_.map_->has_inverse() ? by_ends(step) : by_stage(step);
+    const MatrixXd W =
+        implicit_adjoint(method_.name_.c_str(), at.A, at.end.transpose() * Lambda, at.determined);
+    return at.start.transpose() * W.topRows(at.start.rows());
+  }
+
+  // A X + (start δx₀, 0) = 0,   δx₁ = end X, where the first `determined` numbers of X have to be.
+  struct Linear {
+    MatrixXd A, start, end;
+    Index determined;
+  };
+  MatrixXd solved(const Linear& at, const MatrixXd& B) const {
+    return implicit_derivative(method_.name_.c_str(), at.A, B, at.determined);
+  }
+
+  Linear by_ends(const Step& step) const {
+    const Index N = step.before.x.size(), n = manifold().dimension(), m = step.after.z.size();
     const MatrixXd J =
         equations_.jacobian({step.before.x, step.after.x, step.after.z,
                              VectorXd::Constant(1, step.h), VectorXd::Constant(1, step.before.t)});
     const MatrixXd tangent = velocities(step.after.x);
-    MatrixXd A(J.rows(), n + step.after.z.size());
-    A << J.middleCols(N, N) * tangent, J.rightCols(step.after.z.size());
-    return tangent * implicit_derivative(method_.name_.c_str(), A, J.leftCols(N) * V, n).topRows(n);
+    Linear at{MatrixXd(J.rows(), n + m), J.leftCols(N), MatrixXd::Zero(N, n + m), n};
+    at.A << J.middleCols(N, N) * tangent, J.rightCols(m);
+    at.end.leftCols(n) = tangent;
+    return at;
   }
 
-  MatrixXd by_stage(const Step& step, const MatrixXd& V) const {
+  Linear by_stage(const Step& step) const {
     const Index N = step.before.x.size(), n = manifold().dimension(), m = step.after.z.size();
     const MatrixXd J =
         equations_.jacobian({step.stage.x, VectorXd(step.h * step.after.v), step.after.z,
@@ -76,10 +100,9 @@ class StageStep::Differential final : public StepDifferential {
     const Index equations = J.rows() - 2 * N;
     const MatrixXd to_start = manifold().tangent_basis(step.before.x).matrix().transpose() *
                               manifold().coframe(step.before.x).matrix();
-    MatrixXd A(n + equations, 2 * n + m), B = MatrixXd::Zero(A.rows(), V.cols());
-    A << to_start * along.topRows(N), along.bottomRows(equations);
-    B.topRows(n) = -(to_start * V);
-    return along.middleRows(N, N) * implicit_derivative(method_.name_.c_str(), A, B, 2 * n);
+    Linear at{MatrixXd(n + equations, 2 * n + m), -to_start, along.middleRows(N, N), 2 * n};
+    at.A << to_start * along.topRows(N), along.bottomRows(equations);
+    return at;
   }
 
   const Manifold& manifold() const { return *method_.system_->manifold(); }

@@ -20,6 +20,13 @@ constexpr double kRegular = 1e-9;
 constexpr double kSolvedTo = 1e-12;
 constexpr double kConsistent = 1e-6;
 
+void require_determined(const char* place, const MatrixXd& free) {
+  if (free.size() > 0 && free.cwiseAbs().maxCoeff() > kConsistent)
+    throw std::domain_error(std::string(place) +
+                            ": the end of the step is not determined by its beginning; expected "
+                            "a system without gauge freedom.");
+}
+
 }  // namespace
 
 MatrixXd StepDifferential::operator()(const Step& step, const MatrixXd& V) const {
@@ -28,6 +35,36 @@ MatrixXd StepDifferential::operator()(const Step& step, const MatrixXd& V) const
                                 "; expected a row for each of the " +
                                 std::to_string(step.before.x.size()) + " numbers of a point.");
   return do_images(step, V);
+}
+
+MatrixXd StepDifferential::pull_back(const Step& step, const MatrixXd& Lambda) const {
+  if (Lambda.rows() != step.after.x.size())
+    throw std::invalid_argument("StepDifferential::pull_back: Lambda is " +
+                                size_text(Lambda.rows(), Lambda.cols()) +
+                                "; expected a row for each of the " +
+                                std::to_string(step.after.x.size()) + " numbers of a point.");
+  return do_pull_back(step, Lambda);
+}
+
+MatrixXd StepDifferential::pull_back_by(const MatrixXd& V, const MatrixXd& images,
+                                        const MatrixXd& Lambda) {
+  if (V.cols() == 0) return MatrixXd::Zero(V.rows(), Lambda.cols());
+  const MatrixXd pairings = images.transpose() * Lambda;
+  return V * LuDecomposition(V.transpose() * V).solve(pairings);
+}
+
+MatrixXd implicit_adjoint(const char* place, const MatrixXd& A, const MatrixXd& C,
+                          Index determined) {
+  if (A.cols() == 0 || C.cols() == 0) return MatrixXd::Zero(A.rows(), C.cols());
+  const auto [scaled, row_scale, column_scale] = equilibrate(A, kNoiseOfJacobians);
+  const MatrixXd transposed = scaled.transpose(), right = column_scale.asDiagonal() * C;
+  if (A.rows() == A.cols()) {
+    const LuDecomposition lu(transposed);
+    if (lu.pivot_ratio() > kRegular) return row_scale.asDiagonal() * lu.solve(-right);
+  }
+  const FundamentalSubspaces spaces(transposed, {.data_error = kSolvedTo});
+  require_determined(place, spaces.left_kernel().topRows(determined));
+  return row_scale.asDiagonal() * MatrixXd(-spaces.pseudo_solve(right));
 }
 
 MatrixXd implicit_derivative(const char* place, const MatrixXd& A, const MatrixXd& B,
@@ -40,11 +77,7 @@ MatrixXd implicit_derivative(const char* place, const MatrixXd& A, const MatrixX
     if (lu.pivot_ratio() > kRegular) return column_scale.asDiagonal() * lu.solve(-right);
   }
   const FundamentalSubspaces spaces(scaled, {.data_error = kSolvedTo});
-  const MatrixXd free = spaces.kernel().topRows(determined);
-  if (free.size() > 0 && free.cwiseAbs().maxCoeff() > kConsistent)
-    throw std::domain_error(std::string(place) +
-                            ": the end of the step is not determined by its beginning; expected "
-                            "a system without gauge freedom.");
+  require_determined(place, spaces.kernel().topRows(determined));
   const MatrixXd X = -spaces.pseudo_solve(right);
   const MatrixXd defect = scaled * X + right,
                  size = scaled.cwiseAbs() * X.cwiseAbs() + right.cwiseAbs();

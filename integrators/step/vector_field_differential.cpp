@@ -44,7 +44,8 @@ VectorFieldDifferential::Images VectorFieldDifferential::operator()(const Place&
   const MatrixXd change = implicit_derivative("VectorFieldDifferential", G.leftCols(unknowns),
                                               G.rightCols(N) * V, system_->manifold()->dimension());
   const MatrixXd images = r.rightCols(N) * V + r.leftCols(unknowns) * change;
-  return {images.topRows(N), images.middleRows(N, system_->manifold()->tangent_dimension())};
+  const Index n = system_->manifold()->tangent_dimension();
+  return {images.topRows(N), images.middleRows(N, n), images.bottomRows(images.rows() - N - n)};
 }
 
 MatrixXd VectorFieldDifferential::split(const Place& at, Index codimension) const {

@@ -5,9 +5,9 @@
 
 namespace courant {
 
-// x ↦ (ẋ, v) of a VectorField, differentiated through its equations: with G(y, x) = 0 and (ẋ, v) = r(y, x)
+// x ↦ (ẋ, v, z) of a VectorField, differentiated through its equations: with G(y, x) = 0 and (ẋ, v, z) = r(y, x)
 //
-//   (dẋ, dv) = (∂r/∂x - ∂r/∂y (∂G/∂y)⁺ ∂G/∂x) δx
+//   (dẋ, dv, dz) = (∂r/∂x - ∂r/∂y (∂G/∂y)⁺ ∂G/∂x) δx
 //
 // in a basis that turns with x as that of an Evaluation does. Off M_f it is that of the extension that
 // VectorField is; on M_f, along T_xM_f, that of S_f. Immutable.
@@ -23,7 +23,7 @@ class VectorFieldDifferential {
     const LinearMap<double>& basis;
   };
   struct Images {
-    MatrixXd rate, v;  // N × k, Ñ × k
+    MatrixXd rate, v, z;  // N × k, Ñ × k, m × k
   };
   // Of the columns of V (N × k). Throws std::domain_error where v is not determined by x.
   Images operator()(const Place& at, const MatrixXd& V) const;

@@ -74,8 +74,8 @@ def _at(document, pointer):
 
 
 # Those of an experiment, beside those of its system.
-KEYS = ("title", "description", "system", "initial", "hold", "weights", "method", "time", "symmetries", "defects", "observe",
-        "events", "expect", "output", "examine")
+KEYS = ("title", "description", "system", "initial", "hold", "weights", "method", "time", "symmetries", "defects",
+        "sensitivities", "observe", "events", "expect", "output", "examine")
 
 
 def changed(document, settings) -> dict:

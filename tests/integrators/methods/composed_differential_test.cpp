@@ -18,6 +18,9 @@ class Linear final : public StepDifferential {
 
  private:
   MatrixXd do_images(const Step&, const MatrixXd& V) const override { return A_ * V; }
+  MatrixXd do_pull_back(const Step&, const MatrixXd& Lambda) const override {
+    return A_.transpose() * Lambda;
+  }
   MatrixXd A_;
 };
 
@@ -47,6 +50,17 @@ BOOST_AUTO_TEST_CASE(parts_are_applied_one_after_the_other) {
   MatrixXd expected(2, 2);
   expected << 2, 2, 0, 3;
   BOOST_TEST(((*both)(of_parts(2), MatrixXd::Identity(2, 2)) == expected));
+}
+
+// The adjoint of a product is that of the factors, the last part first.
+BOOST_AUTO_TEST_CASE(covectors_are_pulled_back_through_the_last_part_first) {
+  const auto both = ComposedDifferential::of("method", {shear, stretch});
+  MatrixXd expected(2, 2);
+  expected << 2, 0, 2, 3;
+  BOOST_TEST((both->pull_back(of_parts(2), MatrixXd::Identity(2, 2)) == expected));
+  BOOST_CHECK_THROW(both->pull_back(of_parts(2), MatrixXd::Identity(3, 3)), std::invalid_argument);
+  BOOST_CHECK_THROW(both->pull_back(of_parts(2, 0.0), MatrixXd::Identity(2, 2)),
+                    std::invalid_argument);
 }
 
 BOOST_AUTO_TEST_CASE(differentials_go_in_turn) {

@@ -118,6 +118,9 @@ class StretchedDifferential final : public StepDifferential {
   MatrixXd do_images(const Step& step, const MatrixXd& V) const override {
     return factor_ * (*truth_)(step, V);
   }
+  MatrixXd do_pull_back(const Step& step, const MatrixXd& Lambda) const override {
+    return factor_ * truth_->pull_back(step, Lambda);
+  }
   std::shared_ptr<const StepDifferential> truth_;
   double factor_;
 };
