@@ -1,6 +1,5 @@
 #include "courant/integrators/methods/discrete_flow.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -8,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "courant/core/linear/generalized_eigenvalues.hpp"
 #include "courant/core/linear/lu_decomposition.hpp"
 #include "courant/core/linear/qr_decomposition.hpp"
 #include "courant/core/linear/rank_decision.hpp"
@@ -145,7 +145,8 @@ Eigen::VectorXcd DiscreteFlow::multipliers(const State& start, const MatrixXd& V
     throw std::domain_error("DiscreteFlow::multipliers: the tangent map leads " +
                             number_text(outside) +
                             " out of the span of the directions; expected one that it keeps.");
-  Eigen::VectorXcd values = Eigen::EigenSolver<MatrixXd>(T, false).eigenvalues();
+  const auto [alphas, betas] = generalized_eigenvalues(T, MatrixXd::Identity(T.rows(), T.cols()));
+  Eigen::VectorXcd values = alphas.cwiseQuotient(betas);
   std::sort(values.begin(), values.end(),
             [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
   return values;
