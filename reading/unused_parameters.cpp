@@ -10,7 +10,7 @@
 namespace courant {
 namespace {
 
-struct Parameter {
+struct NamedParameter {
   std::string name, pointer;
 };
 
@@ -24,19 +24,19 @@ class Words {
         read(value, "/" + pointer_token(key));
   }
 
-  std::vector<Parameter> unused() const {
-    std::vector<Parameter> result;
-    for (const Parameter& parameter : parameters_)
+  std::vector<NamedParameter> unused() const {
+    std::vector<NamedParameter> result;
+    for (const NamedParameter& parameter : parameters_)
       if (!words_.contains(parameter.name)) result.push_back(parameter);
     return result;
   }
   // The other parameters of the same object that are used.
-  std::vector<std::string> others(const Parameter& than) const {
-    const auto place = [](const Parameter& of) {
+  std::vector<std::string> others(const NamedParameter& than) const {
+    const auto place = [](const NamedParameter& of) {
       return of.pointer.substr(0, of.pointer.rfind('/'));
     };
     std::vector<std::string> names;
-    for (const Parameter& parameter : parameters_)
+    for (const NamedParameter& parameter : parameters_)
       if (place(parameter) == place(than) && words_.contains(parameter.name))
         names.push_back(parameter.name);
     return names;
@@ -85,10 +85,10 @@ class Words {
   }
 
   std::set<std::string, std::less<>> words_;
-  std::vector<Parameter> parameters_;
+  std::vector<NamedParameter> parameters_;
 };
 
-std::string sentence(const Parameter& parameter, const Words& words) {
+std::string sentence(const NamedParameter& parameter, const Words& words) {
   return "nothing uses the parameter " + in_quotes(parameter.name) +
          did_you_mean(parameter.name, words.others(parameter));
 }
@@ -98,7 +98,7 @@ std::string sentence(const Parameter& parameter, const Words& words) {
 std::vector<Problem> unused_parameters(const Json& document) {
   const Words words(document);
   std::vector<Problem> problems;
-  for (const Parameter& parameter : words.unused())
+  for (const NamedParameter& parameter : words.unused())
     problems.push_back({parameter.pointer, sentence(parameter, words)});
   return problems;
 }
@@ -106,7 +106,7 @@ std::vector<Problem> unused_parameters(const Json& document) {
 void require_used(const Json& document, std::span<const Setting> settings,
                   const std::string& option) {
   const Words words(document);
-  for (const Parameter& parameter : words.unused())
+  for (const NamedParameter& parameter : words.unused())
     for (const Setting& setting : settings)
       if (setting.pointer == parameter.pointer ||
           setting.pointer.starts_with(parameter.pointer + "/"))
