@@ -170,14 +170,17 @@ bool has_no_start(const ConstraintLadder& ladder) {
   return ladder.verdict == Verdict::inconsistent || ladder.verdict == Verdict::not_reached;
 }
 
-// Whether the equations of a ladder, and what was held, hold at its point to four digits: a search has units of its own,
-// which may be those of what it met on its way. Those of a ladder of a rounded start hold to less than round-off.
+// Whether the equations of a ladder, and what was held, hold at its point, in all digits or in four: a search has units of
+// its own, which may be those of what it met on its way.
+enum class MetTo { all_digits, four_digits };
 bool is_met(const InitialGuess& held, const ConstraintLadder& ladder,
-            const std::shared_ptr<const ImplicitSystem>& system) {
+            const std::shared_ptr<const ImplicitSystem>& system, MetTo digits) {
   if (has_no_start(ladder) || ladder.levels.empty() || ladder.jet.size() == 0) return true;
   const ConsistentPoint consistent(system, held, {});
-  constexpr double four_digits = 1e-4;
-  return consistent.is_met_at(consistent.jet_of(ladder), four_digits, four_digits);
+  constexpr double part = 1e-4;
+  const ConsistentJet jet = consistent.jet_of(ladder);
+  return digits == MetTo::all_digits ? consistent.is_met_at(jet)
+                                     : consistent.is_met_at(jet, part, part);
 }
 
 // The values that are given and are others at the point: coordinates, velocities dx/dt, unknowns, in the numbers of the
@@ -365,8 +368,9 @@ class StartSearch {
         holding(guess, initial_.x.given, initial_.velocity.given, initial_.z.given);
     return met(held, ladders_.run(held));
   }
-  ConstraintLadder met(const InitialGuess& held, ConstraintLadder ladder) const {
-    if (is_met(held, ladder, experiment_.model.system)) return ladder;
+  ConstraintLadder met(const InitialGuess& held, ConstraintLadder ladder,
+                       MetTo digits = MetTo::all_digits) const {
+    if (is_met(held, ladder, experiment_.model.system, digits)) return ladder;
     ladder.verdict = Verdict::not_reached;
     ladder.reason = "The equations, and what was held, do not vanish where the search ended.";
     return ladder;
@@ -377,9 +381,9 @@ class StartSearch {
     constexpr int most_searches = 10;
     InitialGuess guess = holding(guess_, initial_.x.held, initial_.velocity.held, initial_.z.held);
     ConstraintLadder ladder = ladders_.run(guess);
-    for (int search = 1;
-         search < most_searches && !is_met(guess, ladder, experiment_.model.system) &&
-         ladder.point.x.norm() < guess.x.norm();
+    for (int search = 1; search < most_searches &&
+                         !is_met(guess, ladder, experiment_.model.system, MetTo::four_digits) &&
+                         ladder.point.x.norm() < guess.x.norm();
          ++search) {
       guess.x = initial_.x.held.select(guess.x, ladder.point.x);
       ladder = ladders_.run(guess);
@@ -431,9 +435,9 @@ class StartSearch {
                                        initial_.x.held, initial_.velocity.held, initial_.z.held);
     const NearestStart start(experiment_.model.system, guess, ladder,
                              start_stages(experiment_, guess_));
-    if (start.outcomes().empty()) return met(guess, ladder);
+    if (start.outcomes().empty()) return met(guess, ladder, MetTo::four_digits);
     if (!start.is_consistent()) {
-      ConsistentStart there = met(guess, ladder);
+      ConsistentStart there = met(guess, ladder, MetTo::four_digits);
       there.is_nearest = false;
       there.moves = movements_of_given(experiment_, there.point);
       return there;
