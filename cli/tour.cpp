@@ -6,8 +6,8 @@
 
 #include "courant/cli/command.hpp"
 #include "courant/cli/text.hpp"
-#include "courant/cli/tour_chapters.hpp"
 #include "courant/core/files/work_folder.hpp"
+#include "courant/reporting/tour_chapters.hpp"
 
 namespace courant::cli {
 namespace {

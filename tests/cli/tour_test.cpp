@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "courant/cli/command.hpp"
-#include "courant/cli/tour_chapters.hpp"
+#include "courant/reporting/tour_chapters.hpp"
 
 namespace courant {
 BOOST_AUTO_TEST_SUITE(tour_test)
@@ -24,9 +24,9 @@ std::string tour(std::vector<std::string> arguments) {
 
 // The pages are what `courant tour N --markdown` prints, outputs included.
 BOOST_AUTO_TEST_CASE(pages_are_those_of_the_documents) {
-  BOOST_TEST(cli::tour_chapters().size() == 10u);
-  for (std::size_t i = 0; i < cli::tour_chapters().size(); ++i) {
-    const std::string path = "docs/tour/" + cli::tour_chapters()[i].file + ".md";
+  BOOST_TEST(tour_chapters().size() == 10u);
+  for (std::size_t i = 0; i < tour_chapters().size(); ++i) {
+    const std::string path = "docs/tour/" + tour_chapters()[i].file + ".md";
     std::ifstream file(path);
     BOOST_TEST_REQUIRE(file.good(), path << " is missing");
     const std::string page(std::istreambuf_iterator<char>(file), {});
@@ -36,7 +36,7 @@ BOOST_AUTO_TEST_CASE(pages_are_those_of_the_documents) {
 
 // Each chapter runs: no error in its output, and an answer after it.
 BOOST_AUTO_TEST_CASE(chapters_run) {
-  for (std::size_t i = 1; i <= cli::tour_chapters().size(); ++i) {
+  for (std::size_t i = 1; i <= tour_chapters().size(); ++i) {
     const std::string text = tour({std::to_string(i)});
     BOOST_TEST(text.find("courant: ") == std::string::npos, text);
     const auto question = text.find("Question: "), output = text.find("$ courant"),
