@@ -1,9 +1,12 @@
 #include <boost/test/unit_test.hpp>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <sstream>
 
+#include "../core/files/temporary_folder.hpp"
 #include "courant/cli/command.hpp"
+#include "courant/reading/experiment.hpp"
 #include "courant/reporting/tour_chapters.hpp"
 
 namespace courant {
@@ -47,6 +50,45 @@ BOOST_AUTO_TEST_CASE(chapters_run) {
     BOOST_TEST(text.find("FAILED") == std::string::npos, text);
   }
   BOOST_TEST(tour({}).find("10  Constrain first") != std::string::npos);
+}
+
+// `-o` writes the experiment, the page, the picture; the pictures are those of the documents.
+BOOST_AUTO_TEST_CASE(chapters_are_written_as_files) {
+  const TemporaryFolder folder;
+  const auto text_of = [](const std::filesystem::path& path) {
+    std::ifstream file(path);
+    BOOST_TEST_REQUIRE(file.good(), path << " is missing");
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  for (std::size_t i = 0; i < tour_chapters().size(); ++i) {
+    const std::string name = tour_chapters()[i].file;
+    tour({std::to_string(i + 1), "-o", (folder / "files").string()});
+    const std::filesystem::path files = folder / "files";
+    BOOST_TEST(text_of(files / (name + ".svg")) == text_of("docs/tour/" + name + ".svg"), name);
+    BOOST_TEST(text_of(files / (name + ".md")).starts_with(text_of("docs/tour/" + name + ".md")));
+    BOOST_TEST(text_of(files / (name + ".html")).find("<math") != std::string::npos, name);
+    read_experiment(text_of(files / (name + ".json")));
+  }
+  // What somebody has written there stays.
+  std::ofstream(folder / "files" / (tour_chapters()[0].file + ".json")) << "mine";
+  std::istringstream in;
+  std::ostringstream out, err;
+  BOOST_TEST(cli::command({"tour", "1", "-o", (folder / "files").string()},
+                          {.in = in, .out = out, .err = err}) != 0);
+  BOOST_TEST(text_of(folder / "files" / (tour_chapters()[0].file + ".json")) == "mine");
+}
+
+// On a terminal Enter leads through question, answer, solution, and to the next chapter; the end of input ends it.
+BOOST_AUTO_TEST_CASE(enter_goes_on) {
+  std::istringstream in("\n\n\n\n\n");
+  std::ostringstream out, err;
+  cli::command({"tour", "9"}, {.in = in, .out = out, .err = err, .is_terminal = true});
+  BOOST_TEST(out.str().find("(Enter for chapter 10)") != std::string::npos);
+  BOOST_TEST(out.str().find("10. Constrain first") != std::string::npos, out.str());
+  std::istringstream ends("\n\n");
+  std::ostringstream short_out;
+  cli::command({"tour", "9"}, {.in = ends, .out = short_out, .err = err, .is_terminal = true});
+  BOOST_TEST(short_out.str().find("10. Constrain first") == std::string::npos);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
