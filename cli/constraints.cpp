@@ -12,11 +12,11 @@
 #include "courant/cli/waiting.hpp"
 #include "courant/core/files/own_file.hpp"
 #include "courant/core/words/message.hpp"
-#include "courant/integrators/certificate/discrete_constraint_algorithm.hpp"
 #include "courant/reporting/ladder_diagram.hpp"
 #include "courant/reporting/ladder_explanation.hpp"
 #include "courant/reporting/ladder_page.hpp"
 #include "courant/running/consistent_start.hpp"
+#include "courant/running/discrete_ladder.hpp"
 #include "courant/running/ladder_report.hpp"
 #include "courant/running/other_values.hpp"
 
@@ -69,44 +69,12 @@ void print_ladder(const Console& console, const Experiment& experiment, const La
     print_wrapped(console, line.str(), "  ");
 }
 
-// Remark 6.1 on the system, the discretization map and the step of an experiment.
-LadderReport discrete_ladder(const Experiment& experiment, const ConstraintLadder& start) {
-  if (!experiment.method || !experiment.time)
-    throw ExperimentError("/method",
-                          "is missing; the discrete ladder is that of a discretization "
-                          "map and a step");
-  const auto& system = experiment.model.system;
-  const PreparedMethod method = experiment.method->prepare(
-      {.system = system, .ladder = start, .initial = start.point, .step = experiment.time->step});
-  if (!method.map)
-    throw ExperimentError("/method", experiment.method->description +
-                                         " has no discretization map; expected a method that has "
-                                         "one, such as discretize-first");
-  const InitialGuess guess{
-      .t = start.point.t, .x = start.point.x, .v = start.point.v, .z = start.point.z};
-  return discrete_ladder_report(
-      DiscreteConstraintAlgorithm().run(system, method.map, experiment.time->step, guess), *system);
-}
-
 void print_discrete(const Console& console, const Experiment& experiment,
                     const LadderReport& ladder, const LadderReport& continuous) {
   std::ostream& out = console.out;
   print_levels(console, experiment, ladder);
-  print_wrapped(console,
-                "Pairs of points in place of velocities (Remark 6.1): S_k are "
-                "the pairs (x\u2080, "
-                "x\u2081) from which k more steps can be made, M_k their first "
-                "points. By " +
-                    experiment.method->description + ", with the step " +
-                    shown(experiment.time->step) + ".",
-                "  ");
-  if (experiment.method->description.starts_with("constrain-first"))
-    print_wrapped(console,
-                  "S\u2080 are the pairs that satisfy the equations of the system, as those of "
-                  "discretize-first do; the steps of constrain-first satisfy those of S_f, and end "
-                  "on M_f.",
-                  "  ");
-  print_wrapped(console, discrete_verdict_in_words(ladder), "  ");
+  for (const std::string& line : discrete_ladder_in_words(experiment, ladder))
+    print_wrapped(console, line, "  ");
   out << "\n  without discretization: " << ladder_line(continuous) << '\n';
 }
 

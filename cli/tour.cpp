@@ -1,13 +1,24 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
 #include <istream>
 #include <memory>
 #include <ostream>
 #include <sstream>
 
 #include "courant/cli/command.hpp"
+#include "courant/cli/force.hpp"
 #include "courant/cli/text.hpp"
-#include "courant/cli/tour_chapters.hpp"
+#include "courant/core/files/own_file.hpp"
 #include "courant/core/files/work_folder.hpp"
+#include "courant/reading/experiment.hpp"
+#include "courant/reporting/ladder_diagram.hpp"
+#include "courant/reporting/ladder_page.hpp"
+#include "courant/reporting/tour_chapters.hpp"
+#include "courant/running/consistent_start.hpp"
+#include "courant/running/discrete_ladder.hpp"
+#include "courant/running/ladder_report.hpp"
+#include "courant/running/other_values.hpp"
 
 namespace courant::cli {
 namespace {
@@ -79,12 +90,12 @@ void print_paragraphs(const Console& console, const std::string& text) {
   for (const std::string& paragraph : lines_of(text)) print_wrapped(console, paragraph, "  ");
 }
 
-// Waits for Enter where someone is there to press it.
-void wait(const Console& console) {
-  if (!console.is_terminal) return;
-  console.out << "\n  (Enter for the answer) " << std::flush;
+// Waits for Enter where someone is there to press it; whether they did.
+bool wait(const Console& console, const std::string& what) {
+  if (!console.is_terminal) return false;
+  console.out << "\n  (Enter for " << what << ") " << std::flush;
   std::string line;
-  std::getline(console.in, line);
+  return static_cast<bool>(std::getline(console.in, line));
 }
 
 void print_chapter(const Console& console, std::size_t number) {
@@ -96,7 +107,7 @@ void print_chapter(const Console& console, std::size_t number) {
   for (const std::string& line : lines_of(chapter.experiment)) out << "    " << line << '\n';
   out << '\n';
   print_paragraphs(console, "Question: " + chapter.question);
-  wait(console);
+  wait(console, "the answer");
   out << "\n  $ " << command_line(chapter) << "\n\n";
   for (const std::string& line : lines_of(output_of(chapter, console)))
     out << (line.empty() ? "" : "  ") << line << '\n';
@@ -104,27 +115,88 @@ void print_chapter(const Console& console, std::size_t number) {
   print_paragraphs(console, "Answer: " + chapter.answer);
   out << '\n';
   print_paragraphs(console, "Exercise: " + chapter.exercise);
-  wait(console);
+  wait(console, "the solution");
   print_paragraphs(console, "Solution: " + chapter.solution);
 }
 
-void print_page(const Console& console, std::size_t number) {
+// This chapter and, as long as someone presses Enter, those after it.
+void print_chapters(const Console& console, std::size_t number) {
+  print_chapter(console, number);
+  while (number < tour_chapters().size() &&
+         wait(console, "chapter " + std::to_string(number + 1))) {
+    console.out << '\n';
+    print_chapter(console, ++number);
+  }
+}
+
+// What the command of a chapter finds, as a page.
+LadderPage page_of_chapter(const TourChapter& chapter) {
+  const Experiment experiment = read_experiment(chapter.experiment);
+  const ConsistentStart start = consistent_start(experiment);
+  const ImplicitSystem& system = *experiment.model.system;
+  const ConstraintFormulas formulas = constraint_formulas(system, start);
+  const auto has = [&](const char* option) {
+    return std::ranges::find(chapter.arguments, option) != chapter.arguments.end();
+  };
+  if (has("--discrete")) {
+    LadderPage page = ladder_page(experiment, discrete_ladder(experiment, start));
+    page.sections.clear();
+    LadderPage::Section words{"Verdict", {}};
+    for (const std::string& line : discrete_ladder_in_words(experiment, page.ladder))
+      words.paragraphs.push_back({line, false});
+    page.sections.push_back(std::move(words));
+    return page;
+  }
+  LadderReport ladder = report_of_start(experiment, start);
+  if (has("--level"))
+    return ladder_page(experiment,
+                       up_to_level(std::move(ladder), std::stoi(chapter.arguments.back())));
+  return ladder_page(experiment, ladder, constraint_brackets(system, start, formulas));
+}
+
+std::string folding(const std::string& title, const std::string& text) {
+  return "<details>\n<summary>" + title + "</summary>\n\n" + text + "\n</details>\n\n";
+}
+
+std::string page_in_markdown(const Console& console, std::size_t number, const LadderPage& found) {
   const TourChapter& chapter = tour_chapters()[number - 1];
-  std::ostream& out = console.out;
-  out << "# " << number << ". " << chapter.title << "\n\n";
-  for (const std::string& paragraph : lines_of(chapter.idea)) out << paragraph << "\n\n";
-  out << "```json\n" << chapter.experiment << "\n```\n\n";
-  out << "**Question.** " << chapter.question << "\n\n";
-  out << "```text\n$ " << command_line(chapter) << '\n' << output_of(chapter, console) << "```\n\n";
-  out << "**Answer.** " << chapter.answer << "\n\n";
-  out << "**Exercise.** " << chapter.exercise << "\n\n";
-  out << "**Solution.** " << chapter.solution << "\n\n";
+  std::string page = "# " + std::to_string(number) + ". " + chapter.title + "\n\n";
+  for (const std::string& paragraph : lines_of(chapter.idea)) page += paragraph + "\n\n";
+  page += "```json\n" + chapter.experiment + "\n```\n\n";
+  page += "**Question.** " + chapter.question + "\n\n";
+  page += folding("Answer", chapter.answer + "\n\n![The ladder](" + chapter.file + ".svg)\n\n" +
+                                sections_in_markdown(found));
+  page += folding("What the command prints", "```text\n$ " + command_line(chapter) + "\n" +
+                                                 output_of(chapter, console) + "```\n");
+  page += "**Exercise.** " + chapter.exercise + "\n\n";
+  page += folding("Solution", chapter.solution + "\n");
   if (number < tour_chapters().size())
-    out << "Next: [" << tour_chapters()[number].title << "](" << tour_chapters()[number].file
-        << ".md)\n";
-  else
-    out << "Next: [the constraint algorithm](../constraint-algorithm.md) as a text, with what it "
-           "rests on.\n";
+    return page + "Next: [" + tour_chapters()[number].title + "](" + tour_chapters()[number].file +
+           ".md)\n";
+  return page +
+         "Next: [the constraint algorithm](../constraint-algorithm.md) as a text, with what it "
+         "rests on.\n";
+}
+
+// The chapter as files: its experiment, its page as text and as a page of a browser, its picture.
+void write_chapter(const Console& console, std::size_t number, const std::filesystem::path& folder,
+                   bool force) {
+  const TourChapter& chapter = tour_chapters()[number - 1];
+  const LadderPage found = page_of_chapter(chapter);
+  const OwnFiles files("tour", force);
+  const std::vector<std::pair<const char*, std::string>> contents = {
+      {".json", chapter.experiment + "\n"},
+      {".md", page_in_markdown(console, number, found)},
+      {".svg", ladder_diagram(found.ladder).str() + "\n"},
+      {".html", to_html(found)}};
+  for (const auto& [ending, content] : contents) files.check(folder / (chapter.file + ending));
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);  // what is wrong with it, writing says
+  for (const auto& [ending, content] : contents) {
+    const std::filesystem::path file = folder / (chapter.file + ending);
+    files.write(file, content);
+    console.out << file.string() << '\n';
+  }
 }
 
 std::string chapter_numbers() {
@@ -139,6 +211,10 @@ void print_contents(const Console& console) {
   for (std::size_t i = 0; i < tour_chapters().size(); ++i)
     console.out << (i < 9 ? "  " : " ") << i + 1 << "  " << tour_chapters()[i].title << '\n';
   console.out << "\n`courant tour 1` begins.\n";
+  if (wait(console, "chapter 1")) {
+    console.out << '\n';
+    print_chapters(console, 1);
+  }
 }
 
 }  // namespace
@@ -146,7 +222,8 @@ void print_contents(const Console& console) {
 void add_tour(CLI::App& app, Session& session) {
   struct Arguments {
     std::size_t chapter = 0;
-    bool markdown = false;
+    bool markdown = false, force = false;
+    std::filesystem::path folder;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* tour = app.add_subcommand("tour", "The constraint algorithm in ten chapters");
@@ -154,15 +231,26 @@ void add_tour(CLI::App& app, Session& session) {
       tour->add_option("CHAPTER", arguments->chapter, "its number; without, the contents")
           ->check(CLI::Range(std::size_t{1}, tour_chapters().size()).description(""))
           ->type_name(chapter_numbers());
-  tour->add_flag("--markdown", arguments->markdown, "print the page of docs/tour")->needs(chapter);
+  CLI::Option* markdown =
+      tour->add_flag("--markdown", arguments->markdown, "print the page of docs/tour")
+          ->needs(chapter);
+  tour->add_option("-o", arguments->folder,
+                   "write the files of the chapter into a folder: experiment, page, picture")
+      ->type_name("DIR")
+      ->needs(chapter)
+      ->excludes(markdown);
+  add_force(*tour, arguments->force);
   tour->callback([&session, arguments] {
     session.action = [arguments](const Console& console) -> int {
       if (arguments->chapter == 0)
         print_contents(console);
+      else if (!arguments->folder.empty())
+        write_chapter(console, arguments->chapter, arguments->folder, arguments->force);
       else if (arguments->markdown)
-        print_page(console, arguments->chapter);
+        console.out << page_in_markdown(console, arguments->chapter,
+                                        page_of_chapter(tour_chapters()[arguments->chapter - 1]));
       else
-        print_chapter(console, arguments->chapter);
+        print_chapters(console, arguments->chapter);
       return done;
     };
   });

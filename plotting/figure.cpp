@@ -65,7 +65,7 @@ class Layout {
       for (const Series& series : panel_.series) interval.include(series.*values);
     }
     if (interval.empty()) interval = {0, 1};
-    return axis.scale->padded(interval, padding);
+    return axis.is_window ? interval : axis.scale->padded(interval, padding);
   }
 
   // As many pixels to a unit of y as to one of x, with a height from 120 to 480: the shorter
@@ -275,6 +275,15 @@ Markup endpoints(const Series& series, const Layout& layout) {
                  at("start", stretches.front().begin) + at("end", stretches.back().end - 1));
 }
 
+// "0-1 1-": between the first two curves, between the second and the origin.
+std::string rods(const Panel& panel) {
+  std::string all;
+  for (const Rod& rod : panel.rods)
+    all += (all.empty() ? "" : " ") + std::to_string(rod.from) + "-" +
+           (rod.to ? std::to_string(*rod.to) : "");
+  return all;
+}
+
 // What a script has to know to draw the panel again.
 Markup for_script(const Panel& panel, const Layout& layout, const Markup& content) {
   const Interval x = layout.x_interval(), y = layout.y_interval();
@@ -297,8 +306,22 @@ Markup for_script(const Panel& panel, const Layout& layout, const Markup& conten
        {"data-zone", number_list({zone(*panel.x.scale), zone(*panel.y.scale)})},
        {"data-exponent",
         number_list({exponent(x_ticks(panel, layout)), exponent(y_ticks(panel, layout))})},
-       {"data-equal", panel.equal_aspect ? "equal" : ""}},
+       {"data-equal", panel.equal_aspect ? "equal" : ""},
+       {"data-rods", rods(panel)}},
       content);
+}
+
+// What is inside of the plotted area.
+Markup cut_off(const Layout& layout, const Markup& curves) {
+  const double width = layout.right() - layout.left(), height = layout.bottom() - layout.top();
+  return element("svg",
+                 {{"x", layout.left()},
+                  {"y", layout.top()},
+                  {"width", width},
+                  {"height", height},
+                  {"overflow", "hidden"},
+                  {"viewBox", number_list({layout.left(), layout.top(), width, height})}},
+                 curves);
 }
 
 }  // namespace
@@ -307,13 +330,15 @@ Markup draw(const Panel& panel, std::size_t rows) {
   if (panel.space) return draw_in_space(panel, rows);
   const Layout layout(panel);
   Markup content = linear_zone(panel, layout) + y_axis(panel, layout) + x_axis(panel, layout);
-  for (const Series& series : panel.series) content += Curve(series, panel, layout, rows).markup();
+  Markup curves;
+  for (const Series& series : panel.series) curves += Curve(series, panel, layout, rows).markup();
   if (panel.endpoints) {
-    for (const Series& series : panel.series) content += endpoints(series, layout);
+    for (const Series& series : panel.series) curves += endpoints(series, layout);
   }
   if (panel.points) {
-    for (const Series& series : panel.series) content += points(series, layout);
+    for (const Series& series : panel.series) curves += points(series, layout);
   }
+  content += panel.x.is_window || panel.y.is_window ? cut_off(layout, curves) : curves;
   if (!panel.heading.empty()) {
     content += element("text",
                        {{"class", "heading"},

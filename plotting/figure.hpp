@@ -20,6 +20,7 @@ namespace courant::plot {
 //   data-zone                 the greatest value within which each axis is linear; 0 on a logarithmic one
 //   data-exponent             the power of ten that the labels at each axis leave out
 //   data-equal                "equal" where a circle is a circle
+//   data-rods                 pairs of curves with a rod between them: "0-1 1-", "1-" from the second to the origin
 // and each <g class="series"> has its CurveData (curve_data.hpp). draw_in_space() says what panels in
 // space have.
 Markup draw(const Panel& panel, std::size_t rows = 0);

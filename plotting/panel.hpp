@@ -1,6 +1,7 @@
 // What one panel of a figure shows: curves over two axes, or in space.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +25,7 @@ struct Axis {
   std::string label;
   std::shared_ptr<const Scale> scale = std::make_shared<LinearScale>();
   Interval interval = {};  // empty: what the series need
+  bool is_window = false;  // shows the interval and no more: curves are cut off there
 };
 
 // How curves (x, y, z) in space are seen: from a side, all in a cube about them; or on a sphere about
@@ -31,6 +33,13 @@ struct Axis {
 struct Space {
   std::string z_label;
   double radius = 0;  // of the sphere; 0: there is none
+};
+
+// A rod between the points of two curves, or between that of one and the origin: drawn by the script of a page at the moment that
+// it shows.
+struct Rod {
+  std::size_t from = 0;                // a series
+  std::optional<std::size_t> to = {};  // another one; nothing: the origin
 };
 
 // What a panel shows. The plotted area is `width` pixels less the margins wide; a curve whose x
@@ -44,10 +53,11 @@ struct Panel {
   std::vector<Series> series;
   double width = 720;
   double height = 320;
-  bool equal_aspect = false;        // a circle is a circle: the height follows from the data
-  bool endpoints = false;           // ○ at the start of each curve, ● at its end
-  bool points = false;              // ● at each row, for curves of few
-  bool scattered = false;           // rows that are no curve: a dot for each, no line
+  bool equal_aspect = false;  // a circle is a circle: the height follows from the data
+  bool endpoints = false;     // ○ at the start of each curve, ● at its end
+  bool points = false;        // ● at each row, for curves of few
+  bool scattered = false;     // rows that are no curve: a dot for each, no line
+  std::vector<Rod> rods = {};
   std::optional<Space> space = {};  // curves in space, then without axes
 };
 

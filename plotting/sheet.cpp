@@ -48,11 +48,20 @@ std::pair<Markup, double> legend_lines(const std::vector<LegendEntry>& entries, 
 Markup draw(const Sheet& sheet) {
   double width = 0, widest = 0;
   for (const Panel& panel : sheet.panels) widest = std::max(widest, panel.width);
-  const bool abreast = sheet.panels.size() > 1 && widest < narrow;
+  const bool abreast = sheet.abreast.value_or(widest < narrow) && sheet.panels.size() > 1;
   width = abreast ? 2 * widest + gap : widest;
   const auto [legend, legend_height] = legend_lines(sheet.legend, width);
-  Markup content = placed(margin, margin, legend);
-  double y = margin + legend_height, tallest = 0;
+  const double heading_height = sheet.heading.empty() ? 0 : line_height + gap / 2;
+  Markup content = placed(margin, margin + heading_height, legend);
+  if (!sheet.heading.empty())
+    content += element("text",
+                       {{"x", margin + width / 2},
+                        {"y", margin + 14},
+                        {"text-anchor", "middle"},
+                        {"font-size", 14.0},
+                        {"font-family", "serif"}},
+                       sheet.heading);
+  double y = margin + heading_height + legend_height, tallest = 0;
   for (std::size_t i = 0; i < sheet.panels.size(); ++i) {
     const Panel& panel = sheet.panels[i];
     const bool second = abreast && i % 2 == 1;
@@ -63,7 +72,8 @@ Markup draw(const Sheet& sheet) {
   const double height = y - (sheet.panels.empty() ? 0 : gap) + margin;
   const Markup paper =
       element("rect", {{"width", width + 2 * margin}, {"height", height}, {"fill", "#fff"}});
-  return svg(width + 2 * margin, height, sheet.title, sheet.description, paper + content);
+  return svg(width + 2 * margin, height, sheet.title, sheet.description, paper + content,
+             sheet.scale);
 }
 
 }  // namespace courant::plot

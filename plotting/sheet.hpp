@@ -1,6 +1,7 @@
 // Panels that belong together, as one picture.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,9 @@ struct Sheet {
   std::string description;  // what one sees, for who does not
   std::vector<LegendEntry> legend;
   std::vector<Panel> panels;
+  std::string heading = {};          // drawn above all of it
+  double scale = 1;                  // of the drawing, letters and lines included
+  std::optional<bool> abreast = {};  // two panels beside each other; by default narrow ones are
 };
 
 // An SVG on white that needs no page and no style sheet.

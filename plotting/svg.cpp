@@ -117,13 +117,13 @@ Markup script(std::string_view javascript) {
 }
 
 Markup svg(double width, double height, std::string_view title, std::string_view description,
-           const Markup& content) {
+           const Markup& content, double scale) {
   const std::string view = "0 0 " + coordinate(width) + " " + coordinate(height);
   return element("svg",
                  {{"xmlns", "http://www.w3.org/2000/svg"},
                   {"viewBox", view},
-                  {"width", width},
-                  {"height", height},
+                  {"width", scale * width},
+                  {"height", scale * height},
                   {"overflow", "visible"},
                   {"role", "img"},
                   {"aria-label", title}},

@@ -53,9 +53,9 @@ Markup style_sheet(std::string_view css);
 // which it would end early.
 Markup script(std::string_view javascript);
 
-// An <svg> with the user unit of a pixel, a <title> and a <desc> for who cannot see it.
+// An <svg> whose user unit is `scale` pixels, with a <title> and a <desc> for who cannot see it.
 Markup svg(double width, double height, std::string_view title, std::string_view description,
-           const Markup& content);
+           const Markup& content, double scale = 1);
 
 // A number for a coordinate: fixed, at most `decimals` of them, no trailing zeros, "0" never "-0".
 std::string coordinate(double value, int decimals = 2);

@@ -229,7 +229,8 @@ class Import {
       tell(*none);
       return initial;
     }
-    const auto& [potential, current] = std::get<OperatingPoint>(found);
+    const VectorXd& potential = std::get<OperatingPoint>(found).potential;
+    const VectorXd& current = std::get<OperatingPoint>(found).current;
     for (const NetlistStorage& storage : circuit_.storages) {
       const StaticElement& element = circuit_.fixed.elements[storage.element];
       const auto at = [&](std::size_t node) { return potential[static_cast<Index>(node)]; };
@@ -292,16 +293,19 @@ class Import {
       if (storage.given && !circuit_.from_given)
         note(storage.line, "ic= has no effect without uic in .tran");
     if (!circuit_.from_given) return;
-    for (const auto& [node, line] : given_lines_)
+    for (const auto& given : given_lines_) {
+      const std::size_t node = given.first;
       if (std::none_of(circuit_.storages.begin(), circuit_.storages.end(),
                        [&](const NetlistStorage& storage) {
                          const StaticElement& element = circuit_.fixed.elements[storage.element];
                          return storage.is_capacitor && !storage.given &&
                                 (element.from == node || element.to == node);
                        }))
-        note(line, "the potential of " + circuit_.name_of(node) +
-                       " has no effect: with uic it is that of capacitors without ic=, and there "
-                       "is none at this node");
+        note(given.second,
+             "the potential of " + circuit_.name_of(node) +
+                 " has no effect: with uic it is that of capacitors without ic=, and there "
+                 "is none at this node");
+    }
   }
 
   LineProblems problems_;

@@ -15,8 +15,7 @@
 #include "courant/core/files/output_file.hpp"
 #include "courant/core/files/own_file.hpp"
 #include "courant/core/files/work_folder.hpp"
-#include "courant/plotting/sheet.hpp"
-#include "courant/running/comma_separated.hpp"
+#include "courant/reporting/figure_drawing.hpp"
 
 extern char** environ;
 
@@ -25,7 +24,7 @@ namespace courant {
 namespace {
 
 constexpr const char* converter = "rsvg-convert";
-constexpr std::array extensions = {".svg", ".pdf", ".png"};
+constexpr std::array extensions = {".svg", ".pdf", ".png", ".pgf"};
 
 // Runs rsvg-convert, no shell between, to write a picture of the kind of `file`. Throws OutputError with the name of
 // this one.
@@ -82,75 +81,23 @@ void check_numbers(const std::filesystem::path& picture, const std::filesystem::
                       "it; expected another name (-o)");
 }
 
-struct Column {
-  std::string name;
-  const std::vector<double>* values;
-};
-
-std::vector<Column> columns(const Figure& figure) {
-  std::vector<Column> found;
-  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
-    const plot::Panel& panel = figure.panels[i];
-    const std::string of_panel =
-        figure.panels.size() == 1
-            ? ""
-            : (panel.heading.empty() ? std::to_string(i + 1) : panel.heading) + ": ";
-    const std::vector<double>* x = nullptr;
-    for (const plot::Series& one : panel.series) {
-      const std::string of_curve =
-          panel.series.size() == 1 || one.label.empty() ? "" : one.label + ": ";
-      if (x == nullptr || *x != one.x) {
-        const bool is_shared = std::ranges::all_of(
-            panel.series, [&](const plot::Series& other) { return other.x == one.x; });
-        found.push_back({of_panel + (is_shared ? "" : of_curve) + panel.x.label, &one.x});
-      }
-      found.push_back({of_panel + of_curve + panel.y.label, &one.y});
-      if (panel.space) found.push_back({of_panel + of_curve + panel.space->z_label, &one.z});
-      x = &one.x;
-    }
-  }
-  return found;
-}
-
 }  // namespace
-
-std::string figure_svg(const Figure& figure) {
-  const std::string title = figure.panels.empty() ? "" : figure.panels.front().title;
-  return plot::draw(plot::Sheet{title, figure.caption, figure.legend, figure.panels}).str() + "\n";
-}
-
-std::string figure_csv(const Figure& figure) {
-  const std::vector<Column> all = columns(figure);
-  std::string csv;
-  std::size_t rows = 0;
-  for (const Column& column : all) {
-    csv += (csv.empty() ? "" : ",") + csv_cell(column.name);
-    rows = std::max(rows, column.values->size());
-  }
-  csv += '\n';
-  for (std::size_t row = 0; row < rows; ++row) {
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (i > 0) csv += ',';
-      if (row < all[i].values->size()) csv += csv_cell((*all[i].values)[row]);
-    }
-    csv += '\n';
-  }
-  return csv;
-}
 
 void write_figure(const Figure& figure, const std::filesystem::path& file, bool force) {
   const std::string extension = file.extension().string();
   if (std::ranges::find(extensions, extension) == extensions.end())
     throw std::invalid_argument(file.string() +
-                                ": is no kind of picture; expected a name that ends in .svg, .pdf "
-                                "or .png");
+                                ": is no kind of picture; expected a name that ends in .svg, "
+                                ".pdf, .png or .pgf");
   std::filesystem::path numbers = file;
   numbers.replace_extension(".csv");
   const OwnFiles files("plot", force);
   files.check(file);
   check_numbers(file, numbers);
-  const std::string drawing = figure_svg(figure), csv = figure_csv(figure);
-  files.write(file, extension == ".svg" ? drawing : converted(drawing, file), csv);
+  const std::string drawing = extension == ".pgf" ? figure_pgf(figure) : figure_svg(figure),
+                    csv = figure_csv(figure);
+  const bool is_text = extension == ".svg" || extension == ".pgf";
+  files.write(file, is_text ? drawing : converted(drawing, file), csv);
   write_file(numbers, csv);
 }
 

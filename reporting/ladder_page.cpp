@@ -357,9 +357,8 @@ Markup ladder_in_words(const LadderReport& ladder) {
   return all;
 }
 
-std::string to_html(const LadderPage& page) {
-  Markup body = element("h1", {}, page.title) +
-                element("p", {{"class", "lead"}}, typeset_manifolds(page.system));
+Markup to_markup(const LadderPage& page) {
+  Markup body = element("p", {{"class", "lead"}}, typeset_manifolds(page.system));
   body += model(page.model);
   for (const LadderPage::Section& one : page.sections) {
     Markup content = paragraphs(one.paragraphs);
@@ -370,8 +369,34 @@ std::string to_html(const LadderPage& page) {
       content += matrix(*page.brackets);
     body += page_section(one.title, content);
   }
-  body += element("footer", {}, "Made by courant constraints.");
-  return whole_page(page.title, body);
+  return body;
+}
+
+std::vector<std::string> discrete_ladder_in_words(const Experiment& experiment,
+                                                  const LadderReport& ladder) {
+  std::vector<std::string> lines = {
+      "Pairs of points in place of velocities (Remark 6.1): S_k are the pairs (x\u2080, x\u2081) "
+      "from which k more steps can be made, M_k their first points. By " +
+      experiment.method->description + ", with the step " + number_text(experiment.time->step) +
+      "."};
+  if (experiment.method->description.starts_with("constrain-first"))
+    lines.emplace_back(
+        "S\u2080 are the pairs that satisfy the equations of the system, as those of "
+        "discretize-first do; the steps of constrain-first satisfy those of S_f, and end on M_f.");
+  lines.push_back(discrete_verdict_in_words(ladder));
+  return lines;
+}
+
+Markup discrete_markup(const Experiment& experiment, const LadderReport& ladder) {
+  Markup all = element("figure", {{"class", "diagram scroll"}}, ladder_diagram(ladder));
+  for (const std::string& line : discrete_ladder_in_words(experiment, ladder))
+    all += element("p", {}, typeset(line));
+  return all;
+}
+
+std::string to_html(const LadderPage& page) {
+  return whole_page(page.title, element("h1", {}, page.title) + to_markup(page) +
+                                    element("footer", {}, "Made by courant constraints."));
 }
 
 std::string to_latex(const LadderPage& page) {
@@ -394,6 +419,13 @@ std::string to_latex(const LadderPage& page) {
       text += latex_matrix(*page.brackets);
   }
   return text + "\\end{document}\n";
+}
+
+std::string sections_in_markdown(const LadderPage& page) {
+  std::string text;
+  for (const LadderPage::Section& one : page.sections)
+    text += "**" + markdown_text(one.title) + ".**\n\n" + markdown_paragraphs(one.paragraphs);
+  return text;
 }
 
 std::string to_markdown(const LadderPage& page) {

@@ -40,10 +40,19 @@ LadderPage ladder_page(const Experiment& experiment, const LadderReport& ladder,
 // The words on a ladder with their formulas set, for a part of a page.
 plot::Markup ladder_in_words(const LadderReport& ladder);
 
+// What a page says below its title, for pages of other frames: needs content_style().
+plot::Markup to_markup(const LadderPage& page);
+// What is said of a discrete ladder (discrete_ladder()), and the same with its diagram, for a part of a page.
+std::vector<std::string> discrete_ladder_in_words(const Experiment& experiment,
+                                                  const LadderReport& ladder);
+plot::Markup discrete_markup(const Experiment& experiment, const LadderReport& ladder);
+
 // A page that needs nothing else: no network, no script.
 std::string to_html(const LadderPage& page);
 // A document for LaTeX, which needs the packages amsmath and amssymb alone.
 std::string to_latex(const LadderPage& page);
+// The sections alone, for a part of a text: their titles are bold, no headings.
+std::string sections_in_markdown(const LadderPage& page);
 // Markdown with $formulas$, as GitHub, Pandoc and notebooks read it.
 std::string to_markdown(const LadderPage& page);
 

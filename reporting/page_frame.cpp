@@ -8,20 +8,14 @@ namespace {
 using plot::element;
 using plot::Markup;
 
-constexpr std::string_view page_style = R"css(
+// What stands on a page of any frame: colours and types, ladders, formulas, tables, figures and the charts that they become.
+constexpr std::string_view style_of_content = R"css(
 :root{color-scheme:light dark;--page:#fffefb;--text:#1c1c1a;--soft:#5d5c57;--rule:#77756e;--faint:#e4e1d8;
 --good:#00664a;--bad:#a63a00;
 --serif:"STIX Two Text","Libertinus Serif","Latin Modern Roman",Charter,"Bitstream Charter",Georgia,"DejaVu Serif",serif;
 --mono:ui-monospace,"SF Mono",Menlo,Consolas,"DejaVu Sans Mono",monospace}
 @media screen and (prefers-color-scheme:dark){:root{--page:#16181a;--text:#e6e3dc;--soft:#a5a29a;--rule:#8b8982;--faint:#33363a;
 --good:#4fc9a0;--bad:#f2905f}}
-*{box-sizing:border-box}
-body{margin:0;background:var(--page);color:var(--text);font:17px/1.5 var(--serif)}
-main{max-width:48rem;margin:0 auto;padding:2.2rem 1.2rem 4rem}
-h1{font-size:1.75rem;line-height:1.2;font-weight:normal;margin:0 0 .3rem}
-h2{font-size:1.2rem;font-weight:normal;font-variant:small-caps;letter-spacing:.03em;margin:2.6rem 0 .6rem;
-border-bottom:1px solid var(--faint)}
-h1,p,figcaption,li,summary{overflow-wrap:anywhere}
 sub,sup{font-size:.72em;line-height:0}
 .lead{color:var(--soft);margin:0 0 1rem}
 .model{display:grid;grid-template-columns:max-content minmax(0,1fr);gap:.15rem 1rem;margin:0 0 1rem;font-size:.9rem}
@@ -56,8 +50,6 @@ td.number{font-variant-numeric:tabular-nums lining-nums;white-space:nowrap}
 .message{border-left:3px solid var(--bad);padding-left:.8rem}
 details{margin:.5rem 0}
 summary{cursor:pointer}
-pre{font:13px/1.45 var(--mono);overflow-x:auto;background:color-mix(in srgb,var(--faint) 40%,transparent);padding:.8rem 1rem}
-footer{margin-top:3rem;color:var(--soft);font-size:.85rem}
 @media (max-width:44rem){.panels:not(.abreast) svg{min-width:34rem;max-width:none}.diagram svg{max-width:none}}
 .scripted .panels{overflow:visible}
 .chart{position:relative;touch-action:pan-y;outline-offset:4px;border-radius:3px;user-select:none;-webkit-user-select:none}
@@ -69,6 +61,7 @@ footer{margin-top:3rem;color:var(--soft);font-size:.85rem}
 .cross line{stroke:var(--soft);stroke-width:.8;stroke-dasharray:3 3}
 .now line{stroke:var(--bad);stroke-width:1}
 .now .spoke{stroke:var(--ink);stroke-width:1.6}
+.now .bar{stroke:var(--text);stroke-width:3;stroke-linecap:round;opacity:.8}
 .panel:has(.now circle) .endpoints{opacity:.35}
 .dot{fill:var(--ink);stroke:var(--page);stroke-width:1.5}
 .selection{fill:var(--c0);fill-opacity:.15;stroke:var(--c0);stroke-width:.8}
@@ -80,7 +73,6 @@ box-shadow:0 1px 5px rgb(0 0 0/.18);font-size:.82rem;max-width:100%}
 .readout tr:has(.strong){color:var(--soft)}
 .swatch{display:inline-block;width:.9em;height:3px;background:var(--ink);vertical-align:middle;margin-right:.45em}
 .swatch.none{display:none}
-button{font:inherit;font-size:.82rem;color:var(--text);background:var(--page);border:1px solid var(--rule);border-radius:3px;padding:.1rem .5rem;cursor:pointer}
 .rest{fill:var(--ink);stroke:none}
 .note{margin:.1rem 4.2rem .3rem 0;min-height:1.7rem;color:var(--soft);font-size:.82rem;line-height:1.3}
 .whole{position:absolute;z-index:1;right:0;bottom:.3rem}
@@ -89,11 +81,27 @@ border-bottom:1px solid var(--faint)}
 .moment input{flex:1;min-width:0;height:1.8rem;accent-color:var(--c0)}
 .moment .time{min-width:7.5rem;font-variant-numeric:tabular-nums lining-nums;white-space:nowrap}
 .moment .play{min-width:2.4rem;min-height:2rem}
-@media print{.moment,.readout,.whole,.note,.now,.cross{display:none}:root{--page:#fff}body{font-size:10.5pt}main{max-width:none;padding:0}figure,table{break-inside:avoid}h2{break-after:avoid}
-.panels.abreast{grid-template-columns:1fr 1fr}.scroll,.panels{overflow:visible}table{font-size:7.5pt}}
+@media print{.moment,.readout,.whole,.note,.now,.cross{display:none}:root{--page:#fff}figure,table{break-inside:avoid}
+.panels.abreast{grid-template-columns:1fr 1fr}.scroll,.panels{overflow:visible}table{font-size:7.5pt}})css";
+
+// The frame of a page that is read from top to bottom.
+constexpr std::string_view style_of_frame = R"css(
+*{box-sizing:border-box}
+body{margin:0;background:var(--page);color:var(--text);font:17px/1.5 var(--serif)}
+main{max-width:48rem;margin:0 auto;padding:2.2rem 1.2rem 4rem}
+h1{font-size:1.75rem;line-height:1.2;font-weight:normal;margin:0 0 .3rem}
+h2{font-size:1.2rem;font-weight:normal;font-variant:small-caps;letter-spacing:.03em;margin:2.6rem 0 .6rem;
+border-bottom:1px solid var(--faint)}
+h1,p,figcaption,li,summary{overflow-wrap:anywhere}
+pre{font:13px/1.45 var(--mono);overflow-x:auto;background:color-mix(in srgb,var(--faint) 40%,transparent);padding:.8rem 1rem}
+footer{margin-top:3rem;color:var(--soft);font-size:.85rem}
+button{font:inherit;font-size:.82rem;color:var(--text);background:var(--page);border:1px solid var(--rule);border-radius:3px;padding:.1rem .5rem;cursor:pointer}
+@media print{body{font-size:10.5pt}main{max-width:none;padding:0}h2{break-after:avoid}}
 )css";
 
 }  // namespace
+
+std::string content_style() { return std::string(style_of_content) + plot::figure_style(); }
 
 Markup page_section(std::string_view title, const Markup& content) {
   if (content.str().empty()) return {};
@@ -105,7 +113,7 @@ std::string whole_page(std::string_view title, const Markup& body, const Markup&
       element("meta", {{"charset", "utf-8"}}) +
       element("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}}) +
       element("title", {}, title) +
-      plot::style_sheet(std::string(page_style) + plot::figure_style());
+      plot::style_sheet(content_style() + std::string(style_of_frame));
   const Markup page =
       element("html", {{"lang", "en"}, {"xmlns", "http://www.w3.org/1999/xhtml"}},
               element("head", {}, head) + element("body", {}, element("main", {}, body) + script));

@@ -11,6 +11,9 @@ namespace courant {
 // A heading and what belongs under it; nothing where that is nothing.
 plot::Markup page_section(std::string_view title, const plot::Markup& content);
 
+// The style sheet of what stands on pages, whatever their frame.
+std::string content_style();
+
 // The whole file: `body` in the house's style, for light and dark screens, phones and paper. `script` may be
 // nothing.
 std::string whole_page(std::string_view title, const plot::Markup& body,

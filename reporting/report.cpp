@@ -8,6 +8,7 @@
 #include "courant/core/words/word_list.hpp"
 #include "courant/plotting/curve_data.hpp"
 #include "courant/reporting/energy_figures.hpp"
+#include "courant/reporting/figure_drawing.hpp"
 #include "courant/reporting/ladder_diagram.hpp"
 #include "courant/reporting/ladder_page.hpp"
 #include "courant/reporting/page_frame.hpp"
@@ -34,16 +35,7 @@ class Figures {
   explicit Figures(std::size_t rows) : rows_(rows) {}
 
   Markup add(const Figure& figure) {
-    Markup panels;
-    bool abreast = figure.panels.size() > 1;
-    for (const plot::Panel& panel : figure.panels) {
-      panels += plot::draw(panel, rows_);
-      abreast = abreast && panel.width < 400;
-    }
-    const std::string style = abreast ? "panels abreast" : "panels";
-    Markup content = figure.legend.empty() ? Markup() : plot::legend(figure.legend);
-    content += element("div", {{"class", style}}, panels);
-    return element("figure", {}, content + caption(figure.caption));
+    return element("figure", {}, panels_and_legend(figure, rows_) + caption(figure.caption));
   }
 
   Markup add(const std::vector<Figure>& figures) {

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <stdexcept>
 
+#include "courant/core/words/message.hpp"
+#include "courant/core/words/spelling.hpp"
 #include "courant/core/words/text_layout.hpp"
+#include "courant/core/words/word_list.hpp"
 #include "courant/reporting/energy_figures.hpp"
 #include "courant/reporting/section_figures.hpp"
 #include "courant/reporting/space_figures.hpp"
@@ -86,6 +90,59 @@ Figure phase_portrait(std::span<const Run> runs, const std::string& q, const std
   return {{panel}, entries(panel.series), "Phase portrait. ○ start, ● end." + part, "phase"};
 }
 
+// Points that a run observes: the columns P_x and P_y.
+std::vector<PlanarBody> observed_points(const Run& run) {
+  const std::vector<std::string> observables = run.observables();
+  std::vector<PlanarBody> points;
+  for (const std::string& name : observables) {
+    if (!name.ends_with("_x")) continue;
+    const std::string partner = name.substr(0, name.size() - 1) + "y";
+    if (std::ranges::find(observables, partner) != observables.end())
+      points.emplace_back(name, partner);
+  }
+  return points;
+}
+
+// Whether points of the system are held by constraints on their places.
+bool has_links(const Run& run) {
+  const auto system = run.experiment.find("system");
+  if (system == run.experiment.end() || !system->is_object()) return false;
+  return system->contains("holonomic") || system->value("type", "") == "implicit";
+}
+
+// Where two points are as far from each other in all rows, or one from the origin: the distance changes by less than a
+// hundredth of how far one moves about the other. Not between points that do not move.
+std::vector<plot::Rod> rods_between(std::span<const Series> series) {
+  constexpr double alike = 1e-2;
+  constexpr std::size_t most = 12;
+  if (series.size() > most) return {};
+  const auto is_rod = [](const Series& from, const Series* to) {
+    Interval length, x, y;
+    for (std::size_t row = 0; row < from.x.size(); ++row) {
+      const double dx = from.x[row] - (to != nullptr ? to->x[row] : 0.0);
+      const double dy = from.y[row] - (to != nullptr ? to->y[row] : 0.0);
+      x.include(dx);
+      y.include(dy);
+      length.include(std::hypot(dx, dy));
+    }
+    return length.upper > 0.0 && length.length() <= alike * std::max(x.length(), y.length());
+  };
+  const auto moves = [](const Series& one) {
+    Interval x, y;
+    x.include(one.x);
+    y.include(one.y);
+    return x.length() > 0.0 || y.length() > 0.0;
+  };
+  std::vector<plot::Rod> rods;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    if (moves(series[i]) && is_rod(series[i], nullptr)) rods.push_back({i, std::nullopt});
+    for (std::size_t j = i + 1; j < series.size(); ++j)
+      if ((moves(series[i]) || moves(series[j])) && is_rod(series[i], &series[j]))
+        rods.push_back({i, j});
+  }
+  return rods;
+}
+
 Figure planar_figure(std::span<const Run> runs, std::span<const PlanarBody> bodies) {
   const std::vector<std::string> labels = run_labels(runs);
   Figure figure;
@@ -118,6 +175,10 @@ Figure planar_figure(std::span<const Run> runs, std::span<const PlanarBody> bodi
       x.include(panel.series.back().x);
       y.include(panel.series.back().y);
     }
+    if (has_links(runs[i])) panel.rods = rods_between(panel.series);
+    const bool is_hinged =
+        std::ranges::any_of(panel.rods, [](const plot::Rod& rod) { return !rod.to.has_value(); });
+    if (is_hinged) x.include(0.0), y.include(0.0);
     panel.description = "The paths of " + counted(std::ssize(present), "point") + " in the plane.";
     if (figure.legend.empty() && present.size() <= plot::palette().size()) {
       figure.legend = entries(panel.series);
@@ -200,6 +261,7 @@ std::vector<Figure> curves_of_motion(std::span<const Run> runs) {
   }
   std::vector<Figure> figures = space_figures(runs);
   std::vector<PlanarBody> bodies = planar_bodies(coordinates);
+  if (has_links(runs[0])) std::ranges::copy(observed_points(runs[0]), std::back_inserter(bodies));
   // What is seen in space is not seen in a plane once more; rows of a rotation are no places.
   for (const SpatialPoints& seen : spatial_points(runs[0])) {
     std::erase_if(bodies, [&](const PlanarBody& body) {
@@ -236,6 +298,46 @@ std::optional<Figure> observable_figure(std::span<const Run> runs) {
   }
   if (names.empty()) return std::nullopt;
   return over_time(runs, names, "The other observables over time.", "observables");
+}
+
+Figure chosen_figure(std::span<const Run> runs, std::span<const std::string> columns,
+                     bool overlay) {
+  for (const std::string& column : columns) {
+    std::vector<std::string> names;
+    for (const Run& run : runs)
+      names.insert(names.end(), run.trajectory.names().begin() + 1, run.trajectory.names().end());
+    if (std::ranges::find(names, column) == names.end())
+      throw std::invalid_argument("chosen_figure: there is no column " + in_quotes(column) +
+                                  did_you_mean(column, names) + ".");
+  }
+  Figure figure = over_time(runs, columns, word_list(columns) + " over time.", "chosen");
+  if (!overlay || figure.panels.empty()) return figure;
+  Panel all = std::move(figure.panels.front());
+  all.width = 720;
+  all.height = 320;
+  all.series.clear();
+  // The colours count curves: a column of a run.
+  const std::vector<std::string> labels = run_labels(runs);
+  std::vector<std::string> units;
+  for (const std::string& column : columns) {
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      if (!runs[i].trajectory.contains(column)) continue;
+      Series one = columns_over_time(runs.subspan(i, 1), column).front();
+      one.label = runs.size() > 1 ? column + ", " + labels[i] : column;
+      one.colour = all.series.size();
+      all.series.push_back(std::move(one));
+    }
+    const std::string label = axis_label(runs, column);
+    const std::size_t bracket = label.find(" [");
+    units.push_back(bracket == std::string::npos ? "" : label.substr(bracket + 1));
+  }
+  const bool share = std::ranges::all_of(units, [&](const auto& unit) { return unit == units[0]; });
+  all.title = word_list(columns) + " over time";
+  all.y.label = columns.size() == 1 ? axis_label(runs, columns[0]) : share ? units[0] : "";
+  all.description = counted(std::ssize(all.series), "curve") + ".";
+  figure.legend = entries(all.series);
+  figure.panels = {std::move(all)};
+  return figure;
 }
 
 std::optional<Figure> constraint_figure(std::span<const Run> runs) {

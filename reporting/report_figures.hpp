@@ -26,12 +26,16 @@ std::vector<PlanarBody> planar_bodies(std::span<const std::string> coordinates);
 std::size_t legible_rows(const TrajectoryTable& trajectory, std::span<const PlanarBody> bodies);
 
 // The motion. A system with two coordinates: its phase portrait and both over time. With rotations,
-// points of spheres, points in space or planar bodies: the paths of all of these, a panel for each
-// run. Any other: its coordinates over time, the first twelve. Poincaré sections after that.
+// points of spheres, points in space, planar bodies or observed points P_x, P_y of the plane: the paths of
+// all of these, a panel for each run; a page draws rods between points that constraints hold at one distance. Any other: its coordinates over time, the first twelve. Poincaré sections after that.
 std::vector<Figure> motion_figures(std::span<const Run> runs);
 
 // Every observable over time that is not in the pictures of the energy.
 std::optional<Figure> observable_figure(std::span<const Run> runs);
+
+// Some columns over time: each in a panel of its own, or all of them in one, whose axis has the unit that they share. Throws
+// std::invalid_argument for a column that no run has.
+Figure chosen_figure(std::span<const Run> runs, std::span<const std::string> columns, bool overlay);
 
 // The greatest |constraint[i]| over time, of the runs that have constraints.
 std::optional<Figure> constraint_figure(std::span<const Run> runs);

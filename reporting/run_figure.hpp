@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,7 +17,11 @@ struct Figure {
   std::vector<plot::Panel> panels;
   std::vector<plot::LegendEntry> legend;
   std::string caption;
-  std::string name = {};  // one word, by which it is asked for
+  std::string name = {};     // one word, by which it is asked for
+  std::string heading = {};  // drawn above the panels of a file of its own
+  double scale = 1;          // of such a file
+  std::optional<bool> abreast =
+      {};  // whether its panels stand so, two by two; by default narrow ones do
 };
 
 // How the runs are told apart: by their methods, or by their folders where methods repeat.

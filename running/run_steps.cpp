@@ -8,7 +8,6 @@
 #include <exception>
 #include <iterator>
 #include <memory>
-#include <stop_token>
 #include <thread>
 #include <utility>
 #include <vector>

@@ -50,9 +50,9 @@ Place place_of(std::string_view content, const std::string& text) {
     return {.before = ",\n  \"// mark\": \"", .after = "\"", .end = "\n}\n"};
   if (content.starts_with('<') || content.starts_with("# "))  // HTML, SVG; Markdown
     return {.before = "<!-- ", .after = " -->\n", .end = ""};
-  if (content.starts_with("%PDF") ||
-      content.starts_with('\\'))  // LaTeX return {.before = "% ", .after = "\n", .end = ""};
-    if (content.starts_with('.')) return {.before = ".\\\" ", .after = "\n", .end = ""};
+  if (content.starts_with('%') || content.starts_with('\\'))  // PDF, LaTeX
+    return {.before = "% ", .after = "\n", .end = ""};
+  if (content.starts_with('.')) return {.before = ".\\\" ", .after = "\n", .end = ""};
   return {.before = "/* ", .after = " */\n", .end = ""};
 }
 

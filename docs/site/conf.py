@@ -9,6 +9,7 @@ import re
 import shutil
 import subprocess
 import xml.etree.ElementTree
+import zlib
 
 from docutils import nodes
 from sphinx.util import logging
@@ -126,6 +127,10 @@ def prepare(app, docname, source):
     text = re.sub(r"^```math$", "```{math}", source[0], flags=re.M)
     # A formula in a sentence, as hosts of repositories write it: $`x^2`$.
     text = re.sub(r"``.*?``|\$`([^`\n]+)`\$", lambda found: f"{{math}}`{found[1]}`" if found[1] else found[0], text)
+    if docname.startswith("docs/tour/"):  # the formulas of ladders, as `courant tour --markdown` writes them
+        text = re.sub(r"^(> )?\$\$(.+)\$\$$", lambda found: "```{math}\n" + found[2] + "\n```", text, flags=re.M)
+        code = re.split(r"(^```.*?^```$)", text, flags=re.M | re.S)
+        text = "".join(part if i % 2 else re.sub(r"(?<![\\$])\$([^$\n]+)\$", r"{math}`\1`", part) for i, part in enumerate(code))
     text = re.sub(r"^```mermaid\n(.*?)\n```$", dot, text, flags=re.M | re.S)
     folder = (root / docname).parent
 
@@ -179,6 +184,45 @@ def set_indices(app, doctree):
                 text.parent.replace(text, new)
 
 
+# The page of scripts/lab, where it has been made: then the site has it, and leads to it.
+laboratory = root / "build" / "lab" / "index.html"
+
+
+def in_laboratory(text):
+    """The fragment of an address that opens a text there, see lab/page/share.js."""
+    packer = zlib.compressobj(9, zlib.DEFLATED, -15)
+    packed = packer.compress(text.encode()) + packer.flush()
+    return "#e=" + base64.urlsafe_b64encode(packed).decode().rstrip("=")
+
+
+def offer_laboratory(app, doctree, docname):
+    """Below each experiment, each chapter of the tour, and at the end of each other page: a link that opens it in the laboratory."""
+    if not laboratory.exists():
+        return
+    address = "../" * docname.count("/") + "lab/index.html"
+
+    def link(fragment, words):
+        reference = nodes.reference("", words, refuri=address + fragment, internal=True)
+        return nodes.paragraph("", "", reference, classes=["try"])
+
+    chapter = re.fullmatch(r"docs/tour/(\d+)-\w+", docname)
+    offered = False
+    for block in list(doctree.findall(nodes.literal_block)):
+        text = block.astext()
+        try:
+            is_experiment = "system" in json.loads(text)
+        except (ValueError, TypeError):
+            is_experiment = False
+        if is_experiment:
+            words = "Try it: predict, then look" if chapter and not offered else "Try it"
+            fragment = f"#chapter={chapter[1]}" if chapter and not offered else in_laboratory(text)
+            block.parent.insert(block.parent.index(block) + 1, link(fragment, words))
+            offered = True
+    sections = list(doctree.findall(nodes.section))
+    if not offered and sections:
+        sections[0].append(link("", "Try it in the laboratory"))
+
+
 def bundle_theme(static):
     """Does what Debian's Furo leaves to a web server: its script is a module and its style sheet imports by an absolute path, which
     pages opened from a disk may not; and its dark colours, where the system asks for them, were lost by its compiler."""
@@ -210,6 +254,9 @@ def complete(app, exception):
         static = pathlib.Path(app.outdir) / "_static"
         bundle_theme(static)
         copy_katex(static)
+        if laboratory.exists():
+            (pathlib.Path(app.outdir) / "lab").mkdir(exist_ok=True)
+            shutil.copy(laboratory, pathlib.Path(app.outdir) / "lab")
 
 
 def setup(app):
@@ -217,6 +264,7 @@ def setup(app):
     app.add_html_math_renderer("katex", (visit_formula, None), (visit_formula, None))
     app.connect("source-read", prepare)
     app.connect("doctree-resolved", link_reference)
+    app.connect("doctree-resolved", offer_laboratory)
     app.connect("doctree-read", set_indices)
     app.connect("build-finished", complete)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

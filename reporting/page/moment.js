@@ -1,11 +1,11 @@
-// One time for all figures, with a slider and a button at the top of the page.
+// One time for all figures, with a slider and a button, which stand before an element of the page.
 class Moment {
   constructor() {
     this.time = null;  // not before it is used
     this.playing = false;
   }
 
-  build() {
+  build(before) {
     this.begin = Infinity;
     this.end = -Infinity;
     for (const chart of charts) {
@@ -23,8 +23,7 @@ class Moment {
     this.output = html('output', {});
     const label = html('span', {class: 'time'}, typeset(name), ' = ', this.output);
     const bar = html('div', {class: 'moment', role: 'group', 'aria-label': 'Moment'}, this.button, this.slider, label);
-    const first = document.querySelector('main > section');
-    first.before(bar);
+    before.before(bar);
     this.slider.addEventListener('input', () => { this.pause(); this.set(Number(this.slider.value)); });
     this.button.addEventListener('click', () => this.playing ? this.pause() : this.play());
     this.write(this.begin);

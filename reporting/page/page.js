@@ -11,7 +11,7 @@ function start() {
   }
   const overTime = charts.find((chart) => chart.overTime);
   if (overTime) timeLabel = overTime.x.label;
-  moment.build();
+  moment.build(document.querySelector('main > section'));
   // Only what can be seen is drawn while the moment moves.
   const seen = new IntersectionObserver((entries) => {
     for (const entry of entries) {

@@ -21,11 +21,12 @@ class PlaneChart extends Chart {
     this.shade = this.panel.querySelector(':scope > .linear-zone');
     this.dots = Array.from(this.panel.querySelectorAll('.endpoints circle'),
       (circle) => ({circle, x: Number(circle.getAttribute('cx')), y: Number(circle.getAttribute('cy'))}));
-    // What is outside of the area is cut off.
-    this.clip = svg('rect', {});
+    // What is outside of the area is cut off. It has its size from the beginning: a page that is printed at once is not drawn again.
+    this.clip = svg('rect', {x: left - 1, y: top - 1, width: right - left + 2, height: bottom - top + 2});
     const id = 'area-' + PlaneChart.count++;
     this.panel.prepend(svg('clipPath', {id}, this.clip));
     for (const curve of this.curves) curve.element.setAttribute('clip-path', 'url' + '(#' + id + ')');
+    this.rods = (data.rods || '').split(' ').filter(Boolean).map((rod) => rod.split('-').map((end) => end === '' ? null : Number(end)));
     this.drawings = this.curves.map((curve) => new PlaneCurve(this, curve));
   }
 
@@ -150,6 +151,10 @@ class PlaneChart extends Chart {
   }
 
   beforeNow() {
+    for (const ends of this.rods) {
+      const [a, b] = ends.map((end) => end === null ? {x: this.x.pixel(0), y: this.y.pixel(0)} : this.placeAt(this.curves[end], moment.time));
+      if (a && b) this.now.append(svg('line', {class: 'bar', x1: a.x, y1: a.y, x2: b.x, y2: b.y}));
+    }
     if (!this.overTime || !this.x.shows(moment.time)) return;
     const x = this.x.pixel(moment.time);
     this.now.append(svg('line', {x1: x, x2: x, y1: this.area[1], y2: this.area[3]}));

@@ -100,7 +100,7 @@ class Chromium:
             self.errors.append(told["entry"]["text"])
         elif method == "Network.requestWillBeSent":
             url = told["request"]["url"]
-            if not url.startswith(("file:", "about:", "data:")):
+            if not url.startswith(("file:", "about:", "data:", "blob:")):
                 self.errors.append("the page asks for " + url)
 
     def call(self, method, seconds=60, **parameters):

@@ -185,4 +185,29 @@ BOOST_AUTO_TEST_CASE(runs_are_told_apart_by_method_or_else_by_folder) {
   BOOST_CHECK(run_labels(runs) == (Texts{"rk2 — a", "midpoint", "rk2 — c"}));
 }
 
+// A crank (0, A) and a coupler (A, B) whose end slides on a line: two rods, and none from the origin to B, from where B moves away.
+// Without constraints on places there are none, whatever the distances are.
+BOOST_AUTO_TEST_CASE(rods_stand_where_distances_are_kept) {
+  Run run =
+      test::table({"t", "a", "s", "p_a", "p_s", "A_x", "A_y", "B_x", "B_y"}, 100,
+                  [](std::size_t column, double t) {
+                    const double slide = std::cos(t) + std::sqrt(9 - std::sin(t) * std::sin(t));
+                    const double values[] = {t, t, slide, 0, 0, std::cos(t), std::sin(t), slide, 0};
+                    return values[column];
+                  });
+  for (const char* name : {"A_x", "A_y", "B_x", "B_y"})
+    run.summary.observables.push_back({name, {}});
+  BOOST_TEST(motion_figures(std::span(&run, 1)).front().name == "coordinates");
+  run.experiment["system"] = {{"type", "mechanical"}, {"holonomic", {"…"}}};
+  const std::vector<Figure> figures = motion_figures(std::span(&run, 1));
+  BOOST_TEST_REQUIRE(figures.front().name == "paths");
+  const plot::Panel& panel = figures.front().panels.front();
+  BOOST_TEST_REQUIRE(panel.rods.size() == 2u);
+  BOOST_TEST(panel.rods[0].from == 0u);
+  BOOST_TEST(!panel.rods[0].to.has_value());
+  BOOST_TEST(panel.rods[1].from == 0u);
+  BOOST_TEST(panel.rods[1].to.value() == 1u);
+  BOOST_TEST(plot::draw(panel, 100).str().find("data-rods=\"0- 0-1\"") != std::string::npos);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace courant::cli {
+namespace courant {
 
 // One idea of the paper on a system that runs.
 struct TourChapter {
@@ -20,4 +20,4 @@ struct TourChapter {
 
 const std::vector<TourChapter>& tour_chapters();
 
-}  // namespace courant::cli
+}  // namespace courant

@@ -1,6 +1,6 @@
-#include "courant/cli/tour_chapters.hpp"
+#include "courant/reporting/tour_chapters.hpp"
 
-namespace courant::cli {
+namespace courant {
 namespace {
 
 const char* const pendulum = R"json({
@@ -244,4 +244,4 @@ const std::vector<TourChapter>& tour_chapters() {
   return chapters;
 }
 
-}  // namespace courant::cli
+}  // namespace courant
