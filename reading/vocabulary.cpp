@@ -282,7 +282,7 @@ SymbolTable Vocabulary::symbols_of(const std::vector<std::string>& names, const 
   for (const Definition& definition : definitions)
     if (is_one_of(definition.name)) return symbols({.x = x, .t = t});
   SymbolTable symbols;
-  for (const auto& [name, symbol] : parameters_in(graph_of({.x = x, .t = t})))
+  for (const auto& [name, symbol] : parameters_in(graph_of(Arguments{.x = x, .t = t})))
     if (is_one_of(name)) symbols.add(name, symbol.shape, symbol.values);
   symbols.add("t", t);
   for (const auto& [name, table] : tables)

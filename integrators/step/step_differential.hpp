@@ -40,7 +40,7 @@ class StepDifferential {
 
 // X with A X + B = 0, where A (m × n) may be oblong or singular as redundant equations make it: the
 // solution of least norm in the units of an Equilibration. Throws std::domain_error, beginning with `place`, if there is none up to 1e-6
-// of the terms of its rows, or if it leaves the first `determined` unknowns free.
+// of the terms of a row and 1e-12 of all terms, or if it leaves the first `determined` unknowns free.
 MatrixXd implicit_derivative(const char* place, const MatrixXd& A, const MatrixXd& B,
                              Index determined);
 // W (m × k) with Wᵀ B = Cᵀ X for the X of the above, whatever B is that has such an X: the adjoint, by the transposed matrix.
