@@ -119,8 +119,7 @@ void write_page(const Console& console, const OwnFiles& files, const std::filesy
 void add_constraints(CLI::App& app, Session& session) {
   struct Arguments {
     std::string file;
-    bool json = false, latex = false, markdown = false, discrete = false, digits = false,
-         bounds = false;
+    bool json = false, latex = false, markdown = false, discrete = false, digits = false;
     Index level = -1;
     std::vector<std::string> settings;
     SweepArguments sweep;
@@ -154,14 +153,9 @@ void add_constraints(CLI::App& app, Session& session) {
           ->excludes(json)
           ->excludes(latex)
           ->excludes("--sweep");
-  CLI::Option* digits =
-      constraints
-          ->add_flag("--digits", arguments->digits,
-                     "decide ranks in two precisions, also those of a large system")
-          ->excludes("--sweep");
   constraints
-      ->add_flag("--bounds", arguments->bounds, "decide ranks by bounds of errors in doubles")
-      ->excludes(digits)
+      ->add_flag("--digits", arguments->digits,
+                 "decide ranks in two precisions, also those of a large system")
       ->excludes("--sweep");
   CLI::Option* level =
       constraints->add_option("--level", arguments->level, "stop at this level of the ladder")
@@ -208,9 +202,7 @@ void add_constraints(CLI::App& app, Session& session) {
             const bool as_page = !arguments->output.empty();
             std::optional<Waiting> waiting(std::in_place, console, "constraint algorithm");
             const ConsistentStart start =
-                consistent_start(experiment, arguments->bounds   ? Decider::bounds
-                                             : arguments->digits ? Decider::digits
-                                                                 : Decider::either);
+                consistent_start(experiment, arguments->digits ? Decider::digits : Decider::bounds);
             const ImplicitSystem& system = *experiment.model.system;
             const ConstraintFormulas formulas = constraint_formulas(system, start);
             LadderReport whole = ladder_report(start, system, formulas);

@@ -319,7 +319,9 @@ std::optional<ConstraintLadder> decided_in_digits(const JetEquations& equations,
   const bool is_unsure = std::ranges::any_of(found.doubts, [](const Doubt& doubt) {
     return doubt.kind != Doubt::Kind::near_singular && doubt.kind != Doubt::Kind::at_switch;
   });
-  if (is_unsure || found.verdict == Verdict::rank_change) return std::nullopt;
+  constexpr double rounding = 1e-12;
+  const bool has_moved = found.moved > rounding * guess.x.norm();
+  if (is_unsure || has_moved || found.verdict == Verdict::rank_change) return std::nullopt;
   return found;
 }
 

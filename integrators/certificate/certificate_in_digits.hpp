@@ -25,8 +25,8 @@ ConstraintLadder certificate_in_digits(const JetEquations& equations, const Init
 std::shared_ptr<const JetEquations> equations_in_digits(
     const std::shared_ptr<const ImplicitSystem>& system, Decider decider);
 
-// The certificate; where bounds may decide as well nothing if the search for a point did not end, points nearby do not
-// agree, or the point is singular, which bounds look at in more directions.
+// The certificate; where bounds may decide as well nothing if x had to move, the search for a point did not end, points
+// nearby do not agree, or the point is singular: bounds look at given points, as the fold of an impasse, in more ways.
 std::optional<ConstraintLadder> decided_in_digits(const JetEquations& equations,
                                                   const InitialGuess& guess,
                                                   const ConstraintAlgorithm::Options& options,

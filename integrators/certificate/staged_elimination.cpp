@@ -59,6 +59,8 @@ class StagedElimination::Block {
       const std::int64_t e = entry.value.exponent() + of_.column_scale_[j];
       known.scale = std::max(known.scale, e);
       if (e <= known.exponent[of_.stages_[j]]) continue;
+      // Time comes last, so that constraints at equal times are combined no further than they have to be.
+      if (j + 1 == of_.stages_.size() && known.exponent[point] != no_entry) continue;
       known.exponent[of_.stages_[j]] = e;
       known.column[of_.stages_[j]] = entry.column;
     }
