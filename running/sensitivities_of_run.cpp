@@ -9,8 +9,8 @@
 #include "courant/core/expressions/expr_vectors.hpp"
 #include "courant/core/linear/rank_decision.hpp"
 #include "courant/core/words/message.hpp"
-#include "courant/integrators/certificate/constraint_algorithm.hpp"
 #include "courant/integrators/methods/discrete_flow.hpp"
+#include "courant/integrators/step/parameter_projector.hpp"
 #include "courant/integrators/step/vector_field_differential.hpp"
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/start_stages.hpp"
@@ -222,16 +222,14 @@ class Making {
     const std::vector<Parameter> parameters = all_.parameters();
     if (parameters.empty()) return;
     parts_->extension = std::make_shared<ParameterExtension>(experiment_.model.system, parameters);
-    const State point = start();
-    extended_ = ConstraintAlgorithm().run(parts_->extension->extended(),
-                                          {.t = point.t, .x = point.x, .v = point.v, .z = point.z});
+    extended_ = extended_ladder(*parts_->extension, ladder_.point);
     if (extended_->verdict != ladder_.verdict ||
         extended_->degrees_of_freedom != ladder_.degrees_of_freedom + std::ssize(parameters))
       throw ExperimentError(kSensitivities + "/by",
                             "has parameters near whose values the constraint algorithm finds "
                             "something else: " +
                                 extended_->reason);
-    extended_->point = point;
+    extended_->point = start();
   }
 
   std::shared_ptr<const StepDifferential> differential() const {

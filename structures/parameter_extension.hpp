@@ -33,6 +33,11 @@ class ParameterExtension {
   const std::vector<Parameter>& parameters() const { return parameters_; }
   Index count() const { return static_cast<Index>(parameters_.size()); }  // p
   VectorXd values() const;                                                // θ
+  // Which of the extended equations is the first of the p equations θ' = 0.
+  Index first_rate() const {
+    return system_->tangent_blocks() > 0 ? system_->manifold()->tangent_dimension()
+                                         : system_->equation_count();
+  }
 
   // (x, θ) with (v, 0), and back. What a state does not have, v or z, the other one does not have.
   State to_extended(const State& state) const;

@@ -1,6 +1,9 @@
 #include "courant/integrators/step/parameter_projector.hpp"
 
+#include <algorithm>
 #include <stdexcept>
+
+#include "courant/integrators/certificate/constraint_algorithm.hpp"
 
 namespace courant {
 
@@ -35,6 +38,17 @@ ExprMatrix ParameterProjector::do_directions(const ExprVector& x, const Expr& t,
   ExprMatrix moves = ExprMatrix::Zero(conormals.rows(), d);
   moves.topRows(n) = entries.reshaped(n, d);
   return moves;
+}
+
+ConstraintLadder extended_ladder(const ParameterExtension& extension, const State& point) {
+  const State start = extension.to_extended(point);
+  ConstraintLadder ladder = ConstraintAlgorithm().run(
+      extension.extended(), {.t = start.t, .x = start.x, .v = start.v, .z = start.z});
+  auto& counts = ladder.differentiations;
+  const auto first = counts.begin() + std::min<Index>(extension.first_rate(), std::ssize(counts));
+  if (!counts.empty())
+    std::fill_n(first, extension.count(), *std::max_element(counts.begin(), counts.end()));
+  return ladder;
 }
 
 }  // namespace courant

@@ -1,6 +1,7 @@
 // ParameterProjector: a projector on M × Rᵖ where parameters are coordinates.
 #pragma once
 
+#include "courant/integrators/certificate/constraint_ladder.hpp"
 #include "courant/integrators/step/projector.hpp"
 #include "courant/structures/parameter_extension.hpp"
 
@@ -26,5 +27,9 @@ class ParameterProjector final : public Projector {
   Index count_;
   AtParameters at_;
 };
+
+// The ladder of an extended system where a state of the system itself is, with all derivatives of θ' = 0 that jets of
+// the parameters are in: what multiplies these in other equations may vanish on M_f, and be round-off there.
+ConstraintLadder extended_ladder(const ParameterExtension& extension, const State& point);
 
 }  // namespace courant

@@ -8,7 +8,6 @@
 
 #include "../example_systems.hpp"
 #include "../step/integrator_catalogue.hpp"
-#include "courant/integrators/certificate/constraint_algorithm.hpp"
 #include "courant/integrators/maps/theta.hpp"
 #include "courant/integrators/methods/composition.hpp"
 #include "courant/integrators/methods/constrain_first.hpp"
@@ -80,10 +79,9 @@ struct Constrained {
 
   explicit Constrained(int order = 2) {
     const double angle = 0.4;
-    ladder = ConstraintAlgorithm().run(
-        with.extended(),
-        {.x = vector({kLength * std::sin(angle), -kLength * std::cos(angle), 0.6 * std::cos(angle),
-                      0.6 * std::sin(angle), kLength, kGravity})});
+    const State start{.x = vector({kLength * std::sin(angle), -kLength * std::cos(angle),
+                                   0.6 * std::cos(angle), 0.6 * std::sin(angle)})};
+    ladder = extended_ladder(with, start);
     method = std::make_shared<ConstrainFirst>(
         with.extended(), ladder, std::make_shared<Theta>(with.extended()->manifold(), 0.5),
         std::make_shared<ParameterProjector>(std::make_shared<OrthogonalProjector>(), with),
