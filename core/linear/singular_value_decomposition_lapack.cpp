@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "courant/core/linear/large_singular_values.hpp"
+#include "courant/core/linear/singular_value_decomposition.hpp"
 
 extern "C" {
 // LAPACK: divide and conquer; QR iteration, slower, which converges where the former does not.
@@ -18,18 +18,24 @@ void dgesvd_(const char* jobu, const char* jobvt, const int* m, const int* n, do
 }
 
 namespace courant {
-SingularValueDecomposition large_singular_values(const Eigen::Ref<const MatrixXd>& A,
-                                                 Vectors vectors) {
+namespace {
+
+// job 'A': all of U and Vᵀ; 'N': neither. Returns [U, Vᵀ] in U and V.
+SingularValueDecomposition decompose(const Eigen::Ref<const MatrixXd>& A, char job) {
   const auto m = static_cast<int>(A.rows()), n = static_cast<int>(A.cols());
   const int least = std::min(m, n);
-  const bool are_wanted = vectors == Vectors::all;
-  const char job = are_wanted ? 'A' : 'N';
   SingularValueDecomposition svd{VectorXd(least), MatrixXd(), MatrixXd()};
-  if (are_wanted) {
-    svd.U.resize(m, m);
-    svd.V.resize(n, n);
+  if (job == 'A') {
+    svd.U.setIdentity(m, m);
+    svd.V.setIdentity(n, n);
   }
-  const int ld_U = are_wanted ? m : 1, ld_V = are_wanted ? n : 1;
+  if (least == 0) return svd;
+
+  if (!A.allFinite())
+    throw std::domain_error(
+        "singular_value_decomposition: the matrix has entries that are not finite; expected finite "
+        "numbers.");
+  const int ld_U = job == 'A' ? m : 1, ld_V = job == 'A' ? n : 1;
   std::vector<int> integers(static_cast<std::size_t>(8 * least));
   int info = 0;
   const auto run = [&](auto call) {
@@ -59,5 +65,13 @@ SingularValueDecomposition large_singular_values(const Eigen::Ref<const MatrixXd
   svd.V.transposeInPlace();
   return svd;
 }
+
+}  // namespace
+
+SingularValueDecomposition singular_value_decomposition(const Eigen::Ref<const MatrixXd>& A) {
+  return decompose(A, 'A');
+}
+
+VectorXd singular_values(const Eigen::Ref<const MatrixXd>& A) { return decompose(A, 'N').values; }
 
 }  // namespace courant
