@@ -198,9 +198,11 @@ class Certifier {
       return;
     }
     const StagedElimination elimination(equations_, values, found.jet);
-    // Next to a zero in doubles what is left may be a search that did not end.
+    // Next to a zero in doubles what is left may be a search that did not end; elsewhere it may have ended where the linear
+    // parts of the equations vanish, as at the centre of a circle, and least squares from beside that point tell.
     constexpr double visible = 1e-13;
-    const bool is_visible = !found.was_near || found.residual > visible;
+    const bool is_visible =
+        found.was_near ? found.residual > visible : nearest_.is_least_residual(k);
     for (const auto& row : elimination.rows()) {
       if (!is_visible || row.stage != StagedElimination::dependent || row.residual.is_zero())
         continue;
@@ -222,7 +224,7 @@ class Certifier {
       }
       return;
     }
-    if (found.is_stationary || nearest_.is_least_residual(k)) {
+    if (is_visible) {
       end_inconsistent(empty,
                        " was found near the given values: the equations are violated by at least " +
                            number_text(found.residual, 3) + ".");

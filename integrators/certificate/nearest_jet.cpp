@@ -239,7 +239,6 @@ NearestJet::Found NearestJet::searched(Index k) {
   found.is_finite = next.zero().is_finite;
   if (!next.zero().is_finite) return found;
   if (!next.zero().found) {
-    found.is_stationary = rough_search_.is_contradiction(next);
     found.residual = next.array().residual(next.zero().y).lpNorm<Eigen::Infinity>();
     return found;
   }

@@ -25,10 +25,9 @@ class NearestJet {
   struct Found {
     Jet jet;  // the zero, or where the search ended
     bool is_zero = false;
-    bool is_finite = true;       // F and its derivatives, on the way
-    bool was_near = false;       // in doubles it was one
-    bool is_stationary = false;  // it ended where the equations contradict each other
-    double residual = 0.0;       // the largest
+    bool is_finite = true;  // F and its derivatives, on the way
+    bool was_near = false;  // in doubles it was one
+    double residual = 0.0;  // the largest
   };
   // Of level k, after those of all levels below.
   Found find(Index k);
