@@ -46,7 +46,8 @@ struct GivenPart {
   double rounding() const {
     double least = std::numeric_limits<double>::infinity();
     for (const double number : given) least = std::min(least, last_digit(number));
-    const double exact = 1e-9 * (size() + norm(found));
+    // Zeros alone have no size: they are measured by 1.
+    const double exact = size() > 0.0 ? 1e-9 * (size() + norm(found)) : 1e-15;
     return std::isfinite(least)
                ? std::max(exact, 2.0 * least * std::sqrt(static_cast<double>(given.size())))
                : exact;

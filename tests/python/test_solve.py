@@ -154,8 +154,10 @@ def test_the_rolling_disk_in_ten_lines():
 
 
 def test_a_singular_lagrangian_is_gauge():
-    sol = courant.solve_lagrangian(lambda q, v: (v[0] - q[1])**2/2, (0, 1), [0, 0], [1, 0], step=0.1)
+    sol = courant.solve_lagrangian(lambda q, v: (v[0] - q[1])**2/2, (0, 1), [0, 1], [1, 0], step=0.1)
     assert sol.ladder.verdict == "gauge"
+    with pytest.raises(courant.ExperimentError, match="velocities had to move by 1"):
+        courant.solve_lagrangian(lambda q, v: (v[0] - q[1])**2/2, (0, 1), [0, 0], [1, 0], step=0.1)
 
 
 def test_forces_and_time():
