@@ -304,7 +304,13 @@ class StartSearch {
       ladder = coordinates_kept();
       if (!has_no_start(ladder) && initial_.velocity.given.any()) ladder = nearest(ladder);
     }
-    if (has_no_start(ladder)) return coordinates_moved();
+    if (has_no_start(ladder)) {
+      ConsistentStart moved = coordinates_moved();
+      if (!moves_by_round_off(moved)) return moved;
+      // Then coordinates were right, and what nobody gave is known to fewer digits, as the voltage of a diode at rest.
+      ConstraintLadder kept = all_kept(guess_, MetTo::four_digits);
+      return has_no_start(kept) ? moved : ConsistentStart(std::move(kept));
+    }
     if (ladder.levels.back().is_solved) return ladder;
     // Equations that contradict what is given may nearly hold far away.
     ConsistentStart moved = coordinates_moved();
@@ -363,10 +369,17 @@ class StartSearch {
     return all_kept(guess);
   }
   // All that is given, with the values that the guess has.
-  ConstraintLadder all_kept(const InitialGuess& guess) const {
+  ConstraintLadder all_kept(const InitialGuess& guess, MetTo digits = MetTo::all_digits) const {
     const InitialGuess held =
         holding(guess, initial_.x.given, initial_.velocity.given, initial_.z.given);
-    return met(held, ladders_.run(held));
+    return met(held, ladders_.run(held), digits);
+  }
+  // Whether coordinates moved, and by what is none next to them: zeros alone are measured by 1.
+  bool moves_by_round_off(const ConstraintLadder& ladder) const {
+    constexpr double round_off = 1e-15;
+    if (has_no_start(ladder)) return false;
+    const double size = guess_.x.norm(), moved = (ladder.point.x - guess_.x).norm();
+    return moved > 0.0 && moved <= round_off * (size > 0.0 ? size : 1.0);
   }
   ConstraintLadder met(const InitialGuess& held, ConstraintLadder ladder,
                        MetTo digits = MetTo::all_digits) const {

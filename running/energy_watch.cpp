@@ -96,8 +96,15 @@ bool EnergyWatch::converges(const State& from, double h, long count, double agre
   return !(stays && first + second > agreed) && !(first + second > most);
 }
 
+bool EnergyWatch::is_accounted(const RunMoment& moment) const {
+  const double change = std::fabs(moment.row[columns_.energy] - memory_.initial);
+  return columns_.balance && std::fabs(moment.row[*columns_.balance]) <= kAccounted * change;
+}
+
 std::optional<RunEnd> EnergyWatch::end_where_broken(const RunMoment& moment) const {
   const Step& step = moment.step;
+  const double before = sizes(step.before).terms;
+  if (!(before > 0.0) || is_accounted(moment)) return std::nullopt;
   double end[3], least = std::numeric_limits<double>::infinity();
   try {
     int parts = 1;
@@ -112,7 +119,7 @@ std::optional<RunEnd> EnergyWatch::end_where_broken(const RunMoment& moment) con
   } catch (const std::domain_error&) {
     return std::nullopt;
   }
-  const double size = std::max(sizes(step.before).terms, least);
+  const double size = std::max(before, least);
   const double error = std::fabs(end[0] - end[1]) + std::fabs(end[1] - end[2]);
   if (!(size > 0.0) || !(error > size)) return std::nullopt;
   constexpr double all_parts = 1 + 3 + 9;
@@ -146,9 +153,7 @@ bool EnergyWatch::is_explained(const RunMoment& moment, double terms) const {
   const Step& step = moment.step;
   constexpr double any = std::numeric_limits<double>::infinity();
   const double change = std::fabs(moment.row[columns_.energy] - memory_.initial);
-  const bool is_accounted =
-      columns_.balance && std::fabs(moment.row[*columns_.balance]) <= kAccounted * change;
-  const double agreed = is_accounted ? kAgreed * change : 0.0;
+  const double agreed = is_accounted(moment) ? kAgreed * change : 0.0;
   if (converges(step.before, step.h, 1, agreed, any)) return true;
   // An error that changes its sign, as after the edge of a pulse, makes the first of the differences small by
   // accident: those of shorter steps tell.

@@ -26,7 +26,8 @@ namespace courant {
 // Large systems, and what is late in a run, are not made again.
 //
 // Where the parts of a step lead to values of H that differ by more than H is the sum of, before the step and after the
-// parts, the step has no digits: so it is at a collision, a pole. The run ends there.
+// parts, the step has no digits: so it is at a collision, a pole. The run ends there. From rest, where H is the sum of nothing, and where
+// ports account for the change, nothing is said.
 //
 // H need not be conserved; what is round-off of its terms, which may cancel, is not looked at.
 class EnergyWatch final : public RunWatcher {
@@ -65,6 +66,8 @@ class EnergyWatch final : public RunWatcher {
   // differs by less and less, or by no more than `agreed`; and by no more than `most`.
   bool converges(const State& from, double h, long count, double agreed, double most) const;
   bool is_explained(const RunMoment& moment, double terms) const;
+  // Whether what went through ports accounts for the change of H.
+  bool is_accounted(const RunMoment& moment) const;
   // Why the run ends where the last step has no digits; nothing elsewhere.
   std::optional<RunEnd> end_where_broken(const RunMoment& moment) const;
   // Steps times coordinates of the run so far.
