@@ -264,16 +264,6 @@ std::vector<Defect> read_defects(const JsonReader& value, const Model& model,
   return defects;
 }
 
-SensitivityWords sensitivity_words(const Experiment& experiment) {
-  SensitivityWords words{experiment.model, experiment.initial, {}, {}, {}};
-  for (const DeclaredSymmetry& symmetry : experiment.symmetries)
-    words.momenta.push_back(symmetry.name);
-  for (const Observable& observable : experiment.observe)
-    (observable.at_stage || observable.uses_energies ? words.others : words.observables)
-        .push_back(observable.name);
-  return words;
-}
-
 // Coordinates, H where there is an energy, energies of steps, defects, momenta of symmetries, observables:
 // what expectations can be about.
 std::vector<std::string> quantities(const Experiment& experiment) {
@@ -287,8 +277,6 @@ std::vector<std::string> quantities(const Experiment& experiment) {
     if (experiment.writes_energies && experiment.energies.contains(name)) names.push_back(name);
   if (experiment.writes_balance) names.push_back("balance");
   for (const Defect defect : experiment.defects) names.push_back(column_of(defect));
-  if (experiment.sensitivities)
-    for (std::string& name : experiment.sensitivities->columns()) names.push_back(std::move(name));
   for (const DeclaredSymmetry& symmetry : experiment.symmetries) names.push_back(symmetry.name);
   for (const Observable& observable : experiment.observe) names.push_back(observable.name);
   return names;
@@ -353,12 +341,6 @@ Experiment read_document(const Json& written, const Model* given) {
     const auto defects = object.optional("defects");
     if (defects && !method && !time)
       defects->problem("need a trajectory; expected \"method\" and \"time\"");
-    const auto sensitivities = object.optional("sensitivities");
-    if (sensitivities && (!method || !time))
-      sensitivities->problem("need a trajectory; expected \"method\" and \"time\"");
-    if (sensitivities && experiment.time && experiment.time->is_transformed())
-      sensitivities->problem(
-          "are of steps of one size in t; expected no \"transformation\" of time beside them");
     const auto observe = object.optional("observe");
     const auto events = object.optional("events");
     if (events && !time) events->problem("need a trajectory; expected \"method\" and \"time\"");
@@ -383,9 +365,6 @@ Experiment read_document(const Json& written, const Model* given) {
       if (symmetries) experiment.symmetries = read_symmetries(*symmetries, *model);
       if (defects) experiment.defects = read_defects(*defects, *model, experiment.symmetries);
       if (observe) experiment.observe = read_observables(*observe, *model, experiment);
-      if (sensitivities)
-        experiment.sensitivities =
-            read_sensitivities(*sensitivities, sensitivity_words(experiment));
       if (events) experiment.events = read_events(*events, *model);
       std::vector<std::string> event_names;
       for (const Event& event : experiment.events) event_names.push_back(event.name);

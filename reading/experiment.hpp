@@ -12,7 +12,6 @@
 #include "courant/reading/method_kinds.hpp"
 #include "courant/reading/model.hpp"
 #include "courant/reading/output.hpp"
-#include "courant/reading/sensitivities.hpp"
 #include "courant/reading/symmetries.hpp"
 
 namespace courant {
@@ -45,7 +44,6 @@ struct Experiment {
   // Whether there are columns `supplied` and `dissipated`, where these are words, and `balance`.
   bool writes_energies = false, writes_balance = false;
   std::vector<Defect> defects;  // that have columns
-  std::optional<Sensitivities> sensitivities = {};
   std::vector<Event> events;
   Expectations expect;
   Output output;

@@ -3,7 +3,6 @@
 #include <array>
 
 #include "courant/integrators/maps/cotangent_lift.hpp"
-#include "courant/integrators/maps/product_map.hpp"
 #include "courant/integrators/maps/staggered.hpp"
 #include "courant/integrators/maps/theta.hpp"
 #include "courant/integrators/methods/composition.hpp"
@@ -102,14 +101,6 @@ std::array<MapPointer, 2> damped_maps(const MethodSetting& at) {
 MapPointer half_at(const DiscretizationChoice& map, const MethodSetting& at) {
   const auto& M = at.system->manifold();
   if (std::dynamic_pointer_cast<const CotangentBundle>(M)) return map.make(M);
-  if (at.parameters) {
-    const auto product = std::dynamic_pointer_cast<const Product>(M);
-    MapPointer own = half_at(map, *at.own);
-    const double theta = own->stage_time();
-    return std::make_shared<ProductMap>(
-        product, std::vector<MapPointer>{
-                     std::move(own), std::make_shared<Theta>(product->factors().back(), theta)});
-  }
   const auto classes = staggering({at.system, at.ladder, VectorFieldFormulas::Freedom::none});
   if (classes) return std::make_shared<Staggered>(M, *classes);
   throw std::invalid_argument(
@@ -270,10 +261,6 @@ std::optional<MethodChoice> reduced(ObjectReader& object) {
   return MethodChoice{
       "reduced, " + map->description + order_text(*order),
       [map = *map, order = *order](const MethodSetting& at) {
-        if (at.parameters)
-          throw std::invalid_argument(
-              "\"reduced\" knows no derivatives by parameters; expected another method, such as "
-              "\"discretize-first\"");
         if (at.own)
           throw std::invalid_argument(
               "\"reduced\" takes no transformation of time; expected another method, such as "

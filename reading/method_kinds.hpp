@@ -14,7 +14,6 @@
 #include "courant/reading/registry.hpp"
 #include "courant/reading/vocabulary.hpp"
 #include "courant/structures/implicit_system.hpp"
-#include "courant/structures/parameter_extension.hpp"
 #include "courant/structures/time_transformation.hpp"
 
 namespace courant {
@@ -29,11 +28,9 @@ struct MethodSetting {
   double step = 0.0;
   Backend backend = Backend::automatic;
   const Vocabulary* vocabulary = nullptr;  // the names for formulas of the method, if it has any
-  // Of a system in transformed time, or with its parameters as coordinates: the setting of the system itself, and
-  // what leads from one to the other.
+  // Of a system in transformed time: the setting in its own, and what leads from one to the other.
   const MethodSetting* own = nullptr;
   std::shared_ptr<const TimeTransformation> transformation = nullptr;
-  std::shared_ptr<const ParameterExtension> parameters = nullptr;
 };
 
 // The method, the initial state moved to where it wants to start, and the discretization map, of

@@ -7,12 +7,11 @@
 #include "courant/integrators/maps/theta.hpp"
 #include "courant/integrators/methods/transformed_integrator.hpp"
 #include "courant/integrators/step/fixed_time_projector.hpp"
-#include "courant/integrators/step/parameter_projector.hpp"
 
 namespace courant {
 namespace {
 
-// So large a size that a correction of a discrete gradient leaves time, or parameters, as they are.
+// So large a size that a correction of a discrete gradient leaves time as it is.
 constexpr double kNoSize = 1e150;
 
 std::shared_ptr<const TimeTransformation> transformation(const MethodChoice& choice,
@@ -67,9 +66,7 @@ MethodChoice in_transformed_time(MethodChoice choice, WrittenFormula rate) {
 std::shared_ptr<const DiscretizationMap> map_at(const DiscretizationChoice& choice,
                                                 const MethodSetting& at) {
   const auto& manifold = at.system->manifold();
-  if (!at.parameters && (!at.transformation || at.transformation->is_symplectic()))
-    return choice.make(manifold);
-  // Time and parameters are coordinates of a line, and of Rᵖ.
+  if (!at.transformation || at.transformation->is_symplectic()) return choice.make(manifold);
   const auto product = std::dynamic_pointer_cast<const Product>(manifold);
   auto map = choice.make(product->factors().front());
   const double theta = map->stage_time();
@@ -80,10 +77,6 @@ std::shared_ptr<const DiscretizationMap> map_at(const DiscretizationChoice& choi
 
 ProjectorChoice::Made projector_at(const ProjectorChoice& choice, const MethodSetting& at) {
   if (!at.own) return choice.make(at);
-  if (at.parameters) {
-    const ProjectorChoice::Made own = choice.make(*at.own);
-    return {std::make_shared<ParameterProjector>(own.projector, *at.parameters), own.metric};
-  }
   // There is nothing to project where the transformation is symplectic.
   if (at.transformation->is_symplectic()) return {std::make_shared<OrthogonalProjector>()};
   const ProjectorChoice::Made own = choice.make(*at.own);
@@ -93,10 +86,8 @@ ProjectorChoice::Made projector_at(const ProjectorChoice& choice, const MethodSe
 
 VectorXd units_at(const MethodSetting& at) {
   if (!at.own) return {};
-  const Index size = at.system->manifold()->tangent_dimension();
-  const Index own = at.own->system->manifold()->tangent_dimension();
-  VectorXd units = VectorXd::Constant(size, kNoSize);
-  units.head(own).setOnes();
+  VectorXd units = VectorXd::Ones(at.own->system->manifold()->tangent_dimension() + 1);
+  units.tail(1).setConstant(kNoSize);
   return units;
 }
 

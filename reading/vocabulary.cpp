@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "courant/core/expressions/derivative.hpp"
-#include "courant/core/expressions/graph_parameters.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/core/words/spelling.hpp"
 
@@ -46,21 +45,12 @@ ExprVector value_of(const Definition& definition, const SymbolTable& symbols) {
   }
 }
 
-// That of the first argument which is no constant.
-Graph graph_of(const Vocabulary::Arguments& arguments) {
-  for (const auto* vector : {&arguments.x, &arguments.velocity, &arguments.z, &arguments.effort})
-    if (*vector)
-      if (const Graph graph = courant::graph_of(**vector); !graph.is_none()) return graph;
-  return arguments.t ? arguments.t->graph() : Graph::none();
-}
-
 // The time derivatives of definitions, one after the other, where there is a velocity.
 class DefinitionRates {
  public:
   DefinitionRates(const Vocabulary& vocabulary, const Vocabulary::Arguments& arguments)
       : arguments_(arguments) {
     if (!arguments.x || !arguments.velocity || !arguments.t) return;
-    add_parameters(graph_, parameter_names(graph_of(arguments)));
     at_ = graph_.variables("at", vocabulary.coordinates.size() + 1);
     velocity_ = graph_.variables("velocity", vocabulary.coordinates.size());
     Vocabulary plain = vocabulary;
@@ -100,12 +90,12 @@ bool has_words(const WrittenFormulas& formulas, Findings& findings) {
   return right;
 }
 
-void read_parameters(ObjectReader& system, const std::vector<std::string>& reserved,
-                     Vocabulary& vocabulary) {
-  auto& parameters = vocabulary.parameters;
+std::vector<std::pair<std::string, Symbol>> read_parameters(
+    ObjectReader& system, const std::vector<std::string>& reserved) {
+  std::vector<std::pair<std::string, Symbol>> parameters;
   const auto object = system.optional("parameters");
   const auto entries = object ? object->entries() : std::nullopt;
-  if (!entries) return;
+  if (!entries) return parameters;
   SymbolTable known;  // names that are taken
   known.add("t", 0.0);
   for (const std::string& name : reserved) known.add(name, 0.0);
@@ -116,14 +106,13 @@ void read_parameters(ObjectReader& system, const std::vector<std::string>& reser
       SymbolTable earlier;
       for (const auto& [earlier_name, earlier_symbol] : parameters)
         earlier.add(earlier_name, earlier_symbol.shape, earlier_symbol.values);
-      if (const auto values = evaluate_constants(*formulas, earlier, value.findings())) {
+      if (const auto values = evaluate_constants(*formulas, earlier, value.findings()))
         symbol = {formulas->shape, constants(*values)};
-        vocabulary.parameter_formulas.emplace_back(name, *formulas);
-      }
     }
     known.add(name, symbol.shape, symbol.values);
     parameters.emplace_back(name, std::move(symbol));
   }
+  return parameters;
 }
 
 // Tables, whose names are none of those of parameters.
@@ -237,8 +226,7 @@ void NameList::add_velocities_to(SymbolTable& symbols, const ExprVector& values)
 
 SymbolTable Vocabulary::symbols(const Arguments& arguments) const {
   SymbolTable symbols;
-  for (const auto& [name, symbol] : parameters_in(graph_of(arguments)))
-    symbols.add(name, symbol.shape, symbol.values);
+  for (const auto& [name, symbol] : parameters) symbols.add(name, symbol.shape, symbol.values);
   if (arguments.t) symbols.add("t", *arguments.t);
   if (arguments.t)
     for (const auto& [name, table] : tables) symbols.add(name, table.at(*arguments.t));
@@ -257,23 +245,6 @@ SymbolTable Vocabulary::symbols(const Arguments& arguments) const {
   return symbols;
 }
 
-std::vector<std::pair<std::string, Symbol>> Vocabulary::parameters_in(const Graph& graph) const {
-  if (parameter_names(graph).empty()) return parameters;
-  std::vector<std::pair<std::string, Symbol>> found;
-  SymbolTable earlier;
-  for (const auto& [name, symbol] : parameters) {
-    ExprVector values = symbol.values;
-    for (const auto& [written, formulas] : parameter_formulas)
-      if (written == name) values = evaluate(formulas, earlier);
-    const auto entries = Declaration{name, symbol.shape}.element_names();
-    for (Index i = 0; i < values.size(); ++i)
-      values[i] = parameter_of(graph, entries[static_cast<std::size_t>(i)], values[i]);
-    earlier.add(name, symbol.shape, values);
-    found.emplace_back(name, Symbol{symbol.shape, std::move(values)});
-  }
-  return found;
-}
-
 SymbolTable Vocabulary::symbols_of(const std::vector<std::string>& names, const ExprVector& x,
                                    const Expr& t) const {
   const auto is_one_of = [&](const std::string& name) {
@@ -282,7 +253,7 @@ SymbolTable Vocabulary::symbols_of(const std::vector<std::string>& names, const 
   for (const Definition& definition : definitions)
     if (is_one_of(definition.name)) return symbols({.x = x, .t = t});
   SymbolTable symbols;
-  for (const auto& [name, symbol] : parameters_in(graph_of(Arguments{.x = x, .t = t})))
+  for (const auto& [name, symbol] : parameters)
     if (is_one_of(name)) symbols.add(name, symbol.shape, symbol.values);
   symbols.add("t", t);
   for (const auto& [name, table] : tables)
@@ -316,7 +287,7 @@ bool read_names(const JsonReader& value, SymbolTable& taken, NameList& names) {
 
 Vocabulary read_vocabulary(ObjectReader& system, const std::vector<std::string>& reserved) {
   Vocabulary vocabulary;
-  read_parameters(system, reserved, vocabulary);
+  vocabulary.parameters = read_parameters(system, reserved);
   vocabulary.tables = read_named_tables(system, reserved, vocabulary.parameters);
   vocabulary.definitions = read_definitions(system);
   return vocabulary;

@@ -60,9 +60,6 @@ struct Vocabulary {
   NameList coordinates;
   NameList unknowns;
   std::vector<std::pair<std::string, Symbol>> parameters;
-  // Of those that are given by formulas. In a graph that has parameters (graph_parameters.hpp) they are
-  // evaluated again, and an entry that the graph has, "L" or "k[1]", is its variable.
-  std::vector<std::pair<std::string, WrittenFormulas>> parameter_formulas = {};
   std::vector<std::pair<std::string, Table>> tables = {};  // functions of t
   std::vector<Definition> definitions;                     // later ones may use earlier ones
 
@@ -92,10 +89,6 @@ struct Vocabulary {
   // coordinates and the names are few.
   SymbolTable symbols_of(const std::vector<std::string>& names, const ExprVector& x,
                          const Expr& t) const;
-
- private:
-  // The parameters as they are in a graph.
-  std::vector<std::pair<std::string, Symbol>> parameters_in(const Graph& graph) const;
 };
 
 // The declarations of an array such as ["x", "r[n][3]"] are appended to `names`; `taken` has the

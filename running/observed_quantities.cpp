@@ -141,11 +141,6 @@ ObservedQuantities::ObservedQuantities(const Experiment& experiment, const Const
     defect_places.push_back(static_cast<Index>(names.size()));
     add(column_of(defect), 0.0);
   }
-  if (experiment.sensitivities)
-    for (const std::string& column : experiment.sensitivities->columns()) {
-      sensitivity_places.push_back(static_cast<Index>(names.size()));
-      add(column, 0.0);
-    }
   for (const DeclaredSymmetry& declared : experiment.symmetries)
     add(declared.name, declared.symmetry.momentum(at.x));
   SymbolTable symbols = experiment.model.symbols(at.x, at.v, at.z, at.t);

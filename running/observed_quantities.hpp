@@ -21,7 +21,6 @@ struct ObservedQuantities {
   std::optional<Index> H, balance;  // places in a row
   std::vector<Defect> defects;
   std::vector<Index> defect_places;
-  std::vector<Index> sensitivity_places;
   std::vector<Index> stage_places;  // of the observables at the stage
   std::vector<Index> deviating;     // of what deviates
 

@@ -24,8 +24,6 @@ Observer::Observer(const ObservedQuantities& of, Backend backend)
       asked_defects_(of.defects),
       defect_places_(of.defect_places),
       defects_(VectorXd::Zero(std::ssize(of.defects))),
-      sensitivity_places_(of.sensitivity_places),
-      derivatives_(VectorXd::Zero(std::ssize(of.sensitivity_places))),
       H_(of.H),
       balance_(of.balance),
       is_field_(of.is_field) {
@@ -117,8 +115,6 @@ void Observer::measure(const State& state) {
   quantities_.value(in, row_.data() + N);
   for (Index i = 0; i < defects_.size(); ++i)
     row_[defect_places_[static_cast<std::size_t>(i)]] = defects_[i];
-  for (Index i = 0; i < derivatives_.size(); ++i)
-    row_[sensitivity_places_[static_cast<std::size_t>(i)]] = derivatives_[i];
   for (Index i = 0; i < stage_.size(); ++i)
     row_[stage_places_[static_cast<std::size_t>(i)]] = stage_[i];
 }
@@ -149,10 +145,6 @@ const VectorXd& Observer::begin(const State& state) {
     map_->begin(state.x);
     take_defects();
   }
-  if (sensitivities_) {
-    sensitivities_->begin();
-    derivatives_ = sensitivities_->derivatives(state);
-  }
   measure(state);
   if (account_) account_->open(row_[*H_]);
   return compare(state.t);
@@ -171,16 +163,6 @@ const VectorXd& Observer::advance(const Step& step) {
       throw std::domain_error(
           "The step to t = " + number_text(step.after.t) +
           " has no tangent map, which the defects are of: " + without_place(error.what()));
-    }
-  }
-  if (sensitivities_) {
-    try {
-      sensitivities_->advance(step);
-      derivatives_ = sensitivities_->derivatives(step.after);
-    } catch (const std::domain_error& error) {
-      throw std::domain_error(
-          "The step to t = " + number_text(step.after.t) +
-          " has no tangent map, which sensitivities are made of: " + without_place(error.what()));
     }
   }
   if (stage_.size() > 0)
@@ -209,7 +191,6 @@ Observer::Memory Observer::memory() const {
   Memory memory;
   if (account_) memory.power_account = account_->memory();
   if (map_) memory.tangent_map = map_->memory();
-  if (sensitivities_) memory.sensitivities = sensitivities_->memory();
   return memory;
 }
 
@@ -219,7 +200,6 @@ void Observer::recall(const Memory& memory) {
     take_energies();
   }
   if (map_ && memory.tangent_map) map_->recall(*memory.tangent_map);
-  if (sensitivities_ && memory.sensitivities) sensitivities_->recall(*memory.sensitivities);
 }
 
 void Observer::restart(const State& state) {

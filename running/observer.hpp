@@ -13,7 +13,6 @@
 #include "courant/reading/experiment.hpp"
 #include "courant/running/observed_quantities.hpp"
 #include "courant/running/power_account.hpp"
-#include "courant/running/sensitivities_of_run.hpp"
 
 namespace courant {
 
@@ -62,7 +61,7 @@ class Observer {
   // Throws std::domain_error where something that is measured is not defined.
   const VectorXd& advance(const Step& step);
   // Whether that takes the stage, the effort and the parts of a step.
-  bool needs_stages() const { return account_ || map_ || sensitivities_ || stage_.size() > 0; }
+  bool needs_stages() const { return account_ || map_ || stage_.size() > 0; }
 
   // Of the steps so far; null where nothing asks for it: the system has no ports, no observable is at
   // a stage, and no bound of the imbalance is expected.
@@ -77,17 +76,10 @@ class Observer {
   // Null where no defect is asked for.
   const TangentMap* tangent_map() const { return map_ ? &*map_ : nullptr; }
 
-  // The same for sensitivities.
-  void follow(SensitivitiesOfRun sensitivities) { sensitivities_ = std::move(sensitivities); }
-  const SensitivitiesOfRun* sensitivities() const {
-    return sensitivities_ ? &*sensitivities_ : nullptr;
-  }
-
   // All that is kept of the steps so far, where there is such a thing.
   struct Memory {
     std::optional<PowerAccount::Memory> power_account = {};
     std::optional<TangentMap::Memory> tangent_map = {};
-    std::optional<SensitivitiesOfRun::Memory> sensitivities = {};
   };
   Memory memory() const;
   // Goes on from there; throws std::invalid_argument if it is of another system.
@@ -132,9 +124,6 @@ class Observer {
   std::vector<Defect> asked_defects_;
   std::vector<Index> defect_places_;  // of those in a row
   VectorXd defects_;
-  std::optional<SensitivitiesOfRun> sensitivities_;
-  std::vector<Index> sensitivity_places_;  // in a row
-  VectorXd derivatives_;
   std::optional<Index> H_, balance_;
   std::unique_ptr<const VectorField> field_;
   bool is_field_ = false;  // whether v and z are those of the field, not those of the state

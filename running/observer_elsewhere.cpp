@@ -6,7 +6,6 @@ Observer& ObserverElsewhere::at(const State& state) {
   if (!own_) {
     own_.emplace(experiment_, ladder_, Backend::interpreter);
     if (const TangentMap* map = of_.tangent_map()) own_->follow(*map);
-    if (const SensitivitiesOfRun* all = of_.sensitivities()) own_->follow(*all);
   }
   own_->restart(state);
   return *own_;
