@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "linearizations.hpp"
+
 namespace courant {
 // Mistakes that these cases have to notice:
 //  * small systems with rows that depend on each other lose the digits of a step to the nearest
@@ -12,21 +14,6 @@ namespace courant {
 BOOST_AUTO_TEST_SUITE(least_deviation_test)
 
 namespace {
-
-constexpr double unit = 0.5 * std::numeric_limits<double>::epsilon();
-
-Linearization linear(const MatrixXd& J, const VectorXd& value, const VectorXd& value_error) {
-  Linearization at;
-  at.value = value;
-  at.value_error = value_error;
-  at.jacobian = J.sparseView();
-  at.error = SparseMatrixXd(J.rows(), J.cols());
-  return at;
-}
-
-VectorXd vector(std::initializer_list<double> values) {
-  return Eigen::Map<const VectorXd>(values.begin(), static_cast<Index>(values.size()));
-}
 
 // From `given`, by the first n unknowns.
 Deviation from(const VectorXd& given, const VectorXd& y) {

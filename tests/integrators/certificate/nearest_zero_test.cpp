@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "linearizations.hpp"
+
 // Mistakes that these cases have to notice:
 //  * a residual that is round-off chooses units and makes steps
 //    (integrators/certificate/natural_scaling.cpp)
@@ -13,25 +15,6 @@
 BOOST_AUTO_TEST_SUITE(nearest_zero_test)
 
 using namespace courant;
-
-namespace {
-
-constexpr double unit = 0.5 * std::numeric_limits<double>::epsilon();
-
-Linearization linear(const MatrixXd& J, const VectorXd& value, const VectorXd& value_error) {
-  Linearization at;
-  at.value = value;
-  at.value_error = value_error;
-  at.jacobian = J.sparseView();
-  at.error = SparseMatrixXd(J.rows(), J.cols());
-  return at;
-}
-
-VectorXd vector(std::initializer_list<double> values) {
-  return Eigen::Map<const VectorXd>(values.begin(), static_cast<Index>(values.size()));
-}
-
-}  // namespace
 
 BOOST_AUTO_TEST_CASE(a_residual_within_its_error_is_none) {
   const Linearization at =
