@@ -116,7 +116,7 @@ function(courant_library room)
   endif()
   if(NOT sources) # a folder may consist of headers alone
     set(sources ${CMAKE_CURRENT_BINARY_DIR}/headers_only.cpp)
-    file(WRITE ${sources} "")
+    file(CONFIGURE OUTPUT ${sources} CONTENT "") # left as it is, and not compiled again, at the next configuration
   endif()
   add_library(${target} ${sources} ${headers})
   add_library(Courant::${room} ALIAS ${target})
