@@ -24,10 +24,11 @@ ExprMatrix solve(ExprMatrix A, ExprMatrix b) {
     }
   }
   for (Index k = n - 1; k >= 0; --k) {
-    for (Index j = 0; j < b.cols(); ++j) {
-      for (Index i = k + 1; i < n; ++i) b(k, j) -= A(k, i) * b(i, j);
-      b(k, j) = b(k, j) / A(k, k);
+    for (Index i = k + 1; i < n; ++i) {
+      if (A(k, i).is_constant(0.0)) continue;
+      for (Index j = 0; j < b.cols(); ++j) b(k, j) -= A(k, i) * b(i, j);
     }
+    for (Index j = 0; j < b.cols(); ++j) b(k, j) = b(k, j) / A(k, k);
   }
   return b;
 }

@@ -49,17 +49,26 @@ MatrixFormula of_energy(const std::shared_ptr<const ImplicitSystem>& system,
     const Expr t = graph.variable("t");
     const auto energy = system->energy(y, z, t);
     if (!energy) return {};
-    const ExprMatrix moved = M.frame(y).matrix()(Eigen::all, momenta);
-    const ExprVector slope = moved.transpose() * gradient(*energy, y);
+    const LinearMap<Expr> frame = M.frame(y);
+    // The derivative of f along the momenta. Where the frame is the identity, nothing is multiplied.
+    const auto by_momenta = [&](const ExprVector& f) -> ExprMatrix {
+      if (frame.is_identity()) return jacobian(f, ExprVector(y(momenta))).dense();
+      return jacobian(f, y).dense() * frame.entries()(Eigen::all, momenta);
+    };
+    const ExprVector slope = by_momenta(ExprVector::Constant(1, *energy)).transpose();
     const auto k = static_cast<Index>(momenta.size());
-    ExprMatrix result = jacobian(slope, y).dense() * moved;
-    const ExprMatrix projector = M.tangent_projector(y).matrix()(momenta, momenta);
-    result += ExprMatrix::Identity(k, k) - projector;
+    ExprMatrix result = by_momenta(slope);
+    if (const LinearMap<Expr> tangent = M.tangent_projector(y); !tangent.is_identity())
+      result += ExprMatrix::Identity(k, k) - tangent.entries()(momenta, momenta);
     const ExprVector entries = result.reshaped();
     if (depends(entries, joined({z, ExprVector::Constant(1, t)}))) return {};
-    const ExprMatrix by_momenta = jacobian(entries, y).dense() * moved;
-    for (const Expr& entry : by_momenta.reshaped())
-      if (!entry.is_constant(0.0)) return {};
+    ExprVector varying(entries.size());
+    const auto end = std::copy_if(entries.begin(), entries.end(), varying.begin(),
+                                  [](const Expr& entry) { return !entry.is_constant(); });
+    varying.conservativeResize(end - varying.begin());
+    const ExprMatrix changes = by_momenta(varying);
+    for (const Expr& change : changes.reshaped())
+      if (!change.is_constant(0.0)) return {};
     return substitute(entries, y, at).reshaped(k, k);
   };
 }
