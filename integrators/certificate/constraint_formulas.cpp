@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <stdexcept>
+#include <unordered_map>
+#include <utility>
 
 #include "courant/core/algebra/normal_form.hpp"
 #include "courant/core/algebra/simplified.hpp"
@@ -73,6 +76,15 @@ bool is_number(const std::string& text) {
   return text.find_first_not_of("0123456789.+-e") == std::string::npos;
 }
 
+// An equation with the unknown that it can be solved for most simply, found once for what the equation is.
+struct OpenEquation {
+  Expr function;
+  std::vector<Index> contained = {};  // variables in it, ascending
+  bool is_weighed = false;
+  double cost = 0.0;
+  Index unknown = -1;  // none
+};
+
 // Equations on the way to their reduced form. On a manifold with as many ẋ as v = C ẋ, velocities
 // are ẋ, and equations are taken modulo what points and velocities satisfy.
 class EquationReduction {
@@ -87,6 +99,7 @@ class EquationReduction {
     unknowns_ << rates, z;
     solution_ = unknowns_;
     solved_.assign(static_cast<std::size_t>(unknowns_.size()), false);
+    in_solution_.resize(solved_.size());
     motion_ = M.frame(x_) * rates;
     numbers_.resize(x_.size() + 1 + unknowns_.size());
     numbers_ << point.x, point.t, point.v, point.z;
@@ -104,21 +117,30 @@ class EquationReduction {
       const ExprVector along = tangent(constraint, x_, rates);
       std::vector<Expr> relations = on_manifold;
       relations.insert(relations.end(), along.begin(), along.end());
-      normal_form_.emplace(variables(), relations);
+      ExprVector all(x_.size() + 1 + unknowns_.size());
+      all << x_, t_, unknowns_;
+      normal_form_.emplace(all, relations);
       on_vectors_.relations = normal_form_->basis();
     }
     std::vector<std::string> names = system.names().coordinates;
     names.emplace_back("t");
     for (const auto& more : {velocity_names(system), system.names().auxiliary})
       names.insert(names.end(), more.begin(), more.end());
-    symbols_ = readable(names, variables());
+    variables_.resize(numbers_.size());
+    variables_ << x_, t_, unknowns_;
+    for (Index i = 0; i < variables_.size(); ++i) place_[variables_[i].node()] = i;
+    symbols_ = readable(names, variables_);
     const ExprVector equations = system.residual(x_, v, z, t_);
     is_too_large_ = Subgraph(equations).size() > most_operations;
     if (is_too_large_) return;
     for (const Expr& equation : equations) add(equation);
-    if (normal_form_)
-      if (auto others = normal_form_->eliminated(equations_, unknowns_); !others.empty())
-        equations_ = others;
+    if (!normal_form_) return;
+    std::vector<Expr> together;
+    for (const OpenEquation& equation : equations_) together.push_back(equation.function);
+    const auto others = normal_form_->eliminated(together, unknowns_);
+    if (others.empty()) return;
+    equations_.clear();
+    for (const Expr& other : others) equations_.push_back(opened(other));
   }
 
   bool is_too_large() const { return is_too_large_; }
@@ -128,12 +150,16 @@ class EquationReduction {
   std::vector<Expr> constraints() {
     while (solve_one()) {
     }
-    std::vector<Expr> found, kept;
-    for (const Expr& equation : equations_) {
-      if (equation.is_constant(0.0)) continue;
-      (has_unknown(equation) ? kept : found).push_back(equation);
+    std::vector<Expr> found;
+    std::vector<OpenEquation> kept;
+    for (OpenEquation& equation : equations_) {
+      if (equation.function.is_constant(0.0)) continue;
+      if (has_unknown(equation.function))
+        kept.push_back(std::move(equation));
+      else
+        found.push_back(equation.function);
     }
-    equations_ = kept;
+    equations_ = std::move(kept);
     return found;
   }
 
@@ -148,16 +174,16 @@ class EquationReduction {
   Expr reduced(const Expr& function) { return normal(substitute(function, unknowns_, solution_)); }
   void add(const Expr& equation) {
     if (const Expr remainder = normal(equation); !is_zero(remainder))
-      equations_.push_back(remainder);
+      equations_.push_back(opened(remainder));
   }
 
   // What follows from the equations that are left when velocities and unknowns that occur in them in
   // another way than linearly are eliminated.
   std::vector<Expr> consequences() const {
     std::vector<Expr> left;
-    for (const Expr& equation : equations_)
-      if (has_unknown(equation)) left.push_back(equation);
-    return NormalForm(variables(), {}).consequences(left, unknowns_);
+    for (const OpenEquation& equation : equations_)
+      if (has_unknown(equation.function)) left.push_back(equation.function);
+    return NormalForm(variables_, {}).consequences(left, unknowns_);
   }
   // Whether functions of the point have no zero in common.
   bool have_no_common_zero(const std::vector<Expr>& functions) const {
@@ -168,12 +194,14 @@ class EquationReduction {
   void add_constraint(const Expr& function) { constraints_.push_back(function); }
 
   bool has_unknown(const Expr& function) const {
-    for (const Expr& entry : gradient(function, unknowns_))
-      if (!entry.is_constant(0.0)) return true;
-    return false;
+    const auto along = slopes(function, unknowns_in(contained(function)));
+    return std::ranges::any_of(along,
+                               [](const auto& slope) { return !slope.second.is_constant(0.0); });
   }
   double value(const Expr& function) const {
-    const Expr number = substitute(function, variables(), constants(numbers_));
+    const std::vector<Index> of = contained(function);
+    const VectorXd there = numbers_(of);
+    const Expr number = substitute(function, ExprVector(variables_(of)), constants(there));
     return number.is_constant() ? number.value() : std::nan("");
   }
   // In the tangent representation.
@@ -250,18 +278,12 @@ class EquationReduction {
   // How far a function moves when each variable does by its size, or by 1 where that is less.
   double change(const Expr& function) const {
     double size = 0.0;
-    const ExprVector along = gradient(function, variables());
-    for (Index i = 0; i < along.size(); ++i)
-      if (!along[i].is_constant(0.0))
-        size += std::abs(value(along[i])) * std::max(1.0, std::abs(numbers_[i]));
+    for (const auto& [i, slope] : slopes(function, contained(function)))
+      if (!slope.is_constant(0.0))
+        size += std::abs(value(slope)) * std::max(1.0, std::abs(numbers_[i]));
     return size;
   }
 
-  double largest(const ExprVector& functions) const {
-    double found = 0.0;
-    for (const Expr& function : functions) found = std::max(found, std::abs(value(function)));
-    return found;
-  }
   // At the point, next to how fast it changes there and to the other coefficients of its equation: what is
   // identically zero, though its formula does not tell, is round-off of these.
   bool vanishes(const Expr& function, double others) const {
@@ -270,74 +292,111 @@ class EquationReduction {
     return !(std::abs(value(function)) > 1e-6 * change(function));
   }
 
-  ExprVector variables() const {
-    ExprVector all(x_.size() + 1 + unknowns_.size());
-    all << x_, t_, unknowns_;
-    return all;
+  // Variables in a function, ascending.
+  std::vector<Index> contained(const Expr& function) const {
+    std::vector<Index> found;
+    const Subgraph subgraph(ExprVector::Constant(1, function));
+    for (const std::uint32_t node : subgraph.nodes())
+      if (const auto place = place_.find(node); place != place_.end())
+        found.push_back(place->second);
+    std::ranges::sort(found);
+    return found;
   }
-  // Solves the equation with fewest unknowns for one that is linear in it; constant coefficients
-  // first. False if there is none.
-  bool solve_one() {
-    std::size_t best_equation = equations_.size();
-    Index best_unknown = -1;
-    double best_cost = 1e9;
-    for (std::size_t e = 0; e < equations_.size(); ++e) {
-      if (equations_[e].is_constant()) continue;
-      // Nothing that could be written comes of what is so long.
-      if (Subgraph(ExprVector::Constant(1, equations_[e])).size() > most_operations_of_one)
-        continue;
-      const ExprVector g = gradient(equations_[e], unknowns_);
-      Index count = 0;
-      for (const Expr& entry : g) count += entry.is_constant(0.0) ? 0 : 1;
-      for (Index u = 0; u < g.size(); ++u) {
-        if (g[u].is_constant(0.0)) continue;
-        double cost = static_cast<double>(count);
-        if (!g[u].is_constant()) {
-          bool linear = !vanishes(g[u], largest(g));
-          for (const Expr& second : gradient(g[u], unknowns_))
-            linear = linear && second.is_constant(0.0);
-          if (!linear) continue;
-          cost += 1000.0;
-        }
-        if (cost < best_cost) {
-          best_cost = cost;
-          best_equation = e;
-          best_unknown = u;
-        }
+  std::vector<Index> unknowns_in(const std::vector<Index>& variables) const {
+    return {std::ranges::lower_bound(variables, x_.size() + 1), variables.end()};
+  }
+  Index variable_of(Index unknown) const { return x_.size() + 1 + unknown; }
+  // Derivatives by some variables, each with its variable.
+  std::vector<std::pair<Index, Expr>> slopes(const Expr& function,
+                                             const std::vector<Index>& by) const {
+    const ExprVector along = gradient(function, ExprVector(variables_(by)));
+    std::vector<std::pair<Index, Expr>> result;
+    for (std::size_t i = 0; i < by.size(); ++i)
+      result.emplace_back(by[i], along[static_cast<Index>(i)]);
+    return result;
+  }
+
+  OpenEquation opened(const Expr& function) const {
+    return {.function = function, .contained = contained(function)};
+  }
+  // Chooses the unknown in which an equation is linear, if there is one: constant coefficients first.
+  void weigh(OpenEquation& equation) const {
+    constexpr double of_varying = 1000.0;
+    equation.is_weighed = true;
+    if (equation.function.is_constant()) return;
+    // Nothing that could be written comes of what is so long.
+    if (Subgraph(ExprVector::Constant(1, equation.function)).size() > most_operations_of_one)
+      return;
+    auto along = slopes(equation.function, unknowns_in(equation.contained));
+    std::erase_if(along, [](const auto& slope) { return slope.second.is_constant(0.0); });
+    double largest = 0.0;
+    for (const auto& slope : along) largest = std::max(largest, std::abs(value(slope.second)));
+    for (const auto& [variable, slope] : along) {
+      double cost = static_cast<double>(along.size());
+      if (!slope.is_constant()) {
+        if (vanishes(slope, largest) || has_unknown(slope)) continue;
+        cost += of_varying;
       }
+      if (equation.unknown >= 0 && cost >= equation.cost) continue;
+      equation.cost = cost;
+      equation.unknown = variable - variable_of(0);
     }
-    if (best_unknown < 0) return false;
-    const Expr equation = equations_[best_equation];
-    const Expr coefficient = gradient(equation, unknowns_)[best_unknown];
-    const ExprVector unknown = unknowns_.segment(best_unknown, 1);
-    const Expr rest = substitute(equation, unknown, ExprVector::Constant(1, Expr(0.0)));
+  }
+  // Solves the equation with fewest unknowns for one that is linear in it. False if there is none. Only equations that
+  // contain that unknown change.
+  bool solve_one() {
+    std::size_t best = equations_.size();
+    for (std::size_t e = 0; e < equations_.size(); ++e) {
+      OpenEquation& equation = equations_[e];
+      if (!equation.is_weighed) weigh(equation);
+      if (equation.unknown >= 0 &&
+          (best == equations_.size() || equation.cost < equations_[best].cost))
+        best = e;
+    }
+    if (best == equations_.size()) return false;
+    const OpenEquation solved = equations_[best];
+    equations_.erase(equations_.begin() + static_cast<std::ptrdiff_t>(best));
+    const ExprVector unknown = unknowns_.segment(solved.unknown, 1);
+    const Expr coefficient = gradient(solved.function, unknown)[0];
+    const Expr rest = substitute(solved.function, unknown, ExprVector::Constant(1, Expr(0.0)));
     const Expr result = coefficient.is_constant(1.0)    ? -rest
                         : coefficient.is_constant(-1.0) ? rest
                                                         : -rest / coefficient;
-    equations_.erase(equations_.begin() + static_cast<std::ptrdiff_t>(best_equation));
     const ExprVector by = ExprVector::Constant(1, result);
-    for (Expr& other : equations_) other = normal(substitute(other, unknown, by));
-    solution_[best_unknown] = normal(result);
-    solved_[static_cast<std::size_t>(best_unknown)] = true;
+    const auto has_it = [&](const std::vector<Index>& variables) {
+      return std::ranges::binary_search(variables, variable_of(solved.unknown));
+    };
+    for (OpenEquation& other : equations_)
+      if (has_it(other.contained)) other = opened(normal(substitute(other.function, unknown, by)));
+    set_solution(solved.unknown, normal(result));
     for (Index u = 0; u < solution_.size(); ++u)
-      if (solved_[static_cast<std::size_t>(u)])
-        solution_[u] = normal(substitute(solution_[u], unknown, by));
+      if (const auto i = static_cast<std::size_t>(u); solved_[i] && has_it(in_solution_[i]))
+        set_solution(u, normal(substitute(solution_[u], unknown, by)));
     return true;
+  }
+  void set_solution(Index unknown, const Expr& function) {
+    const auto u = static_cast<std::size_t>(unknown);
+    solution_[unknown] = function;
+    solved_[u] = true;
+    in_solution_[u] = contained(function);
   }
 
   Graph graph_;
   ExprVector x_;
   Expr t_;
   Index velocity_count_ = 0;
-  ExprVector unknowns_, solution_;      // velocities, then auxiliary unknowns
-  ExprVector motion_;                   // ẋ
-  VectorXd numbers_;                    // of variables(), at the point
-  std::optional<SymbolTable> symbols_;  // of variables()
+  ExprVector unknowns_, solution_;                  // velocities, then auxiliary unknowns
+  ExprVector motion_;                               // ẋ
+  ExprVector variables_;                            // x, t and the unknowns
+  std::unordered_map<std::uint32_t, Index> place_;  // of a variable's node in variables_
+  VectorXd numbers_;                                // of the variables, at the point
+  std::optional<SymbolTable> symbols_;              // of the variables
   Simplification on_points_, on_vectors_;
   std::optional<NormalForm> normal_form_;
   std::vector<Expr> constraints_;
   std::vector<bool> solved_;
-  std::vector<Expr> equations_;
+  std::vector<std::vector<Index>> in_solution_;  // variables in those that are solved
+  std::vector<OpenEquation> equations_;
   bool is_too_large_ = false;
 };
 
