@@ -2,6 +2,7 @@
 #include "courant/manifolds/manifold.hpp"
 
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 
 #include "courant/manifolds/euclidean.hpp"
 
@@ -97,6 +98,17 @@ BOOST_AUTO_TEST_CASE(expressions_and_numbers_give_the_same) {
   BOOST_TEST(!y[0].is_constant());
   BOOST_TEST(M.retract(Vector2d(0.6, 0.8), Vector2d(1.2, 1.6))[0] == 0.6,
              boost::test_tools::tolerance(1e-15));
+}
+
+// R(v_x) = x + v_x, to the bit, with what belongs to it: the tangent spaces are Rⁿ, and every point is reached.
+BOOST_AUTO_TEST_CASE(remark_4_2_the_retraction_of_a_vector_space) {
+  const Euclidean space(3);
+  const Vector3d x(0.3, -2.0, 1e3), v(0.7, 5.0, -0.25);
+  BOOST_TEST(VectorXd(space.retract(x, v)) == VectorXd(x + v));
+  BOOST_TEST(VectorXd(space.retract(x, Vector3d::Zero())) == VectorXd(x));
+  BOOST_TEST(VectorXd(space.inverse_retract(x, x + v)) == VectorXd(x + v - x));
+  BOOST_TEST(space.frame(x).is_identity());
+  BOOST_TEST(std::isinf(space.injectivity_radius(x)));
 }
 
 BOOST_AUTO_TEST_CASE(errors) {

@@ -1,4 +1,5 @@
 #include <Eigen/LU>
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
@@ -92,6 +93,30 @@ BOOST_AUTO_TEST_CASE(orders_and_constraints_on_rotations) {
     const double shown =
         body.order(method, 1.0, exact, 0, counts[static_cast<std::size_t>(order / 2 - 1)]);
     BOOST_TEST(std::abs(shown - order) < 0.15, "order " << order << " shows " << shown);
+
+    // The energy, which no constraint holds, is off by no lower order.
+    const auto energy = [&](const VectorXd& x) {
+      const Eigen::Vector3d p = x.tail(3);
+      return 0.5 * p.dot(I.inverse() * p) + 0.7 * x[8] + 0.5 * x[1] + 0.3 * x[3];
+    };
+    std::vector<double> steps, errors;
+    for (const long count : counts[static_cast<std::size_t>(order / 2 - 1)]) {
+      const double h = 1.0 / static_cast<double>(count);
+      const PreparedMethod of_energy = body.prepare(method, h);
+      const auto along = of_energy.integrator->stepper();
+      State at = of_energy.initial;
+      const double initially = energy(at.x);
+      double most = 0.0;
+      for (long k = 0; k < count; ++k) {
+        along->step(at, h);
+        most = std::max(most, std::abs(energy(at.x) - initially));
+      }
+      steps.push_back(h);
+      errors.push_back(most);
+    }
+    const double of_energy = log_log_slope(steps, errors, 1e-12);
+    BOOST_TEST(of_energy > order - 0.3, "order " << order << " shows " << of_energy << " in H");
+    BOOST_TEST(errors.front() > 1e-9);  // something was measured
 
     const PreparedMethod prepared = body.prepare(method, 0.1);
     const auto stepper = prepared.integrator->stepper();

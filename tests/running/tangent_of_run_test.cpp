@@ -25,6 +25,7 @@ namespace courant {
 //  * constraints are not looked at
 //  * gauge freedom is found out at the first step, in other words
 //  * a defect that is not defined is not refused
+//  * momenta that follow from positions stop a run with defects
 BOOST_AUTO_TEST_SUITE(tangent_of_run_test)
 
 namespace {
@@ -331,6 +332,76 @@ BOOST_AUTO_TEST_CASE(a_step_without_a_tangent_map_is_said) {
                    "The step to t = 0.5 has no tangent map, which the "
                    "defects are of: ") == 0u;
   });
+}
+
+// L = a(x, y) x' - H has α = a dx and moves by X = (∂H/∂y, -∂H/∂x)/∂a/∂y. A step leads from q̄ - θhX(q̄) to
+// q̄ + (1-θ)hX(q̄): on the plane dα is kept as far as ∂a/∂y times the area is. Method 2 keeps it for linear α and
+// θ = ½ (Proposition 6.3), and neither for another θ (Remark 6.4) nor for another α.
+BOOST_AUTO_TEST_CASE(proposition_6_3_in_both_directions) {
+  using Eigen::Matrix2d;
+  using Eigen::Vector2d;
+  struct Case {
+    const char* form;
+    double (*density)(const Vector2d&);  // ∂a/∂y
+    bool is_linear;
+  };
+  const std::vector<Case> cases = {
+      {"0.7*y+0.2*x", [](const Vector2d&) { return 0.7; }, true},
+      {"y+y^3/3+x*y", [](const Vector2d& q) { return 1.0 + q[1] * q[1] + q[0]; }, false},
+      {"y*exp(x/2)", [](const Vector2d& q) { return std::exp(0.5 * q[0]); }, false},
+      {"2*y-cos(x*y)/3", [](const Vector2d& q) { return 2.0 + q[0] * std::sin(q[0] * q[1]) / 3.0; },
+       false}};
+  constexpr double h = 0.1;
+  constexpr long steps = 20;
+  const auto slopes = [](const Vector2d& q) {  // of H = x²/2 + y²/2 + x⁴/4
+    return Vector2d(q[0] + q[0] * q[0] * q[0], q[1]);
+  };
+  for (const Case& of : cases)
+    for (const double theta : {0.3, 0.5, 0.6}) {
+      const auto field = [&](const Vector2d& q) -> Vector2d {
+        const Vector2d dH = slopes(q);
+        return Vector2d(dH[1], -dH[0]) / of.density(q);
+      };
+      const auto turned = [&](const Vector2d& q) {
+        Matrix2d D;
+        for (int j = 0; j < 2; ++j) {
+          const Vector2d by = 1e-5 * Vector2d::Unit(j);
+          D.col(j) = (field(q + by) - field(q - by)) / 2e-5;
+        }
+        return D;
+      };
+      const Vector2d start(0.5, 0.3);
+      Vector2d q = start;
+      double area = 1.0;
+      for (long k = 0; k < steps; ++k) {
+        Vector2d middle = q;
+        for (int i = 0; i < 100; ++i) middle = q + theta * h * field(middle);
+        const Matrix2d D = h * turned(middle), one = Matrix2d::Identity();
+        area *= (one + (1.0 - theta) * D).determinant() / (one - theta * D).determinant();
+        q = middle + (1.0 - theta) * h * field(middle);
+      }
+      const double defect = std::abs(of.density(q) / of.density(start) * area - 1.0);
+      const DefectsOfRun run(
+          {{"system",
+            {{"type", "lagrangian"},
+             {"coordinates", {"x", "y"}},
+             {"lagrangian", "(" + std::string(of.form) + ")*x' - x^2/2 - y^2/2 - x^4/4"}}},
+           {"initial", {{"x", start[0]}, {"y", start[1]}}},
+           {"method",
+            {{"type", "constrain-first"},
+             {"projector", "momentum"},
+             {"discretization", {{"type", "theta"}, {"theta", theta}}}}},
+           {"time", {{"step", h}, {"end", h * static_cast<double>(steps)}}},
+           {"defects", {"symplecticity"}}});
+      BOOST_TEST_CONTEXT(of.form << ", theta = " << theta) {
+        BOOST_TEST_REQUIRE(run.symplecticity.size() == static_cast<std::size_t>(steps + 1));
+        BOOST_TEST(std::abs(run.symplecticity.back() - defect) < 1e-8);
+        if (of.is_linear && theta == 0.5)
+          BOOST_TEST(largest(run.symplecticity) < 1e-12);
+        else
+          BOOST_TEST(largest(run.symplecticity) > 1e-6);
+      }
+    }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

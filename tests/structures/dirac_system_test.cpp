@@ -5,6 +5,7 @@
 
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/structures/canonical_symplectic.hpp"
+#include "courant/structures/morse_family.hpp"
 #include "courant/structures/open_port_hamiltonian.hpp"
 #include "courant/structures/poisson.hpp"
 
@@ -34,6 +35,37 @@ BOOST_AUTO_TEST_CASE(equation_1) {
   const VectorXd v = (VectorXd(2) << 0.9 / 1.3, -0.7 * std::sin(0.4)).finished();
   BOOST_TEST(system.residual(x, v, VectorXd(0), 0.0).norm() < 1e-16);
   BOOST_TEST(system.residual(x, -v, VectorXd(0), 0.0).norm() > 0.1);
+}
+
+// (D, 𝓛), 𝓛 = {∂E/∂x : ∂E/∂λ = 0}, where neither is that of a Hamiltonian on a symplectic manifold: D is the graph of
+// Λ = x₂ ∂₀ ∧ ∂₁ on R³, E = λ(x₀ + 2x₁ + x₂²/2) + λ³/3 - λ. So ẋ = (x₂ · 2λ, -x₂ · λ, 0), and
+// x₀ + 2x₁ + x₂²/2 + λ² = 1.
+BOOST_AUTO_TEST_CASE(a_morse_family_over_a_structure_that_is_not_symplectic) {
+  const auto M = std::make_shared<Euclidean>(3);
+  const auto D = std::make_shared<Poisson>(M, [](const ExprVector& x) {
+    ExprMatrix matrix = ExprMatrix::Zero(3, 3);
+    matrix(0, 1) = x[2];
+    matrix(1, 0) = -x[2];
+    return matrix;
+  });
+  const DiracSystem system(
+      D, std::make_shared<MorseFamily>(
+             M, 1, [](const ExprVector& x, const ExprVector& lambda, const Expr&) {
+               return lambda[0] * (x[0] + 2.0 * x[1] + 0.5 * square(x[2])) +
+                      lambda[0] * square(lambda[0]) / 3.0 - lambda[0];
+             }));
+  const VectorXd x{{0.3, -0.1, 0.8}};
+  const double lambda = std::sqrt(1.0 - (0.3 - 0.2 + 0.32));
+  const auto residual = [&](const VectorXd& v, double at) {
+    return system.residual(x, v, VectorXd::Constant(1, at), 0.0).norm();
+  };
+  const auto velocity = [](double at) { return VectorXd{{0.8 * 2.0 * at, -0.8 * at, 0.0}}; };
+  // Both of the covectors that 𝓛 has over x, and no others.
+  for (const double at : {lambda, -lambda}) {
+    BOOST_TEST(residual(velocity(at), at) < 1e-15);
+    BOOST_TEST(residual(velocity(-at), at) > 0.1);
+    BOOST_TEST(residual(velocity(1.1 * at), 1.1 * at) > 0.01);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(the_same_system_by_its_bivector) {

@@ -153,7 +153,7 @@ BOOST_AUTO_TEST_CASE(on_vector_spaces) {
   BOOST_TEST((v - Vector2d(4.0, -8.0)).norm() == 0.0);
 }
 
-// Examples 4.9 and 4.10: both ends are retracted from x, and the whole geodesic has length ‖v‖.
+// Example 4.9: both ends are retracted from x, and the whole geodesic has length ‖v‖.
 BOOST_AUTO_TEST_CASE(along_geodesics) {
   const auto sphere = std::make_shared<Sphere>(2);
   const Theta map(sphere, 0.3);
@@ -163,6 +163,33 @@ BOOST_AUTO_TEST_CASE(along_geodesics) {
   BOOST_TEST((x0 - (std::cos(0.6) * x - std::sin(0.6) * v)).norm() < 1e-15);
   BOOST_TEST((x1 - (std::cos(1.4) * x + std::sin(1.4) * v)).norm() < 1e-15);
   BOOST_TEST(sphere->inverse_retract(x0, x1).norm() == 2.0, boost::test_tools::tolerance(1e-14));
+}
+
+// Example 4.10 on SO(3): R_d(g, gω̂) = (g exp(-θω̂), g exp((1-θ)ω̂)), with the formula of Rodrigues.
+BOOST_AUTO_TEST_CASE(along_one_parameter_subgroups) {
+  using Eigen::Matrix3d;
+  const Vector3d axis = Vector3d(2.0, -1.0, 2.0) / 3.0;
+  const auto turned = [&](double angle) -> Matrix3d {
+    Matrix3d K;
+    K << 0.0, -axis[2], axis[1], axis[2], 0.0, -axis[0], -axis[1], axis[0], 0.0;
+    return Matrix3d::Identity() + std::sin(angle) * K + (1.0 - std::cos(angle)) * K * K;
+  };
+  const auto entries = [](const Matrix3d& g) {
+    const Matrix3d rows = g.transpose();
+    return VectorXd(rows.reshaped());
+  };
+  Matrix3d g;
+  g << 0.0, -1.0, 0.0, 0.6, 0.0, -0.8, 0.8, 0.0, 0.6;
+  const auto rotations = std::make_shared<SpecialOrthogonal3>();
+  for (const double theta : {0.0, 0.3, 0.5, 1.0}) {
+    const Theta map(rotations, theta);
+    const auto [g0, g1] = map.forward(entries(g), 1.2 * axis);
+    BOOST_TEST((g0 - entries(g * turned(-1.2 * theta))).norm() < 1e-15);
+    BOOST_TEST((g1 - entries(g * turned(1.2 * (1.0 - theta)))).norm() < 1e-15);
+    const auto [middle, omega] = map.inverse(g0, g1);
+    BOOST_TEST((middle - entries(g)).norm() < 1e-14);
+    BOOST_TEST((omega - 1.2 * axis).norm() < 1e-14);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(claims) {
