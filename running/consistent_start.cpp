@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -404,23 +405,53 @@ class StartSearch {
     return ladder;
   }
 
-  // With the momenta that belong to the velocities by the equations themselves, where they are not given.
-  InitialGuess with_what_follows() const {
+  // With the momenta that belong to the velocities by the equations themselves, where they are not given. Likewise of
+  // unknowns, where some are given: those that the others have beside these, from `open` for all of them.
+  InitialGuess with_what_follows(double open = 0.0) const {
     InitialGuess guess = guess_;
+    const bool follow_unknowns = initial_.z.given.any();
+    if (follow_unknowns && open != 0.0) guess.z = initial_.z.given.select(guess.z, open);
     const InitialGuess given =
-        holding(guess_, initial_.x.given, initial_.velocity.given, initial_.z.given);
-    if (const auto point = ladders_.nearly_solved(given))
+        holding(guess, initial_.x.given, initial_.velocity.given, initial_.z.given);
+    if (const auto point = ladders_.nearly_solved(given)) {
       guess.x = initial_.x.given.select(guess.x, point->x);
+      if (follow_unknowns && point->z.allFinite())
+        guess.z = initial_.z.given.select(guess.z, point->z);
+    }
     return guess;
   }
 
+  // Of the ladders that a search has from what follows, the one that moves the given unknowns least. Equations such as those
+  // of a grid with loads of constant power have several solutions: from 0, which nobody gave, a search finds one
+  // without voltages; from the mean of the given ones that beside them.
+  template <class Search>
+  ConstraintLadder nearest_to_given_unknowns(const Search& search) const {
+    ConstraintLadder found = search(with_what_follows());
+    if (!initial_.z.given.any() || initial_.z.given.all()) return found;
+    const double mean = initial_.z.given.select(initial_.z.values, 0.0).sum() /
+                        static_cast<double>(initial_.z.given.count());
+    if (mean == 0.0) return found;
+    const auto moved = [&](const ConstraintLadder& ladder) {
+      return has_no_start(ladder)
+                 ? std::numeric_limits<double>::infinity()
+                 : initial_.z.given.select(ladder.point.z - initial_.z.values, 0.0).norm();
+    };
+    const double by = moved(found);
+    if (by <= kNotMoved * initial_.z.values.norm()) return found;
+    ConstraintLadder other = search(with_what_follows(mean));
+    return moved(other) < (1.0 - kNotMoved) * by ? other : found;
+  }
+  // Unknowns that move by less, next to their size, do not.
+  static constexpr double kNotMoved = 1e-6;
+
   // From the momenta that belong to the velocities, which move no farther than they must.
   ConstraintLadder coordinates_kept() const {
-    const InitialGuess guess =
-        holding(with_what_follows(), initial_.x.given, initial_.velocity.held, initial_.z.held);
     const VectorXd weight = initial_.x.given.select(weight_, 1.0);
-    ConstraintLadder ladder =
-        met(guess, LadderSearch(experiment_.model.system, guess, weight, decider_).run(guess));
+    ConstraintLadder ladder = nearest_to_given_unknowns([&](const InitialGuess& follows) {
+      const InitialGuess guess =
+          holding(follows, initial_.x.given, initial_.velocity.held, initial_.z.held);
+      return met(guess, LadderSearch(experiment_.model.system, guess, weight, decider_).run(guess));
+    });
     ladder.moved = 0.0;  // what is given of x stays
     return ladder;
   }
@@ -432,9 +463,11 @@ class StartSearch {
     if (!more_is_given()) return nearest(ladder);
     ConstraintLadder kept = all_kept(ladder.point.x);
     if (has_no_start(kept) || (kept.is_ambiguous() && !ladder.is_ambiguous())) {
-      const InitialGuess follows =
-          holding(with_what_follows(), initial_.x.held, initial_.velocity.held, initial_.z.held);
-      const ConstraintLadder moving = met(follows, ladders_.run(follows));
+      const ConstraintLadder moving = nearest_to_given_unknowns([&](const InitialGuess& follows) {
+        const InitialGuess guess =
+            holding(follows, initial_.x.held, initial_.velocity.held, initial_.z.held);
+        return met(guess, ladders_.run(guess));
+      });
       return nearest(has_no_start(moving) ? ladder : moving);
     }
     kept.moved = ladder.moved;

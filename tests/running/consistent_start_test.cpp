@@ -22,6 +22,7 @@
 //  * coordinates that are given move where velocities contradict an equation
 //  * momenta of velocities that contradict an equation of the system are forgotten
 //  * momenta that nobody gave may move at will
+//  * unknowns that nobody gave are 0 beside those that are given
 BOOST_AUTO_TEST_SUITE(consistent_start_test)
 
 using namespace courant;
@@ -644,6 +645,38 @@ BOOST_AUTO_TEST_CASE(unknowns_that_divide) {
       find({"w", "z"}, {"x' - 1/w", "w - z", "z^2 - x"}, {{"x", 4}, {"z", -2}});
   BOOST_TEST((given.verdict == Verdict::regular));
   BOOST_TEST(given.point.z[0] == -2.0);
+}
+
+// A line with three loads of constant power has two states: one with voltages, and one in which all of the source falls
+// off on the way. Which of them is meant the voltages tell that are given, at one node as at all; those by hand are
+// v₃ = v, v₂ = v₃ + 0.3·5000/v₃, … up to 230 V at the source.
+BOOST_AUTO_TEST_CASE(unknowns_that_nobody_gave_follow_from_those_that_are_given) {
+  const std::vector<double> loaded = {196.63057513845058, 178.07188147653466, 169.20716066};
+  const std::vector<double> dark = {139.180860613613, 78.0225851129575, 43.68858};
+  const auto check = [&](const Json& given, const std::vector<double>& right) {
+    Json initial = given;
+    initial["q"] = 1;
+    const ConstraintLadder found =
+        start({{"system",
+                {{"type", "implicit"},
+                 {"coordinates", {"q"}},
+                 {"unknowns", {"v1", "v2", "v3"}},
+                 {"equations",
+                  {"q' + q - v1/230", "((230-v1)/0.5 - (v1-v2)/0.4)*v1 - 4000",
+                   "((v1-v2)/0.4 - (v2-v3)/0.3)*v2 - 3000", "((v2-v3)/0.3)*v3 - 5000"}}}},
+               {"initial", initial}});
+    BOOST_TEST_CONTEXT(given) {
+      BOOST_TEST_REQUIRE((found.verdict == Verdict::regular), found.reason);
+      for (Index i = 0; i < 3; ++i)
+        BOOST_TEST(std::abs(found.point.z[i] - right[static_cast<std::size_t>(i)]) < 1e-3);
+    }
+  };
+  for (const Json& given :
+       {Json{{"v1", 220}}, Json{{"v2", 205}}, Json{{"v3", 190}}, Json{{"v3", 160}},
+        Json{{"v1", 200}, {"v3", 170}}, Json{{"v1", 220}, {"v2", 210}, {"v3", 205}}})
+    check(given, loaded);
+  for (const Json& given : {Json{{"v3", 40}}, Json{{"v1", 140}, {"v2", 80}, {"v3", 45}}})
+    check(given, dark);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
