@@ -55,21 +55,45 @@ class ConstrainFirst::Trajectory final : public Stepper {
  private:
   // Onto M_f, where (v, z) and the jets are found.
   void do_prepare(State& state, double h) override {
-    if (!basis_.move_to(state.x)) forget_motion();
-    VectorXd& y = projection_.unknown();
-    y = projection_.jets();
-    basis_.coordinates_of(state.v, y.segment(n_, n_));
-    y.segment(method_.blocks_ * n_, state.z.size()) = state.z;
-    const VectorXd x = state.x;
-    const VectorXd no_shift = VectorXd::Zero(d_);
-    projection_.project(x, {state, {state.t, h}, state.t, no_shift, false}, statistics_);
-    accept(x);
-    projection_.take(state);
+    if (!whole_) {
+      State prepared = state;
+      if (is_prepared_without(prepared, h)) {
+        state = prepared;
+        return;
+      }
+      take_all_equations();
+    }
+    whole_->prepare(state, h);
+  }
+
+  // Without redundant equations, and false where they do not hold then.
+  bool is_prepared_without(State& state, double h) {
+    const bool leaves_some_out = method_.redundant_.output_size() > 0;
+    try {
+      if (!basis_.move_to(state.x)) forget_motion();
+      VectorXd& y = projection_.unknown();
+      y = projection_.jets();
+      basis_.coordinates_of(state.v, y.segment(n_, n_));
+      y.segment(method_.blocks_ * n_, state.z.size()) = state.z;
+      for (const auto& [i, value] : method_.held_z_) y[method_.blocks_ * n_ + i] = value;
+      const VectorXd x = state.x;
+      const VectorXd no_shift = VectorXd::Zero(d_);
+      projection_.project(x, {state, {state.t, h}, state.t, no_shift, false}, statistics_);
+      if (leaves_some_out && projection_.redundant_part(state, h) > kHolds) return false;
+      accept(x);
+      projection_.take(state);
+      return true;
+    } catch (const SolveError&) {
+      if (!leaves_some_out) throw;
+    } catch (const std::domain_error&) {
+      if (!leaves_some_out) throw;
+    }
+    return false;
   }
 
   bool do_take_over(const Stepper& other) override {
     const auto* before = dynamic_cast<const Trajectory*>(&other);
-    if (before == nullptr) return false;
+    if (before == nullptr || whole_ || before->whole_) return false;
     const bool goes_on = basis_.take_over(before->basis_);
     if (!goes_on) predictor_.forget();
     projection_.take_over(before->projection_, goes_on);
@@ -79,6 +103,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
   void do_accompany(std::span<const Companion> companions) override {
     for (const Companion& of : companions) {
       const auto& other = dynamic_cast<const Trajectory&>(*of.stepper);
+      if (whole_ || other.whole_) continue;
       if (of.at_stage != 0.0)
         predictor_.learn_from(other.predictor_, projection_.times_of(of.at_stage, of.ratio, n_));
       projection_.learn_from(other.projection_, of);
@@ -86,6 +111,24 @@ class ConstrainFirst::Trajectory final : public Stepper {
   }
 
   void do_step(const State& before, double h, State& after) override {
+    if (method_.redundant_.output_size() == 0) return step_without(before, h, after);
+    if (!whole_) {
+      try {
+        step_without(before, h, after);
+        if (projection_.redundant_part(before, h) <= kHolds) return;
+      } catch (const SolveError&) {
+      }
+      do_discard();
+      take_all_equations();
+    }
+    const SolverStatistics work = whole_->statistics();
+    State state = before;
+    whole_->step(state, h, after.t);
+    statistics_.add_work(work, whole_->statistics());
+    after = state;
+  }
+
+  void step_without(const State& before, double h, State& after) {
     VectorXd& y = solver_.unknown();
     const auto begin = [&] {
       y = projection_.jets();
@@ -121,6 +164,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
   }
 
   void do_keep(const State& before, const State&) override {
+    if (whole_) return;
     if (!solver_.is_determined()) predictor_.limit_degree(Predictor::kUndetermined);
     predictor_.record(solver_.unknown());
     solver_.keep();
@@ -132,6 +176,10 @@ class ConstrainFirst::Trajectory final : public Stepper {
   }
 
   void do_stage(Step& step) const override {
+    if (whole_) {
+      step.stage = whole_->last().stage;
+      return;
+    }
     step.stage.t = step.before.t + method_.map_->stage_time() * step.h;
     const Index N = step.before.x.size();
     step.stage.x = kept_.segment(N, N);
@@ -147,16 +195,30 @@ class ConstrainFirst::Trajectory final : public Stepper {
   void do_change_step() override { forget_motion(); }
 
   void do_forget() override {
+    whole_.reset();
     solver_.forget();
     predictor_.forget();
     basis_.forget();
     projection_.forget();
   }
 
-  Motion do_motion() const override { return solver_.motion(manifold()); }
+  Motion do_motion() const override {
+    return whole_ ? whole_->motion() : solver_.motion(manifold());
+  }
   void do_expect(const Motion& motion) override { solver_.expect(motion); }
   std::unique_ptr<Stepper> do_fresh() const override {
     return std::make_unique<Trajectory>(method_);
+  }
+
+  // What is left of an equation, next to its terms, where it holds: as equations of a step are solved, and those of
+  // M_f hold at its points.
+  static constexpr double kHolds = 1e-9;
+
+  void take_all_equations() {
+    ++statistics_.failures;
+    const ConstrainFirst all(method_.system(), *method_.ladder_, method_.map_, method_.projector_,
+                             {.backend = Backend::interpreter, .keeps_all_equations = true});
+    whole_ = all.stepper();
   }
 
   void forget_motion() {
@@ -179,13 +241,18 @@ class ConstrainFirst::Trajectory final : public Stepper {
   VectorXd start_;  // what the state alone predicts
   VectorXd near_, advanced_;
   VectorXd kept_, stage_z_;  // what was advanced, and z, of the last step that stands
+  // Of all equations, since those that steps do without have ceased to follow from the others; null before.
+  std::unique_ptr<Stepper> whole_;
 };
 
 ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
                                const ConstraintLadder& ladder,
                                std::shared_ptr<const DiscretizationMap> map,
                                std::shared_ptr<const Projector> projector, const Options& options)
-    : Integrator(std::move(system)), map_(std::move(map)), projector_(std::move(projector)) {
+    : Integrator(std::move(system)),
+      map_(std::move(map)),
+      projector_(std::move(projector)),
+      keeps_all_equations_(options.keeps_all_equations) {
   if (!map_ || !projector_ || *map_->manifold() != *this->system()->manifold())
     throw std::invalid_argument(
         "ConstrainFirst::ConstrainFirst: the system, the map or the projector is missing, or the "
@@ -203,7 +270,8 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
   fixed_directions_ = fixed_directions(M, *projector_, ladder);
 
   const Trace trace(*this);
-  open_ = trace.open;
+  omitted_ = trace.omitted;
+  held_z_ = trace.held_z;
   const Backend backend = options.backend.together();
   const Function::Options compiled = {.backend = backend};
   blocks_ = trace.blocks;
@@ -214,6 +282,8 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
   advance_ = Function("advance", trace.step.inputs, trace.advanced, compiled);
   projection_ = trace.projection.compile(backend);
   projected_ = Function("projected", trace.projection.inputs, trace.projected, compiled);
+  redundant_ = Function("redundant equations", trace.projection.inputs, trace.redundant,
+                        {.differentiate = {"y"}, .backend = backend});
   shift_ = Function("shift", {{"near", trace.near}, {"s", trace.s}}, trace.shifted, compiled);
   corrected_shift_ = Function(
       "corrected shift", {{"near", trace.near}, {"s", trace.s}, {"x0", trace.x0}, {"x", trace.x}},
@@ -237,6 +307,11 @@ std::vector<StepFormulas> ConstrainFirst::do_formulas() const {
 }
 
 StepProgram ConstrainFirst::program() const {
+  // A program does not look at what steps do without.
+  if (!omitted_->redundant.empty())
+    return ConstrainFirst(system(), *ladder_, map_, projector_,
+                          {.backend = Backend::interpreter, .keeps_all_equations = true})
+        .program();
   const Manifold& M = *system()->manifold();
   const Trace trace(*this);
   StepProgram program{.method = name()};

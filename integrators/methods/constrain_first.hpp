@@ -25,6 +25,9 @@ class ConstrainFirst final : public Integrator, public Programmed {
  public:
   struct Options {
     Backend backend = Backend::automatic;
+    // Solves the equations that the ladder found to follow from others too, by least squares. Else steps do
+    // without them, and one after which they do not hold is made again with all of them.
+    bool keeps_all_equations = false;
   };
 
   // `ladder` of `system` (regular, or gauge: then the step of least change is taken); `map` on its
@@ -62,6 +65,12 @@ class ConstrainFirst final : public Integrator, public Programmed {
   class Trajectory;
   class Projection;
   struct Trace;
+  // Of S_f: equations that follow from the others, and what is open in those that are left.
+  struct Omissions {
+    std::vector<Index> redundant;  // ascending
+    OpenJets open;
+    VectorXd held;  // values of open.unknowns
+  };
 
   // Whether W is the same at every x, or there is nothing to project.
   bool has_fixed_directions() const { return codimension_ == 0 || fixed_directions_.size() > 0; }
@@ -75,18 +84,23 @@ class ConstrainFirst final : public Integrator, public Programmed {
   std::shared_ptr<const Projector> projector_;
   std::shared_ptr<const ConstraintLadder> ladder_;
   std::vector<int> differentiations_;  // of each equation of the system
-  Index codimension_;                  // d = dim M - dim M_f
+  bool keeps_all_equations_;
+  Index codimension_;  // d = dim M - dim M_f
   Index gauge_dimension_;
-  std::optional<OpenJets> open_;  // known once the formulas were traced
-  Index blocks_;                  // tangent blocks of the unknowns: ξ, ξ', …
-  Index auxiliaries_;             // z, z', …
+  // What steps do without, known once the formulas were traced.
+  std::optional<Omissions> omitted_;
+  Index blocks_;              // tangent blocks of the unknowns: ξ, ξ', …
+  Index auxiliaries_;         // z, z', …
   EquationSystem equations_;  // (ξ, ξ', …, z, …, μ); x₀, basis, W, h, t  ↦ residual of the step
   Function whole_;            // the same without elimination, unless it is affine
   Function advance_;          // the same ↦ R_d⁺(x̄, h v), x̄, v
   EquationSystem
       projection_;  // (ξ, ξ', …, z, …, μ); x_guess, basis, W, x_near, t ↦ residual of x ∈ M_f,
                     // R_x(W μ) = x_near
-  Function projected_;   // the same ↦ x, v, z
+  Function projected_;  // the same ↦ x, v, z
+  // The same ↦ equations that steps do without, with their Jacobian; what is held of z, by its place.
+  Function redundant_;
+  std::vector<std::pair<Index, double>> held_z_;
   Function basis_;       // of MovingBasis
   Function constraint_;  // of RoundOffProjection
   Function shift_;       // (near, s) ↦ R_near(Π s)

@@ -87,7 +87,7 @@ void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& a
                                          SolverStatistics& statistics) {
   const State& before = approach.before;
   const StepSolver::Attempt& attempt = approach.attempt;
-  const double t = approach.t;
+  const double t = time_ = approach.t;
   const bool goes_on = approach.goes_on;
   VectorXd& y = gives_all_ ? given_ : solver_.unknown();
   if (!gives_all_) clear_places(y);
@@ -96,6 +96,7 @@ void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& a
         y.data(), near.data(), basis_.data(), directions_.matrix().data(), near.data(), &t};
     method_.projection_.unknowns().value(in, y.data());
     method_.projected_.value(in, found_.data());
+    if (method_.redundant_.output_size() > 0) guess_ = near_ = near;
     return;
   }
   near_ = near;
@@ -220,6 +221,29 @@ void ConstrainFirst::Projection::record() {
   const double* in[] = {near_.data(), shifted_.data(), foreseen_.data(), found_.data()};
   method_.corrected_shift_.value(in, corrected_.data());
   shift_.record(corrected_);
+}
+
+double ConstrainFirst::Projection::redundant_part(const State& before, double h) {
+  const Function& F = method_.redundant_;
+  const VectorXd& y = gives_all_ ? given_ : solver_.unknown();
+  const double* const in[] = {
+      y.data(), guess_.data(), basis_.data(), directions_.matrix().data(), near_.data(), &time_};
+  redundant_.resize(F.output_size() + F.nonzeros());
+  F.value_and_jacobian(in, redundant_.data());
+  const auto sizes = scales(before, h, largest(near_));
+  redundant_terms_.setZero(F.output_size());
+  for (std::size_t k = 0; k < F.pattern_row().size(); ++k) {
+    const Index j = F.pattern_col()[k];
+    const double size = j < n_       ? sizes[0]
+                        : j < 2 * n_ ? std::max(std::fabs(y[j]), largest(before.v))
+                                     : std::fabs(y[j]);
+    redundant_terms_[F.pattern_row()[k]] +=
+        std::fabs(redundant_[F.output_size() + static_cast<Index>(k)]) * size;
+  }
+  double part = 0.0;
+  for (Index i = 0; i < F.output_size(); ++i)
+    if (redundant_[i] != 0.0) part = std::max(part, std::fabs(redundant_[i]) / redundant_terms_[i]);
+  return std::isfinite(part) ? part : std::numeric_limits<double>::infinity();
 }
 
 void ConstrainFirst::Projection::take(State& state) const {

@@ -4,7 +4,9 @@
 
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/core/expressions/expr_vectors.hpp"
+#include "courant/core/expressions/subgraph.hpp"
 #include "courant/integrators/certificate/local_formulation.hpp"
+#include "courant/integrators/step/redundant_equations.hpp"
 #include "courant/integrators/step/step_names.hpp"
 
 namespace courant {
@@ -23,9 +25,9 @@ std::pair<Index, Index> contained_jets(const LocalFormulation& local, const Expr
 
 // The derivatives that the equations contain, (ξ', ξ'', …, z, z', …).
 struct Derivatives {
-  // `jet`: Taylor coefficients as those of Prolongation; 0 for what it does not have.
+  // `jet`: Taylor coefficients as those of Prolongation; 0 for what it does not have. `of_z`: the role of z.
   Derivatives(const LocalFormulation& local, const ExprVector& equations, const VectorXd& jet,
-              const StepNames& called) {
+              const StepNames& called, JetRole of_z) {
     const auto [tangents, orders] = contained_jets(local, equations);
     const Index n = local.xi[0].size(), m = local.z[0].size();
     has_open_ones = tangents > 2 || orders > 1;
@@ -48,7 +50,7 @@ struct Derivatives {
     for (Index k = 0; k < orders; ++k) {
       append(names, called.auxiliary(k));
       factorial *= static_cast<double>(std::max<Index>(k, 1));
-      add(m, 2 * n + k * (n + m), factorial, k == 0 ? JetRole::asked_for : JetRole::may_be_held);
+      add(m, 2 * n + k * (n + m), factorial, k == 0 ? of_z : JetRole::may_be_held);
     }
   }
 
@@ -62,6 +64,39 @@ struct Derivatives {
 // Of more derivatives nothing is left out: matrices would be dense. Large systems are flat, and elimination
 // sees what is open there.
 constexpr Index kManyDerivatives = 200;
+// Of more, ranks of all equations of S_f take seconds.
+constexpr Index kManyUnknowns = 500;
+
+// Numbers from 0 to count that are not in a list, which ascends.
+std::vector<Index> complement(const std::vector<Index>& list, Index count) {
+  std::vector<Index> result;
+  for (Index i = 0; i < count; ++i)
+    if (!std::ranges::binary_search(list, i)) result.push_back(i);
+  return result;
+}
+
+// The equation of the system that each of the equations comes from which are not the constant 0.
+std::vector<Index> nonzero_sources(const LocalFormulation& local) {
+  std::vector<Index> result;
+  for (Index i = 0; i < local.equations.size(); ++i)
+    if (!local.equations[i].is_constant(0.0))
+      result.push_back(local.source[static_cast<std::size_t>(i)]);
+  return result;
+}
+
+// The equations of a system that its ladder found in a dependence, but for those of the structure, which give
+// velocities.
+std::vector<Index> equations_in_dependences(const ImplicitSystem& system,
+                                            const ConstraintLadder& ladder) {
+  const Index of_structure = system.tangent_blocks() * system.manifold()->tangent_dimension();
+  std::vector<Index> result;
+  for (const Combination& dependence : ladder.redundancies)
+    for (const Combination::Term& term : dependence.terms)
+      if (term.equation >= of_structure) result.push_back(term.equation);
+  std::ranges::sort(result);
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
 
 std::vector<std::string> chosen_names(const std::vector<std::string>& names,
                                       const std::vector<Index>& places) {
@@ -72,35 +107,101 @@ std::vector<std::string> chosen_names(const std::vector<std::string>& names,
 
 }  // namespace
 
-// S_f without what is open there.
+// What steps can do without.
+ConstrainFirst::Omissions ConstrainFirst::Trace::omissions(const ConstrainFirst& method,
+                                                           const LocalFormulation& local) const {
+  const ImplicitSystem& S = *method.system();
+  const ConstraintLadder& ladder = *method.ladder_;
+  Omissions result;
+  if (method.gauge_dimension_ > 0) return result;
+  const StepNames called(S);
+  const LinearMap<double> B = S.manifold()->tangent_basis(ladder.point.x);
+  const std::vector<VectorXd> at_point = {ladder.point.x, B.entries().reshaped(),
+                                          VectorXd::Constant(1, ladder.point.t)};
+  const std::vector<Function::Input> of_point = {{"x0", x0}, {"basis", basis_entries}, {"t", t}};
+  const auto together = [](auto first, const auto& rest) {
+    first.insert(first.end(), rest.begin(), rest.end());
+    return first;
+  };
+
+  const ExprVector& xi = local.xi[0];
+  const VectorXd origin = VectorXd::Zero(xi.size());
+  const Derivatives all(local, constraints, ladder.jet, called, JetRole::asked_for);
+  const std::vector<Index> named = equations_in_dependences(S, ladder);
+  if (!method.keeps_all_equations_ && !named.empty() &&
+      xi.size() + all.symbols.size() <= kManyUnknowns) {
+    const Function F(
+        "dependences",
+        together(std::vector<Function::Input>{{"y", joined(xi, all.symbols)}}, of_point),
+        constraints, {.differentiate = {"y"}});
+    VectorXd y(xi.size() + all.values.size());
+    y << origin, all.values;
+    const MatrixXd J = F.jacobian(together(std::vector<VectorXd>{y}, at_point));
+    if (J.allFinite()) result.redundant = redundant_rows(J, nonzero_sources(local), named);
+  }
+
+  const ExprVector kept = constraints(complement(result.redundant, constraints.size()));
+  // Where a constraint is left out, a multiplier is open.
+  const Derivatives y(local, kept, ladder.jet, called,
+                      result.redundant.empty() ? JetRole::asked_for : JetRole::held_where_open);
+  if ((y.has_open_ones || !result.redundant.empty()) && y.symbols.size() <= kManyDerivatives) {
+    const Function F("open derivatives",
+                     together(std::vector<Function::Input>{{"y", y.symbols}, {"xi", xi}}, of_point),
+                     kept, {.differentiate = {"y"}});
+    result.open =
+        open_jets(F, together(std::vector<VectorXd>{y.values, origin}, at_point), y.roles);
+  }
+  result.held = VectorXd::Zero(std::ssize(result.open.unknowns));
+  for (Index i = 0; i < result.held.size(); ++i) {
+    const Index place = result.open.unknowns[static_cast<std::size_t>(i)];
+    if (y.roles[static_cast<std::size_t>(place)] == JetRole::held_where_open)
+      result.held[i] = y.values[place];
+  }
+  return result;
+}
+
+// S_f without what follows from the rest, or is open there.
 void ConstrainFirst::Trace::describe(const ConstrainFirst& method, const LocalFormulation& local) {
   const StepNames called(*method.system());
   constraints = local.nonzero_equations();
   constraint_names = called.equations(local);
-  const ConstraintLadder& ladder = *method.ladder_;
-  const Derivatives y(local, constraints, ladder.jet, called);
-  if (method.open_) {
-    open = *method.open_;
-  } else if (method.gauge_dimension_ == 0 && y.has_open_ones &&
-             y.symbols.size() <= kManyDerivatives) {
-    const Function F(
-        "open derivatives",
-        {{"y", y.symbols}, {"xi", local.xi[0]}, {"x0", x0}, {"basis", basis_entries}, {"t", t}},
-        constraints, {.differentiate = {"y"}});
-    const LinearMap<double> B = method.system()->manifold()->tangent_basis(ladder.point.x);
-    open = open_jets(F,
-                     {y.values, VectorXd::Zero(local.xi[0].size()), ladder.point.x,
-                      B.entries().reshaped(), VectorXd::Constant(1, ladder.point.t)},
-                     y.roles);
-  }
-  std::vector<Index> left;
-  for (Index i = 0; i < constraints.size(); ++i)
-    if (!std::ranges::binary_search(open.equations, i)) left.push_back(i);
-  step.left_out = chosen_names(constraint_names, open.equations);
-  step.held = chosen_names(y.names, open.unknowns);
+  omitted = method.omitted_ ? *method.omitted_ : omissions(method, local);
+  step.redundant = chosen_names(constraint_names, omitted.redundant);
+  redundant = constraints(omitted.redundant);
+  const std::vector<Index> kept = complement(omitted.redundant, constraints.size());
+  constraint_names = chosen_names(constraint_names, kept);
+  constraints = constraints(kept).eval();
+
+  const Derivatives y(local, constraints, method.ladder_->jet, called, JetRole::asked_for);
+  const std::vector<Index> left = complement(omitted.open.equations, constraints.size());
+  step.left_out = chosen_names(constraint_names, omitted.open.equations);
   constraint_names = chosen_names(constraint_names, left);
-  constraints = substitute(ExprVector(constraints(left)), y.symbols(open.unknowns),
-                           ExprVector::Zero(std::ssize(open.unknowns)));
+  step.held = chosen_names(y.names, omitted.open.unknowns);
+  step.held_values.assign(omitted.held.begin(), omitted.held.end());
+  open = y.symbols(omitted.open.unknowns);
+  const auto with_held = [&](const ExprVector& of) {
+    return substitute(of, open, constants(omitted.held));
+  };
+  const ExprVector tried = with_held(redundant);
+  constraints = with_held(constraints(left));
+  z = with_held(local.z[0]);
+  // Where z is held, its place among the unknowns.
+  held_z = {};
+  for (Index i = 0; i < z.size(); ++i)
+    if (z[i].is_constant()) held_z.push_back({i, z[i].value()});
+
+  // What an unknown decides that no equation is left for cannot be tried.
+  const Subgraph sought(constraints);
+  std::vector<Expr> unknown;
+  for (const ExprVector& jet : {y.symbols, z})
+    for (const Expr& entry : jet)
+      if (!entry.is_constant() && !sought.contains(entry)) unknown.push_back(entry);
+  const std::vector<bool> is_open =
+      each_depends(tried, Eigen::Map<const ExprVector>(unknown.data(), std::ssize(unknown)));
+  std::vector<Index> tests;
+  for (Index i = 0; i < tried.size(); ++i)
+    if (!is_open[static_cast<std::size_t>(i)]) tests.push_back(i);
+  redundant = tried(tests);
 }
 
 MovingConormals::Formulas ConstrainFirst::Trace::conormals() const {
@@ -177,7 +278,7 @@ ConstrainFirst::Trace::Trace(const ConstrainFirst& method) {
   projection.equation_names = names.tangent("projection of ", 0);
   append(projection.equation_names, constraint_names);
   projection.elimination.never_zero = {};
-  projected = joined({local.x, local.v, local.z[0]});
+  projected = joined({local.x, local.v, z});
 
   s = graph.variables("s", M.tangent_dimension());
   shifted = M.retract(near, ExprVector(M.tangent_projector(near) * s));

@@ -13,7 +13,11 @@ struct ConstrainFirst::Trace {
   explicit Trace(const ConstrainFirst& method);
 
   StepFormulas step, projection;
-  OpenJets open;  // what `constraints` are without, of S_f as LocalFormulation has it
+  Omissions omitted;     // what `constraints` are without, of S_f as LocalFormulation has it
+  ExprVector redundant;  // equations of S_f that follow from `constraints`, of the same unknowns
+  ExprVector open;       // unknowns of S_f that are held
+  ExprVector z;          // with the values of those of it that are
+  std::vector<std::pair<Index, double>> held_z;  // these: their places in z, and values
   Index blocks, auxiliaries;
   ExprVector x0, basis_entries, t, near, s, x;  // parameters
   ExprVector constraints, jets;                 // S_f, and its unknowns (ξ, ξ', …, z, …)
@@ -25,6 +29,7 @@ struct ConstrainFirst::Trace {
   MovingConormals::Formulas conormals() const;
 
  private:
+  Omissions omissions(const ConstrainFirst& method, const LocalFormulation& local) const;
   void describe(const ConstrainFirst& method, const LocalFormulation& local);
 };
 

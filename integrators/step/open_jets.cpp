@@ -86,8 +86,12 @@ OpenJets open_jets(const Function& F, const std::vector<VectorXd>& at,
   if (F.input_size(0) == 0 || F.output_size() == 0) return open;
   const MatrixXd J = F.jacobian(at);
   if (!J.allFinite()) return open;
-  const auto is_asked_for = [&](Index column) {
-    return roles[static_cast<std::size_t>(column)] == JetRole::asked_for;
+  const auto has_role = [&](Index column, JetRole role) {
+    return roles[static_cast<std::size_t>(column)] == role;
+  };
+  const auto is_asked_for = [&](Index column) { return has_role(column, JetRole::asked_for); };
+  const auto is_wanted = [&](Index column) {
+    return is_asked_for(column) || has_role(column, JetRole::held_where_open);
   };
 
   std::vector<bool> is_left_out(static_cast<std::size_t>(J.rows()), false);
@@ -96,7 +100,7 @@ OpenJets open_jets(const Function& F, const std::vector<VectorXd>& at,
     std::vector<bool> rows(is_left_out.size(), false), columns(roles.size(), false);
     incidence.follow(column, rows, columns);
     const std::vector<Index> equations = chosen(rows), unknowns = chosen(columns);
-    if (equations.empty() || std::ranges::any_of(unknowns, is_asked_for)) continue;
+    if (equations.empty() || std::ranges::any_of(unknowns, is_wanted)) continue;
     if (!has_full_row_rank(J(equations, unknowns))) continue;
     for (const Index equation : equations) is_left_out[static_cast<std::size_t>(equation)] = true;
   }
@@ -112,9 +116,8 @@ OpenJets open_jets(const Function& F, const std::vector<VectorXd>& at,
   std::vector<Index> columns = chosen(is_contained);
   const auto first_open = std::stable_partition(columns.begin(), columns.end(), is_asked_for);
   const Index asked = first_open - columns.begin();
-  const auto first_carried = std::stable_partition(first_open, columns.end(), [&](Index column) {
-    return roles[static_cast<std::size_t>(column)] == JetRole::may_be_held;
-  });
+  const auto first_carried = std::stable_partition(
+      first_open, columns.end(), [&](Index column) { return !has_role(column, JetRole::carried); });
   const Index holdable = first_carried - first_open;
   if (left.size() == 0 || holdable == 0) return open;
 

@@ -25,6 +25,8 @@ struct OpenJets {
 // What an unknown of F is to those who solve it.
 enum class JetRole {
   asked_for,
+  // Asked for, unless the equations leave it open, as the multiplier of a constraint that repeats others.
+  held_where_open,
   // Derivatives of unknowns of the system, whose meaning is the same at every point.
   may_be_held,
   // Coordinates of higher derivatives in a basis that may turn.

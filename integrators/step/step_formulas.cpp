@@ -5,6 +5,7 @@
 
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/core/expressions/subgraph.hpp"
+#include "courant/core/words/message.hpp"
 #include "courant/core/words/text_layout.hpp"
 
 namespace courant {
@@ -81,11 +82,14 @@ std::string explanation(const StepFormulas& formulas, std::size_t width) {
             "  the least change of all of them.\n";
     return text.str();
   }
+  for (const std::string& equation : formulas.redundant)
+    text << shortened("  left out, since it follows from the others: " + equation, width) << '\n';
   for (const std::string& equation : formulas.left_out)
     text << shortened("  left out, since nothing depends on what it decides: " + equation, width)
          << '\n';
-  for (const std::string& held : formulas.held)
-    text << "  " << held << " = 0, since nothing depends on it\n";
+  for (std::size_t i = 0; i < formulas.held.size(); ++i)
+    text << "  " << formulas.held[i] << " = " << number_text(formulas.held_values[i])
+         << ", since nothing depends on it\n";
   const Elimination elimination(formulas.equations, y, formulas.elimination);
   const Named named(formulas);
   const auto unknown = [&](Index j) {

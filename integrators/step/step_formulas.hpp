@@ -21,9 +21,10 @@ struct StepFormulas {
   std::vector<std::string> equation_names;
   bool eliminates = true;
   Elimination::Options elimination;
-  // Equations that are none of these any more, since they decide unknowns only that nothing depends on, and
-  // such unknowns that are held at zero.
-  std::vector<std::string> left_out, held;
+  // Equations that are none of these any more: since they follow from the others; or since they decide unknowns
+  // only that nothing depends on. Such unknowns that are held, and at what.
+  std::vector<std::string> redundant, left_out, held;
+  std::vector<double> held_values;
 
   EquationSystem compile(Backend backend) const;
   // y; p ↦ F with its Jacobian by y, interpreted.
@@ -41,7 +42,7 @@ std::string derivative_name(const std::string& name, Index order);
 // columns, long formulas cut off:
 //
 //   constrain-first: 48 equations for 48 unknowns
-//     left out: …                  (what they decide, nothing depends on)
+//     left out: …                  (they follow from others, or nothing depends on what they decide)
 //     q' = 2*Δq/h                  from: start of q
 //     …
 //   8 equations are left, for Δq, …

@@ -8,9 +8,11 @@
 #include "courant/core/algebra/elimination.hpp"
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/core/expressions/expr_vectors.hpp"
+#include "courant/core/expressions/subgraph.hpp"
 #include "courant/core/linear/complete_orthogonal_decomposition.hpp"
 #include "courant/core/linear/equilibration.hpp"
 #include "courant/core/linear/pairs.hpp"
+#include "courant/core/linear/qr_decomposition.hpp"
 #include "courant/core/linear/regular_matrix.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/integrators/certificate/local_formulation.hpp"
@@ -151,12 +153,44 @@ VectorFieldFormulas::VectorFieldFormulas(std::shared_ptr<const ImplicitSystem> o
   const ExprVector v = at_origin(local.v);
   rate.resize(x.size() + v.size() + local.z[0].size());
   rate << M.frame(x) * v, v, local.z[0];
+  solved = equations;
+  if (ladder.gauge_dimension == 0 && y.size() <= many)
+    hold_open(y, full.jacobian({start, ladder.point.x, entries,
+                                VectorXd::Constant(1, ladder.point.t)})(kept, Eigen::all));
   if (left_out.size() == 0) take_explicit(y);
+}
+
+// Where the equations kept are fewer than the unknowns that they contain, they leave some open, as derivatives of
+// multipliers: held, these leave a square matrix. `J`: of the equations at the ladder's point.
+void VectorFieldFormulas::hold_open(const ExprVector& y, const MatrixXd& J) {
+  constexpr double tangents_first = 1e3, well_conditioned = 1e-8;
+  const Subgraph contained(equations);
+  std::vector<Index> places;
+  for (Index i = 0; i < y.size(); ++i)
+    if (contained.contains(y[i])) places.push_back(i);
+  const auto rank = static_cast<Index>(J.rows());
+  if (std::ssize(places) <= rank) return;
+  // Unknowns of the system and their derivatives mean the same at every point, coordinates in a basis do not.
+  const Manifold& M = *system->manifold();
+  const Index tangents = M.dimension() == M.tangent_dimension() ? M.dimension() : z_offset;
+  MatrixXd columns = equilibrate(J(Eigen::all, places), kNoise).scaled;
+  for (std::size_t k = 0; k < places.size(); ++k)
+    if (places[k] < tangents) columns.col(static_cast<Index>(k)) *= tangents_first;
+  const QrDecomposition chosen = QrDecomposition::pivoted(columns);
+  const VectorXd sizes = chosen.diagonal().cwiseAbs();
+  if (!(sizes[rank - 1] > well_conditioned)) return;
+  for (Index k = rank; k < std::ssize(places); ++k)
+    held.push_back(places[static_cast<std::size_t>(chosen.order()[static_cast<std::size_t>(k)])]);
+  std::sort(held.begin(), held.end());
+  if (held.front() < tangents) return held.clear();
+  solved = substitute(equations, ExprVector(y(held)), constants(VectorXd(start(held))));
 }
 
 void VectorFieldFormulas::take_explicit(const ExprVector& y) {
   const Elimination elimination(equations, y, {});
   if (!elimination.kept.empty() || !elimination.remaining.empty()) return;
+  held.clear();
+  solved = ExprVector(0);
   rate = substitute(rate, y, elimination.unknowns);
   all = substitute(all, y, elimination.unknowns);
   inputs[0].variables = equations = ExprVector(0);
@@ -168,7 +202,7 @@ VectorField::VectorField(VectorFieldFormulas formulas, Backend backend)
     : formulas_(std::move(formulas)) {
   const auto& inputs = formulas_.inputs;
   const Backend together = backend.together();
-  equations_ = EquationSystem("vector field", inputs, formulas_.equations,
+  equations_ = EquationSystem("vector field", inputs, formulas_.solved,
                               {.backend = together, .eliminates = false});
   left_out_ = Function("left out", inputs, formulas_.left_out, {.backend = together});
   rate_ = Function("rate", inputs, formulas_.rate, {.backend = together});
@@ -263,6 +297,7 @@ bool VectorField::Evaluation::holds(const Function& F, const Inputs& in, double 
 
 // By the equations that were chosen at the ladder's point.
 bool VectorField::Evaluation::is_solved(const Inputs& in) {
+  for (const Index i : field_.formulas_.held) y_[i] = field_.formulas_.start[i];
   const auto converges = [&] {
     return newton_.solve(in, sizes_.data()).status == Newton::Status::converged;
   };
@@ -288,7 +323,7 @@ bool VectorField::Evaluation::is_solved(const Inputs& in) {
 // Where those are dependent, all equations tell the velocity, on M_f.
 bool VectorField::Evaluation::is_solved_by_all(const Inputs& in, bool is_solved) {
   const VectorFieldFormulas& of = field_.formulas_;
-  if (of.left_out.size() == 0) return is_solved;
+  if (of.left_out.size() == 0 && of.held.empty()) return is_solved;
   const Function& all = field_.all();
   if (is_solved && holds(all, in, kSolved)) return true;
   const VectorXd found = y_;

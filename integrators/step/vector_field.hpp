@@ -25,14 +25,17 @@ struct VectorFieldFormulas {
   std::shared_ptr<const ImplicitSystem> system;
   std::vector<Function::Input> inputs;  // y = (ξ', …, z, …), x, basis, t
   ExprVector equations, rate,
-      left_out;        // the equations kept; ẋ, v, z; those of y that are not kept
-  ExprVector all;      // the equations of S_f and of M_f, of which they are some
-  VectorXd start;      // y at the ladder's point
-  Index z_offset = 0;  // of z in it
+      left_out;       // the equations kept; ẋ, v, z; those of y that are not kept
+  ExprVector all;     // the equations of S_f and of M_f, of which they are some
+  ExprVector solved;  // the equations kept, with the unknowns that they leave open held at `start`
+  std::vector<Index> held;  // these, ascending
+  VectorXd start;           // y at the ladder's point
+  Index z_offset = 0;       // of z in it
 
   bool is_explicit() const { return inputs[0].variables.size() == 0 && left_out.size() == 0; }
 
  private:
+  void hold_open(const ExprVector& y, const MatrixXd& J);
   void take_explicit(const ExprVector& y);
 };
 
@@ -114,10 +117,11 @@ class VectorField {
   const Function& all() const;
 
   VectorFieldFormulas formulas_;
-  EquationSystem equations_;  // y = (ξ', …, z, …); x, basis, t ↦ the equations kept
-  Function rate_;             // the same ↦ ẋ, v, z
-  Function left_out_;         // the same ↦ the equations of y that are not kept
-  Function basis_;            // of MovingBasis
+  EquationSystem
+      equations_;  // y = (ξ', …, z, …); x, basis, t ↦ the equations kept, less what is held
+  Function rate_;  // the same ↦ ẋ, v, z
+  Function left_out_;  // the same ↦ the equations of y that are not kept
+  Function basis_;     // of MovingBasis
   std::shared_ptr<All> all_ = std::make_shared<All>();
 };
 
