@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "courant/structures/explicit_energy.hpp"
+
 namespace courant {
 namespace {
 
@@ -12,11 +14,14 @@ std::shared_ptr<const EnergySystem> checked(const std::shared_ptr<const Implicit
         "DiscreteGradient::DiscreteGradient: the system is given by its equations alone; expected "
         "one that knows its energy, such as a Hamiltonian or port-Hamiltonian system or a "
         "network.");
-  if (!with_energy->has_explicit_energy())
+  Graph graph;
+  if (!explicit_energy(*with_energy,
+                       graph.variables("x", with_energy->manifold()->ambient_dimension()),
+                       graph.variables("z", with_energy->auxiliary_size()), graph.variable("t")))
     throw std::invalid_argument(
         "DiscreteGradient::DiscreteGradient: the energy is that of a family with velocities or "
-        "controls, no function on the phase space; expected a Hamiltonian, with constraints or "
-        "without.");
+        "controls that it is not quadratic in, no function on the phase space; expected a "
+        "Hamiltonian or a kinetic and a potential energy, with constraints or without.");
   return with_energy;
 }
 
@@ -36,9 +41,12 @@ StageStep::Method method(std::shared_ptr<const EnergySystem> system,
     const ExprMatrix projector = manifold.tangent_projector(at.x);
     const ExprVector w = graph.variables("w", manifold.tangent_dimension());
     const auto ends = map->forward(at.x, ExprVector(projector * w));
+    const auto energy = [&](const ExprVector& x) {
+      return explicit_energy(*system, x, at.z, at.t).value();
+    };
     const ExprVector alpha = (*differential)({.w = w,
-                                              .end = system->generator(ends.second, at.z, at.t),
-                                              .start = system->generator(ends.first, at.z, at.t),
+                                              .end = energy(ends.second),
+                                              .start = energy(ends.first),
                                               .v = at.h * at.v,
                                               .is_symmetric = map->is_symmetric()},
                                              units);

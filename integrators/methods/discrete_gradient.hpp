@@ -23,6 +23,8 @@ namespace courant {
 // place of the left side is ⟨dH, R_d⁻¹(x₀, x₁)⟩. A Hamiltonian of t adds what time changes in it at
 // x₀ before t̄ and at x₁ after it, see StepEnergies.
 //
+// Where E has velocities w, as ⟨p, w⟩ - L, it is explicit_energy() in the place of E, and z has the w of x₁.
+//
 // Conditions c(x) = 0 that are ∂E/∂λ hold at x₁. Those that contain α, as of closed ports 0 = Bᵀα, and
 // nonholonomic ones hold of α and v: x₁ is as near to M_f as the step is good.
 class DiscreteGradient final : public Integrator, public Programmed {
@@ -34,7 +36,7 @@ class DiscreteGradient final : public Integrator, public Programmed {
   };
 
   // `map` on the manifold of `system`. Throws std::invalid_argument otherwise, and for a system that is
-  // not an EnergySystem with has_explicit_energy().
+  // not an EnergySystem with an explicit_energy().
   DiscreteGradient(std::shared_ptr<const ImplicitSystem> system,
                    std::shared_ptr<const DiscretizationMap> map,
                    std::shared_ptr<const DiscreteDifferential> differential,

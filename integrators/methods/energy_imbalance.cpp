@@ -6,22 +6,30 @@
 #include <stdexcept>
 
 #include "courant/integrators/step/step_energies.hpp"
+#include "courant/structures/explicit_energy.hpp"
 
 namespace courant {
 
 double energy_imbalance(const Integrator& integrator, const IntegratorSetting& setting, double h) {
   const auto system = std::dynamic_pointer_cast<const EnergySystem>(setting.system);
-  if (!system || !system->has_explicit_energy())
-    throw std::domain_error("the system has no energy that is a function on M");
+  const auto missing = [] {
+    return std::domain_error("the system has no energy that is a function on M");
+  };
+  if (!system) throw missing();
+  Graph graph;
+  const ExprVector x = graph.variables("x", system->manifold()->ambient_dimension()),
+                   z = graph.variables("z", system->auxiliary_size()), t = graph.variables("t", 1);
+  const auto energy = explicit_energy(*system, x, z, t[0]);
+  if (!energy) throw missing();
+  const Function on_M("energy", {{"x", x}, {"z", z}, {"t", t}}, ExprVector::Constant(1, *energy));
   const StepEnergies energies(system);
   const auto stepper = integrator.stepper();
   stepper->tell_parts();
   State state = setting.initial;
   stepper->prepare(state, h);
   // Multipliers do not count in H.
-  const auto H = [&](State at) {
-    at.z.setZero();
-    return energies.energy(at);
+  const auto H = [&](const State& at) {
+    return on_M({at.x, VectorXd(VectorXd::Zero(z.size())), VectorXd::Constant(1, at.t)})[0];
   };
   double worst = 0.0, size = 0.0;
   const int steps = h * setting.step > 0.0 ? 20 : 5;

@@ -241,10 +241,15 @@ BOOST_AUTO_TEST_CASE(what_has_no_energy_is_refused) {
   const auto formulas = std::make_shared<examples::FormulaSystem>(
       line, 0, 1, [](V x, V v, V, T) { return ExprVector(v + x); });
   const auto M = std::make_shared<CotangentBundle>(line);
-  const auto lagrangian = std::make_shared<DiracSystem>(
-      std::make_shared<CanonicalSymplectic>(M),
-      std::make_shared<Lagrangian>(M, [](V q, V w, T) { return square(w[0]) / 2.0 - q[0]; }));
+  const auto of_lagrangian = [&](Lagrangian::Formula L) {
+    return std::make_shared<DiracSystem>(std::make_shared<CanonicalSymplectic>(M),
+                                         std::make_shared<Lagrangian>(M, std::move(L)));
+  };
+  const auto lagrangian =
+      of_lagrangian([](V q, V w, T) { return square(square(w[0])) / 2.0 - q[0]; });
   BOOST_TEST(!lagrangian->has_explicit_energy());
+  const auto kinetic = of_lagrangian([](V q, V w, T) { return square(w[0]) / 2.0 - q[0]; });
+  BOOST_CHECK_NO_THROW(DiscreteGradient(kinetic, std::make_shared<Theta>(M), kinds[0]));
   const auto map = std::make_shared<Theta>(line);
   BOOST_CHECK_THROW(DiscreteGradient(formulas, map, kinds[0]), std::invalid_argument);
   BOOST_CHECK_THROW(DiscreteGradient(lagrangian, std::make_shared<Theta>(M), kinds[0]),
