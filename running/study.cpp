@@ -278,6 +278,12 @@ Flight timed(const StudiedProblem& problem, long parts) {
 
 using Row = StudyReport::Row;
 
+// What a step size has for each quantity: its greatest error, and its greatest size.
+struct OfQuantities {
+  double step;
+  VectorXd errors, sizes;
+};
+
 // The slope of log(error) over log(step) at the four smallest steps with an error above `floor`.
 std::optional<double> fitted_order(const std::vector<Row>& rows, double floor) {
   std::vector<std::pair<double, double>> points;
@@ -294,6 +300,22 @@ std::optional<double> fitted_order(const std::vector<Row>& rows, double floor) {
   return xy / xx;
 }
 
+// The order of each quantity by itself, above round-off of its own size and what the reference may be off by.
+std::vector<std::optional<double>> orders_of(const std::vector<OfQuantities>& steps, Index count,
+                                             double reference_error) {
+  std::vector<std::optional<double>> orders;
+  for (Index i = 0; i < count; ++i) {
+    std::vector<Row> rows;
+    double size = 0.0;
+    for (const OfQuantities& of : steps) {
+      rows.push_back({.step = of.step, .error = of.errors[i]});
+      size = std::max(size, of.sizes[i]);
+    }
+    orders.push_back(fitted_order(rows, std::max(10.0 * reference_error, 1e-12 * size)));
+  }
+  return orders;
+}
+
 std::string remark_on(const std::vector<Row>& rows, const std::optional<double>& order,
                       double floor) {
   if (std::ranges::any_of(rows, [](const Row& row) { return std::isnan(row.error); }))
@@ -308,15 +330,32 @@ std::string remark_on(const std::vector<Row>& rows, const std::optional<double>&
   return "";
 }
 
+// Of a quantity whose order is lower than that of all together, which larger errors hide.
+std::string remark_on_quantities(const std::vector<std::string>& quantities,
+                                 const std::vector<std::optional<double>>& orders,
+                                 const std::optional<double>& order) {
+  constexpr double lower = 0.5;
+  std::string names;
+  for (std::size_t i = 0; i < orders.size(); ++i)
+    if (order && orders[i] && *orders[i] < *order - lower)
+      names +=
+          (names.empty() ? "" : ", ") + quantities[i] + " (" + number_text(*orders[i], 3) + ")";
+  return names.empty() ? "" : "Of a lower order than all together: " + names + ".";
+}
+
 StudyReport::Method method_report(const StudySubject& subject, const StudiedProblem& problem,
-                                  const Truth& reference, std::vector<Row> rows, double size) {
+                                  const Truth& reference, std::vector<Row> rows, double size,
+                                  const std::vector<OfQuantities>& by_quantity) {
   const double floor = std::max(10.0 * reference.error, 1e-12 * size);
   for (std::size_t i = 1; i < rows.size(); ++i)
     if (rows[i - 1].error > floor && rows[i].error > floor)
       rows[i].order =
           std::log(rows[i - 1].error / rows[i].error) / std::log(rows[i - 1].step / rows[i].step);
   const std::optional<double> order = fitted_order(rows, floor);
+  const std::vector<std::string>& quantities = problem.quantities();
+  auto orders = orders_of(by_quantity, std::ssize(quantities), reference.error);
   std::string remark = remark_on(rows, order, floor);
+  if (remark.empty()) remark = remark_on_quantities(quantities, orders, order);
   return {.experiment = subject.name,
           .method = problem.experiment().method->description,
           .quantities = problem.quantities(),
@@ -324,6 +363,7 @@ StudyReport::Method method_report(const StudySubject& subject, const StudiedProb
           .reference_order = reference.order,
           .reference_error = reference.error,
           .order = order,
+          .orders = std::move(orders),
           .remark = std::move(remark),
           .rows = std::move(rows)};
 }
@@ -344,6 +384,7 @@ StudyReport::Method study_of(const StudySubject& subject, const StudyOptions& op
   if (!references.contains(key)) references[key] = reference_for(problem, options);
   const Truth& reference = references[key];
   std::vector<Row> rows;
+  std::vector<OfQuantities> by_quantity;
   double size = greatest_norm(reference.values);
   for (int i = 0; i < options.steps; ++i) {
     const long parts = 1L << i;
@@ -357,8 +398,11 @@ StudyReport::Method study_of(const StudySubject& subject, const StudyOptions& op
     try {
       const Flight flight = timed(problem, parts);
       const MatrixXd values = problem.values(flight);
-      row.error = greatest_norm(problem.has_closed_form() ? problem.deviations(flight)
-                                                          : (values - reference.values).eval());
+      const MatrixXd errors =
+          problem.has_closed_form() ? problem.deviations(flight) : values - reference.values;
+      row.error = greatest_norm(errors);
+      by_quantity.push_back({row.step, errors.cwiseAbs().rowwise().maxCoeff(),
+                             values.cwiseAbs().rowwise().maxCoeff()});
       row.steps = flight.steps;
       row.iterations = flight.work.iterations;
       row.factorizations = flight.work.factorizations;
@@ -375,7 +419,7 @@ StudyReport::Method study_of(const StudySubject& subject, const StudyOptions& op
     }
     rows.push_back(row);
   }
-  return method_report(subject, problem, reference, std::move(rows), size);
+  return method_report(subject, problem, reference, std::move(rows), size, by_quantity);
 }
 
 }  // namespace

@@ -59,7 +59,9 @@ std::optional<std::vector<std::string>> StudyReport::quantities() const {
 Json to_json(const StudyReport& report) {
   Json methods = Json::array();
   for (const StudyReport::Method& method : report.methods) {
-    Json rows = Json::array();
+    Json rows = Json::array(), orders = Json::object();
+    for (std::size_t i = 0; i < method.orders.size(); ++i)
+      orders[method.quantities[i]] = known_or_null(method.orders[i]);
     for (const StudyReport::Row& row : method.rows) rows.push_back(row_json(row));
     methods.push_back({{"experiment", method.experiment},
                        {"method", method.method},
@@ -68,6 +70,7 @@ Json to_json(const StudyReport& report) {
                        {"reference_order", known_or_null(method.reference_order)},
                        {"reference_error", method.reference_error},
                        {"order", known_or_null(method.order)},
+                       {"orders", orders},
                        {"remark", method.remark},
                        {"rows", rows}});
   }
@@ -89,6 +92,9 @@ StudyReport read_study_report(const Json& json) {
     read.reference_order = value_if_known<int>(method.at("reference_order"));
     method.at("reference_error").get_to(read.reference_error);
     read.order = value_if_known<double>(method.at("order"));
+    if (const Json& orders = method.at("orders"); !orders.empty())
+      for (const std::string& quantity : read.quantities)
+        read.orders.push_back(value_if_known<double>(orders.at(quantity)));
     method.at("remark").get_to(read.remark);
     for (const Json& row : method.at("rows"))
       read.rows.push_back({.step = row.at("step").get<double>(),

@@ -28,6 +28,8 @@ struct StudyReport {
     std::optional<int> reference_order = {};   // of its method; none: a closed form
     double reference_error = 0.0;              // by how much it may be off
     std::optional<double> order = {};          // the slope of log(error) over log(step)
+    // That of each of the quantities by itself, as many as these, or none: a small one may hide behind others.
+    std::vector<std::optional<double>> orders = {};
     std::string remark = "";
     std::vector<Row> rows = {};  // from long steps to short ones
   };
