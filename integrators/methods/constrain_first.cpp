@@ -55,15 +55,12 @@ class ConstrainFirst::Trajectory final : public Stepper {
  private:
   // Onto M_f, where (v, z) and the jets are found.
   void do_prepare(State& state, double h) override {
-    if (!whole_) {
-      State prepared = state;
-      if (is_prepared_without(prepared, h)) {
-        state = prepared;
-        return;
-      }
-      take_all_equations();
-    }
-    whole_->prepare(state, h);
+    State prepared = state;
+    is_with_all_ = !is_prepared_without(prepared, h);
+    if (is_with_all_)
+      with_all().prepare(state, h);
+    else
+      state = prepared;
   }
 
   // Without redundant equations, and false where they do not hold then.
@@ -79,7 +76,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
       const VectorXd x = state.x;
       const VectorXd no_shift = VectorXd::Zero(d_);
       projection_.project(x, {state, {state.t, h}, state.t, no_shift, false}, statistics_);
-      if (leaves_some_out && projection_.redundant_part(state, h) > kHolds) return false;
+      if (leaves_some_out && !projection_.redundant_hold(state, h)) return false;
       accept(x);
       projection_.take(state);
       return true;
@@ -93,7 +90,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
 
   bool do_take_over(const Stepper& other) override {
     const auto* before = dynamic_cast<const Trajectory*>(&other);
-    if (before == nullptr || whole_ || before->whole_) return false;
+    if (before == nullptr || is_with_all_ || before->is_with_all_) return false;
     const bool goes_on = basis_.take_over(before->basis_);
     if (!goes_on) predictor_.forget();
     projection_.take_over(before->projection_, goes_on);
@@ -103,7 +100,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
   void do_accompany(std::span<const Companion> companions) override {
     for (const Companion& of : companions) {
       const auto& other = dynamic_cast<const Trajectory&>(*of.stepper);
-      if (whole_ || other.whole_) continue;
+      if (is_with_all_ || other.is_with_all_) continue;
       if (of.at_stage != 0.0)
         predictor_.learn_from(other.predictor_, projection_.times_of(of.at_stage, of.ratio, n_));
       projection_.learn_from(other.projection_, of);
@@ -112,19 +109,23 @@ class ConstrainFirst::Trajectory final : public Stepper {
 
   void do_step(const State& before, double h, State& after) override {
     if (method_.redundant_.output_size() == 0) return step_without(before, h, after);
-    if (!whole_) {
-      try {
-        step_without(before, h, after);
-        if (projection_.redundant_part(before, h) <= kHolds) return;
-      } catch (const SolveError&) {
-      }
-      do_discard();
-      take_all_equations();
-    }
-    const SolverStatistics work = whole_->statistics();
+    steps_with_all_ = false;
     State state = before;
-    whole_->step(state, h, after.t);
-    statistics_.add_work(work, whole_->statistics());
+    try {
+      if (!is_with_all_ || takes_up_without(state, h)) {
+        step_without(state, h, after);
+        if (projection_.redundant_hold(before, h)) return;
+      }
+    } catch (const SolveError&) {
+    }
+    do_discard();
+    steps_with_all_ = true;
+    ++statistics_.failures;
+    Stepper& all = with_all();
+    const SolverStatistics work = all.statistics();
+    state = before;
+    all.step(state, h, after.t);
+    statistics_.add_work(work, all.statistics());
     after = state;
   }
 
@@ -164,7 +165,8 @@ class ConstrainFirst::Trajectory final : public Stepper {
   }
 
   void do_keep(const State& before, const State&) override {
-    if (whole_) return;
+    is_with_all_ = steps_with_all_;
+    if (is_with_all_) return;
     if (!solver_.is_determined()) predictor_.limit_degree(Predictor::kUndetermined);
     predictor_.record(solver_.unknown());
     solver_.keep();
@@ -176,8 +178,8 @@ class ConstrainFirst::Trajectory final : public Stepper {
   }
 
   void do_stage(Step& step) const override {
-    if (whole_) {
-      step.stage = whole_->last().stage;
+    if (is_with_all_) {
+      step.stage = with_all_->last().stage;
       return;
     }
     step.stage.t = step.before.t + method_.map_->stage_time() * step.h;
@@ -195,7 +197,8 @@ class ConstrainFirst::Trajectory final : public Stepper {
   void do_change_step() override { forget_motion(); }
 
   void do_forget() override {
-    whole_.reset();
+    is_with_all_ = steps_with_all_ = false;
+    if (with_all_) with_all_->forget();
     solver_.forget();
     predictor_.forget();
     basis_.forget();
@@ -203,22 +206,31 @@ class ConstrainFirst::Trajectory final : public Stepper {
   }
 
   Motion do_motion() const override {
-    return whole_ ? whole_->motion() : solver_.motion(manifold());
+    return is_with_all_ ? with_all_->motion() : solver_.motion(manifold());
   }
   void do_expect(const Motion& motion) override { solver_.expect(motion); }
   std::unique_ptr<Stepper> do_fresh() const override {
     return std::make_unique<Trajectory>(method_);
   }
 
-  // What is left of an equation, next to its terms, where it holds: as equations of a step are solved, and those of
-  // M_f hold at its points.
-  static constexpr double kHolds = 1e-9;
+  // Of all equations, for steps after which those that are left out do not hold: where those that are left have become
+  // dependent, or where some have ceased to follow.
+  Stepper& with_all() {
+    if (!with_all_) {
+      const ConstrainFirst all(method_.system(), *method_.ladder_, method_.map_, method_.projector_,
+                               {.backend = Backend::interpreter, .keeps_all_equations = true});
+      with_all_ = all.stepper();
+    }
+    return *with_all_;
+  }
 
-  void take_all_equations() {
-    ++statistics_.failures;
-    const ConstrainFirst all(method_.system(), *method_.ladder_, method_.map_, method_.projector_,
-                             {.backend = Backend::interpreter, .keeps_all_equations = true});
-    whole_ = all.stepper();
+  // After a step with all equations, from where that ended.
+  bool takes_up_without(State& state, double h) {
+    solver_.forget();
+    basis_.forget();
+    projection_.forget();
+    predictor_.forget();
+    return is_prepared_without(state, h);
   }
 
   void forget_motion() {
@@ -240,9 +252,10 @@ class ConstrainFirst::Trajectory final : public Stepper {
   Projection projection_;
   VectorXd start_;  // what the state alone predicts
   VectorXd near_, advanced_;
-  VectorXd kept_, stage_z_;  // what was advanced, and z, of the last step that stands
-  // Of all equations, since those that steps do without have ceased to follow from the others; null before.
-  std::unique_ptr<Stepper> whole_;
+  VectorXd kept_, stage_z_;            // what was advanced, and z, of the last step that stands
+  std::unique_ptr<Stepper> with_all_;  // null before it is needed
+  bool is_with_all_ = false;           // the last step that stands, or what was prepared, is its
+  bool steps_with_all_ = false;        // the step that was just made is
 };
 
 ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,

@@ -223,7 +223,11 @@ void ConstrainFirst::Projection::record() {
   shift_.record(corrected_);
 }
 
-double ConstrainFirst::Projection::redundant_part(const State& before, double h) {
+// Newton's method asks for eight digits of what converges with the state, and for all of the state and its velocity.
+bool ConstrainFirst::Projection::redundant_hold(const State& before, double h) {
+  constexpr double of_states = 1e-14, of_others = 1e-7;
+  constexpr double at_rest =
+      1e-3;  // of what moves coordinates by their size in a step, no velocity
   const Function& F = method_.redundant_;
   const VectorXd& y = gives_all_ ? given_ : solver_.unknown();
   const double* const in[] = {
@@ -231,19 +235,19 @@ double ConstrainFirst::Projection::redundant_part(const State& before, double h)
   redundant_.resize(F.output_size() + F.nonzeros());
   F.value_and_jacobian(in, redundant_.data());
   const auto sizes = scales(before, h, largest(near_));
-  redundant_terms_.setZero(F.output_size());
+  VectorXd terms = VectorXd::Zero(F.output_size());
+  VectorXd part = VectorXd::Constant(F.output_size(), of_states);
   for (std::size_t k = 0; k < F.pattern_row().size(); ++k) {
-    const Index j = F.pattern_col()[k];
+    const Index i = F.pattern_row()[k], j = F.pattern_col()[k];
     const double size = j < n_       ? sizes[0]
-                        : j < 2 * n_ ? std::max(std::fabs(y[j]), largest(before.v))
+                        : j < 2 * n_ ? std::max(std::fabs(y[j]), at_rest * sizes[1])
                                      : std::fabs(y[j]);
-    redundant_terms_[F.pattern_row()[k]] +=
-        std::fabs(redundant_[F.output_size() + static_cast<Index>(k)]) * size;
+    terms[i] += std::fabs(redundant_[F.output_size() + static_cast<Index>(k)]) * size;
+    if (j >= 2 * n_) part[i] = of_others;
   }
-  double part = 0.0;
   for (Index i = 0; i < F.output_size(); ++i)
-    if (redundant_[i] != 0.0) part = std::max(part, std::fabs(redundant_[i]) / redundant_terms_[i]);
-  return std::isfinite(part) ? part : std::numeric_limits<double>::infinity();
+    if (!(std::fabs(redundant_[i]) <= part[i] * terms[i])) return false;
+  return true;
 }
 
 void ConstrainFirst::Projection::take(State& state) const {

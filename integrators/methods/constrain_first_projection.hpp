@@ -41,9 +41,9 @@ class ConstrainFirst::Projection {
   // unknown() = y, as far as it matters what is there before project().
   void begin_with(const VectorXd& y);
   void take(State& state) const;  // what was found
-  // After project(): the largest part of its terms that is left of an equation that it did without. `before`: a state of
-  // the sizes of the trajectory.
-  double redundant_part(const State& before, double h);
+  // After project(): whether the equations that it did without hold as those that it solved do. `before`: a state
+  // of the sizes of the trajectory.
+  bool redundant_hold(const State& before, double h);
 
   // What the next projection starts from is what was found.
   void record();
@@ -98,9 +98,8 @@ class ConstrainFirst::Projection {
   VectorXd start_, aimed_, near_, guess_, foreseen_, shifted_, corrected_;
   MatrixXd vectors_;  // tangent vectors, while the basis moves
   VectorXd found_, velocity_;
-  VectorXd redundant_,
-      redundant_terms_;  // equations that project() did without, with their Jacobian
-  double time_ = 0.0;    // of the last project()
+  VectorXd redundant_;  // equations that project() did without, with their Jacobian
+  double time_ = 0.0;   // of the last project()
 };
 
 }  // namespace courant
