@@ -123,17 +123,17 @@ BOOST_AUTO_TEST_CASE(quantities_can_be_chosen) {
   BOOST_CHECK_THROW(study_of(experiment(pendulum, "rk4"), how), ExperimentError);
 }
 
-// x has errors of 10⁻⁴ and order 4; y, a millionth of it, moves by a velocity with a corner, and has order 2 at most.
+// x has errors of 10⁻⁴ and order 4; y, whose errors are a thousandth of that, moves by a velocity with a corner, and has order 2 at most.
 BOOST_AUTO_TEST_CASE(small_quantities_have_orders_of_their_own) {
   const Experiment one = read_experiment(R"json({
     "system": { "type": "implicit", "coordinates": ["x", "y"],
-                "equations": ["x' - 3*x*cos(5*t)", "y' - 1e-6*abs(t - 1/3)*abs(t - 1/3)^0.5"] },
-    "initial": { "x": 1, "y": 0 }, "method": "rk4", "time": { "step": 0.1, "end": 1 } })json");
+                "equations": ["x' - 3*x*cos(5*t)", "y' - 1e-4*abs(t - 1/3)*abs(t - 1/3)^0.5"] },
+    "initial": { "x": 1, "y": 0 }, "method": "rk4", "time": { "step": 0.05, "end": 1 } })json");
   StudyOptions how = options();
   how.steps = 4;
   const Json found = study_of(one, how);
-  BOOST_TEST(std::abs(found["order"].get<double>() - 4.0) < 0.3);
-  BOOST_TEST(std::abs(found["orders"]["x"].get<double>() - 4.0) < 0.3);
+  BOOST_TEST(std::abs(found["order"].get<double>() - 4.0) < 0.35);
+  BOOST_TEST(std::abs(found["orders"]["x"].get<double>() - 4.0) < 0.35);
   BOOST_TEST(found["orders"]["y"].get<double>() < 3.2);
   BOOST_TEST(says(found["remark"].get<std::string>(), "Of a lower order than all together: y ("),
              found["remark"]);
@@ -148,16 +148,20 @@ BOOST_AUTO_TEST_CASE(a_study_agrees_with_the_law_of_convergence) {
     "system": { "type": "implicit", "coordinates": ["a", "b", "c", "d"], "unknowns": ["u"],
                 "equations": ["a' - 2*a*b*c*d", "b' + a*b*d^2", "c' - (a*b + c*d)*u",
                               "d' + a*b^2*d^2*u", "a*b^2 - 1"] },
-    "initial": { "a": 1, "b": 1, "c": 1, "d": 1 }, "time": { "step": 0.02, "end": 0.2 } })json");
+    "initial": { "a": 1, "b": 1, "c": 1, "d": 1 }, "time": { "step": 0.01, "end": 1 } })json");
   for (const auto& [method, order] :
        {std::pair("discretize-first", 0.0), std::pair("constrain-first", 2.0)}) {
     problem["method"] = method;
-    const Experiment one = read_experiment_document(problem);
+    const Experiment one = read_experiment(problem.dump());
     const Json found = study_of(one);
-    bool converges = false;
-    for (const Json& check : check_experiment(one).at("checks"))
-      if (check.at("law") == "P12") converges = check.at("passed").get<bool>();
-    BOOST_TEST(converges == (order > 0.0), method);
+    int measured = 0;
+    const Json report = check_experiment(one);
+    for (const Json& check : report.at("checks"))
+      if (check.at("law") == "P12") {
+        ++measured;
+        BOOST_TEST(check.at("passed").get<bool>() == (order > 0.0), method << ": " << check);
+      }
+    BOOST_TEST(measured == 1);
     BOOST_TEST(std::abs(found["order"].get<double>() - order) < 0.3, method);
     double lowest = 10.0;
     for (const Json& of : found["orders"]) lowest = std::min(lowest, of.get<double>());
