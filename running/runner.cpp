@@ -16,6 +16,7 @@
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/energy_watch.hpp"
 #include "courant/running/folder_keeper.hpp"
+#include "courant/running/gradient_watch.hpp"
 #include "courant/running/ladder_report.hpp"
 #include "courant/running/left_constraints.hpp"
 #include "courant/running/observer_elsewhere.hpp"
@@ -256,6 +257,7 @@ class RunUnderway {
     for (const auto& watcher : watchers_) tell(*watcher);
     if (energy_watch_) tell(*energy_watch_);
     if (step_watch_) tell(*step_watch_);
+    if (gradient_watch_) tell(*gradient_watch_);
     for (RunWatcher* watcher : options_.watchers) tell(*watcher);
     if (end) {
       results_.status = end->status;
@@ -286,8 +288,9 @@ class RunUnderway {
           method.initial);
   }
 
-  // Explicit methods alone: others solve equations, which have no solution where there is none.
+  // How far steps turn, of explicit methods alone: others solve equations, which have no solution where there is none.
   void watch_steps(const PreparedMethod& method) {
+    gradient_watch_.emplace(method.integrator, method.initial);
     const auto* const explicit_method =
         dynamic_cast<const ExplicitRungeKutta*>(method.integrator.get());
     if (!explicit_method || experiment_.time->division) return;
@@ -574,6 +577,7 @@ class RunUnderway {
   std::optional<LadderWatch> ladder_watch_;
   std::optional<EnergyWatch> energy_watch_;
   std::optional<StepWatch> step_watch_;
+  std::optional<GradientWatch> gradient_watch_;
   TrajectoryRows rows_{experiment_, observer_, clock_, results_.rows_at_times};
   std::optional<EventWatch> event_watch_;
   std::vector<std::unique_ptr<RunWatcher>> watchers_;
