@@ -14,6 +14,7 @@
 #include "courant/core/linear/rank_decision.hpp"
 #include "courant/core/solve/gauss_newton.hpp"
 #include "courant/core/words/version.hpp"
+#include "courant/integrators/boundary/boundary_solution.hpp"
 #include "courant/integrators/certificate/certificate.hpp"
 #include "courant/integrators/certificate/constraint_algorithm.hpp"
 #include "courant/integrators/certificate/constraint_classes.hpp"

@@ -13,6 +13,7 @@
 #include "courant/cli/sweep.hpp"
 #include "courant/cli/waiting.hpp"
 #include "courant/core/expressions/native.hpp"
+#include "courant/running/boundary_run.hpp"
 #include "courant/running/chosen_step.hpp"
 #include "courant/running/run_backend.hpp"
 #include "courant/running/runner.hpp"
@@ -64,6 +65,14 @@ int run_experiment(const Console& console, const RunArguments& arguments,
     for (std::size_t i = experiment.remarks.size(); i < whole->remarks.size(); ++i)
       print_error(console, arguments.file + ": " + whole->remarks[i].where +
                                ": warning: " + whole->remarks[i].what);
+    return run_experiment(console, arguments, *whole);
+  }
+  if (experiment.boundary && !experiment.solution) {
+    std::optional<Waiting> waiting;
+    if (!arguments.quiet) waiting.emplace(console, "boundary values");
+    if (console.heeds_stop) *console.heeds_stop = true;
+    const auto whole = with_boundary_solved(experiment, console.stop);
+    waiting.reset();
     return run_experiment(console, arguments, *whole);
   }
   RunOptions options{.folder = arguments.output(),

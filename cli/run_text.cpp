@@ -9,6 +9,7 @@
 #include "courant/reporting/ladder_diagram.hpp"
 #include "courant/reporting/ladder_explanation.hpp"
 #include "courant/reporting/report_figures.hpp"
+#include "courant/running/boundary_run.hpp"
 #include "courant/running/run_files.hpp"
 
 namespace courant::cli {
@@ -100,6 +101,11 @@ void print_opening(const Console& console, const Experiment& experiment,
     print_wrapped(console, experiment.method->description + ", " + steps_in_words(*experiment.time),
                   "  ");
   out << '\n';
+  if (experiment.solution && !is_unsolved(experiment)) {
+    for (const std::string& line : boundary_in_words(*experiment.solution))
+      print_wrapped(console, line, "  ");
+    out << '\n';
+  }
   for (const Movement& move : ladder.moves)
     print_wrapped(console, move.name + " had to move " + from_and_to(move) + " to be consistent.",
                   "  ");

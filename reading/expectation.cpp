@@ -19,6 +19,7 @@ struct Reading {
   const std::vector<std::string>& events;
   const std::optional<TimeSpan>& time;
   bool is_run;  // there are to be steps, even if their time could not be read
+  bool has_boundary;
   bool has_powers;
   Expectations& expectations;
 
@@ -150,9 +151,15 @@ void expect_form(const std::string& name, const WrittenFormula& form, double tol
   });
 }
 
+// A time, or "end".
+double read_moment(const JsonReader& key, const Reading& reading) {
+  if (key.value() == "end") return reading.time ? reading.time->end() : kUnknown;
+  return key.number().value_or(kUnknown);
+}
+
 void read_state(ObjectReader& entry, const JsonReader& state_key, const Reading& reading) {
   const auto at_key = entry.optional("at");
-  const double at = at_key ? at_key->number().value_or(kUnknown) : kUnknown;
+  const double at = at_key ? read_moment(*at_key, reading) : kUnknown;
   const auto tolerance_key = entry.required("tolerance");
   const double tolerance =
       tolerance_key ? tolerance_key->positive_number().value_or(kUnknown) : kUnknown;
@@ -392,12 +399,96 @@ bool read_imbalance(ObjectReader& entry, const Reading& reading, const char* nam
   return true;
 }
 
+// A property of the solution of the boundary problem that is to be this value.
+void expect_of_solution(const JsonReader& key, const std::string& description,
+                        const ObjectReader& entry,
+                        std::function<Json(const BoundarySolution&)> value,
+                        const Reading& reading) {
+  reading.expectations.checks.push_back([=, bound = key.value(), pointer = entry.place().pointer()](
+                                            const RunRecord& record) {
+    ExpectationResult result{pointer, description, false, nullptr, bound, kNotKnown};
+    if (!record.boundary) return result;
+    result.value = value(*record.boundary);
+    result.passed = result.value == bound;
+    result.finding = "is " + value_in_words(result.value) + "; expected " + value_in_words(bound);
+    return result;
+  });
+}
+
+// {"duration": "4*pi", "tolerance": 1e-6} and {"multipliers": [2.5, 1, 1, 0.4], "tolerance": 1e-6}: numbers of the solution.
+void read_numbers_of_solution(ObjectReader& entry, const Reading& reading) {
+  const auto duration_key = entry.optional("duration");
+  const auto multipliers_key = entry.optional("multipliers");
+  if (!duration_key && !multipliers_key) return;
+  const auto tolerance_key = entry.required("tolerance");
+  const auto tolerance = tolerance_key ? tolerance_key->positive_number() : std::nullopt;
+  const auto compare = [&](const JsonReader& value, const std::string& description,
+                           std::function<double(const BoundarySolution&)> found) {
+    const auto form = read_formula(value);
+    const auto expected =
+        form ? evaluate_constants({{}, {*form}}, reading.vocabulary.symbols({}), value.findings())
+             : std::nullopt;
+    if (!expected || !tolerance) return;
+    reading.expectations.checks.push_back(
+        [=, bound = *tolerance, number = (*expected)[0],
+         pointer = entry.place().pointer()](const RunRecord& record) {
+          const auto is = record.boundary ? std::optional(found(*record.boundary)) : std::nullopt;
+          return deviating(pointer, description + " = " + exact_text(number),
+                           std::abs(is.value_or(kUnknown) - number), bound, is);
+        });
+  };
+  if (duration_key)
+    compare(*duration_key, "duration",
+            [](const BoundarySolution& solution) { return solution.duration(); });
+  const auto values = multipliers_key ? multipliers_key->elements() : std::nullopt;
+  if (values && values->empty()) multipliers_key->expected("moduli in descending order");
+  for (std::size_t i = 0; values && i < values->size(); ++i)
+    compare((*values)[i], "modulus of multiplier " + std::to_string(i + 1),
+            [i = static_cast<Index>(i)](const BoundarySolution& solution) {
+              return i < solution.floquet.size() ? std::abs(solution.floquet[i]) : kUnknown;
+            });
+}
+
+// {"boundary": "isolated", "family_dimension": 0, "conjugate_points": 1, "duration": 2, "tolerance": 1e-6}: what is found
+// of conditions at both ends.
+bool read_solution(ObjectReader& entry, const Reading& reading) {
+  const Json& object = entry.place().value();
+  bool any = false;
+  for (const char* key :
+       {"boundary", "family_dimension", "conjugate_points", "duration", "multipliers"})
+    any = any || object.contains(key);
+  if (!any) return false;
+  if (const auto key = entry.optional("boundary"); key && key->word({"isolated", "family"}))
+    expect_of_solution(
+        *key, "solution of the boundary problem", entry,
+        [](const BoundarySolution& solution) { return Json(to_string(solution.verdict)); },
+        reading);
+  if (const auto key = entry.optional("family_dimension"); key && key->integer(0))
+    expect_of_solution(
+        *key, "dimension of the family of solutions", entry,
+        [](const BoundarySolution& solution) { return Json(solution.family_dimension); }, reading);
+  if (const auto key = entry.optional("conjugate_points"); key && key->integer(0))
+    expect_of_solution(
+        *key, "conjugate points", entry,
+        [](const BoundarySolution& solution) {
+          return solution.conjugate_times ? Json(solution.conjugate_times->size()) : Json();
+        },
+        reading);
+  read_numbers_of_solution(entry, reading);
+  if (!reading.has_boundary)
+    entry.place().problem(
+        "tests nothing: there are no conditions at both ends; expected \"boundary\" beside "
+        "\"initial\"");
+  return true;
+}
+
 void read_entry(const JsonReader& value, const Reading& reading) {
   ObjectReader entry(value);
   if (!value.value().is_object()) return;
   if (const auto name = entry.optional("observable")) return read_bounds(entry, *name, reading);
   if (const auto event = entry.optional("event")) return read_event(entry, *event, reading);
   if (const auto state = entry.optional("state")) return read_state(entry, *state, reading);
+  const bool solution = read_solution(entry, reading);
   const bool certificate = read_certificate(entry, reading);
   const bool violation = read_violation(entry, reading);
   const bool imbalance =
@@ -406,10 +497,13 @@ void read_entry(const JsonReader& value, const Reading& reading) {
   const bool stage_imbalance = read_imbalance(entry, reading, "max_stage_imbalance",
                                               "greatest imbalance of power at the stage of a step",
                                               &RunRecord::max_stage_imbalance);
-  if (!certificate && !violation && !imbalance && !stage_imbalance && value.value().empty())
+  if (!solution && !certificate && !violation && !imbalance && !stage_imbalance &&
+      value.value().empty())
     value.problem(
         "expects nothing; expected \"observable\", \"state\", \"event\", \"verdict\", \"ladder\", "
-        "\"max_violation\", \"max_imbalance\" or \"max_stage_imbalance\"");
+        "\"max_violation\", \"max_imbalance\", \"max_stage_imbalance\", \"boundary\", \"duration\" "
+        "or "
+        "\"multipliers\"");
 }
 
 }  // namespace
@@ -430,11 +524,13 @@ bool TimeSpan::is_known_at(double t) const {
 Expectations read_expectations(const JsonReader& expect, const Vocabulary& vocabulary,
                                const std::vector<std::string>& quantities,
                                const std::vector<std::string>& events,
-                               const std::optional<TimeSpan>& time, bool is_run, bool has_powers) {
+                               const std::optional<TimeSpan>& time, bool is_run, bool has_boundary,
+                               bool has_powers) {
   Expectations expectations;
   const auto entries = expect.elements();
   if (!entries) return expectations;
-  const Reading reading{vocabulary, quantities, events, time, is_run, has_powers, expectations};
+  const Reading reading{vocabulary, quantities,   events,     time,
+                        is_run,     has_boundary, has_powers, expectations};
   for (const JsonReader& entry : *entries) read_entry(entry, reading);
   return expectations;
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "courant/integrators/boundary/boundary_solution.hpp"
 #include "courant/integrators/certificate/constraint_ladder.hpp"
 #include "courant/integrators/methods/divided_integrator.hpp"
 #include "courant/reading/model.hpp"
@@ -40,7 +41,8 @@ struct RunRecord {
       moments;                                                      // quantities at times asked for
   double max_violation = std::numeric_limits<double>::quiet_NaN();  // of the constraints, if any
   std::map<std::string, EventRecord> events;
-  const ConstraintLadder* ladder = nullptr;  // null if not reached
+  const ConstraintLadder* ladder = nullptr;    // null if not reached
+  const BoundarySolution* boundary = nullptr;  // null if there is none
   // The greatest imbalances of a step, as of PowerAccount, if the system knows its powers.
   double max_imbalance = std::numeric_limits<double>::quiet_NaN();
   double max_stage_imbalance = std::numeric_limits<double>::quiet_NaN();
@@ -100,14 +102,15 @@ struct TimeSpan {
 };
 
 // Reads the array `expect`; `quantities` are the names of coordinates and observables, `events` those
-// of events; `is_run` where there are to be steps, though `time` is nothing if it cannot be read;
+// of events; `is_run` where there are to be steps, though `time` is nothing if it cannot be read; `has_boundary` if it is
+// sought by conditions at both ends;
 // `has_powers` if the system is an EnergySystem. What would
 // pass or fail whatever the run does is a problem: drifts where there is no trajectory, bounds below
 // zero of what cannot be, values that are not finite.
 Expectations read_expectations(const JsonReader& expect, const Vocabulary& vocabulary,
                                const std::vector<std::string>& quantities,
                                const std::vector<std::string>& events,
-                               const std::optional<TimeSpan>& time, bool is_run,
-                               bool has_powers = false);
+                               const std::optional<TimeSpan>& time, bool is_run, bool has_boundary,
+                               bool has_powers);
 
 }  // namespace courant

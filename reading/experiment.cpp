@@ -282,6 +282,15 @@ std::vector<std::string> quantities(const Experiment& experiment) {
   return names;
 }
 
+// The observables that a state has.
+NamedFormulas formulas_of_state(const Experiment& experiment) {
+  NamedFormulas named;
+  for (const Observable& observable : experiment.observe)
+    if (!observable.at_stage && !observable.uses_energies)
+      named.emplace_back(observable.name, observable.formula);
+  return named;
+}
+
 }  // namespace
 
 std::string column_of(Defect defect) {
@@ -344,6 +353,15 @@ Experiment read_document(const Json& written, const Model* given) {
     const auto observe = object.optional("observe");
     const auto events = object.optional("events");
     if (events && !time) events->problem("need a trajectory; expected \"method\" and \"time\"");
+    const auto boundary = object.optional("boundary");
+    if (boundary && !(method && time))
+      boundary->problem("needs a trajectory; expected \"method\" and \"time\"");
+    if (boundary && experiment.time && experiment.time->is_transformed())
+      boundary->problem(
+          "is for steps of one size in t; expected no \"transformation\" of time beside it");
+    if (boundary && experiment.time && !experiment.time->is_transformed() &&
+        experiment.time->steps < 1)
+      boundary->problem("needs a trajectory; expected an end of the time after its start");
     const auto expect = object.optional("expect");
     const Json no_output = Json::object();
     if (!output) object.default_value("output", no_output);
@@ -366,12 +384,16 @@ Experiment read_document(const Json& written, const Model* given) {
       if (defects) experiment.defects = read_defects(*defects, *model, experiment.symmetries);
       if (observe) experiment.observe = read_observables(*observe, *model, experiment);
       if (events) experiment.events = read_events(*events, *model);
+      // What is not given of a guess is 0.
+      if (boundary) experiment.model.starts_at_zero = true;
+      if (boundary)
+        experiment.boundary = read_boundary(*boundary, *model, formulas_of_state(experiment));
       std::vector<std::string> event_names;
       for (const Event& event : experiment.events) event_names.push_back(event.name);
       if (expect)
         experiment.expect = read_expectations(
             *expect, model->vocabulary, quantities(experiment), event_names, experiment.time,
-            method || time,
+            method || time, experiment.boundary.has_value(),
             std::dynamic_pointer_cast<const EnergySystem>(model->system) != nullptr);
     }
     experiment.output =

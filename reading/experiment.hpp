@@ -1,11 +1,14 @@
 // Experiment: what a JSON file asks for.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "courant/integrators/boundary/boundary_solution.hpp"
+#include "courant/reading/boundary.hpp"
 #include "courant/reading/event.hpp"
 #include "courant/reading/expectation.hpp"
 #include "courant/reading/initial_values.hpp"
@@ -45,6 +48,9 @@ struct Experiment {
   bool writes_energies = false, writes_balance = false;
   std::vector<Defect> defects;  // that have columns
   std::vector<Event> events;
+  std::optional<Boundary> boundary = {};
+  // Of an experiment that begins where its boundary conditions ask for, and takes as long.
+  std::shared_ptr<const BoundarySolution> solution = {};
   Expectations expect;
   Output output;
   long examine = 0;                   // steps between two examinations of the ladder; 0: none

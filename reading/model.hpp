@@ -34,6 +34,9 @@ struct Model {
   // systems they have to be given.
   bool starts_at_zero = false;
 
+  // Whether the point is (state, costate) of a problem of optimal control, with Pontryagin's function as energy.
+  bool is_control_problem = false;
+
   // The table for formulas at (x, v, z, t): the velocity of x is dx/dt = E(x) v.
   SymbolTable symbols(const ExprVector& x, const ExprVector& v, const ExprVector& z,
                       const Expr& t) const {

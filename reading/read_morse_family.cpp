@@ -109,6 +109,7 @@ std::optional<Model> read_optimal_control(ObjectReader& system) {
           },
       .controls = words.unknowns.size(),
       .cost_multiplier = abnormal ? 0.0 : 1.0};
+  model.is_control_problem = true;
   model.description =
       "optimal control on " + Q.name() + ", " + (abnormal ? "abnormal" : "normal") + " extremals";
   model.system = hamiltonian_system(

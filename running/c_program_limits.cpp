@@ -8,6 +8,11 @@ void check_exportable(const Experiment& experiment) {
   if (experiment.output.coordinates)
     throw ExperimentError("/output/coordinates",
                           "cannot be exported: the program writes all coordinates");
+  if (experiment.boundary)
+    throw ExperimentError("/boundary",
+                          "is not solved by a program in C; expected an experiment without, such "
+                          "as the one that a run "
+                          "writes, whose initial values are those of the solution");
   if (!experiment.defects.empty())
     throw ExperimentError("/defects",
                           "are not measured by a program in C; expected an experiment without");

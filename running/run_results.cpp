@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "courant/running/boundary_run.hpp"
+
 namespace courant {
 namespace {
 
@@ -19,6 +21,7 @@ std::vector<ExpectationResult> RunResults::expectations() const {
     for (std::size_t i = 0; i < observer.names().size(); ++i)
       record.moments[time][observer.names()[i]] = row[static_cast<Index>(i)];
   record.ladder = &ladder;
+  record.boundary = experiment.solution.get();
   if (!statistics.empty()) {
     for (std::size_t i = 0; i < observer.names().size(); ++i)
       record.quantities[observer.names()[i]] = statistics.record(static_cast<Index>(i));
@@ -75,6 +78,7 @@ RunSummary RunResults::summary(RunStatus told_status,
     if (const PowerAccount* account = observer.account(); account && steps > 0)
       told.power_balance = account->report();
   }
+  if (experiment.solution) told.boundary = boundary_summary(*experiment.solution);
   for (const SymmetryFinding& finding : symmetries)
     told.symmetries.emplace_back(finding.name,
                                  RunSummary::Symmetry{.is_conserved = finding.report.is_conserved(),

@@ -12,6 +12,7 @@
 #include "courant/integrators/certificate/ladder_watch.hpp"
 #include "courant/integrators/methods/explicit_runge_kutta.hpp"
 #include "courant/manifolds/cotangent_bundle.hpp"
+#include "courant/running/boundary_run.hpp"
 #include "courant/running/chosen_step.hpp"
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/energy_watch.hpp"
@@ -94,7 +95,9 @@ class RunUnderway {
     if (options_.on_ladder) options_.on_ladder(ladder_report_);
     const bool consistent = ladder_.verdict != Verdict::inconsistent;
     std::optional<PreparedMethod> method;
-    if (consistent) {
+    if (is_unsolved(experiment_)) {
+      fail("/boundary: " + experiment_.solution->reason);
+    } else if (consistent) {
       require_finite(observer_, experiment_, ladder_.point);
       method = prepare();
     } else if (!experiment_.expect.inconsistent) {
@@ -596,6 +599,8 @@ RunOutcome run(const Experiment& experiment, RunKeeper& keeper, const RunOptions
         chosen_step(experiment, worthwhile(options.backend, experiment), options.stop);
     return run(*with_chosen_step(experiment, chosen), keeper, options);
   }
+  if (experiment.boundary && !experiment.solution)
+    return run(*with_boundary_solved(experiment, options.stop), keeper, options);
   keeper.check(experiment);
   return RunUnderway(experiment, keeper, options)();
 }

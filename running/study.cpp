@@ -44,6 +44,11 @@ class StudiedProblem {
         observer_(experiment(), ladder_, options.backend) {
     if (!experiment().method || !experiment().time)
       throw ExperimentError("/method", "is missing; a study is one of a method and its steps");
+    if (experiment().boundary)
+      throw ExperimentError(
+          "/boundary",
+          "is not solved by a study; expected an experiment without, such as the "
+          "one that a run writes, whose initial values are those of the solution");
     const TimeSpan& time = *experiment().time;
     if (time.steps == 0) throw ExperimentError("/time/end", "is the start; expected a later time");
     stride_ = time.is_transformed() ? 1 : (time.steps + kMostMoments - 1) / kMostMoments;

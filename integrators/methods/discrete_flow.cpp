@@ -33,16 +33,22 @@ MatrixXd consistent_directions(const Manifold& M, const MatrixXd& conormals, con
 }
 
 DiscreteFlow::DiscreteFlow(std::shared_ptr<const Integrator> method, double h, long steps)
-    : method_(std::move(method)), h_(h), steps_(steps) {
-  if (!method_ || !(std::fabs(h) > 0.0) || !std::isfinite(h) || steps < 0)
-    throw std::invalid_argument("DiscreteFlow::DiscreteFlow: the method is null, h is " +
-                                number_text(h) + " or steps is " + std::to_string(steps) +
-                                "; expected a method, h != 0 and steps >= 0.");
+    : DiscreteFlow(std::move(method), nullptr, h, steps) {
   differential_ = method_->differential();
   if (!differential_)
     throw std::invalid_argument("DiscreteFlow::DiscreteFlow: " + method_->name() +
                                 " does not know the differential of its steps; expected a method "
                                 "that does.");
+}
+
+DiscreteFlow::DiscreteFlow(std::shared_ptr<const Integrator> method,
+                           std::shared_ptr<const StepDifferential> differential, double h,
+                           long steps)
+    : method_(std::move(method)), differential_(std::move(differential)), h_(h), steps_(steps) {
+  if (!method_ || !(std::fabs(h) > 0.0) || !std::isfinite(h) || steps < 0)
+    throw std::invalid_argument("DiscreteFlow::DiscreteFlow: the method is null, h is " +
+                                number_text(h) + " or steps is " + std::to_string(steps) +
+                                "; expected a method, h != 0 and steps >= 0.");
 }
 
 void DiscreteFlow::make(Stepper& stepper, State& state, double start, long first, long last,
@@ -51,6 +57,10 @@ void DiscreteFlow::make(Stepper& stepper, State& state, double start, long first
     stepper.step(state, h_, start + static_cast<double>(k) * h_);
     if (tell) tell(stepper.last());
   }
+}
+
+DiscreteFlow DiscreteFlow::over(double h, long steps) const {
+  return {method_, differential_, h, steps};
 }
 
 DiscreteFlow::Image DiscreteFlow::push_forward(const State& start, const MatrixXd& V) const {
@@ -134,7 +144,7 @@ VectorXd DiscreteFlow::lyapunov_exponents(const State& start, const MatrixXd& V,
 Eigen::VectorXcd DiscreteFlow::multipliers(const State& start, const MatrixXd& V,
                                            double tolerance) const {
   const auto [end, images] = push_forward(start, V);
-  const double gap = (end.x - start.x).norm();
+  const double gap = method_->system()->manifold()->separation(start.x, end.x);
   if (!(gap <= tolerance))
     throw std::domain_error("DiscreteFlow::multipliers: the orbit ends " + number_text(gap) +
                             " from where it began; expected at most " + number_text(tolerance) +

@@ -43,6 +43,8 @@ class DiscreteFlow {
   const Integrator& method() const { return *method_; }
   double h() const { return h_; }
   long steps() const { return steps_; }
+  // Of the same method, whose differential is not traced again. Throws std::invalid_argument as the constructor does.
+  DiscreteFlow over(double h, long steps) const;
 
   struct Image {
     State end;
@@ -71,6 +73,9 @@ class DiscreteFlow {
                                double tolerance = 1e-8) const;
 
  private:
+  DiscreteFlow(std::shared_ptr<const Integrator> method,
+               std::shared_ptr<const StepDifferential> differential, double h, long steps);
+
   // The steps from the state after step `first` to that after step `last`, told one by one.
   void make(Stepper& stepper, State& state, double start, long first, long last,
             const std::function<void(const Step&)>& tell) const;

@@ -1,0 +1,190 @@
+#include "courant/running/boundary_run.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <string>
+
+#include "courant/running/run_in_memory.hpp"
+#include "resumed_run.hpp"
+
+namespace courant {
+// Mistakes that these cases have to notice:
+//  * a run does not begin at the solution, or takes another time
+//  * conditions of transversality are added where costates are given, or are missing
+//  * what is not solved is run, or completes
+//  * a parameter of a continuation does not come to its own value
+BOOST_AUTO_TEST_SUITE(boundary_run)
+
+namespace {
+
+Json bratu(double c) {
+  return {{"system",
+           {{"type", "hamiltonian"},
+            {"parameters", {{"c", c}}},
+            {"coordinates", {"q"}},
+            {"hamiltonian", "p_q^2/2 + c*exp(q)"}}},
+          {"initial", {{"q", 0}}},
+          {"boundary", {{"initial", {{"q", 0}}}, {"final", {{"q", 0}}}}},
+          {"method", {{"type", "discretize-first"}, {"order", 4}}},
+          {"time", {{"step", 0.05}, {"end", 1}}}};
+}
+
+// x' = v, v' = u, ∫ (u²/2 + k) dt → min.
+Json cart(const Json& boundary, double k = 0.0) {
+  return {{"system",
+           {{"type", "optimal-control"},
+            {"parameters", {{"k", k}}},
+            {"states", {"x", "v"}},
+            {"controls", {"u"}},
+            {"dynamics", {"v", "u"}},
+            {"cost", "u^2/2 + k"}}},
+          {"initial", {{"x", 0}, {"v", 0}}},
+          {"boundary", boundary},
+          {"method", {{"type", "discretize-first"}, {"order", 4}}},
+          {"time", {{"step", 0.1}, {"end", 2}}}};
+}
+
+RunInMemory ran(const Json& document) { return run_in_memory(read_experiment_document(document)); }
+
+std::string problem_of(const Json& document) {
+  try {
+    ran(document);
+  } catch (const ExperimentError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_run_begins_where_its_conditions_ask_for) {
+  const RunInMemory run = ran(bratu(1.0));
+  BOOST_TEST_REQUIRE((run.outcome.status == RunStatus::completed), run.outcome.message);
+  const auto q = run.rows.column("q"), p = run.rows.column("p_q");
+  BOOST_TEST(q.size() == 21u);
+  BOOST_TEST(std::abs(q.back()) < 1e-12);
+  BOOST_TEST(std::abs(p.front() - 0.5493527287752711) < 1e-6);
+  const Json& told = run.outcome.summary.boundary;
+  BOOST_TEST(told["verdict"] == "isolated");
+  BOOST_TEST(std::abs(told["conditions"]["q at the end"].get<double>()) < 1e-12);
+  BOOST_TEST(told.at("conjugate_times").empty());
+  BOOST_TEST(told["rank"] == told["unknowns"]);
+  BOOST_TEST(told["singular_values"].size() == told["unknowns"].get<std::size_t>());
+  // What is written is read back.
+  BOOST_TEST(read_run_summary(to_json(run.outcome.summary)).boundary == told);
+}
+
+// Bratu's problem has no solution above 3.5138, and a continuation comes near to that.
+BOOST_AUTO_TEST_CASE(what_is_not_solved_fails_and_says_how_far_it_came) {
+  const RunInMemory run = ran(bratu(4.0));
+  BOOST_TEST((run.outcome.status == RunStatus::failed));
+  BOOST_TEST(run.outcome.message.starts_with("/boundary: no motion was found"),
+             run.outcome.message);
+  BOOST_TEST(run.outcome.summary.boundary["verdict"] == "unsolved");
+  Json document = bratu(4.0);
+  document["boundary"]["continuation"] = {{"parameter", "c"}, {"from", 0}};
+  const RunInMemory other = ran(document);
+  BOOST_TEST((other.outcome.status == RunStatus::failed));
+  BOOST_TEST(other.outcome.message.starts_with("/boundary: with c: the continuation comes to 3.51"),
+             other.outcome.message);
+  document = bratu(3.5);
+  document["boundary"]["continuation"] = {{"parameter", "c"}, {"from", 0}};
+  BOOST_TEST((ran(document).outcome.status == RunStatus::completed));
+}
+
+// From rest at 0 to the place 1 in the time 2, with any speed: v is free, so p_v = 0 at the end, and x = (3 T t² - t³)/(2 T³).
+BOOST_AUTO_TEST_CASE(a_free_end_has_the_conditions_of_transversality) {
+  const Json start{{"x", 0}, {"v", 0}};
+  RunInMemory run = ran(cart({{"initial", start}, {"final", {{"x", 1}}}}));
+  BOOST_TEST_REQUIRE((run.outcome.status == RunStatus::completed), run.outcome.message);
+  BOOST_TEST(std::abs(run.rows.column("p_v").back()) < 1e-12);
+  BOOST_TEST(std::abs(run.rows.column("x")[10] - (3.0 * 2.0 - 1.0) / 16.0) < 1e-10);
+  // On the line x + v = 1: the costate is at right angles to it, p_x = p_v.
+  run = ran(cart({{"initial", start}, {"final", {{"x + v", 1}}}}));
+  BOOST_TEST_REQUIRE((run.outcome.status == RunStatus::completed), run.outcome.message);
+  BOOST_TEST(std::abs(run.rows.column("p_v").back() - run.rows.column("p_x").back()) < 1e-12);
+  BOOST_TEST(std::abs(run.rows.column("p_v").back()) > 0.1);
+  // Where a costate is given nothing is added: one condition too few, a family.
+  run = ran(cart({{"initial", start}, {"final", {{"p_x + x", 0}}}}));
+  BOOST_TEST_REQUIRE((run.outcome.status == RunStatus::completed), run.outcome.message);
+  BOOST_TEST(run.outcome.summary.boundary["family_dimension"] == 1);
+  // With a price k of time, from rest to rest over 1: u = 6/T² (1 - 2t/T), cost 6/T³ + k T, T⁴ = 18/k.
+  run = ran(cart({{"initial", start}, {"final", {{"x", 1}, {"v", 0}}}, {"free", {"T"}}}, 2.0));
+  BOOST_TEST_REQUIRE((run.outcome.status == RunStatus::completed), run.outcome.message);
+  BOOST_TEST(std::abs(run.rows.column("t").back() - std::pow(9.0, 0.25)) < 1e-9);
+  BOOST_TEST(run.rows.rows() == 21u);
+  // At a target x = 3 - t that comes nearer, v given: E = ν ∂g/∂t, ∂g/∂t = 1, p_x = -ν.
+  run = ran(cart({{"initial", start}, {"final", {{"x + t", 3}, {"v", 0}}}, {"free", {"T"}}}, 2.0));
+  BOOST_TEST_REQUIRE((run.outcome.status == RunStatus::completed), run.outcome.message);
+  BOOST_TEST(std::abs(run.rows.column("H").back() + run.rows.column("p_x").back()) < 1e-9);
+  BOOST_TEST(std::abs(run.rows.column("x").back() + run.rows.column("t").back() - 3.0) < 1e-9);
+}
+
+BOOST_AUTO_TEST_CASE(conditions_may_name_observables_velocities_and_arrays) {
+  Json document{{"system",
+                 {{"type", "mechanical"},
+                  {"coordinates", {"r[2]"}},
+                  {"holonomic", {"dot(r, r) - 1"}},
+                  {"potential", "9.81*r[1]"}}},
+                {"initial", {{"r", {1, 0}}, {"r[1]'", -0.4}}},
+                {"observe", {{"angle", "atan2(r[1], r[0])"}}},
+                {"boundary", {{"initial", {{"r", {1, 0}}}}, {"final", {{"angle", -1.2}}}}},
+                {"method", {{"type", "constrain-first"}}},
+                {"time", {{"step", 0.01}, {"end", 0.4}}}};
+  RunInMemory run = ran(document);
+  BOOST_TEST_REQUIRE((run.outcome.status == RunStatus::completed), run.outcome.message);
+  BOOST_TEST(std::abs(run.rows.column("angle").back() + 1.2) < 1e-10);
+  BOOST_TEST(*run.outcome.summary.max_violation < 1e-12);
+  document["boundary"]["final"] = {{"r[0]'^2 + r[1]'^2", 9}};
+  document["boundary"]["initial"] = {{"r[0]", 1}, {"r[1]", 0}};
+  run = ran(document);
+  BOOST_TEST_REQUIRE((run.outcome.status == RunStatus::completed), run.outcome.message);
+  const double px = run.rows.column("p_r[0]").back(), py = run.rows.column("p_r[1]").back();
+  BOOST_TEST(std::abs(px * px + py * py - 9.0) < 1e-9);
+}
+
+BOOST_AUTO_TEST_CASE(a_run_that_was_stopped_goes_on_with_the_same_bytes) {
+  Json document = bratu(1.0);
+  document["time"]["step"] = 0.02;
+  document["output"]["epoch"] = 7;
+  check_resumption(document, {5, 30}, "boundary values");
+}
+
+BOOST_AUTO_TEST_CASE(what_is_no_boundary_problem_is_refused_at_its_place) {
+  const auto with = [](const std::string& pointer, const Json& value) {
+    Json document = bratu(1.0);
+    document[Json::json_pointer(pointer)] = value;
+    return problem_of(document);
+  };
+  const auto begins = [](const std::string& text, const std::string& with_what) {
+    BOOST_TEST(text.starts_with(with_what), text);
+  };
+  begins(with("/boundary/final", {{"qq", 0}}), "/boundary/final/qq: key, column 1: unknown name");
+  begins(with("/boundary/final", {{"c", 0}}), "/boundary/final/c: key, \"c\" does not depend on");
+  begins(with("/boundary/final", {{"q", {0, 1}}}), "/boundary/final/q: has 2 values; expected 1");
+  begins(with("/boundary/free", {"h"}), "/boundary/free/0: is \"h\"; expected \"T\"");
+  begins(with("/boundary/periodic", 1), "/boundary/periodic: is 1; expected true or false");
+  begins(with("/boundary/segments", 0), "/boundary/segments: is 0; expected");
+  begins(with("/boundary", Json::object()), "/boundary: has no conditions");
+  begins(with("/boundary/continuation", {{"parameter", "d"}, {"from", 0}}),
+         "/boundary/continuation/parameter: is \"d\"; expected a parameter");
+  begins(with("/boundary/final", {{"q", 0}, {"p_q", 0}}),
+         "/boundary: there are more independent conditions, 1 at the beginning and 2 at the end, "
+         "than");
+  begins(with("/time/end", 0), "/boundary: needs a trajectory");
+  Json document = bratu(1.0);
+  document["expect"] = {{{"boundary", "isolated"}, {"conjugate_points", 0}},
+                        {{"at", "end"}, {"state", {{"q", 0}}}, {"tolerance", 1e-12}},
+                        {{"duration", 1}, {"tolerance", 1e-12}}};
+  BOOST_TEST(ran(document).outcome.as_expected());
+  document["expect"] = {
+      {{"boundary", "family"}}, {{"conjugate_points", 1}}, {{"duration", 2}, {"tolerance", 0.5}}};
+  const RunInMemory run = ran(document);
+  for (const auto& expectation : run.outcome.expectations)
+    BOOST_TEST(!expectation.passed, expectation.description);
+  document.erase("boundary");
+  begins(problem_of(document), "/expect/0: tests nothing");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+}  // namespace courant
