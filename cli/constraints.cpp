@@ -202,7 +202,7 @@ void add_constraints(CLI::App& app, Session& session) {
             const bool as_page = !arguments->output.empty();
             std::optional<Waiting> waiting(std::in_place, console, "constraint algorithm");
             const ConsistentStart start =
-                consistent_start(experiment, arguments->digits ? Decider::digits : Decider::bounds);
+                consistent_start(experiment, arguments->digits ? Decider::digits : Decider::both);
             const ImplicitSystem& system = *experiment.model.system;
             const ConstraintFormulas formulas = constraint_formulas(system, start);
             LadderReport whole = ladder_report(start, system, formulas);

@@ -218,7 +218,7 @@ class LadderSearch {
         decider_(decider),
         equations_(equations_in_digits(system_, decider)),
         own_(algorithm(weight)) {
-    if (equations_) return;
+    if (decider == Decider::digits) return;
     const VectorXd z = guess.z.size() > 0 ? guess.z : system_->auxiliary_guess(guess.x, guess.v);
     const auto units = needed_units(system_, {.t = guess.t, .x = guess.x, .v = guess.v, .z = z});
     if (!units) return;
@@ -240,13 +240,16 @@ class LadderSearch {
   }
 
   ConstraintLadder run(const InitialGuess& guess) const {
-    if (equations_) {
-      ConstraintAlgorithm::Options options;
-      options.metric = SparseMatrixXd(weight_.asDiagonal());
-      if (auto found = decided_in_digits(*equations_, guess, options, decider_))
-        return *std::move(found);
-      return LadderSearch(system_, guess, weight_, Decider::bounds).run(guess);
-    }
+    if (!equations_) return by_bounds(guess);
+    ConstraintAlgorithm::Options options;
+    options.metric = SparseMatrixXd(weight_.asDiagonal());
+    return decider_ == Decider::digits
+               ? certificate_in_digits(*equations_, guess, options)
+               : decided_together(by_bounds(guess), *equations_, guess, options);
+  }
+
+ private:
+  ConstraintLadder by_bounds(const InitialGuess& guess) const {
     ConstraintLadder own = own_.run(system_, guess);
     if (!measured_) return own;
     const State start =
@@ -268,7 +271,6 @@ class LadderSearch {
     return ladder;
   }
 
- private:
   static ConstraintAlgorithm algorithm(const VectorXd& weight) {
     ConstraintAlgorithm::Options options;
     options.metric = SparseMatrixXd(weight.asDiagonal());

@@ -125,10 +125,11 @@ struct Digits::Pair {
   Fine fine;
 };
 
-Digits::Digits(const Pair& pair) : is_zero_(pair.coarse.is_zero() && pair.fine.is_zero()) {
+Digits::Digits(const Pair& pair) : is_zero_(pair.fine.is_zero()) {
   static_assert(sizeof(Pair) <= sizeof(numbers_) && alignof(Pair) <= alignof(Digits) &&
                 std::is_trivially_destructible_v<Pair>);
-  ::new (numbers_.data()) Pair(pair);
+  // What only the coarse part has left is its rounding.
+  ::new (numbers_.data()) Pair(is_zero_ ? Pair{} : pair);
 }
 
 const Digits::Pair& Digits::pair() const {
@@ -202,6 +203,8 @@ Digits Digits::times_power_of_two(std::int64_t exponent) const {
 Digits Digits::corrected(double a, double b) const {
   return Digits(Pair{pair().coarse - a, pair().fine - b});
 }
+
+Digits Digits::from_fine() const { return Digits(Pair{Coarse(pair().fine), pair().fine}); }
 
 Digits Digits::fine_alone() const { return Digits(Pair{Coarse(0), pair().fine}); }
 

@@ -47,7 +47,9 @@ class Digits {
   Digits times_power_of_two(std::int64_t exponent) const;
   // coarse - a and fine - b: a step of an iteration that each precision makes by itself.
   Digits corrected(double a, double b) const;
-  // The same with the coarse part 0: a correction of the fine part alone.
+  // With both parts from the fine one: where both precisions begin a search at one place.
+  Digits from_fine() const;
+  // With the coarse part 0: a correction of the fine part alone.
   Digits fine_alone() const;
 
   Digits& operator+=(const Digits& b) { return *this = *this + b; }

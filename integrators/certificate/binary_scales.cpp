@@ -122,6 +122,17 @@ void BinaryScales::update(const std::vector<JetEquations::Entry>& places,
   complete_sizes(known, *this);
 }
 
+void BinaryScales::scale_rows(const std::vector<JetEquations::Entry>& places,
+                              const std::vector<Digits>& entries,
+                              const std::vector<bool>& is_held) {
+  std::vector<std::int64_t> largest(row.size(), no_exponent);
+  for (const SizedEntry& a : exponents_of(places, entries))
+    if (a.column < is_held.size() && !is_held[a.column])
+      largest[a.row] = std::max(largest[a.row], a.exponent + column[a.column]);
+  for (std::size_t i = 0; i < row.size(); ++i)
+    if (largest[i] != no_exponent) row[i] = -largest[i];
+}
+
 void BinaryScales::update(const std::vector<JetEquations::Entry>& places,
                           const std::vector<Digits>& entries) {
   complete_sizes(exponents_of(places, entries), *this);

@@ -26,7 +26,10 @@ struct BinaryScales {
   // search stay from where it began, so that round-off that it leaves in an unknown is no size.
   void update(const std::vector<JetEquations::Entry>& places, const std::vector<Digits>& entries,
               const Jet& jet);
-  // The same from the entries alone.
+  // Rows anew by their largest entry in the columns that are not held: those that a step may change.
+  void scale_rows(const std::vector<JetEquations::Entry>& places,
+                  const std::vector<Digits>& entries, const std::vector<bool>& is_held);
+  // Columns and rows from the entries alone.
   void update(const std::vector<JetEquations::Entry>& places, const std::vector<Digits>& entries);
 };
 

@@ -1,5 +1,7 @@
 #include "courant/integrators/certificate/certificate.hpp"
 
+#include <utility>
+
 #include "courant/integrators/certificate/certificate_in_digits.hpp"
 
 namespace courant {
@@ -7,10 +9,11 @@ namespace courant {
 Certificate certificate(const std::shared_ptr<const ImplicitSystem>& system,
                         const InitialGuess& guess, const ConstraintAlgorithm::Options& options,
                         Decider decider) {
-  if (const auto equations = equations_in_digits(system, decider))
-    if (auto found = decided_in_digits(*equations, guess, options, decider))
-      return *std::move(found);
-  return ConstraintAlgorithm(options).run(system, guess);
+  const auto equations = equations_in_digits(system, decider);
+  if (equations && decider == Decider::digits)
+    return certificate_in_digits(*equations, guess, options);
+  ConstraintLadder by_bounds = ConstraintAlgorithm(options).run(system, guess);
+  return equations ? decided_together(std::move(by_bounds), *equations, guess, options) : by_bounds;
 }
 
 }  // namespace courant

@@ -14,6 +14,6 @@ using Certificate = ConstraintLadder;
 // The constraint algorithm at the guess. Throws std::invalid_argument on wrong sizes.
 Certificate certificate(const std::shared_ptr<const ImplicitSystem>& system,
                         const InitialGuess& guess, const ConstraintAlgorithm::Options& options = {},
-                        Decider decider = Decider::either);
+                        Decider decider = Decider::both);
 
 }  // namespace courant

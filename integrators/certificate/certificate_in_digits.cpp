@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "courant/core/words/message.hpp"
@@ -198,11 +199,9 @@ class Certifier {
       return;
     }
     const StagedElimination elimination(equations_, values, found.jet);
-    // Next to a zero in doubles what is left may be a search that did not end; elsewhere it may have ended where the linear
-    // parts of the equations vanish, as at the centre of a circle, and least squares from beside that point tell.
+    // Next to a zero in doubles what is left may be a search that did not end.
     constexpr double visible = 1e-13;
-    const bool is_visible =
-        found.was_near ? found.residual > visible : nearest_.is_least_residual(k);
+    const bool is_visible = found.is_least && (!found.was_near || found.residual > visible);
     for (const auto& row : elimination.rows()) {
       if (!is_visible || row.stage != StagedElimination::dependent || row.residual.is_zero())
         continue;
@@ -308,23 +307,37 @@ std::shared_ptr<const JetEquations> equations_in_digits(
   constexpr Index most_unknowns = 120;
   if (!system || decider == Decider::bounds) return nullptr;
   const Index unknowns = system->manifold()->ambient_dimension() + system->auxiliary_size();
-  if (decider == Decider::either && unknowns > most_unknowns) return nullptr;
+  if (decider == Decider::both && unknowns > most_unknowns) return nullptr;
   return std::make_shared<const JetEquations>(system);
 }
 
-std::optional<ConstraintLadder> decided_in_digits(const JetEquations& equations,
-                                                  const InitialGuess& guess,
-                                                  const ConstraintAlgorithm::Options& options,
-                                                  Decider decider) {
-  ConstraintLadder found = certificate_in_digits(equations, guess, options);
-  if (decider == Decider::digits) return found;
-  const bool is_unsure = std::ranges::any_of(found.doubts, [](const Doubt& doubt) {
-    return doubt.kind != Doubt::Kind::near_singular && doubt.kind != Doubt::Kind::at_switch;
-  });
-  constexpr double rounding = 1e-12;
-  const bool has_moved = found.moved > rounding * guess.x.norm();
-  if (is_unsure || has_moved || found.verdict == Verdict::rank_change) return std::nullopt;
-  return found;
+ConstraintLadder decided_together(ConstraintLadder by_bounds, const JetEquations& equations,
+                                  const InitialGuess& guess,
+                                  const ConstraintAlgorithm::Options& options) {
+  constexpr Index most_unknowns = 60;
+  const bool is_sure = !by_bounds.is_ambiguous();
+  if (is_sure && equations.point_size() + equations.auxiliary_size() > most_unknowns)
+    return by_bounds;
+  ConstraintLadder by_digits = certificate_in_digits(equations, guess, options);
+  const auto is_of_point = [](const Doubt& doubt) {
+    return doubt.kind == Doubt::Kind::near_singular || doubt.kind == Doubt::Kind::at_switch;
+  };
+  if (std::ranges::any_of(by_digits.doubts, is_of_point)) {
+    std::ranges::copy_if(by_digits.doubts, std::back_inserter(by_bounds.doubts), is_of_point);
+    return by_bounds;
+  }
+  if (by_digits.is_ambiguous()) return by_bounds;
+  const bool alike = are_alike(by_bounds, by_digits);
+  const bool has_solutions =
+      by_digits.verdict == Verdict::regular || by_digits.verdict == Verdict::gauge;
+  if (by_digits.verdict == Verdict::inconsistent || (!is_sure && (alike || has_solutions)))
+    return alike && is_sure ? by_bounds : by_digits;
+  if (is_sure && !alike && has_solutions)
+    by_bounds.doubts.emplace_back(
+        Doubt::Kind::neighbours,
+        "In two precisions the ladder is another one: " + to_string(by_digits.verdict) + " " +
+            dimensions_in_words(by_digits.levels) + ".");
+  return by_bounds;
 }
 
 }  // namespace courant

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
 #include "courant/integrators/certificate/constraint_algorithm.hpp"
 #include "courant/integrators/certificate/decider.hpp"
@@ -25,11 +24,20 @@ ConstraintLadder certificate_in_digits(const JetEquations& equations, const Init
 std::shared_ptr<const JetEquations> equations_in_digits(
     const std::shared_ptr<const ImplicitSystem>& system, Decider decider);
 
-// The certificate; where bounds may decide as well nothing if x had to move, the search for a point did not end, points
-// nearby do not agree, or the point is singular: bounds look at given points, as the fold of an impasse, in more ways.
-std::optional<ConstraintLadder> decided_in_digits(const JetEquations& equations,
-                                                  const InitialGuess& guess,
-                                                  const ConstraintAlgorithm::Options& options,
-                                                  Decider decider);
+// The ladder by bounds with what digits say of the same guess:
+//
+//   bounds      digits                              the answer
+//   doubted     sure, alike or with solutions       that of digits: what rounding hides from the first is seen by the other
+//   sure        inconsistent                        that of digits: constants are zero or not, and time goes on
+//   sure        sure, with other dimensions         that of bounds, with a doubt
+//   either      at a switch, or near a point with   that of bounds, with this doubt
+//               other ranks
+//   otherwise                                       that of bounds
+//
+// A search of digits that ended nowhere, or at a singular point, says nothing against bounds that are sure; and bounds that
+// are sure of systems of more than 60 coordinates and unknowns are not asked about.
+ConstraintLadder decided_together(ConstraintLadder by_bounds, const JetEquations& equations,
+                                  const InitialGuess& guess,
+                                  const ConstraintAlgorithm::Options& options);
 
 }  // namespace courant

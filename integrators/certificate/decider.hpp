@@ -5,9 +5,9 @@
 
 namespace courant {
 
-// What decides whether a number is zero: whether it shrinks when its digits double (docs/constraint-algorithm.md), or
-// bounds of errors in doubles; or the first of systems with up to 120 coordinates and unknowns, where its search ends
-// at a point that is not singular, and the second of others.
-enum class Decider : std::uint8_t { either, digits, bounds };
+// What decides whether a number is zero: bounds of errors in doubles; whether it shrinks when its digits double
+// (docs/constraint-algorithm.md); or both, of systems with up to 120 coordinates and unknowns, where each settles what the
+// other doubts, and where both are sure and differ there is a doubt. Larger systems are decided by bounds alone.
+enum class Decider : std::uint8_t { both, digits, bounds };
 
 }  // namespace courant

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "courant/core/linear/complete_orthogonal_decomposition.hpp"
 #include "courant/integrators/certificate/least_solution.hpp"
@@ -13,6 +14,12 @@ namespace {
 // What is zero but for rounding_exponent is zero.
 void settle_unknowns(Jet& jet) {
   for (Digits& number : jet.y) number.settle();
+}
+
+// Both precisions search from one place, or one of them could end at another zero.
+void begin_at_one_place(Jet& jet) {
+  settle_unknowns(jet);
+  for (Digits& number : jet.y) number = number.from_fine();
 }
 
 bool are_all_finite(const std::vector<Digits>& numbers) {
@@ -222,6 +229,7 @@ bool NearestJet::keeps_velocities(const Jet& jet) const {
 NearestJet::Found NearestJet::find(Index k) {
   Found found = continued(k);
   if (!found.is_zero) found = searched(k);
+  if (!found.is_zero && found.is_finite) found = descended(k, found);
   if (found.is_zero) before_ = found.jet;
   return found;
 }
@@ -255,7 +263,7 @@ NearestJet::Found NearestJet::searched(Index k) {
     BinaryScales scales(equations_, k);
     by_sizes ? scales.update(places, at.entries, start) : scales.update(places, at.entries);
     for (const std::vector<bool>& stays : {unmoved, held}) {
-      found = refined(start, stays, scales);
+      found = refined(start, stays, scales, true);
       found.was_near = true;
       if (found.is_zero) return tidied(found, stays, scales);
       if (unmoved == held) break;
@@ -279,11 +287,14 @@ NearestJet::Found NearestJet::refined(Jet jet, const std::vector<bool>& stays, B
   constexpr int most_steps = 40;
   constexpr double coarse_end = 0x1p-90, fine_end = 0x1p-252, slow = 0.25;
   const Index k = jet.k;
+  begin_at_one_place(jet);
   const std::vector<JetEquations::Entry> places = equations_.pattern(k);
   const auto at = equations_.at(jet.t, jet.y, k);
   Found found{.jet = jet};
   if (!are_all_finite(at.residual) || !are_all_finite(at.entries)) return found;
   scales.update(places, at.entries, jet);
+  const std::vector<std::int64_t> whole_rows = scales.row;
+  scales.scale_rows(places, at.entries, stays);
   FreeColumns part(equations_.unknown_count(k));
   for (std::size_t j = 0; j < stays.size(); ++j)
     if (!stays[j]) part.add(static_cast<Index>(j));
@@ -291,7 +302,7 @@ NearestJet::Found NearestJet::refined(Jet jet, const std::vector<bool>& stays, B
     double largest = 0.0;
     for (std::size_t i = 0; i < F.size(); ++i)
       largest =
-          std::max(largest, std::fabs(static_cast<double>(F[i].times_power_of_two(scales.row[i]))));
+          std::max(largest, std::fabs(static_cast<double>(F[i].times_power_of_two(whole_rows[i]))));
     return largest;
   };
   // An equation that nothing that is free stands in stays as it is.
@@ -362,25 +373,26 @@ NearestJet::Found NearestJet::tidied(const Found& found, std::vector<bool> stays
   return tidy.is_zero ? tidy : found;
 }
 
-// By Levenberg and Marquardt, from beside the last zero, which may be a critical point and no least one.
-bool NearestJet::is_least_residual(Index k) const {
+// By Levenberg and Marquardt.
+NearestJet::Found NearestJet::descended(Index k, const Found& before) const {
   constexpr int most_steps = 200;
-  constexpr double flat = 1e-7, small = 1e-6;
+  constexpr double flat = 1e-7, small = 1e-10, beside = 1e-6;
+  Found result = before;
   const Index size = equations_.unknown_count(k);
-  if (size > static_cast<Index>(most_dense)) return false;
+  if (size > static_cast<Index>(most_dense)) return result;
   Jet jet = before_;
   jet.k = k;
   jet.y.resize(static_cast<std::size_t>(size));
   const std::vector<JetEquations::Entry> entries = equations_.pattern(k);
   const auto first = equations_.at(jet.t, jet.y, k);
-  if (!are_all_finite(first.residual) || !are_all_finite(first.entries)) return false;
+  if (!are_all_finite(first.residual) || !are_all_finite(first.entries)) return result;
   BinaryScales scales(equations_, k);
   scales.update(entries, first.entries, jet);
+  const std::vector<bool> held = held_unknowns(k);
   const double t = static_cast<double>(jet.t);
-  std::vector<double> y;
-  for (std::size_t j = 0; j < jet.y.size(); ++j)
-    y.push_back(static_cast<double>(jet.y[j]) + std::ldexp(std::cos(static_cast<double>(j)),
-                                                           static_cast<int>(scales.column[j]) - 8));
+  const auto unit = [&](std::size_t j) {
+    return held[j] ? 0.0 : std::ldexp(1.0, static_cast<int>(scales.column[j]));
+  };
   const auto residual_at = [&](const std::vector<double>& there) {
     const std::vector<double> F = equations_.residual(t, there, k);
     VectorXd f(std::ssize(F));
@@ -389,21 +401,59 @@ bool NearestJet::is_least_residual(Index k) const {
                         static_cast<int>(scales.row[static_cast<std::size_t>(i)]));
     return f;
   };
+  // A point around, near or far, where less is left.
+  const auto lower_around = [&](const std::vector<double>& here,
+                                double left) -> std::optional<std::vector<double>> {
+    constexpr double much_less = 0.999;
+    constexpr int nearest = -20, farthest = 20, stride = 4, directions = 6;
+    for (int away = nearest; away <= farthest; away += stride)
+      for (int direction = 0; direction < directions; ++direction) {
+        std::vector<double> there = here;
+        for (std::size_t j = 0; j < there.size(); ++j)
+          there[j] += unit(j) * std::ldexp(std::cos((1.0 + 1.7 * static_cast<double>(j)) *
+                                                        static_cast<double>(direction + 1) +
+                                                    static_cast<double>(direction)),
+                                           away);
+        if (const VectorXd next = residual_at(there);
+            next.allFinite() && next.norm() < much_less * left)
+          return there;
+      }
+    return std::nullopt;
+  };
+  std::vector<double> y;
+  for (const Digits& number : jet.y) y.push_back(static_cast<double>(number));
   VectorXd f = residual_at(y);
   double damping = 1.0;
-  for (int step = 0; step < most_steps && f.allFinite(); ++step) {
+  double terms = 0.0;  // the size of what cancels in a zero
+  for (int step = 0; step < most_steps && f.allFinite() && f.norm() > 0.0; ++step) {
     const auto at = equations_.at(t, y, k);
     MatrixXd J = MatrixXd::Zero(f.size(), size);
     for (std::size_t e = 0; e < entries.size(); ++e) {
       const auto [i, j] = entries[e];
       if (j < size)
         J(i, j) =
-            std::ldexp(at.entries[e], static_cast<int>(scales.row[static_cast<std::size_t>(i)] +
-                                                       scales.column[static_cast<std::size_t>(j)]));
+            std::ldexp(at.entries[e], static_cast<int>(scales.row[static_cast<std::size_t>(i)])) *
+            unit(static_cast<std::size_t>(j));
     }
-    if (!J.allFinite() || f.norm() <= small) return false;
+    if (!J.allFinite()) return result;
+    VectorXd in_units(size);
+    for (Index j = 0; j < size; ++j) {
+      const auto i = static_cast<std::size_t>(j);
+      in_units[j] = held[i] ? 0.0 : std::fabs(y[i]) / unit(i);
+    }
+    terms = VectorXd(J.cwiseAbs() * in_units).norm();
+    if (f.norm() <= small * terms) break;
     const VectorXd gradient = J.transpose() * f;
-    if (gradient.norm() <= flat * f.norm()) return true;
+    if (gradient.norm() <= flat * f.norm()) {
+      if (f.norm() <= beside * terms) return result;
+      // A critical point may be the centre of a circle.
+      const std::optional<std::vector<double>> lower = lower_around(y, f.norm());
+      result.is_least = !lower;
+      if (!lower) return result;
+      y = *lower;
+      f = residual_at(y);
+      continue;
+    }
     MatrixXd damped(J.rows() + size, size);
     damped << J, std::sqrt(damping) * MatrixXd::Identity(size, size);
     VectorXd right = VectorXd::Zero(J.rows() + size);
@@ -411,8 +461,7 @@ bool NearestJet::is_least_residual(Index k) const {
     const MatrixXd d = CompleteOrthogonalDecomposition(damped, 0.0).solve(right);
     std::vector<double> there = y;
     for (Index j = 0; j < size; ++j)
-      there[static_cast<std::size_t>(j)] +=
-          std::ldexp(d(j, 0), static_cast<int>(scales.column[static_cast<std::size_t>(j)]));
+      there[static_cast<std::size_t>(j)] += d(j, 0) * unit(static_cast<std::size_t>(j));
     const VectorXd next = residual_at(there);
     if (next.allFinite() && next.norm() < f.norm()) {
       y = there;
@@ -420,14 +469,25 @@ bool NearestJet::is_least_residual(Index k) const {
       damping = std::max(1e-12, 0.3 * damping);
     } else {
       damping *= 4.0;
-      if (damping > 1e12) return false;
+      if (damping > 1e12) break;
     }
   }
-  return false;
+  if (!f.allFinite() || f.norm() > beside * terms) return result;
+  for (std::size_t j = 0; j < y.size(); ++j)
+    if (static_cast<double>(jet.y[j]) != y[j]) jet.y[j] = y[j];
+  const auto at = equations_.at(jet.t, jet.y, k);
+  for (const bool by_sizes : {true, false}) {
+    BinaryScales there(equations_, k);
+    by_sizes ? there.update(entries, at.entries, jet) : there.update(entries, at.entries);
+    Found found = refined(jet, held, there);
+    found.was_near = true;
+    if (found.is_zero) return tidied(found, held, there);
+  }
+  return result;
 }
 
 NearestJet::Found NearestJet::find_displaced(const Jet& from, const BinaryScales& scales) const {
-  return refined(from, std::vector<bool>(from.y.size(), false), scales);
+  return refined(from, std::vector<bool>(from.y.size(), false), scales, true);
 }
 
 // Newton's method in Digits by orthogonal rows: least change of the scaled_part unknowns.
@@ -437,6 +497,7 @@ NearestJet::Found NearestJet::newton(Jet jet, const std::vector<bool>& stays,
   constexpr std::int64_t negligible_row = -64, coarse_end = -90, fine_end = -240;
   std::int64_t before = std::numeric_limits<std::int64_t>::max(), left_before = before;
   const Index k = jet.k;
+  begin_at_one_place(jet);
   const std::vector<JetEquations::Entry> places = equations_.pattern(k);
   Found found{.jet = jet};
   FreeColumns part(equations_.unknown_count(k));
@@ -448,6 +509,7 @@ NearestJet::Found NearestJet::newton(Jet jet, const std::vector<bool>& stays,
     if (!are_all_finite(at.residual) || !are_all_finite(at.entries)) return found;
     const std::size_t row_count = at.residual.size();
     scales.update(places, at.entries, jet);
+    scales.scale_rows(places, at.entries, stays);
     std::vector<std::vector<Digits>> rows(row_count, std::vector<Digits>(columns));
     for (std::size_t e = 0; e < places.size(); ++e) {
       const auto unknown = static_cast<std::size_t>(places[e].column);

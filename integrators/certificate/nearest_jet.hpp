@@ -27,16 +27,14 @@ class NearestJet {
     bool is_zero = false;
     bool is_finite = true;  // F and its derivatives, on the way
     bool was_near = false;  // in doubles it was one
+    // There is no zero near: least squares end where the residual is not small and no point around has less.
+    bool is_least = false;
     double residual = 0.0;  // the largest
   };
   // Of level k, after those of all levels below.
   Found find(Index k);
   // Near a jet that is displaced from a zero where unknowns have these sizes; what was given may change.
   Found find_displaced(const Jet& from, const BinaryScales& scales) const;
-
-  // Whether F^[k] has no zero near the last one that was found: least squares of it, in doubles, end where it is not small
-  // and its gradient vanishes.
-  bool is_least_residual(Index k) const;
 
   // ‖x - x_given‖_W.
   double distance(const Jet& jet) const;
@@ -45,6 +43,8 @@ class NearestJet {
   Found continued(Index k) const;
   bool keeps_velocities(const Jet& jet) const;
   Found searched(Index k);
+  // By least squares in doubles from the last zero, what is held held; `before` is what other searches found.
+  Found descended(Index k, const Found& before) const;
   Jet jet_of(const ConsistentJet& rough, Index k) const;
   std::vector<bool> held_unknowns(Index k) const;
   // `with_digits`: by Newton's method in Digits where steps in doubles do not end at a zero.

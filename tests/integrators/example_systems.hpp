@@ -39,7 +39,7 @@ struct Problem {
   MatrixXd metric = MatrixXd();
 
   ConstraintLadder ladder() const {
-    return certificate(system, guess, {.metric = metric.sparseView()}, Decider::bounds);
+    return certificate(system, guess, {.metric = metric.sparseView()}, Decider::both);
   }
 };
 

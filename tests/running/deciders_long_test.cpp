@@ -49,7 +49,7 @@ BOOST_AUTO_TEST_CASE(both_say_the_same_of_every_experiment) {
     Json document = Json::parse(read_text(file.path()), nullptr, true, true);
     load_tables(document, "experiments");
     const Experiment experiment = read_experiment_document(document);
-    const ConsistentStart digits = consistent_start(experiment, Decider::either),
+    const ConsistentStart digits = consistent_start(experiment, Decider::both),
                           bounds = consistent_start(experiment, Decider::bounds);
     const bool agree =
         in_words(digits) == in_words(bounds) &&
