@@ -479,6 +479,7 @@ class StartSearch {
 
   // The nearest start of the last level of a ladder, which has one; that of the ladder if it is none.
   ConsistentStart nearest(const ConstraintLadder& ladder) const {
+    if (ladder.jet.size() == 0) return ladder;
     const InitialGuess guess = holding(more_is_given() ? with_what_follows() : guess_,
                                        initial_.x.held, initial_.velocity.held, initial_.z.held);
     const NearestStart start(experiment_.model.system, guess, ladder,

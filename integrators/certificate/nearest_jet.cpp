@@ -376,7 +376,7 @@ NearestJet::Found NearestJet::tidied(const Found& found, std::vector<bool> stays
 // By Levenberg and Marquardt.
 NearestJet::Found NearestJet::descended(Index k, const Found& before) const {
   constexpr int most_steps = 200;
-  constexpr double flat = 1e-7, small = 1e-10, beside = 1e-6;
+  constexpr double flat = 1e-7, round_off = 1e-13, beside = 1e-6;
   Found result = before;
   const Index size = equations_.unknown_count(k);
   if (size > static_cast<Index>(most_dense)) return result;
@@ -442,14 +442,13 @@ NearestJet::Found NearestJet::descended(Index k, const Found& before) const {
       in_units[j] = held[i] ? 0.0 : std::fabs(y[i]) / unit(i);
     }
     terms = VectorXd(J.cwiseAbs() * in_units).norm();
-    if (f.norm() <= small * terms) break;
+    if (f.norm() <= round_off * terms) break;
     const VectorXd gradient = J.transpose() * f;
     if (gradient.norm() <= flat * f.norm()) {
-      if (f.norm() <= beside * terms) return result;
       // A critical point may be the centre of a circle.
       const std::optional<std::vector<double>> lower = lower_around(y, f.norm());
       result.is_least = !lower;
-      if (!lower) return result;
+      if (!lower) break;
       y = *lower;
       f = residual_at(y);
       continue;
