@@ -17,7 +17,7 @@ struct JunctionCurrent {
 };
 
 // q(v) = ∫ C dv with the depletion capacitance C = C₀ (1 - v/v_j)^-m up to v = f v_j, and its tangent
-// beyond, and the diffusion capacitance τ di/dv of i = saturation (exp(v/scale) - 1) + leak v, as in SPICE. The energy that it
+// beyond, and the diffusion capacitance τ di/dv of i = saturation (exp(v/scale) - 1) + leak v, as in SPICE 3. The energy that it
 // stores is ∫ v dq. Without the leak and without C₀ a charge says nothing of a voltage that blocks: below -0.9 V exp(v/scale) is
 // less than the round-off of 1.
 struct JunctionCharge {
