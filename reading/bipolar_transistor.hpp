@@ -18,20 +18,22 @@ namespace courant {
 // for infinite ones, that is the model of Ebers and Moll (1954).
 // Source: Gummel, Poon, An integral charge control model of bipolar transistors (1970).
 struct BipolarTransistor {
-  // I (exp(v/scale) - 1).
-  struct Junction {
-    double saturation = 0.0, scale = 0.025852;
-    Expr current(const Expr& v) const;
-  };
-
   double saturation = 1e-16;
   double forward_gain = 100.0, reverse_gain = 1.0;            // β
   double forward_scale = 0.025852, reverse_scale = 0.025852;  // s
-  Junction emitter_leak, collector_leak;
+  JunctionCurrent emitter_leak, collector_leak;
   double early_forward = 0.0, early_reverse = 0.0;  // V; 0: infinite
   double knee_forward = 0.0, knee_reverse = 0.0;    // A; 0: infinite
   double leak = 0.0;                                // a conductance beside each junction, S
 
+  // The Early voltage widens the base of a transistor whose collector blocks, and what is stored in it: the charge τ i_f at the emitter
+  // becomes τ i_f (1 + g), g = -v_c/early_forward, as τ i_f/q_b of SPICE without knee and early_reverse. With ∫ i_f dv_e g'
+  // at the collector, which is as small as 25 mV is beside early_forward, both charges are slopes of one function, and there is
+  // an energy. g is 0 for v_c > 0, and a parabola on the way, from -0.2 V on, so that charges tell both voltages.
+  struct Widening {
+    Expr at_emitter, at_collector, energy;
+  };
+  Widening widening(double transit, const Expr& v_e, const Expr& v_c) const;
   // From the collector of an npn to its emitter.
   Expr transport(const Expr& v_e, const Expr& v_c) const;
   // What a junction takes through the base.

@@ -60,25 +60,25 @@ std::optional<NetworkElement> read_mutual_inductance(ObjectReader& object,
 
 std::optional<NetworkElement> read_diode(ObjectReader& object, const NetworkSite& site) {
   ElementReader reader(object, site);
-  const double saturation = reader.constant("saturation"), emission = reader.positive("emission"),
-               thermal = reader.positive("thermal_voltage"), leak = reader.constant("leak");
-  const double breakdown = reader.constant("breakdown"),
-               breakdown_current = reader.constant("breakdown_current");
+  JunctionCurrent law;
+  law.saturation = reader.constant("saturation");
+  const double emission = reader.positive("emission");
+  law.scale = emission * reader.positive("thermal_voltage");
+  law.leak = reader.constant("leak");
+  law.breakdown = reader.constant("breakdown");
+  law.breakdown_current = reader.constant("breakdown_current");
   const JunctionCharge junction{.capacitance = reader.constant("capacitance"),
                                 .junction = reader.positive("junction"),
                                 .grading = reader.constant("grading"),
                                 .forward = reader.constant("forward"),
                                 .transit = reader.constant("transit"),
-                                .saturation = saturation,
-                                .scale = emission * thermal};
+                                .saturation = law.saturation,
+                                .scale = law.scale,
+                                .leak = law.leak};
   const auto from = reader.node("from"), to = reader.node("to");
   reader.branch(domains::electrical, from, to, Kind::voltage, Role::resistor,
-                [=, scale = emission * thermal](const NetworkVariables& variables, Index first) {
-                  const Expr v = variables.voltage(first);
-                  Expr current = saturation * (bounded_exp(v / scale) - 1.0) + leak * v;
-                  if (breakdown > 0.0)
-                    current -= breakdown_current * bounded_exp(-(v + breakdown) / scale);
-                  return current;
+                [law](const NetworkVariables& variables, Index first) {
+                  return law.current(variables.voltage(first));
                 });
   if (junction.capacitance > 0.0 || junction.transit > 0.0)
     store_in_junction(reader, junction, 0, from, to);

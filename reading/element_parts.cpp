@@ -59,16 +59,20 @@ void transform(ElementReader& reader, double ratio, const Side& first, const Sid
 
 void store_in_junction(ElementReader& reader, const JunctionCharge& junction, Index beside,
                        const NetworkTerminal& from, const NetworkTerminal& to,
-                       const std::string& part) {
+                       const std::string& part, const MoreCharge& more) {
   const std::string between = part.empty() ? "_" : "_" + part + "_";
   reader.implicit_storage(
       domains::electrical, from, to, "q" + between, between + "charge",
-      [junction, beside](const NetworkVariables& variables, Index first, const Expr& charge) {
+      [junction, beside, also = more.charge](const NetworkVariables& variables, Index first,
+                                             const Expr& charge) {
         const Expr v = variables.voltage(first + beside);
-        return v + junction.about_voltage(charge) - junction.about_voltage(junction.charge(v));
+        Expr whole = junction.charge(v);
+        if (also) whole += also(variables, first);
+        return v + junction.about_voltage(charge) - junction.about_voltage(whole);
       },
-      [junction, beside](const NetworkVariables& variables, Index first) {
-        return junction.energy(variables.voltage(first + beside));
+      [junction, beside, also = more.energy](const NetworkVariables& variables, Index first) {
+        const Expr stored = junction.energy(variables.voltage(first + beside));
+        return also ? stored + also(variables, first) : stored;
       });
 }
 

@@ -37,9 +37,12 @@ void transform(ElementReader& reader, double ratio, const Side& first, const Sid
 
 // The charge of a junction beside the branch that conducts, number `beside` of the element: a state q_<name>, or
 // q_<part>_<name>, which q = q(v) ties to the voltage of that branch. Where it is tied, the voltage of the charge is
-// that of the branch, as it is side by side.
+// that of the branch, as it is side by side. `more` is added to q(v), and `more_energy` to what is stored.
+struct MoreCharge {
+  ElementReader::OwnLaw charge = {}, energy = {};
+};
 void store_in_junction(ElementReader& reader, const JunctionCharge& junction, Index beside,
                        const NetworkTerminal& from, const NetworkTerminal& to,
-                       const std::string& part = "");
+                       const std::string& part = "", const MoreCharge& more = {});
 
 }  // namespace courant::element_parts

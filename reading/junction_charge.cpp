@@ -15,8 +15,20 @@ Expr bounded_exp(const Expr& exponent) {
                 top * (1.0 + exponent - kLargestExponent));
 }
 
+Expr JunctionCurrent::current(const Expr& v) const {
+  Expr i = saturation == 0.0 ? Expr(0.0) : saturation * (bounded_exp(v / scale) - 1.0);
+  if (leak != 0.0) i += leak * v;
+  if (breakdown > 0.0) i -= breakdown_current * bounded_exp(-(v + breakdown) / scale);
+  return i;
+}
+
+Expr JunctionCurrent::integral(const Expr& v) const {
+  return saturation * (scale * (bounded_exp(v / scale) - 1.0) - v) + leak / 2.0 * square(v);
+}
+
 Expr JunctionCharge::charge(const Expr& v) const {
   Expr q = transit * saturation * (bounded_exp(v / scale) - 1.0);
+  if (leak != 0.0) q += transit * leak * v;
   if (capacitance == 0.0) return q;
   const double m = grading, top = forward * junction;
   const auto depletion = [&](const Expr& at) {
@@ -32,6 +44,7 @@ Expr JunctionCharge::energy(const Expr& v) const {
   const Expr power = bounded_exp(v / scale);
   // τ (v i - ∫ i dv)
   Expr stored = transit * saturation * (v * power - scale * (power - 1.0));
+  if (leak != 0.0) stored += transit * leak / 2.0 * square(v);
   if (capacitance == 0.0) return stored;
   const double m = grading, top = forward * junction;
   const auto depletion = [&](const Expr& at) {
@@ -47,18 +60,22 @@ Expr JunctionCharge::energy(const Expr& v) const {
 }
 
 Expr JunctionCharge::about_voltage(const Expr& q) const {
-  const double diffused = transit * saturation, m = grading;
+  const double diffused = transit * saturation, leaking = transit * leak, m = grading;
   const Expr positive = max(q, Expr(0.0));
   const Expr curved = diffused == 0.0 ? Expr(0.0) : Expr(scale * log(1.0 + positive / diffused));
-  if (capacitance == 0.0) return select(q <= Expr(0.0), (scale / diffused) * q, curved);
+  // Beside exp the leak is straight, alone below 0 and side by side above it.
+  const auto beside_curved = [&](const Expr& straight) {
+    constexpr double least = 1e-300;  // V, for 0/0
+    return diffused == 0.0 ? straight : straight * curved / (straight + curved + least);
+  };
+  if (capacitance == 0.0)
+    return select(q <= Expr(0.0), q / (diffused / scale + leaking),
+                  leaking == 0.0 ? curved : beside_curved(positive / leaking));
   // Below 0 by (1 - v/v_j)^(1-m); above it, side by side, by v = q/C₀ and v = scale log (1 + q/(τ saturation)).
   const double part = capacitance / (capacitance + diffused / scale);
   const Expr root = 1.0 - min(q, Expr(0.0)) * (1.0 - m) / (capacitance * junction);
   const Expr below = part * junction * (1.0 - pow(root, Expr(1.0 / (1.0 - m))));
-  const Expr straight = positive / capacitance;
-  constexpr double least = 1e-300;  // V, for 0/0
-  const Expr above = diffused == 0.0 ? straight : straight * curved / (straight + curved + least);
-  return select(q <= Expr(0.0), below, above);
+  return select(q <= Expr(0.0), below, beside_curved(positive / capacitance));
 }
 
 }  // namespace courant

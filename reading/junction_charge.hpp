@@ -1,12 +1,25 @@
-// The charge of a junction as a function of its voltage.
+// The current and the charge of a junction as functions of its voltage.
 #pragma once
 
 #include "courant/core/expressions/expr.hpp"
 
 namespace courant {
 
+// i = saturation (exp(v/scale) - 1) + leak v - breakdown_current exp(-(v + breakdown)/scale), the last only for a breakdown > 0.
+struct JunctionCurrent {
+  double saturation = 0.0, scale = 0.025852;        // A, V
+  double leak = 0.0;                                // S
+  double breakdown = 0.0, breakdown_current = 0.0;  // V, A
+
+  Expr current(const Expr& v) const;
+  // ∫ i dv from 0, without a breakdown; up to the largest exponent of bounded_exp.
+  Expr integral(const Expr& v) const;
+};
+
 // q(v) = ∫ C dv with the depletion capacitance C = C₀ (1 - v/v_j)^-m up to v = f v_j, and its tangent
-// beyond, and the diffusion capacitance τ di/dv of i = saturation (exp(v/scale) - 1), as in SPICE. The energy that it stores is ∫ v dq.
+// beyond, and the diffusion capacitance τ di/dv of i = saturation (exp(v/scale) - 1) + leak v, as in SPICE 3. The energy that it
+// stores is ∫ v dq. Without the leak and without C₀ a charge says nothing of a voltage that blocks: below -0.9 V exp(v/scale) is
+// less than the round-off of 1.
 struct JunctionCharge {
   double capacitance = 0.0;  // C₀, F
   double junction = 1.0;     // v_j, V
@@ -14,6 +27,7 @@ struct JunctionCharge {
   double forward = 0.5;      // f < 1
   double transit = 0.0;      // τ, s
   double saturation = 1e-14, scale = 0.025852;
+  double leak = 0.0;  // S
 
   Expr charge(const Expr& v) const;
   Expr energy(const Expr& v) const;

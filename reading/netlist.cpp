@@ -6,6 +6,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "courant/core/words/message.hpp"
 #include "courant/core/words/spelling.hpp"
 #include "courant/reading/experiment.hpp"
 #include "courant/reading/linear_spectrum.hpp"
@@ -199,7 +200,8 @@ class Import {
       }
       if (keys[1] == "parameters") return {circuit_.parameter_lines.at(keys[2]), 0, ""};
     }
-    if (!keys.empty() && keys[0] == "time") return {deck_.transient->line->number, 0, ""};
+    if (!keys.empty() && keys[0] == "time" && deck_.transient)
+      return {deck_.transient->line->number, 0, ""};
     return {0, 0, pointer.empty() ? "" : pointer + ": "};
   }
 
@@ -209,6 +211,13 @@ class Import {
       notes_.push_back(
           {"the netlist", in_words(deck_.passed) + (deck_.passed.size() == 1 ? " is" : " are") +
                               " passed over: what a transient is does not depend on it"});
+    if (!deck_.temperature.empty())
+      notes_.push_back(
+          {"the netlist", "the temperature is 27 °C here, not " + deck_.temperature + " °C"});
+    if (!deck_.transient)
+      notes_.push_back({"the netlist", "no .tran says how long to go on: the experiment ends at " +
+                                           number_text(times_.end) +
+                                           " s, which is `end` of its `time`"});
     for (const auto& [line, what] : circuit_.notes) note(line, what);
     if (circuit_.resting) {
       const std::string node = circuit_.name_of(*circuit_.resting);
@@ -244,12 +253,14 @@ class Import {
                 mutual * current[static_cast<Index>(first == storage.element ? second : first)];
       initial[storage.state] = value;
     }
-    for (const NetlistJunction& junction : circuit_.junctions) {
-      const StaticElement& element = circuit_.fixed.elements[junction.element];
-      const double v =
-          potential[static_cast<Index>(element.from)] - potential[static_cast<Index>(element.to)];
-      initial[junction.state] = junction.charge.charge(v).value();
-    }
+    const auto voltage_of = [&](std::size_t k) {
+      const StaticElement& element = circuit_.fixed.elements[k];
+      return potential[static_cast<Index>(element.from)] -
+             potential[static_cast<Index>(element.to)];
+    };
+    for (const NetlistJunction& junction : circuit_.junctions)
+      initial[junction.state] =
+          junction.at(voltage_of(junction.element), voltage_of(junction.other));
     return initial;
   }
 

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <map>
 
+#include "courant/core/language/formula.hpp"
 #include "courant/core/words/message.hpp"
 
 namespace courant::netlist {
@@ -165,13 +166,22 @@ class Translation {
       needs(1);
       return found->second + "(" + values[0] + ")";
     }
+    if (name == "asinh")
+      return needs(1), "log(" + values[0] + " + sqrt((" + values[0] + ")^2 + 1))";
+    if (name == "acosh")
+      return needs(1), "log(" + values[0] + " + sqrt((" + values[0] + ")^2 - 1))";
+    if (name == "atanh")
+      return needs(1), "(log((1 + " + values[0] + ")/(1 - (" + values[0] + ")))/2)";
     if (name == "log10") return needs(1), "(log(" + values[0] + ")/log(10))";
     if (name == "u" || name == "stp") return needs(1), "if(" + values[0] + " > 0, 1, 0)";
     if (name == "u2") return needs(1), "min(max(" + values[0] + ", 0), 1)";
     if (name == "uramp") return needs(1), "max(" + values[0] + ", 0)";
-    if (name == "min" || name == "max" || name == "atan2") {
-      needs(2);
-      return name + "(" + values[0] + ", " + values[1] + ")";
+    if (name == "atan2") return needs(2), "atan2(" + values[0] + ", " + values[1] + ")";
+    if (name == "min" || name == "max") {
+      if (values.size() == 1) return "(" + values[0] + ")";
+      std::string list = values[0];
+      for (std::size_t k = 1; k < values.size(); ++k) list += ", " + values[k];
+      return name + "(" + list + ")";
     }
     if (name == "pow" || name == "pwrs") return needs(2), "(" + values[0] + ")^(" + values[1] + ")";
     if (name == "pwr")
@@ -212,6 +222,40 @@ class Translation {
 std::string behaviour(const std::string& expression, const Scope& scope, int line,
                       const BehaviourWords& words) {
   return Translation(scope, line, words).whole(expression);
+}
+
+namespace {
+
+// Throws LineError if the formula, made of the text, is none.
+void check_formula(const std::string& formula, const std::string& text, const Scope& scope,
+                   int line) {
+  SymbolTable symbols;
+  for (const auto& [name, global] : scope)
+    if (!symbols.find(global) && !number(global)) symbols.add(global, 1.0);
+  try {
+    parse_formula(formula, symbols);
+  } catch (const FormulaError& error) {
+    const std::string what = error.what();  // column 7: …, of another text
+    throw LineError{line, "\"" + text + "\" is no expression: " + what.substr(what.find(": ") + 2)};
+  }
+}
+
+}  // namespace
+
+std::string formula(const std::string& word, const Scope& scope, int line) {
+  if (const auto value = number(word)) return exact_text(*value);
+  const BehaviourWords none{
+      [&](const std::string& node) -> std::string {
+        throw LineError{line, "\"" + word + "\" asks for v(" + node + "); expected a constant"};
+      },
+      [&](const std::string& source) -> std::string {
+        throw LineError{line, "\"" + word + "\" asks for i(" + source + "); expected a constant"};
+      }};
+  const bool braces = word.front() == '{';
+  const std::string text = braces ? word.substr(1, word.size() - 2) : word;
+  const std::string result = behaviour(text, scope, line, none);
+  check_formula(result, text, scope, line);
+  return braces ? "(" + result + ")" : result;
 }
 
 std::string polynomial(const std::vector<std::string>& controls,

@@ -1,4 +1,4 @@
-// The expressions of SPICE's nonlinear sources as formulas.
+// The expressions of SPICE as formulas: those of nonlinear sources, and of constants.
 #pragma once
 
 #include <functional>
@@ -22,6 +22,9 @@ struct BehaviourWords {
 // LineError where it has none.
 std::string behaviour(const std::string& expression, const Scope& scope, int line,
                       const BehaviourWords& words);
+
+// A number, a name or an expression of constants in braces, as a formula. Throws LineError if it is none.
+std::string formula(const std::string& word, const Scope& scope, int line);
 
 // POLY: Σ p_k over the products of the controls u_1, …, u_n, in the order 1, u_1, …, u_n, u_1², u_1 u_2, …. One coefficient
 // alone, of one control, is that of u_1. Throws LineError where there are more than those of the third order.

@@ -1,6 +1,7 @@
 #include "courant/reading/netlist_cards.hpp"
 
 #include <algorithm>
+#include <deque>
 #include <set>
 
 namespace courant::netlist {
@@ -9,10 +10,11 @@ namespace {
 // Cards that say what to show and how accurately, or ask for another analysis: an experiment has its own ways.
 bool is_passed_over(const std::string& word) {
   static const std::set<std::string> known = {
-      ".print", ".plot",    ".save", ".probe", ".options",  ".option", ".opt",
-      ".op",    ".width",   ".meas", ".four",  ".ac",       ".dc",     ".tf",
-      ".noise", ".sens",    ".pz",   ".disto", ".temp",     ".graph",  ".wave",
-      ".step",  ".measure", ".sp",   ".pss",   ".backanno", ".csparam"};
+      ".print",  ".plot",    ".save",  ".probe",   ".options",  ".option",  ".opt",
+      ".op",     ".width",   ".meas",  ".four",    ".ac",       ".dc",      ".tf",
+      ".noise",  ".sens",    ".pz",    ".disto",   ".temp",     ".graph",   ".wave",
+      ".step",   ".measure", ".sp",    ".pss",     ".backanno", ".csparam", ".list",
+      ".status", ".stat",    ".store", ".fourier", ".fanout"};
   return known.contains(word);
 }
 
@@ -23,8 +25,8 @@ class DeckReader {
   void read() {
     for (const Line& line : deck_.lines) problems_.guard([&] { read_line(line); }, line.origin);
     if (!deck_.transient) deck_.transient = commanded_;
-    if (part_ != &deck_.whole)
-      problems_.add(part_->line, "this .subckt has no .ends; expected one after its elements");
+    for (const Part* open : open_)
+      problems_.add(open->line, "this .subckt has no .ends; expected one after its elements");
     if (control_ > 0) problems_.add(control_, ".control has no .endc; expected one");
   }
 
@@ -33,7 +35,12 @@ class DeckReader {
     const std::string& first = line.words[0];
     if (control_ > 0) {
       if (first == ".endc") control_ = 0;
-      if (first == "tran" && !deck_.transient) commanded_ = card_of(line);
+      if (first == "tran" && !commanded_) {
+        if (has_times(line))
+          commanded_ = card_of(line);
+        else
+          deck_.from_given = deck_.from_given || line.words.back() == "uic";
+      }
     } else if (first == ".control") {
       control_ = line.number;
       pass(first);
@@ -42,18 +49,16 @@ class DeckReader {
     } else if (first == ".subckt") {
       begin(card_of(line));
     } else if (first == ".ends") {
-      if (part_ == &deck_.whole)
-        throw LineError{line.number, "ends no .subckt; expected one before"};
-      part_ = &deck_.whole;
+      if (open_.empty()) throw LineError{line.number, "ends no .subckt; expected one before"};
+      open_.pop_back();
     } else if (first == ".model") {
-      add_model(card_of(line));
+      add_model(line);
     } else if (first == ".param") {
       const Card card = card_of(line);
-      if (card.words.size() > 1 || card.assigned.empty())
-        throw LineError{line.number, "expected .param name=value …"};
-      for (const Assignment& assignment : card.assigned) part_->parameters.push_back(assignment);
-    } else if (first == ".tran") {
-      deck_.transient = card_of(line);
+      if (card.words.size() > 1) throw LineError{line.number, "expected .param name=value …"};
+      for (const Assignment& assignment : card.assigned) part().parameters.push_back(assignment);
+    } else if (first == ".tran" || first == ".transient") {
+      if (has_times(line)) deck_.transient = card_of(line);
     } else if (first == ".ic") {
       add_potentials(line, deck_.initial);
     } else if (first == ".nodeset") {
@@ -63,12 +68,31 @@ class DeckReader {
       for (std::size_t i = 1; i < line.written.size(); ++i)
         deck_.title += (i > 1 ? " " : "") + line.written[i];
     } else if (first[0] == '.' && is_passed_over(first)) {
+      take_temperature(line);
       pass(first);
     } else if (first[0] == '.') {
       throw LineError{line.number, first + " is not supported"};
     } else {
-      part_->elements.push_back(line);
+      part().elements.push_back(line);
     }
+  }
+
+  Part& part() { return open_.empty() ? deck_.whole : *open_.back(); }
+
+  // `.tran` and `tran $&end`, whose times commands know, have none.
+  static bool has_times(const Line& line) {
+    return line.words.size() > 1 && line.words[1] != "trace" &&
+           line.text.find('$') == std::string::npos;
+  }
+
+  void take_temperature(const Line& line) {
+    const auto& words = line.words;
+    std::string found;
+    if (words[0] == ".temp" && words.size() > 1) found = words[1];
+    if (words[0].starts_with(".opt"))
+      for (std::size_t i = 1; i + 2 < words.size(); ++i)
+        if (words[i] == "temp" && words[i + 1] == "=") found = words[i + 2];
+    if (!found.empty() && number(found) != std::optional(27.0)) deck_.temperature = found;
   }
 
   void pass(const std::string& card) {
@@ -77,19 +101,16 @@ class DeckReader {
 
   void begin(const Card& card) {
     const int line = card.line->number;
-    if (part_ != &deck_.whole)
-      throw LineError{line,
-                      "a .subckt inside another is not supported; expected .ends of that in "
-                      "line " +
-                          std::to_string(part_->line) + " before"};
     const std::string& name = card.word(1, "name");
-    const auto [known, is_new] = deck_.subcircuits.try_emplace(name);
+    const std::string path = part().path.empty() ? name : part().path + "/" + name;
+    const auto [known, is_new] = deck_.subcircuits.try_emplace(path);
     // Its elements are read all the same.
-    part_ = is_new ? &known->second : &second_;
-    part_->line = line;
+    open_.push_back(is_new ? &known->second : &seconds_.emplace_back());
+    part().line = line;
+    part().path = path;
     for (std::size_t i = 2; i < card.words.size(); ++i)
-      if (card.words[i] != "params:") part_->nodes.push_back(card.words[i]);
-    part_->header = card.assigned;
+      if (card.words[i] != "params:") part().nodes.push_back(card.words[i]);
+    part().header = card.assigned;
     if (!is_new)
       throw LineError{line, "the subcircuit " + name + " is that of line " +
                                 std::to_string(known->second.line) + " again"};
@@ -107,24 +128,39 @@ class DeckReader {
   }
 
   // What a model says is looked at where an element uses it.
-  void add_model(const Card& card) {
-    const int line = card.line->number;
+  void add_model(const Line& line) {
+    const Card card{&line, line.words, {}};
     const std::string& name = card.word(1, "name");
     const std::string& type = card.word(2, "type");
-    const auto [known, is_new] = part_->models.try_emplace(name);
+    const auto [known, is_new] = part().models.try_emplace(name);
     if (!is_new)
-      throw LineError{line, "the model " + name + " is that of line " +
-                                std::to_string(known->second.line) + " again"};
-    known->second.line = line;
-    known->second.type = type;
-    for (const auto& [key, value, where] : card.assigned) known->second.values[key] = value;
-    for (std::size_t i = 3; i < card.words.size(); ++i) known->second.values[card.words[i]] = "1";
+      throw LineError{line.number, "the model " + name + " is that of line " +
+                                       std::to_string(known->second.line) + " again"};
+    DeviceModel& model = known->second;
+    model.line = line.number;
+    model.type = type;
+    // `name = value`, `name value` or a name alone; a value may be a list of numbers.
+    std::string* last = nullptr;
+    for (std::size_t i = 3; i < line.words.size(); ++i) {
+      const std::string& word = line.words[i];
+      if (number(word) && last) {
+        *last += "," + word;
+        continue;
+      }
+      const bool has_sign = i + 1 < line.words.size() && line.words[i + 1] == "=";
+      const std::size_t next = has_sign ? i + 2 : i + 1;
+      const bool has_value = next < line.words.size() && (has_sign || number(line.words[next]));
+      if (word == "=" || (has_sign && !has_value))
+        throw LineError{line.number, "expected name = value at the end"};
+      last = &(model.values[word] = has_value ? line.words[next] : "1");
+      if (has_value) i = next;
+    }
   }
 
   Deck& deck_;
   LineProblems& problems_;
-  Part* part_ = &deck_.whole;
-  Part second_;                    // a subcircuit whose name is taken
+  std::vector<Part*> open_;        // subcircuits that have begun
+  std::deque<Part> seconds_;       // those whose name is taken
   int control_ = 0;                // the line of .control, inside
   std::optional<Card> commanded_;  // tran of the commands there
 };

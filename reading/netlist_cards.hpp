@@ -69,6 +69,7 @@ struct DeviceModel {
 // The netlist itself, or one of its subcircuits.
 struct Part {
   int line = 0;
+  std::string path = {};  // `outer/inner`, of a subcircuit that stands in another one
   std::vector<std::string> nodes = {};
   Assignments header = {};      // parameters that an instance may set
   Assignments parameters = {};  // of .param
@@ -84,17 +85,33 @@ struct InitialPotential {  // of .ic or .nodeset
 struct Deck {
   std::string title;
   Part whole;
-  std::map<std::string, Part> subcircuits;
+  std::map<std::string, Part> subcircuits;  // by their paths
   std::optional<Card> transient;
+  bool from_given = false;  // uic of a tran of the commands whose times these know
   std::vector<Line> lines;  // which the cards point to
   std::vector<InitialPotential> initial, nodesets;
   std::set<std::string> globals = {};  // nodes that are the same in all subcircuits
+  std::string temperature = {};        // of .temp or .options, in °C, where it is not 27
   // Cards that do not change a transient, each once: .ac, .print, .control, ….
   std::vector<std::string> passed = {};
 };
 
+// What the name means in a part whose path is given: what stands in the part itself, or next around it. `find` has a
+// pointer to it for a path, or none.
+template <typename Find>
+auto in_scope(std::string path, const Find& find) {
+  auto found = find(path);
+  while (!found && !path.empty()) {
+    const std::size_t slash = path.rfind('/');
+    path.resize(slash == std::string::npos ? 0 : slash);
+    found = find(path);
+  }
+  return found;
+}
+
 // Reads all cards but those of elements. What says what to show, how accurately, or asks for another analysis is passed
-// over, and so is what stands between .control and .endc; but where there is no .tran, that of the commands is taken.
+// over, and so is what stands between .control and .endc; but where there is no .tran, that of the commands is taken. A .tran without
+// times goes on with that before.
 Deck read_deck(std::string_view text, LineProblems& problems, const IncludedText& included = {});
 
 }  // namespace courant::netlist

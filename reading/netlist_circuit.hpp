@@ -1,6 +1,7 @@
 // The elements of a netlist, with its subcircuits put in their places.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -28,6 +29,13 @@ struct NetlistJunction {
   std::string state;    // q_D1
   std::size_t element;  // of `fixed`
   JunctionCharge charge;
+  // What is added to the charge, by the voltage of this junction and that of another one.
+  std::size_t other = 0;
+  std::function<double(double v, double other)> more = {};
+
+  double at(double v, double v_other) const {
+    return charge.charge(v).value() + (more ? more(v, v_other) : 0.0);
+  }
 };
 
 struct NetlistCircuit {

@@ -1,8 +1,11 @@
 #include "courant/reading/netlist_circuit_reader.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <string_view>
 #include <tuple>
+
+#include "courant/core/words/message.hpp"
 
 namespace courant::netlist {
 namespace {
@@ -10,12 +13,46 @@ namespace {
 // Elements, those of all instances of subcircuits. A few lines of nested ones make more than any
 // memory holds.
 constexpr std::size_t kMostElements = 100'000;
+// How long an experiment goes on whose netlist does not say it, in s.
+constexpr double kDefaultEnd = 1e-3;
 
 std::set<std::string> words_in(const Deck& deck, bool as_written) {
   std::set<std::string> words;
   for (const Line& line : deck.lines)
     for (const std::string& word : as_written ? line.written : line.words) words.insert(word);
   return words;
+}
+
+bool mentions(const std::string& text, const std::string& name) {
+  const auto is_of_name = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+  };
+  for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+    const std::size_t end = at + name.size();
+    if ((at == 0 || !is_of_name(text[at - 1])) && (end == text.size() || !is_of_name(text[end])))
+      return true;
+  }
+  return false;
+}
+
+// Whether a subcircuit declares the parameter, or uses it.
+bool mentions(const Part& part, const std::string& name) {
+  const auto assigns = [&](const Assignment& each) {
+    return each.name == name || mentions(each.value, name);
+  };
+  return std::ranges::any_of(part.header, assigns) ||
+         std::ranges::any_of(part.parameters, assigns) ||
+         std::ranges::any_of(part.elements,
+                             [&](const Line& line) {
+                               return std::ranges::any_of(line.words, [&](const std::string& word) {
+                                 return mentions(word, name);
+                               });
+                             }) ||
+         std::ranges::any_of(part.models, [&](const auto& model) {
+           return std::ranges::any_of(model.second.values, [&](const auto& value) {
+             return mentions(value.second, name);
+           });
+         });
 }
 
 }  // namespace
@@ -32,7 +69,8 @@ NetlistCircuit CircuitReader::read() {
   if (deck_.transient)
     problems_.guard([&] { read_times(*deck_.transient); });
   else
-    problems_.add(0, "has no .tran; expected one, which says how long to go on");
+    circuit_.times = {kDefaultEnd / 100.0, kDefaultEnd};
+  circuit_.from_given = circuit_.from_given || deck_.from_given;
   expand(deck_.whole, "", {}, global_);
   if (problems_.empty()) problems_.guard([&] { connect(); });
   if (problems_.empty() && circuit_.storages.empty() && circuit_.junctions.empty() &&
@@ -45,15 +83,32 @@ NetlistCircuit CircuitReader::read() {
 void CircuitReader::read_times(const Card& card) {
   const int line = card.line->number;
   std::vector<double> values;
+  std::vector<std::string> options;  // of Gnucap: trace all, skip 2
   for (std::size_t i = 1; i < card.words.size(); ++i) {
     if (card.words[i] == "uic")
       circuit_.from_given = true;
+    else if (!options.empty() || card.words[i] == "trace" || card.words[i] == "skip")
+      options.push_back(card.words[i]);
     else
       values.push_back(circuit_.value_of(formula(card.words[i], global_, line), line));
   }
+  const auto note = [&](const std::string& what) { circuit_.notes.emplace_back(line, what); };
+  if (!options.empty()) {
+    std::string words;
+    for (const std::string& option : options) words += (words.empty() ? "" : " ") + option;
+    note("\"" + words + "\" says what to show, and has no effect");
+  }
+  // Gnucap has the start first, which in SPICE is a step, and the end before a step.
+  if (values.size() > 1 && values[0] == 0.0)
+    values = {values.size() > 2 ? values[2] : values[1] / 100.0, values[1]};
+  else if (values.size() == 2 && values[0] > values[1])
+    std::swap(values[0], values[1]);
   if (values.size() < 2 || !(values[0] > 0.0) || !(values[1] > 0.0))
     throw LineError{line, "expected .tran step end, both greater than 0"};
-  circuit_.times = {values[0], values[1]};
+  circuit_.times = {std::min(values[0], values[1]), values[1]};
+  if (values.size() > 2 && values[2] > 0.0)
+    note("rows begin at t = 0: that SPICE would show them from " + exact_text(values[2]) +
+         " s on has no effect");
   if (values.size() > 3) circuit_.largest_step = values[3];
 }
 
@@ -96,18 +151,24 @@ std::string CircuitReader::reference(const std::string& name, char type, const s
                             ", which is not there"};
 }
 
+CircuitReader::UsedModel CircuitReader::find_model(const std::string& name, const Part& part,
+                                                   const Scope& scope) const {
+  const DeviceModel* model = in_scope(part.path, [&](const std::string& path) {
+    const Part& around = path.empty() ? deck_.whole : deck_.subcircuits.at(path);
+    const auto found = around.models.find(name);
+    return found == around.models.end() ? nullptr : &found->second;
+  });
+  const auto outside = deck_.whole.models.find(name);
+  const bool is_outside = outside != deck_.whole.models.end() && model == &outside->second;
+  return {model, is_outside ? &global_ : &scope};
+}
+
 CircuitReader::UsedModel CircuitReader::model(const std::string& name,
                                               const std::vector<std::string>& types,
                                               const Part& part, const Scope& scope,
                                               int line) const {
-  UsedModel found{nullptr, &scope};
-  if (const auto own = part.models.find(name); own != part.models.end()) {
-    found.model = &own->second;
-  } else if (const auto outer = deck_.whole.models.find(name); outer != deck_.whole.models.end()) {
-    found = {&outer->second, &global_};
-  } else {
-    throw LineError{line, "unknown model \"" + name + "\""};
-  }
+  const UsedModel found = find_model(name, part, scope);
+  if (!found.model) throw LineError{line, "unknown model \"" + name + "\""};
   if (std::ranges::find(types, found.model->type) == types.end())
     throw LineError{line, "the model " + name + " is of the type " + found.model->type +
                               "; expected " + in_words(types)};
@@ -130,6 +191,7 @@ void CircuitReader::allow(const UsedModel& used, const std::set<std::string>& re
 std::string CircuitReader::difference(std::size_t plus, std::size_t minus) const {
   const std::string from = "potential_" + circuit_.name_of(plus),
                     to = "potential_" + circuit_.name_of(minus);
+  if (plus == minus) return "0";
   return minus == 0 ? from : plus == 0 ? "(-" + to + ")" : "(" + from + " - " + to + ")";
 }
 
@@ -138,7 +200,7 @@ void CircuitReader::add_element(const Part& part, const Line& line, const std::s
   const char type = line.words[0][0];
   const bool is_source = type == 'v' || type == 'i' || type == 'b';
   const Card card = is_source ? Card{&line, line.words, {}} : card_of(line);
-  if (type == 'x') return add_instance(card, prefix, map, scope);
+  if (type == 'x') return add_instance(card, part, prefix, map, scope);
   Named& named = names_.at(prefix + line.words[0]);
   named.entry = circuit_.elements.size();
   const auto number_of = [&](const std::string& formula) {
@@ -168,7 +230,7 @@ void CircuitReader::add_element(const Part& part, const Line& line, const std::s
       throw LineError{line.number,
                       std::string("only linear sources are supported; expected ") + expected};
   };
-  if (std::string_view("rcdi").find(type) != std::string_view::npos) {
+  if (std::string_view("rcdigf").find(type) != std::string_view::npos) {
     const auto [from, to] = nodes(1);
     if (from == to) {
       circuit_.notes.emplace_back(line.number, named.name + " is passed over: both its ends are " +
@@ -412,8 +474,8 @@ void CircuitReader::add_own(const char* type, const std::string& name, std::size
       fixed, line);
 }
 
-void CircuitReader::add_instance(const Card& card, const std::string& prefix, const NodeMap& map,
-                                 const Scope& scope) {
+void CircuitReader::add_instance(const Card& card, const Part& around, const std::string& prefix,
+                                 const NodeMap& map, const Scope& scope) {
   const int line = card.line->number;
   if (names_.size() >= kMostElements)
     throw LineError{line,
@@ -423,10 +485,12 @@ void CircuitReader::add_instance(const Card& card, const std::string& prefix, co
   std::erase(words, "params:");
   if (words.size() < 2) throw LineError{line, "has no subcircuit; expected one"};
   const std::string& name = words.back();
-  const auto found = deck_.subcircuits.find(name);
-  if (found == deck_.subcircuits.end())
-    throw LineError{line, "unknown subcircuit \"" + name + "\""};
-  const Part& part = found->second;
+  const Part* found = in_scope(around.path, [&](const std::string& path) {
+    const auto inner = deck_.subcircuits.find(path.empty() ? name : path + "/" + name);
+    return inner == deck_.subcircuits.end() ? nullptr : &inner->second;
+  });
+  if (!found) throw LineError{line, "unknown subcircuit \"" + name + "\""};
+  const Part& part = *found;
   if (words.size() - 2 != part.nodes.size())
     throw LineError{line, "has " + std::to_string(words.size() - 2) + " nodes; the subcircuit " +
                               name + " has " + std::to_string(part.nodes.size())};
@@ -438,15 +502,14 @@ void CircuitReader::add_instance(const Card& card, const std::string& prefix, co
   const std::string inside = prefix + words[0] + ".";
   Scope known = scope;
   Assignments defaults;
-  for (const Assignment& assignment : part.header)
-    if (!card.value(assignment.name)) defaults.push_back(assignment);
+  for (const Assignments& list : {part.header, part.parameters})
+    for (const Assignment& assignment : list)
+      if (!card.value(assignment.name)) defaults.push_back(assignment);
   for (const Assignment& given : card.assigned) {
-    if (std::none_of(part.header.begin(), part.header.end(),
-                     [&](const Assignment& parameter) { return parameter.name == given.name; }))
+    if (!mentions(part, given.name))
       throw LineError{line, "the subcircuit " + name + " has no parameter " + given.name};
     parameters_.define(known, inside, given.name, formula(given.value, scope, line), line);
   }
-  defaults.insert(defaults.end(), part.parameters.begin(), part.parameters.end());
   parameters_.define(known, inside, defaults);
   inside_.push_back(&part);
   expand(part, inside, inner, known);

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "courant/reading/netlist_behaviour.hpp"
 #include "courant/reading/netlist_circuit.hpp"
 #include "courant/reading/netlist_names.hpp"
 #include "courant/reading/netlist_parameters.hpp"
@@ -61,6 +62,8 @@ class CircuitReader {
       return netlist::formula(model->value(key, otherwise), *scope, model->line);
     }
   };
+  // With the pointer null where there is none of the name.
+  UsedModel find_model(const std::string& name, const Part& part, const Scope& scope) const;
   UsedModel model(const std::string& name, const std::vector<std::string>& types, const Part& part,
                   const Scope& scope, int line) const;
   // Throws LineError for parameters of the model that are neither read nor without effect here.
@@ -127,20 +130,24 @@ class CircuitReader {
                    const NodeMap& map, const Scope& scope);
   void add_mos(const Card& card, const Part& part, const std::string& prefix, const NodeMap& map,
                const Scope& scope);
-  // The node behind a series resistance of the importer's own; the node itself where it is 0 Ω.
+  // The node behind a series resistance of the importer's own, with the name `place` or, without one, that of the resistor and
+  // _inside; the node itself where it is 0 Ω.
   std::size_t behind_resistance(std::size_t node, const std::string& resistance,
-                                const std::string& name, int line);
-  // A diode of the importer's own.
+                                const std::string& name, int line, std::string place = "");
+  // A diode, or a junction of a transistor that is an element of its own. All but the leak in S are formulas, in the units of `diode`.
   struct OwnJunction {
     std::string name;
-    std::size_t from, to;
-    std::string saturation, capacitance, voltage, grading, forward;  // formulas
+    std::size_t from = 0, to = 0;
+    std::string saturation = "0", emission = "1", capacitance = "0", transit = "0", voltage = "1",
+                grading = "0.5", forward = "0.5";
+    std::string breakdown = "0", breakdown_current = "0";  // V, 0: none, and A
     double leak = 0.0;
   };
-  void add_junction(const OwnJunction& junction, int line);
+  // Its static element; nothing where both ends are at one node.
+  std::optional<std::size_t> add_junction(const OwnJunction& junction, int line);
 
-  void add_instance(const Card& card, const std::string& prefix, const NodeMap& map,
-                    const Scope& scope);
+  void add_instance(const Card& card, const Part& around, const std::string& prefix,
+                    const NodeMap& map, const Scope& scope);
 
   // What elements say of others.
   void connect();

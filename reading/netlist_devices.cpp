@@ -13,9 +13,9 @@ void CircuitReader::add_diode(const Card& card, const Part& part, const std::str
   const auto number_of = [&](const std::string& formula) {
     return circuit_.value_of(formula, line);
   };
-  StaticElement fixed{.kind = StaticElement::Kind::diode};
-  fixed.from = node(card.word(1, "node"), prefix, map, line);
-  fixed.to = node(card.word(2, "second node"), prefix, map, line);
+  OwnJunction junction{.name = named.name};
+  junction.from = node(card.word(1, "node"), prefix, map, line);
+  junction.to = node(card.word(2, "second node"), prefix, map, line);
   const UsedModel used = model(card.word(3, "model"), {"d"}, part, scope, line);
   allow(used, {"is", "n", "rs", "cjo", "cj0", "cj", "tt", "bv", "ibv", "vj", "pb", "m", "mj", "fc"},
         {"tnom", "tref", "eg",  "xti",  "kf",  "af",   "nbv",      "level",
@@ -30,61 +30,30 @@ void CircuitReader::add_diode(const Card& card, const Part& part, const std::str
   const auto per_area = [&](const std::string& value) {
     return area.empty() ? value : value + "*" + area;
   };
-  const std::string saturation = per_area(used.formula("is", "1e-14")),
-                    emission = used.formula("n", "1");
-  // The series resistance, with a node of its own behind it.
-  const std::string series = used.formula("rs", "0");
-  if (number_of(series) > 0.0) {
-    const std::size_t inside = own_node(prefix + card.words[0] + "_inside", line);
-    const std::string value = area.empty() ? series : "(" + series + ")/(" + area + ")";
-    add_own("resistor", prefix + card.line->written[0] + "_rs", fixed.from, inside, value,
-            {.kind = StaticElement::Kind::resistor, .value = number_of(value)}, line);
-    fixed.from = inside;
-  }
-  Json element = {{"type", "diode"},
-                  {"name", named.name},
-                  {"from", circuit_.nodes[fixed.from]},
-                  {"to", circuit_.nodes[fixed.to]},
-                  {"saturation", written_value(saturation)},
-                  {"emission", written_value(emission)},
-                  {"thermal_voltage", kThermalVoltage},
-                  {"leak", kLeastConductance}};
-  fixed.value = number_of(saturation);
-  fixed.scale = number_of(emission) * kThermalVoltage;
-  fixed.leak = kLeastConductance;
-  if (used.model->values.contains("bv")) {
-    const std::string voltage = used.formula("bv", "0"),
-                      current = per_area(used.formula("ibv", "1e-3"));
-    fixed.breakdown_voltage = std::abs(number_of(voltage));
-    fixed.breakdown = number_of(current);
-    element["breakdown"] = fixed.breakdown_voltage;
-    element["breakdown_current"] = written_value(current);
-  }
   const auto first_of = [&](std::initializer_list<const char*> keys, const char* otherwise) {
     for (const char* key : keys)
       if (used.model->values.contains(key)) return used.formula(key, otherwise);
     return std::string(otherwise);
   };
-  const std::string capacitance = per_area(first_of({"cjo", "cj0", "cj"}, "0")),
-                    transit = used.formula("tt", "0");
-  if (number_of(capacitance) > 0.0 || number_of(transit) > 0.0) {
-    element["capacitance"] = written_value(capacitance);
-    element["transit"] = written_value(transit);
-    element["junction"] = written_value(first_of({"vj", "pb"}, "1"));
-    element["grading"] = written_value(first_of({"m", "mj"}, "0.5"));
-    element["forward"] = written_value(used.formula("fc", "0.5"));
-    circuit_.junctions.push_back({"q_" + named.name,
-                                  circuit_.fixed.elements.size(),
-                                  {.capacitance = number_of(capacitance),
-                                   .junction = number_of(first_of({"vj", "pb"}, "1")),
-                                   .grading = number_of(first_of({"m", "mj"}, "0.5")),
-                                   .forward = number_of(used.formula("fc", "0.5")),
-                                   .transit = number_of(transit),
-                                   .saturation = fixed.value,
-                                   .scale = fixed.scale}});
+  junction.saturation = per_area(used.formula("is", "1e-14"));
+  junction.emission = used.formula("n", "1");
+  junction.leak = kLeastConductance;
+  if (used.model->values.contains("bv")) {
+    junction.breakdown = exact_text(std::abs(number_of(used.formula("bv", "0"))));
+    junction.breakdown_current = per_area(used.formula("ibv", "1e-3"));
   }
+  junction.capacitance = per_area(first_of({"cjo", "cj0", "cj"}, "0"));
+  junction.transit = used.formula("tt", "0");
+  junction.voltage = first_of({"vj", "pb"}, "1");
+  junction.grading = first_of({"m", "mj"}, "0.5");
+  junction.forward = used.formula("fc", "0.5");
+  // The series resistance, with a node of its own behind it.
+  const std::string series = used.formula("rs", "0");
+  junction.from = behind_resistance(
+      junction.from, area.empty() ? series : "(" + series + ")/(" + area + ")",
+      prefix + card.line->written[0] + "_rs", line, prefix + card.words[0] + "_inside");
   named.entry = circuit_.elements.size();
-  named.element = put(element, fixed, line);
+  named.element = add_junction(junction, line);
 }
 
 void CircuitReader::add_switch(const Card& card, const Part& part, const std::string& prefix,

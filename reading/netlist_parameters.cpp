@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "courant/reading/netlist_behaviour.hpp"
 #include "courant/reading/netlist_names.hpp"
 
 namespace courant::netlist {

@@ -4,10 +4,8 @@
 #include <cctype>
 #include <charconv>
 #include <functional>
+#include <sstream>
 #include <stdexcept>
-
-#include "courant/core/language/formula.hpp"
-#include "courant/core/words/message.hpp"
 
 namespace courant::netlist {
 namespace {
@@ -18,6 +16,9 @@ std::string lower(std::string_view text) {
                  [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
   return result;
 }
+
+// What DOS wrote at the end of a text.
+constexpr char kEndOfFile = '\x1a';
 
 bool is_space(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
@@ -32,9 +33,9 @@ std::vector<std::string> words_of(const std::string& text, int line) {
   };
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
-    if (c == '{' || c == '\'') {
+    if (c == '{' || c == '\'' || c == '"') {
       finish();
-      const std::size_t end = text.find(c == '{' ? '}' : '\'', i + 1);
+      const std::size_t end = text.find(c == '{' ? '}' : c, i + 1);
       if (end == std::string::npos)
         throw LineError{line, std::string("an expression begins with ") + c + " and does not end"};
       words.push_back("{" + text.substr(i + 1, end - i - 1) + "}");
@@ -141,10 +142,11 @@ class Joining {
         title = line;
         continue;
       }
-      const std::size_t comment = std::min(line.find(';'), line.find("$ "));
+      const std::size_t comment =
+          std::min({line.find(';'), line.find("$ "), line.find("//"), line.find(kEndOfFile)});
       if (comment != std::string::npos) line.resize(comment);
       const std::size_t first = line.find_first_not_of(" \t");
-      if (first == std::string::npos || line[first] == '*') continue;
+      if (first == std::string::npos || line[first] == '*' || line[first] == '#') continue;
       const int where = file.empty() ? number : including;
       const std::string origin = file.empty() ? "" : file + ", line " + std::to_string(number);
       const std::string word = first_word(line);
@@ -318,6 +320,18 @@ class Functions {
 
 }  // namespace
 
+namespace {
+
+// The words of commands, whose quotes are theirs.
+std::vector<std::string> words_of_command(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+}  // namespace
+
 std::vector<Line> lines_of(std::string_view text, std::string& title,
                            const IncludedText& included) {
   Joining joining(included);
@@ -325,9 +339,14 @@ std::vector<Line> lines_of(std::string_view text, std::string& title,
   Functions functions;
   std::erase_if(joining.joined(), [&](const Joined& line) { return functions.take(line); });
   std::vector<Line> lines;
+  bool commands = false;
   for (const auto& [where, origin, content] : joining.joined()) {
-    const std::string whole = functions.expanded(content, where);
-    Line line{where, whole, {}, words_of(whole, where), origin};
+    const std::string first = first_word(content);
+    if (first == ".endc") commands = false;
+    const std::string whole = commands ? content : functions.expanded(content, where);
+    Line line{
+        where, whole, {}, commands ? words_of_command(whole) : words_of(whole, where), origin};
+    commands = commands || first == ".control";
     for (const std::string& word : line.written) line.words.push_back(lower(word));
     if (!line.words.empty()) lines.push_back(std::move(line));
   }
@@ -337,60 +356,6 @@ std::vector<Line> lines_of(std::string_view text, std::string& title,
 std::optional<double> number(std::string_view word) {
   const auto found = leading_number(word);
   return found && found->second == word.size() ? std::optional(found->first) : std::nullopt;
-}
-
-namespace {
-
-// Throws LineError if the formula, made of the text, is none.
-void check_formula(const std::string& formula, const std::string& text, const Scope& scope,
-                   int line) {
-  SymbolTable symbols;
-  for (const auto& [name, global] : scope)
-    if (!symbols.find(global) && !number(global)) symbols.add(global, 1.0);
-  try {
-    parse_formula(formula, symbols);
-  } catch (const FormulaError& error) {
-    const std::string what = error.what();  // column 7: …, of another text
-    throw LineError{line, "\"" + text + "\" is no expression: " + what.substr(what.find(": ") + 2)};
-  }
-}
-
-}  // namespace
-
-std::string formula(const std::string& word, const Scope& scope, int line) {
-  if (const auto value = number(word)) return exact_text(*value);
-  const bool braces = word.front() == '{';
-  const std::string text = braces ? word.substr(1, word.size() - 2) : word;
-  std::string result;
-  for (std::size_t i = 0; i < text.size();) {
-    const std::string_view rest = std::string_view(text).substr(i);
-    if (is_digit(text[i]) || text[i] == '.') {
-      const auto found = leading_number(rest);
-      if (!found) throw LineError{line, "\"" + text + "\" has no number where one begins"};
-      result += exact_text(found->first);
-      i += found->second;
-    } else if (is_letter(text[i])) {
-      std::size_t end = i;
-      while (end < text.size() && (is_letter(text[end]) || is_digit(text[end]))) ++end;
-      const std::string name = text.substr(i, end - i);
-      const std::size_t next = text.find_first_not_of(' ', end);
-      const bool is_function = next != std::string::npos && text[next] == '(';
-      if (const auto known = scope.find(name); known != scope.end())
-        result += known->second;
-      else if (is_function || name == "pi")
-        result += name == "ln" ? "log" : name;
-      else
-        throw LineError{line, "unknown parameter \"" + name + "\""};
-      i = end;
-    } else if (rest.substr(0, 2) == "**") {
-      result += "^";
-      i += 2;
-    } else {
-      result += text[i++];
-    }
-  }
-  check_formula(result, text, scope, line);
-  return braces ? "(" + result + ")" : result;
 }
 
 }  // namespace courant::netlist

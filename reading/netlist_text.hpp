@@ -40,7 +40,4 @@ std::optional<double> number(std::string_view word);
 // Names of parameters in a scope: what each is called in the experiment.
 using Scope = std::map<std::string, std::string>;
 
-// A number, a name or an expression in braces, as a formula. Throws LineError if it is none.
-std::string formula(const std::string& word, const Scope& scope, int line);
-
 }  // namespace courant::netlist

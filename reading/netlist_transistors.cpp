@@ -41,10 +41,10 @@ struct Numbers {
 }  // namespace
 
 std::size_t CircuitReader::behind_resistance(std::size_t node, const std::string& resistance,
-                                             const std::string& name, int line) {
+                                             const std::string& name, int line, std::string place) {
   const double value = circuit_.value_of(resistance, line);
   if (!(value > 0.0)) return node;
-  std::string place = name + "_inside";
+  if (place.empty()) place = name + "_inside";
   for (char& c : place) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const std::size_t inside = own_node(place, line);
   add_own("resistor", name, node, inside, resistance,
@@ -58,7 +58,7 @@ void CircuitReader::add_bipolar(const Card& card, const Part& part, const std::s
   Named& named = names_.at(prefix + card.words[0]);
   const Numbers number_of{circuit_, line};
   const auto is_model = [&](const std::string& word) {
-    return part.models.contains(word) || deck_.whole.models.contains(word);
+    return find_model(word, part, scope).model != nullptr;
   };
   std::size_t place =
       4;  // of the model: behind three nodes, that of the substrate, and one for heat
@@ -80,7 +80,7 @@ void CircuitReader::add_bipolar(const Card& card, const Part& part, const std::s
   if (words > place + 1 && card.words.back() == "off") --words;
   const bool has_area = words > place + 1 || card.value("area");
   card.allow(place + (has_area && words > place + 1 ? 2 : 1) + (card.words.size() - words),
-             {"area", "ic", "temp", "dtemp", "m", "areab", "areac"});
+             {"area", "ic", "temp", "dtemp", "m", "areab", "areac", "off"});
   std::string area = has_area ? formula(card.value_of(place + 1, "area"), scope, line) : "";
   if (const auto m = card.value("m")) area += (area.empty() ? "" : "*") + formula(*m, scope, line);
   const auto per_area = [&](const std::string& value) {
@@ -155,6 +155,7 @@ void CircuitReader::add_bipolar(const Card& card, const Part& part, const std::s
   };
   law.knee_forward = say("knee_forward", knee({"ikf", "ik"}), "0");
   law.knee_reverse = say("knee_reverse", knee({"ikr"}), "0");
+  law.leak = kLeastConductance;
 
   // For direct currents: what goes through the base by diodes, the rest by a law of their voltages.
   const auto junction = [&](std::size_t other, double saturated, double scale, double beside) {
@@ -200,7 +201,8 @@ void CircuitReader::add_bipolar(const Card& card, const Part& part, const std::s
                                    .forward = number_of(forward),
                                    .transit = number_of(transit),
                                    .saturation = law.saturation,
-                                   .scale = scale}});
+                                   .scale = scale,
+                                   .leak = kLeastConductance}});
   };
   charge("emitter", "q_be_", e, per_area(first_of({"cje"}, "0")), first_of({"vje", "pe"}, "0.75"),
          first_of({"mje", "me"}, "0.33"), first_of({"tf"}, "0"), "forward_transit",
@@ -208,6 +210,18 @@ void CircuitReader::add_bipolar(const Card& card, const Part& part, const std::s
   charge("collector", "q_bc_", c, per_area(first_of({"cjc"}, "0")), first_of({"vjc", "pc"}, "0.75"),
          first_of({"mjc", "mc"}, "0.33"), first_of({"tr"}, "0"), "reverse_transit",
          law.reverse_scale, collector);
+  const double transit = number_of(first_of({"tf"}, "0"));
+  if (auto& all = circuit_.junctions;
+      all.size() > 1 && all.back().element == c && all[all.size() - 2].element == e) {
+    all.back().other = e;
+    all.back().more = [law, transit](double v_c, double v_e) {
+      return law.widening(transit, v_e, v_c).at_collector.value();
+    };
+    all[all.size() - 2].other = c;
+    all[all.size() - 2].more = [law, transit](double v_e, double v_c) {
+      return law.widening(transit, v_e, v_c).at_emitter.value();
+    };
+  }
   named.entry = circuit_.elements.size();
   circuit_.elements.push_back(element);
   circuit_.element_lines.push_back(line);
@@ -218,7 +232,7 @@ void CircuitReader::add_bipolar(const Card& card, const Part& part, const std::s
     const bool is_lateral =
         used.model->values.contains("subs") ? number_of(used.formula("subs", "1")) < 0.0 : is_pnp;
     const std::size_t at = is_lateral ? base : collector;
-    add_junction({.name = own + "_substrate",
+    add_junction({.name = names_of_elements_.of(own + "_substrate"),
                   .from = is_pnp != is_lateral ? at : substrate,
                   .to = is_pnp != is_lateral ? substrate : at,
                   .saturation = "0",
@@ -230,39 +244,46 @@ void CircuitReader::add_bipolar(const Card& card, const Part& part, const std::s
   }
 }
 
-void CircuitReader::add_junction(const OwnJunction& junction, int line) {
-  if (junction.from == junction.to) return;
+std::optional<std::size_t> CircuitReader::add_junction(const OwnJunction& junction, int line) {
+  if (junction.from == junction.to) return std::nullopt;
   const Numbers number_of{circuit_, line};
   StaticElement fixed{.kind = StaticElement::Kind::diode,
                       .from = junction.from,
                       .to = junction.to,
                       .value = number_of(junction.saturation),
-                      .scale = kThermalVoltage,
+                      .scale = number_of(junction.emission) * kThermalVoltage,
                       .leak = junction.leak};
-  const std::string name = names_of_elements_.of(junction.name);
   Json element = {{"type", "diode"},
-                  {"name", name},
+                  {"name", junction.name},
                   {"from", circuit_.nodes[junction.from]},
                   {"to", circuit_.nodes[junction.to]},
                   {"saturation", written_value(junction.saturation)},
+                  {"emission", written_value(junction.emission)},
                   {"thermal_voltage", kThermalVoltage},
                   {"leak", junction.leak}};
-  const double capacitance = number_of(junction.capacitance);
-  if (capacitance > 0.0) {
+  if (junction.breakdown != "0") {
+    fixed.breakdown_voltage = number_of(junction.breakdown);
+    fixed.breakdown = number_of(junction.breakdown_current);
+    element["breakdown"] = written_value(junction.breakdown);
+    element["breakdown_current"] = written_value(junction.breakdown_current);
+  }
+  const JunctionCharge charge{.capacitance = number_of(junction.capacitance),
+                              .junction = number_of(junction.voltage),
+                              .grading = number_of(junction.grading),
+                              .forward = number_of(junction.forward),
+                              .transit = number_of(junction.transit),
+                              .saturation = fixed.value,
+                              .scale = fixed.scale,
+                              .leak = fixed.leak};
+  if (charge.capacitance > 0.0 || charge.transit > 0.0) {
     element["capacitance"] = written_value(junction.capacitance);
+    element["transit"] = written_value(junction.transit);
     element["junction"] = written_value(junction.voltage);
     element["grading"] = written_value(junction.grading);
     element["forward"] = written_value(junction.forward);
-    circuit_.junctions.push_back({"q_" + name,
-                                  circuit_.fixed.elements.size(),
-                                  {.capacitance = capacitance,
-                                   .junction = number_of(junction.voltage),
-                                   .grading = number_of(junction.grading),
-                                   .forward = number_of(junction.forward),
-                                   .saturation = fixed.value,
-                                   .scale = fixed.scale}});
+    circuit_.junctions.push_back({"q_" + junction.name, circuit_.fixed.elements.size(), charge});
   }
-  put(element, fixed, line);
+  return put(element, fixed, line);
 }
 
 void CircuitReader::add_mos(const Card& card, const Part& part, const std::string& prefix,
@@ -270,6 +291,12 @@ void CircuitReader::add_mos(const Card& card, const Part& part, const std::strin
   const int line = card.line->number;
   Named& named = names_.at(prefix + card.words[0]);
   const Numbers number_of{circuit_, line};
+  // Other kinds have other numbers of nodes.
+  const auto is_model = [&](std::size_t k) {
+    return k < card.words.size() && find_model(card.words[k], part, scope).model;
+  };
+  for (std::size_t k = 4; k < 9 && !is_model(5); ++k)
+    if (is_model(k)) model(card.words[k], {"nmos and pmos, with four nodes"}, part, scope, line);
   const UsedModel used = model(card.word(5, "model"), {"nmos", "pmos"}, part, scope, line);
   if (number_of(used.formula("level", "1")) != 1.0)
     throw LineError{used.model->line, "a model of level " + used.formula("level", "1") +
@@ -380,7 +407,7 @@ void CircuitReader::add_mos(const Card& card, const Part& part, const std::strin
                             ? of_model("cj")
                             : std::sqrt(kSilicon * kElectron * doping / (2.0 * voltage));
     const double bottom = is_given(whole_key) ? of_model(whole_key) * multiple : flat * area;
-    OwnJunction junction{.name = own + suffix,
+    OwnJunction junction{.name = names_of_elements_.of(own + suffix),
                          .from = is_p ? other : bulk,
                          .to = is_p ? bulk : other,
                          .saturation = exact_text(saturation),
@@ -391,7 +418,7 @@ void CircuitReader::add_mos(const Card& card, const Part& part, const std::strin
                          .leak = kLeastConductance};
     add_junction(junction, line);
     if (const double side = of_model("cjsw") * perimeter; side > 0.0) {
-      junction.name += "_side";
+      junction.name = names_of_elements_.of(own + suffix + "_side");
       junction.saturation = "0";
       junction.leak = 0.0;
       junction.capacitance = exact_text(side);

@@ -37,10 +37,13 @@ class Terminals {
                    Role::resistor, std::move(current), suffix);
   }
   void store(const Across& across, const NetworkTerminal& from, const NetworkTerminal& to,
-             const std::string& suffix, const JunctionCharge& charge) {
-    if (!across.branch || (charge.capacitance == 0.0 && charge.transit == 0.0)) return;
+             const std::string& suffix, const JunctionCharge& charge, const MoreCharge& more) {
+    if (!stores(across, charge)) return;
     store_in_junction(reader_, charge, *across.branch, reversed_ ? to : from, reversed_ ? from : to,
-                      suffix);
+                      suffix, more);
+  }
+  static bool stores(const Across& across, const JunctionCharge& charge) {
+    return across.branch && (charge.capacitance != 0.0 || charge.transit != 0.0);
   }
 
  private:
@@ -74,14 +77,16 @@ std::optional<NetworkElement> read_bipolar(ObjectReader& object, const NetworkSi
                                   .forward = forward,
                                   .transit = reader.constant("forward_transit"),
                                   .saturation = law.saturation,
-                                  .scale = law.forward_scale};
+                                  .scale = law.forward_scale,
+                                  .leak = law.leak};
   const JunctionCharge at_collector{.capacitance = reader.constant("collector_capacitance"),
                                     .junction = reader.positive("collector_junction"),
                                     .grading = reader.constant("collector_grading"),
                                     .forward = forward,
                                     .transit = reader.constant("reverse_transit"),
                                     .saturation = law.saturation,
-                                    .scale = law.reverse_scale};
+                                    .scale = law.reverse_scale,
+                                    .leak = law.leak};
   const NetworkTerminal collector = reader.node("collector"), base = reader.node("base"),
                         emitter = reader.node("emitter");
   Terminals terminals(reader, reader.word("polarity") == "pnp");
@@ -94,8 +99,21 @@ std::optional<NetworkElement> read_bipolar(ObjectReader& object, const NetworkSi
     const Expr v_c = c.at(variables, first);
     return law.collector_current(v_c) - law.transport(e.at(variables, first), v_c);
   });
-  terminals.store(e, base, emitter, "be", at_emitter);
-  terminals.store(c, base, collector, "bc", at_collector);
+  MoreCharge more_at_emitter, more_at_collector;
+  if (law.early_forward != 0.0 && Terminals::stores(e, at_emitter) &&
+      Terminals::stores(c, at_collector)) {
+    const auto part = [=](Expr BipolarTransistor::Widening::*which) {
+      return [=](const NetworkVariables& variables, Index first) {
+        return law.widening(at_emitter.transit, e.at(variables, first), c.at(variables, first)).*
+               which;
+      };
+    };
+    more_at_emitter = {part(&BipolarTransistor::Widening::at_emitter),
+                       part(&BipolarTransistor::Widening::energy)};
+    more_at_collector = {part(&BipolarTransistor::Widening::at_collector), {}};
+  }
+  terminals.store(e, base, emitter, "be", at_emitter, more_at_emitter);
+  terminals.store(c, base, collector, "bc", at_collector, more_at_collector);
   return reader.result();
 }
 

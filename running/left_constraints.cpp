@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
 #include <stdexcept>
 
 #include "courant/core/words/message.hpp"
+#include "courant/integrators/step/vector_field.hpp"
 
 namespace courant {
 namespace {
@@ -32,19 +35,20 @@ constexpr double kPartOfWay = 0.2;
 // A way below this part of the largest coordinate may be round-off.
 constexpr double kLeastWay = 1e-8;
 constexpr double kLeastOfOthers = 1e-2;
+// A velocity or an unknown below this part of its terms may be round-off: that of coordinates, which is multiplied where steps ring.
+constexpr double kLeastOfUnwritten = 1e-8;
 
 // Some columns c of a row at a state and Σ_j |∂c_i/∂x_j| s_j there; empty where they are not defined.
 struct MeasuredColumns {
   VectorXd value = {}, terms = {};
 };
 
-MeasuredColumns columns_at(Observer& observer, const State& state, const VectorXd& size,
-                           Index first, Index count) {
-  const auto value = [&](const State& at) -> VectorXd {
-    return observer.row(at).segment(first, count);
-  };
+using Measured = std::function<VectorXd(const State&)>;
+
+MeasuredColumns columns_at(const Measured& value, const State& state, const VectorXd& size) {
   try {
-    MeasuredColumns result{value(state), VectorXd::Zero(count)};
+    MeasuredColumns result{value(state), {}};
+    result.terms = VectorXd::Zero(result.value.size());
     State moved = state;
     for (Index j = 0; j < size.size(); ++j) {
       moved.x[j] += kPartForSlopes * size[j];
@@ -55,6 +59,13 @@ MeasuredColumns columns_at(Observer& observer, const State& state, const VectorX
   } catch (const std::domain_error&) {  // of what is not defined there nothing is said
   }
   return {};
+}
+
+MeasuredColumns columns_at(Observer& observer, const State& state, const VectorXd& size,
+                           Index first, Index count) {
+  return columns_at(
+      [&](const State& at) -> VectorXd { return observer.row(at).segment(first, count); }, state,
+      size);
 }
 
 MeasuredColumns constraints_at(Observer& observer, const State& state, const VectorXd& size) {
@@ -138,17 +149,93 @@ std::string kept_violation(const Integrator& integrator, Observer& observer,
          ": the method does not converge for this system, and the trajectory may be wrong.";
 }
 
+namespace {
+
+// Of an alternating row of five numbers half the least second difference, else 0.
+double alternating(const VectorXd& x) {
+  const VectorXd d = x.tail(3) - 2.0 * x.segment(1, 3) + x.head(3);
+  return d[0] * d[1] < 0 && d[1] * d[2] < 0 ? d.cwiseAbs().minCoeff() : 0.0;
+}
+
+std::string to_and_fro(const std::string& name, double by, const char* advice) {
+  return name + " goes to and fro with each step, by " + number_text(by / 2, 3) +
+         " at the end: the steps do not resolve it, and the trajectory may be wrong. " + advice;
+}
+
+constexpr const char* kDamp =
+    "\"damping\": \"l-stable\" of the method damps what the steps do not resolve.";
+
+// What the field has at states: ẋ, then z.
+class RatesAndUnknowns {
+ public:
+  RatesAndUnknowns(const ImplicitSystem& system, const VectorField& field) : evaluate_(field) {
+    for (const std::string& name : system.names().coordinates) names_.push_back(name + "'");
+    for (const std::string& name : system.names().auxiliary) names_.push_back(name);
+  }
+
+  VectorXd at(const State& state) {
+    evaluate_(state, rate_);
+    VectorXd both(rate_.size() + evaluate_.z().size());
+    both << rate_, evaluate_.z();
+    return both;
+  }
+  const std::string& name(Index j) const { return names_[static_cast<std::size_t>(j)]; }
+
+ private:
+  VectorField::Evaluation evaluate_;
+  VectorXd rate_;
+  std::vector<std::string> names_;
+};
+
+std::string unwritten_alternation(const Integrator& integrator, const ConstraintLadder& ladder,
+                                  const std::vector<State>& states, const VectorXd& size) {
+  constexpr Index most_coordinates = 60;
+  const auto& system = integrator.system();
+  if (size.size() > most_coordinates || ladder.verdict != Verdict::regular) return "";
+  // Beside constraints a field is one of many extensions.
+  if (ladder.degrees_of_freedom != system->manifold()->dimension()) return "";
+  try {
+    const VectorField field(system, ladder, Backend::interpreter);
+    RatesAndUnknowns measured(*system, field);
+    MatrixXd x(0, 0);
+    for (std::size_t k = 0; k < states.size(); ++k) {
+      const VectorXd column = measured.at(states[k]);
+      if (k == 0) x.resize(column.size(), std::ssize(states));
+      x.col(static_cast<Index>(k)) = column;
+    }
+    std::optional<MeasuredColumns> columns;
+    for (Index j = 0; j < x.rows(); ++j) {
+      const double largest = x.row(j).cwiseAbs().maxCoeff(), by = alternating(x.row(j).transpose());
+      if (!(by > kPartOfWay * largest)) continue;
+      // What terms cancel in, or what has decayed, has their round-off.
+      if (!columns)
+        columns = columns_at([&](const State& at) { return measured.at(at); }, states.back(), size);
+      if (columns->terms.size() == 0 || !(largest > kLeastOfUnwritten * columns->terms[j]))
+        continue;
+      return to_and_fro(measured.name(j), by, kDamp);
+    }
+  } catch (const std::runtime_error&) {  // of what is not defined there nothing is said
+  } catch (const std::domain_error&) {
+  }
+  return "";
+}
+
+}  // namespace
+
 std::string alternation(const Integrator& integrator, Observer& observer,
-                        const QuantityStatistics& statistics, State end, double h) {
+                        const QuantityStatistics& statistics, State end, double h,
+                        const ConstraintLadder* field) {
   const Index n = end.x.size();
   if (n == 0 || n > kMostCoordinates || statistics.empty()) return "";
-  // All that is written of a state. An unknown that nobody asks for may alternate and move nothing: the multiplier
-  // of a rod does by Method 1.
   const auto count = static_cast<Index>(observer.first_constraint());
   const QuantityStatistics::Memory& all = statistics.memory();
   constexpr int steps = 4;
   MatrixXd x(count, steps + 1);
-  const auto look = [&](int k) { x.col(k) = observer.row(end).head(count); };
+  std::vector<State> states;
+  const auto look = [&](int k) {
+    x.col(k) = observer.row(end).head(count);
+    states.push_back(end);
+  };
   try {
     look(0);
     const auto stepper = integrator.stepper();
@@ -164,28 +251,24 @@ std::string alternation(const Integrator& integrator, Observer& observer,
   }
   const VectorXd way = (all.max - all.min).head(count);
   VectorXd size = x.cwiseAbs().rowwise().maxCoeff();
-  if (n > 0) size.head(n).setConstant(size.head(n).maxCoeff());
-  const MatrixXd second =
-      x.rightCols(steps - 1) - 2 * x.middleCols(1, steps - 1) + x.leftCols(steps - 1);
+  size.head(n).setConstant(size.head(n).maxCoeff());
   for (Index j = 0; j < count; ++j) {
     const double least = j < n ? kLeastWay : kLeastOfOthers;
     if (!(way[j] > least * size[j])) continue;
-    const auto d = second.row(j);
-    const bool alternates =
-        d[0] * d[1] < 0 && d[1] * d[2] < 0 && d.cwiseAbs().minCoeff() > kPartOfWay * way[j];
-    if (!alternates) continue;
+    const double by = alternating(x.row(j).transpose());
+    if (!(by > kPartOfWay * way[j])) continue;
     // What terms cancel in, as a conserved quantity is zero, has their round-off.
     if (j >= n) {
       const VectorXd terms = columns_at(observer, end, size.head(n), j, 1).terms;
       if (terms.size() == 0 || !(way[j] > kLeastWay * terms[0])) continue;
     }
-    return observer.names()[static_cast<std::size_t>(j)] + " goes to and fro with each step, by " +
-           number_text(d.cwiseAbs().minCoeff() / 2, 3) +
-           " at the end: the steps do not resolve it, and the trajectory may be wrong. " +
-           (j < n ? "Constrain-first has no such errors of algebraic equations."
-                  : "\"damping\": \"l-stable\" of the method damps what the steps do not resolve.");
+    return to_and_fro(observer.names()[static_cast<std::size_t>(j)], by,
+                      j < n ? "Constrain-first has no such errors of algebraic equations." : kDamp);
   }
-  return "";
+  if (!field) return "";
+  // The largest that coordinates were in the run.
+  const VectorXd largest = all.max.head(n).cwiseMax(-all.min.head(n)).cwiseAbs();
+  return unwritten_alternation(integrator, *field, states, largest);
 }
 
 }  // namespace courant

@@ -540,7 +540,8 @@ class RunUnderway {
       warning = kept_violation(*method.integrator, observer_, all, method.initial, end,
                                {.h = experiment_.time->step, .steps = results_.steps});
     if (warning.empty())
-      warning = alternation(*method.integrator, observer_, all, end, experiment_.time->step);
+      warning = alternation(*method.integrator, observer_, all, end, experiment_.time->step,
+                            clock_.is_transformed() ? nullptr : &ladder_);
     if (!warning.empty()) results_.warnings.push_back(std::move(warning));
   }
 

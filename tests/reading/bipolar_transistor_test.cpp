@@ -54,6 +54,35 @@ BOOST_AUTO_TEST_CASE(power_is_lost) {
     }
 }
 
+// Both charges are slopes of one function of both voltages, and the energy is what they take: dE = v_e dq_e + v_c dq_c. At the
+// emitter it is what τ i_f/q_b is more than τ i_f, but for the bend.
+BOOST_AUTO_TEST_CASE(the_base_that_widens_stores_an_energy) {
+  BipolarTransistor law;
+  law.saturation = 1e-14;
+  law.early_forward = 50.0;
+  law.leak = 1e-3;  // that it is seen
+  constexpr double transit = 3e-10, h = 1e-4;
+  const auto at = [&](double v_e, double v_c) { return law.widening(transit, v_e, v_c); };
+  const auto e = [&](double v_e, double v_c) { return at(v_e, v_c).at_emitter.value(); };
+  const auto c = [&](double v_e, double v_c) { return at(v_e, v_c).at_collector.value(); };
+  const auto energy = [&](double v_e, double v_c) { return at(v_e, v_c).energy.value(); };
+  const auto is_near = [](double a, double b) { return std::abs(a - b) <= 1e-4 * std::abs(b); };
+  for (const double v_e : {-2.0, 0.4, 0.7})
+    for (const double v_c : {-10.0, -0.5, -0.07, 0.3}) {
+      const auto by = [&](auto&& f, int which) {
+        return which == 0 ? (f(v_e + h, v_c) - f(v_e - h, v_c)) / (2 * h)
+                          : (f(v_e, v_c + h) - f(v_e, v_c - h)) / (2 * h);
+      };
+      BOOST_TEST(is_near(by(e, 1), by(c, 0)), v_e << ", " << v_c);
+      for (const int which : {0, 1})
+        BOOST_TEST(is_near(by(energy, which), v_e * by(e, which) + v_c * by(c, which)),
+                   v_e << ", " << v_c);
+      const double forward = 1e-14 * (std::exp(v_e / 0.025852) - 1.0) + 1e-3 * v_e;
+      const double g = v_c > 0.0 ? 0.0 : v_c > -0.2 ? v_c * v_c / 20.0 : -(v_c + 0.1) / 50.0;
+      BOOST_TEST(is_near(e(v_e, v_c), transit * forward * g), v_e << ", " << v_c);
+    }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
 
 }  // namespace courant

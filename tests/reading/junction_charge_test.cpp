@@ -15,12 +15,13 @@ BOOST_AUTO_TEST_CASE(slopes_are_capacitance_and_power) {
                                 .forward = 0.5,
                                 .transit = 5e-9,
                                 .saturation = 1e-14,
-                                .scale = 0.026};
+                                .scale = 0.026,
+                                .leak = 1e-5};
   const auto capacitance = [&](double v) {
     const double depletion = v < 0.4
                                  ? 4e-12 * std::pow(1.0 - v / 0.8, -0.4)
                                  : 4e-12 / std::pow(0.5, 1.4) * (1.0 - 0.5 * 1.4 + 0.4 * v / 0.8);
-    return depletion + 5e-9 * 1e-14 / 0.026 * std::exp(v / 0.026);
+    return depletion + 5e-9 * (1e-14 / 0.026 * std::exp(v / 0.026) + 1e-5);
   };
   constexpr double h = 1e-5;
   for (const double v : {-20.0, -1.0, 0.0, 0.3, 0.4, 0.5, 0.7}) {
@@ -39,19 +40,29 @@ BOOST_AUTO_TEST_CASE(slopes_are_capacitance_and_power) {
 BOOST_AUTO_TEST_CASE(charges_as_voltages) {
   constexpr double h = 1e-5;
   for (const double capacitance : {0.0, 3e-12})
-    for (const double transit : {0.0, 2e-8}) {
+    for (const auto& [transit, leak] : {std::pair(0.0, 0.0), {2e-8, 0.0}, {2e-8, 1e-12}}) {
       if (capacitance == 0.0 && transit == 0.0) continue;
-      const JunctionCharge junction{
-          .capacitance = capacitance, .junction = 0.7, .grading = 0.35, .transit = transit};
+      const JunctionCharge junction{.capacitance = capacitance,
+                                    .junction = 0.7,
+                                    .grading = 0.35,
+                                    .transit = transit,
+                                    .leak = leak};
       const auto at = [&](double v) { return junction.about_voltage(junction.charge(v)).value(); };
       for (const double v : {-30.0, -2.0, -0.1, 0.0, 0.2, 0.5, 0.65, 0.8, 1.0}) {
-        if (capacitance == 0.0 && v < 0.0) continue;  // nothing is stored there
+        if (capacitance == 0.0 && leak == 0.0 && v < 0.0) continue;  // nothing is stored there
         const double slope = (at(v + h) - at(v - h)) / (2.0 * h);
         BOOST_TEST((slope > 0.2 && slope < 4.0),
-                   capacitance << ", " << transit << ", " << v << ": " << slope);
+                   capacitance << ", " << transit << ", " << leak << ", " << v << ": " << slope);
         if (transit == 0.0 && v <= 0.0) BOOST_TEST(std::abs(at(v) - v) < 1e-12 * (1.0 - v));
       }
     }
+}
+
+// Far below 0, where exp is less than the round-off of 1, the charge of a leak tells the voltage all the same.
+BOOST_AUTO_TEST_CASE(a_charge_tells_the_voltage_of_a_junction_that_blocks) {
+  const JunctionCharge with{.transit = 1e-9, .leak = 1e-12}, without{.transit = 1e-9};
+  BOOST_TEST(with.charge(-2.0).value() < 1.9 * with.charge(-1.0).value() * (1.0 - 1e-3));
+  BOOST_TEST(without.charge(-2.0).value() == without.charge(-1.0).value());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -99,16 +99,31 @@ BOOST_AUTO_TEST_CASE(other_analyses_are_passed_over) {
   BOOST_TEST(deck.passed == (std::vector<std::string>{".ac", ".op", ".print", ".temp", ".control"}),
              boost::test_tools::per_element());
   BOOST_TEST(deck.globals.contains("vdd"));
+  BOOST_TEST(deck.temperature == "50");
+  BOOST_TEST(deck_of(".options reltol=1e-3 temp=85").temperature == "85");
+  BOOST_TEST(deck_of(".temp 27").temperature.empty());
   BOOST_TEST_REQUIRE(deck.transient.has_value());
   BOOST_TEST(deck.transient->words.back() == "5n");
   BOOST_TEST(deck_of(".control\ntran 1n 5n\n.endc\n.tran 1n 7n").transient->words.back() == "7n");
+}
+
+// With = or without, and names that have no value.
+BOOST_AUTO_TEST_CASE(values_of_models_may_stand_without_signs) {
+  const Deck deck = deck_of(".model q npn bf=80 va 50 tc=1m,2u off\n+ is 1e-15");
+  const DeviceModel& model = deck.whole.models.at("q");
+  BOOST_TEST(model.value("bf", "") == "80");
+  BOOST_TEST(model.value("va", "") == "50");
+  BOOST_TEST(model.value("tc", "") == "1m,2u");
+  BOOST_TEST(model.value("off", "") == "1");
+  BOOST_TEST(model.value("is", "") == "1e-15");
+  BOOST_TEST(refusal(".model q npn bf=") == "line 2: expected name = value at the end");
 }
 
 BOOST_AUTO_TEST_CASE(cards_out_of_place_are_refused) {
   BOOST_TEST(refusal(".ends") == "line 2: ends no .subckt; expected one before");
   BOOST_TEST(refusal(".subckt a b").starts_with("line 2: this .subckt has no .ends"));
   BOOST_TEST(refusal(".control\nrun").starts_with("line 2: .control has no .endc"));
-  BOOST_TEST(refusal(".param") == "line 2: expected .param name=value …");
+  BOOST_TEST(refusal(".param r") == "line 2: expected .param name=value …");
   BOOST_TEST(refusal(".model q").starts_with("line 2: has no type"));
   BOOST_TEST(refusal(".laplace") == "line 2: .laplace is not supported");
   BOOST_TEST(refusal(".subckt a b\n.ends\n.subckt a b\n.ends") ==

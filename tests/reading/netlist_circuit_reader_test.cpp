@@ -1,7 +1,7 @@
-#include "courant/reading/netlist_circuit_reader.hpp"
-
 #include <boost/test/unit_test.hpp>
 #include <string>
+
+#include "netlist_bodies.hpp"
 
 // Mistakes that these cases have to notice:
 //  * an instance has the parameters of the one before
@@ -9,27 +9,6 @@ BOOST_AUTO_TEST_SUITE(netlist_circuit_reader_test)
 
 using namespace courant;
 using namespace courant::netlist;
-
-namespace {
-
-NetlistCircuit circuit_of(const std::string& body) {
-  LineProblems problems;
-  const Deck deck = read_deck("A title\n" + body + "\n.tran 1u 1m\n", problems);
-  NetlistCircuit circuit = read_circuit(deck, problems);
-  problems.require_none();
-  return circuit;
-}
-
-std::string refusal(const std::string& body) {
-  try {
-    circuit_of(body);
-  } catch (const ExperimentError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-}  // namespace
 
 BOOST_AUTO_TEST_CASE(elements_of_a_network_and_of_its_operating_point) {
   const NetlistCircuit circuit = circuit_of("V1 a 0 5\nR1 a b 2k\nC1 b gnd 1u ic=3");
@@ -176,6 +155,50 @@ BOOST_AUTO_TEST_CASE(a_circuit_without_storage_gets_one_that_rests) {
   BOOST_TEST(circuit.resting.value() == 2u);
   BOOST_TEST(circuit.name_of(2) == "rest");
   BOOST_TEST(circuit.elements.size() == 4u);
+}
+
+// What a subcircuit stands in, it sees, and others do not.
+BOOST_AUTO_TEST_CASE(subcircuits_in_subcircuits) {
+  const NetlistCircuit circuit = circuit_of(
+      ".subckt part a b\nR1 a b 5\n.ends\n"
+      ".subckt outer in out\n.subckt part a b\nR1 a b 7\nD1 a b dm\n.ends\n.model dm d is=3e-14\n"
+      "X1 in out part\n.ends\nV1 c 0 1\nX1 c 0 outer\nX2 c 0 part");
+  BOOST_TEST(circuit.elements[1].at("name") == "x1_x1_R1");
+  BOOST_TEST(circuit.elements[1].at("value") == 7.0);
+  BOOST_TEST(circuit.elements[2].at("saturation") == 3e-14);
+  BOOST_TEST(circuit.elements[3].at("value") == 5.0);
+  BOOST_TEST(refusal(".subckt outer a b\n.subckt inner a b\nR1 a b 1\n.ends\nR1 a b 1\n.ends\n"
+                     "X1 c 0 inner") == "line 8: unknown subcircuit \"inner\"");
+}
+
+// A parameter that a subcircuit uses without declaring it is that of the instance, else of the outside.
+BOOST_AUTO_TEST_CASE(parameters_that_are_used_undeclared) {
+  const NetlistCircuit circuit = circuit_of(
+      ".param r=2\n.subckt part a b\nR1 a b {r*k}\n.param k=10\n.ends\n"
+      "V1 a 0 1\nX1 a 0 part\nX2 a 0 part r=3\nX3 a 0 part k=4");
+  BOOST_TEST(circuit.fixed.elements[1].value == 20.0);
+  BOOST_TEST(circuit.fixed.elements[2].value == 30.0);
+  BOOST_TEST(circuit.fixed.elements[3].value == 8.0);
+}
+
+// SPICE has the step first; Gnucap the start, which is 0, or the end before a step. Without .tran there is a time all the same.
+BOOST_AUTO_TEST_CASE(times) {
+  const std::string body = "V1 a 0 1\nR1 a 0 1";
+  const auto is = [&](const std::string& line, double step, double end, std::size_t notes = 0) {
+    const NetlistCircuit circuit = circuit_of(body, line);
+    BOOST_TEST(circuit.times.step == step, line);
+    BOOST_TEST(circuit.times.end == end, line);
+    BOOST_TEST(circuit.notes.size() == notes, line);
+  };
+  is(".tran 1u 1m", 1e-6, 1e-3);
+  is(".tran 0 1m 1u", 1e-6, 1e-3);
+  is(".tran 0 1", 0.01, 1.0);
+  is(".tran 1m 1u", 1e-6, 1e-3);
+  is(".tran 1u 1m 0 trace all", 1e-6, 1e-3, 1);
+  is(".tran 1u 1m 20u", 1e-6, 1e-3, 1);
+  is(".tran 1u 1m\n.tran trace all", 1e-6, 1e-3);
+  is(".ac dec 10 1 1k", 1e-5, 1e-3);
+  is(".control\ntran $&step 1\ntran 2u 2m\n.endc", 2e-6, 2e-3);
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_built_is_refused_at_its_line) {

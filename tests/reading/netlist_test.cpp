@@ -5,6 +5,7 @@
 
 #include "courant/core/language/formula.hpp"
 #include "courant/reading/experiment.hpp"
+#include "courant/reading/netlist_behaviour.hpp"
 #include "courant/reading/netlist_sources.hpp"
 
 namespace courant {
@@ -92,6 +93,53 @@ BOOST_AUTO_TEST_CASE(waveforms) {
   BOOST_TEST(std::abs(source_at(rise, 3.0) - (3.0 - 2.0 * std::exp(-1.0))) < 1e-12);
   BOOST_TEST(std::abs(source_at(rise, 5.0) - 1.0) < 1e-12);
   BOOST_TEST(source_at({"dc", "5", "ac", "1", "90"}, 3.0) == 5.0);
+  BOOST_TEST(source_at({"dc", "=", "5", "ac", "=", "1"}, 3.0) == 5.0);
+  BOOST_TEST(std::abs(source_at({"sffm", "1", "2", "5", "0.3", "0.7"}, 1.3) -
+                      (1.0 + 2.0 * std::sin(2.0 * M_PI * 5.0 * 1.3 +
+                                            0.3 * std::sin(2.0 * M_PI * 0.7 * 1.3)))) < 1e-12);
+  const Words am = {"am", "2", "0.5", "0.3", "4", "1"};
+  BOOST_TEST(source_at(am, 0.9) == 0.0);
+  BOOST_TEST(std::abs(source_at(am, 1.7) - 2.0 * (0.5 + std::sin(2.0 * M_PI * 0.3 * 0.7)) *
+                                               std::sin(2.0 * M_PI * 4.0 * 0.7)) < 1e-12);
+  // Names of Gnucap, shortened too.
+  BOOST_TEST(std::abs(source_at({"sin", "ampl", "=", "2", "freq", "=", "3"}, 1.2) -
+                      2.0 * std::sin(2.0 * M_PI * 3.0 * 1.2)) < 1e-12);
+  BOOST_TEST(std::abs(source_at({"pulse", "iv", "=", "1", "pv", "=", "3", "delay", "=", "2", "rise",
+                                 "=", "1", "width", "=", "2", "period", "=", "50"},
+                                2.25) -
+                      1.5) < 1e-12);
+  // A period of 3 in which it rises at 1.
+  const Words again = {"exp", "iv",  "=",   "0", "pv", "=",    "1", "td1", "=",      "1", "tau1",
+                       "=",   "0.5", "td2", "=", "9",  "tau2", "=", "1",   "period", "=", "3"};
+  for (const double t : {0.5, 3.5, 6.5}) BOOST_TEST(source_at(again, t) == 0.0);
+  for (const double t : {2.0, 5.0, 8.0})
+    BOOST_TEST(std::abs(source_at(again, t) - (1.0 - std::exp(-2.0))) < 1e-12);
+  BOOST_CHECK_THROW(source_at({"sin", "colour", "=", "2"}, 1.2), netlist::LineError);
+  BOOST_CHECK_THROW(source_at({"pulse", "iv", "=", "1"}, 1.2), netlist::LineError);
+}
+
+BOOST_AUTO_TEST_CASE(expressions_of_constants) {
+  const auto value = [](const std::string& text) { return at(netlist::formula(text, {}, 1), 0.0); };
+  BOOST_TEST(value("{1 < 2 ? 3 : 4}") == 3.0);
+  BOOST_TEST(std::abs(value("{asinh(2) + log10(1000) - atanh(0.5)}") -
+                      (std::asinh(2.0) + 3.0 - std::atanh(0.5))) < 1e-14);
+  BOOST_TEST(value("{max(1, 4, 2) + min(3)}") == 7.0);
+  BOOST_TEST(value("{temper}") == 27.0);
+  BOOST_CHECK_THROW(value("{v(a)}"), netlist::LineError);
+}
+
+// Comments of all dialects, and a netlist whose commands have quotes of their own.
+BOOST_AUTO_TEST_CASE(comments_and_commands) {
+  std::vector<Problem> notes;
+  const Json found = import_netlist(
+      "t\n# one\n* two\nV1 a 0 DC=2 ; three\nR1 a b 1k // four\nC1 b 0 \"2*0.5u\" $ five\n"
+      ".control\necho don't\n.endc\n.ac dec 1 1 10\n.end\n\x1a",
+      &notes);
+  BOOST_TEST(found.at("system").at("elements").size() == 3u);
+  BOOST_TEST(found.at("system").at("elements")[2].at("value") == "(2*5e-07)");
+  BOOST_TEST(found.at("time").at("end") == 1e-3);
+  BOOST_TEST_REQUIRE(notes.size() == 2u);
+  BOOST_TEST(notes[1].what.starts_with("no .tran says how long to go on: the experiment ends at"));
 }
 
 // Steps end where sources bend, once or in each period; corners of several sources, and those after the end, are not told again.
@@ -148,9 +196,10 @@ BOOST_AUTO_TEST_CASE(what_is_wrong_is_told_by_line) {
           "line 5: needs the voltage source v9, which is not there");
   refused("X1 a 0 part", "line 2: unknown subcircuit \"part\"");
   refused(".laplace", "line 2: .laplace is not supported");
-  refused("V1 a 0 sffm(0 1 1k)\nR1 a 0",
-          "line 2: the waveform sffm is not supported; expected PULSE, SIN, PWL or EXP\n"
-          "line 3: has no value; expected one");
+  refused(
+      "V1 a 0 trnoise(0 1 1k)\nR1 a 0",
+      "line 2: the waveform trnoise is not supported; expected PULSE, SIN, PWL, EXP, SFFM or AM\n"
+      "line 3: has no value; expected one");
 }
 
 BOOST_AUTO_TEST_CASE(subcircuits_and_parameters) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "courant/running/consistent_start.hpp"
+#include "run_in.hpp"
 
 namespace courant {
 BOOST_AUTO_TEST_SUITE(impulsive_start_test)
@@ -80,6 +81,45 @@ BOOST_AUTO_TEST_CASE(what_is_consistent_and_what_is_weighted_is_left_alone) {
   weighted["initial"]["q_C2"] = 0;
   weighted["weights"] = {{"q_C1", 2}};
   BOOST_TEST(!consistent_start(read_experiment_document(weighted)).is_impulse);
+}
+
+// At a corner where an equation of no velocity bends, a coordinate jumps and the run goes on: x grows by 1/2 and falls by 1.
+BOOST_AUTO_TEST_CASE(a_coordinate_jumps_at_a_corner) {
+  const Json experiment = {{"system",
+                            {{"type", "implicit"},
+                             {"coordinates", {"x", "z"}},
+                             {"equations", {"x' - z", "z - if(t < 0.5, 1, -2)"}}}},
+                           {"initial", {{"x", 0}}},
+                           {"method", "constrain-first"},
+                           {"time", {{"step", 0.05}, {"end", 1}, {"corners", {0.5}}}}};
+  const TemporaryFolder folder;
+  const RunOutcome outcome = run_in(folder, experiment);
+  BOOST_TEST_REQUIRE((outcome.status == RunStatus::completed), outcome.message);
+  BOOST_TEST(std::abs(final_value(outcome, "x") + 0.5) < 1e-9);
+  BOOST_TEST(std::abs(final_value(outcome, "z") + 2.0) < 1e-12);
+  BOOST_TEST_REQUIRE(outcome.summary.warnings.size() == 1u);
+  BOOST_TEST(outcome.summary.warnings[0].starts_with(
+      "At the corner t = 0.5 there is a jump: z from 1 to -2"));
+}
+
+// A voltage of 1 V that becomes 3 V across two capacitors of 2 F in a row: 2 C go through both, and what is between them, which only
+// the resistor of 1 Ω to the ground changes, keeps its charge. Before and after it 4 v' = -v there.
+BOOST_AUTO_TEST_CASE(a_step_of_voltage_across_capacitors) {
+  const Json experiment = Json::parse(R"json({
+    "system": { "type": "network", "nodes": ["0", "a", "b"], "elements": [
+      { "type": "voltage-source", "name": "V", "from": "a", "to": "0", "value": "if(t < 0.5, 1, 3)" },
+      { "type": "capacitor", "name": "C1", "from": "a", "to": "b", "value": 2 },
+      { "type": "capacitor", "name": "C2", "from": "b", "to": "0", "value": 2 },
+      { "type": "resistor", "name": "R", "from": "b", "to": "0", "value": 1 } ] },
+    "initial": { "v_C1": 0.25 },
+    "method": "constrain-first",
+    "time": { "step": 0.005, "end": 1, "corners": [0.5] } })json");
+  const TemporaryFolder folder;
+  const RunOutcome outcome = run_in(folder, experiment);
+  BOOST_TEST_REQUIRE((outcome.status == RunStatus::completed), outcome.message);
+  const double before = 0.75 * std::exp(-0.5 / 4.0), v = (before + 1.0) * std::exp(-0.5 / 4.0);
+  BOOST_TEST(std::abs(final_value(outcome, "q_C2") - 2.0 * v) < 1e-5);
+  BOOST_TEST(std::abs(final_value(outcome, "q_C1") - 2.0 * (3.0 - v)) < 1e-5);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
