@@ -322,6 +322,8 @@ ConstraintLadder decided_together(ConstraintLadder by_bounds, const JetEquations
   const auto is_of_point = [](const Doubt& doubt) {
     return doubt.kind == Doubt::Kind::near_singular || doubt.kind == Doubt::Kind::at_switch;
   };
+  // The given values may be a singular point, as the fold of an impasse, whatever holds at the point next to them.
+  if (std::ranges::any_of(by_bounds.doubts, is_of_point)) return by_bounds;
   if (std::ranges::any_of(by_digits.doubts, is_of_point)) {
     std::ranges::copy_if(by_digits.doubts, std::back_inserter(by_bounds.doubts), is_of_point);
     return by_bounds;

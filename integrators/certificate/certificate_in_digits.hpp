@@ -30,7 +30,7 @@ std::shared_ptr<const JetEquations> equations_in_digits(
 //   doubted     sure, alike or with solutions       that of digits: what rounding hides from the first is seen by the other
 //   sure        inconsistent                        that of digits: constants are zero or not, and time goes on
 //   sure        sure, with other dimensions         that of bounds, with a doubt
-//   either      at a switch, or near a point with   that of bounds, with this doubt
+//   either      at a switch, or near a point with   that of bounds, with this doubt; so also where bounds see such a point
 //               other ranks
 //   otherwise                                       that of bounds
 //

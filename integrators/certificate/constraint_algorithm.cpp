@@ -111,8 +111,7 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
   ladder.jet = jet.zero().y;
   ladder.moved = consistent.distance(ladder.point.x);
   ladder.moves = movements(*system, guess, ladder.point);
-  const std::vector<std::string> found = doubts(consistent, ascent, evidence);
-  ladder.doubts.assign(found.begin(), found.end());
+  ladder.doubts = doubts(consistent, ascent, evidence);
   ladder.reason = ascent.is_singular() ? ascent.singular.reason : ascent.reason;
   if (ascent.is_singular())
     ladder.verdict = Verdict::rank_change;

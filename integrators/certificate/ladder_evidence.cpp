@@ -91,12 +91,13 @@ LadderEvidence::LadderEvidence(LadderAscent& ascent) {
   settle(levels);
 }
 
-std::vector<std::string> doubts(const ConsistentPoint& consistent, const LadderAscent& ascent,
-                                const LadderEvidence& evidence) {
+std::vector<Doubt> doubts(const ConsistentPoint& consistent, const LadderAscent& ascent,
+                          const LadderEvidence& evidence) {
   const std::vector<LadderLevel>& levels = ascent.levels;
   const Singularity& singular = ascent.singular;
   const bool is_singular = ascent.is_singular();
-  std::vector<std::string> result = contradictions(levels);
+  const std::vector<std::string> contradicting = contradictions(levels);
+  std::vector<Doubt> result(contradicting.begin(), contradicting.end());
   const auto add_if = [&](bool is_so, const char* sentence) {
     if (is_so) result.emplace_back(sentence);
   };
@@ -117,10 +118,11 @@ std::vector<std::string> doubts(const ConsistentPoint& consistent, const LadderA
   add_if(!evidence.is_same_rank,
          "The ranks are higher at the point as it was found: they are lower only if it is "
          "elsewhere, within its error.");
-  add_if(
-      !is_singular && is_lower_where_given(consistent, ascent.jet, levels),
-      "The ranks are lower at the given values, which had to move a little: these look singular, "
-      "and the point that was found next to them does not.");
+  if (!is_singular && is_lower_where_given(consistent, ascent.jet, levels))
+    result.emplace_back(
+        Doubt::Kind::near_singular,
+        "The ranks are lower at the given values, which had to move a little: these look singular, "
+        "and the point that was found next to them does not.");
   add_if(is_singular && !has_clear_cuts(levels),
          "The ranks at the point are lower than nearby by numbers that are hardly below their "
          "errors.");

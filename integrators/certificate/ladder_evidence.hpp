@@ -29,7 +29,7 @@ struct LadderEvidence {
 };
 
 // What remains doubtful of the ladder, a sentence each. `consistent` is that of the ascent.
-std::vector<std::string> doubts(const ConsistentPoint& consistent, const LadderAscent& ascent,
-                                const LadderEvidence& evidence);
+std::vector<Doubt> doubts(const ConsistentPoint& consistent, const LadderAscent& ascent,
+                          const LadderEvidence& evidence);
 
 }  // namespace courant

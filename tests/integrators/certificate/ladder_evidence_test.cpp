@@ -30,7 +30,7 @@ SystemPointer circle(double r) {
 struct Weighed {
   Weighed(const SystemPointer& system, const InitialGuess& guess)
       : consistent(system, guess, {}), ascent(consistent, *system, 12), evidence(ascent) {}
-  std::vector<std::string> doubts() const { return courant::doubts(consistent, ascent, evidence); }
+  std::vector<Doubt> doubts() const { return courant::doubts(consistent, ascent, evidence); }
 
   ConsistentPoint consistent;
   LadderAscent ascent;
@@ -69,15 +69,16 @@ BOOST_AUTO_TEST_CASE(what_the_way_leaves_open_is_told) {
   weighed.ascent.singular.is_unanimous = false;
   weighed.ascent.singular.seen_once = "Ranks differ.";
   weighed.evidence.is_known = weighed.evidence.is_same_rank = false;
-  const std::vector<std::string> doubts = weighed.doubts();
+  const std::vector<Doubt> doubts = weighed.doubts();
   BOOST_TEST_REQUIRE(doubts.size() == 7u);
-  BOOST_TEST(doubts[0] == "Level 0 has other dimensions.");
-  BOOST_TEST(doubts[1] == "In one direction the point may be singular: Ranks differ.");
-  BOOST_TEST(doubts[2] == "Too few points nearby could be compared with this one.");
-  BOOST_TEST(doubts[3] == "In one direction the point does not look singular.");
-  BOOST_TEST(doubts[4] == "A search that does not converge says nothing.");
-  BOOST_TEST(doubts[5].starts_with("The ranks are higher at the point as it was found"));
-  BOOST_TEST(doubts[6].starts_with("The derivatives of the equations are not known well enough"));
+  BOOST_TEST(doubts[0].text == "Level 0 has other dimensions.");
+  BOOST_TEST(doubts[1].text == "In one direction the point may be singular: Ranks differ.");
+  BOOST_TEST(doubts[2].text == "Too few points nearby could be compared with this one.");
+  BOOST_TEST(doubts[3].text == "In one direction the point does not look singular.");
+  BOOST_TEST(doubts[4].text == "A search that does not converge says nothing.");
+  BOOST_TEST(doubts[5].text.starts_with("The ranks are higher at the point as it was found"));
+  BOOST_TEST(
+      doubts[6].text.starts_with("The derivatives of the equations are not known well enough"));
   weighed.evidence.is_proven = weighed.evidence.is_full = true;
   BOOST_TEST(weighed.doubts().size() == 5u);
 }
