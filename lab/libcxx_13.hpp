@@ -154,6 +154,11 @@ template <class R, class O>
 auto copy(R&& range, O to) {
   return std::copy(std::begin(range), std::end(range), to);
 }
+template <class R, class O, class F>
+auto copy_if(R&& range, O to, F is) {
+  return std::copy_if(std::begin(range), std::end(range), to,
+                      [&](auto&& one) { return std::invoke(is, one); });
+}
 template <class R, class S, class O>
 auto set_difference(R&& first, S&& second, O to) {
   return std::set_difference(std::begin(first), std::end(first), std::begin(second),
