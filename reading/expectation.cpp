@@ -282,13 +282,16 @@ std::string value_in_words(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
+// A property of the ladder or of the solution of the boundary problem, `of` the run if it has one, that is to be this value.
+template <class Found, class Value>
 void expect_equal(const JsonReader& key, const std::string& description, const ObjectReader& entry,
-                  std::function<Json(const ConstraintLadder&)> value, const Reading& reading) {
+                  const Found* RunRecord::*of, const Value& value, const Reading& reading) {
   reading.expectations.checks.push_back([=, bound = key.value(), pointer = entry.place().pointer()](
                                             const RunRecord& record) {
     ExpectationResult result{pointer, description, false, nullptr, bound, kNotKnown};
-    if (!record.ladder) return result;
-    result.value = value(*record.ladder);
+    const Found* found = record.*of;
+    if (!found) return result;
+    result.value = value(*found);
     result.passed = result.value == bound;
     result.finding = "is " + value_in_words(result.value) + "; expected " + value_in_words(bound);
     return result;
@@ -325,7 +328,7 @@ bool read_certificate(ObjectReader& entry, const Reading& reading) {
       if (*verdict == "inconsistent") reading.expectations.inconsistent = true;
       expect_equal(
           *key, std::string(doubted ? "doubted " : "") + "verdict of the constraint algorithm",
-          entry,
+          entry, &RunRecord::ladder,
           [doubted](const ConstraintLadder& ladder) {
             const std::string found = to_string(ladder.verdict);
             if (ladder.is_ambiguous() == doubted) return found;
@@ -337,7 +340,8 @@ bool read_certificate(ObjectReader& entry, const Reading& reading) {
   if (const auto key = entry.optional("ladder")) {
     any = true;
     if (is_dimension_list(*key))
-      expect_equal(*key, "(dim S, dim M) of the ladder", entry, dimensions, reading);
+      expect_equal(*key, "(dim S, dim M) of the ladder", entry, &RunRecord::ladder, dimensions,
+                   reading);
   }
   for (const auto& [name, member] :
        {std::pair("index", &ConstraintLadder::index),
@@ -350,7 +354,7 @@ bool read_certificate(ObjectReader& entry, const Reading& reading) {
     std::replace(words.begin(), words.end(), '_', ' ');
     if (key->integer(0))
       expect_equal(
-          *key, words + " of the ladder", entry,
+          *key, words + " of the ladder", entry, &RunRecord::ladder,
           [member = member](const ConstraintLadder& ladder) {
             const Index found = ladder.*member;
             return found < 0 ? Json() : Json(found);
@@ -399,22 +403,6 @@ bool read_imbalance(ObjectReader& entry, const Reading& reading, const char* nam
   return true;
 }
 
-// A property of the solution of the boundary problem that is to be this value.
-void expect_of_solution(const JsonReader& key, const std::string& description,
-                        const ObjectReader& entry,
-                        std::function<Json(const BoundarySolution&)> value,
-                        const Reading& reading) {
-  reading.expectations.checks.push_back([=, bound = key.value(), pointer = entry.place().pointer()](
-                                            const RunRecord& record) {
-    ExpectationResult result{pointer, description, false, nullptr, bound, kNotKnown};
-    if (!record.boundary) return result;
-    result.value = value(*record.boundary);
-    result.passed = result.value == bound;
-    result.finding = "is " + value_in_words(result.value) + "; expected " + value_in_words(bound);
-    return result;
-  });
-}
-
 // {"duration": "4*pi", "tolerance": 1e-6} and {"multipliers": [2.5, 1, 1, 0.4], "tolerance": 1e-6}: numbers of the solution.
 void read_numbers_of_solution(ObjectReader& entry, const Reading& reading) {
   const auto duration_key = entry.optional("duration");
@@ -459,17 +447,17 @@ bool read_solution(ObjectReader& entry, const Reading& reading) {
     any = any || object.contains(key);
   if (!any) return false;
   if (const auto key = entry.optional("boundary"); key && key->word({"isolated", "family"}))
-    expect_of_solution(
-        *key, "solution of the boundary problem", entry,
+    expect_equal(
+        *key, "solution of the boundary problem", entry, &RunRecord::boundary,
         [](const BoundarySolution& solution) { return Json(to_string(solution.verdict)); },
         reading);
   if (const auto key = entry.optional("family_dimension"); key && key->integer(0))
-    expect_of_solution(
-        *key, "dimension of the family of solutions", entry,
+    expect_equal(
+        *key, "dimension of the family of solutions", entry, &RunRecord::boundary,
         [](const BoundarySolution& solution) { return Json(solution.family_dimension); }, reading);
   if (const auto key = entry.optional("conjugate_points"); key && key->integer(0))
-    expect_of_solution(
-        *key, "conjugate points", entry,
+    expect_equal(
+        *key, "conjugate points", entry, &RunRecord::boundary,
         [](const BoundarySolution& solution) {
           return solution.conjugate_times ? Json(solution.conjugate_times->size()) : Json();
         },

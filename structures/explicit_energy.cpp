@@ -1,32 +1,24 @@
 #include "courant/structures/explicit_energy.hpp"
 
 #include <random>
+#include <stdexcept>
 #include <vector>
 
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/core/expressions/expr_vectors.hpp"
+#include "courant/core/expressions/linear_algebra.hpp"
 #include "courant/core/linear/singular_value_decomposition.hpp"
 
 namespace courant {
 namespace {
 
-// A⁻¹ b for a symmetric A that is definite, by A = L D Lᵀ; nothing where an entry of D is the constant 0.
-std::optional<ExprVector> solved_symmetric(ExprMatrix A, ExprVector b) {
-  const Index n = A.rows();
-  for (Index k = 0; k < n; ++k) {
-    if (A(k, k).is_constant(0.0)) return std::nullopt;
-    for (Index i = k + 1; i < n; ++i) {
-      if (A(i, k).is_constant(0.0)) continue;
-      const Expr factor = A(i, k) / A(k, k);
-      for (Index j = k + 1; j < n; ++j) A(i, j) = A(i, j) - factor * A(k, j);
-      b[i] = b[i] - factor * b[k];
-    }
+// A⁻¹ b; nothing where a pivot is the constant 0.
+std::optional<ExprVector> solved(const ExprMatrix& A, const ExprVector& b) {
+  try {
+    return ExprVector(solve(A, b));
+  } catch (const std::domain_error&) {
+    return std::nullopt;
   }
-  for (Index k = n - 1; k >= 0; --k) {
-    for (Index j = k + 1; j < n; ++j) b[k] = b[k] - A(k, j) * b[j];
-    b[k] = b[k] / A(k, k);
-  }
-  return b;
 }
 
 // Whether numbers are a matrix of rank 1 less, or worse: masses of components that no tangent vector has.
@@ -67,7 +59,7 @@ std::optional<Expr> explicit_energy(const EnergySystem& system, const ExprVector
   if (is_singular(values(of_velocities))) return std::nullopt;
   const auto at_rest =
       substitute(ExprVector(slopes(velocities)), w, ExprVector(ExprVector::Zero(w.size())));
-  const auto against = solved_symmetric(masses, at_rest);
+  const auto against = solved(masses, at_rest);
   if (!against) return std::nullopt;
   const ExprVector on_M = substitute(ExprVector::Constant(1, E), w, ExprVector(-*against));
   return substitute(on_M, time, ExprVector::Constant(1, t))[0];

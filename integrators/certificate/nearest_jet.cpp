@@ -263,7 +263,7 @@ NearestJet::Found NearestJet::searched(Index k) {
     BinaryScales scales(equations_, k);
     by_sizes ? scales.update(places, at.entries, start) : scales.update(places, at.entries);
     for (const std::vector<bool>& stays : {unmoved, held}) {
-      found = refined(start, stays, scales, true);
+      found = refined(start, stays, scales);
       found.was_near = true;
       if (found.is_zero) return tidied(found, stays, scales);
       if (unmoved == held) break;
@@ -486,7 +486,7 @@ NearestJet::Found NearestJet::descended(Index k, const Found& before) const {
 }
 
 NearestJet::Found NearestJet::find_displaced(const Jet& from, const BinaryScales& scales) const {
-  return refined(from, std::vector<bool>(from.y.size(), false), scales, true);
+  return refined(from, std::vector<bool>(from.y.size(), false), scales);
 }
 
 // Newton's method in Digits by orthogonal rows: least change of the scaled_part unknowns.
