@@ -130,7 +130,10 @@ class MotionSearch {
       const double norm = change.norm();
       changes_.push_back(norm);
       if (norm <= options_.tolerance * size) {
-        if (error <= kMatrixError) return true;
+        if (error <= kMatrixError) {
+          take_last(change);
+          return true;
+        }
         last = norm;  // once more, with all that is known of the matrix
         continue;
       }
@@ -166,6 +169,20 @@ class MotionSearch {
       if (!accepted) return false;
     }
     return false;
+  }
+
+  // Newton's method squares its error: a change that is as small as is asked for leaves round-off, so that the answer does not depend on the way.
+  void take_last(const VectorXd& change) {
+    try {
+      Shooting::Motion trial = shooting_.moved(motion_, bases_, units_.cwiseProduct(change));
+      const VectorXd F = shooting_.residual(trial, bases_);
+      if (!(weights_.cwiseProduct(F).norm() < weights_.cwiseProduct(linear_.residual).norm()))
+        return;
+      motion_ = std::move(trial);
+      linear_.residual = F;
+    } catch (const SolveError&) {
+    } catch (const std::domain_error&) {
+    }
   }
 
   // Whether all equations hold: the iteration may have ended at least squares.

@@ -137,7 +137,8 @@ std::shared_ptr<const StepDifferential> IntegratorInUnits::do_differential() con
 }
 
 std::optional<Units> needed_units(const std::shared_ptr<const ImplicitSystem>& system,
-                                  const State& point) {
+                                  const State& at) {
+  const State point = without_round_off(system, at);
   constexpr double comparable = 1e6, usual_time = 1e9;
   constexpr double most = 1e90;  // products of three have to be numbers
   auto units = units_of_all_terms(system, point);

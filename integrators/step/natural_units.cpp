@@ -113,20 +113,30 @@ VectorXd constants_at(const DerivativeArray& array, const VectorXd& y, const Vec
   return (at.value.array().abs() > least.array()).select(at.value.cwiseAbs(), 0.0);
 }
 
+// The components of unknowns and of equations, those of a coordinate and of its rate as one.
+struct JoinedComponents {
+  std::vector<Index> columns, rows;
+};
+JoinedComponents components_with_rates(const NaturalScaling& natural, Index n) {
+  JoinedComponents all{natural.column_component, natural.row_component};
+  for (Index j = 0; j < n; ++j) {
+    const Index rate = all.columns[static_cast<std::size_t>(n + j)],
+                coordinate = all.columns[static_cast<std::size_t>(j)];
+    std::ranges::replace(all.columns, rate, coordinate);
+    std::ranges::replace(all.rows, rate, coordinate);
+  }
+  return all;
+}
+
 // Nothing tells the factor of units of what has no connection with any known size or constant, as of a second
 // particle at rest: that of its largest coordinate becomes that of the others.
 void align_components(VectorXd& units, const NaturalScaling& natural, const VectorXd& constants,
                       const Numbering& numbering, const VectorXd& reach) {
   const Index n = std::ssize(numbering);
-  std::vector<Index> columns = natural.column_component, rows = natural.row_component;
+  const auto [columns, rows] = components_with_rates(natural, n);
   const auto of = [](const std::vector<Index>& components, Index i) {
     return components[static_cast<std::size_t>(i)];
   };
-  for (Index j = 0; j < n; ++j) {
-    const Index rate = of(columns, n + j), coordinate = of(columns, j);
-    std::ranges::replace(columns, rate, coordinate);
-    std::ranges::replace(rows, rate, coordinate);
-  }
   VectorXd known = VectorXd::Zero(natural.component_count), largest = known;
   for (Index i = 0; i < constants.size(); ++i)
     if (constants[i] > 0.0) known[of(rows, i)] = 1.0;
@@ -246,7 +256,43 @@ struct Level0 {
   }
 };
 
+// `numbers` with 0 for those that are round-off next to the largest of them.
+VectorXd without_round_off(const VectorXd& numbers) {
+  constexpr double round_off = 1e-14;
+  if (numbers.size() == 0) return numbers;
+  const double least = round_off * numbers.lpNorm<Eigen::Infinity>();
+  return (numbers.array().abs() > least).select(numbers, 0.0);
+}
+
 }  // namespace
+
+State without_round_off(const std::shared_ptr<const ImplicitSystem>& system, const State& point) {
+  State zeroed = point;
+  zeroed.x = without_round_off(point.x);
+  zeroed.v = without_round_off(point.v);
+  const Manifold& M = *system->manifold();
+  const Index n = M.dimension(), unknowns = 2 * n + system->auxiliary_size();
+  if ((zeroed.x == point.x && zeroed.v == point.v) || !M.has_identity_frame() ||
+      unknowns + system->equation_count() > kExact)
+    return point;
+  const DerivativeArray array(system, zeroed.t, zeroed.x);
+  VectorXd y = array.jet(zeroed.v, zeroed.z);
+  const SparseMatrixXd terms = magnitude_at(array, y, Evidence::all);
+  const NaturalScaling natural({VectorXd::Zero(terms.rows()), terms}, VectorXd::Zero(y.size()));
+  const std::vector<Index> component = components_with_rates(natural, n).columns;
+  y.head(n) = zeroed.x;
+  VectorXd largest = VectorXd::Zero(natural.component_count);
+  for (Index j = 0; j < y.size(); ++j) {
+    double& size = largest[component[static_cast<std::size_t>(j)]];
+    size = std::max(size, std::fabs(y[j]));
+  }
+  for (Index j = 0; j < n; ++j) {
+    if (!(largest[component[static_cast<std::size_t>(j)]] > 0.0)) continue;
+    zeroed.x[j] = point.x[j];
+    if (zeroed.v.size() > 0) zeroed.v[j] = point.v[j];
+  }
+  return zeroed;
+}
 
 VectorXd natural_units(const std::shared_ptr<const ImplicitSystem>& system,
                        const ConstraintLadder& ladder) {

@@ -28,6 +28,7 @@
 //  * angles have units (integrators/step/natural_units.cpp)
 //  * differences are as long for all numbers of a state
 //    (integrators/methods/measured_differential.cpp)
+//  * what round-off leaves of a zero asks for units
 //  * units of what nothing tells are quotients of rounding errors
 //    (integrators/step/unit_equations.cpp)
 BOOST_AUTO_TEST_SUITE(integrator_in_units)
@@ -183,6 +184,20 @@ BOOST_AUTO_TEST_CASE(what_is_at_rest_has_the_units_of_what_moves) {
   BOOST_TEST_REQUIRE(units.has_value());
   for (const Index i : {0, 2})
     BOOST_TEST(std::fabs(std::log2(units->coordinates[i + 1] / units->coordinates[i])) <= 1.0);
+}
+
+// What a run left of a zero beside numbers of 1 is still a zero.
+BOOST_AUTO_TEST_CASE(what_round_off_leaves_of_a_zero_is_no_unit) {
+  const auto plane = std::make_shared<CotangentBundle>(std::make_shared<Euclidean>(2));
+  const auto system = std::make_shared<DiracSystem>(
+      std::make_shared<CanonicalSymplectic>(plane),
+      std::make_shared<Hamiltonian>(plane, [](const ExprVector& x, const Expr&) {
+        return 0.5 * (square(x[2]) + square(x[3]) + square(x[0]));
+      }));
+  for (const double left : {0.0, 2e-15, -7e-16, 1e-40})
+    BOOST_TEST(!needed_units(system, {.x = Eigen::Vector4d(3.0, 0.0, 4.0, left),
+                                      .v = Eigen::Vector4d(4.0, left, -3.0, 0.0)})
+                    .has_value());
 }
 
 // The gate of an inverter carries no current, and no other equation contains that one: its unit is 1, not a quotient of
