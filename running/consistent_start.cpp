@@ -567,6 +567,31 @@ void drop_round_off_of_unknowns(const Experiment& experiment, State& point) {
   if ((after.array().abs() <= before.array().abs()).all()) point.z = z;
 }
 
+// Whether these coordinates, which nothing determines, are determined where velocities that are not given are 0.
+bool determined_at_rest(const Experiment& experiment, const std::vector<std::string>& missing,
+                        Decider decider) {
+  Json document = experiment.document;
+  Json& initial = document["initial"];
+  if (!initial.is_object() || initial.contains("rest")) return false;
+  initial["rest"] = true;
+  try {
+    const Experiment resting = read_experiment_document(document);
+    const auto& names = resting.model.system->names().coordinates;
+    const auto is_told = [&](const Flags& given, const std::string& name) {
+      const auto found = std::ranges::find(names, name);
+      return found != names.end() && given[found - names.begin()];
+    };
+    for (const std::string& name : missing)
+      if (!is_told(resting.initial.x.given, name) &&
+          !(name.starts_with("p_") && is_told(resting.initial.velocity.given, name.substr(2))))
+        return false;
+    const ConsistentStart start = consistent_start(resting, decider);
+    return !has_no_start(start) && start.moves.empty();
+  } catch (const ExperimentError&) {
+    return false;
+  }
+}
+
 ConsistentStart found_start(const Experiment& experiment, Decider decider) {
   const StartSearch search(experiment, decider);
   const ConsistentStart nearest = search.find();
@@ -598,7 +623,11 @@ ConsistentStart found_start(const Experiment& experiment, Decider decider) {
     const auto told = std::span(missing).first(std::min<std::size_t>(missing.size(), 5));
     throw ExperimentError("/initial", "nothing determines " + word_list(told) +
                                           (missing.size() > 5 ? ", …" : "") +
-                                          "; expected more initial values");
+                                          "; expected more initial values" +
+                                          (determined_at_rest(experiment, missing, decider)
+                                               ? ", or \"rest\": true among them, with which "
+                                                 "velocities that are not given are 0"
+                                               : ""));
   }
   return ladder;
 }

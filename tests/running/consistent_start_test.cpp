@@ -364,6 +364,27 @@ BOOST_AUTO_TEST_CASE(what_is_missing_is_found_where_it_is_determined) {
              missing);
 }
 
+// Rest is recommended where it was tried: not where a position is missing, nor where a constraint moves.
+BOOST_AUTO_TEST_CASE(rest_is_recommended_where_it_determines_the_start) {
+  const auto bead = [](const Json& initial, const std::string& constraint) {
+    return problem({{"system",
+                     {{"type", "mechanical"},
+                      {"coordinates", {"x", "y"}},
+                      {"potential", "9.81*y"},
+                      {"holonomic", {constraint}}}},
+                    {"initial", initial}});
+  };
+  const std::string circle = "x^2 + y^2 - 1", recommended = "or \"rest\": true";
+  const std::string still = bead({{"x", 0.6}, {"y", -0.8}}, circle);
+  BOOST_TEST(still.find(recommended) != std::string::npos, still);
+  const std::string moving = bead({{"x", 1}, {"y", 0}}, "x - cos(t) - 0.5*t");
+  BOOST_TEST(moving.find("nothing determines") != std::string::npos, moving);
+  BOOST_TEST(moving.find(recommended) == std::string::npos, moving);
+  const std::string nowhere = problem(
+      {{"system", {{"type", "mechanical"}, {"coordinates", {"x", "y"}}}}, {"initial", {{"x", 1}}}});
+  BOOST_TEST(nowhere.find(recommended) == std::string::npos, nowhere);
+}
+
 // Without a matrix of all coordinates, which took more memory than there is.
 BOOST_AUTO_TEST_CASE(what_is_missing_of_many_coordinates_is_told) {
   const std::string many = std::to_string(20'000);
