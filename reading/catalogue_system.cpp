@@ -116,11 +116,12 @@ void CatalogueSystem::tell(const Findings& problems, ObjectReader& system) const
   }
 }
 
-std::optional<Model> CatalogueSystem::read(ObjectReader& system) const {
+std::optional<Model> CatalogueSystem::read(ObjectReader& system,
+                                           const Registry<Model>& kinds) const {
   const auto whole = filled(system);
   if (!whole) return std::nullopt;
   Findings findings;
-  auto model = system_kinds().read(JsonReader(*whole, system.place().pointer(), findings));
+  auto model = kinds.read(JsonReader(*whole, system.place().pointer(), findings));
   tell(findings, system);
   if (!model || !findings.clean()) return std::nullopt;
 

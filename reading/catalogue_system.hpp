@@ -6,7 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "courant/reading/system_kinds.hpp"
+#include "courant/reading/model.hpp"
+#include "courant/reading/registry.hpp"
 
 namespace courant {
 
@@ -34,8 +35,8 @@ class CatalogueSystem {
   // Its example, and this in formulas, have a key for each parameter.
   const KindDescription& description() const { return description_; }
 
-  // The model of a system of this type. What is wrong with a parameter is said at its key.
-  std::optional<Model> read(ObjectReader& system) const;
+  // The model of a system of this type, whose formulas `kinds` reads. What is wrong with a parameter is said at its key.
+  std::optional<Model> read(ObjectReader& system, const Registry<Model>& kinds) const;
 
  private:
   // The system in formulas with the values that the experiment gives.

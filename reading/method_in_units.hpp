@@ -1,7 +1,7 @@
 // Methods whose steps are made in natural units where those of the system are far apart.
 #pragma once
 
-#include "courant/reading/method_kinds.hpp"
+#include "courant/reading/method_choice.hpp"
 
 namespace courant {
 

@@ -17,8 +17,9 @@ std::vector<Key> together(std::vector<Key> keys, const std::vector<Key>& more) {
 std::vector<Registry<Model>::Kind> completed(std::vector<Registry<Model>::Kind> kinds) {
   for (auto& kind : kinds) kind.description.example = system_example(kind.description.type);
   for (const CatalogueSystem& entry : catalogue_systems())
-    kinds.push_back(
-        {entry.description(), [&entry](ObjectReader& system) { return entry.read(system); }});
+    kinds.push_back({entry.description(), [&entry](ObjectReader& system) {
+                       return entry.read(system, system_kinds());
+                     }});
   return kinds;
 }
 

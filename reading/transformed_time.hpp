@@ -1,7 +1,7 @@
 // Methods in a time of their own: the key `transformation` of `time`.
 #pragma once
 
-#include "courant/reading/method_kinds.hpp"
+#include "courant/reading/method_choice.hpp"
 #include "courant/reading/written_formula.hpp"
 
 namespace courant {
