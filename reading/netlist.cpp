@@ -153,6 +153,7 @@ class Import {
     const double value = value_of(initial);
     if (place == 0) return;
     given_[place] = formula(initial.value, circuit_.scope, initial.line);
+    given_values_[place] = value;
     given_lines_[place] = initial.line;
     circuit_.at_rest = circuit_.at_rest && value == 0.0;
     std::erase_if(circuit_.fixed.held, [&](const auto& held) { return held.node == place; });
@@ -278,7 +279,8 @@ class Import {
         line, in_words(names) + " form " + none.why + ": there is no operating point" + expected);
   }
 
-  // With uic: from ic=, else from .ic, where the potential of other nodes is 0.
+  // With uic: from ic=, else from .ic, where the potential of other nodes is 0. Charges of junctions are those at these
+  // potentials.
   Json given_values() const {
     Json initial = Json::object();
     for (const NetlistStorage& storage : circuit_.storages) {
@@ -295,8 +297,22 @@ class Import {
       }
       initial[storage.state] = given ? written_value(storage.value + "*" + *given) : Json(0);
     }
-    for (const NetlistJunction& junction : circuit_.junctions) initial[junction.state] = 0;
+    for (const NetlistJunction& junction : circuit_.junctions)
+      initial[junction.state] =
+          junction.at(given_voltage(junction.element), given_voltage(junction.other));
     return initial;
+  }
+
+  // With uic, across an element.
+  double given_voltage(std::size_t element) const {
+    const auto potential = [&](std::size_t node) {
+      const auto terminal = circuit_.terminals.find(node);
+      const auto given =
+          given_values_.find(terminal == circuit_.terminals.end() ? node : terminal->second);
+      return given == given_values_.end() ? 0.0 : given->second;
+    };
+    const StaticElement& between = circuit_.fixed.elements[element];
+    return potential(between.from) - potential(between.to);
   }
 
   void tell_what_has_no_effect() {
@@ -304,18 +320,28 @@ class Import {
       if (storage.given && !circuit_.from_given)
         note(storage.line, "ic= has no effect without uic in .tran");
     if (!circuit_.from_given) return;
+    const auto meets = [&](std::size_t element, std::size_t node) {
+      const auto is_at = [&](std::size_t end) {
+        const auto terminal = circuit_.terminals.find(end);
+        return end == node || (terminal != circuit_.terminals.end() && terminal->second == node);
+      };
+      const StaticElement& between = circuit_.fixed.elements[element];
+      return is_at(between.from) || is_at(between.to);
+    };
     for (const auto& given : given_lines_) {
       const std::size_t node = given.first;
-      if (std::none_of(circuit_.storages.begin(), circuit_.storages.end(),
-                       [&](const NetlistStorage& storage) {
-                         const StaticElement& element = circuit_.fixed.elements[storage.element];
-                         return storage.is_capacitor && !storage.given &&
-                                (element.from == node || element.to == node);
-                       }))
-        note(given.second,
-             "the potential of " + circuit_.name_of(node) +
-                 " has no effect: with uic it is that of capacitors without ic=, and there "
-                 "is none at this node");
+      if (std::ranges::none_of(circuit_.storages,
+                               [&](const NetlistStorage& storage) {
+                                 return storage.is_capacitor && !storage.given &&
+                                        meets(storage.element, node);
+                               }) &&
+          std::ranges::none_of(circuit_.junctions, [&](const NetlistJunction& junction) {
+            return meets(junction.element, node);
+          }))
+        note(given.second, "the potential of " + circuit_.name_of(node) +
+                               " has no effect: with uic it is that of capacitors without ic= and "
+                               "of junctions with a "
+                               "charge, and there is none at this node");
     }
   }
 
@@ -327,6 +353,7 @@ class Import {
   Times times_;
   double largest_step_;
   std::map<std::size_t, std::string> given_;  // potentials of nodes, by .ic
+  std::map<std::size_t, double> given_values_;
   std::map<std::size_t, int> given_lines_;
   Json initial_ = Json::object();
   bool is_stiff_ = false;

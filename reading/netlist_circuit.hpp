@@ -52,8 +52,9 @@ struct NetlistCircuit {
   std::vector<std::pair<int, std::string>> notes;  // what of a line has no effect
   std::vector<NetlistStorage> storages;
   std::vector<NetlistJunction> junctions;
-  StaticCircuit fixed;             // at t = 0
-  std::vector<std::string> names;  // of the elements of `fixed`
+  std::map<std::size_t, std::size_t> terminals;  // of nodes behind the resistance of a device
+  StaticCircuit fixed;                           // at t = 0
+  std::vector<std::string> names;                // of the elements of `fixed`
   std::vector<int> lines;
   bool at_rest = true;  // whether all sources are 0 at t = 0
 

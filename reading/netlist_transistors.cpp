@@ -47,6 +47,7 @@ std::size_t CircuitReader::behind_resistance(std::size_t node, const std::string
   if (place.empty()) place = name + "_inside";
   for (char& c : place) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const std::size_t inside = own_node(place, line);
+  circuit_.terminals[inside] = node;
   add_own("resistor", name, node, inside, resistance,
           {.kind = StaticElement::Kind::resistor, .value = value}, line);
   return inside;

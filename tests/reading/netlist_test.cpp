@@ -286,9 +286,19 @@ BOOST_AUTO_TEST_CASE(given_potentials) {
   import_netlist("t\nR0 a 0 1k\nR1 a b 1k\nC1 b 0 1u ic=1\n.ic v(a)=1\n.tran 1u 9u uic\n", &notes);
   BOOST_REQUIRE(notes.size() == 1u);
   BOOST_TEST(notes[0].where == "line 5");
-  BOOST_TEST(notes[0].what ==
-             "the potential of a has no effect: with uic it is that of capacitors without ic=, and "
-             "there is none at this node");
+  BOOST_TEST(
+      notes[0].what ==
+      "the potential of a has no effect: with uic it is that of capacitors without ic= and of "
+      "junctions with a charge, and there is none at this node");
+  // Of a junction below forward * junction: C V / (1 - m) (1 - (1 - v/V)^(1 - m)), behind its resistance too.
+  const Json diode = import_netlist(
+      "t\nV1 a 0 1\nD1 a b d\nR1 b 0 1k\n.model d D(cjo=2n vj=0.8 m=0.5 rs=3 is=1e-30)\n"
+      ".ic v(a)=1 v(b)=0.7\n.tran 1u 9u uic\n",
+      &notes);
+  BOOST_TEST(diode.at("initial").at("q_D1").get<double>() ==
+                 2e-9 * 0.8 / 0.5 * (1.0 - std::sqrt(1.0 - 0.3 / 0.8)),
+             boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(notes.empty());
   import_netlist("t\nV1 a 0 1\nR1 a b 1k\nC1 b 0 1u ic=1\n.tran 1u 9u\n", &notes);
   BOOST_REQUIRE(notes.size() == 1u);
   BOOST_TEST(notes[0].where == "line 4");
