@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "courant/reading/model.hpp"
+#include "courant/reading/nominal_sizes.hpp"
 
 namespace courant {
 
@@ -23,15 +24,6 @@ struct GivenQuantity {
   WrittenFormula formula;  // its name
   double value = 0.0;
   bool held = false;
-};
-
-// Sizes that norms measure by, 0 where none is given: the weights of steps, and what it costs to move a value that is not
-// consistent. No decision knows them.
-struct NominalSizes {
-  VectorXd coordinates = {};  // N
-  VectorXd unknowns = {};     // m, where unknowns have names
-
-  bool any() const { return (coordinates.array() > 0.0).any() || (unknowns.array() > 0.0).any(); }
 };
 
 struct InitialValues {

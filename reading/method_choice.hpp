@@ -10,7 +10,7 @@
 #include "courant/integrators/maps/discretization_map.hpp"
 #include "courant/integrators/step/integrator.hpp"
 #include "courant/integrators/step/projector.hpp"
-#include "courant/reading/initial_values.hpp"
+#include "courant/reading/nominal_sizes.hpp"
 #include "courant/reading/vocabulary.hpp"
 #include "courant/structures/implicit_system.hpp"
 #include "courant/structures/time_transformation.hpp"

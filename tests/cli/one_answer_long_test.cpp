@@ -12,8 +12,7 @@
 #include "courant/reading/table.hpp"
 
 // Mistakes that these cases have to notice:
-//  * runs begin with other deciders than the certificate
-//  * a doubt is lost on the way to the summary
+//  * runs decide by digits alone (running/start_moves.cpp)
 BOOST_AUTO_TEST_SUITE(one_answer_long_test)
 
 using namespace courant;
