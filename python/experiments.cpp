@@ -11,6 +11,7 @@
 #include "courant/running/check.hpp"
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/ladder_report.hpp"
+#include "courant/running/other_values.hpp"
 #include "courant/running/study.hpp"
 
 namespace courant::python {
@@ -18,7 +19,7 @@ namespace {
 
 // The certificate of an experiment: the one place that knows which engine finds it.
 Json certificate(const Experiment& experiment) {
-  return courant::to_json(ladder_report(consistent_start(experiment), *experiment.model.system));
+  return courant::to_json(report_of_start(experiment, consistent_start(experiment)));
 }
 
 Json described(const KindDescription& kind) {

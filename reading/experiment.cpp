@@ -9,6 +9,7 @@
 #include "courant/reading/divided_steps.hpp"
 #include "courant/reading/energy_words.hpp"
 #include "courant/reading/json_document.hpp"
+#include "courant/reading/method_in_units.hpp"
 #include "courant/reading/repetition.hpp"
 #include "courant/reading/system_kinds.hpp"
 #include "courant/reading/transformed_time.hpp"
@@ -346,6 +347,7 @@ Experiment read_document(const Json& written, const Model* given) {
     if (time && !method) object.required("method");
     experiment.examine = static_cast<long>(object.integer("examine", 0, 0));
     const auto weights = object.optional("weights");
+    const auto nominal = object.optional("nominal");
     const auto symmetries = object.optional("symmetries");
     const auto defects = object.optional("defects");
     if (defects && !method && !time)
@@ -374,8 +376,13 @@ Experiment read_document(const Json& written, const Model* given) {
     if (model) {
       experiment.model = *model;
       if (initial)
-        if (const auto values = read_initial_values(*initial, hold, weights, *model))
+        if (const auto values = read_initial_values(*initial, hold, weights, nominal, *model))
           experiment.initial = *values;
+      if (nominal && experiment.time && experiment.time->is_transformed())
+        nominal->problem("is for steps in t; expected no \"transformation\" of time beside it");
+      else if (experiment.method && experiment.initial.nominal.any())
+        experiment.method =
+            with_nominal_sizes(*std::move(experiment.method), experiment.initial.nominal);
       if (method || time) experiment.energies = energy_words(*model);
       experiment.writes_energies = has_ports(experiment.energies);
       experiment.writes_balance =

@@ -140,6 +140,56 @@ void read_weight(const std::string& key, const JsonReader& value, const Model& m
   }
 }
 
+// A coordinate that M has no unit for, or one unit for several, cannot be measured by any size.
+void check_sizes(const JsonReader& value, const std::string& key, const Model& model,
+                 const VectorXd& sizes, Index first, Index count) {
+  const std::vector<Index> units = model.system->manifold()->dilations().point;
+  const auto unit = [&](Index i) { return units[static_cast<std::size_t>(i)]; };
+  for (Index i = first; i < first + count; ++i) {
+    if (unit(i) == Manifold::Dilations::none)
+      return value.problem("is the size of " + key + ", which has none on " +
+                           model.system->manifold()->name() + "; expected no size of it");
+    for (Index j = 0; j < sizes.size(); ++j)
+      if (unit(j) == unit(i) && sizes[j] > 0.0 && sizes[j] != sizes[i])
+        return value.problem("differs from the size of another coordinate that " +
+                             model.system->manifold()->name() +
+                             " has one unit for; expected the same");
+  }
+}
+
+void read_nominal_size(const std::string& key, const JsonReader& value, const Model& model,
+                       InitialValues& values) {
+  Target target{};
+  try {
+    target = find(parse_reference(key), model.vocabulary, values);
+  } catch (const FormulaError& error) {
+    return value.problem(std::string("key, ") + error.what());
+  }
+  if (target.vector == &values.velocity)
+    return value.problem("is the size of a velocity; expected that of a coordinate or an unknown");
+  const bool of_coordinates = target.vector == &values.x;
+  auto sizes = (of_coordinates ? values.nominal.coordinates : values.nominal.unknowns)
+                   .segment(target.first, target.count);
+  if ((sizes.array() > 0.0).any()) return value.problem("is given twice");
+  if (value.value().is_array()) {
+    const auto numbers = value.elements();
+    if (std::ssize(*numbers) != target.count)
+      return value.problem("has " + std::to_string(numbers->size()) + " values; expected " +
+                           std::to_string(target.count) + ", for " + key + ", or one for all");
+    for (std::size_t i = 0; i < numbers->size(); ++i) {
+      const auto size = (*numbers)[i].positive_number();
+      if (!size) return;
+      sizes[static_cast<Index>(i)] = *size;
+    }
+  } else if (const auto size = value.positive_number()) {
+    sizes.setConstant(*size);
+  } else {
+    return;
+  }
+  if (of_coordinates)
+    check_sizes(value, key, model, values.nominal.coordinates, target.first, target.count);
+}
+
 // Of an equation c (x_j' - x_k) = 0: j and k.
 std::optional<std::pair<Index, Index>> velocity_in(const Expr& equation, const ExprVector& x,
                                                    const ExprVector& v, const ExprVector& others) {
@@ -194,13 +244,35 @@ PartialVector::PartialVector(Index size)
       given(Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(size, false)),
       held(given) {}
 
+namespace {
+
+// cost/size² where a size is given.
+VectorXd by_sizes(const VectorXd& cost, const VectorXd& sizes) {
+  VectorXd result = cost;
+  for (Index i = 0; i < sizes.size(); ++i)
+    if (sizes[i] > 0.0) result[i] /= sizes[i] * sizes[i];
+  return result;
+}
+
+}  // namespace
+
+VectorXd InitialValues::cost_of_coordinates() const {
+  return by_sizes(weight, nominal.coordinates);
+}
+
+VectorXd InitialValues::cost_of_unknowns() const {
+  return by_sizes(VectorXd::Ones(z.values.size()), nominal.unknowns);
+}
+
 std::optional<InitialValues> read_initial_values(const JsonReader& initial,
                                                  const std::optional<JsonReader>& hold,
                                                  const std::optional<JsonReader>& weights,
+                                                 const std::optional<JsonReader>& nominal,
                                                  const Model& model) {
   const Index N = model.vocabulary.coordinates.size();
   InitialValues values{PartialVector(N), PartialVector(N),
                        PartialVector(model.vocabulary.unknowns.size()), VectorXd::Ones(N)};
+  values.nominal = {VectorXd::Zero(N), VectorXd::Zero(values.z.values.size())};
   const bool is_word = initial.value() == "rest";
   bool rests = is_word;
   if (!is_word) {
@@ -220,6 +292,8 @@ std::optional<InitialValues> read_initial_values(const JsonReader& initial,
     for (const JsonReader& name : *names) read_hold(name, model, values);
   if (const auto entries_of_weights = weights ? weights->entries() : std::nullopt)
     for (const auto& [key, value] : *entries_of_weights) read_weight(key, value, model, values);
+  if (const auto sizes = nominal ? nominal->entries() : std::nullopt)
+    for (const auto& [key, value] : *sizes) read_nominal_size(key, value, model, values);
   if (model.point_problem) {
     const VectorXd x =
         values.x.given.select(values.x.values, std::numeric_limits<double>::quiet_NaN());

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "courant/reading/model.hpp"
+#include "courant/reading/nominal_sizes.hpp"
 
 namespace courant {
 
@@ -31,11 +32,18 @@ struct InitialValues {
   PartialVector z;         // m, where unknowns have names
   VectorXd weight;  // N: coordinates that must move do so with the least Σ weight · movement²
   std::vector<GivenQuantity> quantities = {};
+  NominalSizes nominal = {};
+
+  // Of coordinates (N) and unknowns that must move, in Σ cost · movement²: their weights next to the squares of their
+  // nominal sizes, 1 for each that is not given.
+  VectorXd cost_of_coordinates() const;
+  VectorXd cost_of_unknowns() const;
 };
 
 // Reads `initial`, an object such as {"x": [-1, 1], "y[0]": 2, "x'": "v0/2"}: an array name takes
 // an array, values may be formulas of the parameters. `hold` is the array beside it, of names that
-// are given; `weights` an object of names and positive numbers, 1 for what is not in it. The
+// are given; `weights` an object of names and positive numbers, 1 for what is not in it,
+// `nominal` one of names and the sizes of NominalSizes, an array of them for an array. The
 // pointers of what is wrong are those of the entries. Every quantity that can be observed may be given.
 //
 // "rest", or `"rest": true` in the object: velocities that are not given are 0. Those are dx/dt of the base of a
@@ -43,6 +51,7 @@ struct InitialValues {
 std::optional<InitialValues> read_initial_values(const JsonReader& initial,
                                                  const std::optional<JsonReader>& hold,
                                                  const std::optional<JsonReader>& weights,
+                                                 const std::optional<JsonReader>& nominal,
                                                  const Model& model);
 
 }  // namespace courant

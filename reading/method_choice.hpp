@@ -10,6 +10,7 @@
 #include "courant/integrators/maps/discretization_map.hpp"
 #include "courant/integrators/step/integrator.hpp"
 #include "courant/integrators/step/projector.hpp"
+#include "courant/reading/nominal_sizes.hpp"
 #include "courant/reading/vocabulary.hpp"
 #include "courant/structures/implicit_system.hpp"
 #include "courant/structures/time_transformation.hpp"
@@ -29,6 +30,8 @@ struct MethodSetting {
   // Of a system in transformed time: the setting in its own, and what leads from one to the other.
   const MethodSetting* own = nullptr;
   std::shared_ptr<const TimeTransformation> transformation = nullptr;
+  // Sizes that are given of coordinates and unknowns, or null.
+  const NominalSizes* nominal = nullptr;
 };
 
 // The method, the initial state moved to where it wants to start, and the discretization map, of

@@ -1,12 +1,13 @@
 #include "courant/reading/method_in_units.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "courant/core/expressions/expr_vectors.hpp"
-#include "courant/integrators/certificate/constraint_algorithm.hpp"
 #include "courant/integrators/certificate/ladder_in_units.hpp"
 #include "courant/integrators/methods/integrator_in_units.hpp"
 #include "courant/integrators/step/kinetic_metric.hpp"
+#include "courant/integrators/step/natural_units.hpp"
 
 namespace courant {
 
@@ -26,28 +27,44 @@ bool may_be_far_apart(const MethodSetting& at) {
          std::fabs(at.step) > 1.0 / brief;
 }
 
+// The units of steps: those that are given, of the rest those that are needed; empty where both are none.
+std::optional<Units> units_of_steps(const MethodSetting& at) {
+  if (at.own || at.ladder.point.x.size() == 0) return std::nullopt;
+  auto needed = may_be_far_apart(at) ? needed_units(at.system, at.ladder.point) : std::nullopt;
+  if (!at.nominal) return needed;
+  VectorXd unknowns = VectorXd::Zero(at.system->auxiliary_size());
+  unknowns.head(at.nominal->unknowns.size()) = at.nominal->unknowns;
+  return units_by_sizes(at.system, at.ladder.point, at.nominal->coordinates, unknowns,
+                        std::move(needed));
+}
+
 }  // namespace
 
 PreparedMethod prepared_in_units(const std::function<PreparedMethod(const MethodSetting&)>& prepare,
                                  const MethodSetting& at) {
-  const auto units = at.own || at.ladder.point.x.size() == 0 || !may_be_far_apart(at)
-                         ? std::nullopt
-                         : needed_units(at.system, at.ladder.point);
+  const auto units = units_of_steps(at);
   if (!units) return prepare(at);
   const auto system = std::make_shared<const SystemInUnits>(at.system, *units);
-  const State initial = units->measure(at.initial);
-  const ConstraintLadder ladder = ConstraintAlgorithm().run(
-      system, {.t = initial.t, .x = initial.x, .v = initial.v, .z = initial.z});
-  if (!are_alike(ladder, at.ladder)) return prepare(at);
+  const ConstraintLadder ladder = measured(at.ladder, *system);
   PreparedMethod method = prepare({.system = system,
                                    .ladder = ladder,
-                                   .initial = initial,
+                                   .initial = units->measure(at.initial),
                                    .step = at.step,
                                    .backend = at.backend,
                                    .vocabulary = at.vocabulary});
   method.integrator = std::make_shared<IntegratorInUnits>(system, method.integrator);
   method.initial = units->restore(method.initial);
   return method;
+}
+
+MethodChoice with_nominal_sizes(MethodChoice choice, NominalSizes sizes) {
+  choice.prepare = [prepare = std::move(choice.prepare),
+                    sizes = std::move(sizes)](const MethodSetting& at) {
+    MethodSetting setting = at;
+    setting.nominal = &sizes;
+    return prepare(setting);
+  };
+  return choice;
 }
 
 }  // namespace courant

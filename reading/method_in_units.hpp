@@ -7,8 +7,8 @@ namespace courant {
 
 // The method is the same map: a projector measures as it does in the numbers of the system (ProjectorInUnits).
 //
-// What `prepare` makes, in units where numbers are comparable if the system needs them (needed_units) and
-// its ladder is the same there: then an IntegratorInUnits. Not in transformed time.
+// What `prepare` makes, in units where numbers are comparable if the system needs them (needed_units), or where sizes are
+// given (units_by_sizes): then an IntegratorInUnits. The ladder is that of the system, in these units. Not in transformed time.
 //
 // The units are those at the ladder's point. consistent_start looked for units before, at the given values, to find that
 // point, and the two are not one search: velocities and unknowns that are not given are in the second alone. Of 203
@@ -16,5 +16,8 @@ namespace courant {
 // the one that needs them at both needs others.
 PreparedMethod prepared_in_units(const std::function<PreparedMethod(const MethodSetting&)>& prepare,
                                  const MethodSetting& at);
+
+// The method with these sizes in its setting.
+MethodChoice with_nominal_sizes(MethodChoice choice, NominalSizes sizes);
 
 }  // namespace courant

@@ -55,6 +55,7 @@ constexpr std::pair<const char*, const char*> kFrame[] = {
      "is the velocity of x, an array takes an array"},
     {"hold", "names of initial values that must not be moved to be consistent: [\"x\"]"},
     {"start", "\"nearest\": begins at the nearest consistent start, however far from these values"},
+    {"nominal", "sizes of coordinates and unknowns that steps are measured by: {\"q_C1\": 1e-6}"},
     {"time", "step and end, numbers or formulas of the parameters: a whole number of steps"},
     {"events", "named formulas of the state whose zeros are found: passages, turning points"},
     {"observe", "named formulas of coordinates, momenta, velocities, unknowns and t: columns"},

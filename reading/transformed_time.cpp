@@ -7,6 +7,7 @@
 #include "courant/integrators/maps/theta.hpp"
 #include "courant/integrators/methods/transformed_integrator.hpp"
 #include "courant/integrators/step/fixed_time_projector.hpp"
+#include "courant/integrators/step/natural_units.hpp"
 
 namespace courant {
 namespace {
@@ -85,7 +86,10 @@ ProjectorChoice::Made projector_at(const ProjectorChoice& choice, const MethodSe
 }
 
 VectorXd units_at(const MethodSetting& at) {
-  if (!at.own) return {};
+  if (!at.own)
+    return at.nominal
+               ? units_by_sizes(at.system, at.ladder.point, at.nominal->coordinates, {}).tangent
+               : VectorXd();
   VectorXd units = VectorXd::Ones(at.own->system->manifold()->tangent_dimension() + 1);
   units.tail(1).setConstant(kNoSize);
   return units;

@@ -14,7 +14,7 @@ MethodChoice in_transformed_time(MethodChoice choice, WrittenFormula rate);
 
 // What a method is made of, for a setting in its own time or in another one: the discretization map on
 // the manifold of its system, which may have time as a coordinate; a projector that leaves time as it
-// is; and sizes of the Ñ components of tangent vectors, 1 but of time, which has none; empty where time is no coordinate.
+// is; and sizes of the Ñ components of tangent vectors, those that are given, else 1, but of time, which has none; empty for 1.
 std::shared_ptr<const DiscretizationMap> map_at(const DiscretizationChoice& choice,
                                                 const MethodSetting& at);
 ProjectorChoice::Made projector_at(const ProjectorChoice& choice, const MethodSetting& at);

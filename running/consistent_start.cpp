@@ -297,7 +297,8 @@ class StartSearch {
         initial_(experiment.initial),
         coframe_(manifold_near_start().coframe(initial_.x.values)),
         guess_(first_guess()),
-        weight_(initial_.x.given.cast<double>().matrix().cwiseProduct(initial_.weight)),
+        weight_(
+            initial_.x.given.cast<double>().matrix().cwiseProduct(initial_.cost_of_coordinates())),
         decider_(decider),
         ladders_(experiment.model.system, guess_, weight_, decider) {}
 

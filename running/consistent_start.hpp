@@ -13,6 +13,6 @@ namespace courant {
 // Throws ExperimentError where the equations are not finite at the initial values, where held
 // values contradict the constraints, and where a value is missing that nothing determines. An
 // inconsistent system is a finding: its ladder says so.
-ConsistentStart consistent_start(const Experiment& experiment, Decider decider = Decider::bounds);
+ConsistentStart consistent_start(const Experiment& experiment, Decider decider = Decider::both);
 
 }  // namespace courant

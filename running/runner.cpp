@@ -478,7 +478,8 @@ class RunUnderway {
     initial = {.x = PartialVector(before.x.size()),
                .velocity = PartialVector(before.x.size()),
                .z = PartialVector(initial.z.values.size()),
-               .weight = initial.weight};
+               .weight = initial.weight,
+               .nominal = initial.nominal};
     initial.x.values = before.x;
     initial.x.given.setConstant(true);
     const ConsistentStart ladder = consistent_start(there);

@@ -49,7 +49,7 @@ class MotionStage {
     momenta.head(positions) = false;
     momenta_ = given_entries(momenta, guess.x, 0);
     if (guess.v.size() > 0) velocities_ = given_entries(given_components(initial, M), guess.v, N);
-    weights_ = initial.weight(momenta_.rows);
+    weights_ = initial.cost_of_coordinates()(momenta_.rows);
   }
 
   bool is_empty() const { return momenta_.rows.empty() && velocities_.rows.empty(); }
@@ -129,14 +129,16 @@ std::vector<NearestStart::Stage> start_stages(const Experiment& experiment,
     stages.emplace_back([change](const State&) { return change; });
   };
   LeastChange point = given_entries(where, guess.x, 0);
-  const VectorXd weights = initial.weight(point.rows);
+  const VectorXd weights = initial.cost_of_coordinates()(point.rows);
   add(std::move(point), weights);
   if (MotionStage motion(experiment, guess, positions); !motion.is_empty())
     stages.emplace_back(std::move(motion));
   LeastChange unknowns =
       given_entries(initial.z.given, initial.z.values, N + M.tangent_dimension());
-  const VectorXd ones = VectorXd::Ones(unknowns.given.size());
-  add(std::move(unknowns), ones);
+  std::vector<Index> which = unknowns.rows;
+  for (Index& row : which) row -= N + M.tangent_dimension();
+  const VectorXd of_unknowns = initial.cost_of_unknowns()(which);
+  add(std::move(unknowns), of_unknowns);
   return stages;
 }
 

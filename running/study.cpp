@@ -377,7 +377,7 @@ StudyReport::Method method_report(const StudySubject& subject, const StudiedProb
 std::string problem_of(const Experiment& experiment) {
   Json parts = Json::object();
   for (const char* key :
-       {"system", "initial", "hold", "start", "weights", "time", "observe", "expect"})
+       {"system", "initial", "hold", "start", "weights", "nominal", "time", "observe", "expect"})
     parts[key] = experiment.document.value(key, Json());
   return parts.dump();
 }

@@ -2,17 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace courant {
 namespace {
 
 // What is 1 of the coordinate, velocity or unknown of this name.
-double unit_of(const std::string& name, const SystemInUnits& system) {
+double unit_of(const std::string& name, const ImplicitSystem& system, const Units& units) {
   const auto place = [&](const std::vector<std::string>& names, const std::string& sought) {
     const auto found = std::ranges::find(names, sought);
     return found == names.end() ? Index{-1} : static_cast<Index>(found - names.begin());
   };
-  const Units& units = system.units();
   const ImplicitSystem::Names& names = system.names();
   if (const Index i = place(names.coordinates, name); i >= 0) return units.coordinates[i];
   if (const Index i = place(names.auxiliary, name); i >= 0) return units.auxiliary[i];
@@ -25,17 +25,24 @@ double unit_of(const std::string& name, const SystemInUnits& system) {
   return 1.0;
 }
 
+// What takes a state that was restored back to what was measured.
+Units inverse(const Units& units) {
+  return {.coordinates = units.coordinates.cwiseInverse(),
+          .tangent = units.tangent.cwiseInverse(),
+          .auxiliary = units.auxiliary.cwiseInverse(),
+          .equations = units.equations.cwiseInverse(),
+          .time = 1.0 / units.time};
+}
+
 void restore(Combination& combination, const Units& units) {
   for (Combination::Term& term : combination.terms)
     term.coefficient *=
         std::pow(units.time, static_cast<double>(term.derivative)) / units.equations[term.equation];
 }
 
-}  // namespace
-
-ConstraintLadder restored(ConstraintLadder measured, const SystemInUnits& system) {
-  const Units& units = system.units();
-  ConstraintLadder ladder = std::move(measured);
+// With all numbers times these units.
+ConstraintLadder in_units(ConstraintLadder ladder, const ImplicitSystem& system,
+                          const Units& units) {
   if (ladder.point.x.size() > 0) ladder.point = units.restore(ladder.point);
   // (ξ_0, ξ_1, z_0, ξ_2, z_1, …), coefficients of powers of time.
   const Index n = system.manifold()->dimension(), m = units.auxiliary.size();
@@ -49,7 +56,7 @@ ConstraintLadder restored(ConstraintLadder measured, const SystemInUnits& system
     ladder.jet.segment(place, n).array() *= chart.array() * power;
   }
   for (Movement& move : ladder.moves) {
-    const double unit = unit_of(move.name, system);
+    const double unit = unit_of(move.name, system, units);
     move.from *= unit;
     move.to *= unit;
   }
@@ -62,6 +69,16 @@ ConstraintLadder restored(ConstraintLadder measured, const SystemInUnits& system
   if (ladder.gauge_directions.rows() == units.tangent.size())
     ladder.gauge_directions = units.tangent.asDiagonal() * ladder.gauge_directions;
   return ladder;
+}
+
+}  // namespace
+
+ConstraintLadder restored(ConstraintLadder measured, const SystemInUnits& system) {
+  return in_units(std::move(measured), system, system.units());
+}
+
+ConstraintLadder measured(ConstraintLadder ladder, const SystemInUnits& system) {
+  return in_units(std::move(ladder), system, inverse(system.units()));
 }
 
 bool are_alike(const ConstraintLadder& a, const ConstraintLadder& b) {

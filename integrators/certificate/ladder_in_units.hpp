@@ -1,4 +1,4 @@
-// Ladders that were found in other units.
+// Ladders in other units.
 #pragma once
 
 #include "courant/integrators/certificate/constraint_ladder.hpp"
@@ -9,6 +9,8 @@ namespace courant {
 // The ladder of a SystemInUnits as one of the system itself: its point, jet, moves, gradients and
 // combinations. `moved` and the residuals of levels stay as they are.
 ConstraintLadder restored(ConstraintLadder measured, const SystemInUnits& system);
+// The ladder of the system itself as one in these units: what it decided stays.
+ConstraintLadder measured(ConstraintLadder ladder, const SystemInUnits& system);
 
 // Whether verdict, index and the dimensions of all levels are the same.
 bool are_alike(const ConstraintLadder& a, const ConstraintLadder& b);

@@ -264,6 +264,33 @@ VectorXd without_round_off(const VectorXd& numbers) {
   return (numbers.array().abs() > least).select(numbers, 0.0);
 }
 
+// 1 for what is no size.
+double power_of_two(double unit) {
+  return unit > 0.0 && std::isfinite(unit) ? nearest_power_of_two(unit) : 1.0;
+}
+
+// The sizes of the largest terms of equations.
+VectorXd equation_units(const ImplicitSystem& system, const SparseMatrixXd& terms) {
+  const Manifold& M = *system.manifold();
+  VectorXd largest = VectorXd::Zero(terms.rows());
+  for (Index j = 0; j < terms.outerSize(); ++j)
+    for (SparseMatrixXd::InnerIterator it(terms, j); it; ++it)
+      largest[it.row()] = std::max(largest[it.row()], it.value());
+  // Vectors and covectors stay what they are.
+  const std::vector<Index> mixed = M.mixed_components();
+  const Index entries = M.tangent_dimension();
+  for (Index first = 0; first < system.tangent_blocks() * entries; first += entries) {
+    VectorXd shared = VectorXd::Zero(entries);
+    for (Index i = 0; i < entries; ++i) {
+      double& size = shared[mixed[static_cast<std::size_t>(i)]];
+      size = std::max(size, largest[first + i]);
+    }
+    for (Index i = 0; i < entries; ++i)
+      largest[first + i] = shared[mixed[static_cast<std::size_t>(i)]];
+  }
+  return largest.unaryExpr(&power_of_two);
+}
+
 }  // namespace
 
 State without_round_off(const std::shared_ptr<const ImplicitSystem>& system, const State& point) {
@@ -333,25 +360,6 @@ std::optional<Units> units_of_all_terms(const std::shared_ptr<const ImplicitSyst
   const SparseMatrixXd terms =
       magnitude_near(level.array, level.y, 0.1 * level.units, Evidence::all) *
       level.units.asDiagonal();
-  VectorXd largest = VectorXd::Zero(terms.rows());
-  for (Index j = 0; j < terms.outerSize(); ++j)
-    for (SparseMatrixXd::InnerIterator it(terms, j); it; ++it)
-      largest[it.row()] = std::max(largest[it.row()], it.value());
-  // Vectors and covectors stay what they are.
-  const std::vector<Index> mixed = M.mixed_components();
-  const Index entries = M.tangent_dimension();
-  for (Index first = 0; first < system->tangent_blocks() * entries; first += entries) {
-    VectorXd shared = VectorXd::Zero(entries);
-    for (Index i = 0; i < entries; ++i) {
-      double& size = shared[mixed[static_cast<std::size_t>(i)]];
-      size = std::max(size, largest[first + i]);
-    }
-    for (Index i = 0; i < entries; ++i)
-      largest[first + i] = shared[mixed[static_cast<std::size_t>(i)]];
-  }
-  const auto power_of_two = [](double unit) {
-    return unit > 0.0 && std::isfinite(unit) ? nearest_power_of_two(unit) : 1.0;
-  };
   const Index n = level.array.base_size();
   // By number; 1 of what none of the n coordinates has.
   VectorXd unit = VectorXd::Ones(Manifold::Dilations::after(dilations.point));
@@ -367,9 +375,45 @@ std::optional<Units> units_of_all_terms(const std::shared_ptr<const ImplicitSyst
   };
   return Units{.coordinates = units_of(dilations.point),
                .tangent = units_of(dilations.tangent),
-               .auxiliary = level.units.tail(system->auxiliary_size()).unaryExpr(power_of_two),
-               .equations = largest.unaryExpr(power_of_two),
+               .auxiliary = level.units.tail(system->auxiliary_size()).unaryExpr(&power_of_two),
+               .equations = equation_units(*system, terms),
                .time = power_of_two(level.units[0] / level.units[n])};
+}
+
+Units units_by_sizes(const std::shared_ptr<const ImplicitSystem>& system, const State& point,
+                     const VectorXd& coordinates, const VectorXd& unknowns,
+                     std::optional<Units> others) {
+  const Manifold& M = *system->manifold();
+  const Manifold::Dilations dilations = M.dilations();
+  Units units = others ? *std::move(others)
+                       : Units{.coordinates = VectorXd::Ones(M.ambient_dimension()),
+                               .tangent = VectorXd::Ones(M.tangent_dimension()),
+                               .auxiliary = VectorXd::Ones(system->auxiliary_size()),
+                               .equations = VectorXd::Ones(system->equation_count())};
+  VectorXd unit = VectorXd::Zero(Manifold::Dilations::after(dilations.point));
+  for (Index i = 0; i < coordinates.size(); ++i)
+    if (const Index number = dilations.point[static_cast<std::size_t>(i)];
+        number != Manifold::Dilations::none && coordinates[i] > unit[number])
+      unit[number] = coordinates[i];
+  const auto measure = [&](const Numbering& numbers, VectorXd& sizes) {
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      if (numbers[i] != Manifold::Dilations::none && unit[numbers[i]] > 0.0)
+        sizes[static_cast<Index>(i)] = power_of_two(unit[numbers[i]]);
+  };
+  measure(dilations.point, units.coordinates);
+  measure(dilations.tangent, units.tangent);
+  for (Index i = 0; i < unknowns.size(); ++i)
+    if (unknowns[i] > 0.0) units.auxiliary[i] = power_of_two(unknowns[i]);
+
+  const DerivativeArray array(system, point.t, point.x);
+  const VectorXd chart = chart_units(units, M, point.x);
+  VectorXd columns(2 * array.base_size() + array.auxiliary_size());
+  columns << chart, chart / units.time, units.auxiliary;
+  const SparseMatrixXd terms =
+      magnitude_near(array, array.jet(point.v, point.z), 0.1 * columns, Evidence::typical) *
+      columns.asDiagonal();
+  units.equations = equation_units(*system, terms);
+  return units;
 }
 
 }  // namespace courant

@@ -35,4 +35,11 @@ State without_round_off(const std::shared_ptr<const ImplicitSystem>& system, con
 std::optional<Units> units_of_all_terms(const std::shared_ptr<const ImplicitSystem>& system,
                                         const State& point);
 
+// Units by the sizes of some coordinates (N) and unknowns (m), 0 where none is given, to powers of two: of what is not
+// given those of `others`, or 1. Of equations the sizes of their largest terms at the point. Of coordinates that M has one
+// unit for the largest size counts, and none of those that M has no unit for.
+Units units_by_sizes(const std::shared_ptr<const ImplicitSystem>& system, const State& point,
+                     const VectorXd& coordinates, const VectorXd& unknowns,
+                     std::optional<Units> others = {});
+
 }  // namespace courant

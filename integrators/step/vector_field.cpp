@@ -14,6 +14,7 @@
 #include "courant/core/linear/pairs.hpp"
 #include "courant/core/linear/qr_decomposition.hpp"
 #include "courant/core/linear/regular_matrix.hpp"
+#include "courant/core/numbers/uncertain.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/integrators/certificate/local_formulation.hpp"
 #include "courant/integrators/step/step_solver.hpp"
@@ -25,6 +26,25 @@ using regular_matrix::kNoise;
 
 // Of the terms of equations, a part that is none.
 constexpr double kSolved = 1e-9;
+
+// The Jacobian by the first input, with 0 for what rounding may have left of a zero: numbers are known to their last
+// digit. Scales would make a coefficient of its like of any other.
+MatrixXd jacobian_above_rounding(const Function& F, const std::vector<VectorXd>& at) {
+  std::vector<std::vector<Uncertain>> groups;
+  std::vector<const Uncertain*> in;
+  for (const VectorXd& numbers : at) {
+    groups.emplace_back();
+    for (const double number : numbers) groups.back().push_back(Uncertain::rounded(number));
+  }
+  for (const auto& group : groups) in.push_back(group.data());
+  std::vector<Uncertain> all(static_cast<std::size_t>(F.output_size() + F.nonzeros()));
+  F.taylor_with_jacobian(in.data(), 0, all.data());
+  VectorXd above(std::ssize(all));
+  std::ranges::transform(all, above.begin(), [](const Uncertain& a) {
+    return a.is_nonzero() || !std::isfinite(a.error) ? a.value : 0.0;
+  });
+  return F.dense_jacobian(above);
+}
 
 // What may be the matter with a point that has no velocity.
 std::string whereabouts(const Manifold& M, const VectorXd& x) {
@@ -127,10 +147,10 @@ VectorFieldFormulas::VectorFieldFormulas(std::shared_ptr<const ImplicitSystem> o
   }
   const Function full("vector field", of_left, left, {.differentiate = {"y"}});
   // Without units: the entries of a force of 10⁻⁸ N are no round-off next to those of 10⁹ s⁻³.
-  const MatrixXd J = equilibrate(full.jacobian({left_start, ladder.point.x, entries,
-                                                VectorXd::Constant(1, ladder.point.t)}),
-                                 kNoise)
-                         .scaled;
+  const VectorXd t0 = VectorXd::Constant(1, ladder.point.t);
+  const MatrixXd J =
+      equilibrate(jacobian_above_rounding(full, {left_start, ladder.point.x, entries, t0}), kNoise)
+          .scaled;
   VectorXd scale = J.rowwise().norm();
   scale = scale.unaryExpr([](double size) { return size > 0 ? 1.0 / size : 0.0; })
               .cwiseProduct(preference(candidates));
@@ -155,8 +175,8 @@ VectorFieldFormulas::VectorFieldFormulas(std::shared_ptr<const ImplicitSystem> o
   rate << M.frame(x) * v, v, local.z[0];
   solved = equations;
   if (ladder.gauge_dimension == 0 && y.size() <= many)
-    hold_open(y, full.jacobian({start, ladder.point.x, entries,
-                                VectorXd::Constant(1, ladder.point.t)})(kept, Eigen::all));
+    hold_open(
+        y, jacobian_above_rounding(full, {start, ladder.point.x, entries, t0})(kept, Eigen::all));
   if (left_out.size() == 0) take_explicit(y);
 }
 

@@ -18,6 +18,7 @@ from courant._experiment import KEYS as _KEYS
 _REST = {
     "initial": "values by name, in full or in part",
     "hold": "names of initial values that must not move",
+    "nominal": "sizes of coordinates and unknowns, for norms alone",
     "method": "how it is integrated: a word or a dictionary",
     "time": "``{\"step\": h, \"end\": T}``",
     "observe": "formulas by name",

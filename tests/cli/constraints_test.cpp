@@ -12,6 +12,8 @@ namespace courant {
 // Mistakes that these cases have to notice:
 //  * a right-hand side that is longer than a line stands on one (cli/text.cpp)
 //  * the ladder of pairs is taken for that of Method 2
+//  * runs begin with bounds of errors alone (running/consistent_start.hpp)
+//  * a run does not tell of the choices of its start (running/other_values.cpp)
 BOOST_AUTO_TEST_SUITE(constraints_test)
 
 namespace {
@@ -120,6 +122,42 @@ BOOST_AUTO_TEST_CASE(pages_of_all_verdicts) {
     BOOST_TEST(says(answer.out, "\\end{document}"), name);
   }
   BOOST_TEST(says(constraints({"experiments/point_vortices.json", "--latex"}).out, "pmatrix"));
+}
+
+// Where bounds of errors alone would say something else: equations that agree at an instant only, a set without points, and
+// switches at their edge; and an unknown that has another value as well.
+BOOST_AUTO_TEST_CASE(a_run_says_the_same) {
+  const auto implicit = [](const Json& coordinates, const Json& equations, const Json& initial) {
+    return Json{
+        {"system", {{"type", "implicit"}, {"coordinates", coordinates}, {"equations", equations}}},
+        {"initial", initial}};
+  };
+  Json on_circle = implicit({"x"}, {"x' - 1", "x^2 + y^2 - 1"}, {{"x", 0.6}});
+  on_circle["system"]["unknowns"] = {"y"};
+  const std::vector<std::pair<Json, std::string>> systems = {
+      {implicit({"x", "y"}, {"x' - y", "y' + x", "x - t"}, {{"x", 0}, {"y", 1}}), "inconsistent"},
+      {{{"system",
+         {{"type", "mechanical"},
+          {"coordinates", {"x", "y", "z"}},
+          {"metric", 1},
+          {"potential", "z"},
+          {"holonomic", {"x^2 + y^2 + z^2 + 1"}}}},
+        {"initial", {{"x", 0}, {"y", 0}, {"z", 0}, {"p_x", 0}, {"p_y", 0}, {"p_z", 0}}}},
+       "inconsistent"},
+      {implicit({"x", "v"}, {"x' - v", "v' + sign(v) - 0.5"}, {{"x", 0}, {"v", 0}}), "doubted"},
+      {implicit({"x", "y"}, {"x' - 1", "y - max(x, 0)"}, {{"x", 0}}), "doubted"},
+      {on_circle, "regular"}};
+  for (const auto& [document, expected] : systems) {
+    const TemporaryFolder folder;
+    Json shown = Json::parse(constraints({"-", "--json"}, document.dump()).out);
+    shown.erase("brackets");
+    const Answer run =
+        courant_command({"run", "-", "-o", (folder / "run").string(), "--quiet"}, document.dump());
+    const Json told = Json::parse(read_text(folder / "run/summary.json")).at("ladder");
+    BOOST_TEST(told == shown, told.dump() << "\n" << shown.dump() << "\n" << run.err);
+    BOOST_TEST((told.at("ambiguous") == true ? "doubted" : told.at("verdict")) == expected,
+               told.dump());
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -15,6 +15,8 @@
 //  * a value below its closed form passes (running/observer.cpp)
 //  * violations of positive values only (running/run_results.cpp)
 //  * the violation of the first constraint only (running/run_results.cpp)
+//  * a doubted verdict is taken for one that is certain (reading/expectation.cpp)
+//  * runs do not see what constraints sees: that a switch is at its edge (running/consistent_start.hpp)
 BOOST_AUTO_TEST_SUITE(expectations)
 
 using namespace courant;
@@ -135,6 +137,28 @@ BOOST_AUTO_TEST_CASE(hidden_constraints_have_columns) {
   }
   BOOST_TEST(greatest > 1e-5);  // the method keeps neither
   BOOST_TEST(outcome.summary.max_violation.value() == greatest);
+}
+
+// y = |x| with x' = 1: at x = 0 the two sides have other slopes, and the verdict is doubted.
+BOOST_AUTO_TEST_CASE(a_doubted_verdict_is_met_by_a_doubted_one_alone) {
+  const auto from = [](double x) {
+    return Json{{"system",
+                 {{"type", "implicit"},
+                  {"coordinates", {"x", "y"}},
+                  {"equations", {"x' - 1", "y - abs(x)"}}}},
+                {"initial", {{"x", x}}}};
+  };
+  const Json certain = {{"verdict", "regular"}},
+             doubted = {{"verdict", "regular"}, {"doubted", true}};
+  BOOST_TEST(!passes(from(0.0), certain));
+  BOOST_TEST(passes(from(0.0), doubted));
+  BOOST_TEST(passes(from(1.0), certain));
+  BOOST_TEST(!passes(from(1.0), doubted));
+
+  const TemporaryFolder folder;
+  const RunOutcome outcome = run_in(folder, from(0.0));
+  BOOST_TEST_REQUIRE(outcome.summary.ladder->doubts.size() == 1u);
+  BOOST_TEST((outcome.summary.ladder->doubts[0].kind == Doubt::Kind::at_switch));
 }
 
 BOOST_AUTO_TEST_SUITE_END()
