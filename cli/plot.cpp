@@ -12,6 +12,7 @@
 #include "courant/core/words/message.hpp"
 #include "courant/core/words/spelling.hpp"
 #include "courant/core/words/word_list.hpp"
+#include "courant/reporting/ensemble_figure.hpp"
 #include "courant/reporting/figure_file.hpp"
 #include "courant/reporting/figure_look.hpp"
 #include "courant/reporting/report_figures.hpp"
@@ -33,11 +34,12 @@ struct PlotArguments {
   bool force = false;
 };
 
-// The figure of a sweep or a study, from its table.
+// The figure of a sweep, a study or an ensemble, from its table.
 std::optional<Figure> figure_of_table(const std::filesystem::path& folder) {
   const auto read = [&](const char* file) {
     return file_exists(folder / file) ? read_json(folder / file) : Json();
   };
+  if (is_ensemble_folder(folder)) return ensemble_figure(read_ensemble_tables(folder));
   try {
     if (const Json sweep = read("sweep.json"); !sweep.is_null()) return sweep_figure(sweep);
     if (const Json study = read("study.json"); !study.is_null())
@@ -53,8 +55,8 @@ std::vector<Figure> figures_of(const std::vector<std::filesystem::path>& folders
   std::vector<Figure> figures;
   if (folders.size() == 1)
     if (auto figure = figure_of_table(folders.front())) figures.push_back(std::move(*figure));
-  const bool is_study = !figures.empty() && figures.front().name == "study";
-  if (is_study) return figures;
+  const bool is_whole = !figures.empty() && figures.front().name != "sweep";
+  if (is_whole) return figures;
   std::vector<Run> runs;
   try {
     for (const auto& folder : folders)
@@ -128,10 +130,10 @@ int plot_figure(const Console& console, const PlotArguments& arguments) {
 
 void add_plot(CLI::App& app, Session& session) {
   auto arguments = std::make_shared<PlotArguments>();
-  CLI::App* plot =
-      app.add_subcommand("plot", "Write one figure of runs, a sweep or a study, for a paper");
+  CLI::App* plot = app.add_subcommand(
+      "plot", "Write one figure of runs, a sweep, a study or an ensemble, for a paper");
   plot->add_option("DIR", arguments->folders,
-                   "the folder of a run, or several; or that of a sweep or a study")
+                   "the folder of a run, or several; or that of a sweep, a study or an ensemble")
       ->required();
   CLI::Option* figure =
       plot->add_option("--figure", arguments->figure, "which figure; not every run has all of them")
@@ -139,7 +141,7 @@ void add_plot(CLI::App& app, Session& session) {
               "phase|coordinates|axes|sphere|space|paths|section|energy-balance|energy|energy-"
               "detail|"
               "constraints|"
-              "observables|sweep|study");
+              "observables|sweep|study|ensemble");
   CLI::Option* columns =
       plot->add_option("--columns", arguments->columns,
                        "in place of a figure: these columns of the runs over time, each in a panel")

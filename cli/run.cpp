@@ -7,6 +7,7 @@
 #include "courant/cli/backend.hpp"
 #include "courant/cli/command.hpp"
 #include "courant/cli/confinement.hpp"
+#include "courant/cli/ensemble.hpp"
 #include "courant/cli/experiment_file.hpp"
 #include "courant/cli/progress_bar.hpp"
 #include "courant/cli/run_text.hpp"
@@ -36,6 +37,9 @@ struct RunArguments {
   std::filesystem::path output() const {
     return folder.empty() ? default_folder(file) : std::filesystem::path(folder);
   }
+  ExistingRun existing() const {
+    return resume ? ExistingRun::resume : force ? ExistingRun::replace : ExistingRun::refuse;
+  }
 };
 
 // Expectations that did not hold, as errors of their entries.
@@ -48,6 +52,26 @@ void report_failures(const Console& console, const std::string& file, const RunO
 
 int run_experiment(const Console& console, const RunArguments& arguments,
                    const Experiment& experiment) {
+  if (!experiment.ensemble && arguments.sweep.jobs > 0) {
+    print_error(console,
+                "--jobs is of a sweep or an ensemble; expected --sweep, or an experiment "
+                "with \"ensemble\"");
+    return wrong;
+  }
+  if (experiment.ensemble) {
+    if (arguments.explain) {
+      print_error(console, "--explain is of one run; expected an experiment without \"ensemble\"");
+      return wrong;
+    }
+    return run_members(console,
+                       {.file = arguments.file,
+                        .folder = arguments.output(),
+                        .existing = arguments.existing(),
+                        .backend = arguments.backend,
+                        .jobs = arguments.sweep.jobs,
+                        .quiet = arguments.quiet},
+                       experiment);
+  }
   if (experiment.time && !experiment.time->is_chosen) {
     std::optional<Waiting> waiting;
     if (!arguments.quiet) waiting.emplace(console, "choosing the step");
@@ -77,9 +101,7 @@ int run_experiment(const Console& console, const RunArguments& arguments,
   }
   RunOptions options{.folder = arguments.output(),
                      .backend = arguments.backend,
-                     .existing = arguments.resume  ? ExistingRun::resume
-                                 : arguments.force ? ExistingRun::replace
-                                                   : ExistingRun::refuse,
+                     .existing = arguments.existing(),
                      .stop = console.stop,
                      .on_ladder = {},
                      .on_method = {},
@@ -161,10 +183,11 @@ void add_run(CLI::App& app, Session& session) {
   add_sweep(*run, arguments->sweep, true);
   CLI::Option* force =
       run->add_flag("--force", arguments->force, "replace a run that is in the folder already");
-  run->add_flag("--resume", arguments->resume,
-                "go on with the run that is in the folder: one that was killed, interrupted or "
-                "failed, or one that is complete after /time/end has grown; its files become "
-                "those of a run that was never stopped; of a sweep, make what is missing")
+  run->add_flag(
+         "--resume", arguments->resume,
+         "go on with the run that is in the folder: one that was killed, interrupted or "
+         "failed, or one that is complete after /time/end has grown; its files become "
+         "those of a run that was never stopped; of a sweep or an ensemble, make what is missing")
       ->excludes(force);
   run->add_flag("--explain", arguments->explain,
                 "say which equations a step solves, and which unknowns they give explicitly")

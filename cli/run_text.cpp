@@ -168,4 +168,33 @@ void print_outcome(const Console& console, const Experiment& experiment, const R
               << std::flush;
 }
 
+void print_ensemble(const Console& console, const EnsembleOutcome& outcome,
+                    const std::filesystem::path& folder) {
+  const Json& summary = outcome.summary;
+  const Json spreads = summary.is_object() ? summary.value("statistics", Json()) : Json();
+  TextTable table({"at the end", "mean", "deviation", "least", "median", "greatest"});
+  const auto add = [&](const std::string& name, const Json& spread) {
+    table.add({name, shown(spread["mean"]), shown(spread["standard_deviation"], 4),
+               shown(spread["min"]), shown(spread["quantiles"]["0.5"]), shown(spread["max"])});
+  };
+  std::size_t count = 0;
+  for (const auto& [name, spread] : spreads.items())
+    if (!name.starts_with("constraint[") && ++count <= kMostCoordinates) add(name, spread);
+  if (summary.is_object() && !summary["drift"]["H"].is_null())
+    add("max |H - H(0)|", summary["drift"]["H"]);
+  if (!table.empty()) {
+    console.out << '\n';
+    table.print(console.out);
+  }
+  if (count > kMostCoordinates)
+    console.out << "  … and " << count - kMostCoordinates << " more, in summary.json\n";
+  if (summary.is_object())
+    console.out << "\n  " << summary["done"] << " of " << summary["members"] << " members, "
+                << shown(summary["member_steps_per_cpu_second"], 3)
+                << " steps of members a second of the processor\n";
+  print_expectations(console, {outcome.status, outcome.message, {}, outcome.expectations});
+  console.out << "\n  " << to_string(outcome.status) << "; files in " << folder.string() << '\n'
+              << std::flush;
+}
+
 }  // namespace courant::cli

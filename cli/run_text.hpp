@@ -7,6 +7,7 @@
 #include "courant/cli/command.hpp"
 #include "courant/cli/text.hpp"
 #include "courant/integrators/step/integrator.hpp"
+#include "courant/running/ensemble_run.hpp"
 #include "courant/running/runner.hpp"
 
 namespace courant::cli {
@@ -27,5 +28,9 @@ void print_explanation(const Console& console, const Integrator& method);
 // How it went: paths in the plane, observables, solver, expectations, where the files are.
 void print_outcome(const Console& console, const Experiment& experiment, const RunOutcome& outcome,
                    const std::filesystem::path& folder);
+
+// How the members are spread at the end, expectations, where the files are.
+void print_ensemble(const Console& console, const EnsembleOutcome& outcome,
+                    const std::filesystem::path& folder);
 
 }  // namespace courant::cli

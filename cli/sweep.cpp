@@ -130,6 +130,10 @@ Json earlier_table(const SweepTask& task, const Json& head) {
 }
 
 int sweep_of(const Console& console, const SweepTask& task, const Json& document) {
+  if (document.contains("ensemble"))
+    throw ExperimentError("/ensemble",
+                          "has many starts already; expected no --sweep beside it, or a column of "
+                          "the ensemble for what is swept");
   const std::vector<ValueRange> ranges = ranges_of(task.sweep);
   const Shard shard = task.sweep.shard.empty() ? Shard() : Shard::read(task.sweep.shard);
   const std::vector<SweepCase> cases = shard.take(sweep_cases(document, ranges));
@@ -173,12 +177,16 @@ void add_sweep(CLI::App& command, SweepArguments& arguments, bool has_resume) {
           ->type_name("/POINTER=a:b:n")
           ->expected(1)
           ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command
-      .add_option("--jobs", arguments.jobs,
-                  "how many at once in a sweep (default: as many as there are cores)")
-      ->check(CLI::Range(1, 1000).description(""))
-      ->type_name("N")
-      ->needs(sweep);
+  CLI::Option* jobs =
+      command
+          .add_option("--jobs", arguments.jobs,
+                      has_resume ? "how many at once in a sweep or an ensemble (default: as many "
+                                   "as there are cores)"
+                                 : "how many at once in a sweep (default: as many as there are "
+                                   "cores)")
+          ->check(CLI::Range(1, 1000).description(""))
+          ->type_name("N");
+  if (!has_resume) jobs->needs(sweep);
   command
       .add_option("--shard", arguments.shard,
                   "only the k-th of n parts of a sweep; `courant sweep --merge` joins them")

@@ -22,7 +22,7 @@ struct SweepArguments {
   bool resume = false;
 };
 
-// Of a command whose --resume has other uses, that is its own.
+// Of a command whose --resume has other uses, that is its own; --jobs is for ensembles too then.
 void add_sweep(CLI::App& command, SweepArguments& arguments, bool has_resume = false);
 
 // What a sweep does with each of its cases.

@@ -20,6 +20,7 @@ struct Reading {
   const std::optional<TimeSpan>& time;
   bool is_run;  // there are to be steps, even if their time could not be read
   bool has_boundary;
+  bool has_ensemble;
   bool has_powers;
   Expectations& expectations;
 
@@ -470,12 +471,52 @@ bool read_solution(ObjectReader& entry, const Reading& reading) {
   return true;
 }
 
+// {"mean": {"q": 0.5}, "at": 10, "tolerance": 1e-3} and {"standard_deviation": {…}, …}: of the members of an ensemble at
+// the time of a row.
+bool read_spread(ObjectReader& entry, const char* key, const std::string& name,
+                 double EnsembleRecord::Spread::*number, const Reading& reading) {
+  const auto values_key = entry.optional(key);
+  if (!values_key) return false;
+  const auto at_key = entry.optional("at"), tolerance_key = entry.required("tolerance");
+  const double at = at_key         ? read_moment(*at_key, reading)
+                    : reading.time ? reading.time->end()
+                                   : kUnknown;
+  const auto tolerance = tolerance_key ? tolerance_key->positive_number() : std::nullopt;
+  if (!reading.has_ensemble)
+    values_key->problem("is of an ensemble; expected \"ensemble\" beside \"initial\"");
+  const auto entries = values_key->entries();
+  if (!entries) return true;
+  if (entries->empty()) values_key->problem("is empty; expected values by name");
+  for (const auto& [quantity, value] : *entries) {
+    const bool is_known = reading.is_quantity(quantity, value);
+    const auto form = read_formula(value);
+    const auto expected =
+        form ? evaluate_constants({{}, {*form}}, reading.vocabulary.symbols({}), value.findings())
+             : std::nullopt;
+    if (!is_known || !expected || !tolerance || std::isnan(at)) continue;
+    reading.expectations.ensemble_checks.push_back(
+        [=, quantity = quantity, wanted = (*expected)[0], bound = *tolerance,
+         pointer = entry.place().pointer()](const EnsembleRecord& record) {
+          const double is = record.spread(quantity, at).*number;
+          return deviating(
+              pointer,
+              name + " of " + quantity + " at t = " + exact_text(at) + " = " + exact_text(wanted),
+              std::abs(is - wanted), bound, std::isnan(is) ? std::nullopt : std::optional(is));
+        });
+  }
+  return true;
+}
+
 void read_entry(const JsonReader& value, const Reading& reading) {
   ObjectReader entry(value);
   if (!value.value().is_object()) return;
   if (const auto name = entry.optional("observable")) return read_bounds(entry, *name, reading);
   if (const auto event = entry.optional("event")) return read_event(entry, *event, reading);
   if (const auto state = entry.optional("state")) return read_state(entry, *state, reading);
+  if (read_spread(entry, "mean", "mean", &EnsembleRecord::Spread::mean, reading)) return;
+  if (read_spread(entry, "standard_deviation", "standard deviation",
+                  &EnsembleRecord::Spread::standard_deviation, reading))
+    return;
   const bool solution = read_solution(entry, reading);
   const bool certificate = read_certificate(entry, reading);
   const bool violation = read_violation(entry, reading);
@@ -489,9 +530,9 @@ void read_entry(const JsonReader& value, const Reading& reading) {
       value.value().empty())
     value.problem(
         "expects nothing; expected \"observable\", \"state\", \"event\", \"verdict\", \"ladder\", "
-        "\"max_violation\", \"max_imbalance\", \"max_stage_imbalance\", \"boundary\", \"duration\" "
-        "or "
-        "\"multipliers\"");
+        "\"max_violation\", \"max_imbalance\", \"max_stage_imbalance\", \"boundary\", "
+        "\"duration\", "
+        "\"multipliers\", \"mean\" or \"standard_deviation\"");
 }
 
 }  // namespace
@@ -513,12 +554,12 @@ Expectations read_expectations(const JsonReader& expect, const Vocabulary& vocab
                                const std::vector<std::string>& quantities,
                                const std::vector<std::string>& events,
                                const std::optional<TimeSpan>& time, bool is_run, bool has_boundary,
-                               bool has_powers) {
+                               bool has_ensemble, bool has_powers) {
   Expectations expectations;
   const auto entries = expect.elements();
   if (!entries) return expectations;
-  const Reading reading{vocabulary, quantities,   events,     time,
-                        is_run,     has_boundary, has_powers, expectations};
+  const Reading reading{vocabulary,   quantities,   events,     time,        is_run,
+                        has_boundary, has_ensemble, has_powers, expectations};
   for (const JsonReader& entry : *entries) read_entry(entry, reading);
   return expectations;
 }

@@ -48,6 +48,15 @@ struct RunRecord {
   double max_stage_imbalance = std::numeric_limits<double>::quiet_NaN();
 };
 
+// What is known of an ensemble: how a quantity is spread over its members at a time, NaN where there are no rows.
+struct EnsembleRecord {
+  struct Spread {
+    double mean = std::numeric_limits<double>::quiet_NaN();
+    double standard_deviation = std::numeric_limits<double>::quiet_NaN();
+  };
+  std::function<Spread(const std::string& quantity, double t)> spread;
+};
+
 // One entry of `expectations` in a summary.
 struct ExpectationResult {
   std::string pointer;  // of the entry of `expect`
@@ -71,6 +80,8 @@ struct Expectations {
   std::map<std::string, std::set<long>> occurrences;  // of events
   std::vector<Deviation> deviations;
   std::vector<std::function<ExpectationResult(const RunRecord&)>> checks;
+  // Of an ensemble as a whole; all others are of each of its members.
+  std::vector<std::function<ExpectationResult(const EnsembleRecord&)>> ensemble_checks;
   bool inconsistent = false;  // the verdict that is expected, after which there is nothing to run
   bool imbalance = false;     // of energy has a bound
   std::vector<std::string> violations;  // pointers of bounds of constraints, which there must be
@@ -103,7 +114,7 @@ struct TimeSpan {
 
 // Reads the array `expect`; `quantities` are the names of coordinates and observables, `events` those
 // of events; `is_run` where there are to be steps, though `time` is nothing if it cannot be read; `has_boundary` if it is
-// sought by conditions at both ends;
+// sought by conditions at both ends; `has_ensemble` if there are many of them;
 // `has_powers` if the system is an EnergySystem. What would
 // pass or fail whatever the run does is a problem: drifts where there is no trajectory, bounds below
 // zero of what cannot be, values that are not finite.
@@ -111,6 +122,6 @@ Expectations read_expectations(const JsonReader& expect, const Vocabulary& vocab
                                const std::vector<std::string>& quantities,
                                const std::vector<std::string>& events,
                                const std::optional<TimeSpan>& time, bool is_run, bool has_boundary,
-                               bool has_powers);
+                               bool has_ensemble, bool has_powers);
 
 }  // namespace courant

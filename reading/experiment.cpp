@@ -283,6 +283,20 @@ std::vector<std::string> quantities(const Experiment& experiment) {
   return names;
 }
 
+// What runs of many starts cannot be about: rows that members have at different times, and starts that are sought.
+void require_ensemble_fits(const JsonReader& place, bool has_boundary, bool has_trajectory,
+                           const Experiment& experiment) {
+  if (!has_trajectory) place.problem("needs trajectories; expected \"method\" and \"time\"");
+  if (has_boundary)
+    place.problem("is of given starts, and \"boundary\" seeks one; expected one of the two");
+  if (!experiment.time) return;
+  if (experiment.time->is_transformed())
+    place.problem(
+        "is for steps of one size in t; expected no \"transformation\" of time beside it");
+  if (!experiment.time->is_chosen)
+    place.problem("is for one step of all members; expected \"step\" in \"time\"");
+}
+
 // The observables that a state has.
 NamedFormulas formulas_of_state(const Experiment& experiment) {
   NamedFormulas named;
@@ -364,6 +378,9 @@ Experiment read_document(const Json& written, const Model* given) {
     if (boundary && experiment.time && !experiment.time->is_transformed() &&
         experiment.time->steps < 1)
       boundary->problem("needs a trajectory; expected an end of the time after its start");
+    const auto ensemble = object.optional("ensemble");
+    if (ensemble)
+      require_ensemble_fits(*ensemble, boundary.has_value(), method && time, experiment);
     const auto expect = object.optional("expect");
     const Json no_output = Json::object();
     if (!output) object.default_value("output", no_output);
@@ -395,12 +412,13 @@ Experiment read_document(const Json& written, const Model* given) {
       if (boundary) experiment.model.starts_at_zero = true;
       if (boundary)
         experiment.boundary = read_boundary(*boundary, *model, formulas_of_state(experiment));
+      if (ensemble) experiment.ensemble = read_ensemble(*ensemble, document, *model);
       std::vector<std::string> event_names;
       for (const Event& event : experiment.events) event_names.push_back(event.name);
       if (expect)
         experiment.expect = read_expectations(
             *expect, model->vocabulary, quantities(experiment), event_names, experiment.time,
-            method || time, experiment.boundary.has_value(),
+            method || time, experiment.boundary.has_value(), ensemble.has_value(),
             std::dynamic_pointer_cast<const EnergySystem>(model->system) != nullptr);
     }
     experiment.output =

@@ -9,6 +9,7 @@
 
 #include "courant/integrators/boundary/boundary_solution.hpp"
 #include "courant/reading/boundary.hpp"
+#include "courant/reading/ensemble.hpp"
 #include "courant/reading/event.hpp"
 #include "courant/reading/expectation.hpp"
 #include "courant/reading/initial_values.hpp"
@@ -51,6 +52,7 @@ struct Experiment {
   std::optional<Boundary> boundary = {};
   // Of an experiment that begins where its boundary conditions ask for, and takes as long.
   std::shared_ptr<const BoundarySolution> solution = {};
+  std::optional<Ensemble> ensemble = {};
   Expectations expect;
   Output output;
   long examine = 0;                   // steps between two examinations of the ladder; 0: none

@@ -94,27 +94,14 @@ class File {
       : pointer_(pointer), path_(path) {}
 
   Json load(const Json& table) {
-    std::ifstream stream(path_);
-    if (!stream || std::filesystem::is_directory(path_) ||
-        std::filesystem::is_character_file(path_))  // which may have no end
-      refuse("cannot be read; expected a file of comma-separated values");
-    std::string line;
-    if (!std::getline(stream, line)) refuse("is empty; expected names in its first line");
-    const std::vector<std::string> names = cells(line);
+    const std::vector<std::string> names = open();
     const std::size_t time = column(table, "time", names, 0);
     const std::size_t value = column(table, "column", names, 1);
     Json times = Json::array(), values = Json::array();
-    for (line_ = 2; std::getline(stream, line); ++line_) {
-      if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-      const std::vector<std::string> row = cells(line);
-      if (row.size() != names.size())
-        refuse("has " + std::to_string(row.size()) + " cells; expected " +
-               std::to_string(names.size()));
+    for_each_row(names, kMostRows, [&](const std::vector<std::string>& row) {
       times.push_back(number(row[time]));
       values.push_back(number(row[value]));
-      if (times.size() > kMostRows)
-        refuse("is more than row " + std::to_string(kMostRows) + "; expected fewer");
-    }
+    });
     Json result = {{"times", times}, {"values", values}};
     if (table.contains("interpolation")) result["interpolation"] = table["interpolation"];
     for (const auto& [key, entry] : table.items())
@@ -123,7 +110,54 @@ class File {
     return result;
   }
 
+  // All columns by their names, as lists of numbers.
+  Json columns(std::size_t most) {
+    const std::vector<std::string> names = open();
+    std::vector<std::vector<double>> numbers(names.size());
+    for_each_row(names, most, [&](const std::vector<std::string>& row) {
+      for (std::size_t k = 0; k < row.size(); ++k) numbers[k].push_back(number(row[k]));
+    });
+    line_ = 0;
+    if (numbers.front().empty())
+      refuse("has no rows; expected one for each member under its names");
+    Json result = Json::object();
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      line_ = 1;
+      if (names[k].empty()) refuse("has a column without a name");
+      if (result.contains(names[k])) refuse("has two columns " + names[k]);
+      result[names[k]] = std::move(numbers[k]);
+    }
+    return result;
+  }
+
  private:
+  // The names in the first line.
+  std::vector<std::string> open() {
+    stream_.open(path_);
+    if (!stream_ || std::filesystem::is_directory(path_) ||
+        std::filesystem::is_character_file(path_))  // which may have no end
+      refuse("cannot be read; expected a file of comma-separated values");
+    std::string line;
+    if (!std::getline(stream_, line)) refuse("is empty; expected names in its first line");
+    return cells(line);
+  }
+
+  // The lines below that have something in them.
+  template <class Action>
+  void for_each_row(const std::vector<std::string>& names, std::size_t most, const Action& action) {
+    std::size_t rows = 0;
+    std::string line;
+    for (line_ = 2; std::getline(stream_, line); ++line_) {
+      if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+      const std::vector<std::string> row = cells(line);
+      if (row.size() != names.size())
+        refuse("has " + std::to_string(row.size()) + " cells; expected " +
+               std::to_string(names.size()));
+      action(row);
+      if (++rows > most) refuse("is more than row " + std::to_string(most) + "; expected fewer");
+    }
+  }
+
   [[noreturn]] void refuse(const std::string& what) const {
     throw ExperimentError(
         pointer_, path_.string() + (line_ > 0 ? ":" + std::to_string(line_) : "") + " " + what);
@@ -151,6 +185,7 @@ class File {
 
   std::string pointer_;
   std::filesystem::path path_;
+  std::ifstream stream_;
   std::size_t line_ = 0;
 };
 
@@ -172,10 +207,10 @@ void require_allowed(const std::string& pointer, const std::filesystem::path& fi
                      const std::filesystem::path& folder, TableFiles which) {
   if (which == TableFiles::anywhere) return;
   const auto refuse = [&](const char* expected) {
-    throw ExperimentError(pointer + "/file", "is " + file.string() +
-                                                 ", and the experiment is not "
-                                                 "trusted; expected " +
-                                                 expected);
+    throw ExperimentError(pointer, "is " + file.string() +
+                                       ", and the experiment is not "
+                                       "trusted; expected " +
+                                       expected);
   };
   if (which == TableFiles::none) refuse("its numbers in the experiment");
   std::error_code error;
@@ -195,7 +230,7 @@ void load_tables_of(Json& system, const std::string& pointer, const std::filesys
       if (table.is_object() && table.contains("file") && table["file"].is_string()) {
         const std::string place = pointer + "/tables/" + name;
         const std::filesystem::path file = table["file"].get<std::string>();
-        require_allowed(place, file, folder, which);
+        require_allowed(place + "/file", file, folder, which);
         table = File(place, folder / file).load(table);
       }
   if (system.contains("systems") && system["systems"].is_object())
@@ -203,11 +238,33 @@ void load_tables_of(Json& system, const std::string& pointer, const std::filesys
       load_tables_of(part, pointer + "/systems/" + name, folder, which);
 }
 
+// The columns of {"table": "starts.csv"} come to stand in its place as lists under "values", before what is there.
+void load_ensemble(Json& ensemble, const std::filesystem::path& folder, TableFiles which) {
+  constexpr std::size_t most = 10'000'000;  // members, as Ensemble::kMostMembers
+  const std::string place = "/ensemble/table";
+  if (!ensemble.is_object() || !ensemble.contains("table") || !ensemble["table"].is_string())
+    return;
+  const std::filesystem::path file = ensemble["table"].get<std::string>();
+  require_allowed(place, file, folder, which);
+  Json columns = File(place, folder / file).columns(most);
+  Json values = ensemble.value("values", Json::object());
+  if (values.is_object())
+    for (const auto& [name, value] : values.items()) {
+      if (columns.contains(name))
+        throw ExperimentError("/ensemble/values/" + pointer_token(name),
+                              "is a column of " + file.string() + " too; expected it once");
+      columns[name] = value;
+    }
+  ensemble.erase("table");
+  ensemble["values"] = std::move(columns);
+}
+
 }  // namespace
 
 void load_tables(Json& document, const std::filesystem::path& folder, TableFiles which) {
-  if (document.is_object() && document.contains("system"))
-    load_tables_of(document["system"], "/system", folder, which);
+  if (!document.is_object()) return;
+  if (document.contains("system")) load_tables_of(document["system"], "/system", folder, which);
+  if (document.contains("ensemble")) load_ensemble(document["ensemble"], folder, which);
 }
 
 }  // namespace courant

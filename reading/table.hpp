@@ -24,7 +24,8 @@ std::vector<std::pair<std::string, Table>> read_tables(const JsonReader& object)
 
 // Puts times and values in the place of {"file": "wind.csv", "time": "t", "column": "speed"} in the
 // tables of an experiment's system, and of those that it is made of; files are looked for in `folder`. They are comma-separated, with
-// names in the first line, and the default columns are the first two. Throws ExperimentError with the
+// names in the first line, and the default columns are the first two. In the same way the columns of the file
+// {"table": "starts.csv"} of an ensemble come to stand under its "values". Throws ExperimentError with the
 // place in the experiment, the file and the line; also for a file that it may not name.
 enum class TableFiles {
   anywhere,

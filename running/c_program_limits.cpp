@@ -13,6 +13,10 @@ void check_exportable(const Experiment& experiment) {
                           "is not solved by a program in C; expected an experiment without, such "
                           "as the one that a run "
                           "writes, whose initial values are those of the solution");
+  if (experiment.ensemble)
+    throw ExperimentError("/ensemble",
+                          "is of many runs, and a program in C makes one; expected an experiment "
+                          "without");
   if (!experiment.defects.empty())
     throw ExperimentError("/defects",
                           "are not measured by a program in C; expected an experiment without");

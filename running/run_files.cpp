@@ -218,12 +218,20 @@ std::vector<std::filesystem::path> run_folders_in(const std::filesystem::path& d
   return folders;
 }
 
+bool is_ensemble_folder(const std::filesystem::path& directory) {
+  return file_exists(directory / "ensemble.npy");
+}
+
 Run read_run(const std::filesystem::path& directory) {
   std::error_code unreadable;
   if (!std::filesystem::is_directory(directory, unreadable))
     fail(directory, "is not a folder; expected that of a run.");
   const auto csv = directory / "trajectory.csv", npy = directory / "trajectory.npy";
   const auto summary = directory / "summary.json", experiment = directory / "experiment.json";
+  if (is_ensemble_folder(directory))
+    fail(directory,
+         "has an ensemble of many runs; expected the folder of one, or `courant plot DIR --figure "
+         "ensemble` for how its members are spread.");
   if (!file_exists(csv) && !file_exists(npy))
     fail(directory, "has no trajectory.csv or trajectory.npy.");
   RunSummary told = read_summary(summary);

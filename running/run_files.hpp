@@ -68,6 +68,9 @@ struct Run {
 // of several runs.
 Run read_run(const std::filesystem::path& directory);
 
+// Whether a folder has an ensemble, which read_run() refuses.
+bool is_ensemble_folder(const std::filesystem::path& directory);
+
 // The folders of the runs that a folder stands for: those of its table that were made, where it is that of a sweep,
 // otherwise the folder itself.
 std::vector<std::filesystem::path> run_folders_in(const std::filesystem::path& directory);

@@ -17,9 +17,10 @@ namespace fs = std::filesystem;
 
 // What runs and their reports write. The checkpoint is the first to be removed: what is left of the
 // others begins anew.
-constexpr std::array kFiles = {"checkpoint.json", "summary.json", "trajectory.csv",
-                               "trajectory.npy",  "columns.json", "experiment.json",
-                               "events.csv",      "report.html"};
+constexpr std::array kFiles = {"checkpoint.json", "summary.json",  "trajectory.csv",
+                               "trajectory.npy",  "columns.json",  "experiment.json",
+                               "events.csv",      "report.html",   "ensemble.npy",
+                               "members.jsonl",   "statistics.csv"};
 
 void write_json(const fs::path& file, const Json& json) {
   write_file(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
@@ -43,12 +44,15 @@ bool is_of_a_run(const fs::path& folder) {
 }
 
 // Whether the run with this experiment wrote the file: what runs do not write in its format, or
-// without events, is not its own, nor is a report that was edited.
+// without events or an ensemble, is not its own, nor is a report that was edited.
 bool is_own(const fs::path& file, const Json& experiment) {
   const std::string name = file.filename().string();
   if (name == "report.html") return mark_of(file).has_value();
   const Json output = experiment.value("output", Json());
   const bool is_npy = output.is_object() && output.value("format", Json()) == "npy";
+  if (name == "ensemble.npy" || name == "members.jsonl" || name == "statistics.csv")
+    return experiment.contains("ensemble");
+  if (name == "columns.json" && experiment.contains("ensemble")) return true;
   if (name == "trajectory.npy" || name == "columns.json") return is_npy;
   if (name == "trajectory.csv") return !is_npy;
   return name != "events.csv" || experiment.contains("events");
@@ -159,9 +163,11 @@ void RunFolder::write_checkpoint(const Checkpoint& checkpoint) const {
   courant::write_checkpoint(checkpoint_file(), checkpoint);
 }
 
-void RunFolder::write_summary(const RunSummary& summary) const {
+void RunFolder::write_summary(const RunSummary& summary) const { write_summary(to_json(summary)); }
+
+void RunFolder::write_summary(const Json& summary) const {
   folder_.require_still_there();
-  write_json(path() / "summary.json", to_json(summary));
+  write_json(path() / "summary.json", summary);
 }
 
 }  // namespace courant

@@ -49,6 +49,8 @@ class RunFolder {
   // Throw OutputError, also where another folder has its name by now.
   void write_checkpoint(const Checkpoint& checkpoint) const;
   void write_summary(const RunSummary& summary) const;
+  void write_summary(
+      const Json& summary) const;  // of an ensemble, which has what a run has, and more
 
  private:
   LockedFolder folder_;

@@ -77,7 +77,9 @@ class RunUnderway {
         options_(options),
         backend_(worthwhile(options.backend, experiment)),
         ladder_(start_of_run(experiment)),
-        ladder_report_(report_of_start(experiment, ladder_)),
+        ladder_report_(options.explains_start
+                           ? report_of_start(experiment, ladder_)
+                           : discrete_ladder_report(ladder_, *experiment.model.system)),
         symmetries_(check_symmetries(experiment, ladder_)),
         observer_(experiment, ladder_, backend_) {
     if (const StartMoves moves = start_moves(experiment, ladder_); !moves.warning.empty())
@@ -596,6 +598,10 @@ bool RunOutcome::as_expected() const {
 }
 
 RunOutcome run(const Experiment& experiment, RunKeeper& keeper, const RunOptions& options) {
+  if (experiment.ensemble)
+    throw ExperimentError("/ensemble",
+                          "makes many runs, and one is asked for; expected run_ensemble in C++, "
+                          "courant.ensemble in Python, or no \"ensemble\"");
   if (experiment.time && !experiment.time->is_chosen) {
     const ChosenStep chosen =
         chosen_step(experiment, worthwhile(options.backend, experiment), options.stop);

@@ -29,6 +29,8 @@ struct RunOptions {
   // Whether a thread of its own may make steps ahead of what is done with them, see RunSteps. All else is done, and
   // all of these are called, in the thread that called run().
   bool ahead = core_count() > 1;
+  // Whether the summary has the constraints of the start in formulas, which takes a part of the set-up.
+  bool explains_start = true;
   // A run that goes on: after which step, at which time; 0 from its start.
   std::function<void(long k, double t)> on_resume = {};
   // At least so much time from one checkpoint on the disk to the next.

@@ -143,8 +143,21 @@ BOOST_AUTO_TEST_CASE(know_the_same_keys) {
     // The last alternative is what is neither of the others.
     if (i > 0) expected.insert("observable");
     if (i > 1) expected.insert("event");
-    if (i > 2) expected.insert("state");
+    if (i > 2) expected.insert({"state", "mean", "standard_deviation"});
     BOOST_TEST(found == expected);
+  }
+  Json many = experiment;
+  many["ensemble"] = {{"members", 2}};
+  many["expect"] = {{{"mean", {{"q", 1}}}, {"tolerance", 1}},
+                    {{"standard_deviation", {{"q", 1}}}, {"tolerance", 1}}};
+  BOOST_TEST(known_keys(many, "/ensemble") ==
+             properties(schema["/properties/ensemble"_json_pointer]));
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Json& kinds = definitions.at("expectation").at("oneOf");
+    Words expected = properties(kinds.at(kinds.size() - 2 + i));
+    expected.insert({"observable", "event", "state"});
+    if (i > 0) expected.insert("mean");
+    BOOST_TEST(known_keys(many, "/expect/" + std::to_string(i)) == expected);
   }
 }
 

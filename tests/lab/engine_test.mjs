@@ -53,8 +53,8 @@ function isLong({system, time = {}}) {
   return !(steps <= 2000) || /"repeat"|sum\(/.test(JSON.stringify(system));
 }
 
-// Not in a browser: a table beside the experiment.
-const left = new Map([['port_hamiltonian_table', 'reads a file beside it']]);
+// Not in a browser: a table beside the experiment, and many runs at once.
+const left = new Map([['port_hamiltonian_table', 'reads a file beside it'], ['ensemble_pendulum', 'reads a file beside it'], ['ensemble_dephasing', 'makes many runs']]);
 const tolerance = 1e-12;
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'lab-'));
 const names = only.length > 0 ? only : fs.readdirSync(path.join(root, 'experiments')).filter((file) => file.endsWith('.json') && file !== 'schema.json').map((file) => file.slice(0, -5));
