@@ -6,6 +6,7 @@
 
 #include "courant/core/numbers/parallel.hpp"
 #include "courant/python/conversions.hpp"
+#include "courant/running/ensemble_run.hpp"
 #include "courant/running/run_files.hpp"
 #include "courant/running/run_in_memory.hpp"
 
@@ -126,6 +127,27 @@ py::list run_all(const std::vector<std::shared_ptr<Experiment>>& experiments,
   return all;
 }
 
+// The members of the experiment's ensemble: names, values (members, rows, columns), [status], [message], summary.
+py::tuple run_ensemble(const Experiment& experiment, const std::string& backend, unsigned threads,
+                       bool is_main_thread) {
+  EnsembleInMemory all;
+  {
+    Stop stop(is_main_thread);
+    const EnsembleOptions options{
+        .backend = backend_of(backend), .threads = threads, .stop = &stop.flag()};
+    const py::gil_scoped_release free;
+    all = run_ensemble_in_memory(experiment, options);
+  }
+  std::vector<std::string> statuses;
+  for (const RunStatus status : all.statuses) statuses.emplace_back(to_string(status));
+  const auto done = static_cast<py::ssize_t>(statuses.size());
+  const auto rows = static_cast<py::ssize_t>(all.opening.rows);
+  const auto columns = static_cast<py::ssize_t>(all.opening.columns.size());
+  const py::array values = owned(std::move(all.values), done * rows, columns);
+  return py::make_tuple(all.opening.columns, values.attr("reshape")(done, rows, columns), statuses,
+                        all.messages, to_python(all.outcome.summary));
+}
+
 void run_in_folder(const Experiment& experiment, const std::filesystem::path& folder,
                    const std::string& existing, const Settings& settings) {
   Stop stop(settings.is_main_thread);
@@ -175,6 +197,8 @@ void bind_runs(py::module_& module) {
       py::arg("experiment"), py::arg("backend") = "auto", py::arg("has_curve") = false,
       py::arg("is_main_thread") = false, py::arg("progress") = py::none());
   module.def("run_all", &run_all, py::arg("experiments"), py::arg("backend"), py::arg("threads"));
+  module.def("run_ensemble", &run_ensemble, py::arg("experiment"), py::arg("backend"),
+             py::arg("threads"), py::arg("is_main_thread"));
   module.def(
       "run_in_folder",
       [](const Experiment& experiment, const std::string& folder, const std::string& existing,

@@ -75,7 +75,7 @@ def _at(document, pointer):
 
 # Those of an experiment, beside those of its system.
 KEYS = ("title", "description", "system", "initial", "start", "hold", "weights", "nominal", "method", "time", "symmetries", "defects",
-        "observe", "events", "boundary", "expect", "output", "examine")
+        "observe", "events", "boundary", "ensemble", "expect", "output", "examine")
 
 
 def changed(document, settings) -> dict:
@@ -110,6 +110,13 @@ def _copied(value):
     if isinstance(value, (list, tuple)):
         return [_copied(entry) for entry in value]
     return value
+
+
+def has_objects(document) -> bool:
+    """Whether objects of Python stand in it, rather than words for them."""
+    objects: list = []
+    _words(document, objects)
+    return bool(objects)
 
 
 class Experiment:

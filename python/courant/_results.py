@@ -494,24 +494,19 @@ class Ensemble:
         Of the columns.
     status : list of str
         Of the members.
+    messages : list of str
+        Why a member did not complete.
     summary : dict
-        ``members``, ``completed``, ``member_steps_per_cpu_second``.
+        As in ``summary.json`` of an ensemble: ``members``, ``completed``, ``statistics``, ``drift``,
+        ``member_steps_per_cpu_second``.
     """
 
-    def __init__(self, runs, seconds=None):
-        self.names = runs[0].names if runs else []
-        length = max((len(run.rows) for run in runs), default=0)
-        self.values = np.full((len(runs), length, len(self.names)), np.nan)
-        for i, run in enumerate(runs):
-            self.values[i, :len(run.rows)] = run.rows
-        self.status = [run.status for run in runs]
-        steps = sum(run.summary.get("steps", 0) for run in runs)
-        self.summary = {"members": len(runs), "completed": self.status.count("completed"),
-                        "member_steps_per_cpu_second": steps / seconds if seconds else None}
+    def __init__(self, names, values, status, messages, summary):
+        self.names, self.values, self.status, self.messages, self.summary = names, values, status, messages, summary
 
     @property
     def t(self):
-        return self.values[0, :, 0]
+        return np.nanmin(self.values[:, :, 0], axis=0)
 
     def __len__(self):
         return len(self.values)

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import os
 import sys
-import time
 from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
 from courant import _courant as core
-from courant._errors import Interrupted
-from courant._experiment import Experiment, is_main_thread
+from courant._errors import ExperimentError, Interrupted
+from courant._experiment import Experiment, has_objects, is_main_thread
 from courant._results import Certificate, Check, Ensemble, Run, Study, Sweep
 
 
@@ -239,48 +238,49 @@ def sweep(experiment, settings: Iterable[Mapping], *, backend="auto", threads=No
     return Sweep([Run(parts, one) for parts, one in zip(_all_of(experiments, backend, threads), experiments)], settings)
 
 
-def ensemble(experiment, starts, *, backend="auto", threads=None) -> Ensemble:
+def _varied(experiment):
+    ensemble = experiment.document.get("ensemble")
+    return ensemble.get("values", ()) if isinstance(ensemble, Mapping) else ()
+
+
+def ensemble(experiment, starts=None, *, backend="auto", threads=None) -> Ensemble:
     """Runs an experiment from many starts.
 
     Parameters
     ----------
     experiment : dict, path or Experiment
-    starts : dict of str to array, pandas.DataFrame, or array (members, coordinates)
+    starts : dict of str to array, pandas.DataFrame, or array (members, coordinates), optional
         Initial values and parameters by name, one a member; an array has a row a member, in the order of the
-        coordinates.
+        coordinates. They stand for the ``ensemble`` of the experiment, which is run where there are none.
 
     Returns
     -------
     Ensemble
         ``values`` is (members, rows, columns); a member has the bits of its own run.
+
+    Raises
+    ------
+    ExperimentError
+        With all that is wrong. What the numerics cannot do is the status of a member.
+
+    Examples
+    --------
+    >>> courant.ensemble(experiment, {"q": [1.0, 0.5], "k": [1.0, 4.0]})["q"].shape
+    (2, 101)
     """
-    base = Experiment(experiment)
-    if hasattr(starts, "to_dict") and not isinstance(starts, Mapping):
-        starts = starts.to_dict("list")
-    if not isinstance(starts, Mapping):
-        names = base.core.coordinates
-        starts = {name: column for name, column in zip(names, np.asarray(starts, dtype=float).T)}
-    columns = {name: np.asarray(column, dtype=float).tolist() for name, column in starts.items()}
-    parameters = base.document.get("system", {})
-    parameters = parameters.get("parameters", {}) if isinstance(parameters, Mapping) else {}
-    members = []
-    for values in zip(*columns.values()):
-        member = dict(zip(columns, values))
-        initial: dict = dict(base.document.get("initial") or {})
-        initial.update({name: value for name, value in member.items() if name not in parameters})
-        members.append(base.changed(initial=_flat(initial, member),
-                                    **{name: value for name, value in member.items() if name in parameters}))
-    begin = time.process_time()
-    runs = [Run(parts, None) for parts in _all_of(members, backend, threads)]
-    return Ensemble(runs, time.process_time() - begin)
-
-
-def _flat(initial, member):
-    """Elements of arrays in the place of the arrays that a member changes an element of."""
-    result = {}
-    for name, value in initial.items():
-        if isinstance(value, list) and any(key.startswith(name + "[") for key in member):
-            result.update({f"{name}[{i}]": entry for i, entry in enumerate(value)})
-        elif name not in result:
-            result[name] = value
-    return {**result, **{name: value for name, value in member.items() if name in result or name in initial}}
+    experiment = Experiment(experiment)
+    if starts is not None:
+        if hasattr(starts, "to_dict") and not isinstance(starts, Mapping):
+            starts = starts.to_dict("list")
+        if not isinstance(starts, Mapping):
+            starts = dict(zip(experiment.core.coordinates, np.asarray(starts, dtype=float).T))
+        values = {name: np.asarray(column, dtype=float).tolist() for name, column in starts.items()}
+        experiment = experiment.changed(ensemble={"values": values})
+    if has_objects(experiment.document) and not all(name in experiment.core.coordinates for name in _varied(experiment)):
+        raise ExperimentError([("/ensemble", "varies more than coordinates of an experiment with objects of Python; "
+                                "expected coordinates alone, or courant.sweep")])
+    main = is_main_thread()
+    parts = core.run_ensemble(experiment.core, backend, threads or os.cpu_count() or 1, main)
+    if main and core.was_interrupted():
+        raise KeyboardInterrupt
+    return Ensemble(*parts)

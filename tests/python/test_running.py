@@ -162,7 +162,27 @@ def test_an_ensemble_has_the_bits_of_its_members():
         assert (rows == courant.run(OSCILLATOR, q=start[0], p_q=start[1]).rows).all()
     assert (courant.ensemble(OSCILLATOR, {"q": [1.0, 0.5], "k": [1.0, 4.0]})["q"][1]
             == courant.run(OSCILLATOR, q=0.5, k=4.0)["q"]).all()
-    assert ensemble.summary["members"] == 3
+    assert ensemble.summary["members"] == 3 and ensemble.summary["completed"] == 3
+    assert ensemble.summary["statistics"]["q"]["mean"] == pytest.approx(ensemble["q"][:, -1].mean(), abs=1e-14)
+    assert ensemble.summary["statistics"]["q"]["standard_deviation"] == pytest.approx(ensemble["q"][:, -1].std(ddof=1), abs=1e-14)
+    quantiles = ensemble.summary["statistics"]["q"]["quantiles"]
+    assert list(quantiles.values()) == pytest.approx(np.quantile(ensemble["q"][:, -1], [0.05, 0.25, 0.5, 0.75, 0.95]), abs=1e-14)
+
+
+def test_an_ensemble_of_the_experiment():
+    random = {"members": 5, "seed": 1, "random": {"g": "normal"}, "values": {"q": "1 + 0.1*g"}}
+    ensemble = courant.ensemble({**OSCILLATOR, "ensemble": random})
+    assert ensemble.values.shape == (5, 11, 4) and len(set(ensemble["q"][:, 0])) == 5
+    with pytest.raises(courant.ExperimentError, match="makes many runs"):
+        courant.run({**OSCILLATOR, "ensemble": random})
+    with pytest.raises(courant.ExperimentError, match="/ensemble/values/qq: is neither an initial value nor a parameter"):
+        courant.ensemble(OSCILLATOR, {"qq": [1.0, 2.0]})
+
+
+def test_an_ensemble_of_objects_of_python():
+    decay = {"system": Decay(), "initial": {"x[0]": 1.0}, "method": Euler, "time": {"step": 0.1, "end": 1}}
+    ensemble = courant.ensemble(decay, {"x[0]": [1.0, 2.0, 3.0]})
+    assert ensemble["x"][:, 0, -1] == pytest.approx(0.9**10*np.arange(1, 4), abs=1e-14)
 
 
 def in_another_process(experiment):
