@@ -15,6 +15,7 @@
 #include "courant/reading/method_kinds.hpp"
 #include "courant/reading/model.hpp"
 #include "courant/reading/output.hpp"
+#include "courant/reading/sensitivities.hpp"
 #include "courant/reading/symmetries.hpp"
 
 namespace courant {
@@ -47,6 +48,7 @@ struct Experiment {
   // Whether there are columns `supplied` and `dissipated`, where these are words, and `balance`.
   bool writes_energies = false, writes_balance = false;
   std::vector<Defect> defects;  // that have columns
+  std::optional<Sensitivities> sensitivities = {};
   std::vector<Event> events;
   std::optional<Boundary> boundary = {};
   // Of an experiment that begins where its boundary conditions ask for, and takes as long.

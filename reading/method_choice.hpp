@@ -12,6 +12,7 @@
 #include "courant/integrators/step/projector.hpp"
 #include "courant/reading/vocabulary.hpp"
 #include "courant/structures/implicit_system.hpp"
+#include "courant/structures/parameter_extension.hpp"
 #include "courant/structures/time_transformation.hpp"
 
 namespace courant {
@@ -29,6 +30,9 @@ struct MethodSetting {
   // Of a system in transformed time: the setting in its own, and what leads from one to the other.
   const MethodSetting* own = nullptr;
   std::shared_ptr<const TimeTransformation> transformation = nullptr;
+  // Of a system with parameters as coordinates: the setting of the system itself, and what leads from one to the other.
+  const MethodSetting* plain = nullptr;
+  const ParameterExtension* extension = nullptr;
 };
 
 // The method, the initial state moved to where it wants to start, and the discretization map, of

@@ -21,6 +21,7 @@ struct ObservedQuantities {
   std::optional<Index> H, balance;  // places in a row
   std::vector<Defect> defects;
   std::vector<Index> defect_places;
+  Index first_sensitivity = 0, sensitivity_count = 0;  // places in a row
   std::vector<Index> stage_places;  // of the observables at the stage
   std::vector<Index> deviating;     // of what deviates
 

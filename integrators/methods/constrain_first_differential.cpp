@@ -1,14 +1,17 @@
 #include <array>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
+#include "courant/core/linear/complete_orthogonal_decomposition.hpp"
 #include "courant/integrators/methods/constrain_first.hpp"
+#include "courant/integrators/step/conormal_turning.hpp"
 #include "courant/integrators/step/vector_field_differential.hpp"
 
 namespace courant {
 namespace {
 
-// W along a curve is differentiated by differences of order 8 with this part of the point's size, which
+// On curved spaces W along a curve is differentiated by differences of order 8 with this part of the point's size, which
 // leaves about 1e-12 of W. It is multiplied by the distance of a step from M_f, O(h²) or less.
 constexpr double kDifferenceOfW = 1e-2;
 constexpr std::array kWeightsOfOrder8 = {4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0};
@@ -42,6 +45,13 @@ class ConstrainFirst::Differential final : public StepDifferential {
     first_ = Function("R-", {{"x", x}, {"w", w}}, ends.first, by_both);
     second_ = Function("R+", {{"x", x}, {"w", w}}, ends.second, by_both);
     retraction_ = Function("R", {{"x", x}, {"w", w}}, M_.retract(x, tangent), by_both);
+    if (method_.codimension_ == 0 || method_.fixed_directions_.size() > 0 ||
+        field_.formulas().inputs[2].variables.size() > 0)
+      return;
+    conormal_turning_.emplace(field_.formulas());
+    if (method_.span_.output_size() == 0) return;
+    const auto span = method_.projector_->span_formulas(M_, method_.codimension_);
+    span_ = Function("directions", span, {.differentiate = {"x", "C"}});
   }
 
  private:
@@ -152,6 +162,7 @@ class ConstrainFirst::Differential final : public StepDifferential {
     if (method_.fixed_directions_.size() > 0 ||
         shift.lpNorm<Eigen::Infinity>() <= kOnConstraints * size)
       return result;
+    if (conormal_turning_) return exact_turning(state, at, shift);
     const MatrixXd along = at.evaluation.basis().matrix() * at.directions;
     const auto in_W = [&](const VectorXd& direction) -> VectorXd {
       State moved = state;
@@ -173,11 +184,39 @@ class ConstrainFirst::Differential final : public StepDifferential {
     return result;
   }
 
+  // The same where tangent vectors are dx/dt: of W μ = V(x, C) m, with V linear in the conormals C, along with α = C m.
+  MatrixXd exact_turning(const State& state, const Site& at, const VectorXd& shift) const {
+    const auto here = place(state.x, state.t, at.evaluation);
+    if (method_.span_.output_size() == 0) return (*conormal_turning_)(here, shift, at.directions);
+    const MatrixXd C = differential_.conormals(here, method_.codimension_);
+    const Index n = C.rows(), d = C.cols(), N = state.x.size();
+    VectorXd sizes = method_.projector_->conormal_sizes();
+    if (sizes.size() == 0) sizes = VectorXd::Ones(n);
+    const MatrixXd sized = sizes.cwiseInverse().asDiagonal() * C;
+    const std::array<VectorXd, 4> in = {state.x, at.evaluation.basis().entries().reshaped(),
+                                        sized.reshaped(), VectorXd::Constant(1, state.t)};
+    const MatrixXd V = span_(in).reshaped(n, d);
+    const MatrixXd J = span_.jacobian(in);
+    const VectorXd m = CompleteOrthogonalDecomposition(V).solve(shift);
+    const MatrixXd turned = (*conormal_turning_)(here, C * m, at.directions);
+    MatrixXd result(n, at.directions.cols());
+    for (Index k = 0; k < result.cols(); ++k) {
+      const MatrixXd conormals =
+          sizes.cwiseInverse().cwiseProduct(turned.col(k)) * m.transpose() / m.squaredNorm();
+      const VectorXd change =
+          J.leftCols(N) * at.directions.col(k) + J.rightCols(n * d) * conormals.reshaped();
+      result.col(k) = change.reshaped(n, d) * m;
+    }
+    return result;
+  }
+
   const ConstrainFirst method_;  // its functions are shared, not copied
   const Manifold& M_;
   VectorField field_;
   VectorFieldDifferential differential_;
   Function first_, second_, retraction_;  // x, w ↦ R_d⁻, R_d⁺, R, with Jacobian by both
+  std::optional<ConormalTurning> conormal_turning_;  // not on curved spaces
+  Function span_;  // of the method, with Jacobian by the point and the conormals
 };
 
 std::shared_ptr<const StepDifferential> ConstrainFirst::do_differential() const {
