@@ -14,19 +14,12 @@
 #include "courant/reading/initial_values.hpp"
 #include "courant/reading/method_kinds.hpp"
 #include "courant/reading/model.hpp"
+#include "courant/reading/observable.hpp"
 #include "courant/reading/output.hpp"
 #include "courant/reading/sensitivities.hpp"
 #include "courant/reading/symmetries.hpp"
 
 namespace courant {
-
-struct Observable {
-  std::string name;
-  // Of coordinates, velocities, unknowns, t; of energies since the beginning, but at a stage.
-  WrittenFormula formula;
-  bool at_stage = false;       // of the step that ended at the state
-  bool uses_energies = false;  // of the run
-};
 
 // What a run measures of its tangent map, as TangentMap defines it.
 enum class Defect { symplecticity, volume };

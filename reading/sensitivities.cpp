@@ -4,7 +4,6 @@
 
 #include "courant/core/language/declaration.hpp"
 #include "courant/core/words/spelling.hpp"
-#include "courant/reading/experiment.hpp"
 
 namespace courant {
 namespace {

@@ -8,11 +8,10 @@
 #include "courant/core/expressions/graph_parameters.hpp"
 #include "courant/reading/initial_values.hpp"
 #include "courant/reading/model.hpp"
+#include "courant/reading/observable.hpp"
 #include "courant/reading/symmetries.hpp"
 
 namespace courant {
-
-struct Observable;
 
 // The key `sensitivities` of an experiment:
 //

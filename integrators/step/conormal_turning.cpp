@@ -42,11 +42,12 @@ MatrixXd ConormalTurning::operator()(const VectorFieldDifferential::Place& at,
   const MatrixXd left = spaces.left_kernel();
   const VectorXd lambda =
       left * CompleteOrthogonalDecomposition(by_x.transpose() * left, kFoundTo).solve(alpha);
+  const MatrixXd inverse =
+      spaces.pseudo_solve(MatrixXd::Identity(by_y.rows(), by_y.rows()));  // of ∂F/∂y
   MatrixXd moves(unknowns + N, directions.cols());
-  moves << -spaces.pseudo_solve(by_x * directions), directions;
+  moves << -inverse * (by_x * directions), directions;
   const MatrixXd turned = slopes_.jacobian({lambda, at.unknowns, at.x, t}) * moves;
-  const MatrixXd delta = -FundamentalSubspaces(by_y.transpose(), {.data_error = kFoundTo})
-                              .pseudo_solve(turned.topRows(unknowns));
+  const MatrixXd delta = -inverse.transpose() * turned.topRows(unknowns);
   return turned.bottomRows(N) + by_x.transpose() * delta;
 }
 
