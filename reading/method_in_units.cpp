@@ -30,9 +30,10 @@ bool may_be_far_apart(const MethodSetting& at) {
 
 PreparedMethod prepared_in_units(const std::function<PreparedMethod(const MethodSetting&)>& prepare,
                                  const MethodSetting& at) {
-  const auto units = at.own || at.extension || at.ladder.point.x.size() == 0 || !may_be_far_apart(at)
-                         ? std::nullopt
-                         : needed_units(at.system, at.ladder.point);
+  const auto units =
+      at.own || at.extension || at.ladder.point.x.size() == 0 || !may_be_far_apart(at)
+          ? std::nullopt
+          : needed_units(at.system, at.ladder.point);
   if (!units) return prepare(at);
   const auto system = std::make_shared<const SystemInUnits>(at.system, *units);
   const State initial = units->measure(at.initial);

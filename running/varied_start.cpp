@@ -20,7 +20,7 @@ using VariableKind = Variable::Kind;
 
 // Differences of order 8, with this part of the size of what is typed.
 constexpr std::array kWeights = {4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0};
-constexpr double kDifference = 1e-2;
+constexpr double kDifference = 2e-3;
 // A value that the start kept differs by no more from what was typed.
 constexpr double kKept = 1e-10;
 // What is left of conditions that can be met.
@@ -30,6 +30,17 @@ constexpr double kAlong = 1e-5;
 
 [[noreturn]] void refuse_start(const Variable& variable, const std::string& why) {
   throw ExperimentError(variable.pointer, variable.name + " cannot be varied: " + why);
+}
+
+// The experiment with another number in the place of the variable, if it is one.
+Experiment other_experiment(const Experiment& experiment, const Variable& variable, double value) {
+  try {
+    return with_number(experiment, variable, value);
+  } catch (const ExperimentError& error) {
+    refuse_start(variable, "the experiment is none with " + number_text(value) + " in its place (" +
+                               error.problems().front().where + " " +
+                               error.problems().front().what + ")");
+  }
 }
 
 // The values that are typed, which of them the start kept, and how they change along directions.
@@ -151,8 +162,8 @@ class GivenValues {
     const double step = kDifference * (variable.value == 0.0 ? 1.0 : std::fabs(variable.value));
     for (std::size_t k = 0; k < kWeights.size(); ++k) {
       const double s = static_cast<double>(k + 1) * step;
-      const Experiment more = with_number(experiment_, variable, variable.value + s),
-                       less = with_number(experiment_, variable, variable.value - s);
+      const Experiment more = other_experiment(experiment_, variable, variable.value + s),
+                       less = other_experiment(experiment_, variable, variable.value - s);
       for (std::size_t i = 0; i < places_.size(); ++i)
         slopes[static_cast<Index>(i)] +=
             kWeights[k] / step * (typed(more, places_[i]) - typed(less, places_[i]));

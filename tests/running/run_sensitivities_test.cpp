@@ -312,6 +312,12 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_varied_is_refused_with_its_place) {
                 {"method", "rk4"},
                 {"time", {{"step", 0.1}, {"end", 1.0}}}};
   test_refusal(with(sized, {"n"}), "/sensitivities/by/0: n cannot be varied");
+  // A number at the edge of what initial values are defined for.
+  Json edge = oscillator();
+  edge["system"]["parameters"]["ecc"] = 0.999;
+  edge["initial"]["q"] = "sqrt(1 - ecc)";
+  test_refusal(with(edge, {"ecc"}),
+               "/sensitivities/by/0: ecc cannot be varied: the experiment is none with");
   // A method without differential.
   Json rattle = pendulum({{"type", "constrain-first"}, {"discretization", "verlet"}});
   test_refusal(with(rattle, {"x"}), "do not know their differential");
