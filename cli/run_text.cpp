@@ -153,6 +153,12 @@ void print_outcome(const Console& console, const Experiment& experiment, const R
   if (const long divided = solver.divisions.value_or(0); divided > 0)
     console.out << "  " << divided << (divided == 1 ? " step was" : " steps were")
                 << " made in halves.\n";
+  if (summary.sensitivities.contains("lyapunov_exponents")) {
+    std::string text = "Lyapunov exponents of the run:";
+    for (const Json& exponent : summary.sensitivities["lyapunov_exponents"])
+      text += (text.back() == ':' ? " " : ", ") + shown(exponent.get<double>());
+    print_wrapped(console, text + ".", "  ");
+  }
   for (const auto& [name, symmetry] : summary.symmetries)
     if (!symmetry.remark.empty()) print_wrapped(console, symmetry.remark, "  ");
   // What was said when the experiment was read comes first.

@@ -265,8 +265,8 @@ std::vector<Defect> read_defects(const JsonReader& value, const Model& model,
   return defects;
 }
 
-// Coordinates, H where there is an energy, energies of steps, defects, momenta of symmetries, observables:
-// what expectations can be about.
+// Coordinates, H where there is an energy, energies of steps, defects, momenta of symmetries, observables,
+// sensitivities: what expectations can be about.
 std::vector<std::string> quantities(const Experiment& experiment) {
   const ImplicitSystem& system = *experiment.model.system;
   std::vector<std::string> names = system.names().coordinates;
@@ -280,6 +280,9 @@ std::vector<std::string> quantities(const Experiment& experiment) {
   for (const Defect defect : experiment.defects) names.push_back(column_of(defect));
   for (const DeclaredSymmetry& symmetry : experiment.symmetries) names.push_back(symmetry.name);
   for (const Observable& observable : experiment.observe) names.push_back(observable.name);
+  if (experiment.sensitivities)
+    for (std::string& column : experiment.sensitivities->columns())
+      names.push_back(std::move(column));
   return names;
 }
 
@@ -367,6 +370,13 @@ Experiment read_document(const Json& written, const Model* given) {
     if (defects && !method && !time)
       defects->problem("need a trajectory; expected \"method\" and \"time\"");
     const auto observe = object.optional("observe");
+    const auto sensitivities = object.optional("sensitivities");
+    if (sensitivities && !(method && time))
+      sensitivities->problem("need a trajectory; expected \"method\" and \"time\"");
+    if (sensitivities && experiment.time && experiment.time->is_transformed())
+      sensitivities->problem(
+          "are those of steps that know their differential, and steps in transformed time do not; "
+          "expected no \"transformation\" of time");
     const auto events = object.optional("events");
     if (events && !time) events->problem("need a trajectory; expected \"method\" and \"time\"");
     const auto boundary = object.optional("boundary");
@@ -378,6 +388,10 @@ Experiment read_document(const Json& written, const Model* given) {
     if (boundary && experiment.time && !experiment.time->is_transformed() &&
         experiment.time->steps < 1)
       boundary->problem("needs a trajectory; expected an end of the time after its start");
+    if (boundary && sensitivities)
+      sensitivities->problem(
+          "are those of a run from initial values, and \"boundary\" makes other ones; expected one "
+          "of the two");
     const auto ensemble = object.optional("ensemble");
     if (ensemble)
       require_ensemble_fits(*ensemble, boundary.has_value(), method && time, experiment);
@@ -407,6 +421,9 @@ Experiment read_document(const Json& written, const Model* given) {
       if (symmetries) experiment.symmetries = read_symmetries(*symmetries, *model);
       if (defects) experiment.defects = read_defects(*defects, *model, experiment.symmetries);
       if (observe) experiment.observe = read_observables(*observe, *model, experiment);
+      if (sensitivities && initial)
+        experiment.sensitivities = read_sensitivities(*sensitivities, *model, experiment.initial,
+                                                      experiment.symmetries, experiment.observe);
       if (events) experiment.events = read_events(*events, *model);
       // What is not given of a guess is 0.
       if (boundary) experiment.model.starts_at_zero = true;

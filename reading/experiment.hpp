@@ -15,18 +15,12 @@
 #include "courant/reading/initial_values.hpp"
 #include "courant/reading/method_kinds.hpp"
 #include "courant/reading/model.hpp"
+#include "courant/reading/observable.hpp"
 #include "courant/reading/output.hpp"
+#include "courant/reading/sensitivities.hpp"
 #include "courant/reading/symmetries.hpp"
 
 namespace courant {
-
-struct Observable {
-  std::string name;
-  // Of coordinates, velocities, unknowns, t; of energies since the beginning, but at a stage.
-  WrittenFormula formula;
-  bool at_stage = false;       // of the step that ended at the state
-  bool uses_energies = false;  // of the run
-};
 
 // What a run measures of its tangent map, as TangentMap defines it.
 enum class Defect { symplecticity, volume };
@@ -48,6 +42,7 @@ struct Experiment {
   // Whether there are columns `supplied` and `dissipated`, where these are words, and `balance`.
   bool writes_energies = false, writes_balance = false;
   std::vector<Defect> defects;  // that have columns
+  std::optional<Sensitivities> sensitivities = {};
   std::vector<Event> events;
   std::optional<Boundary> boundary = {};
   // Of an experiment that begins where its boundary conditions ask for, and takes as long.

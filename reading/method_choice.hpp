@@ -13,6 +13,7 @@
 #include "courant/reading/nominal_sizes.hpp"
 #include "courant/reading/vocabulary.hpp"
 #include "courant/structures/implicit_system.hpp"
+#include "courant/structures/parameter_extension.hpp"
 #include "courant/structures/time_transformation.hpp"
 
 namespace courant {
@@ -32,6 +33,9 @@ struct MethodSetting {
   std::shared_ptr<const TimeTransformation> transformation = nullptr;
   // Sizes that are given of coordinates and unknowns, or null.
   const NominalSizes* nominal = nullptr;
+  // Of a system with parameters as coordinates: the setting of the system itself, and what leads from one to the other.
+  const MethodSetting* plain = nullptr;
+  const ParameterExtension* extension = nullptr;
 };
 
 // The method, the initial state moved to where it wants to start, and the discretization map, of

@@ -29,7 +29,7 @@ bool may_be_far_apart(const MethodSetting& at) {
 
 // The units of steps: those that are given, of the rest those that are needed; empty where both are none.
 std::optional<Units> units_of_steps(const MethodSetting& at) {
-  if (at.own || at.ladder.point.x.size() == 0) return std::nullopt;
+  if (at.own || at.extension || at.ladder.point.x.size() == 0) return std::nullopt;
   auto needed = may_be_far_apart(at) ? needed_units(at.system, at.ladder.point) : std::nullopt;
   if (!at.nominal) return needed;
   VectorXd unknowns = VectorXd::Zero(at.system->auxiliary_size());
@@ -62,6 +62,10 @@ MethodChoice with_nominal_sizes(MethodChoice choice, NominalSizes sizes) {
                     sizes = std::move(sizes)](const MethodSetting& at) {
     MethodSetting setting = at;
     setting.nominal = &sizes;
+    if (!at.plain) return prepare(setting);
+    MethodSetting plain = *at.plain;
+    plain.nominal = &sizes;
+    setting.plain = &plain;
     return prepare(setting);
   };
   return choice;

@@ -99,6 +99,7 @@ std::array<MapPointer, 2> damped_maps(const MethodSetting& at) {
 
 // R_d of Verlet. On spaces that are no cotangent bundles coordinates are told apart by what they move by.
 MapPointer half_at(const DiscretizationChoice& map, const MethodSetting& at) {
+  if (at.extension) return beside_parameters(half_at(map, *at.plain), at);
   const auto& M = at.system->manifold();
   if (std::dynamic_pointer_cast<const CotangentBundle>(M)) return map.make(M);
   const auto classes = staggering({at.system, at.ladder, VectorFieldFormulas::Freedom::none});
@@ -265,6 +266,10 @@ std::optional<MethodChoice> reduced(ObjectReader& object) {
           throw std::invalid_argument(
               "\"reduced\" takes no transformation of time; expected another method, such as "
               "\"discretize-first\"");
+        if (at.extension)
+          throw std::invalid_argument(
+              "steps of \"reduced\" are not known as functions of parameters; expected initial "
+              "values alone, or another method, such as \"discretize-first\"");
         require_no_constraints(order, at, "reduced");
         const auto system = std::dynamic_pointer_cast<const DiracSystem>(at.system);
         const auto structure =

@@ -152,6 +152,7 @@ std::optional<Model> read_port_hamiltonian(ObjectReader& system) {
     const NameList outputs = port_variables("y", m, *port_names);
     Vocabulary words;
     words.parameters = vocabulary.parameters;
+    words.parameter_formulas = vocabulary.parameter_formulas;
     words.tables = vocabulary.tables;
     SymbolTable known = words.symbols({.t = Expr(0.0)});
     if (!take(outputs, known, *inputs_key)) return std::nullopt;

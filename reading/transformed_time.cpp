@@ -8,12 +8,23 @@
 #include "courant/integrators/methods/transformed_integrator.hpp"
 #include "courant/integrators/step/fixed_time_projector.hpp"
 #include "courant/integrators/step/natural_units.hpp"
+#include "courant/integrators/step/parameter_projector.hpp"
 
 namespace courant {
 namespace {
 
 // So large a size that a correction of a discrete gradient leaves time as it is.
 constexpr double kNoSize = 1e150;
+
+// On a product with a second factor Rᵖ, whose stage is where that of the map is.
+std::shared_ptr<const DiscretizationMap> beside_theta(std::shared_ptr<const DiscretizationMap> map,
+                                                      std::shared_ptr<const Product> product) {
+  const double theta = map->stage_time();
+  auto flat = std::make_shared<Theta>(product->factors().back(), theta);
+  return std::make_shared<ProductMap>(
+      std::move(product),
+      std::vector<std::shared_ptr<const DiscretizationMap>>{std::move(map), std::move(flat)});
+}
 
 std::shared_ptr<const TimeTransformation> transformation(const MethodChoice& choice,
                                                          const WrittenFormula& formula,
@@ -67,16 +78,23 @@ MethodChoice in_transformed_time(MethodChoice choice, WrittenFormula rate) {
 std::shared_ptr<const DiscretizationMap> map_at(const DiscretizationChoice& choice,
                                                 const MethodSetting& at) {
   const auto& manifold = at.system->manifold();
+  if (at.extension) return beside_parameters(choice.make(at.plain->system->manifold()), at);
   if (!at.transformation || at.transformation->is_symplectic()) return choice.make(manifold);
   const auto product = std::dynamic_pointer_cast<const Product>(manifold);
-  auto map = choice.make(product->factors().front());
-  const double theta = map->stage_time();
-  return std::make_shared<ProductMap>(
-      product, std::vector<std::shared_ptr<const DiscretizationMap>>{
-                   std::move(map), std::make_shared<Theta>(product->factors().back(), theta)});
+  return beside_theta(choice.make(product->factors().front()), product);
+}
+
+std::shared_ptr<const DiscretizationMap> beside_parameters(
+    std::shared_ptr<const DiscretizationMap> map, const MethodSetting& at) {
+  return beside_theta(std::move(map),
+                      std::dynamic_pointer_cast<const Product>(at.system->manifold()));
 }
 
 ProjectorChoice::Made projector_at(const ProjectorChoice& choice, const MethodSetting& at) {
+  if (at.extension) {
+    const ProjectorChoice::Made plain = choice.make(*at.plain);
+    return {std::make_shared<ParameterProjector>(plain.projector, *at.extension), plain.metric};
+  }
   if (!at.own) return choice.make(at);
   // There is nothing to project where the transformation is symplectic.
   if (at.transformation->is_symplectic()) return {std::make_shared<OrthogonalProjector>()};
@@ -86,6 +104,12 @@ ProjectorChoice::Made projector_at(const ProjectorChoice& choice, const MethodSe
 }
 
 VectorXd units_at(const MethodSetting& at) {
+  if (at.extension) {
+    VectorXd all = VectorXd::Ones(at.system->manifold()->tangent_dimension());
+    const VectorXd own = units_at(*at.plain);
+    all.head(own.size()) = own;
+    return all;
+  }
   if (!at.own)
     return at.nominal
                ? units_by_sizes(at.system, at.ladder.point, at.nominal->coordinates, {}).tangent

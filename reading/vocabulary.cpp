@@ -45,12 +45,21 @@ ExprVector value_of(const Definition& definition, const SymbolTable& symbols) {
   }
 }
 
+// That of the first argument which is no constant.
+Graph graph_in(const Vocabulary::Arguments& arguments) {
+  for (const auto& vector : {arguments.x, arguments.velocity, arguments.z, arguments.effort})
+    if (vector)
+      if (const Graph graph = graph_of(*vector); !graph.is_none()) return graph;
+  return arguments.t ? graph_of(ExprVector{{*arguments.t}}) : Graph::none();
+}
+
 // The time derivatives of definitions, one after the other, where there is a velocity.
 class DefinitionRates {
  public:
   DefinitionRates(const Vocabulary& vocabulary, const Vocabulary::Arguments& arguments)
       : arguments_(arguments) {
     if (!arguments.x || !arguments.velocity || !arguments.t) return;
+    graph_ = fresh_graph({*arguments.x, *arguments.velocity, ExprVector{{*arguments.t}}});
     at_ = graph_.variables("at", vocabulary.coordinates.size() + 1);
     velocity_ = graph_.variables("velocity", vocabulary.coordinates.size());
     Vocabulary plain = vocabulary;
@@ -90,12 +99,19 @@ bool has_words(const WrittenFormulas& formulas, Findings& findings) {
   return right;
 }
 
-std::vector<std::pair<std::string, Symbol>> read_parameters(
-    ObjectReader& system, const std::vector<std::string>& reserved) {
-  std::vector<std::pair<std::string, Symbol>> parameters;
+// Whether one of the formulas has names in it.
+bool has_names(const WrittenFormulas& formulas) {
+  return std::ranges::any_of(formulas.formulas, [](const WrittenFormula& formula) {
+    return !names_used(formula.text).empty();
+  });
+}
+
+void read_parameters(ObjectReader& system, const std::vector<std::string>& reserved,
+                     Vocabulary& vocabulary) {
+  std::vector<std::pair<std::string, Symbol>>& parameters = vocabulary.parameters;
   const auto object = system.optional("parameters");
   const auto entries = object ? object->entries() : std::nullopt;
-  if (!entries) return parameters;
+  if (!entries) return;
   SymbolTable known;  // names that are taken
   known.add("t", 0.0);
   for (const std::string& name : reserved) known.add(name, 0.0);
@@ -106,13 +122,14 @@ std::vector<std::pair<std::string, Symbol>> read_parameters(
       SymbolTable earlier;
       for (const auto& [earlier_name, earlier_symbol] : parameters)
         earlier.add(earlier_name, earlier_symbol.shape, earlier_symbol.values);
-      if (const auto values = evaluate_constants(*formulas, earlier, value.findings()))
+      if (const auto values = evaluate_constants(*formulas, earlier, value.findings())) {
         symbol = {formulas->shape, constants(*values)};
+        if (has_names(*formulas)) vocabulary.parameter_formulas.emplace_back(name, *formulas);
+      }
     }
     known.add(name, symbol.shape, symbol.values);
     parameters.emplace_back(name, std::move(symbol));
   }
-  return parameters;
 }
 
 // Tables, whose names are none of those of parameters.
@@ -224,9 +241,30 @@ void NameList::add_velocities_to(SymbolTable& symbols, const ExprVector& values)
   }
 }
 
+std::vector<std::pair<std::string, Symbol>> Vocabulary::parameters_in(const Graph& graph) const {
+  if (parameter_names(graph).empty()) return parameters;
+  std::vector<std::pair<std::string, Symbol>> all;
+  SymbolTable earlier;
+  for (const auto& [name, symbol] : parameters) {
+    Symbol here = symbol;
+    const auto formulas = std::ranges::find(parameter_formulas, name,
+                                            &std::pair<std::string, WrittenFormulas>::first);
+    if (formulas != parameter_formulas.end()) here.values = evaluate(formulas->second, earlier);
+    const std::vector<std::string> elements = Declaration{name, symbol.shape}.element_names();
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      Expr& value = here.values[static_cast<Index>(i)];
+      value = parameter_of(graph, elements[i], value);
+    }
+    earlier.add(name, here.shape, here.values);
+    all.emplace_back(name, std::move(here));
+  }
+  return all;
+}
+
 SymbolTable Vocabulary::symbols(const Arguments& arguments) const {
   SymbolTable symbols;
-  for (const auto& [name, symbol] : parameters) symbols.add(name, symbol.shape, symbol.values);
+  for (const auto& [name, symbol] : parameters_in(graph_in(arguments)))
+    symbols.add(name, symbol.shape, symbol.values);
   if (arguments.t) symbols.add("t", *arguments.t);
   if (arguments.t)
     for (const auto& [name, table] : tables) symbols.add(name, table.at(*arguments.t));
@@ -253,7 +291,7 @@ SymbolTable Vocabulary::symbols_of(const std::vector<std::string>& names, const 
   for (const Definition& definition : definitions)
     if (is_one_of(definition.name)) return symbols({.x = x, .t = t});
   SymbolTable symbols;
-  for (const auto& [name, symbol] : parameters)
+  for (const auto& [name, symbol] : parameters_in(graph_in(Arguments{.x = x, .t = t})))
     if (is_one_of(name)) symbols.add(name, symbol.shape, symbol.values);
   symbols.add("t", t);
   for (const auto& [name, table] : tables)
@@ -287,7 +325,7 @@ bool read_names(const JsonReader& value, SymbolTable& taken, NameList& names) {
 
 Vocabulary read_vocabulary(ObjectReader& system, const std::vector<std::string>& reserved) {
   Vocabulary vocabulary;
-  vocabulary.parameters = read_parameters(system, reserved);
+  read_parameters(system, reserved, vocabulary);
   vocabulary.tables = read_named_tables(system, reserved, vocabulary.parameters);
   vocabulary.definitions = read_definitions(system);
   return vocabulary;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "courant/core/expressions/graph_parameters.hpp"
 #include "courant/core/language/declaration.hpp"
 #include "courant/reading/table.hpp"
 #include "courant/reading/written_formula.hpp"
@@ -56,10 +57,15 @@ struct Definition {
 // What the names in the formulas of a system stand for: coordinates x ∈ R^N and their velocities,
 // auxiliary unknowns z, the time t, constant parameters, tables, quantities of the kind of system,
 // and definitions made of all of them.
+//
+// In a graph that was given parameters (add_parameters) of the names of their elements, "l" or "m[1]", parameters
+// are its variables, and others that are made of these by formulas change with them.
 struct Vocabulary {
   NameList coordinates;
   NameList unknowns;
   std::vector<std::pair<std::string, Symbol>> parameters;
+  // Of those parameters whose values are formulas of earlier ones.
+  std::vector<std::pair<std::string, WrittenFormulas>> parameter_formulas = {};
   std::vector<std::pair<std::string, Table>> tables = {};  // functions of t
   std::vector<Definition> definitions;                     // later ones may use earlier ones
 
@@ -89,6 +95,10 @@ struct Vocabulary {
   // coordinates and the names are few.
   SymbolTable symbols_of(const std::vector<std::string>& names, const ExprVector& x,
                          const Expr& t) const;
+
+ private:
+  // Each parameter with what it is in this graph.
+  std::vector<std::pair<std::string, Symbol>> parameters_in(const Graph& graph) const;
 };
 
 // The declarations of an array such as ["x", "r[n][3]"] are appended to `names`; `taken` has the

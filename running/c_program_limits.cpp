@@ -20,6 +20,9 @@ void check_exportable(const Experiment& experiment) {
   if (!experiment.defects.empty())
     throw ExperimentError("/defects",
                           "are not measured by a program in C; expected an experiment without");
+  if (experiment.sensitivities)
+    throw ExperimentError("/sensitivities",
+                          "are not computed by a program in C; expected an experiment without");
   if (experiment.time->is_transformed())
     throw ExperimentError("/time/transformation",
                           "is not written in C; expected steps of one size in t");

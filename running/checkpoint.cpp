@@ -176,6 +176,13 @@ void each_member(Is<TangentMap::Memory> auto& tangent_map, const auto& visit) {
   visit("images", tangent_map.images);
 }
 
+void each_member(Is<RunSensitivities::Memory> auto& sensitivities, const auto& visit) {
+  visit("images", sensitivities.images);
+  visit("growth", sensitivities.growth);
+  visit("time", sensitivities.time);
+  visit("values", sensitivities.values);
+}
+
 void each_member(Is<PowerAccount::Memory> auto& power_account, const auto& visit) {
   visit("first", power_account.first);
   visit("last", power_account.last);
@@ -257,6 +264,7 @@ Checkpoint from_json(const Json& json) {
   read_record(json.at("event_watch"), checkpoint.event_watch);
   read_record(json.at("power_account"), checkpoint.observed.power_account);
   read_record(json.at("tangent_map"), checkpoint.observed.tangent_map);
+  read_record(json.at("sensitivities"), checkpoint.observed.sensitivities);
   return checkpoint;
 }
 
@@ -279,7 +287,8 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
             {"ladder_watch", record(checkpoint.ladder_watch)},
             {"event_watch", record(checkpoint.event_watch)},
             {"power_account", record(checkpoint.observed.power_account)},
-            {"tangent_map", record(checkpoint.observed.tangent_map)}};
+            {"tangent_map", record(checkpoint.observed.tangent_map)},
+            {"sensitivities", record(checkpoint.observed.sensitivities)}};
   for (const auto& [time, row] : checkpoint.rows_at_times)
     json["rows_at_times"].push_back({{"t", written(time)}, {"row", written(row)}});
   json["hash"] = hash_of(json);

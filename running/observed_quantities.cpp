@@ -156,6 +156,10 @@ ObservedQuantities::ObservedQuantities(const Experiment& experiment, const Const
     }
     add(observable.name, observable.at_stage ? Expr(0.0) : evaluate(observable.formula, symbols));
   }
+  first_sensitivity = static_cast<Index>(names.size());
+  if (experiment.sensitivities)
+    for (std::string& column : experiment.sensitivities->columns()) add(std::move(column), 0.0);
+  sensitivity_count = static_cast<Index>(names.size()) - first_sensitivity;
   first_constraint = names.size();
   auto add_constraint = [&, count = 0](const Expr& zero) mutable {
     add("constraint[" + std::to_string(count++) + "]", zero);

@@ -21,8 +21,9 @@ struct ObservedQuantities {
   std::optional<Index> H, balance;  // places in a row
   std::vector<Defect> defects;
   std::vector<Index> defect_places;
-  std::vector<Index> stage_places;  // of the observables at the stage
-  std::vector<Index> deviating;     // of what deviates
+  Index first_sensitivity = 0, sensitivity_count = 0;  // places in a row
+  std::vector<Index> stage_places;                     // of the observables at the stage
+  std::vector<Index> deviating;                        // of what deviates
 
   // x, v, z, t, what the field leaves out, energies ↦ all between the coordinates and the deviations
   std::vector<Function::Input> inputs;

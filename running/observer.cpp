@@ -24,6 +24,8 @@ Observer::Observer(const ObservedQuantities& of, Backend backend)
       asked_defects_(of.defects),
       defect_places_(of.defect_places),
       defects_(VectorXd::Zero(std::ssize(of.defects))),
+      first_sensitivity_(of.first_sensitivity),
+      sensitivity_count_(of.sensitivity_count),
       H_(of.H),
       balance_(of.balance),
       is_field_(of.is_field) {
@@ -115,6 +117,8 @@ void Observer::measure(const State& state) {
   quantities_.value(in, row_.data() + N);
   for (Index i = 0; i < defects_.size(); ++i)
     row_[defect_places_[static_cast<std::size_t>(i)]] = defects_[i];
+  if (sensitivities_)
+    row_.segment(first_sensitivity_, sensitivity_count_) = sensitivities_->values();
   for (Index i = 0; i < stage_.size(); ++i)
     row_[stage_places_[static_cast<std::size_t>(i)]] = stage_[i];
 }
@@ -145,6 +149,7 @@ const VectorXd& Observer::begin(const State& state) {
     map_->begin(state.x);
     take_defects();
   }
+  if (sensitivities_) sensitivities_->begin(state);
   measure(state);
   if (account_) account_->open(row_[*H_]);
   return compare(state.t);
@@ -165,6 +170,7 @@ const VectorXd& Observer::advance(const Step& step) {
           " has no tangent map, which the defects are of: " + without_place(error.what()));
     }
   }
+  if (sensitivities_) sensitivities_->advance(step);
   if (stage_.size() > 0)
     observe_stage(step.stage, account_ ? account_->energies().effort(step) : VectorXd());
   measure(step.after);
@@ -191,6 +197,7 @@ Observer::Memory Observer::memory() const {
   Memory memory;
   if (account_) memory.power_account = account_->memory();
   if (map_) memory.tangent_map = map_->memory();
+  if (sensitivities_) memory.sensitivities = sensitivities_->memory();
   return memory;
 }
 
@@ -200,6 +207,7 @@ void Observer::recall(const Memory& memory) {
     take_energies();
   }
   if (map_ && memory.tangent_map) map_->recall(*memory.tangent_map);
+  if (sensitivities_ && memory.sensitivities) sensitivities_->recall(*memory.sensitivities);
 }
 
 void Observer::restart(const State& state) {

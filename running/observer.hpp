@@ -13,6 +13,7 @@
 #include "courant/reading/experiment.hpp"
 #include "courant/running/observed_quantities.hpp"
 #include "courant/running/power_account.hpp"
+#include "courant/running/run_sensitivities.hpp"
 
 namespace courant {
 
@@ -25,13 +26,13 @@ struct EnergySizes {
 
 // What a run measures at each state: the coordinates, H where the system has an energy, the energies
 // of its steps where it has ports, the defects of its tangent map, the momenta of its symmetries, the
-// experiment's observables, the constraints, and (not written to files) the quantities of its events
+// experiment's observables, its sensitivities, the constraints, and (not written to files) the quantities of its events
 // and the deviations that its expectations need.
 //
 // `supplied` and `dissipated` are since the beginning, `balance` that of the step which ended at the
 // state, as of PowerAccount. Observables at the stage of that step are evaluated with its effort; at
 // the first state, before any step, they are those of the state. Defects are those of the map from the
-// first state to the one that the last step led to; before follow() there is none, and they are 0.
+// first state to the one that the last step led to; before follow() there is none, and they are 0. So are sensitivities.
 //
 // constraint[i] are the equations of the system that contain nothing but x and t, and the total
 // time derivatives of those which the constraint algorithm differentiated more than once: zero on
@@ -53,6 +54,7 @@ class Observer {
   std::size_t first_constraint() const { return first_constraint_; }
   std::size_t constraint_count() const { return written_count_ - first_constraint_; }
   std::size_t first_event() const { return first_event_; }
+  Index first_sensitivity() const { return first_sensitivity_; }
 
   // The numbers at a state by itself; the reference is valid until the next call.
   const VectorXd& row(const State& state);
@@ -61,7 +63,7 @@ class Observer {
   // Throws std::domain_error where something that is measured is not defined.
   const VectorXd& advance(const Step& step);
   // Whether that takes the stage, the effort and the parts of a step.
-  bool needs_stages() const { return account_ || map_ || stage_.size() > 0; }
+  bool needs_stages() const { return account_ || map_ || sensitivities_ || stage_.size() > 0; }
 
   // Of the steps so far; null where nothing asks for it: the system has no ports, no observable is at
   // a stage, and no bound of the imbalance is expected.
@@ -76,10 +78,17 @@ class Observer {
   // Null where no defect is asked for.
   const TangentMap* tangent_map() const { return map_ ? &*map_ : nullptr; }
 
+  // The same of sensitivities.
+  void follow(RunSensitivities sensitivities) { sensitivities_ = std::move(sensitivities); }
+  const RunSensitivities* sensitivities() const {
+    return sensitivities_ ? &*sensitivities_ : nullptr;
+  }
+
   // All that is kept of the steps so far, where there is such a thing.
   struct Memory {
     std::optional<PowerAccount::Memory> power_account = {};
     std::optional<TangentMap::Memory> tangent_map = {};
+    std::optional<RunSensitivities::Memory> sensitivities = {};
   };
   Memory memory() const;
   // Goes on from there; throws std::invalid_argument if it is of another system.
@@ -124,6 +133,8 @@ class Observer {
   std::vector<Defect> asked_defects_;
   std::vector<Index> defect_places_;  // of those in a row
   VectorXd defects_;
+  std::optional<RunSensitivities> sensitivities_;
+  Index first_sensitivity_, sensitivity_count_;
   std::optional<Index> H_, balance_;
   std::unique_ptr<const VectorField> field_;
   bool is_field_ = false;  // whether v and z are those of the field, not those of the state

@@ -6,6 +6,7 @@ Observer& ObserverElsewhere::at(const State& state) {
   if (!own_) {
     own_.emplace(experiment_, ladder_, Backend::interpreter);
     if (const TangentMap* map = of_.tangent_map()) own_->follow(*map);
+    if (const RunSensitivities* sensitivities = of_.sensitivities()) own_->follow(*sensitivities);
   }
   own_->restart(state);
   return *own_;

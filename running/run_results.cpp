@@ -78,6 +78,13 @@ RunSummary RunResults::summary(RunStatus told_status,
     if (const PowerAccount* account = observer.account(); account && steps > 0)
       told.power_balance = account->report();
   }
+  if (const RunSensitivities* sensitivities = observer.sensitivities();
+      sensitivities && !statistics.empty()) {
+    VectorXd last = sensitivities->values();
+    for (Index i = 0; i < last.size(); ++i)
+      last[i] = statistics.record(observer.first_sensitivity() + i).final;
+    told.sensitivities = sensitivities->summary(last);
+  }
   if (experiment.solution) told.boundary = boundary_summary(*experiment.solution);
   for (const SymmetryFinding& finding : symmetries)
     told.symmetries.emplace_back(finding.name,

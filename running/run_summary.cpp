@@ -100,6 +100,7 @@ Json to_json(const RunSummary& summary) {
             {"constraints", Json::object()}};
   if (summary.ladder) json["ladder"] = to_json(*summary.ladder);
   if (!summary.boundary.is_null()) json["boundary"] = summary.boundary;
+  if (!summary.sensitivities.is_null()) json["sensitivities"] = summary.sensitivities;
   json["expectations"] = Json::array();
   if (const auto& time = summary.time)
     json["time"] = {{"start", time->start}, {"end", time->end}, {"step", time->step}};
@@ -161,6 +162,7 @@ RunSummary read_run_summary(const Json& json) {
                      .steps_per_second = number(json, "steps_per_second")};
   if (json.contains("ladder")) summary.ladder = read_ladder(json.at("ladder"));
   summary.boundary = part(json, "boundary", Json());
+  summary.sensitivities = part(json, "sensitivities", Json());
   for (const Json& warning : part(json, "warnings", nothing)) summary.warnings.push_back(warning);
   summary.stopped_by = text_at(json, "stopped_by");
   if (const Json& time = part(json, "time", nothing); !time.empty())

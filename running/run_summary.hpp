@@ -48,7 +48,8 @@ struct RunSummary {
   std::optional<double> max_violation = {};                // of constraints, where there are any
   std::optional<PowerAccount::Report> power_balance = {};  // where the account is kept
   std::optional<LadderReport> ladder = {};
-  Json boundary = {};  // as boundary_summary() has it; null without conditions at both ends
+  Json sensitivities = {};  // as RunSensitivities::summary() has it; null where none are asked for
+  Json boundary = {};       // as boundary_summary() has it; null without conditions at both ends
   std::vector<ExpectationResult> expectations = {};
   struct Solver {
     double iterations_per_step = kUnknown, factorizations_per_step = kUnknown;

@@ -129,6 +129,8 @@ Kind summary_kind() {
                                        {"max_balance", a_number},
                                        {"max_imbalance", a_number},
                                        {"max_stage_imbalance", a_number}})},
+       {"sensitivities", an_object_of({{"final", dictionary_of(dictionary_of(a_number)), true},
+                                       {"lyapunov_exponents", array_of(a_number)}})},
        {"ladder", ladder},
        {"expectations", array_of(expectation)},
        {"solver", solver},

@@ -178,6 +178,8 @@ class RunUnderway {
       results_.metric = method.metric;
       if (auto map = tangent_of_run(experiment_, ladder_, method))
         observer_.follow(*std::move(map));
+      if (auto sensitivities = sensitivities_of_run(experiment_, ladder_, method))
+        observer_.follow(*std::move(sensitivities));
       if (options_.on_method) options_.on_method(*method.integrator);
       return method;
     } catch (const ExperimentError&) {  // has its own place
@@ -508,7 +510,8 @@ class RunUnderway {
   }
 
   void look_at(Stepper& stepper) {
-    if (observer_.account() || observer_.tangent_map()) stepper.tell_parts();
+    if (observer_.account() || observer_.tangent_map() || observer_.sensitivities())
+      stepper.tell_parts();
     if (event_watch_)
       event_watch_->set_curve(stepper, [this](const Step& part) -> const VectorXd& {
         return elsewhere_.row_within(part);

@@ -122,15 +122,19 @@ class StudiedProblem {
     const auto form_of = [&](const std::string& quantity) {
       return std::ranges::find(forms, quantity, &Expectations::Deviation::quantity);
     };
-    const auto is_defect = [&](const std::string& quantity) {
+    const std::vector<std::string> sensitivities = experiment().sensitivities
+                                                       ? experiment().sensitivities->columns()
+                                                       : std::vector<std::string>();
+    const auto is_of_map = [&](const std::string& quantity) {
       return std::ranges::find(experiment().defects, quantity, column_of) !=
-             experiment().defects.end();
+                 experiment().defects.end() ||
+             std::ranges::find(sensitivities, quantity) != sensitivities.end();
     };
     quantities_ = options_.quantities;
     if (quantities_.empty())
       for (const auto& form : forms)
         if (std::ranges::find(quantities_, form.quantity) == quantities_.end() &&
-            !is_defect(form.quantity))
+            !is_of_map(form.quantity))
           quantities_.push_back(form.quantity);
     if (quantities_.empty())
       quantities_.assign(names.begin(),
@@ -139,7 +143,7 @@ class StudiedProblem {
       const auto found = std::ranges::find(names, name);
       const std::vector<std::string> written(
           names.begin(), names.begin() + static_cast<std::ptrdiff_t>(observer_.first_constraint()));
-      if (is_defect(name))
+      if (is_of_map(name))
         throw ExperimentError("--of " + name,
                               "is no function of the state, whose error a study "
                               "measures; expected a coordinate, H or an observable");

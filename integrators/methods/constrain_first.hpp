@@ -76,7 +76,7 @@ class ConstrainFirst final : public Integrator, public Programmed {
   bool has_fixed_directions() const { return codimension_ == 0 || fixed_directions_.size() > 0; }
 
   std::unique_ptr<Stepper> do_stepper() const override;
-  // Exact but for the turning of W, by differences of order 8 to 1e-12 of ‖μ‖.
+  // Exact but for the turning of W on curved spaces, by differences of order 8 to 1e-12 of ‖μ‖.
   std::shared_ptr<const StepDifferential> do_differential() const override;
   std::vector<StepFormulas> do_formulas() const override;
 

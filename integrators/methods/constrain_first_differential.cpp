@@ -1,14 +1,18 @@
 #include <array>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
+#include <tuple>
 
+#include "courant/core/linear/complete_orthogonal_decomposition.hpp"
 #include "courant/integrators/methods/constrain_first.hpp"
+#include "courant/integrators/step/conormal_turning.hpp"
 #include "courant/integrators/step/vector_field_differential.hpp"
 
 namespace courant {
 namespace {
 
-// W along a curve is differentiated by differences of order 8 with this part of the point's size, which
+// On curved spaces W along a curve is differentiated by differences of order 8 with this part of the point's size, which
 // leaves about 1e-12 of W. It is multiplied by the distance of a step from M_f, O(h²) or less.
 constexpr double kDifferenceOfW = 1e-2;
 constexpr std::array kWeightsOfOrder8 = {4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0};
@@ -42,6 +46,13 @@ class ConstrainFirst::Differential final : public StepDifferential {
     first_ = Function("R-", {{"x", x}, {"w", w}}, ends.first, by_both);
     second_ = Function("R+", {{"x", x}, {"w", w}}, ends.second, by_both);
     retraction_ = Function("R", {{"x", x}, {"w", w}}, M_.retract(x, tangent), by_both);
+    if (method_.codimension_ == 0 || method_.fixed_directions_.size() > 0 ||
+        field_.formulas().inputs[2].variables.size() > 0)
+      return;
+    conormal_turning_.emplace(field_.formulas());
+    if (method_.span_.output_size() == 0) return;
+    const auto span = method_.projector_->span_formulas(M_, method_.codimension_);
+    span_ = Function("directions", span, {.differentiate = {"x", "C"}});
   }
 
  private:
@@ -88,8 +99,8 @@ class ConstrainFirst::Differential final : public StepDifferential {
         start.directions.transpose() *
         (start.evaluation.basis().matrix().transpose() * M_.coframe(step.before.x).matrix());
     result.to_start =
-        result.coordinates * projected(step.before, first_({stage.x, w}), moved(first_));
-    result.to_end = projected(step.after, second_({stage.x, w}), moved(second_));
+        result.coordinates * projected(step.before, start, first_({stage.x, w}), moved(first_));
+    result.to_end = projected(step.after, site(step.after), second_({stage.x, w}), moved(second_));
     return result;
   }
 
@@ -97,14 +108,15 @@ class ConstrainFirst::Differential final : public StepDifferential {
   struct Site {
     VectorField::Evaluation evaluation;
     MatrixXd directions;  // T_xM_f in the basis of the evaluation
+    MatrixXd conormals;   // its annihilator
     MatrixXd velocities;  // the same as ambient velocities
   };
   Site site(const State& state) const {
-    Site at{VectorField::Evaluation(field_), {}, {}};
+    Site at{VectorField::Evaluation(field_), {}, {}, {}};
     VectorXd rate(state.x.size());
     at.evaluation(state, rate);
-    at.directions = differential_.constrained_directions(place(state.x, state.t, at.evaluation),
-                                                         method_.codimension_);
+    std::tie(at.directions, at.conormals) =
+        differential_.split(place(state.x, state.t, at.evaluation), method_.codimension_);
     at.velocities = (M_.frame(state.x) * at.evaluation.basis()).matrix() * at.directions;
     return at;
   }
@@ -114,31 +126,30 @@ class ConstrainFirst::Differential final : public StepDifferential {
   }
 
   // W at a point, as tangent vectors (Ñ × d).
-  MatrixXd shifts(const VectorXd& x, double t, const VectorField::Evaluation& evaluation) const {
-    const MatrixXd basis = evaluation.basis().matrix();
+  MatrixXd shifts(const VectorXd& x, double t, const Site& at) const {
+    const LinearMap<double>& B = at.evaluation.basis();
+    const MatrixXd basis = B.matrix();
     if (method_.fixed_directions_.size() > 0) return basis * method_.fixed_directions_;
-    const MatrixXd C = differential_.conormals(place(x, t, evaluation), method_.codimension_);
+    const MatrixXd& C = at.conormals;
     MatrixXd V = C;
     MatrixXd sized = C;
     if (const VectorXd sizes = method_.projector_->conormal_sizes(); sizes.size() > 0)
       sized = sizes.cwiseInverse().asDiagonal() * C;
     if (method_.span_.output_size() > 0)
-      V = method_
-              .span_({x, evaluation.basis().entries().reshaped(), sized.reshaped(),
-                      VectorXd::Constant(1, t)})
+      V = method_.span_({x, B.entries().reshaped(), sized.reshaped(), VectorXd::Constant(1, t)})
               .reshaped(C.rows(), C.cols());
-    return basis * method_.projector_->orthonormal_directions(V, evaluation.basis(), C);
+    return basis * method_.projector_->orthonormal_directions(V, B, C);
   }
 
   // T P: images in T_xM_f, at the state, of ambient velocities at y, which P takes to its x.
-  MatrixXd projected(const State& state, const VectorXd& y, const MatrixXd& velocities) const {
+  MatrixXd projected(const State& state, const Site& at, const VectorXd& y,
+                     const MatrixXd& velocities) const {
     if (method_.codimension_ == 0) return velocities;
-    const Site at = site(state);
     const VectorXd shift = M_.inverse_retract(state.x, y);
     const MatrixXd R = retraction_.jacobian({state.x, shift});
     const auto by_point = R.leftCols(state.x.size());
     const auto by_shift = R.rightCols(shift.size());
-    const MatrixXd W = shifts(state.x, state.t, at.evaluation);
+    const MatrixXd W = shifts(state.x, state.t, at);
     MatrixXd A(y.size(), at.velocities.cols() + W.cols());
     A << by_point * at.velocities + by_shift * turning(state, at, shift), by_shift * W;
     return at.velocities * implicit_derivative("ConstrainFirst", A, -velocities, A.cols())
@@ -152,14 +163,12 @@ class ConstrainFirst::Differential final : public StepDifferential {
     if (method_.fixed_directions_.size() > 0 ||
         shift.lpNorm<Eigen::Infinity>() <= kOnConstraints * size)
       return result;
+    if (conormal_turning_) return exact_turning(state, at, shift);
     const MatrixXd along = at.evaluation.basis().matrix() * at.directions;
     const auto in_W = [&](const VectorXd& direction) -> VectorXd {
       State moved = state;
       moved.x = M_.retract(state.x, direction);
-      VectorField::Evaluation evaluation(field_);
-      VectorXd rate(moved.x.size());
-      evaluation(moved, rate);
-      const MatrixXd W = shifts(moved.x, moved.t, evaluation);
+      const MatrixXd W = shifts(moved.x, moved.t, site(moved));
       return W * (W.transpose() * shift);
     };
     for (Index k = 0; k < along.cols(); ++k) {
@@ -173,11 +182,39 @@ class ConstrainFirst::Differential final : public StepDifferential {
     return result;
   }
 
+  // The same where tangent vectors are dx/dt: of W μ = V(x, C) m, with V linear in the conormals C, along with α = C m.
+  MatrixXd exact_turning(const State& state, const Site& at, const VectorXd& shift) const {
+    const auto here = place(state.x, state.t, at.evaluation);
+    if (method_.span_.output_size() == 0) return (*conormal_turning_)(here, shift, at.directions);
+    const MatrixXd& C = at.conormals;
+    const Index n = C.rows(), d = C.cols(), N = state.x.size();
+    VectorXd sizes = method_.projector_->conormal_sizes();
+    if (sizes.size() == 0) sizes = VectorXd::Ones(n);
+    const MatrixXd sized = sizes.cwiseInverse().asDiagonal() * C;
+    const std::array<VectorXd, 4> in = {state.x, at.evaluation.basis().entries().reshaped(),
+                                        sized.reshaped(), VectorXd::Constant(1, state.t)};
+    const MatrixXd V = span_(in).reshaped(n, d);
+    const MatrixXd J = span_.jacobian(in);
+    const VectorXd m = CompleteOrthogonalDecomposition(V).solve(shift);
+    const MatrixXd turned = (*conormal_turning_)(here, C * m, at.directions);
+    MatrixXd result(n, at.directions.cols());
+    for (Index k = 0; k < result.cols(); ++k) {
+      const MatrixXd conormals =
+          sizes.cwiseInverse().cwiseProduct(turned.col(k)) * m.transpose() / m.squaredNorm();
+      const VectorXd change =
+          J.leftCols(N) * at.directions.col(k) + J.rightCols(n * d) * conormals.reshaped();
+      result.col(k) = change.reshaped(n, d) * m;
+    }
+    return result;
+  }
+
   const ConstrainFirst method_;  // its functions are shared, not copied
   const Manifold& M_;
   VectorField field_;
   VectorFieldDifferential differential_;
   Function first_, second_, retraction_;  // x, w ↦ R_d⁻, R_d⁺, R, with Jacobian by both
+  std::optional<ConormalTurning> conormal_turning_;  // not on curved spaces
+  Function span_;  // of the method, with Jacobian by the point and the conormals
 };
 
 std::shared_ptr<const StepDifferential> ConstrainFirst::do_differential() const {

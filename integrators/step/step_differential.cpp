@@ -20,6 +20,18 @@ constexpr double kRegular = 1e-9;
 constexpr double kSolvedTo = 1e-12;
 constexpr double kConsistent = 1e-6;
 
+// X with A X + B = 0 by `solve`, which is right to round-off of the largest numbers, improved so that each equation holds to
+// round-off of its own terms. Where an entry that stands for 0 is a little more than noise, its row and column get
+// scales that make a number as the others of it, and a solution that is 1 is one of 10⁻¹⁴ beside others of 1. Each
+// improvement gains the digits that these lack, at worst one.
+template <class Solve>
+MatrixXd improved(const MatrixXd& A, const MatrixXd& B, const Solve& solve) {
+  constexpr int improvements = 3;
+  MatrixXd X = -solve(B);
+  for (int i = 0; i < improvements; ++i) X -= solve(A * X + B);
+  return X;
+}
+
 void require_determined(const char* place, const MatrixXd& free) {
   if (free.size() > 0 && free.cwiseAbs().maxCoeff() > kConsistent)
     throw std::domain_error(std::string(place) +
@@ -60,11 +72,14 @@ MatrixXd implicit_adjoint(const char* place, const MatrixXd& A, const MatrixXd& 
   const MatrixXd transposed = scaled.transpose(), right = column_scale.asDiagonal() * C;
   if (A.rows() == A.cols()) {
     const LuDecomposition lu(transposed);
-    if (lu.pivot_ratio() > kRegular) return row_scale.asDiagonal() * lu.solve(-right);
+    if (lu.pivot_ratio() > kRegular)
+      return row_scale.asDiagonal() *
+             improved(transposed, right, [&](const MatrixXd& B) { return lu.solve(B); });
   }
   const FundamentalSubspaces spaces(transposed, {.data_error = kSolvedTo});
   require_determined(place, spaces.left_kernel().topRows(determined));
-  return row_scale.asDiagonal() * MatrixXd(-spaces.pseudo_solve(right));
+  return row_scale.asDiagonal() *
+         improved(transposed, right, [&](const MatrixXd& B) { return spaces.pseudo_solve(B); });
 }
 
 MatrixXd implicit_derivative(const char* place, const MatrixXd& A, const MatrixXd& B,
@@ -74,11 +89,14 @@ MatrixXd implicit_derivative(const char* place, const MatrixXd& A, const MatrixX
   const MatrixXd right = row_scale.asDiagonal() * B;
   if (A.rows() == A.cols()) {
     const LuDecomposition lu(scaled);
-    if (lu.pivot_ratio() > kRegular) return column_scale.asDiagonal() * lu.solve(-right);
+    if (lu.pivot_ratio() > kRegular)
+      return column_scale.asDiagonal() *
+             improved(scaled, right, [&](const MatrixXd& b) { return lu.solve(b); });
   }
   const FundamentalSubspaces spaces(scaled, {.data_error = kSolvedTo});
   require_determined(place, spaces.kernel().topRows(determined));
-  const MatrixXd X = -spaces.pseudo_solve(right);
+  const MatrixXd X =
+      improved(scaled, right, [&](const MatrixXd& b) { return spaces.pseudo_solve(b); });
   const MatrixXd defect = scaled * X + right,
                  size = scaled.cwiseAbs() * X.cwiseAbs() + right.cwiseAbs();
   // A row whose terms are round-off next to those of the others, as that of a rate which is 0, says nothing.

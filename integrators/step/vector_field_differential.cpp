@@ -48,10 +48,11 @@ VectorFieldDifferential::Images VectorFieldDifferential::operator()(const Place&
   return {images.topRows(N), images.middleRows(N, n), images.bottomRows(images.rows() - N - n)};
 }
 
-MatrixXd VectorFieldDifferential::split(const Place& at, Index codimension) const {
+std::pair<MatrixXd, MatrixXd> VectorFieldDifferential::split(const Place& at,
+                                                             Index codimension) const {
   const Manifold& M = *system_->manifold();
   const Index n = M.dimension(), unknowns = at.unknowns.size();
-  if (codimension == 0) return MatrixXd::Identity(n, n);
+  if (codimension == 0) return {MatrixXd::Identity(n, n), MatrixXd(n, 0)};
   const MatrixXd J = all_.jacobian(
       {at.unknowns, at.x, at.basis.entries().reshaped(), VectorXd::Constant(1, at.t)});
   const MatrixXd along = J.rightCols(at.x.size()) * (M.frame(at.x) * at.basis).matrix();
@@ -59,16 +60,8 @@ MatrixXd VectorFieldDifferential::split(const Place& at, Index codimension) cons
   const MatrixXd left =
       FundamentalSubspaces(J.leftCols(unknowns), {.data_error = kEvaluatedTo}).left_kernel();
   MatrixXd seen = left.transpose() * along;
-  return singular_value_decomposition(seen).V.rowwise().reverse();
-}
-
-MatrixXd VectorFieldDifferential::constrained_directions(const Place& at, Index codimension) const {
-  const MatrixXd all = split(at, codimension);
-  return all.leftCols(all.cols() - codimension);
-}
-
-MatrixXd VectorFieldDifferential::conormals(const Place& at, Index codimension) const {
-  return split(at, codimension).rightCols(codimension);
+  const MatrixXd all = singular_value_decomposition(seen).V.rowwise().reverse();
+  return {all.leftCols(n - codimension), all.rightCols(codimension)};
 }
 
 }  // namespace courant

@@ -1,6 +1,8 @@
 // The differential of a VectorField.
 #pragma once
 
+#include <utility>
+
 #include "courant/integrators/step/vector_field.hpp"
 
 namespace courant {
@@ -30,14 +32,13 @@ class VectorFieldDifferential {
 
   // T_xM_f in the basis B at the place, as orthonormal columns (n × dim M_f): the ξ for which the
   // equations of S_f can be kept by some change of y. `codimension` is that of M_f.
-  MatrixXd constrained_directions(const Place& at, Index codimension) const;
-  // The annihilator of the above: orthonormal columns (n × codimension).
-  MatrixXd conormals(const Place& at, Index codimension) const;
+  MatrixXd constrained_directions(const Place& at, Index codimension) const {
+    return split(at, codimension).first;
+  }
+  // The same, and its annihilator: orthonormal columns (n × codimension).
+  std::pair<MatrixXd, MatrixXd> split(const Place& at, Index codimension) const;
 
  private:
-  // [T_xM_f, its annihilator], orthogonal.
-  MatrixXd split(const Place& at, Index codimension) const;
-
   std::shared_ptr<const ImplicitSystem> system_;
   Function equations_, rate_, all_;  // y, x, basis, t ↦ each, with Jacobian by y and x
 };

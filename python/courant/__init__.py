@@ -20,7 +20,7 @@ from courant._classes import (
     DiracStructure, DiscretizationMap, ImplicitSystem, Integrator, Manifold, Projector, laws, register,
 )
 from courant._experiment import Experiment
-from courant._results import Certificate, Check, Ensemble, Ladder, Level, Run, Solution, Study, Sweep, Table
+from courant._results import Certificate, Check, Ensemble, Ladder, Level, Run, Sensitivity, Solution, Study, Sweep, Table
 from courant._running import certificate, check, ensemble, read_run, run, study, sweep
 from courant._solve import solve_dae, solve_hamiltonian, solve_lagrangian
 from courant._files import load, mechanism
@@ -30,7 +30,7 @@ __all__ = [
     "Certificate", "Check", "CotangentBundle", "DiracStructure", "DiscretizationMap", "Ensemble", "Euclidean", "Experiment",
     "ExperimentError", "Expr", "Hyperbolic", "ImplicitSystem", "Integrator", "Interrupted",
     "Ladder", "Law", "Level", "Manifold", "Product",
-    "Projector", "Run", "SE3", "SO3", "Solution", "SolveError", "SpecialOrthogonal", "Sphere", "Stiefel", "Study", "Sweep",
+    "Projector", "Run", "SE3", "SO3", "Sensitivity", "Solution", "SolveError", "SpecialOrthogonal", "Sphere", "Stiefel", "Study", "Sweep",
     "SymmetricPositiveDefinite", "Table", "TangentBundle", "Torus", "TraceError", "TracedArray", "certificate", "check",
     "ensemble", "experiment", "laws", "load", "mechanism", "numeric", "read_run", "register", "run", "solve_dae", "solve_hamiltonian",
     "solve_lagrangian", "study", "sweep", "where", "zeros", "__version__",

@@ -75,7 +75,7 @@ def _at(document, pointer):
 
 # Those of an experiment, beside those of its system.
 KEYS = ("title", "description", "system", "initial", "start", "hold", "weights", "nominal", "method", "time", "symmetries", "defects",
-        "observe", "events", "boundary", "ensemble", "expect", "output", "examine")
+        "observe", "sensitivities", "events", "boundary", "ensemble", "expect", "output", "examine")
 
 
 def changed(document, settings) -> dict:

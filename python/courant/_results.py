@@ -173,6 +173,88 @@ class Certificate:
 Ladder = Certificate
 
 
+class Sensitivity:
+    """Derivatives along a run, of the quantities ``of`` by the numbers ``by``: of the steps that it made, exact to round-off.
+
+    Attributes
+    ----------
+    by, of : list of str
+    t : ndarray, (m,)
+    array : ndarray, (len(of), len(by), m)
+
+    ``sensitivity["x", "L"]`` is ∂x/∂L at the rows, (m,).
+
+    Examples
+    --------
+    >>> run = courant.run({"system": {"type": "hamiltonian", "parameters": {"k": 4}, "coordinates": ["q"],
+    ...                               "hamiltonian": "p_q^2/2 + k*q^2/2"},
+    ...                    "initial": {"q": 1, "p_q": 0}, "method": "rk4", "time": {"step": 0.01, "end": 1},
+    ...                    "sensitivities": {"by": ["k", "q"]}})
+    >>> round(float(run.sensitivity["q", "q"][-1]), 6)  # cos(2)
+    -0.416147
+    """
+
+    def __init__(self, names, rows, by, of):
+        self.by, self.of = list(by), list(of)
+        self.t = rows[:, 0]
+        places = [[names.index(f"d({quantity})/d({number})") for number in self.by] for quantity in self.of]
+        self.array = np.moveaxis(rows[:, places], 0, -1) if self.by and self.of else np.empty(
+            (len(self.of), len(self.by), len(rows)))
+
+    def __getitem__(self, key) -> np.ndarray:
+        quantity, number = key
+        for name, known in ((quantity, self.of), (number, self.by)):
+            if name not in known:
+                raise KeyError(f"{name!r} is none of {', '.join(known)}")
+        return self.array[self.of.index(quantity), self.by.index(number)]
+
+    def jvp(self, tangent) -> dict:
+        """The changes of the quantities along the run where numbers change by `tangent`.
+
+        Parameters
+        ----------
+        tangent : mapping of str to float, or array-like (len(by),)
+            Those that are not named do not change.
+
+        Returns
+        -------
+        dict of str to ndarray, (m,)
+        """
+        if isinstance(tangent, Mapping):
+            self._known(tangent, self.by)
+            tangent = [tangent.get(name, 0.0) for name in self.by]
+        changes = np.einsum("ijm,j->im", self.array, np.asarray(tangent, dtype=float))
+        return dict(zip(self.of, changes))
+
+    def vjp(self, slopes) -> dict:
+        """The gradient, by the numbers, of a function of the rows.
+
+        Parameters
+        ----------
+        slopes : mapping of str to array-like (m,), or array-like (len(of), m)
+            The derivatives of the function by each quantity at each row.
+
+        Returns
+        -------
+        dict of str to float
+        """
+        if isinstance(slopes, Mapping):
+            self._known(slopes, self.of)
+            zero = np.zeros(len(self.t))
+            slopes = [np.broadcast_to(slopes.get(name, zero), len(self.t)) for name in self.of]
+        gradient = np.einsum("ijm,im->j", self.array, np.asarray(slopes, dtype=float))
+        return dict(zip(self.by, gradient.tolist()))
+
+    @staticmethod
+    def _known(given, known):
+        for name in given:
+            if name not in known:
+                raise KeyError(f"{name!r} is none of {', '.join(known)}")
+
+    def __repr__(self):
+        return f"Sensitivity({len(self.t)} rows of {', '.join(self.of)} by {', '.join(self.by)})"
+
+
 class Run:
     """A run: rows of numbers under names, and what it says of itself.
 
@@ -184,6 +266,8 @@ class Run:
     rows : ndarray, (m, len(names))
         What C++ wrote, without a copy.
     events : dict of str to Table
+    sensitivity : Sensitivity or None
+        Derivatives, where the experiment asks for them.
     status : str
         ``"completed"``, ``"failed"``, ``"interrupted"`` or ``"not-finite"``; ``message`` says why.
     summary : dict
@@ -223,6 +307,15 @@ class Run:
     def energy(self):
         """H at the rows, or None where the system has no energy."""
         return self["H"] if "H" in self.names else None
+
+    @property
+    def sensitivity(self):
+        """Derivatives along the run, where the experiment has ``sensitivities``; else None."""
+        told = self.summary.get("sensitivities")
+        if told is None:
+            return None
+        of = list(told["final"])
+        return Sensitivity(self.names, self.rows, told["final"][of[0]] if of else (), of)
 
     @property
     def constraints(self) -> np.ndarray:

@@ -321,3 +321,21 @@ def test_signals_are_pythons_afterwards():
     before = signal.getsignal(signal.SIGINT)
     courant.run(OSCILLATOR)
     assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_derivatives_along_a_run():
+    experiment = {**OSCILLATOR, "sensitivities": {"by": ["q", "p_q"], "of": ["q", "H"]}}
+    run = courant.run(experiment)
+    angles = np.arange(11)*angle(0.1)
+    assert run.sensitivity.by == ["q", "p_q"] and run.sensitivity.of == ["q", "H"]
+    assert run.sensitivity["q", "q"] == pytest.approx(np.cos(angles), abs=1e-13)
+    assert run.sensitivity["q", "p_q"] == pytest.approx(np.sin(angles), abs=1e-13)
+    assert run.sensitivity.array.shape == (2, 2, 11)
+    assert run.sensitivity.jvp({"p_q": 2})["q"] == pytest.approx(2*np.sin(angles), abs=1e-13)
+    # Of Σ q: Σ cos and Σ sin.
+    gradient = run.sensitivity.vjp({"q": np.ones(11)})
+    assert gradient == pytest.approx({"q": np.cos(angles).sum(), "p_q": np.sin(angles).sum()}, abs=1e-12)
+    assert run.summary["sensitivities"]["final"]["q"]["q"] == run.sensitivity["q", "q"][-1]
+    with pytest.raises(KeyError, match="'x' is none of q, p_q"):
+        run.sensitivity.jvp({"x": 1})
+    assert courant.run(OSCILLATOR).sensitivity is None
