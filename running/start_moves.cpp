@@ -107,6 +107,24 @@ std::vector<GivenPart> parts_of(const Experiment& experiment, const ConstraintLa
   return kinds;
 }
 
+// Where a search for a start did not end next to the given values, what it came to is no start.
+std::string lost(const Experiment& experiment, const ConstraintLadder& ladder) {
+  constexpr double lost = 1.0;
+  const ImplicitSystem& system = *experiment.model.system;
+  if (ladder.verdict != Verdict::not_reached || experiment.document.contains("start") ||
+      ladder.point.x.size() != system.manifold()->ambient_dimension() ||
+      ladder.point.v.size() != system.manifold()->tangent_dimension() ||
+      ladder.point.z.size() != system.auxiliary_size())
+    return "";
+  for (const GivenPart& kind : parts_of(experiment, ladder))
+    if (!kind.may_move && kind.size() > 0.0 && kind.moved() > lost * kind.size())
+      return "no consistent start was found: the search for one left the initial " +
+             std::string(kind.name) + " by " + number_text(kind.moved(), 3) + ", of " +
+             number_text(kind.size(), 3) + " (" + kind.largest() +
+             "); expected values near a consistent start";
+  return "";
+}
+
 }  // namespace
 
 StartMoves start_moves(const Experiment& experiment, const ConsistentStart& ladder) {
@@ -114,6 +132,8 @@ StartMoves start_moves(const Experiment& experiment, const ConsistentStart& ladd
   StartMoves moves;
   if (!ladder.impasse.empty())
     return {.warning = "", .refusal = ladder.impasse + "; expected others"};
+  if (std::string refusal = lost(experiment, ladder); !refusal.empty())
+    return {.warning = "", .refusal = std::move(refusal)};
   if (ladder.moves.empty() || ladder.is_impulse) return moves;
   const InitialValues& initial = experiment.initial;
   const bool may_move = experiment.document.contains("start") || initial.x.held.any() ||

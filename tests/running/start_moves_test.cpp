@@ -10,6 +10,7 @@ BOOST_AUTO_TEST_SUITE(start_moves_test)
 // Mistakes that these cases have to notice:
 //  * a start may be anywhere
 //  * rounding is a warning
+//  * a run begins where a search was lost
 
 namespace {
 
@@ -46,6 +47,26 @@ BOOST_AUTO_TEST_CASE(more_than_rounding_is_a_warning) {
              found.warning);
   BOOST_TEST(found.warning.find("positions") == std::string::npos);
   BOOST_TEST(found.refusal == "");
+}
+
+// The end of a search that found nothing is no start where it is farther away than the given values are large.
+BOOST_AUTO_TEST_CASE(where_a_search_was_lost_nothing_starts) {
+  Json experiment = pendulum({{"x", 0.8415}, {"y", -0.5403}, {"x'", 0.0}, {"y'", 0.0}});
+  const Experiment read = read_experiment(experiment.dump());
+  ConsistentStart start = consistent_start(read);
+  start.verdict = Verdict::not_reached;
+  start.moves.clear();
+  BOOST_TEST(start_moves(read, start).refusal == "");
+  start.point.x[1] = 2875.0;
+  const std::string refusal = start_moves(read, start).refusal;
+  BOOST_TEST(refusal.find("no consistent start was found: the search for one left the initial "
+                          "positions by 2.88e+03, of 1 (y from -0.5403 to 2875") == 0u,
+             refusal);
+  start.verdict = Verdict::inconsistent;
+  BOOST_TEST(start_moves(read, start).refusal == "");
+  start.verdict = Verdict::not_reached;
+  experiment["start"] = "nearest";
+  BOOST_TEST(start_moves(read_experiment(experiment.dump()), start).refusal == "");
 }
 
 // Of a value that moved by more than a tenth nobody knows what was meant, unless something says so.
