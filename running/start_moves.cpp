@@ -162,8 +162,13 @@ ConsistentStart start_of_run(const Experiment& experiment) {
   ConsistentStart ladder = consistent_start(experiment);
   if (!experiment.method) return ladder;
   const StartMoves moves = start_moves(experiment, ladder);
-  if (!moves.refusal.empty()) throw ExperimentError("/initial", moves.refusal);
-  return ladder;
+  if (moves.refusal.empty()) return ladder;
+  // Next to the operating point of a circuit a search in digits may end far away, where unknowns are nearer to 0; by bounds
+  // it stays, sure of its ladder or not.
+  ConsistentStart near = consistent_start(experiment, Decider::bounds);
+  if (near.verdict != Verdict::inconsistent && start_moves(experiment, near).refusal.empty())
+    return near;
+  throw ExperimentError("/initial", moves.refusal);
 }
 
 }  // namespace courant
