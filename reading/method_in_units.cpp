@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "courant/core/expressions/expr_vectors.hpp"
+#include "courant/integrators/certificate/constraint_algorithm.hpp"
 #include "courant/integrators/certificate/ladder_in_units.hpp"
 #include "courant/integrators/methods/integrator_in_units.hpp"
 #include "courant/integrators/step/kinetic_metric.hpp"
@@ -45,10 +46,18 @@ PreparedMethod prepared_in_units(const std::function<PreparedMethod(const Method
   const auto units = units_of_steps(at);
   if (!units) return prepare(at);
   const auto system = std::make_shared<const SystemInUnits>(at.system, *units);
-  const ConstraintLadder ladder = measured(at.ladder, *system);
+  const State initial = units->measure(at.initial);
+  // Anew, since equations are chosen by the size of their entries. Where bounds say something else in these units the
+  // ladder is the one that was decided.
+  ConstraintLadder ladder = ConstraintAlgorithm().run(
+      system, {.t = initial.t, .x = initial.x, .v = initial.v, .z = initial.z});
+  if (!are_alike(ladder, at.ladder)) {
+    if (!at.nominal) return prepare(at);
+    ladder = measured(at.ladder, *system);
+  }
   PreparedMethod method = prepare({.system = system,
                                    .ladder = ladder,
-                                   .initial = units->measure(at.initial),
+                                   .initial = initial,
                                    .step = at.step,
                                    .backend = at.backend,
                                    .vocabulary = at.vocabulary});
