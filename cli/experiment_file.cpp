@@ -38,8 +38,7 @@ std::optional<std::string> read_text(const Console& console, const std::string& 
 void report_problems(const Console& console, const std::string& file,
                      const ExperimentError& error) {
   for (const Problem& problem : error.problems())
-    print_error(console,
-                file + ": " + problem.where + (problem.where.empty() ? "" : ": ") + problem.what);
+    print_error(console, file + ": " + problem.line());
 }
 
 }  // namespace

@@ -9,12 +9,14 @@ std::string lines(const std::vector<Problem>& problems) {
   std::string text;
   for (const Problem& problem : problems) {
     if (!text.empty()) text += '\n';
-    text += (problem.where.empty() ? "" : problem.where + ": ") + problem.what;
+    text += problem.line();
   }
   return text;
 }
 
 }  // namespace
+
+std::string Problem::line() const { return (where.empty() ? "" : where + ": ") + what; }
 
 ExperimentError::ExperimentError(std::vector<Problem> problems)
     : std::invalid_argument(lines(problems)), problems_(std::move(problems)) {}

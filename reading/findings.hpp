@@ -16,6 +16,8 @@ using Json = nlohmann::ordered_json;
 struct Problem {
   std::string where;
   std::string what;
+
+  std::string line() const;  // "where: what"
 };
 
 // An experiment that cannot be carried out as it is written. what() has a line `where: what` for

@@ -1,6 +1,5 @@
 #include "courant/running/ensemble_folder.hpp"
 
-#include <bit>
 #include <cstdlib>
 #include <fstream>
 #include <utility>
@@ -8,14 +7,12 @@
 #include "courant/core/files/content_hash.hpp"
 #include "courant/core/files/own_file.hpp"
 #include "courant/core/words/message.hpp"
+#include "courant/running/npy_header.hpp"
 
 namespace courant {
 namespace {
 
 namespace fs = std::filesystem;
-static_assert(std::endian::native == std::endian::little);
-
-constexpr std::size_t kEnsembleHeader = 128;  // bytes of ensemble.npy before its numbers
 
 std::string_view bytes_of(const std::vector<double>& numbers) {
   return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double)};
@@ -77,11 +74,8 @@ void EnsembleFolder::check(const Experiment& experiment) {
 }
 
 std::string EnsembleFolder::header() const {
-  std::string text = "{'descr': '<f8', 'fortran_order': False, 'shape': (" +
-                     std::to_string(count_) + ", " + std::to_string(opening_.rows) + ", " +
-                     std::to_string(opening_.columns.size()) + "), }";
-  text.resize(kEnsembleHeader - 11, ' ');  // as many bytes whatever the number of members is
-  return std::string("\x93NUMPY\x01\x00\x76\x00", 10) + text + '\n';
+  return npy_header({static_cast<std::size_t>(count_), static_cast<std::size_t>(opening_.rows),
+                     opening_.columns.size()});
 }
 
 void EnsembleFolder::begin(const Experiment& experiment, const EnsembleOpening& opening,
@@ -109,7 +103,7 @@ void EnsembleFolder::recall_members(const std::function<void(const EnsembleMembe
     if (!file_exists(one) || fs::is_symlink(one))
       refuse_folder(one, "is not there; expected the file that the ensemble wrote");
   std::ifstream members(lines, std::ios::binary), values(numbers, std::ios::binary);
-  std::string head(kEnsembleHeader, '\0');
+  std::string head(kNpyHeader, '\0');
   values.read(head.data(), static_cast<std::streamsize>(head.size()));
   const std::string shape = ", " + std::to_string(opening_.rows) + ", " +
                             std::to_string(opening_.columns.size()) + "), }";

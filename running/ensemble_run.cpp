@@ -179,8 +179,7 @@ class EnsembleUnderway {
     try {
       return as_member(i, run_of(i, false));
     } catch (const ExperimentError& error) {
-      const Problem& problem = error.problems().front();
-      return failed_member(i, problem.where + (problem.where.empty() ? "" : ": ") + problem.what);
+      return failed_member(i, error.problems().front().line());
     } catch (const std::bad_alloc&) {
       return failed_member(i, "takes more memory than there is");
     } catch (const std::runtime_error& error) {
@@ -206,10 +205,8 @@ class EnsembleUnderway {
         found.emplace(i, as_member(i, std::move(run)));
         return found;
       } catch (const ExperimentError& error) {
-        const Problem& problem = error.problems().front();
         if (!wrong) wrong = error;
-        found.emplace(i, failed_member(i, problem.where + (problem.where.empty() ? "" : ": ") +
-                                              problem.what));
+        found.emplace(i, failed_member(i, error.problems().front().line()));
       }
     std::vector<Problem> problems = wrong->problems();
     for (Problem& problem : problems) problem.what = "member 0: " + problem.what;
@@ -252,6 +249,14 @@ class EnsembleUnderway {
       problems_.push_back("member " + std::to_string(member.number) + ": " + what);
   }
 
+  // The first problems of members, and how many are left out.
+  std::vector<std::string> told() const {
+    std::vector<std::string> lines = problems_;
+    if (told_ > kMostTold)
+      lines.push_back("and " + std::to_string(told_ - kMostTold) + " members more");
+    return lines;
+  }
+
   EnsembleOutcome conclude() {
     EnsembleOutcome outcome;
     const Index failures = done_ - statistics_->completed();
@@ -266,9 +271,7 @@ class EnsembleUnderway {
     } else {
       outcome.status = RunStatus::completed;
     }
-    outcome.problems = problems_;
-    if (told_ > kMostTold)
-      outcome.problems.push_back("and " + std::to_string(told_ - kMostTold) + " members more");
+    outcome.problems = told();
     outcome.expectations = worst_.results(missing_);
     const EnsembleRecord record{[this](const std::string& quantity, double t) {
       const auto spread = statistics_->at(quantity, t);
@@ -294,7 +297,7 @@ class EnsembleUnderway {
     RunSummary run{.id = keeper_.id(),
                    .status = status,
                    .message = outcome.message,
-                   .warnings = problems_,
+                   .warnings = told(),
                    .title = experiment_.title,
                    .system = first_.system,
                    .method = first_.method,
@@ -305,8 +308,6 @@ class EnsembleUnderway {
                    .backend = first_.backend,
                    .wall_seconds = wall_seconds_,
                    .cpu_seconds = cpu_seconds_};
-    if (told_ > kMostTold)
-      run.warnings.push_back("and " + std::to_string(told_ - kMostTold) + " members more");
     if (warned_ > 0)
       run.warnings.push_back(warning_ + (warned_ == 1 ? ""
                                                       : " (" + std::to_string(warned_ - 1) +

@@ -109,7 +109,7 @@ std::vector<GivenPart> parts_of(const Experiment& experiment, const ConstraintLa
 
 // Where a search for a start did not end next to the given values, what it came to is no start.
 std::string lost(const Experiment& experiment, const ConstraintLadder& ladder) {
-  constexpr double lost = 1.0;
+  constexpr double far = 1.0;
   const ImplicitSystem& system = *experiment.model.system;
   if (ladder.verdict != Verdict::not_reached || experiment.document.contains("start") ||
       ladder.point.x.size() != system.manifold()->ambient_dimension() ||
@@ -117,7 +117,7 @@ std::string lost(const Experiment& experiment, const ConstraintLadder& ladder) {
       ladder.point.z.size() != system.auxiliary_size())
     return "";
   for (const GivenPart& kind : parts_of(experiment, ladder))
-    if (!kind.may_move && kind.size() > 0.0 && kind.moved() > lost * kind.size())
+    if (!kind.may_move && kind.size() > 0.0 && kind.moved() > far * kind.size())
       return "no consistent start was found: the search for one left the initial " +
              std::string(kind.name) + " by " + number_text(kind.moved(), 3) + ", of " +
              number_text(kind.size(), 3) + " (" + kind.largest() +

@@ -72,8 +72,8 @@ Json outcome(const SweepCase& one, const std::function<Json(const SweepCase&)>& 
   } catch (const ExperimentError& error) {
     const Problem& first = error.problems().front();
     const std::size_t more = error.problems().size() - 1;
-    return ended("wrong", first.where + (first.where.empty() ? "" : ": ") + first.what +
-                              (more == 0 ? "" : " (and " + std::to_string(more) + " more)"));
+    return ended("wrong",
+                 first.line() + (more == 0 ? "" : " (and " + std::to_string(more) + " more)"));
   } catch (const std::bad_alloc&) {
     return ended("failed", "takes more memory than there is");
   } catch (const std::exception& error) {

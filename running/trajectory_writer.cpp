@@ -1,10 +1,10 @@
 #include "courant/running/trajectory_writer.hpp"
 
-#include <bit>
 #include <charconv>
 #include <fstream>
 
 #include "courant/running/damage_of_lines.hpp"
+#include "courant/running/npy_header.hpp"
 
 namespace courant {
 namespace {
@@ -54,11 +54,7 @@ class CsvWriter final : public TrajectoryWriter {
 // The format of NumPy, version 1.0: little-endian float64 by rows, the header saying how many there
 // are.
 class NpyWriter final : public TrajectoryWriter {
-  static_assert(std::endian::native == std::endian::little);
-
  public:
-  static constexpr std::size_t kHeader = 128;  // bytes
-
   NpyWriter(const std::filesystem::path& path, std::size_t columns)
       : columns_(columns), file_(path, header()) {}
   NpyWriter(const std::filesystem::path& path, std::size_t columns, const HashedBytes::Record& keep)
@@ -84,12 +80,7 @@ class NpyWriter final : public TrajectoryWriter {
   }
   HashedBytes::Record do_record() const override { return file_.record(); }
   void add(double value) { file_.append({reinterpret_cast<const char*>(&value), sizeof value}); }
-  std::string header() const {
-    std::string text = "{'descr': '<f8', 'fortran_order': False, 'shape': (" +
-                       std::to_string(rows_) + ", " + std::to_string(columns_) + "), }";
-    text.resize(kHeader - 11, ' ');  // as many bytes whatever the number of rows is
-    return std::string("\x93NUMPY\x01\x00\x76\x00", 10) + text + '\n';
-  }
+  std::string header() const { return npy_header({rows_, columns_}); }
 
   std::size_t columns_;
   std::size_t rows_ = 0;
@@ -127,11 +118,10 @@ std::optional<std::string> damage(Output::Format format, const std::filesystem::
                                   const HashedBytes::Record& record) {
   const std::filesystem::path file = folder / trajectory_name(format);
   if (format == Output::Format::csv) return damage_of_lines(file, record);
-  const Difference there = difference(file, NpyWriter::kHeader, record);
+  const Difference there = difference(file, kNpyHeader, record);
   if (there.is_none()) return std::nullopt;
   const std::size_t row = column_count(folder) * sizeof(double);
-  return damage_of_rows((there.from - NpyWriter::kHeader) / row + 1,
-                        (there.to - 1 - NpyWriter::kHeader) / row + 1);
+  return damage_of_rows((there.from - kNpyHeader) / row + 1, (there.to - 1 - kNpyHeader) / row + 1);
 }
 
 }  // namespace courant

@@ -1,7 +1,6 @@
 #include "courant/running/varied_start.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
@@ -9,6 +8,7 @@
 #include "courant/core/expressions/function.hpp"
 #include "courant/core/linear/complete_orthogonal_decomposition.hpp"
 #include "courant/core/linear/rank_decision.hpp"
+#include "courant/core/numbers/central_difference.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/running/consistent_start.hpp"
 
@@ -18,8 +18,7 @@ namespace {
 using Variable = Sensitivities::Variable;
 using VariableKind = Variable::Kind;
 
-// Differences of order 8, with this part of the size of what is typed.
-constexpr std::array kWeights = {4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0};
+// Steps of differences: this part of the size of what is typed.
 constexpr double kDifference = 2e-3;
 // A value that the start kept differs by no more from what was typed.
 constexpr double kKept = 1e-10;
@@ -160,14 +159,14 @@ class GivenValues {
   VectorXd by_parameter(const Variable& variable) const {
     VectorXd slopes = VectorXd::Zero(std::ssize(places_));
     const double step = kDifference * (variable.value == 0.0 ? 1.0 : std::fabs(variable.value));
-    for (std::size_t k = 0; k < kWeights.size(); ++k) {
-      const double s = static_cast<double>(k + 1) * step;
-      const Experiment more = other_experiment(experiment_, variable, variable.value + s),
-                       less = other_experiment(experiment_, variable, variable.value - s);
+    const auto all_typed = [&](double along) {
+      const Experiment there = other_experiment(experiment_, variable, variable.value + along);
+      VectorXd numbers(slopes.size());
       for (std::size_t i = 0; i < places_.size(); ++i)
-        slopes[static_cast<Index>(i)] +=
-            kWeights[k] / step * (typed(more, places_[i]) - typed(less, places_[i]));
-    }
+        numbers[static_cast<Index>(i)] = typed(there, places_[i]);
+      return numbers;
+    };
+    add_central_difference(all_typed, step, slopes);
     return slopes;
   }
 
@@ -197,10 +196,7 @@ VectorXd measured_start(const Experiment& experiment, const Variable& variable,
                                  error.problems().front().what + ")");
     }
   };
-  for (std::size_t k = 0; k < kWeights.size(); ++k) {
-    const double s = static_cast<double>(k + 1) * step;
-    slope += kWeights[k] / step * (started(s) - started(-s));
-  }
+  add_central_difference(started, step, slope);
   return slope;
 }
 

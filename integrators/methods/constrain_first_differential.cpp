@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "courant/core/linear/complete_orthogonal_decomposition.hpp"
+#include "courant/core/numbers/central_difference.hpp"
 #include "courant/integrators/methods/constrain_first.hpp"
 #include "courant/integrators/step/conormal_turning.hpp"
 #include "courant/integrators/step/vector_field_differential.hpp"
@@ -15,7 +16,6 @@ namespace {
 // On curved spaces W along a curve is differentiated by differences of order 8 with this part of the point's size, which
 // leaves about 1e-12 of W. It is multiplied by the distance of a step from M_f, O(h²) or less.
 constexpr double kDifferenceOfW = 1e-2;
-constexpr std::array kWeightsOfOrder8 = {4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0};
 // Next to the point, a distance from M_f that is round-off: W does not matter there.
 constexpr double kOnConstraints = 1e-15;
 // Directions along the constraints are so up to this part of their size.
@@ -173,11 +173,7 @@ class ConstrainFirst::Differential final : public StepDifferential {
     };
     for (Index k = 0; k < along.cols(); ++k) {
       const double step = kDifferenceOfW * (size > 0.0 ? size : 1.0);
-      for (std::size_t i = 0; i < kWeightsOfOrder8.size(); ++i) {
-        const VectorXd direction = static_cast<double>(i + 1) * step * along.col(k);
-        result.col(k) +=
-            kWeightsOfOrder8[i] / step * (in_W(direction) - in_W(VectorXd(-direction)));
-      }
+      add_central_difference([&](double s) { return in_W(s * along.col(k)); }, step, result.col(k));
     }
     return result;
   }
