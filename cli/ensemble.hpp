@@ -10,6 +10,7 @@
 
 namespace courant::cli {
 
+// What `courant run` was asked for of an experiment with "ensemble".
 struct EnsembleTask {
   std::string file;  // of the experiment, for messages
   std::filesystem::path folder;

@@ -15,6 +15,7 @@ class App;
 
 namespace courant::cli {
 
+// The options of a sweep as they were typed.
 struct SweepArguments {
   std::vector<std::string> ranges;  // as given to --sweep; empty: no sweep
   unsigned jobs = 0;                // threads; 0: as many as there are cores

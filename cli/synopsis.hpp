@@ -34,6 +34,7 @@ struct ArgumentSynopsis {
   bool takes_folder() const;
 };
 
+// A command with what it takes, in the order of its help.
 struct CommandSynopsis {
   std::string name, summary;
   std::vector<ArgumentSynopsis> positionals, options;

@@ -9,6 +9,7 @@
 
 namespace courant {
 
+// Where the laws of a manifold are measured.
 struct LawOptions {
   std::uint32_t seed = 1;  // of the random points and vectors
   int points = 3;          // at which each law is measured; at least 1

@@ -9,6 +9,7 @@
 
 namespace courant::plot {
 
+// A point of a curve.
 struct Vertex {
   double x, y;
 };

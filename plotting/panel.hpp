@@ -21,6 +21,7 @@ struct Series {
   std::vector<double> z = {};  // of curves in space
 };
 
+// An axis of a panel: what stands beside it, how numbers lie along it, and which of them it shows.
 struct Axis {
   std::string label;
   std::shared_ptr<const Scale> scale = std::make_shared<LinearScale>();

@@ -9,6 +9,7 @@
 
 namespace courant::plot {
 
+// How large a plot in a terminal is, and which characters it is made of.
 struct TerminalOptions {
   int width = 80;       // characters in a line, at least 40
   int height = 14;      // lines of the plotted area; the most there may be of them for paths

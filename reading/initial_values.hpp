@@ -26,6 +26,7 @@ struct GivenQuantity {
   bool held = false;
 };
 
+// What an experiment gives of its start, whole or in part.
 struct InitialValues {
   PartialVector x;         // N
   PartialVector velocity;  // dx/dt, N

@@ -32,6 +32,7 @@ class LineProblems {
 // `rs`, `rs and cjo`, `rs, cjo and tt`
 std::string in_words(const std::vector<std::string>& names);
 
+// `name = value` of a netlist, with the number of its line.
 struct Assignment {
   std::string name, value;
   int line;
@@ -77,11 +78,13 @@ struct Part {
   std::vector<Line> elements = {};
 };
 
-struct InitialPotential {  // of .ic or .nodeset
+// A potential of .ic or .nodeset, as it is written.
+struct InitialPotential {
   std::string node, value;
   int line;
 };
 
+// A netlist in its parts, before anything is evaluated.
 struct Deck {
   std::string title;
   Part whole;

@@ -38,6 +38,7 @@ struct NetlistJunction {
   }
 };
 
+// A circuit as the system `network` takes it, with the lines of the netlist that its parts come from.
 struct NetlistCircuit {
   Json parameters = Json::object();  // as `network` takes them
   Json nodes = Json::array({"0"}), elements = Json::array();

@@ -21,6 +21,7 @@ namespace courant::netlist {
 inline constexpr double kThermalVoltage = 0.02586492;
 inline constexpr double kLeastConductance = 1e-12;
 
+// The circuit of a deck: instances of subcircuits opened, values evaluated, devices made of the elements of `network`.
 class CircuitReader {
  public:
   CircuitReader(const Deck& deck, LineProblems& problems);

@@ -27,6 +27,7 @@ struct StaticLaw {
   std::function<std::pair<double, VectorXd>(const VectorXd& u)> value = {};
 };
 
+// An element of a circuit at rest: a relation of its voltage v and its current i.
 struct StaticElement {
   enum class Kind {
     resistor,   // v = value i
@@ -50,6 +51,7 @@ struct StaticElement {
   std::shared_ptr<const StaticLaw> law = nullptr;
 };
 
+// A circuit in which nothing changes with time.
 struct StaticCircuit {
   struct Coupling {
     std::size_t first, second;  // inductors
@@ -67,6 +69,7 @@ struct StaticCircuit {
   std::vector<Held> guessed = {};  // nodes with .nodeset, none of them held
 };
 
+// Where it is at rest.
 struct OperatingPoint {
   VectorXd potential;  // of each node, V
   VectorXd current;    // of each element, A; that of a capacitor is 0

@@ -7,6 +7,7 @@
 
 namespace courant {
 
+// A named function of the state that a run writes beside the coordinates.
 struct Observable {
   std::string name;
   // Of coordinates, velocities, unknowns, t; of energies since the beginning, but at a stage.

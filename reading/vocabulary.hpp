@@ -48,6 +48,7 @@ class NameList {
   Index size_ = 0;
 };
 
+// A named formula of an experiment, or an array of them, and where it stands.
 struct Definition {
   std::string name;
   std::string pointer;

@@ -8,6 +8,7 @@
 
 namespace courant {
 
+// What a figure is asked to look like; what is not given stays as it is drawn.
 struct FigureLook {
   std::optional<double> width = {};              // of the whole, in centimetres
   std::optional<double> font_size = {};          // in points; 9 as drawn

@@ -33,6 +33,7 @@ class EnsembleKeeper {
   virtual void tell(const Json& summary, const std::string& statistics) = 0;
 };
 
+// How an ensemble is run, and who is told of it.
 struct EnsembleOptions {
   Backend backend = Backend::automatic;
   unsigned threads = core_count();
@@ -43,6 +44,7 @@ struct EnsembleOptions {
   std::function<void(Index done, Index members)> on_progress = {};
 };
 
+// How it ended.
 struct EnsembleOutcome {
   RunStatus status = RunStatus::failed;
   std::string message = {};  // how many did not complete

@@ -33,6 +33,7 @@ struct RunInMemory {
       nullptr;  // null unless it was asked for, or where no step was made
 };
 
+// How it is run, and what is kept of it.
 struct RunInMemoryOptions {
   RunOptions run = {};     // its folder is not looked at
   bool has_curve = false;  // keeps all states, for rows at any time

@@ -17,6 +17,7 @@
 
 namespace courant {
 
+// Where a run goes, how it is carried out, and who is told of it.
 struct RunOptions {
   std::filesystem::path folder;
   Backend backend = Backend::automatic;
@@ -37,6 +38,7 @@ struct RunOptions {
   std::chrono::duration<double> checkpoint_interval = std::chrono::milliseconds(250);
 };
 
+// How a run ended.
 struct RunOutcome {
   RunStatus status = RunStatus::failed;
   std::string message;  // why it did not complete

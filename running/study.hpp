@@ -19,6 +19,7 @@ struct StudySubject {
   Experiment experiment;
 };
 
+// Which steps a study compares, of which quantities, and who is told of it.
 struct StudyOptions {
   int steps = 5;  // step sizes: h, h/2, …; at least 2
   // Names of coordinates and observables whose error is measured. Empty: those that the experiment

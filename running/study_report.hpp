@@ -10,6 +10,7 @@
 
 namespace courant {
 
+// What a study of convergence found: a row for each method and step size.
 struct StudyReport {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 

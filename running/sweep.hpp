@@ -35,6 +35,7 @@ struct Shard {
 // What a sweep is of: two tables with the same are of one sweep.
 Json sweep_head(const Json& document, std::span<const ValueRange> ranges, const Shard& shard = {});
 
+// How a sweep is carried out, where its table goes, and who is told of it.
 struct SweepOptions {
   unsigned threads = 1;
   const std::atomic<bool>* stop = nullptr;  // set by someone else: no further case begins

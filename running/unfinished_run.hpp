@@ -11,6 +11,7 @@
 
 namespace courant {
 
+// A run that can go on, and from where.
 struct UnfinishedRun {
   std::string id;
   std::optional<Checkpoint> checkpoint;  // nothing: from the start, no epoch was reached

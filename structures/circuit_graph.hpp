@@ -6,10 +6,12 @@
 
 namespace courant {
 
+// A vertex of the graph of a circuit.
 struct CircuitNode {
   std::string name;
 };
 
+// An edge of the graph of a circuit.
 struct CircuitElement {
   std::string name;
   // The spanning tree takes elements of little weight first. A normal tree of a circuit gives

@@ -70,6 +70,7 @@ bool leads(const Monomial& a, const Monomial& b, const Before& before) {
 // Adds c times a monomial. Coefficients that cancel leave round-off: 1e-13 of what was added is zero.
 void add_term(Polynomial& polynomial, const Monomial& monomial, double c);
 
+// How monomials are ordered: see PolynomialRelations.
 struct MonomialOrder {
   bool backwards = false;
   int eliminated_from = 0, eliminated_to = 0;  // these numbers, the last one not among them

@@ -11,6 +11,7 @@
 
 namespace courant::formula {
 
+// A function of the formula language: its name, how many arguments it takes, and what it makes of them.
 struct NamedFunction {
   using Arguments = std::span<const Value>;
 

@@ -9,6 +9,7 @@
 
 namespace courant::formula {
 
+// What a token of a formula is.
 enum class TokenKind : std::uint8_t {
   end,
   number,

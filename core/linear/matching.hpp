@@ -7,6 +7,7 @@
 
 namespace courant {
 
+// A place of a matrix that is not identically zero.
 struct PatternEntry {
   Eigen::Index row, column;
 };

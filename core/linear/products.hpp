@@ -68,6 +68,7 @@ template <class A>
 inline constexpr Kind kind<Eigen::CwiseUnaryOp<Eigen::internal::scalar_abs2_op<double>, A>> =
     kind<A>;
 
+// A factor of a product: what its numbers are, and the matrix that a transposed one is the transpose of.
 template <class A>
 struct Factor {
   static constexpr Kind kind = products::kind<A>;

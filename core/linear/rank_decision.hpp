@@ -9,6 +9,7 @@
 
 namespace courant {
 
+// What is known of a matrix besides its entries.
 struct RankOptions {
   // How uncertain the entries are, next to the largest of their row and column: 0 for exact data,
   // 1e-10 for a Jacobian at a point that an iteration found to about ten digits.

@@ -9,6 +9,7 @@ namespace courant {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// When a zero counts as found, and when the search is given up.
 struct GaussNewtonOptions {
   // A defect ‖F‖_∞ above this is no zero; below it the iteration goes on until the defect no longer
   // halves, that is to round-off.
@@ -17,6 +18,7 @@ struct GaussNewtonOptions {
   int max_iterations = 50;
 };
 
+// Where the search ended.
 struct GaussNewtonResult {
   bool converged = false;
   VectorXd y;           // the last iterate

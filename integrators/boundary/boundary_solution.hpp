@@ -58,6 +58,7 @@ struct BoundarySolution {
 
 std::string to_string(BoundarySolution::Verdict verdict);  // "unsolved", "isolated", "family"
 
+// When a solution counts as found, and when the search is given up.
 struct BoundaryOptions {
   // ‖Δ‖ next to the size of the states, at which the iteration ends.
   double tolerance = 1e-11;

@@ -25,6 +25,7 @@ struct IntegratorSetting {
   std::shared_ptr<const DiracStructure> structure = nullptr;
 };
 
+// How strictly the claims of a method are measured.
 struct IntegratorLawOptions {
   // Whether claims are measured in both directions: an order that is higher than claimed, and a
   // symmetry that is denied, fail too. For systems without symmetries of their own, where nothing

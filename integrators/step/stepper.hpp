@@ -11,6 +11,7 @@
 
 namespace courant {
 
+// What the solver of the steps has done since it was made: counts, all from 0.
 struct SolverStatistics {
   long steps = 0;
   long iterations = 0;
