@@ -119,7 +119,8 @@ void write_page(const Console& console, const OwnFiles& files, const std::filesy
 void add_constraints(CLI::App& app, Session& session) {
   struct Arguments {
     std::string file;
-    bool json = false, latex = false, markdown = false, discrete = false, digits = false;
+    bool json = false, latex = false, markdown = false, discrete = false, digits = false,
+         prove = false;
     Index level = -1;
     std::vector<std::string> settings;
     SweepArguments sweep;
@@ -156,6 +157,11 @@ void add_constraints(CLI::App& app, Session& session) {
   constraints
       ->add_flag("--digits", arguments->digits,
                  "decide ranks in two precisions, also those of a large system")
+      ->excludes("--sweep");
+  constraints
+      ->add_flag("--prove", arguments->prove,
+                 "prove by arithmetic with balls that there is a consistent point, and which "
+                 "numbers are not zero")
       ->excludes("--sweep");
   CLI::Option* level =
       constraints->add_option("--level", arguments->level, "stop at this level of the ladder")
@@ -202,7 +208,9 @@ void add_constraints(CLI::App& app, Session& session) {
             const bool as_page = !arguments->output.empty();
             std::optional<Waiting> waiting(std::in_place, console, "constraint algorithm");
             const ConsistentStart start =
-                consistent_start(experiment, arguments->digits ? Decider::digits : Decider::both);
+                consistent_start(experiment, arguments->prove    ? Decider::proof
+                                             : arguments->digits ? Decider::digits
+                                                                 : Decider::both);
             const ImplicitSystem& system = *experiment.model.system;
             const ConstraintFormulas formulas = constraint_formulas(system, start);
             LadderReport whole = ladder_report(start, system, formulas);

@@ -18,8 +18,9 @@ namespace courant::python {
 namespace {
 
 // The certificate of an experiment: the one place that knows which engine finds it.
-Json certificate(const Experiment& experiment) {
-  return courant::to_json(report_of_start(experiment, consistent_start(experiment)));
+Json certificate(const Experiment& experiment, bool prove) {
+  return courant::to_json(report_of_start(
+      experiment, consistent_start(experiment, prove ? Decider::proof : Decider::both)));
 }
 
 Json described(const KindDescription& kind) {
@@ -57,14 +58,17 @@ void bind_experiments(py::module_& module) {
         return std::make_shared<Experiment>(read_experiment_document(to_json(document)));
       },
       py::arg("document"), py::arg("objects") = py::list());
-  module.def("certificate", [](const Experiment& experiment) {
-    Json found;
-    {
-      const py::gil_scoped_release free;
-      found = certificate(experiment);
-    }
-    return to_python(found);
-  });
+  module.def(
+      "certificate",
+      [](const Experiment& experiment, bool prove) {
+        Json found;
+        {
+          const py::gil_scoped_release free;
+          found = certificate(experiment, prove);
+        }
+        return to_python(found);
+      },
+      py::arg("experiment"), py::arg("prove") = false);
   module.def("check", [](const Experiment& experiment) {
     Json found;
     {

@@ -395,6 +395,25 @@ std::vector<std::string> choices_in_words(const LadderReport& ladder) {
   return lines;
 }
 
+std::string proof_in_words(const LadderProof& proof) {
+  if (!proof.missing.empty()) return "Not proved. " + proof.missing;
+  const std::string where =
+      proof.radius == 0.0 ? "with the coordinates above"
+                          : "whose coordinates are those above to " + number_text(proof.radius, 1);
+  const std::string found = "Proved, by balls: there is a consistent point " + where + ", and " +
+                            plural(proof.not_zero, "pivot") +
+                            (proof.not_zero == 1 ? " is" : " are") +
+                            " nowhere zero in a ball around it";
+  if (proof.zero == 0)
+    return found +
+           ". No number counts as zero for its digits, so the ranks are the same in the whole "
+           "ball: dimensions, index and verdict are proved.";
+  return found +
+         ", so ranks are at least what the ladder says. That they are not more is not proved: " +
+         plural(proof.zero, "number") + (proof.zero == 1 ? " counts" : " count") +
+         " as zero for the digits alone.";
+}
+
 LadderWords ladder_words(const LadderReport& ladder,
                          const std::optional<ConstraintBrackets>& brackets) {
   LadderWords words;
@@ -449,6 +468,7 @@ LadderWords ladder_words(const LadderReport& ladder,
         " times the bound, the largest that was taken for zero is " +
         number_text(weakest->largest_neglected, 2) + " times the bound.");
   }
+  if (ladder.proof) words.certainty.push_back(proof_in_words(*ladder.proof));
   for (const std::string& doubt : doubts_in_words(ladder)) words.certainty.push_back(doubt);
   return words;
 }

@@ -35,6 +35,9 @@ std::vector<Prose> ladder_explanation(
 // That the value of an unknown is one of several, for each of the choices.
 std::vector<std::string> choices_in_words(const LadderReport& ladder);
 
+// What of the ladder is proved.
+std::string proof_in_words(const LadderProof& proof);
+
 // Whether E(x, λ) is a Morse family at the point, in a sentence; empty of a system that is not given by
 // one.
 std::string family_in_words(const LadderReport& ladder);

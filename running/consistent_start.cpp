@@ -218,7 +218,7 @@ class LadderSearch {
         decider_(decider),
         equations_(equations_in_digits(system_, decider)),
         own_(algorithm(weight)) {
-    if (decider == Decider::digits) return;
+    if (is_of_digits_alone(decider)) return;
     const VectorXd z = guess.z.size() > 0 ? guess.z : system_->auxiliary_guess(guess.x, guess.v);
     const auto units = needed_units(system_, {.t = guess.t, .x = guess.x, .v = guess.v, .z = z});
     if (!units) return;
@@ -243,8 +243,8 @@ class LadderSearch {
     if (!equations_) return by_bounds(guess);
     ConstraintAlgorithm::Options options;
     options.metric = SparseMatrixXd(weight_.asDiagonal());
-    return decider_ == Decider::digits
-               ? certificate_in_digits(*equations_, guess, options)
+    return is_of_digits_alone(decider_)
+               ? certificate_in_digits(*equations_, guess, options, decider_)
                : decided_together(by_bounds(guess), *equations_, guess, options);
   }
 

@@ -147,6 +147,7 @@ LadderReport discrete_ladder_report(const ConstraintLadder& ladder, const Implic
       .moves = ladder.verdict == Verdict::inconsistent ? std::vector<Movement>() : ladder.moves,
       .is_ambiguous = ladder.is_ambiguous(),
       .doubts = ladder.doubts,
+      .proof = ladder.proof,
       .reason = ladder.reason};
   for (const LadderLevel& level : ladder.levels) {
     LadderReport::Level told{.k = level.k, .residual = level.residual};

@@ -51,6 +51,7 @@ struct LadderReport {
   std::optional<Family> family = {};
   bool is_ambiguous = false;
   std::vector<Doubt> doubts = {};
+  std::optional<LadderProof> proof = {};
   std::string reason = {};
 
   struct Classes {

@@ -193,6 +193,10 @@ Json to_json(const LadderReport& ladder) {
             {"reason", ladder.reason}};
   for (const Doubt& doubt : ladder.doubts)
     json["doubts"].push_back({{"kind", to_string(doubt.kind)}, {"text", doubt.text}});
+  if (ladder.proof)
+    json["proof"] = {{"proved", ladder.proof->is_whole()},   {"point", ladder.proof->has_point},
+                     {"radius", ladder.proof->radius},       {"not_zero", ladder.proof->not_zero},
+                     {"zero_by_digits", ladder.proof->zero}, {"missing", ladder.proof->missing}};
   for (const LadderReport::Level& level : ladder.levels)
     json["levels"].push_back({{"k", level.k},
                               {"dim_S", written(level.dim_S)},
@@ -250,6 +254,12 @@ LadderReport read_ladder_report(const Json& json) {
     ladder.moves.push_back({.name = move.value("name", ""),
                             .from = number_at(move, "from"),
                             .to = number_at(move, "to")});
+  if (const Json& proof = part(json, "proof"); !proof.empty())
+    ladder.proof = LadderProof{.has_point = proof.value("point", false),
+                               .radius = number_at(proof, "radius"),
+                               .not_zero = whole(proof, "not_zero").value_or(0),
+                               .zero = whole(proof, "zero_by_digits").value_or(0),
+                               .missing = proof.value("missing", "")};
   ladder.is_impulse = json.value("impulse", false);
   for (const Json& choice : part(json, "choices"))
     ladder.choices.push_back({.name = choice.value("name", ""),

@@ -6,6 +6,7 @@
 
 #include "courant/core/expressions/subgraph.hpp"
 #include "courant/core/expressions/taylor.hpp"
+#include "courant/core/numbers/ball.hpp"
 
 namespace courant {
 namespace {
@@ -27,6 +28,7 @@ bool is_switching(Op op) {
 
 int decided_sign_of(double a) { return a > 0 ? 1 : (a < 0 ? -1 : 0); }
 int decided_sign_of(const Digits& a) { return a.shrinks() ? 0 : a.sign(); }
+int decided_sign_of(const Ball& a) { return a.sign(); }
 
 // The sign of the first of `count` coefficients of a - b that is not zero; b may be null.
 template <class Number>
@@ -34,6 +36,18 @@ int first_sign(const Number* a, const Number* b, Index count) {
   for (Index i = 0; i < count; ++i)
     if (const int sign = decided_sign_of(b == nullptr ? a[i] : a[i] - b[i]); sign != 0) return sign;
   return 0;
+}
+
+// Whether the sign of a - b is known, and not only not to be told from that of 0.
+template <class Number>
+bool is_known_sign(const Number* a, const Number* b, Index count) {
+  if constexpr (std::is_same_v<Number, Ball>)
+    for (Index i = 0; i < count; ++i) {
+      const Number difference = b == nullptr ? a[i] : a[i] - b[i];
+      if (difference.sign() != 0) return true;
+      if (!difference.is_zero()) return false;
+    }
+  return true;
 }
 
 // What a switch puts out where the number that decides it has this sign.
@@ -66,10 +80,10 @@ void put_out_switched(Op op, int sign, Index order, const Number* a, const Numbe
 
 template <class Number>
 Number number_as_written(double value) {
-  if constexpr (std::is_same_v<Number, Digits>)
-    return Digits::written(value);
-  else
+  if constexpr (std::is_same_v<Number, double>)
     return value;
+  else
+    return Number::written(value);
 }
 
 }  // namespace
@@ -146,7 +160,9 @@ bool SeriesFunction::carry_out(const Number* const* in, Index order, Number* out
     const Number* a = at(step.a);
     if (is_switching(step.op)) {
       const Number* b = arity(step.op) == 1 ? nullptr : at(step.b);
-      int sign = first_sign(a, b, step.of_time_alone ? order + 1 : 1);
+      const Index looked_at = step.of_time_alone ? order + 1 : 1;
+      int sign = first_sign(a, b, looked_at);
+      if (!is_known_sign(a, b, looked_at)) is_at_edge = true;
       // Equal numbers are no edge: that of sign(0), of min(x, x).
       if (sign == 0 && !step.of_time_alone) {
         is_at_edge = true;
@@ -154,6 +170,7 @@ bool SeriesFunction::carry_out(const Number* const* in, Index order, Number* out
       }
       put_out_switched(step.op, sign, order, a, b, result);
     } else if (step.op == Op::select) {
+      if (!is_known_sign<Number>(a, nullptr, 1)) is_at_edge = true;
       std::copy_n(decided_sign_of(a[0]) != 0 ? at(step.b) : at(step.c), width, result);
     } else {
       taylor::apply(step.op, step.k, order, a, at(step.b), at(step.c), result, scratch.data());
@@ -168,6 +185,10 @@ bool SeriesFunction::run(const double* const* in, Index order, double* out, int 
 }
 
 bool SeriesFunction::run(const Digits* const* in, Index order, Digits* out, int side) const {
+  return carry_out(in, order, out, side);
+}
+
+bool SeriesFunction::run(const Ball* const* in, Index order, Ball* out, int side) const {
   return carry_out(in, order, out, side);
 }
 

@@ -9,8 +9,10 @@
 
 namespace courant {
 
-// The map (in_0, …, in_g) ↦ outputs of some formulas on series Σ_i a_i tⁱ, i = 0 … K, in doubles or in Digits.
-// There a constant is what was meant by who wrote it (Digits::written).
+class Ball;
+
+// The map (in_0, …, in_g) ↦ outputs of some formulas on series Σ_i a_i tⁱ, i = 0 … K, in doubles, in Digits or in
+// Balls. In the latter two a constant is what was meant by who wrote it (MeantNumber).
 //
 // A switch is an operation that jumps or bends: abs, sign, min, max and comparisons. It is at its edge where
 // the number that decides it is zero. A number that only time is in is decided by what it is a moment later.
@@ -30,6 +32,8 @@ class SeriesFunction {
   // their edge see, the side of larger numbers (1), of smaller ones (-1), or 0. Returns whether some are.
   bool run(const double* const* in, Index order, double* out, int side = 0) const;
   bool run(const Digits* const* in, Index order, Digits* out, int side = 0) const;
+  // Of balls also where a number that decides is not proved to be on one side, or zero.
+  bool run(const Ball* const* in, Index order, Ball* out, int side = 0) const;
 
  private:
   struct Step {

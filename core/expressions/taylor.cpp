@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "courant/core/numbers/ball.hpp"
 #include "courant/core/numbers/digits.hpp"
 #include "courant/core/numbers/operation.hpp"
 #include "courant/core/numbers/quadruple.hpp"
@@ -18,26 +19,32 @@ double value_of(double a) { return a; }
 double value_of(const Uncertain& a) { return a.value; }
 double value_of(const Quadruple& a) { return static_cast<double>(a); }
 double value_of(const Digits& a) { return static_cast<double>(a); }
+double value_of(const Ball& a) { return static_cast<double>(a); }
 bool vanishes(double a) { return a == 0.0; }
 bool vanishes(const Uncertain& a) { return a.is_exactly(0.0); }
 bool vanishes(const Quadruple& a) { return a == 0.0; }
 bool vanishes(const Digits& a) { return a.is_zero(); }
+bool vanishes(const Ball& a) { return a.is_zero(); }
 bool is_nonzero(double a) { return a != 0.0; }
 bool is_nonzero(const Uncertain& a) { return a.is_nonzero(); }
 bool is_nonzero(const Quadruple& a) { return !(a == 0.0); }
 bool is_nonzero(const Digits& a) { return !a.shrinks(); }
+bool is_nonzero(const Ball& a) { return !a.contains_zero(); }
 double function(Op op, double a) { return evaluate(op, 0, a, 0.0, 0.0); }
 Uncertain function(Op op, const Uncertain& a) { return evaluate(op, a); }
 Quadruple function(Op op, const Quadruple& a) { return evaluate(op, a); }
 Digits function(Op op, const Digits& a) { return evaluate(op, a); }
+Ball function(Op op, const Ball& a) { return evaluate(op, a); }
 double power(double a, double p) { return std::pow(a, p); }
 Uncertain power(const Uncertain& a, const Uncertain& p) { return pow(a, p); }
 Quadruple power(const Quadruple& a, const Quadruple& p) { return pow(a, p); }
 Digits power(const Digits& a, const Digits& p) { return pow(a, p); }
+Ball power(const Ball& a, const Ball& p) { return pow(a, p); }
 double angle(double y, double x) { return std::atan2(y, x); }
 Uncertain angle(const Uncertain& y, const Uncertain& x) { return atan2(y, x); }
 Quadruple angle(const Quadruple& y, const Quadruple& x) { return atan2(y, x); }
 Digits angle(const Digits& y, const Digits& x) { return atan2(y, x); }
+Ball angle(const Ball& y, const Ball& x) { return atan2(y, x); }
 
 template <class T>
 void multiply(Index K, const T* a, const T* b, T* out) {
@@ -139,6 +146,15 @@ void constant_power(Index K, const T* a, T p, T* y) {
 template <class T>
 bool is_constant(Index K, const T* a) {
   return std::all_of(a + 1, a + K + 1, [](const T& coefficient) { return vanishes(coefficient); });
+}
+
+// Whether a^p is a product of factors a.
+template <class T>
+bool is_whole(const T& p) {
+  if constexpr (std::is_same_v<T, Ball>)
+    if (!p.is_exact()) return false;
+  const double value = value_of(p);
+  return value == std::floor(value) && std::fabs(value) <= 1e6;
 }
 
 // aᵏ by repeated squaring; scratch 3 (K+1).
@@ -262,6 +278,10 @@ void stumpff_derivatives(Index K, std::int32_t k, const T& s, T* f) {
         value_of(s) < most ? stumpff_series(j, k, s) : T(std::numeric_limits<double>::quiet_NaN());
     if (j % 2 != 0) f[j] = -f[j];
   }
+}
+
+void stumpff_derivatives(Index K, std::int32_t /*k*/, const Ball& /*s*/, Ball* f) {
+  std::fill(f, f + K + 1, Ball(std::numeric_limits<double>::quiet_NaN()));
 }
 
 // f[j] = g_k⁽ʲ⁾(c) / j! of arccos_factor.
@@ -403,8 +423,8 @@ void carry_out(Op op, std::int32_t k, Index K, const T* a, const T* b, const T* 
         multiply(K, b, scratch, scratch + (K + 1));
         out[0] = power(a[0], b[0]);
         exponential(K, scratch + (K + 1), out);
-      } else if (const double p = value_of(b[0]); p == std::floor(p) && std::fabs(p) <= 1e6) {
-        whole_power(K, a, static_cast<std::int32_t>(p), out, scratch);
+      } else if (is_whole(b[0])) {
+        whole_power(K, a, static_cast<std::int32_t>(value_of(b[0])), out, scratch);
       } else {
         constant_power(K, a, b[0], out);
       }
@@ -466,6 +486,11 @@ void apply(Op op, std::int32_t k, Index K, const Quadruple* a, const Quadruple* 
 
 void apply(Op op, std::int32_t k, Index K, const Digits* a, const Digits* b, const Digits* c,
            Digits* out, Digits* scratch) {
+  carry_out(op, k, K, a, b, c, out, scratch);
+}
+
+void apply(Op op, std::int32_t k, Index K, const Ball* a, const Ball* b, const Ball* c, Ball* out,
+           Ball* scratch) {
   carry_out(op, k, K, a, b, c, out, scratch);
 }
 

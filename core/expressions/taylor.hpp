@@ -7,6 +7,7 @@
 #include "courant/core/numbers/uncertain.hpp"
 
 namespace courant {
+class Ball;
 class Digits;
 class Quadruple;
 }  // namespace courant
@@ -32,6 +33,9 @@ void apply(Op op, std::int32_t k, Index order, const Quadruple* a, const Quadrup
 // The same in two precisions; NaN for arccos_factor, and for stumpff beyond 400.
 void apply(Op op, std::int32_t k, Index order, const Digits* a, const Digits* b, const Digits* c,
            Digits* out, Digits* scratch);
+// The same in balls; the whole line for stumpff and arccos_factor, whose sums have no bound here of what is left out.
+void apply(Op op, std::int32_t k, Index order, const Ball* a, const Ball* b, const Ball* c,
+           Ball* out, Ball* scratch);
 
 inline Index scratch_size(Index order) { return 3 * (order + 1); }
 

@@ -1,14 +1,13 @@
 #include "courant/core/numbers/digits.hpp"
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
-#include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <new>
-#include <numbers>
-#include <string>
-#include <string_view>
 #include <type_traits>
+
+#include "courant/core/numbers/meant_number.hpp"
 
 namespace courant {
 namespace {
@@ -55,67 +54,22 @@ Number unary_operation(Op op, const Number& a) {
   }
 }
 
-// The shortest decimal that reads as this number, as its digits d₁d₂… and the exponent of d₁.
-struct ShortestDecimal {
-  std::string digits;
-  int exponent = 0;
-};
-
-ShortestDecimal shortest_decimal(double number) {
-  char text[40];
-  const auto end =
-      std::to_chars(text, text + sizeof text, std::fabs(number), std::chars_format::scientific).ptr;
-  const std::string_view written(text, static_cast<std::size_t>(end - text));
-  const std::size_t e = written.find('e');
-  ShortestDecimal result;
-  for (const char c : written.substr(0, e))
-    if (c != '.') result.digits += c;
-  const std::string_view power = written.substr(e + 1 + (written[e + 1] == '+' ? 1 : 0));
-  std::from_chars(power.data(), power.data() + power.size(), result.exponent);
-  return result;
-}
-
 template <class Number>
-Number number_that_reads(const ShortestDecimal& decimal) {
-  const Number digits(decimal.digits);
-  const int shift = decimal.exponent - static_cast<int>(decimal.digits.size()) + 1;
-  const Number power = pow(Number(10), std::abs(shift));
-  return shift < 0 ? Number(digits / power) : Number(digits * power);
-}
-
-template <class Number>
-Number ratio_of_circle() {
-  return acos(Number(-1));
-}
-
-// A fraction p/q, times π or over it, with p and q of at most three digits.
-struct ShortFraction {
-  int p = 0, q = 1, power_of_pi = 0;
-};
-
-bool find_fraction(double number, ShortFraction& found) {
-  constexpr int most = 400;
-  for (const int power : {0, 1, -1}) {
-    const double a = power == 0   ? std::fabs(number)
-                     : power == 1 ? std::fabs(number) / std::numbers::pi
-                                  : std::fabs(number) * std::numbers::pi;
-    if (a < 1.0 / most || a > most) continue;
-    for (int q = 1; q <= most; ++q) {
-      const double p = std::round(a * q);
-      if (p < 1 || p > most || std::fabs(a * q - p) > 1e-15 * p) continue;
-      found = {static_cast<int>(p), q, power};
-      return true;
-    }
+Number number_that_reads(const MeantNumber& written) {
+  Number value;
+  if (const auto& fraction = written.fraction) {
+    value = Number(fraction->p) / Number(fraction->q);
+    if (fraction->power_of_pi == 1) value *= acos(Number(-1));
+    if (fraction->power_of_pi == -1) value /= acos(Number(-1));
+  } else {
+    value = Number(written.digits);
+    const Number power = pow(Number(10), std::abs(written.exponent));
+    if (written.exponent < 0)
+      value /= power;
+    else
+      value *= power;
   }
-  return false;
-}
-
-template <class Number>
-Number number_that_reads(const ShortFraction& fraction) {
-  Number value = Number(fraction.p) / Number(fraction.q);
-  if (fraction.power_of_pi == 1) value *= ratio_of_circle<Number>();
-  if (fraction.power_of_pi == -1) value /= ratio_of_circle<Number>();
-  return value;
+  return written.is_negative ? Number(-value) : value;
 }
 
 }  // namespace
@@ -151,18 +105,9 @@ Digits& Digits::operator=(const Digits& other) {
 }
 
 Digits Digits::written(double number) {
-  // Longer decimals are results of a division, or of ratio_of_circle, as likely as decimals.
-  constexpr std::size_t long_decimal = 15;
   if (!std::isfinite(number) || number == 0.0) return number;
-  const ShortestDecimal decimal = shortest_decimal(number);
-  ShortFraction fraction;
-  const bool is_fraction =
-      decimal.digits.size() >= long_decimal && find_fraction(number, fraction) &&
-      static_cast<double>(number_that_reads<Fine>(fraction)) == std::fabs(number);
-  const Pair pair =
-      is_fraction ? Pair{number_that_reads<Coarse>(fraction), number_that_reads<Fine>(fraction)}
-                  : Pair{number_that_reads<Coarse>(decimal), number_that_reads<Fine>(decimal)};
-  return number < 0 ? -Digits(pair) : Digits(pair);
+  const MeantNumber written = meant_number(number);
+  return Digits(Pair{number_that_reads<Coarse>(written), number_that_reads<Fine>(written)});
 }
 
 bool Digits::shrinks() const {
@@ -189,6 +134,17 @@ Digits& Digits::settle() {
 Digits::operator double() const { return static_cast<double>(pair().fine); }
 
 double Digits::coarse() const { return static_cast<double>(pair().coarse); }
+
+std::array<double, 5> Digits::terms() const {
+  std::array<double, 5> result{};
+  Fine rest = pair().fine;
+  for (double& term : result) {
+    term = static_cast<double>(rest);
+    if (!std::isfinite(term)) break;
+    rest -= term;
+  }
+  return result;
+}
 
 std::int64_t Digits::exponent() const { return std::int64_t{pair().fine.backend().exponent()} + 1; }
 

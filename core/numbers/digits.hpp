@@ -27,9 +27,7 @@ class Digits {
   Digits(const Digits& other);
   Digits& operator=(const Digits& other);
 
-  // What a person means who writes this number: the shortest decimal that reads as it, so that 0.6 and -0.8
-  // lie on the circle; a fraction or a fraction of π whose terms are small if that reads as the same
-  // double and the decimal is long, so that 1/3 is a third. Not finite numbers as they are.
+  // What a person means who writes this number (MeantNumber). Not finite numbers as they are.
   static Digits written(double number);
 
   bool is_zero() const { return is_zero_; }  // exactly, in both
@@ -40,6 +38,8 @@ class Digits {
 
   explicit operator double() const;  // the fine part, rounded
   double coarse() const;             // the coarse part, rounded
+  // Numbers, the largest first, whose sum is the fine part, but for what no double is small enough for.
+  std::array<double, 5> terms() const;
   // The exponent e with 2^(e-1) ≤ |a| < 2^e of the fine part; a is not zero.
   std::int64_t exponent() const;
   int sign() const;  // of the fine part: -1, 0, 1

@@ -10,8 +10,8 @@ Certificate certificate(const std::shared_ptr<const ImplicitSystem>& system,
                         const InitialGuess& guess, const ConstraintAlgorithm::Options& options,
                         Decider decider) {
   const auto equations = equations_in_digits(system, decider);
-  if (equations && decider == Decider::digits)
-    return certificate_in_digits(*equations, guess, options);
+  if (equations && is_of_digits_alone(decider))
+    return certificate_in_digits(*equations, guess, options, decider);
   ConstraintLadder by_bounds = ConstraintAlgorithm(options).run(system, guess);
   return equations ? decided_together(std::move(by_bounds), *equations, guess, options) : by_bounds;
 }

@@ -10,6 +10,7 @@
 #include "courant/integrators/certificate/binary_scales.hpp"
 #include "courant/integrators/certificate/elimination_reading.hpp"
 #include "courant/integrators/certificate/ladder_in_units.hpp"
+#include "courant/integrators/certificate/ladder_proof.hpp"
 #include "courant/integrators/certificate/neighbourhood.hpp"
 
 namespace courant {
@@ -46,10 +47,11 @@ std::vector<Movement> moves_from_guess(const ImplicitSystem& system, const Initi
 class Certifier {
  public:
   Certifier(const JetEquations& equations, const InitialGuess& guess,
-            const ConstraintAlgorithm::Options& options)
+            const ConstraintAlgorithm::Options& options, Decider decider = Decider::digits)
       : equations_(equations),
         guess_(guess),
         max_level_(options.max_level),
+        decider_(decider),
         nearest_(equations, guess, options.metric) {}
 
   ConstraintLadder run() {
@@ -136,6 +138,7 @@ class Certifier {
     if (is_singular(jet)) return;
     result_.verdict = result_.gauge_dimension == 0 ? Verdict::regular : Verdict::gauge;
     describe(result_, equations_, *elimination_, jet);
+    if (decider_ == Decider::proof) result_.proof = proof(equations_, *elimination_, jet);
     result_.differentiations = differentiations(equations_, *elimination_, result_.index);
     for (const Neighbourhood::Look& look : around_->looks()) {
       const std::vector<int> there = differentiations(equations_, look.elimination, result_.index);
@@ -264,6 +267,7 @@ class Certifier {
   const JetEquations& equations_;
   const InitialGuess& guess_;
   Index max_level_;
+  Decider decider_;
   NearestJet nearest_;
   ConstraintLadder result_;
   std::optional<StagedElimination> elimination_;
@@ -274,10 +278,15 @@ class Certifier {
 }  // namespace
 
 ConstraintLadder certificate_in_digits(const JetEquations& equations, const InitialGuess& guess,
-                                       const ConstraintAlgorithm::Options& options) {
-  Certifier certifier(equations, guess, options);
+                                       const ConstraintAlgorithm::Options& options,
+                                       Decider decider) {
+  Certifier certifier(equations, guess, options, decider);
   const std::optional<InitialGuess> rounded = certifier.without_rounding();
   ConstraintLadder result = certifier.run();
+  if (decider == Decider::proof && !result.proof)
+    result.proof =
+        LadderProof{.missing = "Only ladders that are regular or gauge are proved; this one is " +
+                               to_string(result.verdict) + "."};
   if (rounded) {
     const ConstraintLadder other = Certifier(equations, *rounded, options).run();
     if (!are_alike(other, result))

@@ -1,6 +1,7 @@
 // ConstraintLadder: what the constraint algorithm found.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 
 namespace courant {
 
+// What the constraint algorithm says of a system near a point.
 enum class Verdict {
   regular,       // S_f is the graph of a vector field on M_f
   gauge,         // the velocity at a point of M_f is free in gauge_dimension directions
@@ -89,6 +91,27 @@ struct PointConstraint {
   VectorXd gradient_error;  // bounds, entry by entry (Ñ)
 };
 
+// What of a ladder is proved, by arithmetic with balls, at a consistent jet y of level k and of the ranks that were decided
+// there:
+//
+//   has_point   in a ball around y there is exactly one zero of as many equations of F^[k] as there are pivots,
+//               for all other unknowns as they are (Newton's method maps the ball into itself)
+//   not_zero    that many numbers, the pivots, are nowhere zero in this ball
+//   zero        that many numbers that count as zero could not be proved to be: they shrink when the digits double
+//
+// Ranks are thus at least what the ladder says. Where `zero` is 0 they are what the ladder says at every point of the ball, so
+// that they are constant around the point, which is the hypothesis of the constraint algorithm: dimensions, index and verdict
+// are proved. A value.
+struct LadderProof {
+  bool has_point = false;
+  double radius = 0.0;  // the largest of the ball's, of a coordinate
+  Index not_zero = 0, zero = 0;
+  // What could not be proved, in a sentence; empty if has_point and all pivots are not zero.
+  std::string missing;
+
+  bool is_whole() const { return missing.empty() && zero == 0; }
+};
+
 // The sets S_0 ⊇ S_1 ⊇ … over M_0 ⊇ M_1 ⊇ … of an implicit system near one point, and where they
 // end: S_f over M_f.
 //
@@ -128,6 +151,8 @@ struct ConstraintLadder {
   // Why the verdict is not certain, a sentence each: what the levels contradict, where two ways to
   // count disagree.
   std::vector<Doubt> doubts;
+  // Where one was asked for.
+  std::optional<LadderProof> proof;
 
   const LadderLevel& final_level() const { return levels.back(); }
   // Whether a rank is doubtful or there are doubts.

@@ -9,6 +9,7 @@
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/core/expressions/expr_vectors.hpp"
 #include "courant/core/expressions/subgraph.hpp"
+#include "courant/core/numbers/ball.hpp"
 
 namespace courant {
 namespace {
@@ -180,6 +181,8 @@ bool JetEquations::run(const SeriesFunction& f, const Number& t, const std::vect
     Number& value = constants[c * static_cast<std::size_t>(width)];
     if constexpr (std::is_same_v<Number, Digits>)
       value = written_constants_[c];
+    else if constexpr (std::is_same_v<Number, Ball>)
+      value = Ball::written(constants_[c]);
     else
       value = constants_[c];
   }
@@ -232,9 +235,13 @@ template std::vector<double> JetEquations::residual(const double&, const std::ve
                                                     Index) const;
 template std::vector<Digits> JetEquations::residual(const Digits&, const std::vector<Digits>&,
                                                     Index) const;
+template std::vector<Ball> JetEquations::residual(const Ball&, const std::vector<Ball>&,
+                                                  Index) const;
 template JetEquations::Values<double> JetEquations::at(const double&, const std::vector<double>&,
                                                        Index) const;
 template JetEquations::Values<Digits> JetEquations::at(const Digits&, const std::vector<Digits>&,
                                                        Index) const;
+template JetEquations::Values<Ball> JetEquations::at(const Ball&, const std::vector<Ball>&,
+                                                     Index) const;
 
 }  // namespace courant

@@ -55,6 +55,8 @@ class StagedElimination {
   // The combination of rows of F^[k] that one of rows() is: coefficients, by row.
   SparseRow origin(const Row& row) const;
   Index count(Stage stage, Index level) const;  // of rows of levels ≤ level
+  // In which a column is: an unknown of the jet, or t as the last.
+  Stage stage_of(Index column) const { return stages_[static_cast<std::size_t>(column)]; }
 
   Index dim_S(Index level) const { return dim_M(level) + size_ - count(velocities, level); }
   Index dim_M(Index level) const { return size_ - count(point, level); }

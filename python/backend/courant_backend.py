@@ -47,7 +47,8 @@ def _tag():
 def _installed(prefix):
     build = os.environ.get("COURANT_BUILD_DIR") or tempfile.mkdtemp(prefix="courant-build-")
     options = ["-D", "COURANT_BUILD_PYTHON=ON", "-D", "COURANT_BUILD_TESTS=OFF", "-D", "COURANT_BUILD_BENCH=OFF",
-               "-D", "COURANT_UNITY=ON", "-D", "COURANT_WITH_SUITESPARSE=OFF", "-D", f"Python3_EXECUTABLE={sys.executable}"]
+               "-D", "COURANT_UNITY=ON", "-D", "COURANT_WITH_SUITESPARSE=OFF",
+               "-D", "COURANT_WITH_ARB=OFF", "-D", f"Python3_EXECUTABLE={sys.executable}"]
     options += shlex.split(os.environ.get("COURANT_CMAKE_ARGS", ""))
     subprocess.run(["cmake", "-S", ROOT, "-B", build, *options], check=True)
     subprocess.run(["cmake", "--build", build, "--target", "courant_python", "--parallel", str(os.cpu_count())], check=True)

@@ -103,6 +103,9 @@ class Certificate:
         Formulas of the constraints, hidden ones included, that vanish on M_f.
     doubts : list of str
         Why the verdict is not certain; ``ambiguous`` is true exactly if there is one.
+    proof : dict or None
+        Where one was asked for: whether all is ``proved``, whether there is a ``point`` and in which ``radius``, how many
+        numbers are proved to be ``not_zero``, how many count as ``zero_by_digits``, and what is ``missing``.
     reason : str
     """
 
@@ -119,6 +122,7 @@ class Certificate:
         self.ambiguous = bool(found.get("ambiguous"))
         self.doubts = [doubt["text"] if isinstance(doubt, Mapping) else doubt for doubt in found.get("doubts") or []]
         self.reason = found.get("reason", "")
+        self.proof = found.get("proof")
         self.constraints = [entry["formula"] for entry in found.get("formulas") or []]
 
     @property

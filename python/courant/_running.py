@@ -137,7 +137,7 @@ def _document_of_system(system, guess, hold):
     return {"system": system, "initial": initial, "hold": list(hold)}
 
 
-def certificate(system, guess=None, hold=(), **options) -> Certificate:
+def certificate(system, guess=None, hold=(), *, prove=False, **options) -> Certificate:
     """What the constraint algorithm finds: the ladder, the index, a consistent point.
 
     Parameters
@@ -149,6 +149,8 @@ def certificate(system, guess=None, hold=(), **options) -> Certificate:
         default.
     hold : sequence of str
         Names of values that must not move.
+    prove : bool
+        Prove by arithmetic with balls that there is a consistent point, and which numbers are not zero; see `proof`.
     **options
         Of a callable: ``unknowns``, ``names``, ``yp0``, ``t``, ``parameters``.
 
@@ -172,7 +174,7 @@ def certificate(system, guess=None, hold=(), **options) -> Certificate:
         if hold:
             settings["hold"] = list(hold)
         experiment = experiment.changed(**settings)
-    return Certificate(core.certificate(experiment.core))
+    return Certificate(core.certificate(experiment.core, prove))
 
 
 def check(experiment, **settings) -> Check:

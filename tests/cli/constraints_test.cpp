@@ -41,6 +41,23 @@ BOOST_AUTO_TEST_CASE(stops_at_a_level) {
   BOOST_TEST(constraints({pendulum, "--level", "-1"}).status == 2);
 }
 
+BOOST_AUTO_TEST_CASE(a_proof_is_told_in_words_and_json) {
+  const Json json = Json::parse(constraints({pendulum, "--prove", "--json"}).out);
+  const bool has_balls = json.at("proof").at("point").get<bool>();
+  BOOST_TEST(json.at("proof").at("proved") == has_balls);
+  const Answer answer = constraints({pendulum, "--prove"});
+  BOOST_TEST(answer.status == 0, answer.err);
+  BOOST_TEST(
+      says(answer.out, has_balls ? "index and verdict are proved" : "Not proved. This build"),
+      answer.out);
+  BOOST_TEST(!Json::parse(constraints({pendulum, "--json"}).out).contains("proof"));
+  if (!has_balls) return;
+  BOOST_TEST(json.at("proof").at("not_zero") == 20);
+  const Answer contradiction = constraints({"experiments/inconsistent_lagrangian.json", "--prove"});
+  BOOST_TEST(says(contradiction.out, "Only ladders that are regular or gauge are proved"),
+             contradiction.out);
+}
+
 // Remark 6.1: by the midpoint rule the ends of a step are free.
 BOOST_AUTO_TEST_CASE(the_discrete_ladder) {
   const std::string experiment = R"json({

@@ -83,6 +83,12 @@ def test_check_and_study():
     assert "order 2" in study._repr_latex_() and "h = 0.1 & " in study._repr_latex_()
 
 
+def test_a_certificate_is_proved_where_one_asks():
+    assert courant.certificate(OSCILLATOR).proof is None
+    proof = courant.certificate(OSCILLATOR, prove=True).proof
+    assert proof["proved"] or proof["missing"].startswith("This build")
+
+
 def test_a_certificate_is_set_with_its_equations():
     found = courant.certificate({"system": {"type": "implicit", "coordinates": ["x", "y", "v", "w"], "unknowns": ["T"],
                                             "equations": ["x'-v", "y'-w", "v'+T*x", "w'+T*y+1", "x*x+y*y-1"]},

@@ -373,6 +373,20 @@ BOOST_AUTO_TEST_CASE(the_rank_of_a_family_is_told) {
   BOOST_TEST(!contains(ladder_explanation(pendulum()), "Morse family"));
 }
 
+BOOST_AUTO_TEST_CASE(what_is_proved_is_told) {
+  Json found = pendulum();
+  BOOST_TEST(!contains(ladder_explanation(found), "roved"));
+  found["proof"] = {{"proved", true}, {"point", true},       {"radius", 2e-70},
+                    {"not_zero", 20}, {"zero_by_digits", 0}, {"missing", ""}};
+  BOOST_TEST(contains(ladder_explanation(found), "those above to 2e-70"));
+  BOOST_TEST(contains(ladder_explanation(found), "index and verdict are proved"));
+  found["proof"]["zero_by_digits"] = 1;
+  BOOST_TEST(contains(ladder_explanation(found), "one number counts as zero"));
+  BOOST_TEST(!contains(ladder_explanation(found), "verdict are proved"));
+  found["proof"]["missing"] = "A switch may be at its edge.";
+  BOOST_TEST(contains(ladder_explanation(found), "Not proved. A switch"));
+}
+
 BOOST_AUTO_TEST_CASE(what_ends_without_an_index_is_still_explained) {
   const Json found = ladder(
       {{"system", {{"type", "lagrangian"}, {"coordinates", {"q"}}, {"lagrangian", "q' + q"}}},
