@@ -1,5 +1,6 @@
 #include "courant/core/algebra/simplified.hpp"
 
+#include <algorithm>
 #include <initializer_list>
 #include <stdexcept>
 #include <unordered_map>
@@ -116,9 +117,26 @@ class Simplifier {
   std::unordered_map<std::uint32_t, Sum> known_;
 };
 
-// Of the texts that all styles give, the shortest.
+// How long a reader takes for a text: its letters, and more for fractions like 2000/429.
+std::size_t effort(const std::string& text) {
+  constexpr std::size_t for_a_fraction = 6;
+  std::size_t sum = text.size();
+  for (std::size_t at = text.find('/'); at != std::string::npos; at = text.find('/', at + 1)) {
+    const std::size_t end = std::min(text.find_first_not_of("0123456789", at + 1), text.size());
+    if (end > at + 3) sum += for_a_fraction;
+  }
+  return sum;
+}
+
+// An equation can be multiplied, so that it need not have fractions.
+std::size_t effort_of_equation(const std::string& text) {
+  return effort(text) + static_cast<std::size_t>(std::ranges::count(text, '/'));
+}
+
+// Of the texts that all styles give, the easiest to read.
 template <class Texts>
-std::optional<std::string> shortest(const Simplification& given, const Texts& texts) {
+std::optional<std::string> easiest(const Simplification& given, const Texts& texts,
+                                   std::size_t (*effort)(const std::string&)) {
   std::optional<std::string> best;
   using enum Style::Relations;
   std::vector<Style> styles = {
@@ -129,7 +147,7 @@ std::optional<std::string> shortest(const Simplification& given, const Texts& te
     try {
       Simplifier simplifier(given, style);
       for (const std::string& text : texts(simplifier))
-        if (!best || text.size() < best->size()) best = text;
+        if (!best || effort(text) < effort(*best)) best = text;
     } catch (const std::length_error&) {  // too large to be written by hand
       continue;
     } catch (const std::domain_error&) {  // 1/0
@@ -142,7 +160,7 @@ std::optional<std::string> shortest(const Simplification& given, const Texts& te
 }  // namespace
 
 std::optional<std::string> simplified(const Expr& a, const Simplification& given) {
-  return shortest(given, [&](Simplifier& simplifier) {
+  const auto texts = [&](Simplifier& simplifier) {
     SumArithmetic& sums = simplifier.arithmetic();
     const Sum sum = simplifier.of(a);
     std::vector<std::string> found = {sums.text(sums.collected(sum))};
@@ -153,17 +171,19 @@ std::optional<std::string> simplified(const Expr& a, const Simplification& given
     } catch (const std::length_error&) {  // the first one will do
     }
     return found;
-  });
+  };
+  return easiest(given, texts, effort);
 }
 
 std::optional<std::string> simplified_equation(const Expr& a, const Simplification& given) {
-  return shortest(given, [&](Simplifier& simplifier) {
+  const auto texts = [&](Simplifier& simplifier) {
     const SumArithmetic& sums = simplifier.arithmetic();
     const Sum sum = sums.equation(simplifier.of(a));
     const double c = sums.leading(sum);
     return std::vector<std::string>{sums.text(SumArithmetic::scaled(sum, c < 0.0 ? -1.0 : 1.0)),
                                     sums.text(SumArithmetic::scaled(sum, 1.0 / c))};
-  });
+  };
+  return easiest(given, texts, effort_of_equation);
 }
 
 }  // namespace courant

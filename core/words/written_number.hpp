@@ -7,10 +7,11 @@ namespace courant {
 
 // A positive number as factors above and below a fraction line; "" stands for 1.
 //
-//   0.5   0.5 above        1/3   3 below        π/4   pi above, 4 below        1/(2π)   2*pi below
+//   2.5   2.5 above        1/2   2 below        π/4   pi above, 4 below        1/(2π)   2*pi below
 //
-// Short decimals as they are, fractions with denominators of up to 24, the same times π or 1/π; else
-// six digits if these are all there are, then fractions of up to four digits over three, then six digits.
+// A half, a quarter, an eighth, other short decimals as they are, fractions with denominators of up to 24, the same
+// times π or 1/π; else six digits if these are all there are, then fractions of up to four digits over four, then six
+// digits.
 struct WrittenNumber {
   std::string above, below;
 };

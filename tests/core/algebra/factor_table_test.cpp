@@ -27,7 +27,7 @@ BOOST_AUTO_TEST_CASE(factors_stand_in_the_order_of_the_variables) {
   BOOST_TEST(table.text({{{{y, 1}, {x, 1}}, 2.0}, {{{y, 2}}, -1.0}, {{{x, 2}}, -1.0}}) ==
              "2*x*y - x^2 - y^2");
   BOOST_TEST(table.text({{{{sum, 2}, {cosine, 1}}, 1.0}}) == "cos(y)*(x + 1)^2");
-  BOOST_TEST(table.text({{{{sum, -1}, {x, 1}, {cosine, -1}}, 0.5}}) == "0.5*x/(cos(y)*(x + 1))");
+  BOOST_TEST(table.text({{{{sum, -1}, {x, 1}, {cosine, -1}}, 0.5}}) == "x/(2*cos(y)*(x + 1))");
   BOOST_TEST(table.text({{{{sum, 1}}, 1.0}}) == "x + 1");
   BOOST_TEST(table.text({{{{sum, 1}}, -1.0}}) == "-(x + 1)");
   BOOST_TEST(table.text({{{{y, 1}}, 1.0}, {{{sum, 1}}, -1.0}}) == "y - (x + 1)");

@@ -19,7 +19,11 @@ void check(double value, const char* above, const char* below) {
 
 BOOST_AUTO_TEST_CASE(numbers_are_written_as_people_do) {
   check(1.0, "", "");
-  check(0.5, "0.5", "");
+  check(0.5, "", "2");
+  check(0.125, "", "8");
+  check(2.5, "2.5", "");
+  check(0.2, "0.2", "");
+  check(1088.0 / 1125.0, "1088", "1125");
   check(9.81, "9.81", "");
   check(1.0 / 3.0, "", "3");
   check(5.0 / 6.0, "5", "6");
