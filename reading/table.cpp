@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <optional>
+#include <utility>
 
 #include "courant/core/words/spelling.hpp"
 
@@ -90,8 +91,7 @@ std::vector<std::string> cells(const std::string& line) {
 // One table that may be in a file.
 class File {
  public:
-  File(const std::string& pointer, const std::filesystem::path& path)
-      : pointer_(pointer), path_(path) {}
+  File(const std::string& pointer, TableFile file) : pointer_(pointer), file_(std::move(file)) {}
 
   Json load(const Json& table) {
     const std::vector<std::string> names = open();
@@ -133,12 +133,9 @@ class File {
  private:
   // The names in the first line.
   std::vector<std::string> open() {
-    stream_.open(path_);
-    if (!stream_ || std::filesystem::is_directory(path_) ||
-        std::filesystem::is_character_file(path_))  // which may have no end
-      refuse("cannot be read; expected a file of comma-separated values");
+    if (!file_.bytes) refuse("cannot be read; expected a file of comma-separated values");
     std::string line;
-    if (!std::getline(stream_, line)) refuse("is empty; expected names in its first line");
+    if (!std::getline(*file_.bytes, line)) refuse("is empty; expected names in its first line");
     return cells(line);
   }
 
@@ -147,7 +144,7 @@ class File {
   void for_each_row(const std::vector<std::string>& names, std::size_t most, const Action& action) {
     std::size_t rows = 0;
     std::string line;
-    for (line_ = 2; std::getline(stream_, line); ++line_) {
+    for (line_ = 2; std::getline(*file_.bytes, line); ++line_) {
       if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
       const std::vector<std::string> row = cells(line);
       if (row.size() != names.size())
@@ -159,8 +156,8 @@ class File {
   }
 
   [[noreturn]] void refuse(const std::string& what) const {
-    throw ExperimentError(
-        pointer_, path_.string() + (line_ > 0 ? ":" + std::to_string(line_) : "") + " " + what);
+    throw ExperimentError(pointer_,
+                          file_.name + (line_ > 0 ? ":" + std::to_string(line_) : "") + " " + what);
   }
 
   std::size_t column(const Json& table, const char* key, const std::vector<std::string>& names,
@@ -184,8 +181,7 @@ class File {
   }
 
   std::string pointer_;
-  std::filesystem::path path_;
-  std::ifstream stream_;
+  TableFile file_;
   std::size_t line_ = 0;
 };
 
@@ -221,38 +217,42 @@ void require_allowed(const std::string& pointer, const std::filesystem::path& fi
     refuse("a file in the folder of the experiment");
 }
 
+TableFile opened(const std::filesystem::path& path) {
+  auto stream = std::make_unique<std::ifstream>(path);
+  if (!*stream || std::filesystem::is_directory(path) ||
+      std::filesystem::is_character_file(path))  // which may have no end
+    stream.reset();
+  return {path.string(), std::move(stream)};
+}
+
 // In a system, and in those that it is made of.
-void load_tables_of(Json& system, const std::string& pointer, const std::filesystem::path& folder,
-                    TableFiles which) {
+void load_tables_of(Json& system, const std::string& pointer, const OpenTable& open) {
   if (!system.is_object()) return;
   if (system.contains("tables") && system["tables"].is_object())
     for (auto& [name, table] : system["tables"].items())
       if (table.is_object() && table.contains("file") && table["file"].is_string()) {
         const std::string place = pointer + "/tables/" + name;
-        const std::filesystem::path file = table["file"].get<std::string>();
-        require_allowed(place + "/file", file, folder, which);
-        table = File(place, folder / file).load(table);
+        table = File(place, open(place + "/file", table["file"].get<std::string>())).load(table);
       }
   if (system.contains("systems") && system["systems"].is_object())
     for (auto& [name, part] : system["systems"].items())
-      load_tables_of(part, pointer + "/systems/" + name, folder, which);
+      load_tables_of(part, pointer + "/systems/" + name, open);
 }
 
 // The columns of {"table": "starts.csv"} come to stand in its place as lists under "values", before what is there.
-void load_ensemble(Json& ensemble, const std::filesystem::path& folder, TableFiles which) {
+void load_ensemble(Json& ensemble, const OpenTable& open) {
   constexpr std::size_t most = 10'000'000;  // members, as Ensemble::kMostMembers
   const std::string place = "/ensemble/table";
   if (!ensemble.is_object() || !ensemble.contains("table") || !ensemble["table"].is_string())
     return;
-  const std::filesystem::path file = ensemble["table"].get<std::string>();
-  require_allowed(place, file, folder, which);
-  Json columns = File(place, folder / file).columns(most);
+  const std::string file = ensemble["table"].get<std::string>();
+  Json columns = File(place, open(place, file)).columns(most);
   Json values = ensemble.value("values", Json::object());
   if (values.is_object())
     for (const auto& [name, value] : values.items()) {
       if (columns.contains(name))
         throw ExperimentError("/ensemble/values/" + pointer_token(name),
-                              "is a column of " + file.string() + " too; expected it once");
+                              "is a column of " + file + " too; expected it once");
       columns[name] = value;
     }
   ensemble.erase("table");
@@ -261,10 +261,17 @@ void load_ensemble(Json& ensemble, const std::filesystem::path& folder, TableFil
 
 }  // namespace
 
-void load_tables(Json& document, const std::filesystem::path& folder, TableFiles which) {
+void load_tables(Json& document, const OpenTable& open) {
   if (!document.is_object()) return;
-  if (document.contains("system")) load_tables_of(document["system"], "/system", folder, which);
-  if (document.contains("ensemble")) load_ensemble(document["ensemble"], folder, which);
+  if (document.contains("system")) load_tables_of(document["system"], "/system", open);
+  if (document.contains("ensemble")) load_ensemble(document["ensemble"], open);
+}
+
+void load_tables(Json& document, const std::filesystem::path& folder, TableFiles which) {
+  load_tables(document, [&](const std::string& pointer, const std::string& file) {
+    require_allowed(pointer, file, folder, which);
+    return opened(folder / file);
+  });
 }
 
 }  // namespace courant

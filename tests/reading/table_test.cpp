@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <fstream>
+#include <memory>
+#include <sstream>
 
 #include "experiment_problems.hpp"
 
@@ -122,6 +124,34 @@ BOOST_AUTO_TEST_CASE(wrong_files) {
       load_tables(missing, File::folder()), ExperimentError, [](const ExperimentError& error) {
         return std::string(error.what()).find("cannot be read") != std::string::npos;
       });
+}
+
+// Files need not be on a disk. Where there is none of a name, that is said at the key that names it.
+BOOST_AUTO_TEST_CASE(files_that_are_handed_over) {
+  const OpenTable open = [](const std::string& pointer, const std::string& file) {
+    if (file == "away.csv") throw ExperimentError(pointer, "is away");
+    TableFile found{"the file " + file, nullptr};
+    if (file != "none.csv")
+      found.bytes = std::make_unique<std::istringstream>("t,speed\n0,2\n1,5\n");
+    return found;
+  };
+  Json document = blown({{"wind", {{"file", "wind.csv"}}}});
+  document["ensemble"] = {{"table", "starts.csv"}};
+  load_tables(document, open);
+  BOOST_TEST(document["system"]["tables"]["wind"].dump() ==
+             R"({"times":[0.0,1.0],"values":[2.0,5.0]})");
+  BOOST_TEST(document["ensemble"].dump() == R"({"values":{"t":[0.0,1.0],"speed":[2.0,5.0]}})");
+  const auto refused = [&](const char* file) {
+    Json one = blown({{"wind", {{"file", file}}}});
+    try {
+      load_tables(one, open);
+    } catch (const ExperimentError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  BOOST_TEST(refused("none.csv").starts_with("/system/tables/wind: the file none.csv cannot be"));
+  BOOST_TEST(refused("away.csv") == "/system/tables/wind/file: is away");
 }
 
 BOOST_AUTO_TEST_SUITE_END()
