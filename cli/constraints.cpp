@@ -80,7 +80,7 @@ void print_discrete(const Console& console, const Experiment& experiment,
 
 // The JSON of a ladder, and that of its brackets where there are some.
 Json with_brackets(Json ladder, const std::optional<ConstraintBrackets>& brackets) {
-  if (!brackets) return ladder;
+  if (!brackets || !brackets->missing.empty()) return ladder;
   Json& json = ladder["brackets"];
   json = {{"constraints", brackets->constraints},
           {"matrix", brackets->matrix},

@@ -14,6 +14,7 @@
 #include "courant/reading/experiment.hpp"
 #include "courant/reporting/ladder_diagram.hpp"
 #include "courant/reporting/ladder_page.hpp"
+#include "courant/reporting/prose_typesetting.hpp"
 #include "courant/reporting/tour_chapters.hpp"
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/discrete_ladder.hpp"
@@ -87,7 +88,8 @@ std::string command_line(const TourChapter& chapter) {
 }
 
 void print_paragraphs(const Console& console, const std::string& text) {
-  for (const std::string& paragraph : lines_of(text)) print_wrapped(console, paragraph, "  ");
+  for (const std::string& paragraph : lines_of(text))
+    print_wrapped(console, marked_prose(paragraph).str(), "  ");
 }
 
 // Waits for Enter where someone is there to press it; whether they did.
@@ -160,16 +162,17 @@ std::string folding(const std::string& title, const std::string& text) {
 
 std::string page_in_markdown(const Console& console, std::size_t number, const LadderPage& found) {
   const TourChapter& chapter = tour_chapters()[number - 1];
+  const auto words = [](const std::string& text) { return markdown_prose(marked_prose(text)); };
   std::string page = "# " + std::to_string(number) + ". " + chapter.title + "\n\n";
-  for (const std::string& paragraph : lines_of(chapter.idea)) page += paragraph + "\n\n";
+  for (const std::string& paragraph : lines_of(chapter.idea)) page += words(paragraph) + "\n\n";
   page += "```json\n" + chapter.experiment + "\n```\n\n";
-  page += "**Question.** " + chapter.question + "\n\n";
-  page += folding("Answer", chapter.answer + "\n\n![The ladder](" + chapter.file + ".svg)\n\n" +
-                                sections_in_markdown(found));
+  page += "**Question.** " + words(chapter.question) + "\n\n";
+  page += folding("Answer", words(chapter.answer) + "\n\n![The ladder](" + chapter.file +
+                                ".svg)\n\n" + sections_in_markdown(found));
   page += folding("What the command prints", "```text\n$ " + command_line(chapter) + "\n" +
                                                  output_of(chapter, console) + "```\n");
-  page += "**Exercise.** " + chapter.exercise + "\n\n";
-  page += folding("Solution", chapter.solution + "\n");
+  page += "**Exercise.** " + words(chapter.exercise) + "\n\n";
+  page += folding("Solution", words(chapter.solution) + "\n");
   if (number < tour_chapters().size())
     return page + "Next: [" + tour_chapters()[number].title + "](" + tour_chapters()[number].file +
            ".md)\n";

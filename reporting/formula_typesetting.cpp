@@ -4,6 +4,8 @@
 #include <array>
 #include <cctype>
 #include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -20,13 +22,13 @@ struct Letter {
   std::string_view name, character;
 };
 constexpr Letter greek[] = {
-    {"alpha", "α"},  {"beta", "β"},   {"gamma", "γ"}, {"delta", "δ"},   {"epsilon", "ϵ"},
-    {"zeta", "ζ"},   {"eta", "η"},    {"theta", "θ"}, {"iota", "ι"},    {"kappa", "κ"},
-    {"lambda", "λ"}, {"mu", "μ"},     {"nu", "ν"},    {"xi", "ξ"},      {"pi", "π"},
-    {"rho", "ρ"},    {"sigma", "σ"},  {"tau", "τ"},   {"upsilon", "υ"}, {"phi", "φ"},
-    {"chi", "χ"},    {"psi", "ψ"},    {"omega", "ω"}, {"Gamma", "Γ"},   {"Delta", "Δ"},
-    {"Theta", "Θ"},  {"Lambda", "Λ"}, {"Xi", "Ξ"},    {"Pi", "Π"},      {"Sigma", "Σ"},
-    {"Phi", "Φ"},    {"Psi", "Ψ"},    {"Omega", "Ω"}};
+    {"alpha", "α"},      {"beta", "β"},   {"gamma", "γ"},  {"delta", "δ"}, {"epsilon", "ϵ"},
+    {"varepsilon", "ε"}, {"zeta", "ζ"},   {"eta", "η"},    {"theta", "θ"}, {"iota", "ι"},
+    {"kappa", "κ"},      {"lambda", "λ"}, {"mu", "μ"},     {"nu", "ν"},    {"xi", "ξ"},
+    {"pi", "π"},         {"rho", "ρ"},    {"sigma", "σ"},  {"tau", "τ"},   {"upsilon", "υ"},
+    {"phi", "φ"},        {"chi", "χ"},    {"psi", "ψ"},    {"omega", "ω"}, {"Gamma", "Γ"},
+    {"Delta", "Δ"},      {"Theta", "Θ"},  {"Lambda", "Λ"}, {"Xi", "Ξ"},    {"Pi", "Π"},
+    {"Sigma", "Σ"},      {"Phi", "Φ"},    {"Psi", "Ψ"},    {"Omega", "Ω"}};
 
 const Letter* letter(std::string_view name) {
   const auto found = std::ranges::find(greek, name, &Letter::name);
@@ -44,6 +46,7 @@ struct NameParts {
   std::string base;
   std::vector<std::string> below;
   int dots = 0;
+  bool is_change = false;  // δx
 };
 
 NameParts parts_of(std::string name) {
@@ -51,6 +54,11 @@ NameParts parts_of(std::string name) {
   while (name.ends_with('\'')) {
     name.pop_back();
     ++parts.dots;
+  }
+  constexpr std::string_view delta = "δ";
+  if (name.starts_with(delta) && name.size() > delta.size() && name[delta.size()] != '_') {
+    name.erase(0, delta.size());
+    parts.is_change = true;
   }
   // theta1: what is a letter of the Greek alphabet, or one letter, and digits.
   std::size_t begin = 0;
@@ -96,7 +104,13 @@ struct MathMl {
     return element("mo", {}, found == shown.end() ? text : found->second);
   }
   static Piece prefix(const std::string& text) { return sign(text); }
-  static Piece thin_space() { return element("mo", {}, "\u2062"); }
+  // At the beginning of a line it stands between two terms still.
+  static Piece infix(const std::string& text) {
+    return element("mo", {{"form", "infix"}}, text == "-" ? "−" : text);
+  }
+  static Piece times() { return element("mo", {}, "\u2062"); }
+  static Piece change() { return word("δ"); }
+  static Piece space() { return element("mspace", {{"width", "0.17em"}}); }
   static Piece row(const Piece& inner) { return element("mrow", {}, inner); }
   static Piece fraction(const Piece& above, const Piece& below) {
     return element("mfrac", {}, row(above) + row(below));
@@ -117,6 +131,15 @@ struct MathMl {
     return row(element("mo", {}, left) + inner + element("mo", {}, right));
   }
   static Piece comma() { return element("mo", {}, ","); }
+  static Piece matrix(const std::vector<std::vector<Piece>>& rows) {
+    Piece all;
+    for (const auto& entries : rows) {
+      Piece cells;
+      for (const Piece& entry : entries) cells += element("mtd", {}, entry);
+      all += element("mtr", {}, cells);
+    }
+    return fenced("(", element("mtable", {}, all), ")");
+  }
   static Piece summed(bool product, const Piece& index, const Piece& first, const Piece& last,
                       const Piece& term) {
     return row(element("munderover", {},
@@ -166,7 +189,10 @@ struct Latex {
     return found == shown.end() ? " " + text + " " : " " + found->second;
   }
   static Piece prefix(const std::string& text) { return text == "!" ? "\\neg " : text; }
-  static Piece thin_space() { return "\\,"; }
+  static Piece infix(const std::string& text) { return "{} " + text + " "; }
+  static Piece times() { return "\\,"; }
+  static Piece change() { return "\\delta "; }
+  static Piece space() { return " "; }
   static Piece row(const Piece& inner) { return inner; }
   static Piece fraction(const Piece& above, const Piece& below) {
     return "\\frac{" + above + "}{" + below + "}";
@@ -184,6 +210,14 @@ struct Latex {
     return "\\left" + std::string(left) + " " + inner + "\\right" + std::string(right);
   }
   static Piece comma() { return ", "; }
+  static Piece matrix(const std::vector<std::vector<Piece>>& rows) {
+    Piece all;
+    for (const auto& entries : rows) {
+      for (std::size_t j = 0; j < entries.size(); ++j) all += (j == 0 ? "" : " & ") + entries[j];
+      all += " \\\\ ";
+    }
+    return "\\begin{pmatrix} " + all + "\\end{pmatrix}";
+  }
   static Piece summed(bool product, const Piece& index, const Piece& first, const Piece& last,
                       const Piece& term) {
     return std::string(product ? "\\prod" : "\\sum") + "_{" + index + "=" + first + "}^{" + last +
@@ -194,6 +228,47 @@ struct Latex {
            " & \\text{otherwise}\\end{cases}";
   }
 };
+
+constexpr double kLettersOfLine = 58.0;  // letters
+
+// How wide a formula is set, in letters.
+double extent(const FormulaTree& tree) {
+  using Kind = FormulaTree::Kind;
+  const std::vector<FormulaTree>& of = tree.operands;
+  const auto is_sum = [](const FormulaTree& one) {
+    return one.kind == Kind::operation && (one.text == "+" || one.text == "-");
+  };
+  double all = 0.0;
+  switch (tree.kind) {
+    case Kind::number:
+      return static_cast<double>(tree.text.size());
+    case Kind::name: {
+      const NameParts parts = parts_of(tree.text);
+      const auto letters = [](const std::string& word) {
+        return letter(word) || typed_letter(word) ? 1.0 : static_cast<double>(word.size());
+      };
+      for (const std::string& word : parts.below) all += 0.7 * letters(word);
+      return all + letters(parts.base);
+    }
+    case Kind::element:
+      return extent(of[0]) + 0.7 * extent(of[1]);
+    case Kind::call:
+      for (const FormulaTree& argument : of) all += 1.0 + extent(argument);
+      return all + static_cast<double>(tree.text.size());
+    case Kind::sign:
+      return 1.5 + extent(of[0]);
+    case Kind::equation:
+      return extent(of[0]) + 3.0 + extent(of[1]);
+    case Kind::operation:
+      if (tree.text == "/") return 0.5 + std::max(extent(of[0]), extent(of[1]));
+      if (tree.text == "^")
+        return extent(of[0]) + 0.7 * extent(of[1]) + (is_sum(of[0]) ? 2.0 : 0.0);
+      if (tree.text != "*") return extent(of[0]) + 3.0 + extent(of[1]);
+      for (const FormulaTree& factor : of) all += extent(factor) + (is_sum(factor) ? 2.0 : 0.0);
+      return all;
+  }
+  return all;
+}
 
 // The shape of a formula, written by `Out`.
 template <class Out>
@@ -225,7 +300,37 @@ class Typesetter {
     return {};
   }
 
+  struct Part {
+    Piece piece;
+    double extent;
+  };
+  // Between which a line may end: of a - b = c + d these are a, -b = c, and +d.
+  std::vector<Part> parts(const FormulaTree& tree) const {
+    if (tree.kind != Kind::equation) return terms(tree);
+    std::vector<Part> all = terms(tree.operands[0]);
+    bool is_first = true;
+    for (const Part& part : terms(tree.operands[1])) {
+      if (!is_first) {
+        all.push_back(part);
+        continue;
+      }
+      all.back().piece = all.back().piece + Out::sign("=") + part.piece;
+      all.back().extent += 3 + part.extent;
+      is_first = false;
+    }
+    return all;
+  }
+
  private:
+  // Of a sum.
+  std::vector<Part> terms(const FormulaTree& tree) const {
+    const bool is_sum = tree.kind == Kind::operation && (tree.text == "+" || tree.text == "-");
+    if (!is_sum) return {{set(tree), extent(tree)}};
+    std::vector<Part> all = terms(tree.operands[0]);
+    all.push_back({Out::infix(tree.text) + last_term(tree), 3 + extent(tree.operands[1])});
+    return all;
+  }
+
   // How tightly a formula holds together as it is set: a fraction has its bar, a root its roof.
   enum Binding { kWeakest, kSum, kProduct, kPower, kAtom };
 
@@ -244,16 +349,25 @@ class Typesetter {
     return binding(tree) < least ? Out::fenced("(", set(tree), ")") : set(tree);
   }
 
-  Piece name(const NameParts& parts, const std::vector<Piece>& indices) const {
+  Piece name(NameParts parts, const std::vector<Piece>& indices) const {
+    if (std::exchange(parts.is_change, false))
+      return Out::change() + name(std::move(parts), indices);
     Piece base = Out::word(parts.base);
     if (parts.dots > 0 && parts.dots <= 3) base = Out::dotted(base, parts.dots);
     std::vector<Piece> below;
-    for (const std::string& word : parts.below) below.push_back(Out::word(word));
+    for (const std::string& word : parts.below) below.push_back(subscript(word));
     below.insert(below.end(), indices.begin(), indices.end());
     if (below.empty()) return base;
     Piece all = below.front();
     for (std::size_t i = 1; i < below.size(); ++i) all = all + Out::comma() + below[i];
     return Out::below(base, all);
+  }
+
+  // x1 of p_x1 has a subscript of its own.
+  static Piece subscript(const std::string& word) {
+    const NameParts parts = parts_of(word);
+    if (parts.below.size() != 1 || parts.is_change || parts.dots > 0) return Out::word(word);
+    return Out::below(Out::word(parts.base), Out::word(parts.below[0]));
   }
 
   Piece element(const FormulaTree& tree) const {
@@ -285,12 +399,15 @@ class Typesetter {
       arguments = i == 0 ? set(of[i]) : arguments + Out::comma() + set(of[i]);
     // sin x, but sin (x + y).
     if (of.size() == 1 && binding(of[0]) == kAtom && of[0].kind != Kind::call)
-      return Out::function(function) + Out::thin_space() + arguments;
+      return Out::function(function) + Out::space() + arguments;
     return Out::function(function) + Out::fenced("(", arguments, ")");
   }
 
   Piece operation(const FormulaTree& tree) const {
     const FormulaTree &a = tree.operands[0], &b = tree.operands[1];
+    // A sign stands before the line of a fraction, not above it.
+    if (tree.text == "/" && begins_with_sign(tree))
+      return Out::prefix("-") + Out::fraction(set(without_sign(a)), set(b));
     if (tree.text == "/") return Out::fraction(set(a), set(b));
     if (tree.text == "^") {
       // sin² x is ambiguous to some readers, (sin x)² to none.
@@ -298,26 +415,51 @@ class Typesetter {
           inside(a, a.kind == Kind::call && a.text != "sqrt" && a.text != "abs" ? kNever : kAtom),
           set(b));
     }
-    // A minus in the middle of a formula stands in parentheses; at the beginning it needs none.
-    const auto later = [this](const FormulaTree& operand, Binding least) {
-      return begins_with_sign(operand) || binding(operand) < least
-                 ? Out::fenced("(", set(operand), ")")
-                 : set(operand);
-    };
-    if (tree.text == "*")
-      return (a.kind == Kind::sign ? set(a) : inside(a, kProduct)) +
-             (begins_with_digit(b) ? Out::sign("*") : Out::thin_space()) + later(b, kProduct);
+    if (tree.text == "*") {
+      const bool has_digit = begins_with_digit(b) && binding(b) >= kProduct;
+      const Piece between = has_digit             ? Out::sign("*")
+                            : begins_with_word(b) ? Out::space()
+                                                  : Out::times();
+      return (a.kind == Kind::sign ? set(a) : inside(a, kProduct)) + between + later(b, kProduct);
+    }
+    return inside(a, binding(tree)) + Out::sign(tree.text) + last_term(tree);
+  }
+  // A minus in the middle of a formula stands in parentheses; at the beginning it needs none.
+  Piece later(const FormulaTree& operand, Binding least) const {
+    return begins_with_sign(operand) || binding(operand) < least
+               ? Out::fenced("(", set(operand), ")")
+               : set(operand);
+  }
+  // b of a - b.
+  Piece last_term(const FormulaTree& tree) const {
+    const FormulaTree& b = tree.operands[1];
     const Binding own = binding(tree);
-    const bool ends = tree.text == "-" && binding(b) == own;
-    return inside(a, own) + Out::sign(tree.text) + later(b, ends ? kProduct : own);
+    return later(b, tree.text == "-" && binding(b) == own ? kProduct : own);
   }
   static constexpr Binding kNever = static_cast<Binding>(kAtom + 1);
 
   static bool begins_with_sign(const FormulaTree& tree) {
     const FormulaTree* first = &tree;
-    while (first->kind == Kind::operation && first->text != "/" && first->text != "^")
+    bool is_above = false;  // a fraction line, where the sign of a sum stays
+    while (first->kind == Kind::operation && first->text != "^") {
+      if (is_above && first->text != "*" && first->text != "/") return false;
+      is_above = is_above || first->text == "/";
       first = &first->operands[0];
-    return first->kind == Kind::sign;
+    }
+    return first->kind == Kind::sign && (!is_above || first->text == "-");
+  }
+  // Of a product or a quotient that begins with one.
+  static FormulaTree without_sign(FormulaTree tree) {
+    if (tree.kind == Kind::sign) return std::move(tree.operands[0]);
+    tree.operands[0] = without_sign(std::move(tree.operands[0]));
+    return tree;
+  }
+  // A function whose name is written out.
+  static bool begins_with_word(const FormulaTree& tree) {
+    const FormulaTree* first = &tree;
+    while (first->kind == Kind::operation && first->text == "*") first = &first->operands[0];
+    return first->kind == Kind::call && first->text != "sqrt" && first->text != "abs" &&
+           first->text != "norm" && first->text != "pow" && first->text != "dot";
   }
   static bool begins_with_digit(const FormulaTree& tree) {
     const FormulaTree* first = &tree;
@@ -326,18 +468,90 @@ class Typesetter {
   }
 };
 
-}  // namespace
-
-Markup math(std::string_view formula, bool displayed) {
-  const auto tree = formula_tree(formula);
-  const Markup content = tree ? Typesetter<MathMl>().set(*tree) : element("mtext", {}, formula);
-  const Markup row = element("mrow", {}, content);
-  return displayed ? element("math", {{"display", "block"}}, row) : element("math", {}, row);
+// An array of formulas in JSON as a row in parentheses or a matrix; nothing if it is none.
+template <class Out>
+std::optional<typename Out::Piece> set_array(const nlohmann::ordered_json& value) {
+  using Piece = typename Out::Piece;
+  const auto entry = [](const nlohmann::ordered_json& one) -> std::optional<Piece> {
+    if (!one.is_string() && !one.is_number()) return std::nullopt;
+    const auto tree = formula_tree(one.is_string() ? one.get<std::string>() : one.dump());
+    return tree ? std::optional(Typesetter<Out>().set(*tree)) : std::nullopt;
+  };
+  if (!value.is_array() || value.empty()) return std::nullopt;
+  std::vector<std::vector<Piece>> rows;
+  const bool is_matrix = value.front().is_array();
+  for (const nlohmann::ordered_json& row :
+       is_matrix ? value : nlohmann::ordered_json::array({value})) {
+    rows.emplace_back();
+    if (!row.is_array() || row.size() != (is_matrix ? value.front().size() : value.size()))
+      return std::nullopt;
+    for (const nlohmann::ordered_json& one : row) {
+      auto piece = entry(one);
+      if (!piece) return std::nullopt;
+      rows.back().push_back(std::move(*piece));
+    }
+  }
+  if (is_matrix) return Out::matrix(rows);
+  Piece all = rows[0][0];
+  for (std::size_t i = 1; i < rows[0].size(); ++i) all = all + Out::comma() + rows[0][i];
+  return Out::fenced("(", all, ")");
 }
 
-std::string latex_math(std::string_view formula) {
+Markup set_text(std::string_view text, MathMl) { return element("mtext", {}, text); }
+std::string set_text(std::string_view text, Latex) { return "\\text{" + latex_text(text) + "}"; }
+
+// A formula, an equation, a name = an array; else a text.
+template <class Out>
+typename Out::Piece set_by(std::string_view formula) {
+  if (const auto tree = formula_tree(formula)) return Typesetter<Out>().set(*tree);
+  constexpr std::string_view equals = " = ";
+  const std::size_t at = formula.find(equals);
+  if (at == std::string_view::npos) return set_text(formula, Out());
+  const auto name = formula_tree(formula.substr(0, at));
+  const auto value =
+      nlohmann::ordered_json::parse(formula.substr(at + equals.size()), nullptr, false);
+  const auto entries = name ? set_array<Out>(value) : std::nullopt;
+  if (!entries) return set_text(formula, Out());
+  return Typesetter<Out>().set(*name) + Out::sign("=") + *entries;
+}
+
+}  // namespace
+
+Markup math(std::string_view formula) {
+  return element("math", {}, element("mrow", {}, set_by<MathMl>(formula)));
+}
+
+Markup displayed_math(std::string_view formula) {
+  const auto line = [](const Markup& content) {
+    return element("math", {{"displaystyle", "true"}}, element("mrow", {}, content));
+  };
   const auto tree = formula_tree(formula);
-  return tree ? Typesetter<Latex>().set(*tree) : "\\text{" + latex_text(formula) + "}";
+  if (!tree || extent(*tree) < kLettersOfLine) return line(set_by<MathMl>(formula));
+  Markup all;
+  for (const auto& part : Typesetter<MathMl>().parts(*tree))
+    all += (all.str().empty() ? "" : " ") + line(part.piece);
+  return all;
+}
+
+std::string latex_math(std::string_view formula) { return set_by<Latex>(formula); }
+
+std::string latex_displayed(std::string_view formula) {
+  const auto tree = formula_tree(formula);
+  if (!tree || extent(*tree) < kLettersOfLine) return latex_math(formula);
+  std::string all;
+  double filled = 0.0;
+  for (const auto& [piece, letters] : Typesetter<Latex>().parts(*tree)) {
+    const bool begins = all.empty() || filled + letters > kLettersOfLine;
+    if (begins) all += all.empty() ? "& " : " \\\\\n& \\quad ";
+    filled = begins ? letters : filled + letters;
+    all += piece;
+  }
+  return "\\begin{aligned}\n" + all + "\n\\end{aligned}";
+}
+
+bool is_long_formula(std::string_view formula) {
+  const auto tree = formula_tree(formula);
+  return tree && extent(*tree) >= kLettersOfLine;
 }
 
 std::string latex_text(std::string_view text) {

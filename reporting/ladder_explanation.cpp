@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "courant/core/words/message.hpp"
@@ -73,8 +74,10 @@ void explain_velocities(const LadderReport::Elimination& found, Index k, bool al
                         std::vector<Prose>& lines) {
   constexpr std::size_t columns = 90, most_rows = 18;
   std::size_t rows = 0, left = 0;
-  for (const auto& [name, level, formula] : found.velocities) {
+  for (const LadderReport::Velocity& velocity : found.velocities) {
+    const auto& [name, level, written, on_M_f] = velocity;
     if (level != k && !(all && level == 0)) continue;
+    const std::string& formula = all && level < k && !on_M_f.empty() ? on_M_f : written;
     rows += 1 + (name.size() + formula.size()) / columns;
     if (rows <= most_rows)
       lines.push_back("    " + Prose::formula(name + " = " + formula));
@@ -100,6 +103,21 @@ void explain_steps(const std::vector<ConstraintFormulas::Step>& steps, Index k,
     lines.push_back(text);
   }
   tell_rest(steps.size(), lines);
+}
+
+// Whether formulas of more than a line stand among the results of these steps: once is enough.
+bool are_told_long(const std::vector<ConstraintFormulas::Constraint>& formulas,
+                   const std::vector<ConstraintFormulas::Step>& steps) {
+  constexpr std::size_t letters = 80;
+  const auto shown = std::span(steps).first(shown_of(steps.size()));
+  return std::ranges::any_of(formulas,
+                             [](const auto& one) { return one.formula.size() > letters; }) &&
+         std::ranges::all_of(formulas, [&](const ConstraintFormulas::Constraint& one) {
+           return std::ranges::any_of(shown, [&](const ConstraintFormulas::Step& step) {
+             return step.kind == ConstraintFormulas::Step::Kind::constraint &&
+                    step.result == one.formula;
+           });
+         });
 }
 
 void explain_level(const LadderReport& ladder, Index k, std::vector<Prose>& lines) {
@@ -149,9 +167,11 @@ void explain_level(const LadderReport& ladder, Index k, std::vector<Prose>& line
   lines.push_back(text);
 
   const bool all_formulas = formulas.size() == constraints.size();
-  for (std::size_t i = 0; i < shown_of(formulas.size()); ++i)
-    lines.push_back("    " + Prose::formula(formulas[i].formula + " = 0"));
-  tell_rest(formulas.size(), lines);
+  if (!are_told_long(formulas, steps)) {
+    for (std::size_t i = 0; i < shown_of(formulas.size()); ++i)
+      lines.push_back("    " + Prose::formula(formulas[i].formula + " = 0"));
+    tell_rest(formulas.size(), lines);
+  }
   if (!all_formulas) {
     for (std::size_t i = 0; i < shown_of(constraints.size()); ++i) {
       lines.push_back("    differential here: " + linear_form(constraints[i].gradient, "d"));
@@ -214,7 +234,7 @@ void explain_contradiction(const LadderReport::Elimination& found, std::vector<P
                   ": from " + Prose::formula(last->constraint + " = 0") + " follows");
   lines.push_back("    " + Prose::formula(derivative + " = 0"));
   Prose known;
-  for (const auto& [name, level, formula] : found.velocities)
+  for (const auto& [name, level, formula, on_M_f] : found.velocities)
     if (derivative.find(name) != std::string::npos && level < end)
       known += (known.parts().empty() ? "" : ", ") + Prose::formula(name + " = " + formula);
   lines.push_back("But S" + subscript(end - 1) + " has" +
@@ -270,48 +290,61 @@ void explain_freedom(const LadderReport& ladder, std::vector<Prose>& lines) {
   if (classes.is_ambiguous) lines.push_back("Ambiguous: a rank behind the classes is doubtful.");
 }
 
+// What a change by a small ε is: ε, -ε x, ε (x + y).
+std::string times_epsilon(const std::string& rate) {
+  if (rate == "1" || rate == "-1") return rate == "1" ? "ε" : "-ε";
+  if (rate.find(' ') != std::string::npos) return "ε*(" + rate + ")";
+  return rate.starts_with('-') ? "-ε*" + rate.substr(1) : "ε*" + rate;
+}
+
 // {a, b} = value.
 Prose bracket(const std::string& a, const std::string& b, const std::string& value) {
   return "    {" + Prose::formula(a) + ", " + Prose::formula(b) + "} = " + Prose::formula(value);
 }
 
-// What brackets say in formulas: which constraints generate what, and what is left of the brackets of coordinates.
+void tell(const std::string& head, const std::vector<Prose>& list, std::vector<Prose>& lines) {
+  if (list.empty()) return;
+  lines.push_back(head);
+  for (std::size_t i = 0; i < shown_of(list.size()); ++i) lines.push_back(list[i]);
+  tell_rest(list.size(), lines);
+}
+
 void explain_brackets(const ConstraintBrackets& found, std::vector<Prose>& lines) {
+  if (!found.missing.empty())
+    lines.push_back("The brackets have no formulas here: " + found.missing + ".");
   const auto phi = [](std::size_t a) { return "phi_" + std::to_string(a + 1); };
-  std::vector<Prose> brackets, dirac;
+  std::vector<Prose> brackets;
   for (std::size_t a = 0; a < found.matrix.size(); ++a)
     for (std::size_t b = a + 1; b < found.matrix.size(); ++b)
       if (found.matrix[a][b] != "0")
         brackets.push_back(bracket(phi(a), phi(b), found.matrix[a][b]));
-  const auto tell = [&](const std::string& head, const std::vector<Prose>& list) {
-    if (list.empty()) return;
-    lines.push_back(head);
-    for (std::size_t i = 0; i < shown_of(list.size()); ++i) lines.push_back(list[i]);
-    tell_rest(list.size(), lines);
-  };
-  if (!brackets.empty()) {
-    std::vector<Prose> names;
-    for (std::size_t a = 0; a < found.constraints.size(); ++a)
-      names.push_back("    " + Prose::formula(phi(a) + " = " + found.constraints[a]));
-    tell("Brackets of the constraints", names);
-    tell("that are not 0 on M_f:", brackets);
-  }
+  if (brackets.empty()) return;
+  std::vector<Prose> names;
+  for (std::size_t a = 0; a < found.constraints.size(); ++a)
+    names.push_back("    " + Prose::formula(phi(a) + " = " + found.constraints[a]));
+  tell("Brackets of the constraints", names, lines);
+  tell("that are not 0 on M_f:", brackets, lines);
+}
+
+// Which constraints generate what, and what is left of the brackets of coordinates.
+void explain_dynamics(const ConstraintBrackets& found, std::vector<Prose>& lines) {
   if (!found.hamiltonian.empty()) {
-    lines.push_back("Total Hamiltonian, with what is known of the unknowns put in:");
-    lines.push_back("    " + Prose::formula("H = " + found.hamiltonian));
+    lines.push_back("Total Hamiltonian, with unknowns put in that have a formula of up to a line:");
+    lines.push_back("    " + Prose::formula("H_T = " + found.hamiltonian));
   }
   for (std::size_t i = 0; i < shown_of(found.generators.size()); ++i) {
     const auto& [constraint, moves] = found.generators[i];
     if (moves.empty()) continue;
     lines.push_back("Generated by " + Prose::formula(constraint) + ", a change by a small \u03b5:");
     for (std::size_t k = 0; k < shown_of(moves.size()); ++k)
-      lines.push_back("    \u03b4" + Prose::formula(moves[k].first) + " = \u03b5 (" +
-                      Prose::formula(moves[k].second) + ")");
+      lines.push_back(
+          "    " + Prose::formula("δ" + moves[k].first + " = " + times_epsilon(moves[k].second)));
     tell_rest(moves.size(), lines);
   }
+  std::vector<Prose> dirac;
   for (const auto& [first, second, value] : found.dirac_brackets)
     dirac.push_back(bracket(first, second, value));
-  tell("Dirac brackets, in which constraints may be put to 0 beforehand:", dirac);
+  tell("Dirac brackets, in which constraints may be put to 0 beforehand:", dirac, lines);
 }
 
 void explain_unknowns(const LadderReport& ladder, std::vector<Prose>& lines) {
@@ -430,27 +463,30 @@ LadderWords ladder_words(const LadderReport& ladder,
     lines.push_back("Level " + std::to_string(*ladder.index + 1) +
                     ". Nothing new: from here on every level is the same.");
     explain_freedom(ladder, words.freedom);
-    if (brackets) explain_brackets(*brackets, words.freedom);
-    explain_unknowns(ladder, words.freedom);
-    for (const std::string& line : choices_in_words(ladder)) words.freedom.push_back(line);
+    if (brackets && ladder.classes && ladder.classes->brackets) {
+      explain_brackets(*brackets, words.brackets);
+      explain_dynamics(*brackets, words.dynamics);
+    }
+    explain_unknowns(ladder, words.unknowns);
+    for (const std::string& line : choices_in_words(ladder)) words.unknowns.push_back(line);
     const auto& [unknowns, gauge, determined, differentiations, redundant] = *ladder.end;
     if (!gauge.empty()) {
-      words.freedom.push_back("Gauge: the velocity may be changed at will along");
+      words.unknowns.push_back("Gauge: the velocity may be changed at will along");
       for (const LadderReport::Values& direction : gauge)
-        words.freedom.push_back("    " + linear_form(direction, ""));
+        words.unknowns.push_back("    " + linear_form(direction, ""));
       if (!determined.empty())
-        words.freedom.push_back("Determined all the same: " + listed(determined) + ".");
+        words.unknowns.push_back("Determined all the same: " + listed(determined) + ".");
     }
     if (!redundant.empty()) {
-      words.freedom.push_back(
+      words.unknowns.push_back(
           "Redundant: " + plural(static_cast<Index>(redundant.size()), "equation") +
           (redundant.size() == 1 ? " follows" : " follow") +
           " from the others here; harmless. Dependent among themselves are");
       for (std::size_t i = 0; i < std::min<std::size_t>(redundant.size(), 4); ++i)
-        words.freedom.push_back("    " + sources(redundant[i]));
+        words.unknowns.push_back("    " + sources(redundant[i]));
     }
   }
-  if (ladder.family) words.freedom.push_back(family_in_words(ladder));
+  if (ladder.family) words.unknowns.push_back(family_in_words(ladder));
   const LadderReport::Level* weakest = nullptr;
   for (const LadderReport::Level& level : ladder.levels)
     if (!std::isnan(level.gap) && (!weakest || level.gap < weakest->gap)) weakest = &level;
@@ -477,7 +513,8 @@ std::vector<Prose> ladder_explanation(const LadderReport& ladder,
                                       const std::optional<ConstraintBrackets>& brackets) {
   LadderWords words = ladder_words(ladder, brackets);
   std::vector<Prose> lines = std::move(words.levels);
-  for (const std::vector<Prose>* part : {&words.freedom, &words.certainty})
+  for (const std::vector<Prose>* part :
+       {&words.freedom, &words.brackets, &words.dynamics, &words.unknowns, &words.certainty})
     lines.insert(lines.end(), part->begin(), part->end());
   return lines;
 }

@@ -15,11 +15,13 @@ namespace courant {
 // repeat, ∅ where a level is empty.
 std::vector<std::string> ladder_text_diagram(const LadderReport& ladder);
 
-// The findings in three parts, as in ladder_explanation.
+// The findings in parts, in the order of ladder_explanation.
 struct LadderWords {
-  std::vector<Prose> levels;  // what each level adds
-  std::vector<Prose>
-      freedom;  // degrees of freedom, classes, brackets, unknowns, gauge, redundant equations
+  std::vector<Prose> levels;     // what each level adds
+  std::vector<Prose> freedom;    // degrees of freedom, classes
+  std::vector<Prose> brackets;   // of the constraints
+  std::vector<Prose> dynamics;   // total Hamiltonian, gauge generators, Dirac brackets
+  std::vector<Prose> unknowns;   // their values, gauge, redundant equations
   std::vector<Prose> certainty;  // the numbers the verdict rests on, and doubts
 };
 // With brackets where there are some.

@@ -12,6 +12,7 @@
 #include "courant/reporting/ladder_diagram.hpp"
 #include "courant/reporting/ladder_explanation.hpp"
 #include "courant/reporting/page_frame.hpp"
+#include "courant/reporting/prose_typesetting.hpp"
 #include "courant/reporting/report_head.hpp"
 #include "courant/reporting/report_tables.hpp"
 #include "courant/reporting/typesetting.hpp"
@@ -67,29 +68,25 @@ LadderPage::Section section(std::string title, const std::vector<Prose>& lines) 
 // What is longer is folded, or cut where nothing folds.
 constexpr std::size_t kMostLines = 12;
 
+// The section that has the matrix, where it is small.
+constexpr const char* kBrackets = "Brackets of the constraints";
+
 bool has_matrix(const LadderPage& page) {
-  return page.brackets && page.brackets->constraints.size() <= 8;
+  return page.brackets && page.brackets->missing.empty() && page.ladder.classes &&
+         page.ladder.classes->brackets && page.brackets->constraints.size() <= 8;
 }
 
-// Keys of a system whose values name something.
-bool are_words(std::string_view key) {
-  return key == "structure" || key == "nodes" || key == "ports" || key == "elements";
+std::string capitalized(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
 }
 
 // --- HTML ---
 
-Markup set(const Prose& prose) {
-  Markup all;
-  for (const Prose::Part& part : prose.parts())
-    all += part.is_formula ? math(part.text) : typeset(part.text);
-  return all;
-}
-
 Markup paragraphs(const std::vector<LadderPage::Paragraph>& list) {
   Markup all;
   for (const LadderPage::Paragraph& one : list)
-    all += one.is_displayed ? element("div", {{"class", "displayed"}}, set(one.text))
-                            : element("p", {}, set(one.text));
+    all += one.is_displayed ? displayed_prose(one.text) : element("p", {}, typeset_prose(one.text));
   return all;
 }
 
@@ -97,8 +94,7 @@ Markup model(const std::vector<LadderPage::Section>& entries) {
   Markup all;
   for (const LadderPage::Section& entry : entries) {
     Markup lines;
-    for (const LadderPage::Paragraph& line : entry.paragraphs)
-      lines += element("div", {}, set(line.text));
+    for (const LadderPage::Paragraph& line : entry.paragraphs) lines += displayed_prose(line.text);
     all += element("dt", {}, entry.title) + element("dd", {}, lines);
   }
   const Markup list = element("dl", {{"class", "model"}}, all);
@@ -110,7 +106,7 @@ Markup model(const std::vector<LadderPage::Section>& entries) {
 }
 
 Markup matrix(const ConstraintBrackets& brackets) {
-  Markup head = element("th", {}, math("phi"));
+  Markup head = element("th", {}, "");
   Markup rows;
   for (std::size_t a = 0; a < brackets.matrix.size(); ++a) {
     const std::string name = "phi_" + std::to_string(a + 1);
@@ -122,8 +118,8 @@ Markup matrix(const ConstraintBrackets& brackets) {
   }
   Markup constraints;
   for (std::size_t a = 0; a < brackets.constraints.size(); ++a)
-    constraints += element("div", {{"class", "displayed"}},
-                           math("phi_" + std::to_string(a + 1) + " = " + brackets.constraints[a]));
+    constraints += displayed_prose(
+        Prose::formula("phi_" + std::to_string(a + 1) + " = " + brackets.constraints[a]));
   return constraints +
          element("div", {{"class", "scroll"}},
                  element("table", {{"class", "brackets"}},
@@ -134,111 +130,34 @@ Markup matrix(const ConstraintBrackets& brackets) {
 
 // --- LaTeX ---
 
-// A sentence, whose characters that are not ASCII LaTeX knows by commands.
-std::string latex_sentence(std::string_view text) {
-  static const std::vector<std::pair<std::string_view, std::string_view>> characters = {
-      {"₀", "\\ensuremath{_0}"},
-      {"₁", "\\ensuremath{_1}"},
-      {"₂", "\\ensuremath{_2}"},
-      {"₃", "\\ensuremath{_3}"},
-      {"₄", "\\ensuremath{_4}"},
-      {"₅", "\\ensuremath{_5}"},
-      {"₆", "\\ensuremath{_6}"},
-      {"₇", "\\ensuremath{_7}"},
-      {"₈", "\\ensuremath{_8}"},
-      {"₉", "\\ensuremath{_9}"},
-      {"⊇", "\\ensuremath{\\supseteq}"},
-      {"⊂", "\\ensuremath{\\subset}"},
-      {"∩", "\\ensuremath{\\cap}"},
-      {"∈", "\\ensuremath{\\in}"},
-      {"→", "\\ensuremath{\\to}"},
-      {"∅", "\\ensuremath{\\emptyset}"},
-      {"∂", "\\ensuremath{\\partial}"},
-      {"𝓛", "\\ensuremath{\\mathcal L}"},
-      {"λ", "\\ensuremath{\\lambda}"},
-      {"φ", "\\ensuremath{\\phi}"},
-      {"ω", "\\ensuremath{\\omega}"},
-      {"τ", "\\ensuremath{\\tau}"},
-      {"ε", "\\ensuremath{\\varepsilon}"},
-      {"δ", "\\ensuremath{\\delta}"},
-      {"Λ", "\\ensuremath{\\Lambda}"},
-      {"ℝ", "\\ensuremath{\\mathbb R}"},
-      {"×", "\\ensuremath{\\times}"},
-      {"±", "\\ensuremath{\\pm}"},
-      {"·", "\\ensuremath{\\cdot}"},
-      {"√", "\\ensuremath{\\surd}"},
-      {"≥", "\\ensuremath{\\ge}"},
-      {"≤", "\\ensuremath{\\le}"},
-      {"⁻", "\\ensuremath{^{-}}"},
-      {"°", "\\ensuremath{^\\circ}"},
-      {"¹", "\\ensuremath{^1}"},
-      {"⁴", "\\ensuremath{^4}"},
-      {"⁵", "\\ensuremath{^5}"},
-      {"⁶", "\\ensuremath{^6}"},
-      {"⁷", "\\ensuremath{^7}"},
-      {"⁸", "\\ensuremath{^8}"},
-      {"⁹", "\\ensuremath{^9}"},
-      {"⁰", "\\ensuremath{^0}"},
-      {"²", "\\ensuremath{^2}"},
-      {"³", "\\ensuremath{^3}"},
-      {"…", "\\dots{}"},
-      {"–", "--"},
-      {"—", "---"},
-      {"\u00a0", "~"}};
-  std::string result;
-  while (!text.empty()) {
-    const auto found =
-        std::ranges::find_if(characters, [&](const auto& c) { return text.starts_with(c.first); });
-    if (found != characters.end()) {
-      result += found->second;
-      text.remove_prefix(found->first.size());
-      continue;
-    }
-    const unsigned char first = static_cast<unsigned char>(text[0]);
-    // M_f, S_{k+1}.
-    if (text[0] == '_' && text.size() > 1 && !result.empty()) {
-      const std::size_t close = text.find('}');
-      const bool braced = text[1] == '{' && close != std::string_view::npos;
-      const std::string_view below = braced ? text.substr(2, close - 2) : text.substr(1, 1);
-      result += "\\ensuremath{_{" + std::string(below) + "}}";
-      text.remove_prefix(braced ? close + 1 : 2);
-      continue;
-    }
-    if (first < 0x80) {
-      result += latex_text(text.substr(0, 1));
-      text.remove_prefix(1);
-      continue;
-    }
-    // A letter that is not known here: the rest of its bytes go along, for a LaTeX that reads UTF-8.
-    std::size_t size = 1;
-    while (size < text.size() && (static_cast<unsigned char>(text[size]) & 0xC0) == 0x80) ++size;
-    result += text.substr(0, size);
-    text.remove_prefix(size);
-  }
-  return result;
-}
-
-std::string latex_prose(const Prose& prose) {
-  std::string all;
-  for (const Prose::Part& part : prose.parts())
-    all += part.is_formula ? "$" + latex_math(part.text) + "$" : latex_sentence(part.text);
-  return all;
-}
-
 // Prose that is one formula and nothing else.
 bool is_formula(const Prose& prose) {
   return prose.parts().size() == 1 && prose.parts()[0].is_formula;
 }
 
+// A paragraph that is displayed, cut before and behind formulas that need a line of their own.
+std::vector<Prose> lines_of(const Prose& prose) {
+  std::vector<Prose> lines(1);
+  for (const Prose::Part& part : prose.parts()) {
+    const bool is_long = part.is_formula && is_long_formula(part.text);
+    if (is_long && !lines.back().parts().empty()) lines.emplace_back();
+    lines.back() += part.is_formula ? Prose::formula(part.text) : Prose(part.text);
+    if (is_long) lines.emplace_back();
+  }
+  if (lines.back().parts().empty()) lines.pop_back();
+  return lines;
+}
+
 std::string latex_paragraphs(const std::vector<LadderPage::Paragraph>& list) {
   std::string all;
   for (const LadderPage::Paragraph& one : list) {
-    if (!one.is_displayed)
+    if (!one.is_displayed) {
       all += latex_prose(one.text) + "\n\n";
-    else if (is_formula(one.text))
-      all += "\\[ " + latex_math(one.text.parts()[0].text) + " \\]\n";
-    else
-      all += "\\begin{quote}\n" + latex_prose(one.text) + "\n\\end{quote}\n";
+      continue;
+    }
+    for (const Prose& line : lines_of(one.text))
+      all += is_formula(line) ? "\\[ " + latex_displayed(line.parts()[0].text) + " \\]\n"
+                              : "\\begin{quote}\n" + latex_prose(line) + "\n\\end{quote}\n";
   }
   return all;
 }
@@ -273,7 +192,8 @@ std::string latex_diagram(const LadderReport& ladder) {
 std::string latex_matrix(const ConstraintBrackets& brackets) {
   std::string all;
   for (std::size_t a = 0; a < brackets.constraints.size(); ++a)
-    all += "\\[ " + latex_math("phi_" + std::to_string(a + 1) + " = " + brackets.constraints[a]) +
+    all += "\\[ " +
+           latex_displayed("phi_" + std::to_string(a + 1) + " = " + brackets.constraints[a]) +
            " \\]\n";
   all += "\\[ \\bigl(\\{\\phi_a, \\phi_b\\}\\bigr) = \\begin{pmatrix}\n";
   for (const auto& row : brackets.matrix) {
@@ -285,33 +205,44 @@ std::string latex_matrix(const ConstraintBrackets& brackets) {
 
 // --- Markdown ---
 
-std::string markdown_text(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (std::string_view("\\`*_{}[]<>#|$").find(c) != std::string_view::npos) result += '\\';
-    result += c;
-  }
-  return result;
-}
-
-std::string markdown_prose(const Prose& prose) {
-  std::string all;
-  for (const Prose::Part& part : prose.parts())
-    all += part.is_formula ? "$" + latex_math(part.text) + "$" : markdown_text(part.text);
-  return all;
-}
-
 std::string markdown_paragraphs(const std::vector<LadderPage::Paragraph>& list) {
   std::string all;
   for (const LadderPage::Paragraph& one : list) {
     if (!one.is_displayed)
       all += markdown_prose(one.text) + "\n\n";
     else if (is_formula(one.text))
-      all += "$$" + latex_math(one.text.parts()[0].text) + "$$\n\n";
+      all += "$$" + latex_displayed(one.text.parts()[0].text) + "$$\n\n";
     else
       all += "> " + markdown_prose(one.text) + "\n\n";
   }
   return all;
+}
+
+std::string markdown_matrix(const ConstraintBrackets& brackets) {
+  std::string text;
+  for (std::size_t a = 0; a < brackets.constraints.size(); ++a)
+    text += "$$" +
+            latex_displayed("phi_" + std::to_string(a + 1) + " = " + brackets.constraints[a]) +
+            "$$\n\n";
+  text += "|  |";
+  for (std::size_t a = 0; a < brackets.matrix.size(); ++a)
+    text += " $\\phi_" + std::to_string(a + 1) + "$ |";
+  text += "\n|";
+  for (std::size_t a = 0; a <= brackets.matrix.size(); ++a) text += " --- |";
+  text += "\n";
+  for (std::size_t a = 0; a < brackets.matrix.size(); ++a) {
+    text += "| $\\phi_" + std::to_string(a + 1) + "$ |";
+    for (const std::string& entry : brackets.matrix[a]) text += " $" + latex_math(entry) + "$ |";
+    text += "\n";
+  }
+  text += "\n";
+  return text;
+}
+
+// What a section says.
+std::string markdown_section(const LadderPage& page, const LadderPage::Section& one) {
+  return markdown_paragraphs(one.paragraphs) +
+         (one.title == kBrackets && has_matrix(page) ? markdown_matrix(*page.brackets) : "");
 }
 
 }  // namespace
@@ -320,15 +251,14 @@ LadderPage ladder_page(const Experiment& experiment, const LadderReport& ladder,
                        const std::optional<ConstraintBrackets>& brackets) {
   LadderPage page;
   page.title = experiment.title.empty() ? "Constraint algorithm" : experiment.title;
-  page.system = experiment.model.description;
+  page.system = capitalized(experiment.model.description);
   page.ladder = ladder;
   page.brackets = brackets;
   for (const ModelEntry& entry : model_entries(experiment.document)) {
     if (entry.formulas.empty()) continue;
     LadderPage::Section lines{entry.name, {}};
     for (const std::string& formula : entry.formulas)
-      lines.paragraphs.push_back(
-          {are_words(entry.name) ? Prose(formula) : Prose::formula(formula)});
+      lines.paragraphs.push_back({model_line(entry.name, formula)});
     page.model.push_back(std::move(lines));
   }
   std::vector<Prose> verdict = {verdict_in_words(ladder)};
@@ -336,25 +266,40 @@ LadderPage ladder_page(const Experiment& experiment, const LadderReport& ladder,
   page.sections.push_back(section("Verdict", verdict));
   const LadderWords words = ladder_words(ladder, brackets);
   page.sections.push_back(section("Level by level", words.levels));
-  page.sections.push_back(section("Freedom, classes, brackets", words.freedom));
-  page.sections.push_back(section("How sure", words.certainty));
+  page.sections.push_back(section("Freedom and classes", words.freedom));
+  page.sections.push_back(
+      section(kBrackets, has_matrix(page) ? std::vector<Prose>() : words.brackets));
+  page.sections.push_back(section("Hamiltonian dynamics", words.dynamics));
+  page.sections.push_back(section("Unknowns", words.unknowns));
+  std::vector<Prose> certainty = words.certainty;
+  if (constexpr std::string_view title = "How sure: ";
+      !certainty.empty() && certainty[0].str().starts_with(title))
+    certainty[0] = capitalized(certainty[0].str().substr(title.size()));
+  page.sections.push_back(section("How sure", certainty));
   LadderPage::Section moves{"What moved", {}};
   for (const Movement& move : ladder.moves)
     moves.paragraphs.push_back({Prose::formula(move.name) + " from " + number_text(move.from) +
                                     " to " + number_text(move.to),
                                 true});
   page.sections.push_back(std::move(moves));
-  std::erase_if(page.sections,
-                [](const LadderPage::Section& one) { return one.paragraphs.empty(); });
+  std::erase_if(page.sections, [&](const LadderPage::Section& one) {
+    return one.paragraphs.empty() && !(one.title == kBrackets && has_matrix(page));
+  });
   return page;
 }
 
-Markup ladder_in_words(const LadderReport& ladder) {
-  const LadderWords words = ladder_words(ladder);
-  Markup all;
-  for (const std::vector<Prose>* part : {&words.levels, &words.freedom, &words.certainty})
-    all += paragraphs(section("", *part).paragraphs);
-  return all;
+Markup ladder_in_words(const LadderReport& ladder,
+                       const std::optional<ConstraintBrackets>& brackets) {
+  const LadderWords words = ladder_words(ladder, brackets);
+  LadderPage page;
+  page.ladder = ladder;
+  page.brackets = brackets;
+  const auto part = [](const std::vector<Prose>& lines) {
+    return paragraphs(section("", lines).paragraphs);
+  };
+  return part(words.levels) + part(words.freedom) +
+         (has_matrix(page) ? matrix(*brackets) : part(words.brackets)) + part(words.dynamics) +
+         part(words.unknowns) + part(words.certainty);
 }
 
 Markup to_markup(const LadderPage& page) {
@@ -365,8 +310,7 @@ Markup to_markup(const LadderPage& page) {
     if (one.title == "Verdict")
       content += element("figure", {{"class", "diagram scroll"}}, ladder_diagram(page.ladder)) +
                  ladder_table(page.ladder);
-    if (one.title == "Freedom, classes, brackets" && has_matrix(page))
-      content += matrix(*page.brackets);
+    if (one.title == kBrackets && has_matrix(page)) content += matrix(*page.brackets);
     body += page_section(one.title, content);
   }
   return body;
@@ -415,8 +359,7 @@ std::string to_latex(const LadderPage& page) {
   for (const LadderPage::Section& one : page.sections) {
     text += "\\subsection*{" + latex_sentence(one.title) + "}\n" + latex_paragraphs(one.paragraphs);
     if (one.title == "Verdict") text += latex_diagram(page.ladder);
-    if (one.title == "Freedom, classes, brackets" && has_matrix(page))
-      text += latex_matrix(*page.brackets);
+    if (one.title == kBrackets && has_matrix(page)) text += latex_matrix(*page.brackets);
   }
   return text + "\\end{document}\n";
 }
@@ -424,7 +367,7 @@ std::string to_latex(const LadderPage& page) {
 std::string sections_in_markdown(const LadderPage& page) {
   std::string text;
   for (const LadderPage::Section& one : page.sections)
-    text += "**" + markdown_text(one.title) + ".**\n\n" + markdown_paragraphs(one.paragraphs);
+    text += "**" + markdown_text(one.title) + ".**\n\n" + markdown_section(page, one);
   return text;
 }
 
@@ -438,27 +381,11 @@ std::string to_markdown(const LadderPage& page) {
     text += "\n";
   }
   for (const LadderPage::Section& one : page.sections) {
-    text += "## " + markdown_text(one.title) + "\n\n" + markdown_paragraphs(one.paragraphs);
+    text += "## " + markdown_text(one.title) + "\n\n" + markdown_section(page, one);
     if (one.title == "Verdict") {
       text += "```text\n";
       for (const std::string& line : ladder_text_diagram(page.ladder)) text += line + "\n";
       text += "```\n\n";
-    }
-    if (one.title == "Freedom, classes, brackets" && has_matrix(page)) {
-      const ConstraintBrackets& brackets = *page.brackets;
-      text += "|  |";
-      for (std::size_t a = 0; a < brackets.matrix.size(); ++a)
-        text += " $\\phi_" + std::to_string(a + 1) + "$ |";
-      text += "\n|";
-      for (std::size_t a = 0; a <= brackets.matrix.size(); ++a) text += " --- |";
-      text += "\n";
-      for (std::size_t a = 0; a < brackets.matrix.size(); ++a) {
-        text += "| $\\phi_" + std::to_string(a + 1) + "$ |";
-        for (const std::string& entry : brackets.matrix[a])
-          text += " $" + latex_math(entry) + "$ |";
-        text += "\n";
-      }
-      text += "\n";
     }
   }
   return text;

@@ -38,7 +38,8 @@ LadderPage ladder_page(const Experiment& experiment, const LadderReport& ladder,
                        const std::optional<ConstraintBrackets>& brackets = std::nullopt);
 
 // The words on a ladder with their formulas set, for a part of a page.
-plot::Markup ladder_in_words(const LadderReport& ladder);
+plot::Markup ladder_in_words(const LadderReport& ladder,
+                             const std::optional<ConstraintBrackets>& brackets = std::nullopt);
 
 // What a page says below its title, for pages of other frames: needs content_style().
 plot::Markup to_markup(const LadderPage& page);

@@ -20,10 +20,10 @@ sub,sup{font-size:.72em;line-height:0}
 .lead{color:var(--soft);margin:0 0 1rem}
 .model{display:grid;grid-template-columns:max-content minmax(0,1fr);gap:.15rem 1rem;margin:0 0 1rem;font-size:.9rem}
 .model dt{color:var(--soft)}
-.model dd{margin:0;overflow-wrap:anywhere}
-.model code{font:13px/1.5 var(--mono)}
+.model dd{margin:0;overflow-wrap:anywhere;min-width:0}
+.model .displayed{margin-left:0;padding:.1rem 0 .1rem 1.6rem}
 math{font-size:1.05em}
-.displayed{margin:0 0 0 2rem;padding:.25rem 0;overflow-x:auto;overflow-y:hidden}
+.displayed{margin:0 0 0 2rem;padding:.32rem 0 .32rem 1.6rem;text-indent:-1.6rem;overflow-x:auto;overflow-y:hidden}
 .brackets td,.brackets th{padding:.22rem 1rem .22rem 0;text-align:center}
 figure{margin:1.2rem 0 2.2rem}
 figcaption{color:var(--soft);font-size:.9rem;margin-top:.4rem;max-width:42rem}

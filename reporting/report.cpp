@@ -6,7 +6,9 @@
 
 #include "courant/core/files/own_file.hpp"
 #include "courant/core/words/word_list.hpp"
+#include "courant/integrators/certificate/constraint_brackets.hpp"
 #include "courant/plotting/curve_data.hpp"
+#include "courant/reading/experiment.hpp"
 #include "courant/reporting/energy_figures.hpp"
 #include "courant/reporting/figure_drawing.hpp"
 #include "courant/reporting/ladder_diagram.hpp"
@@ -17,6 +19,7 @@
 #include "courant/reporting/report_script.hpp"
 #include "courant/reporting/report_tables.hpp"
 #include "courant/reporting/typesetting.hpp"
+#include "courant/running/consistent_start.hpp"
 
 namespace courant {
 
@@ -89,6 +92,19 @@ std::string kind_of(const LadderReport& ladder) {
   return kind + (ladder.is_ambiguous ? "?" : "");
 }
 
+// The formulas of brackets, which only the equations tell. An experiment of another time may not be read any more.
+std::optional<ConstraintBrackets> brackets_of(const Run& run, const LadderReport& ladder) {
+  if (!ladder.classes || !ladder.classes->brackets) return std::nullopt;
+  try {
+    const Experiment experiment = read_experiment_document(run.experiment);
+    const ConsistentStart start = consistent_start(experiment);
+    const ImplicitSystem& system = *experiment.model.system;
+    return constraint_brackets(system, start, constraint_formulas(system, start));
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
 // The names, or the first of many.
 std::string in_short(const std::vector<std::string>& names) {
   constexpr std::size_t most = 8;
@@ -101,6 +117,7 @@ std::string in_short(const std::vector<std::string>& names) {
 Markup ladders(std::span<const Run> runs, std::span<const std::string> labels) {
   struct Distinct {
     const LadderReport* ladder;
+    const Run* run;
     std::string kind;
     std::vector<std::string> owners;
   };
@@ -111,18 +128,18 @@ Markup ladders(std::span<const Run> runs, std::span<const std::string> labels) {
     const std::string kind = kind_of(*ladder);
     auto same = std::find_if(distinct.begin(), distinct.end(),
                              [&](const Distinct& other) { return other.kind == kind; });
-    if (same == distinct.end()) same = distinct.insert(same, {&*ladder, kind, {}});
+    if (same == distinct.end()) same = distinct.insert(same, {&*ladder, &runs[i], kind, {}});
     same->owners.push_back(labels[i]);
   }
   Markup all;
-  for (const auto& [ladder, kind, owners] : distinct) {
+  for (const auto& [ladder, run, kind, owners] : distinct) {
     if (distinct.size() > 1) all += element("p", {{"class", "lead"}}, in_short(owners));
     all += element("p", {}, typeset(verdict_in_words(*ladder)));
     for (const std::string& doubt : doubts_in_words(*ladder))
       all += element("p", {{"class", "message"}}, typeset(doubt));
     all += element("figure", {{"class", "diagram scroll"}}, ladder_diagram(*ladder));
     all += ladder_table(*ladder);
-    all += ladder_in_words(*ladder);
+    all += ladder_in_words(*ladder, brackets_of(*run, *ladder));
   }
   if (distinct.empty()) return {};
   return element("p", {{"class", "lead"}},

@@ -143,6 +143,15 @@ std::vector<plot::Rod> rods_between(std::span<const Series> series) {
   return rods;
 }
 
+// Of the coordinates A_x and A_y it is A.
+std::string name_of_point(const std::string& first, const std::string& second) {
+  if (first.size() > 2 && first.ends_with("_x") && second.ends_with("_y") &&
+      std::string_view(first).substr(0, first.size() - 2) ==
+          std::string_view(second).substr(0, second.size() - 2))
+    return first.substr(0, first.size() - 2);
+  return "(" + first + ", " + second + ")";
+}
+
 Figure planar_figure(std::span<const Run> runs, std::span<const PlanarBody> bodies) {
   const std::vector<std::string> labels = run_labels(runs);
   Figure figure;
@@ -170,7 +179,7 @@ Figure planar_figure(std::span<const Run> runs, std::span<const PlanarBody> bodi
     for (std::size_t b = 0; b < present.size(); ++b) {
       const auto& [first_name, second_name] = present[b];
       panel.series.push_back(
-          {"(" + first_name + ", " + second_name + ")", first_rows(table.column(first_name), rows),
+          {name_of_point(first_name, second_name), first_rows(table.column(first_name), rows),
            first_rows(table.column(second_name), rows), b, first_rows(table.column("t"), rows)});
       x.include(panel.series.back().x);
       y.include(panel.series.back().y);

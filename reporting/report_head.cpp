@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "courant/core/words/word_list.hpp"
+#include "courant/reporting/prose_typesetting.hpp"
 #include "courant/reporting/typesetting.hpp"
 
 namespace courant {
@@ -129,6 +130,21 @@ std::vector<ModelEntry> model_entries(const nlohmann::ordered_json& experiment) 
   return entries;
 }
 
+Prose model_line(const std::string& key, const std::string& text) {
+  static constexpr std::string_view words[] = {
+      "structure", "nodes",      "ports",    "elements",  "form",          "algebra",
+      "attitude",  "port_names", "advected", "extremals", "representation"};
+  static constexpr std::string_view equations[] = {"holonomic", "nonholonomic", "equations"};
+  static const std::map<std::string_view, std::string_view> names = {
+      {"lagrangian", "L"}, {"hamiltonian", "H"}, {"potential", "V"}};
+  if (std::ranges::count(words, key) > 0) return {text};
+  if (std::ranges::count(equations, key) > 0 && text.find('=') == std::string::npos)
+    return Prose::formula(text + " = 0");
+  if (const auto found = names.find(key); found != names.end())
+    return Prose::formula(std::string(found->second) + " = " + text);
+  return Prose::formula(text);
+}
+
 Markup report_head(std::span<const Run> runs) {
   std::vector<std::string> systems;
   for (const Run& run : runs)
@@ -146,8 +162,7 @@ Markup report_head(std::span<const Run> runs) {
   if (std::ranges::all_of(runs, is_the_same))
     for (const auto& [name, lines] : model_entries(first)) {
       Markup content;
-      for (const std::string& line : lines)
-        content += element("div", {}, element("code", {}, line));
+      for (const std::string& line : lines) content += displayed_prose(model_line(name, line));
       if (lines.empty()) content = "in the experiment at the end of this page";
       entries += entry(name, content);
     }

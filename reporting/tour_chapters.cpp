@@ -41,7 +41,7 @@ const std::vector<TourChapter>& tour_chapters() {
        pendulum,
        {"constraints", "-", "--level", "0"},
        "The space has 4 dimensions. What is the dimension of M₀, and in how many directions is the "
-       "velocity (x', y', v', w') free at one of its points?",
+       "velocity ($x'$, $y'$, $v'$, $w'$) free at one of its points?",
        "The length takes one dimension off: 3. The four velocities are given but for T, which "
        "nothing determines yet: one direction.",
        "Leave out the last equation. What are the dimensions of S₀ and M₀?",
@@ -56,10 +56,12 @@ const std::vector<TourChapter>& tour_chapters() {
        "To be tangent to M₀ means that the derivative of its equations vanishes.",
        pendulum,
        {"constraints", "-", "--level", "1"},
-       "What does x² + y² = 1 say when it is differentiated, and x' = v, y' = w are put in? Does "
+       "What does $x^2 + y^2 = 1$ say when it is differentiated, and $x' = v$, $y' = w$ are put "
+       "in? "
+       "Does "
        "it "
        "say anything of T?",
-       "x v + y w = 0: the velocity is at right angles to the rod. T is not in it, so it is a "
+       "$x*v + y*w = 0$: the velocity is at right angles to the rod. T is not in it, so it is a "
        "second "
        "constraint on the coordinates, a hidden one, and one direction of the velocity is still "
        "free.",
@@ -79,7 +81,8 @@ const std::vector<TourChapter>& tour_chapters() {
        "number of steps is the index.",
        pendulum,
        {"constraints", "-"},
-       "Differentiate x v + y w = 0, with v' = -T x and w' = -T y - 1. Is there a third constraint "
+       "Differentiate $x*v + y*w = 0$, with $v' = -T*x$ and $w' = -T*y - 1$. Is there a third "
+       "constraint "
        "on "
        "the coordinates?",
        "No: T is in it, and T is what it determines. With T all velocities are functions of the "
@@ -87,7 +90,8 @@ const std::vector<TourChapter>& tour_chapters() {
        "and "
        "two initial values can be chosen.",
        "Make T a coordinate rather than an unknown. What is the index now?",
-       "3: one more differentiation gives T'. It is the differentiation index of the literature."},
+       "3: one more differentiation gives $T'$. It is the differentiation index of the "
+       "literature."},
 
       {"4-dirac",
        "A Dirac structure and an energy",
@@ -105,22 +109,24 @@ const std::vector<TourChapter>& tour_chapters() {
        "a "
        "graph, M₀ is everything, the index is 0.",
        "Replace the structure by {\"type\": \"two-form\", \"matrix\": [[0, 0], [0, 0]]}, the zero "
-       "form, and give \"coordinates\": [\"q\", \"p\"] and H = p^2/2 + q^2/2. What is S?",
+       "form, and give \"coordinates\": [\"q\", \"p\"] and $H = p^2/2 + q^2/2$. What is S?",
        "The zero form wants dH = 0: M₀ is the origin. The velocity there has to be tangent to a "
        "point, so it is 0."},
 
       {"5-vortices",
        "Momenta that are functions of the position",
-       "Point vortices in the plane have the Lagrangian L = Σ Γ (x y' - y x')/2 - H(x, y), of the "
-       "first order in the velocities. The momenta p = ∂L/∂q' are then functions α(q) of the "
+       "Point vortices in the plane have the Lagrangian L = Σ Γ ($x*y' - y*x'$)/2 - H(x, y), of "
+       "the "
+       "first order in the velocities. The momenta p = ∂L/∂$q'$ are then functions α(q) of the "
        "position, and no velocity can be found from them.",
        R"json({
   "system": { "type": "point-vortices", "strengths": [1, 1] },
   "initial": { "x": [-1, 1], "y": [0, 0] }
 })json",
        {"constraints", "-"},
-       "Four coordinates, four momenta. What is M₀? And what does it take to find x' and y'?",
-       "M₀ is the graph p = α(q), of dimension 4. That a solution stays on it is Γ y' = ∂H/∂x and "
+       "Four coordinates, four momenta. What is M₀? And what does it take to find $x'$ and $y'$?",
+       "M₀ is the graph p = α(q), of dimension 4. That a solution stays on it is Γ $y'$ = ∂H/∂x "
+       "and "
        "its "
        "companions: the equations of motion of the vortices, equation (10) of the paper, and what "
        "S₁ "
@@ -134,7 +140,7 @@ const std::vector<TourChapter>& tour_chapters() {
        "Gauge",
        "When the algorithm stops with a velocity that is still free, solutions exist, and some of "
        "their components are arbitrary functions of time: gauge. In the model of Christ and Lee, z "
-       "turns the plane (x, y), and z' does not occur.",
+       "turns the plane (x, y), and $z'$ does not occur.",
        R"json({
   "system": {
     "type": "lagrangian",
@@ -144,9 +150,9 @@ const std::vector<TourChapter>& tour_chapters() {
   "initial": { "x": 1, "y": 0.5, "z": 0.3, "p_x": 1, "p_y": 0.5, "p_z": 0 }
 })json",
        {"constraints", "-"},
-       "z' does not occur in L, so p_z = 0. What does it mean that this stays so?",
-       "p_z' = ∂L/∂z has to be 0: the angular momentum x p_y - y p_x vanishes. That is kept by "
-       "itself, and z' stays free.",
+       "$z'$ does not occur in L, so $p_z = 0$. What does it mean that this stays so?",
+       "$p_z'$ = ∂L/∂z has to be 0: the angular momentum $x*p_y - y*p_x$ vanishes. That is kept by "
+       "itself, and $z'$ stays free.",
        "Both constraints are of the first class. How many of the 4 degrees of freedom can be "
        "observed?",
        "2: each constraint of the first class makes one direction on M₁ unobservable, here those "
@@ -155,16 +161,16 @@ const std::vector<TourChapter>& tour_chapters() {
 
       {"7-inconsistent",
        "Systems without solutions",
-       "Not every Lagrangian has motions. The simplest one that has none is L = q' + q.",
+       "Not every Lagrangian has motions. The simplest one that has none is $L = q' + q$.",
        R"json({
   "system": { "type": "lagrangian", "coordinates": ["q"], "lagrangian": "q' + q" },
   "initial": { "q": 0 }
 })json",
        {"constraints", "-"},
-       "p = ∂L/∂q', and p' = ∂L/∂q. What do they say?",
-       "p = 1 and p' = 1. A momentum that is always 1 does not grow: S₁ is empty.",
-       "Is L = q' + q^2 any better?",
-       "Yes: p = 1 and p' = 2 q, so q = 0, and q' = 0: one point, at rest."},
+       "p = ∂L/∂$q'$, and $p'$ = ∂L/∂q. What do they say?",
+       "$p = 1$ and $p' = 1$. A momentum that is always 1 does not grow: S₁ is empty.",
+       "Is $L = q' + q^2$ any better?",
+       "Yes: $p = 1$ and $p' = 2*q$, so $q = 0$, and $q' = 0$: one point, at rest."},
 
       {"8-classes",
        "First and second class",
@@ -185,11 +191,13 @@ const std::vector<TourChapter>& tour_chapters() {
 })json",
        {"constraints", "-"},
        "Three momenta are constrained. Which are of which class?",
-       "p_z has bracket 0 with all of them: the first class. p_y1 and p_y2 - y1 have bracket 1 "
+       "$p_z$ has bracket 0 with all of them: the first class. $p_y1$ and $p_y2 - y1$ have bracket "
+       "1 "
        "with "
        "each other: the second. 8 - 3 = 5 values can be chosen, 5 - 1 = 4 observed.",
-       "Add z*y1 to the Lagrangian. What becomes of the first class?",
-       "p_z' = y1 = 0 is a new constraint; y2 = 0 and z = 0 follow one after the other. All six "
+       "Add $z*y1$ to the Lagrangian. What becomes of the first class?",
+       "$p_z' = y1$ has to be 0, a new constraint; $y2 = 0$ and $z = 0$ follow one after the "
+       "other. All six "
        "are of "
        "the second class, and z is determined."},
 
@@ -199,7 +207,7 @@ const std::vector<TourChapter>& tour_chapters() {
        "pairs: "
        "the steps from x₀ to x₁. The same algorithm asks from which points one can go on. Here is "
        "the "
-       "pendulum by the midpoint rule: the equations are asked for at (x₀ + x₁)/2.",
+       "pendulum by the midpoint rule: the equations are asked for at $(x_0 + x_1)/2$.",
        pendulum_by_midpoint,
        {"constraints", "-", "--discrete"},
        "Without discretization the ladder was (4,3), (3,2), (2,2). Is it the same?",

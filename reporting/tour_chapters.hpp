@@ -6,7 +6,7 @@
 
 namespace courant {
 
-// One idea of the paper on a system that runs.
+// One idea of the paper on a system that runs. Words have $formulas$ in the language of experiments.
 struct TourChapter {
   std::string file;  // of the page, without .md
   std::string title;

@@ -23,6 +23,12 @@ struct Call {
   std::size_t size;
 };
 
+// Whether it begins with one of α to ω.
+bool is_greek(std::string_view text) {
+  return text.size() > 1 &&
+         ((text[0] == '\xCE' && text[1] >= '\xB1') || (text[0] == '\xCF' && text[1] <= '\x89'));
+}
+
 std::size_t word_size(std::string_view text) {
   std::size_t size = 0;
   while (size < text.size() && std::isalnum(static_cast<unsigned char>(text[size])) != 0) ++size;
@@ -92,8 +98,14 @@ Markup typeset(std::string_view text) {
       const bool braced = text.starts_with("_{") && text.find('}') != std::string_view::npos;
       size = braced ? text.find('}') + 1 : std::min<std::size_t>(2, text.size());
       markup += element("sub", {}, typeset(braced ? text.substr(2, size - 3) : text.substr(1, 1)));
+    } else if (is_greek(text)) {
+      // Fonts for words need not have these letters, those for formulas do.
+      size = 2;
+      markup += element("math", {}, element("mi", {}, text.substr(0, size)));
     } else {
-      while (size < text.size() && text[size] != '_' && !letter(text[size])) ++size;
+      while (size < text.size() && text[size] != '_' && !letter(text[size]) &&
+             !is_greek(text.substr(size)))
+        ++size;
       markup += text.substr(0, size);
     }
     text.remove_prefix(size);

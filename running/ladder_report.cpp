@@ -47,8 +47,9 @@ LadderReport::Elimination elimination(const ConstraintFormulas& formulas,
   LadderReport::Elimination found{.formulas = formulas.constraints, .steps = formulas.steps};
   auto in_order = formulas.velocities;
   std::ranges::sort(in_order, {}, &ConstraintFormulas::Velocity::component);
-  for (const auto& [component, level, formula] : in_order)
-    found.velocities.push_back({velocities[static_cast<std::size_t>(component)], level, formula});
+  for (const auto& [component, level, formula, on_M_f] : in_order)
+    found.velocities.push_back(
+        {velocities[static_cast<std::size_t>(component)], level, formula, on_M_f});
   return found;
 }
 

@@ -80,6 +80,7 @@ struct LadderReport {
     std::string name;
     Index level = 0;  // from which it is a function of the point
     std::string formula;
+    std::string on_M_f = {};  // where constraints of later levels make it simpler
   };
   // What elimination by hand would find; not of ladders that stopped on the way.
   struct Elimination {

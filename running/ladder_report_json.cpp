@@ -64,8 +64,10 @@ void write_elimination(Json& json, const LadderReport::Elimination& found) {
                              {"derivative", step.derivative},
                              {"result", step.result}});
   json["velocities"] = Json::object();
-  for (const auto& [name, level, formula] : found.velocities)
+  for (const auto& [name, level, formula, on_M_f] : found.velocities) {
     json["velocities"][name] = {{"level", level}, {"formula", formula}};
+    if (!on_M_f.empty()) json["velocities"][name]["on_M_f"] = on_M_f;
+  }
 }
 
 void write_end(Json& json, const LadderReport::End& end) {
@@ -153,8 +155,8 @@ LadderReport::Elimination read_elimination(const Json& json) {
          .derivative = entry.value("derivative", ""),
          .result = entry.value("result", "")});
   for (const auto& [name, entry] : part(json, "velocities").items())
-    found.velocities.push_back(
-        {name, whole(entry, "level").value_or(0), entry.value("formula", "")});
+    found.velocities.push_back({name, whole(entry, "level").value_or(0), entry.value("formula", ""),
+                                entry.value("on_M_f", "")});
   return found;
 }
 

@@ -1,5 +1,6 @@
 #include "courant/integrators/certificate/constraint_brackets.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -11,7 +12,7 @@
 namespace courant {
 namespace {
 
-constexpr std::size_t longest_bracket = 450, most_constraints = 24;
+constexpr std::size_t longest_bracket = 450, longest_value = 60, most_constraints = 24;
 constexpr Index most_coordinates = 16;
 
 ExprVector variables(const Graph& graph, const std::string& name, Index count) {
@@ -83,17 +84,18 @@ class Brackets {
     }
   }
 
-  std::optional<ConstraintBrackets> operator()() {
+  ConstraintBrackets operator()() {
     ConstraintBrackets result;
     const std::size_t count = formulas_.constraints.size();
+    const ConstraintBrackets too_long{.missing = "they are longer than five lines"};
     for (std::size_t a = 0; a < count; ++a) {
-      if (names_[a].empty()) return std::nullopt;
+      if (names_[a].empty()) return too_long;
       result.constraints.push_back(names_[a]);
       result.matrix.emplace_back();
       bool vanish = true;
       for (std::size_t b = 0; b < count; ++b) {
         const auto text = written(bracket(a, b));
-        if (!text) return std::nullopt;
+        if (!text) return too_long;
         vanish = vanish && *text == "0";
         result.matrix.back().push_back(*text);
       }
@@ -127,10 +129,38 @@ class Brackets {
     ExprVector lambda(family.parameter_size());
     for (Index i = 0; i < lambda.size(); ++i)
       lambda[i] = graph.variable(names[static_cast<std::size_t>(i)]);
-    for (std::size_t i = 0; i < formulas_.values.size(); ++i)
-      if (const Index unknown = formulas_.values[i].unknown; unknown < lambda.size())
+    const ExprVector unknowns = lambda;
+    // Those in which the energy is not linear; the others may stay, with what they multiply.
+    const ExprVector slopes = gradient(family.value(x_, unknowns, formulas_.time), unknowns);
+    const std::vector<Index> curved = jacobian(slopes, unknowns).row;
+    for (std::size_t i = 0; i < formulas_.values.size(); ++i) {
+      const auto& [unknown, formula] = formulas_.values[i];
+      if (unknown < lambda.size() &&
+          (formula.size() <= longest_value || std::ranges::count(curved, unknown) > 0))
         lambda[unknown] = formulas_.value_functions[i];
-    return written(family.value(x_, lambda, formulas_.time), on_manifold_).value_or("");
+    }
+    const Expr whole = family.value(x_, lambda, formulas_.time);
+    ExprVector without = lambda;
+    std::vector<Index> multipliers;
+    for (Index i = 0; i < lambda.size(); ++i)
+      if (!lambda[i].is_constant() && lambda[i].node() == unknowns[i].node()) {
+        multipliers.push_back(i);
+        without[i] = Expr(0.0);
+      }
+    const ExprVector factors = gradient(whole, unknowns);
+    const bool is_linear = jacobian(factors, unknowns).row.empty();
+    auto text =
+        written(is_linear ? family.value(x_, without, formulas_.time) : whole, on_manifold_);
+    if (!text || !is_linear) return text.value_or("");
+    for (const Index i : multipliers) {
+      const auto factor = written(factors[i], on_manifold_);
+      if (!factor) return "";
+      if (*factor == "0") continue;
+      const bool is_term = factor->find(' ') == std::string::npos && !factor->starts_with('-');
+      *text += " + " + names[static_cast<std::size_t>(i)] + "*" +
+               (is_term ? *factor : "(" + *factor + ")");
+    }
+    return *text;
   }
 
   ConstraintBrackets::Generator generator(std::size_t a) const {
@@ -165,6 +195,20 @@ class Brackets {
       inverse = ExprMatrix::Zero(2, 2);
       inverse(0, 1) = 1.0 / C(1, 0);
       inverse(1, 0) = 1.0 / C(0, 1);
+    } else if (count == 4) {
+      // Of a matrix that is antisymmetric, by its Pfaffian.
+      const Expr pfaffian = C(0, 1) * C(2, 3) - C(0, 2) * C(1, 3) + C(0, 3) * C(1, 2);
+      inverse = ExprMatrix::Zero(4, 4);
+      const auto put = [&](Index a, Index b, const Expr& value) {
+        inverse(a, b) = value / pfaffian;
+        inverse(b, a) = -inverse(a, b);
+      };
+      put(1, 0, C(2, 3));
+      put(0, 2, C(1, 3));
+      put(3, 0, C(1, 2));
+      put(2, 1, C(0, 3));
+      put(1, 3, C(0, 2));
+      put(3, 2, C(0, 1));
     } else {
       return {};
     }
@@ -204,12 +248,13 @@ std::optional<ConstraintBrackets> constraint_brackets(const ImplicitSystem& syst
                                                       const ConstraintLadder& ladder,
                                                       const ConstraintFormulas& formulas) {
   const auto structure = system.structure();
-  if (!structure || ladder.index < 0 || formulas.constraints.empty() ||
-      formulas.constraints.size() != ladder.constraints.size() ||
-      formulas.constraints.size() > most_constraints)
-    return std::nullopt;
+  if (!structure || ladder.index < 0 || ladder.constraints.empty()) return std::nullopt;
   const auto* dirac = dynamic_cast<const DiracSystem*>(&system);
   if (dirac && dirac->exterior().constraint) return std::nullopt;
+  if (formulas.constraints.size() != ladder.constraints.size())
+    return ConstraintBrackets{.missing = "not all constraints have formulas"};
+  if (formulas.constraints.size() > most_constraints)
+    return ConstraintBrackets{.missing = "there are more than 24 constraints"};
   const ExprVector& x = formulas.coordinates;
   auto lambda = bivector(*structure, x, x[0].graph());
   if (!lambda) return std::nullopt;

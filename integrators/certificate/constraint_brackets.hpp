@@ -15,36 +15,41 @@ namespace courant {
 // Of the constraints φ_a of a ladder, where the Dirac structure of the system is the graph of a bivector Λ,
 // {f, g} = ⟨df, Λ dg⟩. Formulas are simplified by the constraints: they hold on M_f.
 struct ConstraintBrackets {
+  // Why there are no formulas, in words; "" where there are.
+  std::string missing = {};
+
   // φ_a, in the order of ConstraintFormulas but as functions, not as equations, which may be divided; {φ_a, φ_b} as
   // rows.
-  std::vector<std::string> constraints;
-  std::vector<std::vector<std::string>> matrix;
+  std::vector<std::string> constraints = {};
+  std::vector<std::vector<std::string>> matrix = {};
   // Whether φ_a is first class as it stands: {φ_a, φ_b} = 0 on M_f for all b.
-  std::vector<bool> is_first_class;
+  std::vector<bool> is_first_class = {};
 
-  // The energy with the unknowns that are known put in: of a Lagrangian that is the total Hamiltonian, in which
-  // velocities that nothing determines multiply primary constraints. "" where it is longer than five lines.
-  std::string hamiltonian;
+  // The energy with the unknowns that are known put in: of a Lagrangian that is the total Hamiltonian. Velocities that
+  // nothing determines stand behind the rest with the primary constraints that they multiply, and so does a multiplier
+  // whose formula is longer than a line.
+  // "" where it is longer than five lines.
+  std::string hamiltonian = {};
 
   // Of a first class constraint φ, what it generates: δx = ε {x, φ} for the coordinates that it moves.
   struct Generator {
     std::string constraint;
     std::vector<std::pair<std::string, std::string>> moves;  // coordinate, {x, φ}
   };
-  std::vector<Generator> generators;
+  std::vector<Generator> generators = {};
 
   // {x_i, x_j} - {x_i, φ_a} C^ab {φ_b, x_j} with C the matrix of the constraints that are not first class, for
-  // i < j where that is not 0. Nothing where there are no such constraints, where C is not constant, or has
-  // more than two of them and is not constant, or for more than 16 coordinates.
+  // i < j where that is not 0. Nothing where there are no such constraints, where C is not constant and has
+  // more than four rows, for more than 16 coordinates, or where one is longer than five lines.
   struct DiracBracket {
     std::string first, second, value;
   };
-  std::vector<DiracBracket> dirac_brackets;
+  std::vector<DiracBracket> dirac_brackets = {};
 };
 
-// Nothing where there are no constraints, where not all of them have formulas, where there is no structure or none
-// whose bivector elimination with constant pivots finds, and with constraints on velocities. At most 24
-// constraints.
+// Nothing where there are no constraints, where there is no structure or none whose bivector elimination with constant
+// pivots finds, and with constraints on velocities; no formulas where not all constraints have some, of more than 24
+// constraints, and where a bracket is longer than five lines.
 // Reference: Henneaux, Teitelboim, Quantization of Gauge Systems (1992), chapter 1.
 std::optional<ConstraintBrackets> constraint_brackets(const ImplicitSystem& system,
                                                       const ConstraintLadder& ladder,

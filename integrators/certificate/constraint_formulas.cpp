@@ -421,7 +421,10 @@ class Derivation {
       for (const Expr& function : found_) differentiate(level + 1, function, level < levels);
       if (contradicted_) break;
     }
-    if (ladder_.index >= 0) elimination_.constraints();
+    if (ladder_.index >= 0) {
+      elimination_.constraints();
+      simplify_first_velocities();
+    }
     std::vector<Index> determined;
     for (std::size_t j = 0; j < ladder_.determined.size(); ++j) {
       const Index u = elimination_.velocity_count() + static_cast<Index>(j);
@@ -525,6 +528,24 @@ class Derivation {
     const std::vector<std::string> formulas = elimination_.solutions(told);
     for (std::size_t i = 0; i < formulas.size(); ++i)
       if (!formulas[i].empty()) result_.velocities.push_back({told[i], level, formulas[i]});
+  }
+
+  // What S_0 says of velocities, by the constraints of all levels.
+  void simplify_first_velocities() {
+    const bool has_later = std::ranges::any_of(
+        result_.constraints,
+        [](const ConstraintFormulas::Constraint& one) { return one.level > 0; });
+    if (!has_later) return;
+    std::vector<Index> told;
+    for (const ConstraintFormulas::Velocity& velocity : result_.velocities)
+      if (velocity.level == 0) told.push_back(velocity.component);
+    const std::vector<std::string> formulas = elimination_.solutions(told);
+    for (std::size_t i = 0, k = 0; i < result_.velocities.size(); ++i) {
+      ConstraintFormulas::Velocity& velocity = result_.velocities[i];
+      if (velocity.level != 0) continue;
+      if (formulas[k] != velocity.formula) velocity.on_M_f = formulas[k];
+      ++k;
+    }
   }
 
   const ConstraintLadder& ladder_;

@@ -25,6 +25,7 @@ struct ConstraintFormulas {
     Index component;
     Index level;
     std::string formula;
+    std::string on_M_f = {};  // where constraints of later levels make it simpler
   };
   // What S_level adds to the level before: a function that vanishes on M_{level-1}, differentiated.
   struct Step {

@@ -123,7 +123,7 @@ BOOST_AUTO_TEST_CASE(writes_a_page) {
   const Answer answer = constraints({pendulum, "-o", page});
   BOOST_TEST(answer.status == 0, answer.err);
   const std::string html = read_text(page);
-  BOOST_TEST(says(html, "<math>"), html);
+  BOOST_TEST(says(html, "<math displaystyle=\"true\">"), html);
   BOOST_TEST(says(html, "<mover accent=\"true\">"));
   BOOST_TEST(!says(html, "<script"));
   const Answer wrong = constraints({pendulum, "-o", (folder.path() / "page.pdf").string()});

@@ -1,0 +1,42 @@
+#include "courant/reporting/prose_typesetting.hpp"
+
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+
+#include "courant/core/language/formula_tree.hpp"
+#include "courant/reporting/tour_chapters.hpp"
+
+BOOST_AUTO_TEST_SUITE(prose_typesetting_test)
+
+using namespace courant;
+
+BOOST_AUTO_TEST_CASE(formulas_stand_between_marks) {
+  const Prose prose = marked_prose("From $x' = v$ and M_f: *no* $p_z$.");
+  BOOST_TEST(prose.str() == "From x' = v and M_f: *no* p_z.");
+  BOOST_TEST(markdown_prose(prose) == "From $\\dot{x} = v$ and M\\_f: \\*no\\* $p_{z}$.");
+  BOOST_TEST(latex_prose(prose) ==
+             "From $\\dot{x} = v$ and \\ensuremath{M}\\ensuremath{_{f}}: *no* $p_{z}$.");
+  const std::string markup = typeset_prose(prose).str();
+  BOOST_TEST(markup.starts_with("From <math>"), markup);
+  BOOST_TEST(markup.find("<i>M</i><sub><i>f</i></sub>: *no* <math>") != std::string::npos, markup);
+  BOOST_TEST(marked_prose("").parts().empty());
+  BOOST_TEST(marked_prose("no formula").parts().size() == 1u);
+}
+
+// What is marked in the tour is a formula, and every mark has its other one.
+BOOST_AUTO_TEST_CASE(the_words_of_the_tour_have_formulas) {
+  int formulas = 0;
+  for (const TourChapter& chapter : tour_chapters())
+    for (const std::string* text : {&chapter.idea, &chapter.question, &chapter.answer,
+                                    &chapter.exercise, &chapter.solution}) {
+      BOOST_TEST(std::ranges::count(*text, '$') % 2 == 0, *text);
+      for (const Prose::Part& part : marked_prose(*text).parts()) {
+        if (!part.is_formula) continue;
+        ++formulas;
+        BOOST_TEST(formula_tree(part.text).has_value(), part.text);
+      }
+    }
+  BOOST_TEST(formulas > 20);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
