@@ -39,12 +39,23 @@ const charts = {
   },
 };
 
-function experiments() {
-  const folder = path.join(root, 'experiments');
+// The tables that an experiment names, {name: text}.
+function filesOf(folder, document) {
+  const names = [];
+  JSON.stringify(document, (key, value) => {
+    if ((key === 'file' || key === 'table') && typeof value === 'string') names.push(value);
+    return value;
+  });
+  return Object.fromEntries(names.map((name) => [name, read(folder, name)]));
+}
+
+// Those of a folder, `prefix` before their names.
+function experiments(folder, prefix = '') {
   return fs.readdirSync(folder).filter((file) => file.endsWith('.json') && file !== 'schema.json').sort().map((file) => {
-    const text = read(folder, file), {title, description = '', system} = JSON.parse(text);
-    return {name: path.basename(file, '.json'), title, description: description.replace(/\. .*/s, '.'), kind: typeof system === 'string' ? system : system.type,
-            text: text.replace(/^\s*"\$schema":.*\n/m, '')};
+    const text = read(folder, file), document = JSON.parse(text), {title, description = '', system} = document;
+    const files = filesOf(folder, document);
+    return {name: prefix + path.basename(file, '.json'), title, description: description.replace(/\. .*/s, '.'), kind: typeof system === 'string' ? system : system.type,
+            text: text.replace(/^\s*"\$schema":.*\n/m, ''), ...(Object.keys(files).length > 0 ? {files} : {})};
   });
 }
 
@@ -58,7 +69,8 @@ const parts = {
   style: css.code,
   program: packed(program),
   script: packed(Buffer.from(script + '\n' + read(here, 'page/worker.js'))),
-  library: packed(Buffer.from(JSON.stringify({schema: JSON.parse(read(root, 'experiments/schema.json')), chapters, kinds, experiments: experiments()}))),
+  library: packed(Buffer.from(JSON.stringify({schema: JSON.parse(read(root, 'experiments/schema.json')), chapters, kinds, experiments: experiments(path.join(root, 'experiments')),
+    ladders: experiments(path.join(root, 'experiments/ladders'), 'ladders/')}))),
   page: bundle.outputFiles[0].text.replace(/<\/script/g, '<\\/script'),
 };
 const page = read(here, 'page/index.html').replace(/@(style|program|script|library|page)@/g, (_, part) => parts[part]);

@@ -3,19 +3,25 @@
 #include <exception>
 #include <new>
 #include <optional>
+#include <sstream>
+#include <stdexcept>
 #include <utility>
 
 #include "courant/core/words/message.hpp"
+#include "courant/core/words/spelling.hpp"
 #include "courant/reading/catalogue.hpp"
 #include "courant/reading/experiment.hpp"
+#include "courant/reading/json_document.hpp"
+#include "courant/reading/netlist.hpp"
 #include "courant/reading/new_experiment.hpp"
+#include "courant/reading/table.hpp"
 #include "courant/reporting/figure_drawing.hpp"
 #include "courant/reporting/ladder_page.hpp"
 #include "courant/reporting/page_frame.hpp"
+#include "courant/reporting/prose_typesetting.hpp"
 #include "courant/reporting/report_figures.hpp"
 #include "courant/reporting/report_tables.hpp"
 #include "courant/reporting/tour_chapters.hpp"
-#include "courant/reporting/typesetting.hpp"
 #include "courant/running/c_program.hpp"
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/discrete_ladder.hpp"
@@ -30,9 +36,17 @@ Json problem(const std::string& where, const std::string& what) {
   return {{"problems", {{{"where", where}, {"what", what}}}}};
 }
 
+Json listed(const std::vector<Problem>& problems) {
+  Json list = Json::array();
+  for (const Problem& one : problems) list.push_back({{"where", one.where}, {"what", one.what}});
+  return list;
+}
+
 Json start() {
   Json chapters = Json::array();
-  const auto set = [](const std::string& words) { return typeset(words).str(); };
+  const auto set = [](const std::string& words) {
+    return typeset_prose(marked_prose(words)).str();
+  };
   for (const TourChapter& chapter : tour_chapters())
     chapters.push_back({{"file", chapter.file},
                         {"title", chapter.title},
@@ -52,6 +66,50 @@ Json start() {
   return {{"style", content_style()}, {"chapters", chapters}, {"kinds", kinds}};
 }
 
+// The text of a file that lies beside the experiment; nothing where there is none of that name.
+std::optional<std::string> file_beside(const Json& question, const std::string& name) {
+  const auto files = question.find("files");
+  if (files == question.end() || !files->contains(name)) return std::nullopt;
+  return files->at(name).get<std::string>();
+}
+
+// An experiment with the tables that lie beside it.
+Experiment experiment_of(const Json& question, const std::string& text) {
+  Json document = parse_json(text);
+  load_tables(document, [&](const std::string& pointer, const std::string& name) {
+    auto table = file_beside(question, name);
+    if (!table) {
+      std::vector<std::string> names;
+      const Json files = question.value("files", Json::object());
+      for (const auto& [one, content] : files.items()) names.push_back(one);
+      throw ExperimentError(pointer,
+                            "is " + name +
+                                ", which is not here; expected a file that was added under "
+                                "Files" +
+                                did_you_mean(name, names));
+    }
+    return TableFile{name, std::make_unique<std::istringstream>(std::move(*table))};
+  });
+  return read_experiment_document(document);
+}
+
+Experiment experiment_of(const Json& question) {
+  return experiment_of(question, question.at("text").get<std::string>());
+}
+
+// The experiment that a netlist describes, which may include files that lie beside it.
+Json imported(const Json& question) {
+  std::vector<Problem> notes;
+  const Json experiment =
+      import_netlist(question.at("text").get<std::string>(), &notes, [&](const std::string& name) {
+        auto text = file_beside(question, name);
+        if (!text)
+          throw std::runtime_error("is not here; expected a file that was added under Files");
+        return std::move(*text);
+      });
+  return {{"document", experiment.dump(2)}, {"remarks", listed(notes)}};
+}
+
 struct PageOfLadder {
   LadderReport ladder;
   LadderPage page;
@@ -69,26 +127,23 @@ PageOfLadder constraint_algorithm(const Experiment& experiment) {
 }
 
 Json ladder(const Json& question) {
-  const Experiment experiment = read_experiment(question.at("text").get<std::string>());
+  const Experiment experiment = experiment_of(question);
   const PageOfLadder found = constraint_algorithm(experiment);
-  Json remarks = Json::array();
-  for (const Problem& remark : experiment.remarks)
-    remarks.push_back({{"where", remark.where}, {"what", remark.what}});
   return {{"ladder", to_json(found.ladder)},
           {"title", found.page.title},
           {"page", to_markup(found.page).str()},
           {"method", experiment.method ? experiment.method->description : ""},
-          {"remarks", remarks}};
+          {"remarks", listed(experiment.remarks)}};
 }
 
 Json discrete(const Json& question) {
-  const Experiment experiment = read_experiment(question.at("text").get<std::string>());
+  const Experiment experiment = experiment_of(question);
   const LadderReport found = discrete_ladder(experiment, consistent_start(experiment));
   return {{"ladder", to_json(found)}, {"page", discrete_markup(experiment, found).str()}};
 }
 
 Json document(const Json& question) {
-  const Experiment experiment = read_experiment(question.at("text").get<std::string>());
+  const Experiment experiment = experiment_of(question);
   const std::string form = question.at("form");
   if (form == "c") return {{"document", c_program(experiment)}};
   const LadderPage page = constraint_algorithm(experiment).page;
@@ -129,7 +184,7 @@ Json Engine::run(const Json& question) {
   std::vector<Json> documents;
   Json answers = Json::array();
   for (const Json& text : question.at("texts")) {
-    const Experiment experiment = read_experiment(text.get<std::string>());
+    const Experiment experiment = experiment_of(question, text.get<std::string>());
     if (!experiment.method || !experiment.time)
       return problem("", "There is no method to run it by; expected the keys method and time");
     RunInMemoryOptions options;
@@ -169,14 +224,12 @@ Json Engine::answer(const Json& question) {
     if (task == "ladder") return ladder(question);
     if (task == "discrete") return discrete(question);
     if (task == "document") return document(question);
+    if (task == "import") return imported(question);
     if (task == "new") return {{"document", new_experiment(question.at("kind"))}};
     if (task == "run") return run(question);
     return problem("", "There is no task " + in_quotes(task));
   } catch (const ExperimentError& error) {
-    Json problems = Json::array();
-    for (const Problem& one : error.problems())
-      problems.push_back({{"where", one.where}, {"what", one.what}});
-    return {{"problems", problems}};
+    return {{"problems", listed(error.problems())}};
   } catch (const std::bad_alloc&) {
     return problem("", "There is not enough memory for this in a browser");
   } catch (const std::exception& error) {

@@ -19,9 +19,13 @@ namespace courant::lab {
 //   ladder    {text}                        the constraint algorithm: {ladder, title, page}; `page` is markup
 //   discrete  {text}                        the same of the steps of its method, Remark 6.1: {ladder, page}
 //   document  {text, form}                  {document}: the ladder as "html", "latex", "markdown", the integrator as "c"
+//   import    {text}                        {document, remarks}: the experiment that a netlist of SPICE describes
 //   new       {kind}                        {document}: a commented experiment of this kind
 //   run       {texts, rows}                 runs of experiments, side by side: {runs, figures, tables}; each figure has a
 //                                           `name`, `markup`, `caption` and, for a file, `svg`
+//
+// Where an experiment names tables, or a netlist files that it includes, the question has them as
+// `files`, {name: text}.
 //
 // Where a task cannot be done the answer is {problems: [{where, what}]}, `where` being what ExperimentError gives.
 // Nothing is thrown.

@@ -20,8 +20,9 @@ export function mathematics(name) {
   const [, head, rest] = /^([A-Za-z]+)(.*)$/.exec(name) || [, name, ''];
   const below = rest.replace(/^_/, '').replace(/\]\[/g, ',').replace(/[[\]]/g, ' ').trim().replace(/\s+/g, ' ');
   const letter = greek[head] || head;
-  const made = element('span', {class: 'math'}, letter.length === 1 ? element('i', {}, letter) : letter);
-  if (below) made.append(element('sub', {}, ...below.split(/([A-Za-z]+)/).map((part) => /^[A-Za-z]$/.test(part) ? element('i', {}, part) : greek[part] || part)));
+  const italic = (one) => element('i', /[α-ω]/.test(one) ? {class: 'greek'} : {}, one);
+  const made = element('span', {class: 'math'}, letter.length === 1 ? italic(letter) : letter);
+  if (below) made.append(element('sub', {}, ...below.split(/([A-Za-z]+)/).map((part) => /^[A-Za-z]$/.test(part) ? italic(part) : greek[part] ? italic(greek[part]) : part)));
   return made;
 }
 

@@ -21,7 +21,7 @@ function painted(svg) {
   });
 }
 
-export function exportItems({text, title, ask, runs, notice}) {
+export function exportItems({text, files, title, ask, runs, notice}) {
   const name = () => title().toLowerCase().replace(/[^a-z0-9]+/g, '-').replace(/^-|-$/g, '').slice(0, 40) || 'experiment';
   const item = (label, hint, work) => element('button', {type: 'button', onclick: async () => {
     document.getElementById('export').open = false;
@@ -41,7 +41,10 @@ export function exportItems({text, title, ask, runs, notice}) {
     return runs.last.answer.figures;
   };
   return [
-    item('JSON', 'the experiment', () => save(name() + '.json', text(), 'application/json')),
+    item('JSON', 'the experiment, and its files', () => {
+      save(name() + '.json', text(), 'application/json');
+      for (const [file, content] of Object.entries(files.namedIn(text()))) save(file, content, 'text/csv');
+    }),
     documentItem('C', 'the integrator, one file of C99', 'c', '.c', 'text/x-c'),
     documentItem('LaTeX', 'the ladder', 'latex', '.tex', 'application/x-tex'),
     documentItem('Markdown', 'the ladder', 'markdown', '.md', 'text/markdown'),

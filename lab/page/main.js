@@ -3,10 +3,11 @@ import {$, element} from './dom.js';
 import {Editor} from './editor.js';
 import {Engine, Stopped, unpacked} from './engine.js';
 import {exportItems} from './exports.js';
+import {Files} from './files.js';
 import {placed} from './place.js';
 import {Runs} from './runs.js';
 import {Schema} from './schema.js';
-import {asked, packed} from './share.js';
+import {asked, linkTo} from './share.js';
 import {showChapter} from './tour.js';
 import {Values} from './values.js';
 
@@ -14,7 +15,7 @@ const stored = 'courant-laboratory';
 const wait = 120;       // ms after the last key
 const patience = 400;   // ms until a Stop is offered
 
-let library, editor, values, runs;
+let library, editor, values, runs, files;
 const engine = new Engine();
 const state = {
   good: null,      // {text, answer}: the last one without problems
@@ -33,9 +34,14 @@ function notice(text) {
 // ---- what is kept ----
 
 function keep() {
-  try {
-    localStorage.setItem(stored, JSON.stringify({text: editor.text, good: state.good && state.good.text, chapter: state.chapter, predict: $('predict').checked}));
-  } catch { /* a browser that keeps nothing */ }
+  const kept = {text: editor.text, good: state.good && state.good.text, chapter: state.chapter, predict: $('predict').checked};
+  // A browser may keep nothing, or no files of this size.
+  for (const more of [{files: files.all}, {}]) {
+    try {
+      localStorage.setItem(stored, JSON.stringify({...kept, ...more}));
+      return;
+    } catch { /* the next is shorter */ }
+  }
 }
 
 function kept() {
@@ -133,7 +139,7 @@ function judge() {
 async function answered(question) {
   const patient = setTimeout(() => { $('stop-ladder').hidden = false; }, patience);
   try {
-    const told = await engine.ask(question);
+    const told = await engine.ask({files: files.namedIn(question.text), ...question});
     $('memory').textContent = 'The engine has ' + Math.round(told.bytes / 1e6) + ' MB of memory; the last answer took ' + Math.round(told.milliseconds) + ' ms.';
     return told.answer;
   } finally {
@@ -155,6 +161,8 @@ async function ask(text) {
 async function redraw() {
   const text = editor.text, number = ++state.asking;
   keep();
+  // A netlist that was written or pasted, to its end.
+  if (/^\s*[^\s{]/.test(text) && /^\.end\s*$/im.test(text)) return openNetlist(text);
   // Nobody waits for the ladder of a text that is no longer there.
   if (engine.busy) engine.stop();
   const began = performance.now();
@@ -186,7 +194,8 @@ function edited() {
 }
 
 // A text from elsewhere: a chapter, the library, a link.
-async function load(text, {chapter = 0, predict = $('predict').checked} = {}) {
+async function load(text, {chapter = 0, predict = $('predict').checked, beside = {}} = {}) {
+  files.put(beside);
   editor.text = text;
   editor.mark([]);
   state.chapter = chapter;
@@ -228,9 +237,18 @@ function openChapter(number) {
 }
 
 function openExperiment(name) {
-  const found = library.experiments.find((one) => one.name === name);
+  const found = [...library.experiments, ...library.ladders].find((one) => one.name === name);
   if (!found) return notice('There is no experiment “' + name + '” in the library.');
-  return load(found.text);
+  return load(found.text, {beside: found.files});
+}
+
+// A netlist in the editor becomes an experiment, unless lines are wrong, which are marked. It may include any of the files.
+async function openNetlist(text) {
+  editor.text = text;
+  const answer = await answered({task: 'import', text, files: files.all}).catch((error) => ({problems: [{where: '', what: error.message}]}));
+  if (answer.problems) return showProblems(text, answer.problems);
+  await load(answer.document);
+  $('remarks').append(...answer.remarks.map(({where, what}) => element('li', {}, 'The netlist, ' + where + ': ' + what)));
 }
 
 // ---- what is shown ----
@@ -271,6 +289,7 @@ function buildLibrary() {
       if (told.answer.document) load(told.answer.document);
       else notice(told.answer.problems[0].what);
     }))),
+    shelf('Ladders that are known', library.ladders.map(({name, title, description}) => entry(title || name, description, () => openExperiment(name)))),
     shelf('Experiments', library.experiments.map(({name, title, description}) => entry(title || name, description, () => openExperiment(name)))));
   $('search').addEventListener('input', () => {
     const words = $('search').value.toLowerCase().split(/\s+/).filter(Boolean);
@@ -284,20 +303,23 @@ function buildLibrary() {
 // ---- links ----
 
 async function share() {
-  const address = location.href.replace(/#.*/, '') + '#e=' + await packed(editor.text);
+  const {fragment, left} = await linkTo(editor.text, files.namedIn(editor.text));
+  const address = location.href.replace(/#.*/, '') + fragment;
   history.replaceState(null, '', address);
+  const carries = address.length + ' characters, with the whole experiment.' +
+    (left.length > 0 ? ' It has no room for ' + left.join(', ') + ': hand that along, to be added under Files.' : '');
   try {
     await navigator.clipboard.writeText(address);
-    notice('The link is in the clipboard: ' + address.length + ' characters, with the whole experiment.');
+    notice('The link is in the clipboard: ' + carries);
   } catch {
-    notice('The address of this page is the link now: ' + address.length + ' characters, with the whole experiment.');
+    notice('The address of this page is the link now: ' + carries);
   }
 }
 
 async function followAddress() {
   const wanted = await asked(location.hash).catch(() => ({broken: true}));
   if (wanted.broken) notice('The link is damaged: it has no experiment.');
-  else if (wanted.text) await load(wanted.text, {predict: false});
+  else if (wanted.text) await load(wanted.text, {predict: false, beside: wanted.files});
   else if (wanted.chapter) await openChapter(wanted.chapter);
   else if (wanted.experiment) await openExperiment(wanted.experiment);
   else return false;
@@ -308,8 +330,14 @@ async function begin() {
   library = JSON.parse(new TextDecoder().decode(await unpacked('library-texts')));
   const schema = new Schema(library.schema);
   editor = new Editor($('editor'), schema, {onEdit: edited, onRun: () => runs.start()});
+  files = new Files($('files'), document.querySelector('.desk'), {
+    changed: () => redraw(),
+    experiment: (text) => load(text),
+    netlist: openNetlist,
+  });
   runs = new Runs({
     schema,
+    files,
     text: () => editor.text,
     replaced: (text) => { editor.text = text; return redraw(); },
     problems: (problems) => showProblems(editor.text, problems),
@@ -334,7 +362,7 @@ async function begin() {
     settled: () => { keep(); },
   });
   // For tests, and for who looks into the console.
-  window.courantLaboratory = {engine, library, state, runs, load, ask, get text() { return editor.text; },
+  window.courantLaboratory = {engine, library, state, runs, files, load, ask, get text() { return editor.text; },
     type: (text) => { editor.text = text; edited(); }};
   buildLibrary();
 
@@ -350,13 +378,14 @@ async function begin() {
   });
   $('values').addEventListener('submit', (event) => event.preventDefault());
   $('discrete').addEventListener('toggle', () => { if ($('discrete').open && state.good) showDiscrete(); });
-  $('exports').replaceChildren(...exportItems({text: () => editor.text, title: () => $('title').textContent, ask: (question) => answered(question), runs, notice}));
+  $('exports').replaceChildren(...exportItems({text: () => editor.text, files, title: () => $('title').textContent, ask: (question) => answered(question), runs, notice}));
   document.addEventListener('click', (event) => { if (!event.target.closest('#export')) $('export').open = false; });
   document.addEventListener('keydown', (event) => { if (event.key === 'Escape') $('export').open = false; });
   window.addEventListener('hashchange', followAddress);
 
   const before = kept();
   $('predict').checked = before.predict === true;
+  files.put(before.files);
   if (await followAddress()) return;
   if (!before.text) return openChapter(1);
   // The last good one first, so that there is a picture beside what is being written.

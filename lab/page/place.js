@@ -21,12 +21,12 @@ function nodeAt(text, pointer) {
 
 // {from, to, what}: places in the text. A formula's problem has its column within the formula.
 export function placed(text, {where, what}) {
-  const line = /^line (\d+), column (\d+)/.exec(where);
+  const line = /^line (\d+)(?:, column (\d+))?/.exec(where);
   if (line) {
     const lines = text.split('\n');
     const before = lines.slice(0, Number(line[1]) - 1).reduce((sum, one) => sum + one.length + 1, 0);
-    const from = Math.min(text.length, before + Math.max(0, Number(line[2]) - 1));
-    return {from, to: Math.min(text.length, from + 1), what};
+    const from = Math.min(text.length, before + Math.max(0, Number(line[2] || 1) - 1));
+    return {from, to: Math.min(text.length, from + (line[2] ? 1 : (lines[line[1] - 1] || ' ').length)), what};
   }
   const {node, missing} = where.startsWith('/') ? nodeAt(text, where) : {node: null};
   if (!node) return {from: 0, to: 0, what: where && !where.startsWith('/') ? where + ': ' + what : what};

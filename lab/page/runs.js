@@ -11,8 +11,9 @@ const rows = 4000;  // of each curve, for the charts
 function typeOf(value) { return typeof value === 'string' ? value : value && value.type; }
 
 export class Runs {
-  constructor({schema, text, replaced, problems, shown}) {
+  constructor({schema, files, text, replaced, problems, shown}) {
     this.schema = schema;
+    this.files = files;
     this.text = text;
     this.replaced = replaced;
     this.problems = problems;
@@ -96,7 +97,8 @@ export class Runs {
     const began = performance.now();
     let seen = null;
     try {
-      const told = await this.engine.ask({task: 'run', texts: this.texts(), rows}, ({step, steps, drift}) => {
+      const texts = this.texts();
+      const told = await this.engine.ask({task: 'run', texts, files: this.files.namedIn(...texts), rows}, ({step, steps, drift}) => {
         seen = {step, steps};
         $('progress').value = steps > 0 ? step / steps : 0;
         $('told').textContent = 'step ' + step.toLocaleString('en') + ' of ' + steps.toLocaleString('en') + (Number.isFinite(drift) ? ', energy off by ' + shortNumber(drift, 2) : '');
