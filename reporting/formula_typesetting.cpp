@@ -231,13 +231,23 @@ struct Latex {
 
 constexpr double kLettersOfLine = 58.0;  // letters
 
+bool is_sum(const FormulaTree& tree) {
+  return tree.kind == FormulaTree::Kind::operation && (tree.text == "+" || tree.text == "-");
+}
+
+// (a - b)/c as a/c - b/c.
+FormulaTree divided(const FormulaTree& above, const FormulaTree& below) {
+  const auto fraction = [&](const FormulaTree& one) {
+    return FormulaTree{FormulaTree::Kind::operation, "/", {one, below}};
+  };
+  if (!is_sum(above)) return fraction(above);
+  return {above.kind, above.text, {divided(above.operands[0], below), fraction(above.operands[1])}};
+}
+
 // How wide a formula is set, in letters.
 double extent(const FormulaTree& tree) {
   using Kind = FormulaTree::Kind;
   const std::vector<FormulaTree>& of = tree.operands;
-  const auto is_sum = [](const FormulaTree& one) {
-    return one.kind == Kind::operation && (one.text == "+" || one.text == "-");
-  };
   double all = 0.0;
   switch (tree.kind) {
     case Kind::number:
@@ -322,10 +332,12 @@ class Typesetter {
   }
 
  private:
-  // Of a sum.
+  // Of a sum, or of one over something, where that is wider than a line.
   std::vector<Part> terms(const FormulaTree& tree) const {
-    const bool is_sum = tree.kind == Kind::operation && (tree.text == "+" || tree.text == "-");
-    if (!is_sum) return {{set(tree), extent(tree)}};
+    if (tree.kind == Kind::operation && tree.text == "/" && is_sum(tree.operands[0]) &&
+        extent(tree) >= kLettersOfLine)
+      return terms(divided(tree.operands[0], tree.operands[1]));
+    if (!is_sum(tree)) return {{set(tree), extent(tree)}};
     std::vector<Part> all = terms(tree.operands[0]);
     all.push_back({Out::infix(tree.text) + last_term(tree), 3 + extent(tree.operands[1])});
     return all;

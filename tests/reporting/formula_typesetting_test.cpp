@@ -56,6 +56,12 @@ BOOST_AUTO_TEST_CASE(long_formulas_have_lines) {
   BOOST_TEST(count(pieces, "<math ") == 8u, pieces);
   BOOST_TEST(count(pieces, "<mo form=\"infix\">−</mo>") == 5u, pieces);
   BOOST_TEST(count(displayed_math("x' = " + term).str(), "<math ") == 1u);
+  // A sum over something too.
+  const std::string over =
+      latex_displayed("H = (" + formula.substr(5) + " - " + term + " + " + term + ")/(4*pi)");
+  BOOST_TEST(count(over, "\\frac{") == 6u, over);
+  BOOST_TEST(count(over, "{} - \\frac{") == 3u, over);
+  BOOST_TEST(count(over, "}{4\\,\\pi}") == 6u, over);
   BOOST_TEST(latex_displayed("no formula & text") == latex_math("no formula & text"));
 }
 
