@@ -35,6 +35,7 @@ class ManifoldLaws {
             left_invariance(),
             velocities_along(),
             dilations(),
+            sources(),
             points_and_vectors()};
   }
 
@@ -308,6 +309,25 @@ class ManifoldLaws {
             const VectorXd expected = d.cwiseProduct(M_.retract(s.x, v));
             return M_.point_defect(x) +
                    M_.separation(M_.retract(x, w), expected) / (1.0 + expected.norm());
+          },
+          describe(s, v));
+    });
+    return measured.result();
+  }
+
+  LawResult sources() const {
+    if (!M_.has_source()) {
+      auto measured = law("M12 has_source() is not claimed", 0.0);
+      measured.add(0.0, "");
+      return measured.result();
+    }
+    auto measured = law("M12 R(source(y, v), v) = y", 1e-12);
+    for_vectors(samples_, [&](const LawSample& s, const VectorXd& v) {
+      measured.add(
+          [&] {
+            const VectorXd x = M_.source(s.x, v);
+            return M_.point_defect(x) / (1.0 + x.squaredNorm()) +
+                   M_.separation(M_.retract(x, v), s.x) / (1.0 + x.norm() + s.x.norm());
           },
           describe(s, v));
     });

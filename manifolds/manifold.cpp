@@ -71,6 +71,17 @@ ExprVector Manifold::checked_inverse_retract(const ExprVector& x, const ExprVect
   return with_size(do_inverse_retract(x, y), name_, "inverse_retract", tangent_dimension_, 1);
 }
 
+ExprVector Manifold::checked_source(const ExprVector& y, const ExprVector& v) const {
+  check_size("source", "y", y.size(), ambient_dimension_, "ambient_dimension()");
+  check_size("source", "v", v.size(), tangent_dimension_, "tangent_dimension()");
+  return with_size(do_source(y, v), name_, "source", ambient_dimension_, 1);
+}
+
+ExprVector Manifold::do_source(const ExprVector&, const ExprVector&) const {
+  throw std::logic_error(name_ +
+                         "::source: no formula is known. Use it where has_source() is true.");
+}
+
 LinearMap<Expr> Manifold::checked_frame(const ExprVector& x) const {
   check_size("frame", "x", x.size(), ambient_dimension_, "ambient_dimension()");
   if (has_identity_frame()) return LinearMap<Expr>::identity(dimension_);

@@ -35,6 +35,7 @@ namespace courant {
 //   M9  R⁻¹(R(x, v), R(x, w)) is the same at every x      where unit() claims a group
 //   M10  velocity_along(x, v, s) = C(y) dy/ds             of the curve y = R(x, s v)
 //   M11  R(D x, D v) = D R(x, v)                          for the dilations D of dilations()
+//   M12  R(source(y, v), v) = y                           where has_source() claims it
 //
 // Every formula is written once, on Expr; given numbers, the same functions return numbers
 // (constants fold). Reference: Absil, Mahony, Sepulchre, Optimization Algorithms on Matrix
@@ -130,6 +131,14 @@ class Manifold {
   // w ∈ T_mM (exponential maps). A claim that check_manifold measures.
   virtual bool is_geodesic() const { return false; }
 
+  // Whether source is a closed formula, on a group.
+  virtual bool has_source() const { return false; }
+  // The point x with R(x, v) = y: y τ(v)⁻¹ where R(x, v) = x τ(v). Throws std::logic_error unless has_source().
+  template <class Y, class V>
+  auto source(const Eigen::MatrixBase<Y>& y, const Eigen::MatrixBase<V>& v) const {
+    return on<Y>([&] { return checked_source(y.template cast<Expr>(), v.template cast<Expr>()); });
+  }
+
   // The unit element, where M is a Lie group with left-trivialised vectors and a left-invariant
   // retraction: then formulas in vectors and covectors (torsion, lifts) are the same at every point
   // as there. Empty by default, which is always right; a claim that check_manifold measures (M9).
@@ -192,6 +201,8 @@ class Manifold {
   virtual bool do_equals(const Manifold&) const { return false; }
   virtual ExprVector do_inverse_retract(const ExprVector& x,
                                         const ExprVector& y) const;  // or has_inverse() → false
+  virtual ExprVector do_source(const ExprVector& y,
+                               const ExprVector& v) const;  // and has_source() → true
   virtual std::optional<VectorXd> do_unit() const { return std::nullopt; }
   virtual Dilations do_dilations() const;
   // Π, where n < Ñ: C E, or what is equal on M and does not mix more off it.
@@ -225,6 +236,7 @@ class Manifold {
   }
   ExprVector checked_retract(const ExprVector& x, const ExprVector& v) const;
   ExprVector checked_inverse_retract(const ExprVector& x, const ExprVector& y) const;
+  ExprVector checked_source(const ExprVector& y, const ExprVector& v) const;
   LinearMap<Expr> checked_frame(const ExprVector& x) const;
   LinearMap<Expr> checked_coframe(const ExprVector& x) const;
   LinearMap<Expr> checked_projector(const ExprVector& x) const;

@@ -2,6 +2,8 @@
 #include "courant/integrators/maps/cayley_midpoint.hpp"
 #include "courant/integrators/maps/chordal.hpp"
 #include "courant/integrators/maps/cotangent_lift.hpp"
+#include "courant/integrators/maps/formula_map.hpp"
+#include "courant/integrators/maps/group_midpoint.hpp"
 #include "courant/integrators/maps/product_map.hpp"
 #include "courant/integrators/maps/projected.hpp"
 #include "courant/integrators/maps/spherical_midpoint.hpp"
@@ -9,6 +11,7 @@
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/torus.hpp"
 #include "courant/reading/method_kinds.hpp"
+#include "courant/reading/written_formula.hpp"
 
 namespace courant {
 namespace {
@@ -107,7 +110,23 @@ std::optional<DiscretizationChoice> cayley(ObjectReader&) {
         return std::make_shared<CayleyMidpoint>(motions);
       if (const auto all = std::dynamic_pointer_cast<const SpecialOrthogonal>(M))
         return std::make_shared<CayleyMidpoint>(all);
-      refuse("cayley", "so3, se3 and so", *M);
+      if (const auto matrices = std::dynamic_pointer_cast<const MatrixGroup>(M)) {
+        try {
+          return std::make_shared<GroupMidpoint>(matrices, cayley_map(matrices->algebra()));
+        } catch (const std::domain_error&) {  // the transform leaves the group
+        }
+      }
+      refuse("cayley", "so3, se3, so and groups of matrices that leave a form invariant", *M);
+    });
+  });
+}
+
+std::optional<DiscretizationChoice> second_kind(ObjectReader&) {
+  return lifted("second-kind", [](const ManifoldPointer& manifold) {
+    return on_factors(manifold, [](const ManifoldPointer& M) -> MapPointer {
+      if (const auto matrices = std::dynamic_pointer_cast<const MatrixGroup>(M))
+        return std::make_shared<GroupMidpoint>(matrices, second_kind_map(matrices->algebra()));
+      refuse("second-kind", "groups of matrices", *M);
     });
   });
 }
@@ -126,6 +145,57 @@ std::optional<DiscretizationChoice> projected(ObjectReader& object) {
                   return dynamic_cast<const Product*>(M.get()) ? on_factors(M, on_submanifold)
                                                                : on_submanifold(M);
                 });
+}
+
+// Formulas of two arrays, x and v or x0 and x1.
+struct ArrayFormulas {
+  WrittenFormulas formulas;
+  const char* names[2];
+
+  ExprVector operator()(const ExprVector& first, const ExprVector& second) const {
+    SymbolTable symbols;
+    symbols.add(names[0], {first.size()}, first);
+    symbols.add(names[1], {second.size()}, second);
+    ExprVector result(std::ssize(formulas.formulas));
+    for (Index i = 0; i < result.size(); ++i) {
+      const WrittenFormula& formula = formulas.formulas[static_cast<std::size_t>(i)];
+      try {
+        result[i] = evaluate(formula, symbols);
+      } catch (const FormulaError& error) {
+        throw std::invalid_argument("the discretization \"formula\": in \"" + formula.text +
+                                    "\", " + error.what());
+      }
+    }
+    return result;
+  }
+};
+
+std::optional<DiscretizationChoice> formula_map(ObjectReader& object) {
+  const auto read = [&](const char* key) -> std::optional<WrittenFormulas> {
+    const auto value = object.optional(key);
+    return value ? read_formula_vector(*value) : std::nullopt;
+  };
+  const auto minus = read("minus"), plus = read("plus"), point = read("point"),
+             vector = read("vector");
+  if (!minus || !plus) return std::nullopt;
+  if (!point != !vector) {
+    object.place().problem("has half an inverse; expected both \"point\" and \"vector\", or none");
+    return std::nullopt;
+  }
+  FormulaMap::Formulas formulas{.minus = ArrayFormulas{*minus, {"x", "v"}},
+                                .plus = ArrayFormulas{*plus, {"x", "v"}}};
+  if (point) {
+    formulas.point = ArrayFormulas{*point, {"x0", "x1"}};
+    formulas.vector = ArrayFormulas{*vector, {"x0", "x1"}};
+  }
+  return lifted("formula", [formulas](const ManifoldPointer& M) -> MapPointer {
+    try {
+      return std::make_shared<FormulaMap>(M, formulas);
+    } catch (const std::domain_error& error) {
+      throw std::invalid_argument("the discretization \"formula\" is no discretization map of " +
+                                  M->name() + ": " + without_place(error.what()));
+    }
+  });
 }
 
 }  // namespace
@@ -149,12 +219,28 @@ Registry<DiscretizationChoice>& discretization_kinds() {
       {{"chordal", "the symmetric map (2) of spheres, and of products of them"}, chordal},
       {{"spherical-midpoint", "(x√(1-v²/4) - v/2, x√(1-v²/4) + v/2) on spheres, and products"},
        spherical_midpoint},
-      {{"cayley", "midpoint of the Cayley transform on so3, se3 and so, and products"}, cayley},
+      {{"cayley",
+        "midpoint of the Cayley transform on so3, se3, so, se2, su2, sp and others, and products"},
+       cayley},
+      {{"second-kind",
+        "midpoint of coordinates of the second kind, exp(v_1 B_1) … exp(v_n B_n), on se2, su2, sl "
+        "and other groups of "
+        "matrices, and products"},
+       second_kind},
       {{"projected",
         "(P × P) R_d on an implicit submanifold",
         {default_key("map", takes::kind("discretization"), "midpoint",
                      "R_d, a map of the surrounding manifold")}},
        projected},
+      {{"formula",
+        "R_d(x, v) by formulas of x[0], …, v[0], …; D1 and D2 are checked, and whether it is "
+        "symmetric",
+        {required_key("minus", takes::formula_vector(), "x⁻, as many as a point has numbers"),
+         required_key("plus", takes::formula_vector(), "x⁺"),
+         optional_key("point", takes::formula_vector(),
+                      "of the inverse, by x0[0], …, x1[0], …: x; without it, Newton's method"),
+         optional_key("vector", takes::formula_vector(), "of the inverse: v")}},
+       formula_map},
       {{"theta",
         "R_d(x, v) = (R_x(-θv), R_x((1-θ)v))",
         {default_key("theta", takes::number(0, 1), 0.5, "θ: 0.5 is symmetric and of order 2")}},

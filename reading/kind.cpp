@@ -70,6 +70,12 @@ Takes weights() {
            {"patternProperties", {{"^//", true}}},
            {"additionalProperties", {{"type", "number"}, {"exclusiveMinimum", 0}}}}};
 }
+Takes brackets() {
+  return {"an object of formulas by pairs",
+          {{"type", "object"},
+           {"patternProperties", {{"^//", true}}},
+           {"additionalProperties", reference("formula")}}};
+}
 Takes field_rows() { return {"rows of formulas", reference("fieldRows")}; }
 Takes number_matrices() { return {"an array of matrices of numbers", reference("numberMatrices")}; }
 Takes representation(std::vector<std::string> words) {

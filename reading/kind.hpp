@@ -33,6 +33,7 @@ Takes components();                            // formulas, or an object of them
 Takes form_matrix();                           // a matrix, or "canonical"
 Takes metric(std::vector<std::string> words);  // one of the words, or a matrix of formulas
 Takes weights();                               // an object of names and positive numbers
+Takes brackets();                              // an object of formulas by pairs of names
 Takes field_rows();                            // vector fields or one-forms, one a row
 Takes number_matrices();
 Takes representation(std::vector<std::string> words);  // one of the words, or number_matrices

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "courant/reading/json_reader.hpp"
@@ -9,9 +10,10 @@
 
 namespace courant {
 
-// `algebra` (a name), `n` (of so(n) and Rⁿ) and `constants`; `algebra` or `constants` has to be
-// there.
+// `algebra` (a name) with `n` where it has a size, `constants`, `brackets` with a `basis`, or `matrices`.
 std::vector<Key> lie_algebra_keys();
+// Those of which one has to be there: KindDescription::one_of.
+const std::vector<std::string>& lie_algebra_choice();
 std::optional<LieAlgebra> read_lie_algebra(ObjectReader& object);
 
 // An array of square matrices of numbers, by rows.

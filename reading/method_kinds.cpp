@@ -282,7 +282,9 @@ std::optional<MethodChoice> reduced(ObjectReader& object) {
         if (!group)
           throw std::invalid_argument("no group is known for the Lie algebra " +
                                       structure->acting().name() +
-                                      " in its basis; expected so3, se3, so or abelian");
+                                      ", by its matrices or those of its adjoint representation; "
+                                      "expected an algebra with a name, or "
+                                      "one of \"matrices\"");
         const auto on_group = map.make(group);
         return PreparedMethod{
             composed(std::make_shared<ReducedMap>(system, on_group,

@@ -145,7 +145,9 @@ std::optional<Attitude> read_attitude(const JsonReader& key, const LieAlgebra& g
   if (!read_names(key, taken, attitude.names)) return std::nullopt;
   if (!attitude.group) {
     key.problem("no group is known for the Lie algebra " + g.name() +
-                " in its basis; expected so3, se3, so or abelian");
+                ", by its matrices or those of its adjoint representation; expected an algebra "
+                "with a name, or "
+                "one of \"matrices\"");
     return std::nullopt;
   }
   if (plus) {

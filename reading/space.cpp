@@ -3,10 +3,12 @@
 #include <random>
 #include <span>
 
+#include "courant/core/words/message.hpp"
 #include "courant/manifolds/cotangent_bundle.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/hyperbolic.hpp"
 #include "courant/manifolds/implicit_submanifold.hpp"
+#include "courant/manifolds/matrix_group.hpp"
 #include "courant/manifolds/product.hpp"
 #include "courant/manifolds/special_euclidean3.hpp"
 #include "courant/manifolds/special_orthogonal.hpp"
@@ -16,6 +18,7 @@
 #include "courant/manifolds/symmetric_positive_definite.hpp"
 #include "courant/manifolds/tangent_bundle.hpp"
 #include "courant/manifolds/torus.hpp"
+#include "courant/reading/lie_algebra_keys.hpp"
 
 namespace courant {
 namespace {
@@ -88,6 +91,113 @@ std::optional<ManifoldPointer> symmetric_positive_definite(ObjectReader& object,
   return std::nullopt;
 }
 
+// The group of an algebra of matrices, with the retraction that is named.
+std::optional<ManifoldPointer> group_by(ObjectReader& object, const MatrixAlgebra& algebra,
+                                        const MatrixGroup::Equations& equations = {}) {
+  const std::string word = object.word("retraction");
+  try {
+    return std::make_shared<MatrixGroup>(algebra,
+                                         word == "cayley"        ? cayley_map(algebra)
+                                         : word == "second-kind" ? second_kind_map(algebra)
+                                                                 : exponential_map(algebra),
+                                         equations);
+  } catch (const std::domain_error& error) {
+    object.place().problem(without_place(error.what()));
+    return std::nullopt;
+  }
+}
+
+std::optional<ManifoldPointer> plane_motions(ObjectReader& object, const Vocabulary&) {
+  return group_by(object, MatrixAlgebra::se2());
+}
+
+std::optional<ManifoldPointer> unit_quaternions(ObjectReader& object, const Vocabulary&) {
+  return group_by(object, MatrixAlgebra::su2());
+}
+
+std::optional<ManifoldPointer> galilei_group(ObjectReader& object, const Vocabulary&) {
+  return group_by(object, MatrixAlgebra::galilei());
+}
+
+// A family of algebras by the size of the matrices that the coordinates are, a multiple of `multiple` and at least
+// `least`.
+std::optional<ManifoldPointer> of_square_matrices(ObjectReader& object,
+                                                  const Vocabulary& vocabulary,
+                                                  MatrixAlgebra (*make)(Index), Index multiple,
+                                                  Index least, const std::string& example) {
+  const auto& declarations = vocabulary.coordinates.declarations();
+  if (declarations.size() == 1 && declarations[0].shape.size() == 2 &&
+      declarations[0].shape[0] == declarations[0].shape[1] && declarations[0].shape[0] >= least &&
+      declarations[0].shape[0] % multiple == 0)
+    return group_by(object, make(declarations[0].shape[0] / multiple));
+  object.place().problem("the points of this group are square matrices" +
+                         std::string(multiple == 2 ? " with an even number of rows" : "") +
+                         "; expected coordinates such as \"" + example + "\"");
+  return std::nullopt;
+}
+
+std::optional<ManifoldPointer> special_linear(ObjectReader& object, const Vocabulary& vocabulary) {
+  return of_square_matrices(object, vocabulary, MatrixAlgebra::sl, 1, 2, "X[2][2]");
+}
+
+std::optional<ManifoldPointer> general_linear(ObjectReader& object, const Vocabulary& vocabulary) {
+  return of_square_matrices(object, vocabulary, MatrixAlgebra::gl, 1, 1, "X[2][2]");
+}
+
+std::optional<ManifoldPointer> symplectic(ObjectReader& object, const Vocabulary& vocabulary) {
+  return of_square_matrices(object, vocabulary, MatrixAlgebra::sp, 2, 2, "X[4][4]");
+}
+
+std::optional<ManifoldPointer> heisenberg(ObjectReader& object, const Vocabulary& vocabulary) {
+  const Index size = vocabulary.coordinates.size();
+  if (size >= 3 && size % 2 == 1)
+    return group_by(object, MatrixAlgebra::heisenberg((size - 1) / 2));
+  object.place().problem("a point of a Heisenberg group does not have " + std::to_string(size) +
+                         " numbers; expected an odd number of coordinates, such as \"x\", \"y\", "
+                         "\"z\"");
+  return std::nullopt;
+}
+
+// Formulas of the coordinates, as equations; a problem where one is wrong.
+std::optional<MatrixGroup::Equations> read_equations(const JsonReader& key,
+                                                     const Vocabulary& vocabulary) {
+  const auto equations = read_formula_vector(key);
+  if (!equations) return std::nullopt;
+  try {
+    Graph graph;
+    const SymbolTable symbols =
+        vocabulary.symbols({.x = graph.variables("x", vocabulary.coordinates.size())});
+    if (!check(*equations, symbols, key.findings())) return std::nullopt;
+  } catch (const FormulaError& error) {  // of a definition
+    key.problem(std::string("cannot be read: in a definition, ") + error.what());
+    return std::nullopt;
+  }
+  return [equations = *equations, vocabulary](const ExprVector& x) {
+    return evaluate(equations, vocabulary.symbols({.x = x}));
+  };
+}
+
+std::optional<ManifoldPointer> group_of_matrices(ObjectReader& object,
+                                                 const Vocabulary& vocabulary) {
+  const auto key = object.required("basis");
+  const auto equations_key = object.optional("equations");
+  const auto basis = key ? read_matrices(*key) : std::nullopt;
+  const auto equations = equations_key ? read_equations(*equations_key, vocabulary)
+                                       : std::optional(MatrixGroup::Equations());
+  if (!basis || !equations) return std::nullopt;
+  try {
+    const MatrixAlgebra algebra("g", *basis);
+    const Index size = algebra.ambient_dimension();
+    if (vocabulary.coordinates.size() == size) return group_by(object, algebra, *equations);
+    key->problem("has matrices of " + std::to_string(size) + " entries, but the coordinates are " +
+                 std::to_string(vocabulary.coordinates.size()) +
+                 "; expected one for each entry, row by row");
+  } catch (const std::exception& error) {
+    key->problem(without_place(error.what()));
+  }
+  return std::nullopt;
+}
+
 // One factor for each declaration of the coordinates.
 std::optional<ManifoldPointer> product_of(ObjectReader& object, const Vocabulary& vocabulary) {
   const auto key = object.required("factors");
@@ -143,7 +253,7 @@ std::optional<ManifoldPointer> implicit_submanifold(ObjectReader& object,
                                                     const Vocabulary& vocabulary) {
   const auto surrounding = manifold_kinds().read_key(object, "surrounding", vocabulary);
   const auto key = object.required("equations");
-  const auto equations = key ? read_formula_vector(*key) : std::nullopt;
+  const auto equations = key ? read_equations(*key, vocabulary) : std::nullopt;
   if (!surrounding || !equations) return std::nullopt;
   const Index size = vocabulary.coordinates.size();
   if ((*surrounding)->ambient_dimension() != size) {
@@ -152,28 +262,16 @@ std::optional<ManifoldPointer> implicit_submanifold(ObjectReader& object,
                            " numbers, but the coordinates are " + std::to_string(size));
     return std::nullopt;
   }
-  const auto count = static_cast<Index>(equations->formulas.size());
+  const auto count = static_cast<Index>(key->value().size());
   if (count == 0 || count >= (*surrounding)->dimension()) {
     key->problem("are " + std::to_string(count) + "; expected 1 to " +
                  std::to_string((*surrounding)->dimension() - 1) +
                  ", fewer than the dimension of " + (*surrounding)->name());
     return std::nullopt;
   }
-  try {
-    Graph graph;
-    const SymbolTable symbols = vocabulary.symbols({.x = graph.variables("x", size)});
-    if (!check(*equations, symbols, key->findings())) return std::nullopt;
-  } catch (const FormulaError& error) {  // of a definition
-    key->problem(std::string("cannot be read: in a definition, ") + error.what());
-    return std::nullopt;
-  }
   const auto submanifold = std::make_shared<ImplicitSubmanifold>(
       "ImplicitSubmanifold(" + (*surrounding)->name() + ", " + std::to_string(count) + ")",
-      *surrounding,
-      [equations = *equations, vocabulary](const ExprVector& x) {
-        return evaluate(equations, vocabulary.symbols({.x = x}));
-      },
-      count);
+      *surrounding, *equations, count);
   try {
     std::mt19937 generator(1);
     const VectorXd x = submanifold->random_point(generator);
@@ -207,6 +305,9 @@ Registry<ManifoldPointer, Vocabulary>& manifold_kinds() {
     return default_key("retraction", takes::word({"exponential", other}), "exponential",
                        "what leads from a tangent vector to a point");
   };
+  const Key of_group =
+      default_key("retraction", takes::word({"exponential", "cayley", "second-kind"}),
+                  "exponential", "what leads from a tangent vector to a point");
   const Key base = default_key("base", takes::kind("manifold"), "euclidean", "Q");
   static Registry<ManifoldPointer, Vocabulary> kinds({
       {{"euclidean", "Rⁿ, with as many dimensions as there are coordinates"}, euclidean},
@@ -228,6 +329,40 @@ Registry<ManifoldPointer, Vocabulary>& manifold_kinds() {
         "rotations of Rⁿ by n×n matrices, \"X[n][n]\"; the momentum p_X[n(n-1)/2] is that in the "
         "body"},
        all_rotations},
+      {{"se2",
+        "motions of the plane, \"R[2][2]\", \"r[2]\", with momenta p_R (angular) and p_r[2] "
+        "(linear), both in the "
+        "body; or one array of 6 with a momentum of 3",
+        {of_group}},
+       plane_motions},
+      {{"su2",
+        "unit quaternions, \"q[4]\", q' = q v/2; the momentum p_q[3] is that in the body",
+        {of_group}},
+       unit_quaternions},
+      {{"heisenberg",
+        "\"x[n]\", \"y[n]\", \"z\" of the matrices (1 x z; 0 1 y; 0 0 1), with x' = v_x, y' = v_y, "
+        "z' = v_z + x v_y",
+        {of_group}},
+       heisenberg},
+      {{"sl", "n×n matrices of determinant 1, \"X[n][n]\"; p_X[n²-1]", {of_group}}, special_linear},
+      {{"gl", "n×n matrices of positive determinant, \"X[n][n]\"; p_X[n][n]", {of_group}},
+       general_linear},
+      {{"sp", "symplectic 2n×2n matrices, \"X[2*n][2*n]\"; p_X[n(2n+1)]", {of_group}}, symplectic},
+      {{"galilei",
+        "Galilei's group by 5×5 matrices, \"X[5][5]\"; p_X[10]: rotation, boost, space, time",
+        {of_group}},
+       galilei_group},
+      {{"matrix-group",
+        "the group of an algebra of matrices, all entries row by row, \"X[m][m]\"; X' = X (v_0 B_0 "
+        "+ v_1 B_1 + …)",
+        {required_key("basis", takes::number_matrices(),
+                      "B_0, B_1, …: independent, and closed under commutators"),
+         optional_key("equations", takes::array_of(takes::formula(), 1),
+                      "formulas that are zero on the group, beside those that are found: linear "
+                      "ones, invariant forms, "
+                      "the determinant"),
+         of_group}},
+       group_of_matrices},
       {{"stiefel", "orthonormal k-frames of Rⁿ by n×k matrices, \"X[n][k]\""}, stiefel},
       {{"symmetric-positive-definite",
         "such n×n matrices by their lower triangle, row after row: \"X[3]\" for 2×2"},
@@ -287,6 +422,10 @@ std::optional<std::vector<Shape>> fibre_shapes(const Manifold& Q,
   const bool motion = dynamic_cast<const SpecialEuclidean3*>(&Q) && declarations.size() == 2 &&
                       declarations[0].size() == 9 && declarations[1].size() == 3;
   if (motion) return std::vector<Shape>{{3}, {3}};
+  const auto* group = dynamic_cast<const MatrixGroup*>(&Q);
+  if (group && group->algebra() == MatrixAlgebra::se2() && declarations.size() == 2 &&
+      declarations[0].size() == 4 && declarations[1].size() == 2)
+    return std::vector<Shape>{{}, {2}};
   return std::nullopt;
 }
 

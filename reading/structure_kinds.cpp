@@ -355,7 +355,7 @@ Registry<StructurePointer, StructureSite>& structure_kinds() {
                            "on"),
               default_key("sign", takes::word({"minus", "plus"}), "minus",
                           "minus in body coordinates")}),
-        {{"algebra", "constants"}}},
+        {lie_algebra_choice()}},
        lie_poisson},
       {{"gauge",
         "a structure transformed by a two-form B: (v, α − Bᵀ v) is in it",

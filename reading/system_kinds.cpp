@@ -128,14 +128,15 @@ Registry<Model>& system_kinds() {
                  "how: by a word, or a matrix for each e_i; so3 and so(n) know that of "
                  "vectors"),
              optional_key("attitude", takes::names(),
-                          "points of the group as part of the state: \"R[3][3]\" for so3"),
+                          "points of the group as part of the state: \"R[3][3]\" for so3, of "
+                          "matrices all entries"),
              inputs,
              optional_key("nonholonomic", takes::formulas(),
                           "constraints: one-forms in velocities that are zero, with reactions "
                           "along them; multipliers lambda"),
              default_key("sign", takes::word({"minus", "plus"}), "minus",
                          "minus in body coordinates")})),
-        {{"algebra", "constants"}, {"lagrangian", "hamiltonian"}}},
+        {lie_algebra_choice(), {"lagrangian", "hamiltonian"}}},
        read_euler_poincare},
       {{"port-hamiltonian", "x' = (J - R) dH + B u, y = Bᵀ dH with open or closed ports",
         system_keys(

@@ -33,7 +33,8 @@ MatrixXd adjoint(const std::vector<MatrixXd>& constants, Index i) {
 
 }  // namespace
 
-LieAlgebra::LieAlgebra(std::string name, std::vector<MatrixXd> constants)
+LieAlgebra::LieAlgebra(std::string name, std::vector<MatrixXd> constants,
+                       const std::vector<std::string>& basis)
     : name_(std::move(name)), constants_(std::move(constants)) {
   const Index n = dimension();
   for (const MatrixXd& c : constants_)
@@ -46,6 +47,9 @@ LieAlgebra::LieAlgebra(std::string name, std::vector<MatrixXd> constants)
     if (const double defect = largest({c + c.transpose()}); defect > bound)
       throw std::domain_error("LieAlgebra: the constants have a symmetric part, |c + cᵀ| = " +
                               number_text(defect) + "; expected skew matrices.");
+  const auto name_of = [&](std::size_t i) {
+    return i < basis.size() ? basis[i] : "e_" + std::to_string(i);
+  };
   // ad([e_i, e_j]) = [ad(e_i), ad(e_j)] is the Jacobi identity.
   std::vector<MatrixXd> ad;
   for (Index i = 0; i < n; ++i) ad.push_back(adjoint(constants_, i));
@@ -56,9 +60,14 @@ LieAlgebra::LieAlgebra(std::string name, std::vector<MatrixXd> constants)
         defect += constants_[k](static_cast<Index>(i), static_cast<Index>(j)) * ad[k];
       if (largest({defect}) > bound * size)
         throw std::domain_error("LieAlgebra: the Jacobi identity fails by " +
-                                number_text(largest({defect})) + " for e_" + std::to_string(j) +
-                                " and e_" + std::to_string(i) + "; expected 0.");
+                                number_text(largest({defect})) + " for " + name_of(j) + " and " +
+                                name_of(i) + "; expected 0.");
     }
+}
+
+LieAlgebra::LieAlgebra(const MatrixAlgebra& matrices)
+    : LieAlgebra(matrices.name(), matrices.constants()) {
+  matrices_ = std::make_shared<MatrixAlgebra>(matrices);
 }
 
 Eigen::VectorXd LieAlgebra::bracket(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const {

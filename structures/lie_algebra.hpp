@@ -2,8 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <string>
 #include <vector>
+
+#include "courant/manifolds/matrix_algebra.hpp"
 
 namespace courant {
 
@@ -14,8 +17,13 @@ namespace courant {
 class LieAlgebra {
  public:
   // constants[k](i, j) = c^k_ij, n matrices n × n. Throws std::invalid_argument on wrong sizes,
-  // std::domain_error if a law fails by more than 1e-12 of the largest constant.
-  LieAlgebra(std::string name, std::vector<Eigen::MatrixXd> constants);
+  // std::domain_error if a law fails by more than 1e-12 of the largest constant. `basis` has the names of the e_i for
+  // messages; by default e_0, e_1, …
+  LieAlgebra(std::string name, std::vector<Eigen::MatrixXd> constants,
+             const std::vector<std::string>& basis = {});
+
+  // That of matrices, in their basis.
+  explicit LieAlgebra(const MatrixAlgebra& matrices);
 
   // Rⁿ with the zero bracket.
   static LieAlgebra abelian(Eigen::Index n);
@@ -34,11 +42,14 @@ class LieAlgebra {
   const std::string& name() const { return name_; }
   Eigen::Index dimension() const { return static_cast<Eigen::Index>(constants_.size()); }
   const std::vector<Eigen::MatrixXd>& constants() const { return constants_; }
+  // The matrices that it was made of, or null.
+  const std::shared_ptr<const MatrixAlgebra>& matrices() const { return matrices_; }
   Eigen::VectorXd bracket(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
 
  private:
   std::string name_;
   std::vector<Eigen::MatrixXd> constants_;
+  std::shared_ptr<const MatrixAlgebra> matrices_;
 };
 
 }  // namespace courant

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <utility>
 
 #include "courant/core/linear/complete_orthogonal_decomposition.hpp"
 #include "courant/manifolds/cotangent_bundle.hpp"
 #include "courant/manifolds/euclidean.hpp"
+#include "courant/manifolds/matrix_group.hpp"
 #include "courant/manifolds/special_euclidean3.hpp"
 #include "courant/manifolds/special_orthogonal.hpp"
 #include "courant/manifolds/special_orthogonal3.hpp"
@@ -27,7 +30,32 @@ bool is_group_of(const std::shared_ptr<const Manifold>& G, const LieAlgebra& g) 
   return true;
 }
 
+namespace {
+
+// ad(e_i): the matrix of [e_i, ·].
+std::vector<MatrixXd> adjoint_matrices(const LieAlgebra& g) {
+  const Index n = g.dimension();
+  std::vector<MatrixXd> basis(static_cast<std::size_t>(n), MatrixXd(n, n));
+  for (Index i = 0; i < n; ++i)
+    for (Index k = 0; k < n; ++k)
+      basis[static_cast<std::size_t>(i)].row(k) = g.constants()[static_cast<std::size_t>(k)].row(i);
+  return basis;
+}
+
+// Null where the matrices are dependent (those of an algebra with a centre), or equations of the group are not found.
+std::shared_ptr<const Manifold> matrix_group(const LieAlgebra& g) {
+  try {
+    return std::make_shared<MatrixGroup>(
+        g.matrices() ? *g.matrices() : MatrixAlgebra("ad " + g.name(), adjoint_matrices(g)));
+  } catch (const std::logic_error&) {  // domain_error, or invalid_argument for n = 0
+    return nullptr;
+  }
+}
+
+}  // namespace
+
 std::shared_ptr<const Manifold> group_of(const LieAlgebra& g) {
+  if (g.matrices()) return matrix_group(g);
   std::vector<std::shared_ptr<const Manifold>> groups = {
       std::make_shared<SpecialOrthogonal3>(), std::make_shared<SpecialEuclidean3>(),
       std::make_shared<Euclidean>(g.dimension())};
@@ -35,7 +63,7 @@ std::shared_ptr<const Manifold> group_of(const LieAlgebra& g) {
     groups.push_back(std::make_shared<SpecialOrthogonal>(n));
   const auto found =
       std::ranges::find_if(groups, [&](const auto& group) { return is_group_of(group, g); });
-  return found == groups.end() ? nullptr : *found;
+  return found == groups.end() ? matrix_group(g) : *found;
 }
 
 namespace {

@@ -11,4 +11,10 @@ namespace courant {
 // do not fit, std::domain_error if a pivot is identically zero.
 ExprMatrix solve(ExprMatrix A, ExprMatrix b);
 
+// det A and the adjugate, A adj A = det A, of a square A (n × n, n ≤ 16, else std::invalid_argument):
+// polynomials, from all minors, of which there are as many as the binomial coefficient of 2n over n. For
+// small matrices whose leading minors may vanish, such as rotations.
+Expr determinant(const ExprMatrix& A);
+ExprMatrix adjugate(const ExprMatrix& A);
+
 }  // namespace courant

@@ -37,7 +37,11 @@ DiscretizationMap::Displacement Theta::do_from_start(const ExprVector& x0,
                                                      const ExprVector& w) const {
   const Manifold& M = *manifold();
   if (theta_ == 0.0) return {x0, w, M.retract(x0, w)};
-  if (!M.is_geodesic()) return from_start_by_inverse(x0, w);
+  if (!M.is_geodesic()) {
+    if (!M.has_source()) return from_start_by_inverse(x0, w);
+    const ExprVector x = M.source(x0, ExprVector(Expr(-theta_) * w));
+    return {x, w, M.retract(x, ExprVector(Expr(1.0 - theta_) * w))};
+  }
   return {M.retract(x0, ExprVector(Expr(theta_) * w)), M.velocity_along(x0, w, theta_),
           M.retract(x0, w)};
 }

@@ -10,7 +10,8 @@ namespace courant {
 //
 // θ = 0: explicit Euler; θ = ½: the implicit midpoint rule on Rⁿ, symmetric, order 2 on any
 // manifold; θ = 1: implicit Euler. The inverse is closed if the retraction has one and is geodesic
-// or θ is 0 or 1.
+// or θ is 0 or 1. The pairs that begin at a point also are if the retraction is geodesic or has
+// sources, as on groups.
 class Theta final : public DiscretizationMap {
  public:
   // Throws std::invalid_argument unless 0 ≤ θ ≤ 1.
@@ -18,6 +19,9 @@ class Theta final : public DiscretizationMap {
 
   double theta() const { return theta_; }
   bool has_inverse() const override;
+  bool has_start() const override {
+    return has_inverse() || theta_ == 0.0 || manifold()->is_geodesic() || manifold()->has_source();
+  }
   int order() const override { return theta_ == 0.5 ? 2 : 1; }
   double stage_time() const override { return theta_; }
   bool is_symmetric() const override { return theta_ == 0.5; }

@@ -15,6 +15,7 @@
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/hyperbolic.hpp"
 #include "courant/manifolds/implicit_submanifold.hpp"
+#include "courant/manifolds/matrix_group.hpp"
 #include "courant/manifolds/product.hpp"
 #include "courant/manifolds/special_euclidean3.hpp"
 #include "courant/manifolds/special_orthogonal.hpp"
@@ -59,6 +60,29 @@ inline ManifoldPointer spherical_circle() {
       1);
 }
 
+// Groups of matrices, with each map of the algebra.
+inline ManifoldPointer group(const MatrixAlgebra& algebra) { return make<MatrixGroup>(algebra); }
+inline ManifoldPointer by_cayley(const MatrixAlgebra& algebra) {
+  return make<MatrixGroup>(algebra, cayley_map(algebra));
+}
+inline ManifoldPointer by_second_kind(const MatrixAlgebra& algebra) {
+  return make<MatrixGroup>(algebra, second_kind_map(algebra));
+}
+
+// so(3), whose points are all entries of matrices.
+inline MatrixAlgebra rotation_matrices() {
+  std::vector<MatrixXd> basis(3, MatrixXd::Zero(3, 3));
+  for (Index k = 0; k < 3; ++k) {
+    basis[static_cast<std::size_t>(k)]((k + 2) % 3, (k + 1) % 3) = 1.0;
+    basis[static_cast<std::size_t>(k)]((k + 1) % 3, (k + 2) % 3) = -1.0;
+  }
+  return {"rotations", basis};
+}
+// The affine maps x ↦ e^a x + b of the line: not unimodular, and no form is invariant.
+inline MatrixAlgebra affine_maps() {
+  return {"affine", {MatrixXd{{1.0, 0.0}, {0.0, 0.0}}, MatrixXd{{0.0, 1.0}, {0.0, 0.0}}}};
+}
+
 // Every class of manifolds/, with each of its retractions, in dimension 0, 1 and more, alone and as
 // first and last factor of a product.
 inline std::vector<ManifoldPointer> manifold_catalogue() {
@@ -98,6 +122,30 @@ inline std::vector<ManifoldPointer> manifold_catalogue() {
           make<SymmetricPositiveDefinite>(0),
           make<SymmetricPositiveDefinite>(1),
           make<SymmetricPositiveDefinite>(3),
+          group(MatrixAlgebra::se2()),
+          by_cayley(MatrixAlgebra::se2()),
+          by_second_kind(MatrixAlgebra::se2()),
+          group(MatrixAlgebra::su2()),
+          by_cayley(MatrixAlgebra::su2()),
+          by_second_kind(MatrixAlgebra::su2()),
+          group(MatrixAlgebra::heisenberg(1)),
+          by_second_kind(MatrixAlgebra::heisenberg(2)),
+          group(MatrixAlgebra::sl(2)),
+          by_cayley(MatrixAlgebra::sl(2)),
+          by_second_kind(MatrixAlgebra::sl(2)),
+          group(MatrixAlgebra::sl(3)),
+          group(MatrixAlgebra::gl(1)),
+          group(MatrixAlgebra::gl(2)),
+          group(MatrixAlgebra::sp(2)),
+          by_cayley(MatrixAlgebra::sp(2)),
+          group(MatrixAlgebra::galilei()),
+          group(rotation_matrices()),
+          by_cayley(rotation_matrices()),
+          group(affine_maps()),
+          by_second_kind(affine_maps()),
+          product({group(MatrixAlgebra::se2()), make<Euclidean>(1)}),
+          make<CotangentBundle>(group(MatrixAlgebra::su2())),
+          make<CotangentBundle>(by_cayley(MatrixAlgebra::sl(2))),
           product({}),
           product({sphere, make<Euclidean>(1)}),
           product({make<Euclidean>(0), torus, rotations}),

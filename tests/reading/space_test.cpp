@@ -58,6 +58,54 @@ BOOST_AUTO_TEST_CASE(each_kind_is_the_manifold_that_it_says) {
              "CotangentBundle(SymmetricPositiveDefinite(3))");
 }
 
+BOOST_AUTO_TEST_CASE(groups_of_matrices) {
+  const auto name = [](const Json& base, const Json& coordinates) {
+    return manifold_of(motion(base, coordinates, "0"))->name();
+  };
+  BOOST_TEST(name("se2", {"R[2][2]", "r[2]"}) ==
+             "CotangentBundle(MatrixGroup(se(2), exponential))");
+  BOOST_TEST(name({{"type", "su2"}, {"retraction", "cayley"}}, {"q[4]"}) ==
+             "CotangentBundle(MatrixGroup(su(2), cayley))");
+  BOOST_TEST(name({{"type", "heisenberg"}, {"retraction", "second-kind"}}, {"x[2]", "y[2]", "z"}) ==
+             "CotangentBundle(MatrixGroup(heisenberg(2), second-kind))");
+  BOOST_TEST(name("sl", {"X[3][3]"}) == "CotangentBundle(MatrixGroup(sl(3), exponential))");
+  BOOST_TEST(name("gl", {"X[2][2]"}) == "CotangentBundle(MatrixGroup(gl(2), exponential))");
+  BOOST_TEST(name("sp", {"X[4][4]"}) == "CotangentBundle(MatrixGroup(sp(4), exponential))");
+  BOOST_TEST(name("galilei", {"X[5][5]"}) == "CotangentBundle(MatrixGroup(galilei, exponential))");
+  const Json line = {{"type", "matrix-group"},
+                     {"basis", Json::parse("[[[1,0],[0,0]], [[0,1],[0,0]]]")}};
+  BOOST_TEST(name(line, {"g[2][2]"}) == "CotangentBundle(MatrixGroup(g, exponential))");
+  const auto names = read_experiment(motion("se2", {"R[2][2]", "r[2]"}, "p_R^2 + p_r[1]").dump())
+                         .model.system->names()
+                         .coordinates;
+  BOOST_TEST(names[6] == "p_R");
+  BOOST_TEST(names[8] == "p_r[1]");
+
+  const auto problem = [](const Json& base, const char* coordinates) {
+    return problems(motion(base, {coordinates}, "0"));
+  };
+  BOOST_TEST(problem({{"type", "sl"}, {"retraction", "cayley"}}, "X[3][3]")
+                 .find("the Cayley transform of sl(3) leaves the group") != std::string::npos);
+  BOOST_TEST(problem("sp", "X[3][3]")
+                 .find("square matrices with an even number of rows; expected "
+                       "coordinates such as \"X[4][4]\"") != std::string::npos);
+  BOOST_TEST(problem("heisenberg", "x[4]").find("does not have 4 numbers") != std::string::npos);
+  BOOST_TEST(
+      problem(line, "g[3][3]").find("has matrices of 4 entries, but the coordinates are 9") !=
+      std::string::npos);
+  Json given = {{"type", "matrix-group"}, {"basis", Json::parse("[[[1,0],[0,-2]]]")}};
+  BOOST_TEST(problem(given, "g[2][2]").find("of 3 equations of the group 1 is not found") !=
+             std::string::npos);
+  given["equations"] = {"g[0][0]^2*g[1][1] - 1"};
+  BOOST_TEST(problem(given, "g[2][2]") == "");
+  given["equations"] = {"g[0][0]^2*g[1][1] - 2"};
+  BOOST_TEST(problem(given, "g[2][2]").find("the equations are off by") != std::string::npos);
+  given["equations"] = {"h - 2"};
+  BOOST_TEST(problem(given, "g[2][2]").find("unknown name \"h\"") != std::string::npos);
+  given["basis"] = Json::parse("[[[0,1],[0,0]], [[0,0],[1,0]]]");
+  BOOST_TEST(problem(given, "g[2][2]").find("closed under brackets") != std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(momenta_are_named_factor_by_factor) {
   const Json product = {{"type", "product"}, {"factors", {"so3", "sphere", "euclidean"}}};
   const Experiment experiment = read_experiment(

@@ -83,15 +83,20 @@ BOOST_AUTO_TEST_CASE(what_does_not_fit_is_said) {
   Json plus = with(rigid_body, "/system/attitude", {"R[3][3]"});
   plus["system"]["sign"] = "plus";
   BOOST_TEST(says(problem_of_run(plus), "/system/attitude: is for left-invariant systems"));
-  // so(3) in a basis of another length.
+  // so(3) in a basis of another length has its adjoint group; what has a centre, and no matrices, has none.
   Json basis = rigid_body;
   basis["system"].erase("algebra");
   basis["system"]["constants"] = {{{0, 0, 0}, {0, 0, 2}, {0, -2, 0}},
                                   {{0, 0, -2}, {0, 0, 0}, {2, 0, 0}},
                                   {{0, 2, 0}, {-2, 0, 0}, {0, 0, 0}}};
+  BOOST_TEST(problem_of_run(basis) == "");
+  basis["system"].erase("constants");
+  basis["system"]["basis"] = {"X", "Y", "Z"};
+  basis["system"]["brackets"] = {{"X,Y", "Z"}};
   BOOST_TEST(says(problem_of_run(basis),
-                  "/method: no group is known for the Lie algebra g in its basis; expected so3, "
-                  "se3, so or abelian"));
+                  "/method: no group is known for the Lie algebra g, by its matrices or those of "
+                  "its adjoint representation; expected "
+                  "an algebra with a name, or one of \"matrices\""));
   const std::string map = problem_of_run(with(rigid_body, "/method/discretization", "chordal"));
   BOOST_TEST(says(map, "/method: the discretization \"chordal\" is for spheres"), map);
 }

@@ -4,6 +4,8 @@
 #include <random>
 
 #include "courant/manifolds/euclidean.hpp"
+#include "courant/manifolds/laws.hpp"
+#include "courant/manifolds/matrix_group.hpp"
 #include "courant/manifolds/special_euclidean3.hpp"
 #include "courant/manifolds/special_orthogonal.hpp"
 #include "courant/manifolds/special_orthogonal3.hpp"
@@ -61,9 +63,40 @@ BOOST_AUTO_TEST_CASE(groups_of_algebras) {
   BOOST_TEST(group_of(LieAlgebra::se3())->name() == motions->name());
   BOOST_TEST(group_of(LieAlgebra::abelian(2))->name() == Euclidean(2).name());
   BOOST_TEST(group_of(LieAlgebra::so(4))->name() == "SpecialOrthogonal(4)");
+}
+
+// Of an algebra without a centre the adjoint matrices have a group: so(3) in another basis, where it is SO(3), and sl(2). A centre
+// acts by zero.
+BOOST_AUTO_TEST_CASE(adjoint_groups) {
   auto twice = LieAlgebra::so3().constants();
   for (MatrixXd& c : twice) c *= 2.0;
-  BOOST_TEST((group_of(LieAlgebra("2 so(3)", twice)) == nullptr));
+  const LieAlgebra sl2("sl2", LieAlgebra(MatrixAlgebra::sl(2)).constants());
+  for (const LieAlgebra& g : {LieAlgebra("2 so(3)", twice), sl2}) {
+    const auto group = group_of(g);
+    BOOST_REQUIRE(group);
+    BOOST_TEST(group->name() == "MatrixGroup(ad " + g.name() + ", exponential)");
+    BOOST_TEST(is_group_of(group, g));
+    for (const LawResult& result : check_manifold(*group)) BOOST_TEST(result.passed(), result);
+  }
+  const LieAlgebra heisenberg("h", LieAlgebra(MatrixAlgebra::heisenberg(1)).constants());
+  BOOST_TEST((group_of(heisenberg) == nullptr));
+}
+
+// What is made of matrices has their group.
+BOOST_AUTO_TEST_CASE(groups_of_matrices) {
+  for (const MatrixAlgebra& matrices :
+       {MatrixAlgebra::se2(), MatrixAlgebra::su2(), MatrixAlgebra::heisenberg(2),
+        MatrixAlgebra::sl(3), MatrixAlgebra::gl(2), MatrixAlgebra::sp(2),
+        MatrixAlgebra::galilei()}) {
+    const LieAlgebra g(matrices);
+    const auto group = group_of(g);
+    BOOST_TEST(group->name() == "MatrixGroup(" + matrices.name() + ", exponential)");
+    BOOST_TEST(is_group_of(group, g), matrices.name());
+    for (const GroupMap& map : {second_kind_map(matrices)})
+      BOOST_TEST(is_group_of(std::make_shared<MatrixGroup>(matrices, map), g), matrices.name());
+  }
+  BOOST_TEST(is_group_of(std::make_shared<MatrixGroup>(MatrixAlgebra::su2()), LieAlgebra::so3()));
+  BOOST_TEST(!is_group_of(std::make_shared<MatrixGroup>(MatrixAlgebra::sl(2)), LieAlgebra::so3()));
 }
 
 // A(x y) = A(x) A(y), and the differential at the unit is ρ.

@@ -9,6 +9,7 @@
 #include "courant/integrators/maps/cayley_midpoint.hpp"
 #include "courant/integrators/maps/chordal.hpp"
 #include "courant/integrators/maps/cotangent_lift.hpp"
+#include "courant/integrators/maps/group_midpoint.hpp"
 #include "courant/integrators/maps/product_map.hpp"
 #include "courant/integrators/maps/projected.hpp"
 #include "courant/integrators/maps/spherical_midpoint.hpp"
@@ -27,6 +28,13 @@ inline std::shared_ptr<const CotangentLift> lift(const MapPointer& map) {
 inline MapPointer projected(const ManifoldPointer& S, double theta) {
   const auto submanifold = std::dynamic_pointer_cast<const ImplicitSubmanifold>(S);
   return make<Projected>(submanifold, make<Theta>(submanifold->surrounding(), theta));
+}
+
+inline MapPointer by_cayley_midpoint(const MatrixAlgebra& algebra) {
+  return make<GroupMidpoint>(make<MatrixGroup>(algebra), cayley_map(algebra));
+}
+inline MapPointer by_second_kind_midpoint(const MatrixAlgebra& algebra) {
+  return make<GroupMidpoint>(make<MatrixGroup>(algebra), second_kind_map(algebra));
 }
 
 // Maps of manifolds that are not cotangent bundles, in dimension 0, 1 and more: explicit, implicit
@@ -75,6 +83,14 @@ inline std::vector<MapPointer> base_map_catalogue() {
           make<CayleyMidpoint>(motions),
           make<CayleyMidpoint>(make<SpecialOrthogonal>(2)),
           make<CayleyMidpoint>(make<SpecialOrthogonal>(3)),
+          make<Theta>(group(MatrixAlgebra::se2()), 0.3),
+          make<Theta>(group(MatrixAlgebra::sl(2)), 0.5),
+          make<Theta>(by_cayley(MatrixAlgebra::sl(2)), 0.5),
+          make<Theta>(by_second_kind(MatrixAlgebra::su2()), 0.3),
+          by_cayley_midpoint(MatrixAlgebra::se2()),
+          by_cayley_midpoint(MatrixAlgebra::sl(2)),
+          by_second_kind_midpoint(MatrixAlgebra::se2()),
+          by_second_kind_midpoint(MatrixAlgebra::heisenberg(1)),
           projected(ellipsoid(), 0.5),
           projected(ellipsoid(), 0.3),
           projected(spherical_circle(), 0.5),
