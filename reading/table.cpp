@@ -6,6 +6,7 @@
 #include <fstream>
 #include <optional>
 
+#include "courant/core/files/input_file.hpp"
 #include "courant/core/words/spelling.hpp"
 
 namespace courant {
@@ -133,10 +134,8 @@ class File {
  private:
   // The names in the first line.
   std::vector<std::string> open() {
-    stream_.open(path_);
-    if (!stream_ || std::filesystem::is_directory(path_) ||
-        std::filesystem::is_character_file(path_))  // which may have no end
-      refuse("cannot be read; expected a file of comma-separated values");
+    stream_ = input_file(path_);
+    if (!stream_) refuse("cannot be read; expected a file of comma-separated values");
     std::string line;
     if (!std::getline(stream_, line)) refuse("is empty; expected names in its first line");
     return cells(line);
