@@ -1,5 +1,7 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <ostream>
 #include <string>
@@ -36,6 +38,14 @@ void copy_runs(const fs::path& from, const Json& part, const fs::path& to) {
   }
 }
 
+// Throws RunFileError if a table names a folder that is not one of its own.
+void require_own_runs(const fs::path& folder, const Json& part) {
+  const auto names = std::ranges::count_if(part.at("runs"),
+                                           [](const Json& row) { return row.at("folder") != ""; });
+  if (names != std::ssize(ResultFolder::runs_of(part)))
+    throw RunFileError(folder.string() + ": its table names a run that is in no folder of it.");
+}
+
 // Throws UnusableFolder if the whole would be written over a part of it, or into one.
 void require_beside(const fs::path& part, const fs::path& whole) {
   std::error_code error;
@@ -59,6 +69,7 @@ int merge(const Console& console, const MergeArguments& arguments) {
   std::string csv, svg;
   try {
     table = merged_sweep(parts);
+    for (std::size_t i = 0; i < parts.size(); ++i) require_own_runs(arguments.folders[i], parts[i]);
     csv = sweep_csv(table);
     if (const auto figure = sweep_figure(table)) svg = figure_svg(*figure);
   } catch (const std::invalid_argument& error) {
