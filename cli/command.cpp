@@ -114,6 +114,8 @@ int command(const std::vector<std::string>& arguments, const Console& console) {
     return refuse(console, error.what(), wrong);
   } catch (const RunFileError& error) {
     return refuse(console, error.what(), wrong);
+  } catch (const OutputError& error) {  // says which file
+    return refuse(console, error.what(), failed);
   } catch (const std::bad_alloc&) {
     return refuse(console, "this takes more memory than there is", failed);
   } catch (const std::exception& error) {

@@ -30,6 +30,17 @@ void on_interrupt(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
+// A check of an index or a size has failed, which no experiment may reach: one line, and a status, in the
+// place of a dumped core.
+void on_failed_check(int) {
+  constexpr char message[] =
+      "courant: a check inside the program failed: this is a mistake of courant, not of what it "
+      "was "
+      "given\n";
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, message, sizeof message - 1);
+  _exit(courant::cli::failed);
+}
+
 bool set(const char* variable) {
   const char* value = std::getenv(variable);
   return value != nullptr && *value != '\0';
@@ -63,6 +74,8 @@ std::size_t columns_of_text() {
 
 int courant::command_main(int argc, char** argv) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, on_interrupt);
+  std::signal(SIGABRT, on_failed_check);
+  std::signal(SIGXFSZ, SIG_IGN);  // writing fails instead
   const bool out_is_terminal = isatty(STDOUT_FILENO) == 1;
   const courant::cli::Console console{
       .in = std::cin,

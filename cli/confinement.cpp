@@ -42,7 +42,6 @@ void lower(decltype(RLIMIT_CPU) what, rlim_t most, rlim_t later = 0) {
 void Confinement::begin(const std::atomic<bool>* heeds_stop) {
   stop_is_heeded = heeds_stop;
   std::signal(SIGXCPU, end_of_time);
-  std::signal(SIGXFSZ, SIG_IGN);  // writing fails instead
   constexpr rlim_t megabyte = rlim_t{1} << 20;
   lower(RLIMIT_CORE, 0);
   lower(RLIMIT_FSIZE, kFileMegabytes * megabyte);

@@ -22,10 +22,12 @@ int import(const Console& console, const std::string& file, const std::string& o
         import_netlist(*text, &notes, files_below(std::filesystem::path(file).parent_path()));
     for (const auto& [where, what] : notes)
       print_error(console, "note: " + file + ": " + where + ": " + what);
+    // A title may have letters that are not UTF-8.
+    const std::string document = experiment.dump(2, ' ', false, Json::error_handler_t::replace);
     if (output.empty())
-      console.out << experiment.dump(2) << '\n';
+      console.out << document << '\n';
     else
-      files.write(output, experiment.dump(2) + "\n");
+      files.write(output, document + "\n");
     return done;
   });
 }

@@ -136,7 +136,8 @@ void print_explanation(const Console& console, const Integrator& method) {
 void print_outcome(const Console& console, const Experiment& experiment, const RunOutcome& outcome,
                    const std::filesystem::path& folder) {
   const RunSummary& summary = outcome.summary;
-  if (summary.steps <= kMostRowsPlotted) print_paths(console, folder);
+  // One that failed before its first step may have no rows at all.
+  if (summary.steps > 0 && summary.steps <= kMostRowsPlotted) print_paths(console, folder);
   print_observables(console, summary);
   print_final(console, summary);
   const RunSummary::Solver& solver = summary.solver;

@@ -171,7 +171,9 @@ std::optional<std::string> pointer_of(const EnsembleColumn& column, const Json& 
   for (const NameList* list : {&words.coordinates, &words.unknowns})
     for (const std::string& name : list->element_names()) known.push_back(name);
   const std::string key = reference.name + (reference.is_velocity ? "'" : "");
-  const Json& values = is_parameter ? parameters : document.at("initial");
+  static const Json nothing;
+  const auto initial = document.find("initial");
+  const Json& values = is_parameter ? parameters : initial != document.end() ? *initial : nothing;
   const bool is_object = values.is_object();
   if (!is_parameter) {
     const bool is_coordinate =

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "courant/core/files/input_file.hpp"
 #include "courant/core/words/spelling.hpp"
 
 namespace courant {
@@ -218,10 +219,8 @@ void require_allowed(const std::string& pointer, const std::filesystem::path& fi
 }
 
 TableFile opened(const std::filesystem::path& path) {
-  auto stream = std::make_unique<std::ifstream>(path);
-  if (!*stream || std::filesystem::is_directory(path) ||
-      std::filesystem::is_character_file(path))  // which may have no end
-    stream.reset();
+  auto stream = std::make_unique<std::ifstream>(input_file(path));
+  if (!*stream) stream.reset();
   return {path.string(), std::move(stream)};
 }
 

@@ -1,6 +1,7 @@
 #include "courant/reading/unused_parameters.hpp"
 
 #include <cctype>
+#include <map>
 #include <set>
 
 #include "courant/core/words/message.hpp"
@@ -12,6 +13,7 @@ namespace {
 
 struct NamedParameter {
   std::string name, pointer;
+  std::string place() const { return pointer.substr(0, pointer.rfind('/')); }
 };
 
 // What an experiment says, as words, and the parameters that it has.
@@ -22,6 +24,8 @@ class Words {
     for (const auto& [key, value] : document.items())
       if (key != "title" && key != "description" && !is_comment(key))
         read(value, "/" + pointer_token(key));
+    for (const NamedParameter& parameter : parameters_)
+      if (words_.contains(parameter.name)) used_[parameter.place()].push_back(parameter.name);
   }
 
   std::vector<NamedParameter> unused() const {
@@ -32,14 +36,8 @@ class Words {
   }
   // The other parameters of the same object that are used.
   std::vector<std::string> others(const NamedParameter& than) const {
-    const auto place = [](const NamedParameter& of) {
-      return of.pointer.substr(0, of.pointer.rfind('/'));
-    };
-    std::vector<std::string> names;
-    for (const NamedParameter& parameter : parameters_)
-      if (place(parameter) == place(than) && words_.contains(parameter.name))
-        names.push_back(parameter.name);
-    return names;
+    const auto found = used_.find(than.place());
+    return found == used_.end() ? std::vector<std::string>() : found->second;
   }
 
  private:
@@ -86,6 +84,7 @@ class Words {
 
   std::set<std::string, std::less<>> words_;
   std::vector<NamedParameter> parameters_;
+  std::map<std::string, std::vector<std::string>> used_;  // by the place of their object
 };
 
 std::string sentence(const NamedParameter& parameter, const Words& words) {

@@ -112,22 +112,20 @@ void read_parameters(ObjectReader& system, const std::vector<std::string>& reser
   const auto object = system.optional("parameters");
   const auto entries = object ? object->entries() : std::nullopt;
   if (!entries) return;
-  SymbolTable known;  // names that are taken
+  SymbolTable known;    // names that are taken
+  SymbolTable earlier;  // parameters
   known.add("t", 0.0);
   for (const std::string& name : reserved) known.add(name, 0.0);
   for (const auto& [name, value] : *entries) {
     if (!is_new_name(name, value.pointer(), known, value.findings())) continue;
     Symbol symbol{{}, ExprVector::Ones(1)};
-    if (const auto formulas = read_formulas(value)) {
-      SymbolTable earlier;
-      for (const auto& [earlier_name, earlier_symbol] : parameters)
-        earlier.add(earlier_name, earlier_symbol.shape, earlier_symbol.values);
+    if (const auto formulas = read_formulas(value))
       if (const auto values = evaluate_constants(*formulas, earlier, value.findings())) {
         symbol = {formulas->shape, constants(*values)};
         if (has_names(*formulas)) vocabulary.parameter_formulas.emplace_back(name, *formulas);
       }
-    }
     known.add(name, symbol.shape, symbol.values);
+    earlier.add(name, symbol.shape, symbol.values);
     parameters.emplace_back(name, std::move(symbol));
   }
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <fstream>
 
+#include "courant/core/files/input_file.hpp"
+
 namespace courant {
 
 std::string damage_of_rows(std::uintmax_t first, std::uintmax_t last) {
@@ -15,7 +17,7 @@ std::optional<std::string> damage_of_lines(const std::filesystem::path& file,
                                            const HashedBytes::Record& record) {
   const Difference there = difference(file, 0, record);
   if (there.is_none()) return std::nullopt;
-  std::ifstream stream(file, std::ios::binary);
+  std::ifstream stream = input_file(file);
   std::uintmax_t line = 0, at = 0, first = 0,
                  last = 0;  // lines from 1, of which the first is the head
   bool is_torn = false;

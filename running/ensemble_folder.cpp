@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "courant/core/files/content_hash.hpp"
+#include "courant/core/files/input_file.hpp"
 #include "courant/core/files/own_file.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/running/npy_header.hpp"
@@ -102,7 +103,7 @@ void EnsembleFolder::recall_members(const std::function<void(const EnsembleMembe
   for (const fs::path& one : {numbers, lines})
     if (!file_exists(one) || fs::is_symlink(one))
       refuse_folder(one, "is not there; expected the file that the ensemble wrote");
-  std::ifstream members(lines, std::ios::binary), values(numbers, std::ios::binary);
+  std::ifstream members = input_file(lines), values = input_file(numbers);
   std::string head(kNpyHeader, '\0');
   values.read(head.data(), static_cast<std::streamsize>(head.size()));
   const std::string shape = ", " + std::to_string(opening_.rows) + ", " +
@@ -145,7 +146,7 @@ void EnsembleFolder::recall_members(const std::function<void(const EnsembleMembe
   std::optional<HashedBytes> known_events;
   if (!opening_.event_columns.empty()) {
     known_events.emplace();
-    std::ifstream events(file("events.csv"), std::ios::binary);
+    std::ifstream events = input_file(file("events.csv"));
     bool is_head = true;
     for (std::string line; std::getline(events, line) && !events.eof(); is_head = false) {
       if (!is_head && std::strtoll(line.c_str(), nullptr, 10) >= count_) break;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "courant/core/files/input_file.hpp"
 #include "courant/running/run_folder.hpp"
 
 namespace courant {
@@ -24,22 +25,6 @@ std::vector<fs::path> files_of(const fs::path& path, const std::string& kind) {
   return found;
 }
 
-// The folders of its runs: names without a way out of the folder.
-std::vector<fs::path> run_folders(const fs::path& path, const Json& result) {
-  std::vector<fs::path> folders;
-  if (!result.is_object()) return folders;
-  const Json runs = result.value("runs", Json::array());
-  if (!runs.is_array()) return folders;
-  for (const Json& run : runs) {
-    const Json name = run.is_object() ? run.value("folder", Json()) : Json();
-    if (!name.is_string()) continue;
-    const fs::path folder(name.get<std::string>());
-    if (folder.has_filename() && !folder.has_parent_path() && folder != "." && folder != "..")
-      folders.push_back(path / folder);
-  }
-  return folders;
-}
-
 // Everything that it wrote.
 void remove_all_of(const fs::path& path, const std::string& kind) {
   const auto remove = [](const fs::path& file) {
@@ -47,7 +32,8 @@ void remove_all_of(const fs::path& path, const std::string& kind) {
     fs::remove(file, error);
     if (error) refuse_folder(file, "cannot be replaced: " + error.message());
   };
-  for (const fs::path& folder : run_folders(path, ResultFolder::result_in(path, kind))) {
+  for (const fs::path& name : ResultFolder::runs_of(ResultFolder::result_in(path, kind))) {
+    const fs::path folder = path / name;
     if (fs::is_symlink(folder)) {  // what it leads to was put elsewhere, to be kept
       remove(folder);
       continue;
@@ -67,9 +53,24 @@ constexpr const char* kResultIsWritten =
 }  // namespace
 
 Json ResultFolder::result_in(const fs::path& path, const std::string& kind) {
-  std::ifstream stream(path / (kind + ".json"), std::ios::binary);
+  std::ifstream stream = input_file(path / (kind + ".json"));
   const Json result = Json::parse(stream, nullptr, false);
   return result.is_object() && result.value("kind", Json()) == kind ? result : Json();
+}
+
+std::vector<fs::path> ResultFolder::runs_of(const Json& result) {
+  std::vector<fs::path> folders;
+  if (!result.is_object()) return folders;
+  const Json runs = result.value("runs", Json::array());
+  if (!runs.is_array()) return folders;
+  for (const Json& run : runs) {
+    const Json name = run.is_object() ? run.value("folder", Json()) : Json();
+    if (!name.is_string()) continue;
+    const fs::path folder(name.get<std::string>());
+    if (folder.has_filename() && !folder.has_parent_path() && folder != "." && folder != "..")
+      folders.push_back(folder);
+  }
+  return folders;
 }
 
 void ResultFolder::check(const fs::path& path, const std::string& kind, bool replace, bool resume) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "courant/reading/findings.hpp"
 #include "courant/running/locked_folder.hpp"
@@ -29,6 +30,10 @@ class ResultFolder {
 
   // <kind>.json of what is in the folder; null if there is none.
   static Json result_in(const std::filesystem::path& path, const std::string& kind);
+
+  // The folders of the runs of a <kind>.json: names, without a way out of its folder. What else it has there
+  // is passed over.
+  static std::vector<std::filesystem::path> runs_of(const Json& result);
 
   const std::filesystem::path& path() const { return folder_.path(); }
   // <kind>.<extension> in the folder.

@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "courant/core/files/input_file.hpp"
 #include "courant/core/files/own_file.hpp"
 #include "courant/reading/json_document.hpp"
 #include "courant/reading/output.hpp"
@@ -40,9 +41,8 @@ using Json = nlohmann::ordered_json;
 }
 
 std::ifstream open(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::error_code unreadable;
-  if (!stream || std::filesystem::is_directory(file, unreadable)) fail(file, "cannot be read.");
+  std::ifstream stream = input_file(file);
+  if (!stream) fail(file, "cannot be read.");
   return stream;
 }
 

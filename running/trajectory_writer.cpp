@@ -3,6 +3,7 @@
 #include <charconv>
 #include <fstream>
 
+#include "courant/core/files/input_file.hpp"
 #include "courant/running/damage_of_lines.hpp"
 #include "courant/running/npy_header.hpp"
 
@@ -89,7 +90,7 @@ class NpyWriter final : public TrajectoryWriter {
 
 // How many columns columns.json names, at least one.
 std::size_t column_count(const std::filesystem::path& folder) {
-  std::ifstream stream(folder / "columns.json");
+  std::ifstream stream = input_file(folder / "columns.json");
   const Json columns = Json::parse(stream, nullptr, false);
   return columns.is_array() && !columns.empty() ? columns.size() : 1;
 }

@@ -38,12 +38,11 @@ bool is_of_entry(const fs::path& file) {
          (extension == ".c" || extension == ".so" || extension == ".sum");
 }
 
-// A file of somebody else; nothing if there is none.
-std::optional<fs::path> foreign_file(const fs::path& folder) {
+// Something in a folder; nothing if it is empty. What has names like those of entries may be
+// somebody's as well.
+std::optional<fs::path> file_in(const fs::path& folder) {
   std::error_code error;
-  for (const auto& item : fs::directory_iterator(folder, error))
-    if (!is_of_entry(item.path()) && !WorkFolder::is_name(item.path().filename().string()))
-      return item.path();
+  for (const auto& item : fs::directory_iterator(folder, error)) return item.path();
   return std::nullopt;
 }
 
@@ -74,7 +73,7 @@ std::string defect_of(const fs::path& folder) {
   if (!ours || access(folder.c_str(), W_OK | X_OK) != 0)
     return folder.string() + ": compiled code is not kept there; " + expected;
   if (content_of(folder / kTag) == kTagContent) return "";
-  if (const auto foreign = foreign_file(folder))
+  if (const auto foreign = file_in(folder))
     return folder.string() +
            ": compiled code is not kept there, beside files that are not of it: " +
            foreign->filename().string() + "; expected a folder that is empty or not there";

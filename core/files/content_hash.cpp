@@ -7,6 +7,8 @@
 #include <array>
 #include <fstream>
 
+#include "courant/core/files/input_file.hpp"
+
 namespace courant {
 namespace {
 
@@ -61,7 +63,7 @@ HashedBytes::Record HashedBytes::record() const {
 Difference difference(const std::filesystem::path& file, std::uintmax_t begin,
                       const HashedBytes::Record& record, HashedBytes* found) {
   HashedBytes bytes;
-  std::ifstream stream(file, std::ios::binary);
+  std::ifstream stream = input_file(file);
   stream.seekg(static_cast<std::streamoff>(begin));
   std::array<char, 1 << 16> block;
   while (stream && bytes.size() < record.size) {

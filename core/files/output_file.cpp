@@ -67,12 +67,18 @@ OutputFile::~OutputFile() {
 void OutputFile::fail() const { refuse_file(asked_, last_error()); }
 
 void OutputFile::write(std::string_view bytes) {
+  const off_t begin =
+      ::lseek(descriptor_, 0, SEEK_CUR);  // -1 of a pipe, which nothing is taken back of
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
     if (written >= 0)
       bytes.remove_prefix(static_cast<std::size_t>(written));
-    else if (errno != EINTR)
+    else if (errno != EINTR) {
+      const int reason = errno;
+      if (begin >= 0 && ::ftruncate(descriptor_, begin) == 0) ::lseek(descriptor_, begin, SEEK_SET);
+      errno = reason;
       fail();
+    }
   }
 }
 

@@ -34,7 +34,8 @@ class OutputFile {
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  // All of the bytes or, with OutputError, what fits; a kill does not interrupt it.
+  // All of the bytes or, with OutputError, none of them, so that no half of a row is left, and on a full
+  // disk there is place for a word on why; a kill does not interrupt it.
   void write(std::string_view bytes);
   // Replaces bytes at the beginning.
   void overwrite(std::string_view bytes);

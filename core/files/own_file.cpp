@@ -4,11 +4,11 @@
 #include <array>
 #include <boost/crc.hpp>
 #include <cstdint>
-#include <fstream>
 #include <iterator>
 #include <utility>
 
 #include "courant/core/files/content_hash.hpp"
+#include "courant/core/files/input_file.hpp"
 #include "courant/core/files/output_file.hpp"
 
 namespace courant {
@@ -99,9 +99,8 @@ bool file_exists(const fs::path& file) {
 }
 
 std::string content_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::error_code error;
-  if (!stream || fs::is_directory(file, error)) return "";
+  std::ifstream stream = input_file(file);
+  if (!stream) return "";
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
@@ -118,8 +117,11 @@ void refuse_foreign(const fs::path& file, const std::string& expected) {
 
 void OwnFiles::check(const fs::path& file) const {
   std::error_code error;
-  if (force_ || !fs::is_regular_file(file, error) || mark_of(file)) return;
-  refuse_foreign(file, "another name (-o), or --force to replace it");
+  if (!fs::is_regular_file(file, error) || mark_of(file)) return;
+  if (!force_) refuse_foreign(file, "another name (-o), or --force to replace it");
+  if (fs::is_symlink(file, error))
+    throw RefusedOutput(file.string() + ": is a link to " + fs::read_symlink(file, error).string() +
+                        ", which is not as courant wrote it; expected the name of the file itself");
 }
 
 void OwnFiles::write(const fs::path& file, const std::string& content,

@@ -31,7 +31,7 @@ std::optional<FileMark> mark_of(const std::filesystem::path& file);
 // How a command writes files that somebody names.
 class OwnFiles {
  public:
-  // `force`: a file is replaced though it is not ours.
+  // `force`: a file is replaced though it is not ours, by its own name: not through a link.
   explicit OwnFiles(std::string command, bool force = false)
       : command_(std::move(command)), force_(force) {}
 

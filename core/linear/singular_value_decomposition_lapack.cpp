@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "courant/core/linear/singular_value_decomposition.hpp"
+#include "courant/core/linear/jacobi_rotations.hpp"
 
 extern "C" {
 // LAPACK: divide and conquer; QR iteration, slower, which converges where the former does not.
@@ -19,6 +19,15 @@ void dgesvd_(const char* jobu, const char* jobvt, const int* m, const int* n, do
 
 namespace courant {
 namespace {
+
+// Smaller matrices are decomposed by rotations, so that a run has the same bytes with any BLAS: kernels of
+// OpenBLAS round differently, and a frame or a start would come out in other bits. LAPACK is twice as fast
+// at this size.
+constexpr Eigen::Index kLeast = 64;
+
+bool is_small(const Eigen::Ref<const MatrixXd>& A) {
+  return std::min(A.rows(), A.cols()) <= kLeast;
+}
 
 // job 'A': all of U and Vᵀ; 'N': neither. Returns [U, Vᵀ] in U and V.
 SingularValueDecomposition decompose(const Eigen::Ref<const MatrixXd>& A, char job) {
@@ -69,9 +78,11 @@ SingularValueDecomposition decompose(const Eigen::Ref<const MatrixXd>& A, char j
 }  // namespace
 
 SingularValueDecomposition singular_value_decomposition(const Eigen::Ref<const MatrixXd>& A) {
-  return decompose(A, 'A');
+  return is_small(A) ? by_rotations(A, true) : decompose(A, 'A');
 }
 
-VectorXd singular_values(const Eigen::Ref<const MatrixXd>& A) { return decompose(A, 'N').values; }
+VectorXd singular_values(const Eigen::Ref<const MatrixXd>& A) {
+  return (is_small(A) ? by_rotations(A, false) : decompose(A, 'N')).values;
+}
 
 }  // namespace courant

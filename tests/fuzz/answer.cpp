@@ -60,7 +60,7 @@ class Statuses {
 
 }  // namespace
 
-void require_answer(const std::vector<std::string>& arguments, const std::string& input) {
+Answer require_answer(const std::vector<std::string>& arguments, const std::string& input) {
   std::istringstream in(input);
   std::ostringstream out, err;
   int status = 0;
@@ -80,6 +80,12 @@ void require_answer(const std::vector<std::string>& arguments, const std::string
           "a status that is not documented", std::to_string(status));
   require(status != cli::wrong || errors.starts_with("courant: "), "status 2 without a message",
           errors);
+  return {.status = status, .out = out.str(), .err = errors};
+}
+
+const std::string& run_folder() {
+  static const std::string folder = empty_folder() + "/run";
+  return folder;
 }
 
 std::string empty_folder() {

@@ -1,93 +1,21 @@
 // Experiments: whole commands with any text as an experiment.
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <nlohmann/json.hpp>
-#include <random>
+#include <fstream>
+#include <functional>
+#include <iterator>
 #include <string>
 #include <vector>
 
 #include "answer.hpp"
+#include "document_mutation.hpp"
 #include "long_number.hpp"
+#include "words.hpp"
 
 namespace courant::fuzz {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
-using Generator = std::mt19937;
-
-std::size_t below(std::size_t bound, Generator& generator) {
-  return std::uniform_int_distribution<std::size_t>(0, bound - 1)(generator);
-}
-
-void collect_places(const Json& value, const Json::json_pointer& at,
-                    std::vector<Json::json_pointer>& places) {
-  if (value.is_object())
-    for (const auto& [key, child] : value.items()) {
-      places.push_back(at / key);
-      collect_places(child, at / key, places);
-    }
-  if (value.is_array())
-    for (std::size_t i = 0; i < value.size(); ++i) {
-      places.push_back(at / i);
-      collect_places(value[i], at / i, places);
-    }
-}
-
-std::string damaged(std::string text, Generator& generator) {
-  constexpr std::string_view letters = "()[]{}*/+-^.,'<>=&|! 0123456789exqptR_";
-  const std::size_t at = below(text.size() + 1, generator);
-  const char letter = letters[below(letters.size(), generator)];
-  switch (below(4, generator)) {
-    case 0:
-      return at < text.size() ? text.erase(at, 1) : text;
-    case 1:
-      return text.insert(at, 1, letter);
-    case 2:
-      if (at < text.size()) text[at] = letter;
-      return text;
-    default:
-      return text + text.substr(at);
-  }
-}
-
-Json changed(const Json& value, Generator& generator) {
-  static const std::vector<Json> others = {nullptr,
-                                           true,
-                                           0,
-                                           -1,
-                                           1,
-                                           2,
-                                           3,
-                                           1e-300,
-                                           1e300,
-                                           -7.5,
-                                           1e5,
-                                           "",
-                                           "x",
-                                           "q[0]",
-                                           "0",
-                                           "1/0",
-                                           "t",
-                                           "sqrt(-1)",
-                                           "x'",
-                                           "((",
-                                           Json::array(),
-                                           Json::object(),
-                                           {0},
-                                           {{1}},
-                                           "euclidean",
-                                           "sphere"};
-  if (value.is_string() && below(3, generator) != 0) return damaged(value, generator);
-  if (value.is_number() && below(3, generator) != 0) {
-    const double number = value.get<double>();
-    return std::array<Json, 6>{
-        0, -number, 2 * number, 1e-9 * number, 1e9 * number, number + 1}[below(6, generator)];
-  }
-  return others[below(others.size(), generator)];
-}
 
 // Systems of thousands of repeated elements take minutes with the sanitizers, and find nothing that a few
 // do not.
@@ -108,35 +36,36 @@ bool has_long_sum(const std::string& text) {
   return text.find("sum(") != std::string::npos && has_long_number(text);
 }
 
-// One value of the document is changed, left out, doubled, renamed, or replaced by another one.
-void mutate_document(Json& document, Generator& generator) {
-  std::vector<Json::json_pointer> places;
-  collect_places(document, Json::json_pointer(), places);
-  if (places.empty()) return;
-  const Json::json_pointer& place = places[below(places.size(), generator)];
-  const Json value = document[place];
-  Json& parent = document[place.parent_pointer()];
-  switch (below(6, generator)) {
-    case 0:
-      if (parent.is_array())
-        parent.erase(static_cast<std::size_t>(std::stoul(place.back())));
-      else
-        parent.erase(place.back());
-      return;
-    case 1:
-      if (parent.is_array())
-        parent.push_back(value);
-      else
-        parent[damaged(place.back(), generator)] = value;
-      return;
-    case 2: {
-      const Json other = document[places[below(places.size(), generator)]];
-      document[place] = other;
-      return;
+// A program of C without its comments and texts, as a compiler reads it: trigraphs and lines that are
+// continued first.
+std::string code_of(std::string program) {
+  for (const std::string_view continued : {"?\?/\n", "\\\n"})
+    for (std::size_t at; (at = program.find(continued)) != program.npos;)
+      program.erase(at, continued.size());
+  std::string code;
+  for (std::size_t i = 0; i < program.size(); ++i) {
+    const char letter = program[i];
+    if (program.compare(i, 2, "/*") == 0) {
+      i = program.find("*/", i + 2);
+      if (i == program.npos) break;
+      ++i;
+    } else if (program.compare(i, 2, "//") == 0) {
+      i = std::min(program.find('\n', i), program.size());
+    } else if (letter == '"' || letter == '\'') {
+      for (++i; i < program.size() && program[i] != letter && program[i] != '\n'; ++i)
+        if (program[i] == '\\') ++i;
+    } else {
+      code += letter;
     }
-    default:
-      document[place] = changed(value, generator);
   }
+  return code;
+}
+
+// What somebody wrote into an experiment is no code of the program that is made of it.
+void require_no_planted_code(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string program{std::istreambuf_iterator<char>(stream), {}};
+  require(code_of(program).find(planted_word) == std::string::npos, "a text became code", program);
 }
 
 }  // namespace
@@ -161,19 +90,22 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const std::string folder = courant::fuzz::empty_folder();
+  const std::string& folder = courant::fuzz::run_folder();
   const std::string text(reinterpret_cast<const char*>(data), size);
   if (courant::fuzz::repeats_often(text) || courant::fuzz::has_long_sum(text)) return 0;
   // Which command it is depends on the text, so that a text that fails fails again.
   const std::vector<std::vector<std::string>> commands = {
-      {"run", "-", "--quiet", "--force", "--backend", "interpreter", "-o", folder + "/run"},
-      {"run", "-", "--quiet", "--force", "--backend", "interpreter", "-o", folder + "/run"},
+      {"run", "-", "--quiet", "--force", "--backend", "interpreter", "-o", folder},
+      {"run", "-", "--quiet", "--force", "--backend", "interpreter", "-o", folder},
       {"constraints", "-"},
-      {"export", "-", "--language", "c", "-o", folder + "/program.c"},
+      {"export", "-", "--language", "c", "-o", folder + ".c", "--force"},
       {"check", "-", "--brief"}};
   // Laws of a large system take seconds with the sanitizers, and nothing stops them.
   constexpr std::size_t longest_checked = 1000;
   const std::size_t kinds = commands.size() - (size > longest_checked ? 1 : 0);
-  courant::fuzz::require_answer(commands[std::hash<std::string>()(text) % kinds], text);
+  const std::vector<std::string>& command = commands[std::hash<std::string>()(text) % kinds];
+  const courant::fuzz::Answer answer = courant::fuzz::require_answer(command, text);
+  if (command.front() == "export" && answer.status == 0)
+    courant::fuzz::require_no_planted_code(folder + ".c");
   return 0;
 }

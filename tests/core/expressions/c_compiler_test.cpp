@@ -287,7 +287,7 @@ BOOST_FIXTURE_TEST_CASE(what_a_killed_compilation_left_is_removed, Cache) {
   BOOST_TEST(fs::exists(in_use.path()));
 }
 
-// Somebody's sources, whatever their age: the folder is theirs, and no cache.
+// Somebody's sources, whatever their age and their names: the folder is theirs, and no cache.
 BOOST_FIXTURE_TEST_CASE(a_folder_with_other_files_is_not_used, Cache) {
   fs::create_directories(path());
   for (const char* name : {"main.c", "library.so"}) std::ofstream(path() / name) << "mine";
@@ -296,6 +296,15 @@ BOOST_FIXTURE_TEST_CASE(a_folder_with_other_files_is_not_used, Cache) {
   BOOST_TEST(defect.find("beside files that are not of it: ") != std::string::npos);
   BOOST_TEST(call(*machine_compiler()->compile(constant_function(1.0))) == 1.0);
   BOOST_TEST(files().size() == 2);
+}
+
+BOOST_FIXTURE_TEST_CASE(a_folder_with_names_like_those_of_entries_is_not_used, Cache) {
+  fs::create_directories(path());
+  for (const char* extension : {".c", ".so", ".sum"})
+    std::ofstream(path() / ("0123456789abcdef0123456789abcdef" + std::string(extension))) << "mine";
+  BOOST_TEST(!NativeCache::open().has_value());
+  BOOST_TEST(call(*machine_compiler()->compile(constant_function(1.0))) == 1.0);
+  BOOST_TEST(files().size() == 3);
 }
 
 // What comes into a marked folder later is not ours either.

@@ -1,11 +1,13 @@
 #include "courant/core/files/output_file.hpp"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
+#include <csignal>
 
 #include "temporary_folder.hpp"
 
@@ -13,6 +15,7 @@ namespace courant {
 
 // Mistakes that these cases have to notice:
 //  * what is longer stays
+//  * half of what does not fit stays
 //  * an error has the name of a file on the way
 //  * a link is replaced by a file
 //  * a file on the way is written through a link
@@ -91,6 +94,30 @@ BOOST_AUTO_TEST_CASE(a_file_that_is_there_is_written_on) {
   BOOST_CHECK_THROW(file.cut(8), OutputError);
   BOOST_CHECK_THROW(OutputFile(folder / "none", OutputFile::Existing{}), OutputError);
   BOOST_TEST(!std::filesystem::exists(folder / "none"));
+}
+
+BOOST_AUTO_TEST_CASE(what_does_not_fit_leaves_no_half) {
+  const TemporaryFolder folder;
+  rlimit before = {};
+  BOOST_TEST_REQUIRE(getrlimit(RLIMIT_FSIZE, &before) == 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  OutputFile file(folder / "rows");
+  file.write("1,2\n");
+  rlimit limit = before;
+  limit.rlim_cur = 6;
+  BOOST_TEST_REQUIRE(setrlimit(RLIMIT_FSIZE, &limit) == 0);
+  std::string what;
+  try {
+    file.write("3,4\n");
+  } catch (const OutputError& error) {
+    what = error.what();
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  BOOST_TEST(what == (folder / "rows").string() + ": cannot be written: File too large");
+  BOOST_TEST(read_text(folder / "rows") == "1,2\n");
+  file.write("5,6\n");
+  BOOST_TEST(read_text(folder / "rows") == "1,2\n5,6\n");
 }
 
 BOOST_AUTO_TEST_CASE(a_full_disk_is_an_error) {

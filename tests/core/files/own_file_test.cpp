@@ -1,6 +1,7 @@
 #include "courant/core/files/own_file.hpp"
 
 #include <boost/test/unit_test.hpp>
+#include <filesystem>
 
 #include "courant/core/files/content_hash.hpp"
 #include "courant/core/files/output_file.hpp"
@@ -9,6 +10,7 @@
 namespace courant {
 // Mistakes that these cases have to notice:
 //  * what was edited is still ours
+//  * a file that is not ours is replaced through a link
 BOOST_AUTO_TEST_SUITE(own_file_test)
 
 namespace {
@@ -85,6 +87,24 @@ BOOST_AUTO_TEST_CASE(files_of_others_are_refused_unless_forced) {
   plot.check(file);
   plot.check(folder / "none");
   plot.write("/dev/null", "<svg/>");
+}
+
+BOOST_AUTO_TEST_CASE(force_replaces_by_name_and_not_through_a_link) {
+  const TemporaryFolder folder;
+  write_text(folder / "theirs", "mine\n");
+  std::filesystem::create_symlink("theirs", folder / "link");
+  const OwnFiles forced("plot", true);
+  BOOST_CHECK_EXCEPTION(
+      forced.write(folder / "link", "<svg/>"), RefusedOutput, [&](const RefusedOutput& error) {
+        return error.what() == (folder / "link").string() +
+                                   ": is a link to theirs, which is not as courant wrote it; "
+                                   "expected the name of the file itself";
+      });
+  BOOST_TEST(read_text(folder / "theirs") == "mine\n");
+  forced.write(folder / "theirs", "<svg/>");
+  OwnFiles("plot").write(folder / "link", "<svg>2</svg>");
+  BOOST_TEST(std::filesystem::is_symlink(folder / "link"));
+  BOOST_TEST(read_text(folder / "theirs").starts_with("<svg>2</svg>"));
 }
 
 BOOST_AUTO_TEST_CASE(content_is_read_whole_and_what_cannot_be_read_is_empty) {

@@ -1,0 +1,192 @@
+// Netlists of SPICE: whole commands that read any text as one.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <random>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "answer.hpp"
+#include "words.hpp"
+
+namespace courant::fuzz {
+
+namespace {
+
+using Lines = std::vector<std::vector<std::string>>;  // of words
+
+std::size_t below_of(std::size_t bound, std::mt19937& generator) {
+  return std::uniform_int_distribution<std::size_t>(0, bound - 1)(generator);
+}
+
+Lines lines_of(const std::string& text) {
+  Lines lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    std::istringstream of_line(line);
+    lines.emplace_back();
+    for (std::string word; of_line >> word;) lines.back().push_back(word);
+  }
+  return lines;
+}
+
+std::string text_of(const Lines& lines) {
+  std::string text;
+  for (const auto& line : lines) {
+    for (std::size_t i = 0; i < line.size(); ++i) text += (i > 0 ? " " : "") + line[i];
+    text += '\n';
+  }
+  return text;
+}
+
+// A word, or a line, is replaced by another one of the netlist or of the language, left out or doubled.
+void mutate_lines(Lines& lines, std::mt19937& generator) {
+  static const std::vector<std::string> words = {"0",
+                                                 "-1",
+                                                 "1e308",
+                                                 "1e-308",
+                                                 "5e-324",
+                                                 "-0",
+                                                 "1f",
+                                                 "1meg",
+                                                 "1e17",
+                                                 "nan",
+                                                 "inf",
+                                                 "{1/0}",
+                                                 "{a}",
+                                                 "'x+1'",
+                                                 "dc",
+                                                 "ac",
+                                                 "sin(0 1 1k)",
+                                                 "pulse(0 1 0 0 0 0 0)",
+                                                 "pwl(0 0 1 1 1 2)",
+                                                 "pwl(1 0 0 1)",
+                                                 "exp(0 1 0 0 0 0)",
+                                                 "sffm(0 1 1 1 1)",
+                                                 "ic=1e308",
+                                                 "m=0",
+                                                 "m=-1",
+                                                 "uic",
+                                                 "off",
+                                                 "tc=1,1",
+                                                 "k=1",
+                                                 "poly(2)",
+                                                 "v(a)",
+                                                 "i(V1)",
+                                                 "=",
+                                                 "(",
+                                                 ")",
+                                                 ",",
+                                                 "+",
+                                                 "*",
+                                                 "D",
+                                                 "NPN",
+                                                 "NMOS",
+                                                 "SW",
+                                                 "gnd"};
+  static const std::vector<std::vector<std::string>> statements = {
+      {".param", "a=1/0"},
+      {".param", "a={b}", "b={a}"},
+      {".ic", "v(a)=1e308"},
+      {".nodeset", "v(a)=1"},
+      {".tran", "0", "0"},
+      {".tran", "1u", "1m", "uic"},
+      {".tran", "1e-300", "1e300"},
+      {".model", "d", "d", "is=0"},
+      {".model", "d", "d", "n=0", "rs=1e308"},
+      {".subckt", "s", "a", "b"},
+      {".ends"},
+      {".end"},
+      {"X1", "a", "0", "s"},
+      {"R9", "a", "a", "1"},
+      {"L9", "a", "0", "0"},
+      {"C9", "a", "0", "-1u"},
+      {"K9", "L1", "L2", "1"},
+      {"K9", "L1", "L1", "0.5"},
+      {"E9", "a", "0", "a", "0", "1"},
+      {"B9", "a", "0", "v=sqrt(v(a))"},
+      {"B9", "a", "0", "i=log(v(a))"},
+      {"V9", "a", "0", "1"},
+      {"V9", "a", "0", "sin(0", "1e308", "1e308)"},
+      {".include", "x"},
+      {".lib", "x", "y"},
+      {"S9", "a", "0", "a", "0", "sw"},
+      {"+", "1"},
+      {"T9", "a", "0", "b", "0", "z0=50", "td=0"}};
+  const std::size_t at = below_of(lines.size(), generator);
+  switch (below_of(7, generator)) {
+    case 0:
+      lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(at));
+      return;
+    case 1:
+      lines.push_back(lines[at]);
+      return;
+    case 2:
+      lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(at),
+                   statements[below_of(statements.size(), generator)]);
+      return;
+    case 3:
+      std::swap(lines[at], lines[below_of(lines.size(), generator)]);
+      return;
+    default:
+      break;
+  }
+  std::vector<std::string>& line = lines[at];
+  if (line.empty()) return;
+  std::string& word = line[below_of(line.size(), generator)];
+  const std::vector<std::string>& other = lines[below_of(lines.size(), generator)];
+  switch (below_of(4, generator)) {
+    case 0:
+      if (!other.empty()) word = std::string(other[below_of(other.size(), generator)]);
+      return;
+    case 1:
+      line.push_back(words[below_of(words.size(), generator)]);
+      return;
+    case 2: {  // another kind of element
+      constexpr std::string_view kinds = "RCLKVIEFGHBDQMSWTXJAOU.+*";
+      word[0] = kinds[below_of(kinds.size(), generator)];
+      return;
+    }
+    default:
+      word = words[below_of(words.size(), generator)];
+  }
+}
+
+}  // namespace
+
+}  // namespace courant::fuzz
+
+// Three of four executions change the lines and words of the netlist rather than its letters.
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
+                                               std::size_t most, unsigned seed) {
+  using namespace courant::fuzz;
+  std::mt19937 generator(seed);
+  Lines lines = lines_of({reinterpret_cast<const char*>(data), size});
+  if (lines.size() < 2 || below_of(4, generator) == 0) return LLVMFuzzerMutate(data, size, most);
+  for (std::size_t count = 1 + below_of(3, generator); count > 0 && !lines.empty(); --count)
+    mutate_lines(lines, generator);
+  const std::string text = text_of(lines);
+  if (text.size() > most) return LLVMFuzzerMutate(data, size, most);
+  std::copy(text.begin(), text.end(), data);
+  return text.size();
+}
+
+// What is imported is an experiment that reads: `constraints` is given it, and finds no mistake in how it is
+// written.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace courant::fuzz;
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  const Answer import = require_answer({"import", "-"}, text);
+  if (import.status != 0) return 0;
+  const Answer ladder = require_answer({"constraints", "-"}, import.out);
+  require(ladder.status != 2 || (ladder.err.find("JSON") == std::string::npos &&
+                                 ladder.err.find(": /system") == std::string::npos),
+          "what was imported does not read", ladder.err);
+  require_answer({"run", "-", "--quiet", "--force", "--backend", "interpreter", "-o", run_folder()},
+                 import.out);
+  return 0;
+}
