@@ -37,7 +37,7 @@ void print_entries(const Console& console, const NativeCache& cache) {
               << (entries.size() == 1 ? " entry, " : " entries, ") << size_in_words(bytes)
               << "; kept up to " << size_in_words(limits.bytes) << " and "
               << limits.age.count() / 24 << " days\n";
-  if (!table.empty()) table.print(console.out);
+  if (!table.empty()) table.print(console.out, "  ", console.columns);
   if (entries.size() > kMostListed)
     console.out << "  … and " << entries.size() - kMostListed << " more\n";
 }

@@ -49,16 +49,20 @@ std::string at_point(const Json& point) {
   return text;
 }
 
-void print_structure(std::ostream& out, const Json& structure) {
+void print_structure(const Console& console, const Json& structure) {
+  std::ostream& out = console.out;
   const std::string ports = structure.at("ports");
   out << "\n  structure " << structure.at("name").get<std::string>()
-      << (ports.empty() ? "" : " (" + ports + ")")
-      << "\n    dim D = " << shown(structure.at("dimension"))
-      << ", dim M = " << shown(structure.at("manifold_dimension")) << "; isotropic "
-      << yes_or_no(structure.at("isotropic")) << " (" << shown(structure.at("isotropy_defect"), 2)
-      << "), coisotropic " << yes_or_no(structure.at("coisotropic")) << " ("
-      << shown(structure.at("coisotropy_defect"), 2) << "), Dirac "
-      << yes_or_no(structure.at("dirac")) << '\n';
+      << (ports.empty() ? "" : " (" + ports + ")") << '\n';
+  print_wrapped(console,
+                "dim D = " + shown(structure.at("dimension")) +
+                    ", dim M = " + shown(structure.at("manifold_dimension")) + "; isotropic " +
+                    yes_or_no(structure.at("isotropic")) + " (" +
+                    shown(structure.at("isotropy_defect"), 2) + "), coisotropic " +
+                    yes_or_no(structure.at("coisotropic")) + " (" +
+                    shown(structure.at("coisotropy_defect"), 2) + "), Dirac " +
+                    yes_or_no(structure.at("dirac")),
+                "    ");
   if (!structure.at("dirac").get<bool>()) {
     out << "    dim F_D = " << shown(structure.at("rank_of_F")) << "; integrability "
         << structure.at("integrability").get<std::string>() << '\n';
@@ -97,23 +101,27 @@ void print_report(const Console& console, const Json& report) {
                    " " + check.at("statement").get<std::string>(),
                shown(check.at("defect"), 2), shown(check.at("bound"), 2),
                check.at("passed").get<bool>() ? "passed" : "FAILED"});
-  table.print(out);
+  table.print(out, "  ", console.columns);
   for (const Json& check : report.at("checks"))
     if (!check.at("passed").get<bool>())
       out << "  " << check.at("law").get<std::string>() << " failed at "
           << check.at("where").get<std::string>() << '\n';
   if (report.at("structures").empty())
     out << "\n  structure: the system is given by its equations, without a Dirac structure\n";
-  for (const Json& structure : report.at("structures")) print_structure(out, structure);
-  if (const Json& method = report.at("method"); !method.is_null())
-    out << "\n  method " << method.at("name").get<std::string>() << "\n    order "
-        << shown(method.at("order")) << ", measured " << shown(method.at("measured_order"), 3)
-        << "; symmetric " << measured(method, "symmetric", "symmetry_defect") << "; symplectic "
-        << measured(method, "symplectic", "symplecticity_defect")
-        << "; distance of the structure from its image "
-        << (method.at("structure_defect").is_null() ? "not defined"
-                                                    : shown(method.at("structure_defect"), 2))
-        << "\n";
+  for (const Json& structure : report.at("structures")) print_structure(console, structure);
+  if (const Json& method = report.at("method"); !method.is_null()) {
+    out << "\n  method " << method.at("name").get<std::string>() << '\n';
+    print_wrapped(
+        console,
+        "order " + shown(method.at("order")) + ", measured " +
+            shown(method.at("measured_order"), 3) + "; symmetric " +
+            measured(method, "symmetric", "symmetry_defect") + "; symplectic " +
+            measured(method, "symplectic", "symplecticity_defect") +
+            "; distance of the structure from its image " +
+            (method.at("structure_defect").is_null() ? "not defined"
+                                                     : shown(method.at("structure_defect"), 2)),
+        "    ");
+  }
   if (!report.at("symmetries").empty()) {
     out << "\n  momenta of symmetries\n";
     for (const Json& symmetry : report.at("symmetries")) {

@@ -57,7 +57,7 @@ void print_comparison(const Console& console, const std::vector<Run>& runs) {
                shown_if_known(summary.steps_per_second, 3),
                std::to_string(passed) + " of " + std::to_string(summary.expectations.size())});
   }
-  table.print(console.out, "");
+  table.print(console.out, "", console.columns);
   for (const Run& run : runs)
     if (run.summary.status == RunStatus::running)
       console.out << printable(run.name) << ": " << run.summary.message << '\n';

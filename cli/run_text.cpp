@@ -50,7 +50,7 @@ void print_observables(const Console& console, const RunSummary& summary) {
     table.add({"constraints", "", "", shown(*summary.max_violation, 3), ""});
   if (!table.empty()) {
     console.out << '\n';
-    table.print(console.out);
+    table.print(console.out, "  ", console.columns);
   }
 }
 
@@ -61,7 +61,7 @@ void print_final(const Console& console, const RunSummary& summary) {
   for (std::size_t i = 0; i < count; ++i)
     table.add({summary.final[i].first, shown(summary.final[i].second, 12)});
   console.out << '\n';
-  table.print(console.out);
+  table.print(console.out, "  ", console.columns);
   if (count < summary.final.size())
     console.out << "  … " << summary.final.size() - count << " more in summary.json\n";
 }
@@ -73,7 +73,7 @@ void print_expectations(const Console& console, const RunOutcome& outcome) {
     table.add({result.description, shown(result.value, 4), shown(result.bound, 4),
                result.passed ? "passed" : "FAILED"});
   console.out << '\n';
-  table.print(console.out);
+  table.print(console.out, "  ", console.columns);
 }
 
 std::string steps_in_words(const TimeSpan& time) {
@@ -141,10 +141,14 @@ void print_outcome(const Console& console, const Experiment& experiment, const R
   print_observables(console, summary);
   print_final(console, summary);
   const RunSummary::Solver& solver = summary.solver;
-  if (summary.steps > 0)
-    console.out << "\n  " << shown(solver.iterations_per_step, 3) << " iterations and "
-                << shown(solver.factorizations_per_step, 3) << " factorizations a step, "
-                << shown(summary.steps_per_second, 3) << " steps/s (" << summary.backend << ")\n";
+  if (summary.steps > 0) {
+    console.out << '\n';
+    print_wrapped(console,
+                  shown(solver.iterations_per_step, 3) + " iterations and " +
+                      shown(solver.factorizations_per_step, 3) + " factorizations a step, " +
+                      shown(summary.steps_per_second, 3) + " steps/s (" + summary.backend + ")",
+                  "  ");
+  }
   if (const long again = solver.second_attempts.value_or(0); again > 0)
     console.out << "  " << again << (again == 1 ? " step" : " steps")
                 << " needed a second attempt.\n";
@@ -191,7 +195,7 @@ void print_ensemble(const Console& console, const EnsembleOutcome& outcome,
     add("max |H - H(0)|", summary["drift"]["H"]);
   if (!table.empty()) {
     console.out << '\n';
-    table.print(console.out);
+    table.print(console.out, "  ", console.columns);
   }
   if (count > kMostCoordinates)
     console.out << "  … and " << count - kMostCoordinates << " more, in summary.json\n";

@@ -73,7 +73,7 @@ void print_table(const Console& console, const SweepTask& task, const Json& tabl
       cells.push_back(value_of(row, name).is_null() ? "" : shown(value_of(row, name), 4));
     text.add(cells);
   }
-  text.print(console.out);
+  text.print(console.out, "  ", console.columns);
 }
 
 void print_messages(const Console& console, const SweepTask& task, const Json& table) {

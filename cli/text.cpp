@@ -45,6 +45,27 @@ std::vector<std::string> pieces(const std::string& text, std::size_t longest) {
   return result;
 }
 
+// A cell in lines of at most `width` characters, broken between words; those after the first begin with `further`.
+std::vector<std::string> lines_of(const std::string& cell, std::size_t width,
+                                  const std::string& further) {
+  if (text_width(cell) <= width) return {cell};
+  std::vector<std::string> lines;
+  std::string line, word;
+  bool is_begun = false;
+  std::istringstream in(cell);
+  while (std::getline(in, word, ' ')) {
+    if (is_begun && text_width(line) + 1 + text_width(word) > width) {
+      lines.push_back(line);
+      line = further + word;
+    } else {
+      line += (is_begun ? " " : "") + word;
+    }
+    is_begun = true;
+  }
+  lines.push_back(line);
+  return lines;
+}
+
 }  // namespace
 
 std::string shown(double value, int digits) { return number_text(value, digits); }
@@ -89,21 +110,26 @@ void TextTable::add(std::vector<std::string> row) {
   rows_.push_back(std::move(row));
 }
 
-void TextTable::print(std::ostream& out, const std::string& indent) const {
+void TextTable::print(std::ostream& out, const std::string& indent, std::size_t columns) const {
+  constexpr std::size_t narrowest = 20;
+  const std::string further = "    ";
   std::vector<std::size_t> widths;
   for (const auto& row : rows_) {
     widths.resize(std::max(widths.size(), row.size()));
     for (std::size_t i = 0; i < row.size(); ++i)
       widths[i] = std::max(widths[i], text_width(row[i]));
   }
+  std::size_t others = indent.size();
+  for (std::size_t i = 1; i < widths.size(); ++i) others += 2 + widths[i];
+  widths[0] = std::min(widths[0], columns > others + narrowest ? columns - others : narrowest);
   for (const auto& row : rows_) {
-    std::string line = indent;
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string padding(widths[i] - text_width(row[i]), ' ');
-      line += (i == 0 ? "" : "  ") + (i == 0 ? row[i] + padding : padding + row[i]);
-    }
+    const std::vector<std::string> first = lines_of(row[0], widths[0], further);
+    std::string line = indent + padded(first[0], widths[0]);
+    for (std::size_t i = 1; i < row.size(); ++i)
+      line += "  " + std::string(widths[i] - text_width(row[i]), ' ') + row[i];
     line.erase(line.find_last_not_of(' ') + 1);
     out << line << '\n';
+    for (std::size_t k = 1; k < first.size(); ++k) out << indent << first[k] << '\n';
   }
 }
 

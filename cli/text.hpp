@@ -30,7 +30,9 @@ class TextTable {
   // Control characters in it are shown as \u001b.
   void add(std::vector<std::string> row);
   bool empty() const { return rows_.size() == 1; }
-  void print(std::ostream& out, const std::string& indent = "  ") const;
+  // What does not fit into `columns` goes on below, in the first column.
+  void print(std::ostream& out, const std::string& indent = "  ",
+             std::size_t columns = std::string::npos) const;
 
  private:
   std::vector<std::vector<std::string>> rows_;

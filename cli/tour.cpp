@@ -63,11 +63,16 @@ std::string expectations(const std::string& output) {
   return text;
 }
 
-std::string output_of(const TourChapter& chapter, const Console& console) {
+// In lines of at most `columns` characters; what is read from rows of a table needs them whole.
+std::string output_of(const TourChapter& chapter, const Console& console, std::size_t columns) {
+  constexpr std::size_t whole = 1000;
   std::istringstream in(chapter.experiment);
   std::ostringstream out, err;
-  const Console inner{
-      .in = in, .out = out, .err = err, .columns = console.columns, .stop = console.stop};
+  const Console inner{.in = in,
+                      .out = out,
+                      .err = err,
+                      .columns = chapter.arguments[0] == "run" ? whole : columns,
+                      .stop = console.stop};
   std::vector<std::string> arguments = chapter.arguments;
   if (arguments[0] != "run") {
     command(arguments, inner);
@@ -111,8 +116,10 @@ void print_chapter(const Console& console, std::size_t number) {
   print_paragraphs(console, "Question: " + chapter.question);
   wait(console, "the answer");
   out << "\n  $ " << command_line(chapter) << "\n\n";
-  for (const std::string& line : lines_of(output_of(chapter, console)))
-    out << (line.empty() ? "" : "  ") << line << '\n';
+  const std::string indent = "  ";
+  for (const std::string& line :
+       lines_of(output_of(chapter, console, console.columns - indent.size())))
+    out << (line.empty() ? "" : indent) << line << '\n';
   out << '\n';
   print_paragraphs(console, "Answer: " + chapter.answer);
   out << '\n';
@@ -170,7 +177,8 @@ std::string page_in_markdown(const Console& console, std::size_t number, const L
   page += folding("Answer", words(chapter.answer) + "\n\n![The ladder](" + chapter.file +
                                 ".svg)\n\n" + sections_in_markdown(found));
   page += folding("What the command prints", "```text\n$ " + command_line(chapter) + "\n" +
-                                                 output_of(chapter, console) + "```\n");
+                                                 output_of(chapter, console, console.columns) +
+                                                 "```\n");
   page += "**Exercise.** " + words(chapter.exercise) + "\n\n";
   page += folding("Solution", words(chapter.solution) + "\n");
   if (number < tour_chapters().size())

@@ -29,6 +29,8 @@ constexpr double kMostWork = 1e5;
 constexpr double kAccounted = 0.1, kAgreed = 1e-2;
 // An error of H that is more than this part of its terms is said, whether it converges or not.
 constexpr double kMostOfTerms = 1e-2;
+// Where the run in steps of a third leaves less than this part of a change of H, the change is the method's.
+constexpr double kLeft = 0.5;
 
 }  // namespace
 
@@ -54,13 +56,21 @@ std::optional<RunEnd> EnergyWatch::watch(const RunMoment& moment) {
   const auto [terms, round_off] = sizes(moment.step.after);
   const double noise = (kFirstSteps + static_cast<double>(moment.k)) * round_off;
   if (!(change > std::max(noise, kLeast * terms))) return std::nullopt;
+  const std::string what =
+      "H has changed by " + number_text(H - memory_.initial) + " at t = " + number_text(moment.t);
+  const std::string so = " The trajectory may be wrong from there on.";
   if (finding().empty() && !is_explained(moment, terms)) {
     memory_.found_at = change;
-    memory_.finding =
-        "H has changed by " + number_text(H - memory_.initial) +
-        " at t = " + number_text(moment.t) +
-        ", and shorter steps would not change it less: not the method's order explains it. "
-        "The trajectory may be wrong from there on.";
+    memory_.finding = what +
+                      ", and shorter steps would not change it less: not the method's order "
+                      "explains it." +
+                      so;
+  } else if (const auto in_thirds = change_in_thirds(moment);
+             finding().empty() && in_thirds && std::fabs(*in_thirds) < kLeft * change) {
+    memory_.found_at = change;
+    memory_.finding = what + ", and by " + number_text(*in_thirds) +
+                      " in steps of a third: that is the error of steps of " +
+                      number_text(moment.step.h) + "." + so;
   }
   return end_where_broken(moment);
 }
@@ -138,15 +148,23 @@ double EnergyWatch::work_from_start(const RunMoment& moment) const {
   return static_cast<double>(moment.k * std::max<Index>(1, start_.x.size()));
 }
 
-bool EnergyWatch::agrees_from_start(const RunMoment& moment, double most) const {
+std::optional<double> EnergyWatch::energy_in_thirds(const RunMoment& moment) const {
+  if (3 * work_from_start(moment) > kMostWork) return std::nullopt;
   try {
-    const State end = integrator_->advance(start_, moment.step.h / 3.0, 3 * moment.k);
-    return std::fabs(energy_(end) - moment.row[columns_.energy]) <= most;
+    return energy_(integrator_->advance(start_, moment.step.h / 3.0, 3 * moment.k));
   } catch (const std::runtime_error&) {
-    return false;
+    return std::nullopt;
   } catch (const std::domain_error&) {
-    return false;
+    return std::nullopt;
   }
+}
+
+std::optional<double> EnergyWatch::change_in_thirds(const RunMoment& moment) const {
+  const double size = sizes(start_).terms;
+  const double change = std::fabs(moment.row[columns_.energy] - memory_.initial);
+  if (columns_.balance || !(size > 0.0) || !(change > size)) return std::nullopt;
+  const auto there = energy_in_thirds(moment);
+  return there ? std::optional(*there - memory_.initial) : std::nullopt;
 }
 
 bool EnergyWatch::is_explained(const RunMoment& moment, double terms) const {
@@ -164,7 +182,8 @@ bool EnergyWatch::is_explained(const RunMoment& moment, double terms) const {
   const double work = work_from_start(moment);
   if (all_parts * work <= kMostWork)
     return converges(start_, step.h, moment.k, agreed, kMostOfTerms * terms);
-  return 3 * work <= kMostWork && agrees_from_start(moment, kAgreed * change);
+  const auto there = energy_in_thirds(moment);
+  return there && std::fabs(*there - moment.row[columns_.energy]) <= kAgreed * change;
 }
 
 }  // namespace courant

@@ -25,6 +25,10 @@ namespace courant {
 // take more than 10⁵ steps times coordinates: then H from steps of a third has to agree to a hundredth of its change.
 // Large systems, and what is late in a run, are not made again.
 //
+// Where H of a system without ports has changed by more than it was the sum of at the start, as from -1 to 16, the run up to there is made again in
+// steps of a third too: where these change it by less than half as much, the change is an error of the method, and
+// is said, though its order explains it.
+//
 // Where the parts of a step lead to values of H that differ by more than H is the sum of, before the step and after the
 // parts, the step has no digits: so it is at a collision, a pole. The run ends there. From rest, where H is the sum of nothing, and where
 // ports account for the change, nothing is said.
@@ -72,8 +76,11 @@ class EnergyWatch final : public RunWatcher {
   std::optional<RunEnd> end_where_broken(const RunMoment& moment) const;
   // Steps times coordinates of the run so far.
   double work_from_start(const RunMoment& moment) const;
-  // Whether the run so far, made again in steps of a third, leads to H up to `most`.
-  bool agrees_from_start(const RunMoment& moment, double most) const;
+  // H after the run so far, made again in steps of a third; nothing where that takes too long or cannot be.
+  std::optional<double> energy_in_thirds(const RunMoment& moment) const;
+  // How H changes then, where the run changed it by more than it was the sum of at the start; nothing where it did not,
+  // and where ports change it.
+  std::optional<double> change_in_thirds(const RunMoment& moment) const;
   EnergySizes sizes(const State& state) const;
 
   std::shared_ptr<const Integrator> integrator_;
