@@ -6,7 +6,7 @@
 #include "courant/cli/experiment_file.hpp"
 #include "courant/cli/force.hpp"
 #include "courant/core/files/own_file.hpp"
-#include "courant/reading/netlist.hpp"
+#include "courant/extensions/spice/netlist.hpp"
 
 namespace courant::cli {
 namespace {

@@ -10,7 +10,7 @@ set(courant_precompiled <Eigen/Core> <Eigen/SparseCore> <algorithm> <cmath> <fun
 foreach(room core manifolds structures integrators systems)
   set(courant_optimisation_${room} -O1)
 endforeach()
-foreach(room reading running plotting reporting cli lab tests)
+foreach(room reading running extensions plotting reporting cli lab tests)
   set(courant_optimisation_${room} $<IF:$<BOOL:${EMSCRIPTEN}>,-O1,-Og>) # em++ does not know the latter
 endforeach()
 
@@ -39,7 +39,7 @@ function(courant_precompile target room suffix)
     target_precompile_headers(${target} PRIVATE ${courant_precompiled} ${ARGN})
   elseif(room STREQUAL reading)
     target_precompile_headers(${target} PRIVATE ${courant_precompiled} <nlohmann/json.hpp> ${ARGN})
-  elseif(room MATCHES "^(running|reporting|cli|lab)$")
+  elseif(room MATCHES "^(running|extensions|reporting|cli|lab)$")
     target_precompile_headers(${target} REUSE_FROM courant_reading${suffix})
   elseif(room STREQUAL steps)
     target_precompile_headers(${target} REUSE_FROM courant_core_steps)

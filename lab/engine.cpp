@@ -12,7 +12,7 @@
 #include "courant/reading/catalogue.hpp"
 #include "courant/reading/experiment.hpp"
 #include "courant/reading/json_document.hpp"
-#include "courant/reading/netlist.hpp"
+#include "courant/extensions/spice/netlist.hpp"
 #include "courant/reading/new_experiment.hpp"
 #include "courant/reading/table.hpp"
 #include "courant/reporting/figure_drawing.hpp"

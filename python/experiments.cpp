@@ -3,7 +3,7 @@
 #include "courant/python/objects.hpp"
 #include "courant/reading/catalogue.hpp"
 #include "courant/reading/experiment.hpp"
-#include "courant/reading/netlist.hpp"
+#include "courant/extensions/spice/netlist.hpp"
 #include "courant/reporting/formula_typesetting.hpp"
 #include "courant/reporting/ladder_diagram.hpp"
 #include "courant/reporting/ladder_explanation.hpp"

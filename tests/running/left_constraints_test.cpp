@@ -3,7 +3,6 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "courant/reading/netlist.hpp"
 #include "run_in.hpp"
 
 namespace courant {
@@ -134,27 +133,6 @@ BOOST_AUTO_TEST_CASE(a_motion_lost_in_alternating_errors_is_said) {
       BOOST_TEST_REQUIRE(outcome.summary.warnings.size() == (is_right ? 0u : 1u));
       if (!is_right)
         BOOST_TEST(outcome.summary.warnings.at(0).find("goes to and fro") != std::string::npos);
-    }
-}
-
-// A square wave into coils that are coupled by all but 10⁻⁶: 2 μs are no time for steps of 10 μs, and the voltages go to and fro by
-// tens of volts while the fluxes hardly move. Nobody writes the voltages. Damped, they do not.
-BOOST_AUTO_TEST_CASE(what_nobody_writes_is_looked_at_too) {
-  Json experiment = import_netlist(
-      "t\nV1 a 0 PULSE(-8 8 0 1u 1u 399u 800u)\nR1 a p 1.5\nL1 p 0 80m\nL2 s 0 320m\nR2 s 0 10\n"
-      "K1 L1 L2 0.999999\n.tran 10u 2m\n");
-  experiment["time"] = {{"step", 1e-5}, {"end", 2e-3}};
-  for (const bool is_damped : {false, true})
-    for (const bool is_written : {false, true}) {
-      Json asked = experiment;
-      asked["method"] = kMethod2;
-      if (is_damped) asked["method"]["damping"] = "l-stable";
-      if (!is_written) asked.erase("observe");
-      const TemporaryFolder folder;
-      const auto warnings = run_in(folder, asked).summary.warnings;
-      BOOST_TEST(warnings.size() == (is_damped ? 0u : 1u));
-      if (!warnings.empty())
-        BOOST_TEST(warnings[0].find("goes to and fro") != std::string::npos, warnings[0]);
     }
 }
 
