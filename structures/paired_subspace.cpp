@@ -1,6 +1,7 @@
 #include "courant/structures/paired_subspace.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
@@ -84,7 +85,10 @@ PairedSubspace PairedSubspace::kernel(const Eigen::Ref<const MatrixXd>& F,
                                       const RankOptions& options) {
   require(P.rows() == F.rows(), "kernel",
           "P is " + size(P) + " and F is " + size(F) + "; expected equal numbers of rows.");
-  const MatrixXd free_of_ports = FundamentalSubspaces(P, options).left_kernel().transpose();
+  // Orthonormal: what is below the rounding of 1 is rounding, and made equations of nothing but noise.
+  constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
+  MatrixXd free_of_ports = FundamentalSubspaces(P, options).left_kernel().transpose();
+  free_of_ports = (free_of_ports.array().abs() > rounding).select(free_of_ports, 0.0).eval();
   // What cancels to rounding is zero: equations that say the same must not become one of noise.
   const double noise = std::max(1e-13, options.data_error);
   const auto reduced = [&](const MatrixXd& A) {

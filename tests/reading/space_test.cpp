@@ -102,6 +102,7 @@ BOOST_AUTO_TEST_CASE(groups_of_matrices) {
   BOOST_TEST(problem(given, "g[2][2]").find("the equations are off by") != std::string::npos);
   given["equations"] = {"h - 2"};
   BOOST_TEST(problem(given, "g[2][2]").find("unknown name \"h\"") != std::string::npos);
+  given.erase("equations");
   given["basis"] = Json::parse("[[[0,1],[0,0]], [[0,0],[1,0]]]");
   BOOST_TEST(problem(given, "g[2][2]").find("closed under brackets") != std::string::npos);
 }

@@ -30,7 +30,8 @@ BOOST_AUTO_TEST_CASE(the_words_of_the_tour_have_formulas) {
     for (const std::string* text : {&chapter.idea, &chapter.question, &chapter.answer,
                                     &chapter.exercise, &chapter.solution}) {
       BOOST_TEST(std::ranges::count(*text, '$') % 2 == 0, *text);
-      for (const Prose::Part& part : marked_prose(*text).parts()) {
+      const Prose prose = marked_prose(*text);
+      for (const Prose::Part& part : prose.parts()) {
         if (!part.is_formula) continue;
         ++formulas;
         BOOST_TEST(formula_tree(part.text).has_value(), part.text);

@@ -114,7 +114,8 @@ BOOST_AUTO_TEST_CASE(first_class_constraints_generate) {
 // C = Dφ J Dφᵀ.
 BOOST_AUTO_TEST_CASE(dirac_brackets_of_a_double_pendulum) {
   Mechanics mechanics;
-  mechanics.holonomic = {{"rods"}, [](const ExprVector& q, const ExprVector&, const Expr&) {
+  mechanics.holonomic = {{"upper rod", "lower rod"},
+                         [](const ExprVector& q, const ExprVector&, const Expr&) {
                            ExprVector rods(2);
                            rods << (q.head(2).squaredNorm() - 1.0) / 2.0,
                                ((q.tail(2) - q.head(2)).squaredNorm() - 1.0) / 2.0;

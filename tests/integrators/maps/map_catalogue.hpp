@@ -9,6 +9,7 @@
 #include "courant/integrators/maps/cayley_midpoint.hpp"
 #include "courant/integrators/maps/chordal.hpp"
 #include "courant/integrators/maps/cotangent_lift.hpp"
+#include "courant/integrators/maps/formula_map.hpp"
 #include "courant/integrators/maps/group_midpoint.hpp"
 #include "courant/integrators/maps/product_map.hpp"
 #include "courant/integrators/maps/projected.hpp"
@@ -35,6 +36,15 @@ inline MapPointer by_cayley_midpoint(const MatrixAlgebra& algebra) {
 }
 inline MapPointer by_second_kind_midpoint(const MatrixAlgebra& algebra) {
   return make<GroupMidpoint>(make<MatrixGroup>(algebra), second_kind_map(algebra));
+}
+
+// x + factor v, bent by a quarter of v_0 v_1.
+inline FormulaMap::Map stretched(double factor) {
+  return [factor](const ExprVector& x, const ExprVector& v) {
+    ExprVector y = x + Expr(factor) * v;
+    y[1] += 0.25 * factor * v[0] * v[1];
+    return y;
+  };
 }
 
 // Maps of manifolds that are not cotangent bundles, in dimension 0, 1 and more: explicit, implicit
@@ -91,6 +101,8 @@ inline std::vector<MapPointer> base_map_catalogue() {
           by_cayley_midpoint(MatrixAlgebra::sl(2)),
           by_second_kind_midpoint(MatrixAlgebra::se2()),
           by_second_kind_midpoint(MatrixAlgebra::heisenberg(1)),
+          make<FormulaMap>(make<Euclidean>(2),
+                           FormulaMap::Formulas{.minus = stretched(-0.4), .plus = stretched(0.6)}),
           projected(ellipsoid(), 0.5),
           projected(ellipsoid(), 0.3),
           projected(spherical_circle(), 0.5),

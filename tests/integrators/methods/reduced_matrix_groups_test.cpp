@@ -57,7 +57,7 @@ VectorXd step(const Integrator& method, const VectorXd& x, double h, long count 
 double bracket_defect(const Integrator& method, const LiePoisson& structure, const VectorXd& x,
                       double h) {
   const Index n = x.size();
-  const double e = 0.02;
+  const double e = 0.01;
   const double weights[] = {4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0};
   MatrixXd D = MatrixXd::Zero(n, n);
   for (Index j = 0; j < n; ++j)
@@ -110,7 +110,8 @@ BOOST_AUTO_TEST_CASE(keep_casimirs) {
     }
 }
 
-// The errors after one unit of time against those of half the step: order 2, and 1 for θ ≠ ½.
+// The errors after one unit of time against those of a fourth of the step. With the exponential map θ falls out of what is
+// reduced, x τ(-θv) and x τ((1-θ)v) being τ(v) apart: the order is 2, and 1 for θ ≠ ½ only with another map.
 BOOST_AUTO_TEST_CASE(have_their_order) {
   for (const MatrixAlgebra& g : {MatrixAlgebra::se2(), MatrixAlgebra::sl(2)}) {
     const auto system = euler_poincare_system(problem_of(g));
@@ -119,13 +120,15 @@ BOOST_AUTO_TEST_CASE(have_their_order) {
     // Extrapolated from even powers of the step.
     const VectorXd a = step(fine, x, 1.0 / 400, 400), b = step(fine, x, 1.0 / 800, 800);
     const VectorXd reference = b + (b - a) / 3.0;
-    for (const MapPointer& map : maps_of(g)) {
+    const std::vector<MapPointer> maps = maps_of(g);
+    for (const MapPointer& map : maps) {
       const ReducedMap method(system, map, {.backend = Backend::interpreter});
       const auto error = [&](long n) {
         return (step(method, x, 1.0 / static_cast<double>(n), n) - reference).norm();
       };
-      const double slope = std::log2(error(40) / error(160)) / 2.0;
-      BOOST_TEST(std::fabs(slope - method.order()) < 0.15,
+      const double slope = std::log2(error(160) / error(640)) / 2.0;
+      const bool is_by_exponential = map == maps[1];
+      BOOST_TEST(std::fabs(slope - (is_by_exponential ? 2 : method.order())) < 0.15,
                  g.name() << ", " << map->name() << ": " << slope);
     }
   }
