@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
+#include <string>
+#include <vector>
 
 #include "courant/core/language/formula_tree.hpp"
 #include "courant/reporting/tour_chapters.hpp"
@@ -26,17 +28,20 @@ BOOST_AUTO_TEST_CASE(formulas_stand_between_marks) {
 // What is marked in the tour is a formula, and every mark has its other one.
 BOOST_AUTO_TEST_CASE(the_words_of_the_tour_have_formulas) {
   int formulas = 0;
-  for (const TourChapter& chapter : tour_chapters())
-    for (const std::string* text : {&chapter.idea, &chapter.question, &chapter.answer,
-                                    &chapter.exercise, &chapter.solution}) {
-      BOOST_TEST(std::ranges::count(*text, '$') % 2 == 0, *text);
-      const Prose prose = marked_prose(*text);
+  for (const TourChapter& chapter : tour_chapters()) {
+    const std::vector<std::string> words = {chapter.idea, chapter.question, chapter.answer,
+                                            chapter.exercise, chapter.solution};
+    for (const std::string& text : words) {
+      BOOST_TEST(std::ranges::count(text, '$') % 2 == 0, text);
+      const Prose prose = marked_prose(text);
       for (const Prose::Part& part : prose.parts()) {
         if (!part.is_formula) continue;
         ++formulas;
-        BOOST_TEST(formula_tree(part.text).has_value(), part.text);
+        const bool is_formula = formula_tree(part.text).has_value();
+        BOOST_TEST(is_formula, part.text);
       }
     }
+  }
   BOOST_TEST(formulas > 20);
 }
 

@@ -118,7 +118,7 @@ BOOST_AUTO_TEST_CASE(dirac_brackets_of_a_double_pendulum) {
                          [](const ExprVector& q, const ExprVector&, const Expr&) {
                            ExprVector rods(2);
                            rods << (q.head(2).squaredNorm() - 1.0) / 2.0,
-                               ((q.tail(2) - q.head(2)).squaredNorm() - 1.0) / 2.0;
+                               ((q.segment(2, 2) - q.head(2)).squaredNorm() - 1.0) / 2.0;
                            return rods;
                          }};
   const std::vector<std::string> names = {"a", "b", "c", "d", "p_a", "p_b", "p_c", "p_d"};
