@@ -9,10 +9,10 @@
 
 #include "courant/core/words/message.hpp"
 #include "courant/core/words/spelling.hpp"
+#include "courant/extensions/spice/netlist.hpp"
 #include "courant/reading/catalogue.hpp"
 #include "courant/reading/experiment.hpp"
 #include "courant/reading/json_document.hpp"
-#include "courant/extensions/spice/netlist.hpp"
 #include "courant/reading/new_experiment.hpp"
 #include "courant/reading/table.hpp"
 #include "courant/reporting/figure_drawing.hpp"

@@ -1,9 +1,9 @@
 // Experiments, and what is asked of them without a run.
+#include "courant/extensions/spice/netlist.hpp"
 #include "courant/plotting/palette.hpp"
 #include "courant/python/objects.hpp"
 #include "courant/reading/catalogue.hpp"
 #include "courant/reading/experiment.hpp"
-#include "courant/extensions/spice/netlist.hpp"
 #include "courant/reporting/formula_typesetting.hpp"
 #include "courant/reporting/ladder_diagram.hpp"
 #include "courant/reporting/ladder_explanation.hpp"

@@ -8,9 +8,9 @@
 
 #include "courant/core/words/message.hpp"
 #include "courant/core/words/spelling.hpp"
+#include "courant/extensions/spice/netlist_circuit_reader.hpp"
 #include "courant/reading/experiment.hpp"
 #include "courant/reading/linear_spectrum.hpp"
-#include "courant/extensions/spice/netlist_circuit_reader.hpp"
 
 namespace courant {
 namespace {

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "courant/reading/findings.hpp"
 #include "courant/extensions/spice/netlist_text.hpp"
+#include "courant/reading/findings.hpp"
 
 namespace courant {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "courant/reading/findings.hpp"
 #include "courant/extensions/spice/netlist_sources.hpp"
 #include "courant/extensions/spice/netlist_text.hpp"
+#include "courant/reading/findings.hpp"
 
 namespace courant::netlist {
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "courant/core/language/symbol_table.hpp"
-#include "courant/reading/junction_charge.hpp"
 #include "courant/extensions/spice/netlist_cards.hpp"
 #include "courant/extensions/spice/netlist_operating_point.hpp"
+#include "courant/reading/junction_charge.hpp"
 
 namespace courant::netlist {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "courant/core/language/symbol_table.hpp"
-#include "courant/integrators/methods/divided_integrator.hpp"
 #include "courant/extensions/spice/netlist_text.hpp"
+#include "courant/integrators/methods/divided_integrator.hpp"
 
 namespace courant::netlist {
 

@@ -5,9 +5,9 @@
 
 #include "courant/core/expressions/function.hpp"
 #include "courant/core/words/message.hpp"
+#include "courant/extensions/spice/netlist_circuit_reader.hpp"
 #include "courant/reading/bipolar_transistor.hpp"
 #include "courant/reading/mos_channel.hpp"
-#include "courant/extensions/spice/netlist_circuit_reader.hpp"
 
 namespace courant::netlist {
 namespace {

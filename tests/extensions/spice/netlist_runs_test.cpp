@@ -1,11 +1,10 @@
-#include "courant/extensions/spice/netlist.hpp"
-
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
 
+#include "courant/extensions/spice/netlist.hpp"
 #include "courant/tests/running/run_in.hpp"
 #include "courant/tests/running/waveforms.hpp"
 

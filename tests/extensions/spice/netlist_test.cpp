@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "courant/core/language/formula.hpp"
-#include "courant/reading/experiment.hpp"
 #include "courant/extensions/spice/netlist_behaviour.hpp"
 #include "courant/extensions/spice/netlist_sources.hpp"
+#include "courant/reading/experiment.hpp"
 
 namespace courant {
 // Mistakes that these cases have to notice:
