@@ -13,7 +13,8 @@
 
 namespace courant {
 
-MatrixGroup::MatrixGroup(MatrixAlgebra algebra) : MatrixGroup(algebra, exponential_map(algebra)) {}
+MatrixGroup::MatrixGroup(const MatrixAlgebra& algebra)
+    : MatrixGroup(algebra, exponential_map(algebra)) {}
 
 MatrixGroup::MatrixGroup(MatrixAlgebra algebra, GroupMap map, Equations equations)
     : Manifold("MatrixGroup(" + algebra.name() + ", " + map.name + ")", algebra.dimension(),

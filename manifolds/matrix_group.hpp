@@ -28,7 +28,7 @@ class MatrixGroup final : public Manifold {
 
   // By default with the exponential map. Throws std::domain_error unless the equations hold on G and
   // have N - n independent gradients there.
-  explicit MatrixGroup(MatrixAlgebra algebra);
+  explicit MatrixGroup(const MatrixAlgebra& algebra);
   MatrixGroup(MatrixAlgebra algebra, GroupMap map, Equations equations = {});
 
   const MatrixAlgebra& algebra() const { return algebra_; }

@@ -30,16 +30,19 @@ VectorXd displaced_by(const VectorXd& x, const LeastChange& change, double dista
 }
 
 // The best of zeros that are begun from at the given point, as it moves and at rest, and at `around` points as far from
-// it as the nearest that is known.
+// it as the nearest that is known. One that is nearer by rounding is not: at rest units are round-off, and a search for
+// momenta from there finds none.
 ConsistentPoint::Least best_of(const ConsistentPoint& consistent, const InitialGuess& given,
                                const LeastChange& change, int around, ConsistentPoint::Least best) {
-  constexpr double less = 1.0 - 1e-9;
+  constexpr double less = 1.0 - 1e-9, round_off = 1e-13;
+  const double rounding = round_off * (change.root * change.given).norm();
   const auto include = [&](const VectorXd& x, const VectorXd& v) {
     try {
       const ConsistentJet start = consistent.find_from(x, v, VectorXd(), best.jet);
       if (!start.zero().found || !consistent.is_met_at(start)) return;
       ConsistentPoint::Least other = consistent.least_changed(start, change, {});
-      if (other.found.deviation < less * best.found.deviation && consistent.is_met_at(other.jet))
+      if (other.found.deviation < less * best.found.deviation - rounding &&
+          consistent.is_met_at(other.jet))
         best = std::move(other);
     } catch (const std::domain_error&) {  // no point of the manifold is near
     }
