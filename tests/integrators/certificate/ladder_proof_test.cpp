@@ -4,6 +4,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "courant/integrators/certificate/certificate.hpp"
+#include "courant/integrators/certificate/certificate_in_digits.hpp"
 #include "courant/tests/core/says.hpp"
 #include "ladder_catalogue.hpp"
 
