@@ -66,9 +66,7 @@ Ball Ball::written(double number) {
   if (const auto& fraction = written.fraction) {
     Ball pi;
     arb_const_pi(Access::of(pi), kBits);
-    value = Ball(fraction->p) / Ball(fraction->q);
-    if (fraction->power_of_pi == 1) value = value * pi;
-    if (fraction->power_of_pi == -1) value = value / pi;
+    value = fraction->value(pi);
   } else {
     const std::string text = written.digits + "e" + std::to_string(written.exponent);
     arb_set_str(Access::of(value), text.c_str(), kBits);

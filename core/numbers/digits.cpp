@@ -58,9 +58,7 @@ template <class Number>
 Number number_that_reads(const MeantNumber& written) {
   Number value;
   if (const auto& fraction = written.fraction) {
-    value = Number(fraction->p) / Number(fraction->q);
-    if (fraction->power_of_pi == 1) value *= acos(Number(-1));
-    if (fraction->power_of_pi == -1) value /= acos(Number(-1));
+    value = fraction->value<Number>(acos(Number(-1)));
   } else {
     value = Number(written.digits);
     const Number power = pow(Number(10), std::abs(written.exponent));

@@ -46,10 +46,7 @@ std::optional<MeantNumber::Fraction> near_fraction(double number) {
 // The double nearest to it.
 double rounded(const MeantNumber::Fraction& fraction) {
   using Number = boost::multiprecision::cpp_bin_float_quad;
-  Number value = Number(fraction.p) / Number(fraction.q);
-  if (fraction.power_of_pi == 1) value *= acos(Number(-1));
-  if (fraction.power_of_pi == -1) value /= acos(Number(-1));
-  return static_cast<double>(value);
+  return static_cast<double>(fraction.value<Number>(acos(Number(-1))));
 }
 
 }  // namespace

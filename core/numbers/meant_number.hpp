@@ -12,7 +12,14 @@ namespace courant {
 struct MeantNumber {
   // p/q · π^power_of_pi.
   struct Fraction {
-    int p = 0, q = 1, power_of_pi = 0;
+    int p = 0, q = 1, power_of_pi = 0;  // -1, 0 or 1
+
+    // In numbers of some precision, `pi` among them.
+    template <class Number>
+    Number value(const Number& pi) const {
+      const Number ratio = Number(p) / Number(q);
+      return power_of_pi == 0 ? ratio : power_of_pi > 0 ? Number(ratio * pi) : Number(ratio / pi);
+    }
   };
 
   bool is_negative = false;
