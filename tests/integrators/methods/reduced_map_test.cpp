@@ -4,6 +4,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "bracket_defect.hpp"
 #include "courant/integrators/maps/cayley_midpoint.hpp"
 #include "courant/integrators/maps/theta.hpp"
 #include "courant/integrators/methods/composition.hpp"
@@ -110,31 +111,8 @@ VectorXd with_attitude(const VectorXd& x, const Manifold& group) {
   all << x, *group.unit();
   return all;
 }
-VectorXd step(const Integrator& method, const VectorXd& x, double h, long count = 1) {
-  return method.advance({.x = x}, h, count).x;
-}
-
-// The differential of a step, by central differences of order 8.
-MatrixXd differential(const Integrator& method, const VectorXd& x, double h) {
-  const Index n = x.size();
-  const double e = 0.02;
-  const double weights[] = {4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0};
-  MatrixXd D = MatrixXd::Zero(n, n);
-  for (Index j = 0; j < n; ++j)
-    for (int k = 1; k <= 4; ++k) {
-      const VectorXd shift = k * e * VectorXd::Unit(n, j);
-      D.col(j) += weights[k - 1] / e * (step(method, x + shift, h) - step(method, x - shift, h));
-    }
-  return D;
-}
-// ‖DΦ Λ DΦᵀ - Λ ∘ Φ‖
-double bracket_defect(const Integrator& method, const LiePoisson& structure, const VectorXd& x,
-                      double h) {
-  const MatrixXd D = differential(method, x, h);
-  const MatrixXd before = values(structure.bivector(constants(x)));
-  const MatrixXd after = values(structure.bivector(constants(step(method, x, h))));
-  return (D * before * D.transpose() - after).cwiseAbs().maxCoeff();
-}
+using test::bracket_defect;
+using test::step;
 
 Vector3d spatial(const VectorXd& x) {  // R μ of (μ, a, R) with a of three numbers
   Matrix3d R;
