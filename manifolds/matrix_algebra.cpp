@@ -26,6 +26,14 @@ constexpr Index kDeterminantRows = 8;
 VectorXd row_major(const MatrixXd& A) { return A.reshaped<Eigen::RowMajor>(); }
 MatrixXd square_of(const VectorXd& a, Index m) { return a.reshaped<Eigen::RowMajor>(m, m); }
 
+// The matrices, each as a column.
+MatrixXd columns_of(const std::vector<MatrixXd>& matrices) {
+  MatrixXd columns(matrices.front().size(), std::ssize(matrices));
+  for (Index a = 0; a < columns.cols(); ++a)
+    columns.col(a) = row_major(matrices[static_cast<std::size_t>(a)]);
+  return columns;
+}
+
 MatrixXd without_round_off(const MatrixXd& A) {
   return A.unaryExpr([](double a) {
     const double near = std::round(a);
@@ -76,9 +84,7 @@ MatrixXd kernel(const MatrixXd& A) {
 
 // The coefficients of independent matrices in what they span, read off single entries where that can be done.
 MatrixXd coefficients_of(const std::vector<MatrixXd>& matrices) {
-  MatrixXd columns(matrices.front().size(), std::ssize(matrices));
-  for (Index a = 0; a < columns.cols(); ++a)
-    columns.col(a) = row_major(matrices[static_cast<std::size_t>(a)]);
+  const MatrixXd columns = columns_of(matrices);
   MatrixXd result = MatrixXd::Zero(columns.cols(), columns.rows());
   for (Index a = 0; a < columns.cols(); ++a) {
     Index e = 0;
@@ -94,10 +100,8 @@ MatrixXd coefficients_of(const std::vector<MatrixXd>& matrices) {
 }
 
 bool are_independent(const std::vector<MatrixXd>& matrices) {
-  MatrixXd columns(matrices.front().size(), std::ssize(matrices));
-  for (Index a = 0; a < columns.cols(); ++a)
-    columns.col(a) = row_major(matrices[static_cast<std::size_t>(a)]);
-  return CompleteOrthogonalDecomposition(columns, kIndependent).rank() == columns.cols();
+  return CompleteOrthogonalDecomposition(columns_of(matrices), kIndependent).rank() ==
+         std::ssize(matrices);
 }
 
 std::vector<MatrixXd> units(Index m) {
@@ -182,10 +186,7 @@ void MatrixAlgebra::find_hull() {
     if (dimension_before > 0)
       for (const MatrixXd& A : spanned)
         for (const MatrixXd& B : basis_) more.push_back(A * B);
-    MatrixXd rows(std::ssize(more), m * m);
-    for (Index k = 0; k < rows.rows(); ++k)
-      rows.row(k) = row_major(more[static_cast<std::size_t>(k)]).transpose();
-    reduced = echelon(rows);
+    reduced = echelon(columns_of(more).transpose());
     spanned.clear();
     for (Index k = 0; k < reduced.rows.rows(); ++k)
       spanned.push_back(square_of(reduced.rows.row(k), m));
@@ -193,9 +194,7 @@ void MatrixAlgebra::find_hull() {
   pivots_ = reduced.pivots;
   hull_ = spanned;
 
-  MatrixXd A(m * m, ambient_dimension());
-  for (Index i = 0; i < A.cols(); ++i)
-    A.col(i) = row_major(coordinates_.directions[static_cast<std::size_t>(i)]);
+  const MatrixXd A = columns_of(coordinates_.directions);
   const VectorXd origin = row_major(coordinates_.origin), one = row_major(MatrixXd::Identity(m, m));
   MatrixXd to_reach(m * m, std::ssize(hull_) + 1);
   to_reach.col(0) = one - origin;
