@@ -16,7 +16,8 @@ namespace courant {
 //
 // A number is zero if and only if it shrinks when its digits double (Digits): no scale of equations, unknowns or time
 // enters a decision. Time is a coordinate: what holds at an instant only is not consistent. A residual that
-// stays is inconsistent. Of a regular or gauge ladder there is a proof where the decider asks for one. Throws std::invalid_argument on wrong sizes.
+// stays is inconsistent. Of a regular or gauge ladder there is a proof where the decider asks for one. Throws
+// std::invalid_argument on wrong sizes.
 ConstraintLadder certificate_in_digits(const JetEquations& equations, const InitialGuess& guess,
                                        const ConstraintAlgorithm::Options& options = {},
                                        Decider decider = Decider::digits);

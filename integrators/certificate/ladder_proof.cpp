@@ -98,6 +98,24 @@ Balls balls_of(const Jet& jet) {
   return result;
 }
 
+// How many numbers are not zero, and how many count as zero: in the columns of the groups before that of a row's pivot.
+void count_numbers(const JetEquations& equations, const StagedElimination& elimination,
+                   const BallElimination& there, LadderProof& result) {
+  const std::vector<StagedElimination::Row>& rows = elimination.rows();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool is_dependent = rows[i].stage == StagedElimination::dependent;
+    if (!is_dependent) ++result.not_zero;
+    if (is_dependent && !there.residual(i).is_zero()) ++result.zero;
+    for (const auto& [column, entry] : there.entries(i)) {
+      if (elimination.stage_of(column) >= rows[i].stage) continue;
+      ++result.zero;
+      if (!entry.contains_zero())
+        result.missing = "A number that counts as zero is not, of " +
+                         equations_in_words(equations, elimination, rows[i]) + ".";
+    }
+  }
+}
+
 }  // namespace
 
 LadderProof proof(const JetEquations& equations, const StagedElimination& elimination,
@@ -142,19 +160,7 @@ LadderProof proof(const JetEquations& equations, const StagedElimination& elimin
     };
     if (tried > 0 && std::ranges::all_of(step, is_inside)) {
       result.has_point = true;
-      for (std::size_t i = 0; i < rows.size(); ++i) {
-        if (rows[i].stage != StagedElimination::dependent) ++result.not_zero;
-        // What counts as zero: in the columns of the groups before that of its pivot.
-        for (const auto& [column, entry] : there.entries(i)) {
-          if (elimination.stage_of(column) >= rows[i].stage) continue;
-          ++result.zero;
-          if (!entry.contains_zero())
-            result.missing = "A number that counts as zero is not, of " +
-                             equations_in_words(equations, elimination, rows[i]) + ".";
-        }
-        if (rows[i].stage == StagedElimination::dependent && !there.residual(i).is_zero())
-          ++result.zero;
-      }
+      count_numbers(equations, elimination, there, result);
       for (Index j = 0; j < equations.point_size(); ++j)
         result.radius = std::max(result.radius, ball[static_cast<std::size_t>(j)].radius());
       return result;
