@@ -12,7 +12,7 @@ namespace courant {
 // registries first has them in every experiment, and in all of the command:
 //
 //   int main(int argc, char** argv) {
-//     courant::manifold_kinds().add({{"heisenberg", "…"}, read_heisenberg});
+//     courant::manifold_kinds().add({{"nil", "…"}, read_heisenberg});
 //     return courant::command_main(argc, argv);
 //   }
 //

@@ -61,7 +61,7 @@ std::optional<Model> read_charge(ObjectReader& keys) {
 }
 
 int main(int argc, char** argv) {
-  manifold_kinds().add({{"heisenberg", "the Heisenberg group, R³"}, read_heisenberg});
+  manifold_kinds().add({{"nil", "the Heisenberg group, R³"}, read_heisenberg});
   system_kinds().add({{"heisenberg-charge",
                        "a charge on the Heisenberg group",
                        {default_key("strength", takes::number(), 1.0, "of the field")}},
