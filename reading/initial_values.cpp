@@ -272,6 +272,7 @@ std::optional<InitialValues> read_initial_values(const JsonReader& initial,
   const Index N = model.vocabulary.coordinates.size();
   InitialValues values{PartialVector(N), PartialVector(N),
                        PartialVector(model.vocabulary.unknowns.size()), VectorXd::Ones(N)};
+  if (model.reference.size() > 0) values.x.values = model.reference;
   values.nominal = {VectorXd::Zero(N), VectorXd::Zero(values.z.values.size())};
   const bool is_word = initial.value() == "rest";
   bool rests = is_word;

@@ -34,6 +34,9 @@ struct Model {
   // systems they have to be given.
   bool starts_at_zero = false;
 
+  // Coordinates where the search for those that are not given begins; empty: 0.
+  VectorXd reference;
+
   // Whether the point is (state, costate) of a problem of optimal control, with Pontryagin's function as energy.
   bool is_control_problem = false;
 
