@@ -1,10 +1,15 @@
 #include "courant/reading/mechanism_model.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/core/expressions/expr_vectors.hpp"
+#include "courant/core/expressions/function.hpp"
+#include "courant/core/linear/complete_orthogonal_decomposition.hpp"
 #include "courant/core/numbers/as_size.hpp"
 #include "courant/manifolds/rotation.hpp"
-#include "courant/structures/elements/joint_reactions.hpp"
+#include "courant/structures/joint_reactions.hpp"
 
 namespace courant {
 namespace {
@@ -25,6 +30,53 @@ bool is_coordinate(const Mechanism& mechanism, Index joint) {
   for (const Mechanism::Branch& branch : mechanism.branches())
     if (branch.joint == joint) return true;
   return false;
+}
+
+using Given = std::pair<std::string, double>;
+
+// q with the loops closed by the least change of the coordinates `open`, by Gauss-Newton; q itself if that does not end.
+VectorXd closed(const Mechanism& mechanism, const VectorXd& q, const std::vector<Index>& open) {
+  constexpr int most_steps = 50;
+  constexpr double near_enough = 1e-10;  // m, rad: the certificate finds the digits
+  if (mechanism.loops().empty() || open.empty()) return q;
+  Graph graph;
+  const ExprVector x = graph.variables("q", q.size());
+  const Mechanism::Motion motion = mechanism.motion(x);
+  std::vector<Expr> conditions;
+  for (const Index loop : mechanism.loops())
+    for (const JointCondition& condition : mechanism.conditions(motion, loop))
+      conditions.push_back(condition.value);
+  const Function phi("loops", {{"q", x}},
+                     Eigen::Map<const ExprVector>(conditions.data(), std::ssize(conditions)),
+                     {.differentiate = {"q"}});
+  VectorXd y = q;
+  for (int step = 0; step < most_steps; ++step) {
+    const VectorXd residual = phi({y});
+    if (!(residual.norm() > near_enough)) return y;
+    const MatrixXd J = phi.jacobian({y})(Eigen::all, open);
+    const VectorXd change = CompleteOrthogonalDecomposition(J).solve(-residual);
+    // No coordinate turns by more than half a radian at once, so that the search stays near.
+    const double largest = change.lpNorm<Eigen::Infinity>();
+    y(open) += (largest > 0.5 ? 0.5 / largest : 1.0) * change;
+  }
+  return q;
+}
+
+// The coordinates of all bodies as free ones, of these poses.
+VectorXd poses(const Mechanism::Motion& motion, const Mechanism& absolute) {
+  VectorXd q = absolute.rest();
+  for (const Mechanism::Branch& branch : absolute.branches()) {
+    const VectorXd r = values(absolute.center_of(motion, branch.body));
+    const ExprMatrix& R = motion.body[as_size(branch.body)].R;
+    if (absolute.parts().is_plane) {
+      q.segment(branch.position, 2) = r.head(2);
+      q[branch.position + 2] = std::atan2(R(1, 0).value(), R(0, 0).value());
+      continue;
+    }
+    q.segment(branch.position, 3) = r;
+    for (Index i = 0; i < 9; ++i) q[branch.position + 3 + i] = R(i / 3, i % 3).value();
+  }
+  return q;
 }
 
 // d/dt of functions of q along dq/dt, by fresh variables.
@@ -73,6 +125,24 @@ std::vector<std::string> MechanismModel::condition_names() const {
     for (const JointCondition& condition : typed_.conditions(motion, loop))
       names.push_back(equation_of(typed_.parts().joints[as_size(loop)].name, condition));
   return names;
+}
+
+VectorXd MechanismModel::reference(const std::vector<std::pair<std::string, double>>& given) const {
+  WrittenMechanism tree = written_;
+  tree.is_absolute = false;
+  const MechanismModel joints(tree, constants_);
+  const std::vector<std::string> names = joints.coordinates().element_names();
+  VectorXd q = joints.typed_.rest();
+  std::vector<Index> open;
+  for (Index i = 0; i < q.size(); ++i) {
+    const auto value = std::ranges::find(given, names[as_size(i)], &Given::first);
+    if (value != given.end())
+      q[i] = value->second;
+    else if (!names[as_size(i)].starts_with("R_"))
+      open.push_back(i);
+  }
+  q = closed(joints.typed_, q, open);
+  return written_.is_absolute ? poses(joints.typed_.motion(constants(q)), typed_) : q;
 }
 
 Mechanism MechanismModel::at(const ExprVector& q) const {

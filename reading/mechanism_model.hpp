@@ -23,6 +23,10 @@ class MechanismModel {
   NameList momenta() const;
   std::vector<std::string> condition_names() const;  // of all loops, in their order
 
+  // The q where a search for a start begins: joints have the coordinates that are given by name, others 0, or what closes the
+  // loops from there, if that is found near. Rotations in space and free bodies are where nothing has moved.
+  VectorXd reference(const std::vector<std::pair<std::string, double>>& given) const;
+
   // In the graph of q.
   Mechanism at(const ExprVector& q) const;
   // All but gravity, dampers and springs: what drives joints and pulls at bodies, by these symbols.

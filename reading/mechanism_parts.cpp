@@ -1,10 +1,10 @@
 #include "courant/reading/mechanism_parts.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "courant/core/linear/symmetric_eigenvalues.hpp"
 #include "courant/core/numbers/as_size.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/core/words/spelling.hpp"
@@ -346,7 +346,7 @@ class Reader {
     if (shape.size() == 2) {
       const VectorXd all = value_of(f, constants_);
       if (all[1] != all[3] || all[2] != all[6] || all[5] != all[7])
-        problem(value, "is not symmetric; expected a matrix of inertia");
+        return problem(value, "is not symmetric; expected a matrix of inertia");
     }
     check_inertia(value, value_of(body.inertia, constants_));
   }
@@ -355,10 +355,10 @@ class Reader {
   void check_inertia(const JsonReader& value, const VectorXd& entries) {
     // Inertias are typed with a few digits: a flat plate, whose moments meet the bound, is off it by their rounding.
     constexpr double rounding = 1e-3;
-    Eigen::Matrix3d J;
+    MatrixXd J(3, 3);
     J << entries[0], entries[3], entries[4], entries[3], entries[1], entries[5], entries[4],
         entries[5], entries[2];
-    const VectorXd moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(J).eigenvalues();
+    const VectorXd moments = symmetric_eigenvalues(J);
     const double allowed = rounding * std::max(std::fabs(moments[0]), std::fabs(moments[2]));
     if (moments[0] < -allowed)
       return problem(

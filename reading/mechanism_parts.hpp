@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "courant/reading/vocabulary.hpp"
-#include "courant/structures/elements/mechanism.hpp"
+#include "courant/structures/mechanism.hpp"
 
 namespace courant {
 

@@ -34,8 +34,8 @@ struct Model {
   // systems they have to be given.
   bool starts_at_zero = false;
 
-  // Coordinates where the search for those that are not given begins; empty: 0.
-  VectorXd reference;
+  // Where the search for coordinates that are not given begins, by what else is given of the start, by name; 0 if empty.
+  std::function<VectorXd(const std::vector<std::pair<std::string, double>>& given)> reference;
 
   // Whether the point is (state, costate) of a problem of optimal control, with Pontryagin's function as energy.
   bool is_control_problem = false;

@@ -166,8 +166,12 @@ std::optional<Model> read_mechanism(ObjectReader& system) {
       },
       vocabulary.coordinates.element_names(), mechanics);
   vocabulary.derived.back() = parts->reactions(words);
-  model.reference = VectorXd::Zero(bundle->ambient_dimension());
-  model.reference.head(mechanism.rest().size()) = mechanism.rest();
+  model.reference = [parts, bundle](const std::vector<std::pair<std::string, double>>& given) {
+    VectorXd x = VectorXd::Zero(bundle->ambient_dimension());
+    const VectorXd q = parts->reference(given);
+    x.head(q.size()) = q;
+    return x;
+  };
   model.starts_at_zero = true;
   return model;
 }

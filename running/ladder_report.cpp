@@ -6,8 +6,8 @@
 
 #include "courant/core/linear/rank_decision.hpp"
 #include "courant/structures/dirac_system.hpp"
-#include "courant/structures/elements/joint.hpp"
 #include "courant/structures/family_rank.hpp"
+#include "courant/structures/joint.hpp"
 #include "courant/structures/morse_family.hpp"
 
 namespace courant {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "courant/manifolds/manifold.hpp"
-#include "courant/structures/elements/joint.hpp"
+#include "courant/structures/joint.hpp"
 
 namespace courant {
 

@@ -1,4 +1,4 @@
-#include "courant/structures/elements/joint.hpp"
+#include "courant/structures/joint.hpp"
 
 #include <string_view>
 

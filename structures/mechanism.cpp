@@ -1,4 +1,4 @@
-#include "courant/structures/elements/mechanism.hpp"
+#include "courant/structures/mechanism.hpp"
 
 #include <algorithm>
 #include <stdexcept>

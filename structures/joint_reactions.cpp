@@ -1,4 +1,4 @@
-#include "courant/structures/elements/joint_reactions.hpp"
+#include "courant/structures/joint_reactions.hpp"
 
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/core/expressions/expr_vectors.hpp"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "courant/structures/elements/pose.hpp"
+#include "courant/structures/pose.hpp"
 
 namespace courant {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "courant/structures/elements/mechanism.hpp"
+#include "courant/structures/mechanism.hpp"
 
 namespace courant {
 
