@@ -204,6 +204,18 @@ std::optional<std::pair<Index, Index>> velocity_in(const Expr& equation, const E
   return std::pair(of_v.col[0], of_x.col[0]);
 }
 
+// Coordinates that are not given begin at the reference of the model.
+void begin_at_reference(const Model& model, InitialValues& values) {
+  std::vector<std::pair<std::string, double>> given;
+  for (const GivenQuantity& quantity : values.quantities)
+    given.emplace_back(quantity.formula.text, quantity.value);
+  const std::vector<std::string> names = model.vocabulary.coordinates.element_names();
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (values.x.given[static_cast<Index>(i)])
+      given.emplace_back(names[i], values.x.values[static_cast<Index>(i)]);
+  values.x.values = values.x.given.select(values.x.values, model.reference(given));
+}
+
 // 0 for the velocities that are not given. Whether there are any.
 bool rest(const Model& model, InitialValues& values) {
   const ImplicitSystem& system = *model.system;
@@ -286,6 +298,7 @@ std::optional<InitialValues> read_initial_values(const JsonReader& initial,
         read_entries(key, value, constants, model, values);
     }
   }
+  if (model.reference) begin_at_reference(model, values);
   if (rests && !rest(model, values))
     initial.problem("asks for rest, but no coordinate has a velocity; expected values");
   if (const auto names = hold ? hold->elements() : std::nullopt)

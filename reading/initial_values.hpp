@@ -9,7 +9,7 @@
 
 namespace courant {
 
-// Entries of a vector that are given, and that must not be moved; 0 where they are not given.
+// Entries of a vector that are given, and that must not be moved; 0, or where to begin, where they are not given.
 struct PartialVector {
   VectorXd values;
   Eigen::Array<bool, Eigen::Dynamic, 1> given;

@@ -134,12 +134,12 @@ ObjectReader::ObjectReader(const JsonReader& object) : object_(object) {
 ObjectReader::ObjectReader(const JsonReader& object, const KindDescription& kind)
     : ObjectReader(object) {
   kind_ = &kind;
-  known_ = {"type"};
+  if (!kind.type.empty()) known_ = {"type"};
   for (const Key& key : kind.keys) known_.push_back(key.name);
 }
 
 const Key* ObjectReader::declared(const std::string& key) const {
-  if (!kind_ || key == "type") return nullptr;
+  if (!kind_ || (key == "type" && !kind_->type.empty())) return nullptr;
   if (const Key* found = kind_->find(key)) return found;
   throw std::logic_error("the kind " + in_quotes(kind_->type) + " reads the key " + in_quotes(key) +
                          ", which it does not declare");

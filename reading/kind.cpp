@@ -137,6 +137,43 @@ Takes array_of(const Takes& entry, std::size_t least, std::optional<std::size_t>
   return {"an array, each entry " + entry.text, schema};
 }
 
+Takes named(const KindDescription& part) {
+  return {"an object of objects",
+          {{"type", "object"},
+           {"patternProperties", {{"^//", true}}},
+           {"additionalProperties", part.schema()}}};
+}
+
+Takes list_of(const KindDescription& part) {
+  return {"an array of objects", {{"type", "array"}, {"items", part.schema()}}};
+}
+
+Takes flag() { return {"true or false", {{"type", "boolean"}}}; }
+
+Takes pose() {
+  return {
+      "{\"xyz\": [x, y, z], \"rpy\": [r, p, y]}, in a plane [x, y, angle]",
+      {{"anyOf",
+        Json::array({reference("formulaVector"),
+                     {{"type", "object"},
+                      {"patternProperties", {{"^//", true}}},
+                      {"properties",
+                       {{"xyz", reference("formulaVector")}, {"rpy", reference("formulaVector")}}},
+                      {"additionalProperties", false}}})}}};
+}
+
+Takes places() {
+  return {"an object of positions",
+          {{"type", "object"},
+           {"patternProperties", {{"^//", true}}},
+           {"additionalProperties", reference("formulaVector")}}};
+}
+
+Takes place_on_body() {
+  return {"\"body.point\", \"body\", \"ground\" or a position on the ground",
+          {{"anyOf", Json::array({{{"type", "string"}}, reference("formulaVector")})}}};
+}
+
 Takes structure_part() {
   return {"a structure on coordinates of its own", reference("structurePart")};
 }
@@ -166,8 +203,11 @@ std::string KindDescription::sentence() const {
 }
 
 Json KindDescription::schema() const {
-  Json required = {"type"};
-  Json properties = {{"type", {{"const", type}}}};
+  Json required = Json::array(), properties = Json::object();
+  if (!type.empty()) {
+    required.push_back("type");
+    properties["type"] = {{"const", type}};
+  }
   for (const Key& key : keys) {
     if (key.required) required.push_back(key.name);
     Json& property = properties[key.name] = described(key.takes.schema, key.summary);

@@ -10,6 +10,8 @@
 
 namespace courant {
 
+struct KindDescription;
+
 // What a key takes: for people, as the end of "expected …", and for editors, as a JSON Schema.
 struct Takes {
   std::string text;
@@ -50,6 +52,14 @@ Takes nodes();       // names, and patterns of names that are repeated
 // "system".
 Takes kind(const std::string& noun);
 Takes array_of(const Takes& entry, std::size_t least = 0, std::optional<std::size_t> most = {});
+// Parts of a mechanism: objects with the keys of a kind without a type, by name or in a list; true or false; a pose, an
+// object of positions, a point of a body.
+Takes named(const KindDescription& part);
+Takes list_of(const KindDescription& part);
+Takes flag();
+Takes pose();
+Takes places();
+Takes place_on_body();
 // An object with `coordinates`, `manifold` and `structure`.
 Takes structure_part();
 }  // namespace takes
@@ -69,7 +79,7 @@ Key optional_key(std::string name, Takes takes, std::string summary);
 Key default_key(std::string name, Takes takes, Json otherwise, std::string summary);
 
 // A kind of a noun, such as the "sphere" of "manifold": its word, one line, and its keys beside
-// `type`.
+// `type`. Without a word it is an object with these keys, which has no `type` unless that is one of them.
 //
 // Everything that is said of keys comes from here: the errors of the reader, which calls a key that
 // is not declared unknown and takes defaults and words from the declaration; `courant list`, with

@@ -34,6 +34,9 @@ struct Model {
   // systems they have to be given.
   bool starts_at_zero = false;
 
+  // Where the search for coordinates that are not given begins, by what else is given of the start, by name; 0 if empty.
+  std::function<VectorXd(const std::vector<std::pair<std::string, double>>& given)> reference;
+
   // Whether the point is (state, costate) of a problem of optimal control, with Pontryagin's function as energy.
   bool is_control_problem = false;
 

@@ -107,6 +107,21 @@ constexpr const char* kExamples = R"json({
   "time": { "step": 0.005, "end": 3 },
   "observe": { "length": "sqrt(x^2 + y^2)" },
   "expect": [ { "verdict": "regular", "index": 2 }, { "observable": "length", "max_drift": 1e-12 } ] },
+"mechanism": {
+  "title": "A crank that drives a pendulum",
+  "system": { "type": "mechanism", "parameters": { "r": 0.2 }, "gravity": [0, 0, -9.81],
+    "bodies": {
+      "crank": { "mass": 1, "center": ["r/2", 0, 0], "inertia": [0.001, 0.01, 0.01, 0, 0, 0], "points": { "tip": ["r", 0, 0] } },
+      "rod": { "mass": 0.5, "center": [0.3, 0, 0], "inertia": [0.001, 0.02, 0.02, 0, 0, 0] } },
+    "joints": {
+      "A": { "type": "revolute", "parent": "ground", "child": "crank", "axis": [0, 1, 0], "damping": 0.02, "torque": "0.8*sin(t)" },
+      "B": { "type": "revolute", "parent": "crank", "child": "rod", "origin": { "xyz": ["r", 0, 0], "rpy": [0, 0, 0] }, "axis": [0, 1, 0] } },
+    "springs": { "s": { "from": "crank.tip", "to": [0, 0, 0.4], "stiffness": 20, "rest": 0.3, "damping": 0.1 } } },
+  "initial": { "A": 0.3, "B": 1, "A'": 0, "B'": 0 },
+  "method": { "type": "discretize-first", "discretization": "midpoint" },
+  "time": { "step": 0.005, "end": 2 },
+  "observe": { "height": "crank.tip.z", "load": "norm(f_A)" },
+  "expect": [ { "verdict": "regular" }, { "max_imbalance": 1e-4 } ] },
 "network": {
   "title": "A series circuit that rings",
   "system": { "type": "network", "parameters": { "R": 10, "L": 1e-6, "C": 1e-9 }, "nodes": ["0", "a", "b"],

@@ -3,6 +3,7 @@
 #include "courant/reading/catalogue_system.hpp"
 #include "courant/reading/lie_algebra_keys.hpp"
 #include "courant/reading/mechanics_keys.hpp"
+#include "courant/reading/mechanism_parts.hpp"
 #include "courant/reading/system_examples.hpp"
 
 namespace courant {
@@ -177,6 +178,9 @@ Registry<Model>& system_kinds() {
                      required_key("elements", takes::array_of(takes::kind("element"), 1),
                                   "what connects them")})},
        read_network},
+      {{"mechanism", "rigid bodies, joints and springs, in SI units",
+        system_keys(mechanism_keys())},
+       read_mechanism},
       {{"point-vortices", "n point vortices in the plane, with coordinates x[n], y[n]",
         system_keys({strengths,
                      default_key("form", takes::word({"lagrangian", "hamiltonian"}), "lagrangian",

@@ -26,6 +26,7 @@ std::optional<Model> read_port_hamiltonian(ObjectReader& system);
 std::optional<Model> read_interconnection(ObjectReader& system);
 std::optional<Model> read_implicit(ObjectReader& system);
 std::optional<Model> read_network(ObjectReader& system);
+std::optional<Model> read_mechanism(ObjectReader& system);
 std::optional<Model> read_point_vortices(ObjectReader& system);
 std::optional<Model> read_spherical_vortices(ObjectReader& system);
 

@@ -269,8 +269,11 @@ SymbolTable Vocabulary::symbols(const Arguments& arguments) const {
   if (arguments.x) coordinates.add_to(symbols, *arguments.x);
   if (arguments.velocity) coordinates.add_velocities_to(symbols, *arguments.velocity);
   if (arguments.z) unknowns.add_to(symbols, *arguments.z);
-  for (const Derived& quantities : derived)
+  for (const Derived& quantities : derived) {
     if (const auto values = quantities.values(arguments)) quantities.names.add_to(symbols, *values);
+    if (const auto rates = quantities.rates ? quantities.rates(arguments) : std::nullopt)
+      quantities.names.add_velocities_to(symbols, *rates);
+  }
   if (definitions.empty()) return symbols;
   DefinitionRates rates(*this, arguments);
   for (const Definition& definition : definitions)

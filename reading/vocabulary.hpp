@@ -84,6 +84,8 @@ struct Vocabulary {
   struct Derived {
     NameList names;
     std::function<std::optional<ExprVector>(const Arguments&)> values;
+    // Their time derivatives, as name'; may be empty.
+    std::function<std::optional<ExprVector>(const Arguments&)> rates = {};
   };
   std::vector<Derived> derived = {};
 

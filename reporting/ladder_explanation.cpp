@@ -469,7 +469,7 @@ LadderWords ladder_words(const LadderReport& ladder,
     }
     explain_unknowns(ladder, words.unknowns);
     for (const std::string& line : choices_in_words(ladder)) words.unknowns.push_back(line);
-    const auto& [unknowns, gauge, determined, differentiations, redundant] = *ladder.end;
+    const auto& [unknowns, gauge, determined, differentiations, redundant, joints] = *ladder.end;
     if (!gauge.empty()) {
       words.unknowns.push_back("Gauge: the velocity may be changed at will along");
       for (const LadderReport::Values& direction : gauge)
@@ -477,7 +477,12 @@ LadderWords ladder_words(const LadderReport& ladder,
       if (!determined.empty())
         words.unknowns.push_back("Determined all the same: " + listed(determined) + ".");
     }
-    if (!redundant.empty()) {
+    for (const auto& [joint, conditions, of] : joints)
+      words.unknowns.push_back("Redundant: " + std::to_string(conditions) + " of the " +
+                               plural(of, "condition") + " of joint " + joint +
+                               (conditions == 1 ? " follows" : " follow") +
+                               " from the others here; harmless, but reactions are not unique.");
+    if (!redundant.empty() && joints.empty()) {
       words.unknowns.push_back(
           "Redundant: " + plural(static_cast<Index>(redundant.size()), "equation") +
           (redundant.size() == 1 ? " follows" : " follow") +

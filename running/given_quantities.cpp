@@ -4,6 +4,7 @@
 #include <limits>
 #include <tuple>
 
+#include "courant/core/expressions/expr_vectors.hpp"
 #include "courant/core/expressions/function.hpp"
 #include "courant/core/linear/complete_orthogonal_decomposition.hpp"
 #include "courant/core/words/message.hpp"
@@ -15,7 +16,7 @@ constexpr int kMostCorrections = 50;
 // A part of a value that is round-off.
 constexpr double kSameValue = 1e-9;
 
-// The equations of a system and those of given quantities, as one map of (x, v, z).
+// The equations of a system with those of its manifold, and those of given quantities, as one map of (x, v, z).
 struct Equations {
   Graph graph;
   Index N, n, m;
@@ -32,7 +33,7 @@ struct Equations {
     const Expr t = experiment.start();
     all.resize(N + n + m);
     all << x, v, z;
-    residual = system.residual(x, v, z, t);
+    residual = joined(system.residual(x, v, z, t), M.constraint(x));
     const SymbolTable symbols = experiment.model.symbols(x, v, z, t);
     const auto& given = experiment.initial.quantities;
     quantities.resize(std::ssize(given));

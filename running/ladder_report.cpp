@@ -4,8 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "courant/core/linear/rank_decision.hpp"
 #include "courant/structures/dirac_system.hpp"
 #include "courant/structures/family_rank.hpp"
+#include "courant/structures/joint.hpp"
 #include "courant/structures/morse_family.hpp"
 
 namespace courant {
@@ -97,6 +99,40 @@ std::optional<LadderReport::Family> family(const ConstraintLadder& ladder,
   }
 }
 
+// Counted from the last joint back: its conditions, and those of the joints after it, that combinations give by others.
+std::vector<LadderReport::RedundantJoint> redundant_joints(
+    const std::vector<const Combination*>& dependences, const ImplicitSystem& system) {
+  const std::vector<std::string>& equations = system.names().equations;
+  std::vector<LadderReport::RedundantJoint> joints;
+  if (dependences.empty()) return joints;
+  std::vector<Index> column(equations.size(), -1), first;  // of conditions, joint after joint
+  Index count = 0;
+  for (std::size_t i = 0; i < equations.size(); ++i) {
+    const auto joint = joint_of_equation(equations[i]);
+    if (!joint) continue;
+    if (joints.empty() || joints.back().joint != *joint) {
+      joints.push_back({.joint = *joint});
+      first.push_back(count);
+    }
+    ++joints.back().of;
+    column[i] = count++;
+  }
+  MatrixXd matrix = MatrixXd::Zero(std::ssize(dependences), count);
+  for (Index row = 0; row < matrix.rows(); ++row)
+    for (const Combination::Term& term : dependences[static_cast<std::size_t>(row)]->terms)
+      if (const Index at = column[static_cast<std::size_t>(term.equation)]; at >= 0)
+        matrix(row, at) += term.coefficient;
+  Index later = 0;
+  for (std::size_t j = joints.size(); j-- > 0;) {
+    const MatrixXd part = matrix.rightCols(count - first[j]);
+    const Index rank = part.cols() - kernel(part, {.data_error = 1e-9}).cols();
+    joints[j].conditions = rank - later;
+    later = rank;
+  }
+  std::erase_if(joints, [](const auto& joint) { return joint.conditions == 0; });
+  return joints;
+}
+
 LadderReport::End end(const ConstraintLadder& ladder, const ImplicitSystem& system,
                       const ConstraintFormulas& formulas) {
   const std::vector<std::string> velocities = velocity_names(system);
@@ -121,10 +157,14 @@ LadderReport::End end(const ConstraintLadder& ladder, const ImplicitSystem& syst
   const Manifold& M = *system.manifold();
   const auto in_excess = static_cast<std::size_t>(M.tangent_dimension() - M.dimension());
   if (system.tangent_blocks() > 0 && ladder.redundancies.size() <= in_excess) return found;
+  std::vector<const Combination*> dependences;
   for (const Combination& combination : ladder.redundancies)
     if (std::all_of(combination.terms.begin(), combination.terms.end(),
-                    [](const Combination::Term& term) { return term.derivative == 0; }))
+                    [](const Combination::Term& term) { return term.derivative == 0; })) {
+      dependences.push_back(&combination);
       found.redundant.push_back(origin(combination, system));
+    }
+  found.redundant_joints = redundant_joints(dependences, system);
   return found;
 }
 

@@ -102,6 +102,11 @@ struct LadderReport {
   using Dimensions = std::pair<std::optional<Index>, std::optional<Index>>;
   std::vector<Dimensions> dimensions() const;
 
+  // So many constraints of a joint follow from others, of as many as it has.
+  struct RedundantJoint {
+    std::string joint;
+    Index conditions = 0, of = 0;
+  };
   // What is known at the end.
   struct End {
     std::vector<Unknown> unknowns = {};
@@ -110,6 +115,8 @@ struct LadderReport {
     std::vector<std::pair<std::string, Index>> differentiations =
         {};                              // of which equation, how often
     std::vector<Origin> redundant = {};  // dependences among the equations themselves
+    // Of a mechanism, the joints of which constraints follow from others, later ones first to be so.
+    std::vector<RedundantJoint> redundant_joints = {};
   };
   std::optional<End> end = {};
 };

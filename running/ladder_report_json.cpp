@@ -81,6 +81,11 @@ void write_end(Json& json, const LadderReport::End& end) {
   json["determined_velocities"] = end.determined_velocities;
   json["differentiations"] = written(end.differentiations);
   json["redundant"] = written(end.redundant);
+  if (end.redundant_joints.empty()) return;
+  json["dependences"] = std::move(json["redundant"]);
+  json["redundant"] = Json::array();
+  for (const auto& [joint, conditions, of] : end.redundant_joints)
+    json["redundant"].push_back({{"joint", joint}, {"conditions", conditions}, {"of", of}});
 }
 
 // The values of keys that may be missing.
@@ -174,7 +179,14 @@ LadderReport::End read_end(const Json& json) {
     end.determined_velocities.push_back(entry.get<std::string>());
   for (const auto& [name, entry] : part(json, "differentiations").items())
     end.differentiations.emplace_back(name, entry.get<Index>());
-  for (const Json& entry : part(json, "redundant")) end.redundant.push_back(read_origin(entry));
+  const bool of_joints = json.contains("dependences");
+  for (const Json& entry : part(json, of_joints ? "dependences" : "redundant"))
+    end.redundant.push_back(read_origin(entry));
+  if (of_joints)
+    for (const Json& entry : part(json, "redundant"))
+      end.redundant_joints.push_back({.joint = entry.at("joint").get<std::string>(),
+                                      .conditions = entry.at("conditions").get<Index>(),
+                                      .of = entry.at("of").get<Index>()});
   return end;
 }
 

@@ -32,6 +32,10 @@ Declaration parse_declaration(std::string_view text, const SymbolTable& known) {
   Parser parser(text, known, "declaration");
   const Token& name = parser.name();
   Declaration declaration{std::string(name.text), {}};
+  if (const std::size_t point = name.text.find('.'); point != std::string_view::npos)
+    throw FormulaError(name.column + point,
+                       "unexpected \".\"; expected a name of letters, digits "
+                       "and _");
   if (formula::find_function(name.text) != nullptr || known.find(name.text) != nullptr)
     throw FormulaError(name.column,
                        "\"" + declaration.name + "\" has a meaning already; expected a new name");

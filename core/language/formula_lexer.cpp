@@ -90,12 +90,14 @@ std::size_t letter_length(std::string_view text) {
   return latin || greek_or_cyrillic ? 2 : 0;
 }
 
-// Bytes of the name that `text` begins with, 0 if it begins with none.
+// Bytes of the name that `text` begins with, 0 if it begins with none. A point between letters belongs to it: crank.tip.x.
 std::size_t name_length(std::string_view text) {
   std::size_t length = letter_length(text);
   while (length != 0 && length < text.size()) {
     const std::string_view rest = text.substr(length);
-    const std::size_t more = is_digit(rest.front()) ? 1 : letter_length(rest);
+    std::size_t more = is_digit(rest.front()) ? 1 : letter_length(rest);
+    if (rest.front() == '.')
+      if (const std::size_t letter = letter_length(rest.substr(1)); letter != 0) more = 1 + letter;
     if (more == 0) break;
     length += more;
   }

@@ -12,19 +12,24 @@ from courant._experiment import Experiment
 
 
 def mechanism(description: Mapping, **keys) -> Experiment:
-    """The experiment of a mechanism: bodies, joints, springs.
+    """The experiment of a mechanism: rigid bodies, joints and springs, in SI units.
 
     Parameters
     ----------
     description : dict
-        The keys of a system of the kind ``mechanism``; ``type`` may be left out.
+        The keys of a system of the kind ``mechanism``: ``bodies``, ``joints``, ``springs``, ``forces``, ``gravity``,
+        ``coordinates`` ("joint" or "absolute"), ``plane``; ``type`` may be left out. See "Mechanisms" in
+        docs/experiment-format.md.
     **keys
         Of the experiment: ``initial``, ``method``, ``time``, …
 
-    Raises
-    ------
-    AttributeError
-        Where the library has no such kind.
+    Examples
+    --------
+    >>> pendulum = courant.mechanism(
+    ...     {"gravity": [0, 0, -9.81], "bodies": {"arm": {"mass": 1, "center": [0.5, 0, 0]}},
+    ...      "joints": {"A": {"type": "revolute", "parent": "ground", "child": "arm", "axis": [0, 1, 0]}}},
+    ...     initial={"A": 0.3, "A'": 0}, method="discretize-first", time={"step": 0.01, "end": 2})
+    >>> run = courant.run(pendulum)
     """
     return experiment.mechanism(**{key: value for key, value in description.items() if key != "type"}, **keys)
 

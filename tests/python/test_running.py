@@ -115,6 +115,16 @@ def test_kinds_are_functions():
         courant.experiment.hamiltonain
 
 
+def test_a_mechanism_is_an_experiment():
+    """A point on a rod is the pendulum of the catalogue."""
+    keys = {"method": "discretize-first", "time": {"step": 0.01, "end": 1}}
+    rod = courant.mechanism({"gravity": [0, 0, -9.81], "bodies": {"rod": {"mass": 1, "center": [0, 0, -1]}},
+                             "joints": {"A": {"type": "revolute", "parent": "ground", "child": "rod", "axis": [0, 1, 0]}}},
+                            initial={"A": 1, "p_A": 0}, **keys)
+    pendulum = courant.experiment.pendulum(initial={"q": 1, "p_q": 0}, **keys)
+    assert rod.run()["A"] == pytest.approx(pendulum.run()["q"], abs=1e-12)
+
+
 def systems():
     from courant import _courant as core
     return {kind["type"]: kind for kind in core.catalogue()["systems"] if kind["example"]}

@@ -57,6 +57,8 @@ BOOST_AUTO_TEST_CASE(wrong_declarations) {
   check_refused(parse, "2x", 1, "column 1: expected a name, found \"2\"");
   check_refused(parse, "x'", 2, "column 2: expected end of declaration, found \"'\"");
   check_refused(parse, "x y", 3, "column 3: expected end of declaration, found \"y\"");
+  check_refused(parse, "x.y", 2,
+                "column 2: unexpected \".\"; expected a name of letters, digits and _");
   check_refused(parse, "r[4", 4, "column 4: expected \"]\", found end of declaration");
   check_refused(parse, "r[]", 3,
                 "column 3: expected a number, a name, \"-\" or \"(\", found \"]\"");

@@ -57,9 +57,10 @@ BOOST_AUTO_TEST_CASE(columns_are_characters) {
 }
 
 BOOST_AUTO_TEST_CASE(names) {
-  for (const char* name : {"x", "_", "p_x2", "θ", "Ω_1", "été", "ж"})
+  for (const char* name : {"x", "_", "p_x2", "θ", "Ω_1", "été", "ж", "crank.x", "a.b1.θ"})
     BOOST_TEST(formula::is_name(name), name);
-  for (const char* text : {"", "2x", "x y", "x'", "r[0]", "x+", " x", "∂x", "×"})
+  for (const char* text :
+       {"", "2x", "x y", "x'", "r[0]", "x+", " x", "∂x", "×", ".x", "x.", "x.1", "x..y"})
     BOOST_TEST(!formula::is_name(text), text);
 }
 
@@ -76,7 +77,9 @@ BOOST_AUTO_TEST_CASE(refuses_what_is_no_word) {
   check_refused("1e999", 1, "column 1: number 1e999 is outside the range of double precision");
   check_refused("x + 1e-999", 5,
                 "column 5: number 1e-999 is outside the range of double precision");
-  check_refused("x.y", 2, "column 2: unexpected \".\"");
+  check_refused("x.", 2, "column 2: unexpected \".\"");
+  check_refused("x. y", 2, "column 2: unexpected \".\"");
+  check_refused("x..y", 2, "column 2: unexpected \".\"");
   check_refused(std::string("x\0", 2), 2, "column 2: unexpected byte 0x00");
   check_refused("x\xff", 2, "column 2: unexpected byte 0xff");
   check_refused("\xce", 1, "column 1: unexpected byte 0xce");      // the first half of a letter

@@ -1,0 +1,718 @@
+#include "courant/reading/mechanism_parts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "courant/core/linear/symmetric_eigenvalues.hpp"
+#include "courant/core/numbers/as_size.hpp"
+#include "courant/core/words/message.hpp"
+#include "courant/core/words/spelling.hpp"
+
+namespace courant {
+namespace {
+
+using Formulas = std::vector<WrittenFormula>;
+
+// The word of a joint, its type, and the key of what drives it.
+struct JointWord {
+  const char* word;
+  JointType type;
+  const char* effort;
+};
+constexpr std::array kJoints{JointWord{"revolute", JointType::revolute, "torque"},
+                             JointWord{"continuous", JointType::revolute, "torque"},
+                             JointWord{"prismatic", JointType::prismatic, "force"},
+                             JointWord{"fixed", JointType::fixed, ""},
+                             JointWord{"spherical", JointType::spherical, "torque"},
+                             JointWord{"ball", JointType::spherical, "torque"},
+                             JointWord{"universal", JointType::universal, "torque"},
+                             JointWord{"cylindrical", JointType::cylindrical, "effort"},
+                             JointWord{"planar", JointType::planar, "effort"},
+                             JointWord{"floating", JointType::floating, "effort"}};
+
+std::vector<std::string> joint_words() {
+  std::vector<std::string> words;
+  for (const JointWord& joint : kJoints) words.emplace_back(joint.word);
+  return words;
+}
+
+const KindDescription& body_keys() {
+  static const KindDescription keys{
+      "",
+      "a rigid body",
+      {required_key("mass", takes::formula(), "in kg, at least 0"),
+       optional_key("center", takes::formula_vector(),
+                    "of mass, in the frame of the body; by default its origin"),
+       optional_key(
+           "inertia", takes::formulas(),
+           "about the centre, [xx, yy, zz, xy, xz, yz] or a matrix, in a plane a number; by "
+           "default 0, a point"),
+       optional_key("points", takes::places(), "by name, in the frame of the body")}};
+  return keys;
+}
+
+const KindDescription& joint_keys() {
+  static const KindDescription keys{
+      "",
+      "a joint",
+      {required_key("type", takes::word(joint_words()), "how the child moves"),
+       required_key("parent", takes::text(), "a body, or ground"),
+       required_key("child", takes::text(), "a body, or ground"),
+       optional_key("origin", takes::pose(),
+                    "the frame of the joint on the parent; by default the parent's own"),
+       optional_key("child_origin", takes::pose(),
+                    "of a joint that closes a loop, its frame on the child"),
+       optional_key("axis", takes::formula_vector(),
+                    "in the frame of the joint, of any length; by default [1, 0, 0]"),
+       optional_key(
+           "axis2", takes::formula_vector(),
+           "of a universal joint, perpendicular to the axis and moving with it; by default "
+           "the next coordinate direction"),
+       optional_key("damping", takes::formulas(), "a number, or one for each degree of freedom"),
+       optional_key("stiffness", takes::formulas(), "likewise, of a spring in the joint"),
+       optional_key("rest", takes::formulas(), "likewise, where that spring is at rest"),
+       optional_key("torque", takes::formulas(),
+                    "on the child: a formula in coordinates, velocities and t; of universal joints "
+                    "two, of spherical ones three along the axes of the child"),
+       optional_key("force", takes::formula(), "on the child of a prismatic joint, along the axis"),
+       optional_key("effort", takes::formula_vector(),
+                    "forces and torques of cylindrical, planar and floating joints, one for each "
+                    "degree of freedom")}};
+  return keys;
+}
+
+const KindDescription& spring_keys() {
+  static const KindDescription keys{
+      "",
+      "a spring between two points",
+      {required_key("from", takes::place_on_body(), "where it begins"),
+       required_key("to", takes::place_on_body(), "where it ends"),
+       optional_key("stiffness", takes::formula(), "in N/m; by default 0"),
+       optional_key("rest", takes::formula(), "its length without load, in m; by default 0"),
+       optional_key("damping", takes::formula(), "in N s/m; by default 0")}};
+  return keys;
+}
+
+const KindDescription& force_keys() {
+  static const KindDescription keys{
+      "",
+      "a force on a body",
+      {required_key("at", takes::place_on_body(), "where it acts"),
+       optional_key("force", takes::formula_vector(),
+                    "its components, formulas in coordinates, velocities and t; by default 0"),
+       optional_key("torque", takes::formulas(), "likewise; in a plane one formula"),
+       default_key("frame", takes::word({"world", "body"}), "world",
+                   "whose axes the components are along")}};
+  return keys;
+}
+
+WrittenFormula literal(const char* text) { return {text, ""}; }
+Formulas zeros() { return {literal("0"), literal("0"), literal("0")}; }
+
+VectorXd value_of(const Formulas& formulas, const SymbolTable& constants) {
+  VectorXd values(static_cast<Index>(formulas.size()));
+  for (Index i = 0; i < values.size(); ++i)
+    values[i] = evaluate(formulas[as_size(i)], constants).value();
+  return values;
+}
+
+ExprVector expressions(const Formulas& formulas, const SymbolTable& constants) {
+  ExprVector values(static_cast<Index>(formulas.size()));
+  for (Index i = 0; i < values.size(); ++i) values[i] = evaluate(formulas[as_size(i)], constants);
+  return values;
+}
+
+// R = R_z(yaw) R_y(pitch) R_x(roll), entry by entry: the language knows that cos(pi/2) is 0.
+Formulas rotation_formulas(const Formulas& rpy) {
+  const auto part = [&](const char* function, std::size_t i) {
+    return std::string(function) + "((" + rpy[i].text + "))";
+  };
+  const std::string cr = part("cos", 0), sr = part("sin", 0), cp = part("cos", 1),
+                    sp = part("sin", 1), cy = part("cos", 2), sy = part("sin", 2);
+  const std::array<std::string, 9> entries{cy + "*" + cp,
+                                           cy + "*" + sp + "*" + sr + "-" + sy + "*" + cr,
+                                           cy + "*" + sp + "*" + cr + "+" + sy + "*" + sr,
+                                           sy + "*" + cp,
+                                           sy + "*" + sp + "*" + sr + "+" + cy + "*" + cr,
+                                           sy + "*" + sp + "*" + cr + "-" + cy + "*" + sr,
+                                           "-" + sp,
+                                           cp + "*" + sr,
+                                           cp + "*" + cr};
+  Formulas formulas;
+  for (const std::string& entry : entries) formulas.push_back({entry, rpy.front().pointer});
+  return formulas;
+}
+
+Pose pose_of(const WrittenMechanism::Pose& written, const SymbolTable& constants) {
+  Pose result;
+  result.r = expressions(written.xyz, constants);
+  const ExprVector entries = expressions(written.rotation, constants);
+  for (Index i = 0; i < 3; ++i) result.R.row(i) = entries.segment(3 * i, 3).transpose();
+  return result;
+}
+
+// The parts of one mechanism, with what is known while they are read.
+class Reader {
+ public:
+  Reader(const SymbolTable& constants, Findings& findings)
+      : constants_(constants), findings_(findings) {}
+
+  std::optional<WrittenMechanism> read(ObjectReader& system) {
+    mechanism_.is_plane = flag(system, "plane");
+    mechanism_.is_absolute = system.word("coordinates") == "absolute";
+    const auto gravity = system.optional("gravity");
+    mechanism_.gravity = gravity ? vector(*gravity) : zeros();
+    const auto bodies = system.required("bodies"), joints = system.optional("joints"),
+               springs = system.optional("springs"), forces = system.optional("forces");
+    if (bodies) read_bodies(*bodies);
+    if (joints) read_joints(*joints);
+    if (springs) read_springs(*springs);
+    if (forces) read_forces(*forces);
+    if (!right_) return std::nullopt;
+    check_child_origins();
+    return right_ ? std::optional(mechanism_) : std::nullopt;
+  }
+
+ private:
+  void problem(const JsonReader& place, std::string what) {
+    place.problem(std::move(what));
+    right_ = false;
+  }
+
+  bool flag(ObjectReader& object, const std::string& key) {
+    const auto value = object.optional(key);
+    if (!value) {
+      object.default_value(key, false);
+      return false;
+    }
+    if (!value->value().is_boolean()) {
+      value->expected("true or false");
+      right_ = false;
+      return false;
+    }
+    return value->value().get<bool>();
+  }
+
+  // Formulas of constants that are right at the values of the parameters.
+  bool constant(const Formulas& formulas) {
+    for (const WrittenFormula& formula : formulas)
+      if (!evaluate_constants({{}, {formula}}, constants_, findings_)) return right_ = false;
+    return true;
+  }
+
+  // Components in space, or in the plane; the third one is 0 then.
+  std::optional<Formulas> components(const JsonReader& value) {
+    const Index n = mechanism_.is_plane ? 2 : 3;
+    const auto formulas = read_formula_vector(value);
+    if (!formulas) {
+      right_ = false;
+      return std::nullopt;
+    }
+    if (std::ssize(formulas->formulas) != n) {
+      problem(value, "has " + std::to_string(formulas->formulas.size()) + " numbers; expected " +
+                         std::to_string(n) + (mechanism_.is_plane ? ", in a plane" : ""));
+      return std::nullopt;
+    }
+    Formulas all = formulas->formulas;
+    if (mechanism_.is_plane) all.push_back(literal("0"));
+    return all;
+  }
+  Formulas vector(const JsonReader& value) {
+    const auto formulas = components(value);
+    return formulas && constant(*formulas) ? *formulas : zeros();
+  }
+
+  WrittenFormula number_at_least_0(ObjectReader& object, const std::string& key) {
+    const auto value = object.optional(key);
+    const auto formula = value ? read_formula(*value) : std::nullopt;
+    if (value && !formula) right_ = false;
+    if (!formula || !constant({*formula})) return literal("0");
+    if (!(evaluate(*formula, constants_).value() >= 0.0)) {
+      problem(*value,
+              "is " + exact_text(evaluate(*formula, constants_).value()) + "; expected at least 0");
+    }
+    return *formula;
+  }
+
+  WrittenMechanism::Pose read_pose(ObjectReader& object, const std::string& key) {
+    WrittenMechanism::Pose result{zeros(), rotation_formulas(zeros())};
+    const auto value = object.optional(key);
+    if (!value) return result;
+    if (mechanism_.is_plane) {
+      const auto formulas = read_formula_vector(*value);
+      if (formulas && formulas->formulas.size() == 3) {
+        if (!constant(formulas->formulas)) return result;
+        const Formulas& f = formulas->formulas;
+        return {{f[0], f[1], literal("0")}, rotation_formulas({literal("0"), literal("0"), f[2]})};
+      }
+      if (formulas) value->expected("[x, y, angle], in a plane");
+      right_ = false;
+      return result;
+    }
+    ObjectReader entries(*value);
+    if (!value->value().is_object()) right_ = false;
+    if (const auto xyz = entries.optional("xyz")) result.xyz = vector(*xyz);
+    if (const auto rpy = entries.optional("rpy")) result.rotation = rotation_formulas(vector(*rpy));
+    return result;
+  }
+
+  bool is_new_part(const std::string& name, const JsonReader& value) {
+    try {
+      if (!parse_declaration(name).shape.empty()) throw FormulaError(1, "has a size");
+      if (name == "ground")
+        throw FormulaError(1, "\"ground\" is what does not move; expected another name");
+      return true;
+    } catch (const FormulaError& error) {
+      problem(value, std::string("key, ") + error.what());
+      return false;
+    }
+  }
+
+  void read_bodies(const JsonReader& key) {
+    const auto entries = key.entries();
+    if (!entries) {
+      right_ = false;
+      return;
+    }
+    if (entries->empty()) {
+      key.expected("at least one body");
+      right_ = false;
+    }
+    for (const auto& [name, value] : *entries) {
+      is_new_part(name, value);
+      ObjectReader object(value, body_keys());
+      if (!value.value().is_object()) {
+        right_ = false;
+        continue;
+      }
+      WrittenMechanism::Body body{name, value.pointer(), number_at_least_0(object, "mass"), zeros(),
+                                  Formulas(6, literal("0"))};
+      if (!value.value().contains("mass")) right_ = false;
+      if (const auto center = object.optional("center")) body.center = vector(*center);
+      if (const auto inertia = object.optional("inertia")) read_inertia(*inertia, body);
+      if (const auto points = object.optional("points")) read_points(*points, body);
+      mechanism_.bodies.push_back(std::move(body));
+    }
+  }
+
+  void read_points(const JsonReader& key, WrittenMechanism::Body& body) {
+    const auto entries = key.entries();
+    if (!entries) {
+      right_ = false;
+      return;
+    }
+    for (const auto& [name, value] : *entries) {
+      if (!is_new_part(name, value)) continue;
+      if (name == "x" || name == "y" || name == "z" || name == "w" || name == "angle") {
+        problem(value, "key, " + in_quotes(body.name + "." + name) +
+                           " is of the body itself; expected another name");
+        continue;
+      }
+      body.points.emplace_back(name, vector(value));
+    }
+  }
+
+  void read_inertia(const JsonReader& value, WrittenMechanism::Body& body) {
+    const auto formulas = read_formulas(value);
+    if (!formulas) {
+      right_ = false;
+      return;
+    }
+    const Formulas& f = formulas->formulas;
+    const Shape& shape = formulas->shape;
+    if (mechanism_.is_plane) {
+      if (!shape.empty()) {
+        value.expected("a number, about the axis of z");
+        right_ = false;
+      } else if (constant(f)) {
+        body.inertia[2] = f[0];
+        if (!(evaluate(f[0], constants_).value() >= 0.0))
+          problem(value,
+                  "is " + exact_text(evaluate(f[0], constants_).value()) + "; expected at least 0");
+      }
+      return;
+    }
+    if (shape == Shape{6}) {
+      body.inertia = f;
+    } else if (shape == Shape{3, 3}) {
+      body.inertia = {f[0], f[4], f[8], f[1], f[2], f[5]};
+    } else {
+      value.expected("[xx, yy, zz, xy, xz, yz], or a 3 x 3 matrix");
+      right_ = false;
+      return;
+    }
+    if (!constant(f)) return;
+    if (shape.size() == 2) {
+      const VectorXd all = value_of(f, constants_);
+      if (all[1] != all[3] || all[2] != all[6] || all[5] != all[7])
+        return problem(value, "is not symmetric; expected a matrix of inertia");
+    }
+    check_inertia(value, value_of(body.inertia, constants_));
+  }
+
+  // Principal moments are at least 0, and none is larger than the sum of the others, as for any distribution of mass.
+  void check_inertia(const JsonReader& value, const VectorXd& entries) {
+    // Inertias are typed with a few digits: a flat plate, whose moments meet the bound, is off it by their rounding.
+    constexpr double rounding = 1e-3;
+    MatrixXd J(3, 3);
+    J << entries[0], entries[3], entries[4], entries[3], entries[1], entries[5], entries[4],
+        entries[5], entries[2];
+    const VectorXd moments = symmetric_eigenvalues(J);
+    const double allowed = rounding * std::max(std::fabs(moments[0]), std::fabs(moments[2]));
+    if (moments[0] < -allowed)
+      return problem(
+          value, "has the principal moment " + number_text(moments[0]) + "; expected at least 0");
+    if (moments[2] > moments[0] + moments[1] + allowed)
+      problem(value, "has the principal moments " + number_text(moments[0]) + ", " +
+                         number_text(moments[1]) + " and " + number_text(moments[2]) +
+                         "; expected none that is larger than the sum of the others");
+  }
+
+  Index body_named(const std::string& name) const {
+    const auto found = std::ranges::find(mechanism_.bodies, name, &WrittenMechanism::Body::name);
+    return found == mechanism_.bodies.end() ? -2 : found - mechanism_.bodies.begin();
+  }
+  std::vector<std::string> body_names() const {
+    std::vector<std::string> names{"ground"};
+    for (const auto& body : mechanism_.bodies) names.push_back(body.name);
+    return names;
+  }
+
+  Index read_body(const std::optional<JsonReader>& value) {
+    const auto name = value ? value->text() : std::nullopt;
+    if (!name) {
+      right_ = false;
+      return Mechanism::ground;
+    }
+    if (*name == "ground") return Mechanism::ground;
+    const Index body = body_named(*name);
+    if (body == -2) unknown_body(*value, *name);
+    return std::max(body, Mechanism::ground);
+  }
+  void unknown_body(const JsonReader& value, const std::string& name) {
+    const std::string meant = did_you_mean(name, body_names());
+    problem(value, "unknown body " + in_quotes(name) +
+                       (meant.empty() ? "; expected ground or one of \"bodies\"" : meant));
+  }
+
+  void read_joints(const JsonReader& key) {
+    const auto entries = key.entries();
+    if (!entries) {
+      right_ = false;
+      return;
+    }
+    for (const auto& [name, value] : *entries) {
+      is_new_part(name, value);
+      ObjectReader object(value, joint_keys());
+      if (!value.value().is_object()) {
+        right_ = false;
+        continue;
+      }
+      read_joint(name, value, object);
+    }
+  }
+
+  void read_joint(const std::string& name, const JsonReader& value, ObjectReader& object) {
+    WrittenMechanism::Joint joint;
+    joint.name = name;
+    joint.pointer = value.pointer();
+    const auto type = object.required("type");
+    const auto word = type ? type->word(joint_words()) : std::nullopt;
+    joint.parent = read_body(object.required("parent"));
+    joint.child = read_body(object.required("child"));
+    joint.origin = read_pose(object, "origin");
+    joint.has_child_origin = value.value().contains("child_origin");
+    joint.child_origin = read_pose(object, "child_origin");
+    const auto axis = object.optional("axis"), axis2 = object.optional("axis2");
+    const auto damping = object.optional("damping"), stiffness = object.optional("stiffness"),
+               rest = object.optional("rest");
+    const std::array efforts{object.optional("torque"), object.optional("force"),
+                             object.optional("effort")};
+    if (!word) {
+      right_ = false;
+      return;
+    }
+    if (right_ && joint.parent == joint.child)
+      problem(value, "connects a body with itself; expected two bodies");
+    const JointWord& kind =
+        *std::ranges::find_if(kJoints, [&](const JointWord& one) { return *word == one.word; });
+    joint.type = kind.type;
+    const Index n =
+        mechanism_.is_plane ? plane_type(joint, *type, *word) : degrees_of_freedom(joint.type);
+    read_axes(axis, axis2, *word, joint);
+    if (damping) joint.damping = coefficients(*damping, n);
+    if (stiffness) joint.stiffness = coefficients(*stiffness, n);
+    if (rest) joint.rest = coefficients(*rest, n);
+    if (stiffness && !has_angles(joint.type))
+      problem(*stiffness, "is of a joint of type " + in_quotes(*word) +
+                              "; expected springs between points there");
+    if (rest && !stiffness) problem(*rest, "is there without a stiffness; expected both");
+    constexpr std::array names{"torque", "force", "effort"};
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (!efforts[i]) continue;
+      if (std::string(kind.effort) != names[i]) {
+        problem(*efforts[i], "drives a joint of type " + in_quotes(*word) + "; expected " +
+                                 (n == 0 ? "nothing there" : "the key " + in_quotes(kind.effort)));
+        continue;
+      }
+      joint.effort = formulas_of(*efforts[i], n, false);
+    }
+    mechanism_.joints.push_back(std::move(joint));
+  }
+
+  // The type in a plane, and its degrees of freedom.
+  Index plane_type(WrittenMechanism::Joint& joint, const JsonReader& type,
+                   const std::string& word) {
+    if (joint.type == JointType::floating) joint.type = JointType::planar;
+    if (joint.type == JointType::spherical || joint.type == JointType::universal ||
+        joint.type == JointType::cylindrical)
+      problem(type, "is " + in_quotes(word) +
+                        "; expected revolute, continuous, prismatic, planar, floating or fixed, in "
+                        "a plane");
+    return degrees_of_freedom(joint.type);
+  }
+
+  void read_axes(const std::optional<JsonReader>& axis, const std::optional<JsonReader>& axis2,
+                 const std::string& word, WrittenMechanism::Joint& joint) {
+    const bool in_plane = mechanism_.is_plane && joint.type == JointType::prismatic;
+    if (mechanism_.is_plane && !in_plane) {
+      if (axis) problem(*axis, "is of a joint in a plane, where axes are z; expected no axis");
+      joint.axis = {literal("0"), literal("0"), literal("1")};
+    } else if (axis) {
+      joint.axis = vector(*axis);
+    } else {
+      joint.axis = {literal("1"), literal("0"), literal("0")};
+    }
+    if (!right_) return;
+    const VectorXd a = value_of(joint.axis, constants_);
+    if (a.isZero(0.0)) return problem(*axis, "is zero; expected a direction");
+    a.cwiseAbs().maxCoeff(&joint.largest);
+    if (joint.type != JointType::universal) {
+      if (axis2)
+        problem(*axis2, "is of a joint of type " + in_quotes(word) +
+                            "; expected a second axis of universal joints only");
+      return;
+    }
+    if (!axis2) return;
+    joint.axis2 = vector(*axis2);
+    if (!right_) return;
+    const VectorXd u = value_of(joint.axis2, constants_);
+    if (u.isZero(0.0)) return problem(*axis2, "is zero; expected a direction");
+    // Directions are typed with some digits.
+    constexpr double rounding = 1e-6;
+    if (std::fabs(u.dot(a)) > rounding * u.norm() * a.norm())
+      problem(*axis2, "is not perpendicular to the axis; expected a right angle");
+  }
+
+  Formulas formulas_of(const JsonReader& value, Index n, bool repeats) {
+    const auto formulas = read_formulas(value);
+    if (!formulas) {
+      right_ = false;
+      return {};
+    }
+    if (formulas->shape.empty() && repeats) return Formulas(as_size(n), formulas->formulas.front());
+    if (formulas->shape.size() > 1 || std::ssize(formulas->formulas) != n) {
+      problem(value, "has " + std::to_string(formulas->formulas.size()) + " formulas; expected " +
+                         std::to_string(n) + ", one for each degree of freedom");
+      return {};
+    }
+    return formulas->formulas;
+  }
+  Formulas coefficients(const JsonReader& value, Index n) {
+    Formulas formulas = formulas_of(value, n, true);
+    return constant(formulas) ? formulas : Formulas();
+  }
+
+  WrittenMechanism::Place read_place(const std::optional<JsonReader>& value) {
+    WrittenMechanism::Place place{Mechanism::ground, zeros()};
+    if (!value) {
+      right_ = false;
+      return place;
+    }
+    if (value->value().is_array()) {
+      place.at = vector(*value);
+      return place;
+    }
+    const auto text = value->text();
+    if (!text) {
+      right_ = false;
+      return place;
+    }
+    if (*text == "ground") return place;
+    const std::size_t point = text->find('.');
+    const std::string name = text->substr(0, point);
+    place.body = body_named(name);
+    if (place.body == -2) {
+      unknown_body(*value, name);
+      return place;
+    }
+    place.at.clear();
+    if (point == std::string::npos) return place;
+    const auto& points = mechanism_.bodies[as_size(place.body)].points;
+    const std::string of_body = text->substr(point + 1);
+    const auto found = std::ranges::find(points, of_body, &WrittenMechanism::Point::first);
+    if (found != points.end()) {
+      place.at = found->second;
+      return place;
+    }
+    std::vector<std::string> names;
+    for (const auto& [known, at] : points) names.push_back(known);
+    const std::string meant = did_you_mean(of_body, names);
+    problem(*value, "unknown point " + in_quotes(of_body) + " of " + in_quotes(name) +
+                        (meant.empty() ? "; expected one of its \"points\"" : meant));
+    return place;
+  }
+
+  void read_springs(const JsonReader& key) {
+    const auto entries = key.entries();
+    if (!entries) {
+      right_ = false;
+      return;
+    }
+    for (const auto& [name, value] : *entries) {
+      ObjectReader object(value, spring_keys());
+      if (!value.value().is_object()) {
+        right_ = false;
+        continue;
+      }
+      WrittenMechanism::Spring spring{name,
+                                      read_place(object.required("from")),
+                                      read_place(object.required("to")),
+                                      number_at_least_0(object, "stiffness"),
+                                      number_at_least_0(object, "rest"),
+                                      number_at_least_0(object, "damping")};
+      if (right_ && spring.from.body == spring.to.body)
+        problem(value, "is between two points of one body; expected two bodies, or one and ground");
+      mechanism_.springs.push_back(std::move(spring));
+    }
+  }
+
+  void read_forces(const JsonReader& key) {
+    const auto list = key.elements();
+    if (!list) {
+      right_ = false;
+      return;
+    }
+    for (const JsonReader& value : *list) {
+      ObjectReader object(value, force_keys());
+      if (!value.value().is_object()) {
+        right_ = false;
+        continue;
+      }
+      const auto at = object.required("at");
+      WrittenMechanism::Force force{read_place(at), object.word("frame") == "body", zeros(),
+                                    zeros()};
+      const auto components_of = object.optional("force"), torque = object.optional("torque");
+      if (components_of) force.force = components(*components_of).value_or(zeros());
+      if (torque && mechanism_.is_plane) {
+        if (const auto formula = read_formula(*torque))
+          force.torque[2] = *formula;
+        else
+          right_ = false;
+      } else if (torque) {
+        force.torque = components(*torque).value_or(zeros());
+      }
+      if (!components_of && !torque)
+        problem(
+            value,
+            "is neither a force nor a torque; expected one of the keys \"force\" and \"torque\"");
+      if (right_ && force.at.body == Mechanism::ground)
+        problem(*at, "is on the ground, which no force moves; expected a body");
+      mechanism_.forces.push_back(std::move(force));
+    }
+  }
+
+  // The child of a joint in a tree has its frame where the joint is.
+  void check_child_origins() {
+    const Mechanism built = mechanism_.at(constants_);
+    for (const Mechanism::Branch& branch : built.branches()) {
+      if (branch.joint < 0) continue;
+      const WrittenMechanism::Joint& joint = mechanism_.joints[as_size(branch.joint)];
+      if (!joint.has_child_origin || is_identity(joint.child_origin)) continue;
+      findings_.problem(joint.pointer + "/child_origin",
+                        "is of a joint that closes no loop, whose frame is that of the child; "
+                        "expected none");
+      right_ = false;
+    }
+  }
+  bool is_identity(const WrittenMechanism::Pose& pose) const {
+    const VectorXd R = value_of(pose.rotation, constants_), one{{1, 0, 0, 0, 1, 0, 0, 0, 1}};
+    return value_of(pose.xyz, constants_).isZero(0.0) && R == one;
+  }
+
+  const SymbolTable& constants_;
+  Findings& findings_;
+  WrittenMechanism mechanism_;
+  bool right_ = true;
+};
+
+}  // namespace
+
+std::vector<Key> mechanism_keys() {
+  return {
+      required_key("bodies", takes::named(body_keys()), "by name: mass, center, inertia, points"),
+      optional_key("joints", takes::named(joint_keys()),
+                   "by name: between a parent and a child, bodies or the ground"),
+      optional_key("springs", takes::named(spring_keys()), "by name: between two points"),
+      optional_key("forces", takes::list_of(force_keys()), "on points of bodies"),
+      optional_key("gravity", takes::formula_vector(), "in m/s^2; by default 0"),
+      default_key("coordinates", takes::word({"joint", "absolute"}), "joint",
+                  "of joints, with constraints where loops close; or of bodies, with joints as "
+                  "constraints"),
+      default_key("plane", takes::flag(), false,
+                  "all in a plane: axes are z, positions [x, y], poses [x, y, angle]")};
+}
+
+Mechanism::Point WrittenMechanism::point(const Place& place, const SymbolTable& constants) const {
+  const Formulas& at = place.at.empty() ? bodies[as_size(place.body)].center : place.at;
+  return {place.body, expressions(at, constants)};
+}
+
+Mechanism WrittenMechanism::at(const SymbolTable& constants) const {
+  Mechanism::Parts parts;
+  parts.is_plane = is_plane;
+  parts.is_absolute = is_absolute;
+  parts.gravity = expressions(gravity, constants);
+  for (const Body& body : bodies) {
+    const ExprVector J = expressions(body.inertia, constants);
+    ExprMatrix inertia(3, 3);
+    inertia << J[0], J[3], J[4], J[3], J[1], J[5], J[4], J[5], J[2];
+    parts.bodies.push_back(
+        {body.name, evaluate(body.mass, constants), expressions(body.center, constants), inertia});
+  }
+  for (const Joint& joint : joints) {
+    const ExprVector axis = expressions(joint.axis, constants);
+    ExprMatrix axes = is_plane && joint.type == JointType::prismatic
+                          ? joint_axes_in_plane(axis)
+                          : joint_axes(axis, joint.largest);
+    if (!joint.axis2.empty()) {
+      const ExprVector u = expressions(joint.axis2, constants);
+      axes.col(1) = u / sqrt(u.dot(u));
+      axes.col(2) = cross_product(axes.col(0), axes.col(1));
+    }
+    parts.joints.push_back({.name = joint.name,
+                            .type = joint.type,
+                            .parent = joint.parent,
+                            .child = joint.child,
+                            .origin = pose_of(joint.origin, constants),
+                            .child_origin = pose_of(joint.child_origin, constants),
+                            .axes = axes,
+                            .damping = expressions(joint.damping, constants),
+                            .stiffness = expressions(joint.stiffness, constants),
+                            .rest = expressions(joint.rest, constants)});
+  }
+  for (const Spring& spring : springs)
+    parts.springs.push_back({point(spring.from, constants), point(spring.to, constants),
+                             evaluate(spring.stiffness, constants),
+                             evaluate(spring.rest, constants),
+                             evaluate(spring.damping, constants)});
+  return Mechanism(std::move(parts));
+}
+
+std::optional<WrittenMechanism> read_mechanism_parts(ObjectReader& system,
+                                                     const SymbolTable& constants) {
+  return Reader(constants, system.place().findings()).read(system);
+}
+
+}  // namespace courant
