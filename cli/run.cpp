@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "courant/cli/sweep.hpp"
 #include "courant/cli/waiting.hpp"
 #include "courant/core/expressions/native.hpp"
+#include "courant/extensions/petsc/petsc_session.hpp"
 #include "courant/running/boundary_run.hpp"
 #include "courant/running/chosen_step.hpp"
 #include "courant/running/run_backend.hpp"
@@ -32,6 +34,9 @@ struct RunArguments {
   bool quiet = false;
   bool untrusted = false;
   std::vector<std::string> settings;
+  std::string engine;                       // empty: this process
+  std::vector<std::string> engine_options;  // of PETSc
+  std::shared_ptr<const EquationEngine> solver;
   SweepArguments sweep;
 
   std::filesystem::path output() const {
@@ -101,6 +106,7 @@ int run_experiment(const Console& console, const RunArguments& arguments,
   }
   RunOptions options{.folder = arguments.output(),
                      .backend = arguments.backend,
+                     .engine = arguments.solver,
                      .existing = arguments.existing(),
                      .stop = console.stop,
                      .on_ladder = {},
@@ -141,6 +147,49 @@ int run_experiment(const Console& console, const RunArguments& arguments,
   if (outcome.status == RunStatus::failed || outcome.status == RunStatus::not_finite) return failed;
   report_failures(console, arguments.file, outcome);
   return outcome.as_expected() ? done : failed;
+}
+
+int run_file(const Console& console, const RunArguments& arguments) {
+  return with_experiment(
+      console, arguments.file,
+      [&](const Experiment& experiment) {
+        if (arguments.solver && experiment.ensemble) {
+          print_error(console,
+                      arguments.file +
+                          ": /ensemble: makes many runs, and --engine divides the steps of one; "
+                          "expected no \"ensemble\", or no --engine");
+          return static_cast<int>(wrong);
+        }
+        try {
+          return run_experiment(console, arguments, experiment);
+        } catch (const EngineStopped& stop) {  // before anything was written
+          print_error(console, arguments.file + ": " + stop.what());
+          return static_cast<int>(interrupted);
+        }
+      },
+      arguments.settings, arguments.untrusted ? TableFiles::beside : TableFiles::anywhere);
+}
+
+// Of `mpirun` the first process runs the experiment, the others solve steps with it.
+int run_by_engine(const Console& console, RunArguments arguments) {
+  if (const std::string missing = PetscSession::missing(); !missing.empty()) {
+    print_error(console, "--engine petsc: " + missing);
+    return wrong;
+  }
+  PetscSession session(arguments.engine_options, console.stop);
+  if (!session.is_first()) {
+    if (console.heeds_stop) *console.heeds_stop = true;  // the first one decides when to end
+    session.serve();
+    return done;
+  }
+  arguments.solver = session.engine();
+  const int status = run_file(console, arguments);
+  if (session.is_lost()) {
+    console.out.flush();
+    console.err.flush();
+    std::_Exit(status);
+  }
+  return status;
 }
 
 int run_cases(const Console& console, const RunArguments& arguments) {
@@ -198,8 +247,30 @@ void add_run(CLI::App& app, Session& session) {
          "and with at most 60 s of the processor, 2 GB of memory and 256 MB in a file")
       ->excludes("--sweep");
   run->add_flag("--quiet", arguments->quiet, "print errors only");
+  run->add_option_function<std::string>(
+         "--engine",
+         [arguments](const std::string& word) {
+           if (word != "petsc")
+             throw CLI::ValidationError("--engine", "is \"" + word + "\"; expected petsc");
+           arguments->engine = word;
+         },
+         "what solves the equations of steps, under mpirun on all its processes: PETSc, where "
+         "courant was built with it; without the option this process does")
+      ->type_name("petsc")
+      ->excludes("--sweep")
+      ->excludes("--untrusted");
+  run->add_option("ENGINE_OPTION", arguments->engine_options,
+                  "behind --, options of the engine, as in -- -ksp_type gmres -pc_type asm");
   run->callback([&session, arguments] {
     session.action = [arguments](const Console& console) -> int {
+      if (!arguments->engine.empty()) return run_by_engine(console, *arguments);
+      if (!arguments->engine_options.empty()) {
+        print_error(console,
+                    "\"" + arguments->engine_options.front() +
+                        "\" is not expected behind FILE without --engine; see `courant run "
+                        "--help`");
+        return wrong;
+      }
       if (!arguments->sweep.ranges.empty()) return run_cases(console, *arguments);
       if (arguments->untrusted) {
         if (arguments->backend == Backend::Kind::native) {
@@ -209,12 +280,7 @@ void add_run(CLI::App& app, Session& session) {
         arguments->backend = Backend::Kind::interpreter;
         Confinement::begin(console.heeds_stop);
       }
-      return with_experiment(
-          console, arguments->file,
-          [&](const Experiment& experiment) {
-            return run_experiment(console, *arguments, experiment);
-          },
-          arguments->settings, arguments->untrusted ? TableFiles::beside : TableFiles::anywhere);
+      return run_file(console, *arguments);
     };
   });
 }

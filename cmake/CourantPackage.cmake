@@ -29,6 +29,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/CourantConfigVersion.cmak
 install(FILES
   ${PROJECT_BINARY_DIR}/CourantConfig.cmake
   ${PROJECT_BINARY_DIR}/CourantConfigVersion.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/CourantPetsc.cmake
   ${PROJECT_SOURCE_DIR}/cmake/FindArb.cmake
   ${PROJECT_SOURCE_DIR}/cmake/FindSuiteSparse.cmake
   DESTINATION ${package_dir} COMPONENT development)
@@ -45,6 +46,9 @@ if(COURANT_WITH_SUITESPARSE)
 endif()
 if(COURANT_WITH_ARB)
   string(APPEND courant_pc_needed " -lflint-arb -lflint")
+endif()
+if(COURANT_WITH_PETSC)
+  string(APPEND courant_pc_needed " -lpetsc_real -lmpi")
 endif()
 string(APPEND courant_pc_needed " ${CMAKE_DL_LIBS}" " -pthread")
 string(REGEX REPLACE " ([a-z])" " -l\\1" courant_pc_needed "${courant_pc_needed}")

@@ -47,9 +47,9 @@ ExprVector value_of(const Definition& definition, const SymbolTable& symbols) {
 
 // That of the first argument which is no constant.
 Graph graph_in(const Vocabulary::Arguments& arguments) {
-  for (const auto& vector : {arguments.x, arguments.velocity, arguments.z, arguments.effort})
-    if (vector)
-      if (const Graph graph = graph_of(*vector); !graph.is_none()) return graph;
+  for (const auto* vector : {&arguments.x, &arguments.velocity, &arguments.z, &arguments.effort})
+    if (*vector)
+      if (const Graph graph = graph_of(**vector); !graph.is_none()) return graph;
   return arguments.t ? graph_of(ExprVector{{*arguments.t}}) : Graph::none();
 }
 
@@ -292,7 +292,10 @@ SymbolTable Vocabulary::symbols_of(const std::vector<std::string>& names, const 
   for (const Definition& definition : definitions)
     if (is_one_of(definition.name)) return symbols({.x = x, .t = t});
   SymbolTable symbols;
-  for (const auto& [name, symbol] : parameters_in(graph_in(Arguments{.x = x, .t = t})))
+  Graph graph =
+      graph_of(x);  // of x as it is: each element of a network asks, and a copy has all coordinates
+  if (graph.is_none()) graph = graph_of(ExprVector{{t}});
+  for (const auto& [name, symbol] : parameters_in(graph))
     if (is_one_of(name)) symbols.add(name, symbol.shape, symbol.values);
   symbols.add("t", t);
   for (const auto& [name, table] : tables)

@@ -103,6 +103,7 @@ RunSummary RunResults::summary(RunStatus told_status,
                  .confirmations = solver.confirmations,
                  .divisions = solver.divisions};
   told.backend = backend;
+  told.engine = engine;
   told.wall_seconds = wall_seconds;
   told.cpu_seconds = cpu_seconds;
   told.steps_per_second = per(count, wall_seconds);

@@ -37,6 +37,7 @@ struct RunResults {
   SolverStatistics solver = {};
   std::string metric = {};  // as of PreparedMethod
   std::string backend = "interpreter";
+  std::optional<RunSummary::Engine> engine = {};
   double wall_seconds = 0.0;
   double cpu_seconds = 0.0;  // of all threads of this process
 

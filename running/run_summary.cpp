@@ -139,6 +139,8 @@ Json to_json(const RunSummary& summary) {
                     {"confirmations", solver.confirmations.value_or(0)},
                     {"divisions", solver.divisions.value_or(0)}};
   json["backend"] = summary.backend;
+  if (const auto& engine = summary.engine)
+    json["engine"] = {{"name", engine->name}, {"ranks", engine->ranks}};
   json["wall_seconds"] = summary.wall_seconds;
   json["cpu_seconds"] = summary.cpu_seconds;
   json["steps_per_second"] = summary.steps_per_second;
@@ -160,6 +162,9 @@ RunSummary read_run_summary(const Json& json) {
                      .wall_seconds = number(json, "wall_seconds"),
                      .cpu_seconds = number(json, "cpu_seconds"),
                      .steps_per_second = number(json, "steps_per_second")};
+  if (json.contains("engine"))
+    summary.engine = {.name = text_at(json.at("engine"), "name"),
+                      .ranks = count(json.at("engine"), "ranks").value_or(1)};
   if (json.contains("ladder")) summary.ladder = read_ladder(json.at("ladder"));
   summary.boundary = part(json, "boundary", Json());
   summary.sensitivities = part(json, "sensitivities", Json());

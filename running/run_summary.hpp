@@ -57,6 +57,12 @@ struct RunSummary {
   };
   Solver solver = {};
   std::string backend = {};
+  // What solved the equations of steps, and how many processes it is; nothing: this process.
+  struct Engine {
+    std::string name = {};
+    long ranks = 1;
+  };
+  std::optional<Engine> engine = {};
   double wall_seconds = kUnknown, cpu_seconds = kUnknown, steps_per_second = kUnknown;
 
   // Nothing if there is none of this name. It lives as long as the summary.

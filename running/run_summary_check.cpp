@@ -135,6 +135,7 @@ Kind summary_kind() {
        {"expectations", array_of(expectation)},
        {"solver", solver},
        {"backend", a_text},
+       {"engine", an_object_of({{"name", a_text, true}, {"ranks", a_number, true}})},
        {"wall_seconds", a_number},
        {"cpu_seconds", a_number},
        {"steps_per_second", a_number}});

@@ -168,13 +168,14 @@ class RunUnderway {
   std::optional<PreparedMethod> prepare() {
     if (!experiment_.method) return std::nullopt;
     try {
-      PreparedMethod method =
-          experiment_.method->prepare({.system = experiment_.model.system,
-                                       .ladder = ladder_,
-                                       .initial = ladder_.point,
-                                       .step = experiment_.time->step,
-                                       .backend = backend_,
-                                       .vocabulary = &experiment_.model.vocabulary});
+      PreparedMethod method = experiment_.method->prepare(
+          {.system = experiment_.model.system,
+           .ladder = ladder_,
+           .initial = ladder_.point,
+           .step = experiment_.time->step,
+           .backend = options_.engine ? backend_.with(options_.engine) : backend_,
+           .vocabulary = &experiment_.model.vocabulary});
+      require_engine_at_work(*method.integrator);
       results_.backend = method.integrator->is_native() ? "native" : "interpreter";
       results_.metric = method.metric;
       if (auto map = tangent_of_run(experiment_, ladder_, method))
@@ -184,6 +185,8 @@ class RunUnderway {
       if (options_.on_method) options_.on_method(*method.integrator);
       return method;
     } catch (const ExperimentError&) {  // has its own place
+      throw;
+    } catch (const EngineStopped&) {  // nothing was written
       throw;
     } catch (const std::invalid_argument& error) {
       // What the equations do not have is no mistake of the file.
@@ -196,6 +199,19 @@ class RunUnderway {
       fail((results_.steps == 0 ? "/method: " : "") + without_place(error.what()));
     }
     return std::nullopt;
+  }
+
+  // A run of an engine that has nothing to do would be one of this process.
+  void require_engine_at_work(const Integrator& method) {
+    if (!options_.engine) return;
+    const std::string name = options_.engine->name();
+    if (options_.engine->taken() == 0)
+      throw ExperimentError(
+          "/method", method.name() +
+                         " solves no equations in a step, and these are what the engine " + name +
+                         " takes; expected a method that is implicit here, or "
+                         "no engine");
+    results_.engine = {.name = name, .ranks = options_.engine->ranks()};
   }
 
   RunOpening opening(const std::optional<PreparedMethod>& method) const {
@@ -392,6 +408,7 @@ class RunUnderway {
     RunSteps steps(*method.integrator, time, experiment_.output.epoch, std::move(start), ahead);
     if (!ahead) look_at(steps.stepper());
     const Stopwatch watch;
+    bool has_engine = true;
     try {
       bool going = true;
       steps.begin();
@@ -418,6 +435,10 @@ class RunUnderway {
           return checkpoint(steps.k(), steps.state(), motion, steps.statistics(), watch);
         });
       }
+    } catch (const EngineStopped& error) {
+      results_.status = RunStatus::interrupted;
+      results_.message = error.what();
+      has_engine = false;
     } catch (const SolveError& error) {
       fail(failure_in_words(error, experiment_, ladder_, steps.state()) +
            (ladder_watch_ ? ladder_watch_->decline() : examined_at(steps.state())));
@@ -427,6 +448,7 @@ class RunUnderway {
     results_.wall_seconds += watch.wall_seconds();
     results_.cpu_seconds += watch.cpu_seconds();
     results_.solver = results_.solver + steps.statistics();
+    if (!has_engine) return;  // what follows may make steps
     if (results_.status == RunStatus::completed && not_finite_) {
       results_.status = RunStatus::not_finite;
       results_.message = observer_.names()[static_cast<std::size_t>(not_finite_->column)] + " is " +

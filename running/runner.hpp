@@ -5,10 +5,12 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "courant/core/numbers/parallel.hpp"
+#include "courant/core/solve/equation_engine.hpp"
 #include "courant/reading/experiment.hpp"
 #include "courant/running/run_folder.hpp"
 #include "courant/running/run_keeper.hpp"
@@ -21,6 +23,9 @@ namespace courant {
 struct RunOptions {
   std::filesystem::path folder;
   Backend backend = Backend::automatic;
+  // What solves the equations of the steps; null: this process. All else is done here: the constraint algorithm, what is
+  // observed, the files.
+  std::shared_ptr<const EquationEngine> engine = nullptr;
   ExistingRun existing = ExistingRun::refuse;  // a run that is in the folder already
   const std::atomic<bool>* stop = nullptr;     // set by someone else: the run is interrupted
   std::function<void(const LadderReport&)> on_ladder;  // once the constraint algorithm has finished
@@ -60,7 +65,8 @@ struct RunOutcome {
 // The same where a keeper in the place of a folder keeps the run, in memory say; of options those that are about
 // folders are not looked at.
 //
-// Throws ExperimentError for initial values that cannot be used, and for changes of an experiment
+// Throws ExperimentError for initial values that cannot be used, for a method that solves nothing which an engine
+// could take, and for changes of an experiment
 // whose run is to go on; UnusableFolder for a folder that cannot be used: then nothing was written.
 // Throws OutputError when the disk is full later on.
 RunOutcome run(const Experiment& experiment, const RunOptions& options);

@@ -83,8 +83,7 @@ Newton::Newton(EquationSystem system, std::vector<Index> groups, const Options& 
     groups_.push_back(end - before);
     before = end;
   }
-  ContainedUnknowns contained(function_);
-  contained_ = std::move(contained.places);
+  find_contained();
   ends_ = group_ends(groups_, contained_);
   is_contiguous_ =
       !contained_.empty() && contained_.back() - contained_.front() + 1 == std::ssize(contained_);
@@ -98,7 +97,8 @@ Newton::Newton(EquationSystem system, std::vector<Index> groups, const Options& 
   for (const Index place : contained_) is_contained[static_cast<std::size_t>(place)] = true;
   for (std::size_t k = 0; k < is_contained.size(); ++k)
     (is_contained[k] ? sought_ : left_).push_back(system_.kept()[k]);
-  solver_ = options_.solver ? options_.solver(contained.pattern) : linear_solver(contained.pattern);
+  if (system_.is_reduced()) kept_.resize(std::ssize(system_.kept()));
+  if (system_.by_engine()) return;
   all_.resize(function_.output_size() + function_.nonzeros());
   step_.resize(static_cast<Index>(contained_.size()));
   settled_.resize(step_.size());
@@ -112,7 +112,17 @@ Newton::Newton(EquationSystem system, std::vector<Index> groups, const Options& 
   }
   if (function_.output_size() == step_.size()) matrix_numbers_ = function_.matrix_numbers();
   held_.resize(function_.held_size());
-  if (system_.is_reduced()) kept_.resize(std::ssize(system_.kept()));
+}
+
+// Which unknowns the equations contain; makes the solver for a matrix of these.
+void Newton::find_contained() {
+  if (const auto& by_engine = system_.by_engine()) {
+    contained_ = by_engine->contained();
+    return;
+  }
+  ContainedUnknowns contained(function_);
+  contained_ = std::move(contained.places);
+  solver_ = options_.solver ? options_.solver(contained.pattern) : linear_solver(contained.pattern);
 }
 
 bool Newton::factorize(const Inputs& in) {
@@ -255,7 +265,7 @@ bool Newton::is_settled(const Inputs& in, bool fresh) {
 }
 
 void Newton::settle(VectorXd& y, const VectorXd& y0) {
-  if (!factorized_ || solver_->is_determined()) return;
+  if (!factorized_ || is_determined()) return;
   const auto place = [&](std::size_t k) {
     return system_.kept()[static_cast<std::size_t>(contained_[k])];
   };
@@ -269,7 +279,7 @@ void Newton::settle(VectorXd& y, const VectorXd& y0) {
 
 // What the equations that are left take: u in place of y, and what they hold.
 const Inputs& Newton::take_kept(const Inputs& in) {
-  in.require_count(function_.input_count(), system_.name());
+  if (!system_.by_engine()) in.require_count(function_.input_count(), system_.name());
   if (!system_.is_reduced() && held_.size() == 0) return in;
   in_ = in;
   if (system_.is_reduced()) {
@@ -289,7 +299,9 @@ void Newton::give(double* y) { system_.unknowns().value(in_.data(), y); }
 
 const Newton::Result& Newton::solve(const Inputs& in, const double* scales) {
   const Inputs& of_kept = take_kept(in);
-  result_.status = is_explicit_ ? Status::converged : solve_kept(of_kept, scales);
+  result_.status = is_explicit_          ? Status::converged
+                   : system_.by_engine() ? solve_by_engine(of_kept, scales, false)
+                                         : solve_kept(of_kept, scales);
   if (system_.is_reduced()) give(in.unknowns());
   return result_;
 }
@@ -297,6 +309,11 @@ const Newton::Result& Newton::solve(const Inputs& in, const double* scales) {
 bool Newton::approach(const Inputs& in, const double* scales) {
   const Inputs& of_kept = take_kept(in);
   const bool is_reduced = system_.is_reduced();
+  if (system_.by_engine()) {
+    const bool arrived = solve_by_engine(of_kept, scales, true) == Status::converged;
+    if (arrived && is_reduced) give(in.unknowns());
+    return arrived;
+  }
   double* const u = of_kept.unknowns();
   if (limited_) {
     const VectorXd from = Eigen::Map<const VectorXd>(u, function_.input_size(0));
@@ -338,6 +355,22 @@ bool Newton::approach(const Inputs& in, const double* scales) {
   reset();
   if (arrived && is_reduced) give(in.unknowns());
   return arrived;
+}
+
+Newton::Status Newton::solve_by_engine(const Inputs& in, const double* scales, bool is_damped) {
+  const EngineEquations::Answer answer = system_.by_engine()->solve({.in = in,
+                                                                     .ends = ends_,
+                                                                     .scales = scales,
+                                                                     .asker = this,
+                                                                     .keeps_matrix = factorized_,
+                                                                     .is_damped = is_damped});
+  result_.iterations = answer.iterations;
+  result_.factorizations = answer.factorizations;
+  result_.residuals.clear();
+  factorized_ = answer.has_converged;
+  if (answer.has_converged) return Status::converged;
+  result_.residuals.push_back(answer.residual);
+  return answer.is_finite ? Status::diverged : Status::singular;
 }
 
 Newton::Status Newton::solve_kept(const Inputs& in, const double* scales) {

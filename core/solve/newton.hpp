@@ -23,6 +23,7 @@ namespace courant {
 // and iterates that only move by round-off are accepted too (an absolute test goes on for ever once
 // the state is large), as are those whose residual is round-off of its terms, or that a matrix made
 // just before does not bring nearer: close to a singular point unknowns move far for round-off.
+// Where an engine has the equations it does all this, by the same measures of convergence.
 // Unknowns that F does not contain stay as they are. Holds workspace: one object a trajectory, not
 // shared between threads. No allocation after the first solve.
 class Newton {
@@ -82,10 +83,12 @@ class Newton {
   const std::vector<Index>& left() const { return left_; }
 
   // Whether, by the last factorisation, F determines all the unknowns that it contains.
-  bool is_determined() const { return solver_->is_determined(); }
+  bool is_determined() const { return system_.by_engine() || solver_->is_determined(); }
 
  private:
   Status solve_kept(const Inputs& in, const double* scales);
+  Status solve_by_engine(const Inputs& in, const double* scales, bool is_damped);
+  void find_contained();
   const Inputs& take_kept(const Inputs& in);
   void give(double* y);
   bool factorize(const Inputs& in);

@@ -290,11 +290,16 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
   blocks_ = trace.blocks;
   auxiliaries_ = trace.auxiliaries;
   equations_ = trace.step.compile(backend);
-  if (!trace.step.is_affine())
-    whole_ = equations_.is_reduced() ? trace.step.whole() : equations_.left();
+  whole_ = trace.step.followed(equations_);
   advance_ = Function("advance", trace.step.inputs, trace.advanced, compiled);
   projection_ = trace.projection.compile(backend);
   projected_ = Function("projected", trace.projection.inputs, trace.projected, compiled);
+  if (engine_of(backend) && trace.redundant.size() > 0)
+    throw std::invalid_argument(
+        "ConstrainFirst::ConstrainFirst: the system has equations that follow from others, which "
+        "steps "
+        "may have to be solved with by least squares; the engine solves as many equations as "
+        "unknowns.");
   redundant_ = Function("redundant equations", trace.projection.inputs, trace.redundant,
                         {.differentiate = {"y"}, .backend = backend});
   shift_ = Function("shift", {{"near", trace.near}, {"s", trace.s}}, trace.shifted, compiled);

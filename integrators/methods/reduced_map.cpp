@@ -225,8 +225,7 @@ ReducedMap::ReducedMap(std::shared_ptr<const DiracSystem> system,
   const Backend backend = options.backend.together();
   contained_ = trace.formulas.contained(1);
   equations_ = trace.formulas.compile(backend);
-  if (!trace.formulas.is_affine())
-    whole_ = equations_.is_reduced() ? trace.formulas.whole() : equations_.left();
+  whole_ = trace.formulas.followed(equations_);
   advance_ = Function("advance", trace.formulas.inputs, trace.advanced, {.backend = backend});
   rate_ = Function("rate", trace.start_inputs, trace.start, {.backend = backend});
   constraint_ = RoundOffProjection::constraint(*reduced_->manifold(), backend);

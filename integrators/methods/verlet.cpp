@@ -458,8 +458,7 @@ Verlet::Verlet(std::shared_ptr<const ImplicitSystem> system, const ConstraintLad
   equations_ = trace.step.compile(backend);
   // Of multipliers the solution near the last ones is taken: for steps that go to zero their equations say nothing, so that
   // no curve leads there from the state.
-  if (codimension_ == 0 && !trace.step.is_affine())
-    whole_ = equations_.is_reduced() ? trace.step.whole() : equations_.left();
+  if (codimension_ == 0) whole_ = trace.step.followed(equations_);
   advance_ = Function("advance", trace.step.inputs, joined(trace.ended, trace.advanced), compiled);
   if (codimension_ > 0) {
     const ExprVector& y = trace.consistent_inputs[0].variables;

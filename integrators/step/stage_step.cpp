@@ -180,8 +180,7 @@ StageStep::StageStep(std::string name, std::shared_ptr<const ImplicitSystem> sys
   efforts_ = trace.effort.size();
   contained_ = trace.formulas.contained(1);
   equations_ = trace.formulas.compile(backend);
-  if (!trace.formulas.is_affine())
-    whole_ = equations_.is_reduced() ? trace.formulas.whole() : equations_.left();
+  whole_ = trace.formulas.followed(equations_);
   advance_ = Function("advance", trace.formulas.inputs, trace.advanced, {.backend = backend});
   const Manifold& M = *system_->manifold();
   if (map_->has_inverse()) {

@@ -49,11 +49,19 @@ Expr given(const StepFormulas& formulas, const Elimination& elimination,
 
 EquationSystem StepFormulas::compile(Backend backend) const {
   return EquationSystem(name, inputs, equations,
-                        {.backend = backend, .eliminates = eliminates, .elimination = elimination});
+                        {.backend = backend,
+                         .eliminates = eliminates,
+                         .elimination = elimination,
+                         .engine = engine_of(backend)});
 }
 
 Function StepFormulas::whole() const {
   return Function(name, inputs, equations, {.differentiate = {inputs[0].name}});
+}
+
+Function StepFormulas::followed(const EquationSystem& compiled) const {
+  if (compiled.by_engine() || is_affine()) return {};
+  return compiled.is_reduced() ? whole() : compiled.left();
 }
 
 std::vector<Index> StepFormulas::contained(std::size_t group) const {

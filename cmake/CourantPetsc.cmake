@@ -1,0 +1,10 @@
+# PETSc with real numbers, and the MPI that it was built with, as PETSc::PETSc: Debian's libpetsc-real-dev.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(PETSC IMPORTED_TARGET PETSc>=3.18)
+if(NOT PETSC_FOUND)
+  message(FATAL_ERROR "COURANT_WITH_PETSC: PETSc 3.18 is not found by pkg-config; expected Debian's libpetsc-real-dev and openmpi-bin")
+endif()
+find_package(MPI REQUIRED COMPONENTS CXX)
+add_library(PETSc::PETSc INTERFACE IMPORTED GLOBAL)
+target_link_libraries(PETSc::PETSc INTERFACE PkgConfig::PETSC MPI::MPI_CXX)
+target_compile_definitions(PETSc::PETSc INTERFACE OMPI_SKIP_MPICXX PETSC_SKIP_CXX_COMPLEX_FIX)
