@@ -6,6 +6,7 @@
 #include "courant/cli/experiment_file.hpp"
 #include "courant/cli/force.hpp"
 #include "courant/core/files/own_file.hpp"
+#include "courant/extensions/importing/included_text.hpp"
 #include "courant/extensions/spice/netlist.hpp"
 
 namespace courant::cli {
