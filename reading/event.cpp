@@ -1,5 +1,7 @@
 #include "courant/reading/event.hpp"
 
+#include <algorithm>
+
 #include "courant/core/language/declaration.hpp"
 
 namespace courant {
@@ -12,7 +14,39 @@ Event::Direction direction(ObjectReader& entry) {
   return Event::Direction::either;
 }
 
-std::optional<Event> read_event(const std::string& name, const JsonReader& value) {
+// Whether a momentum goes with the coordinate, so that its velocity can be set.
+bool has_momentum(const Model& model, Index coordinate) {
+  const std::vector<std::string>& names = model.system->names().coordinates;
+  return std::ranges::find(names, "p_" + names[static_cast<std::size_t>(coordinate)]) !=
+         names.end();
+}
+
+// The entry `key` of "set", of one number or of an array of them.
+void read_reset(const std::string& key, const JsonReader& value, const Model& model,
+                const SymbolTable& symbols, std::vector<Event::Reset>& resets) {
+  const auto formulas = read_formulas(value);
+  if (!formulas) return;
+  try {
+    const Reference reference = parse_reference(key);
+    const auto [first, count] = model.vocabulary.coordinates.find(reference);
+    if (static_cast<Index>(formulas->formulas.size()) != count)
+      return value.problem("has " + std::to_string(formulas->formulas.size()) +
+                           " values; expected " + std::to_string(count) + ", for " + key);
+    for (Index i = 0; i < count; ++i) {
+      if (reference.is_velocity && !has_momentum(model, first + i))
+        return value.problem(
+            "is set as a velocity that has no momentum; expected a coordinate of the state");
+      const WrittenFormula& formula = formulas->formulas[static_cast<std::size_t>(i)];
+      if (!check(formula, symbols, value.findings())) return;
+      resets.push_back({first + i, reference.is_velocity, formula});
+    }
+  } catch (const FormulaError& error) {
+    value.problem(std::string("key, ") + error.what());
+  }
+}
+
+std::optional<Event> read_event(const std::string& name, const JsonReader& value,
+                                const Model& model, const SymbolTable& symbols) {
   if (!value.value().is_object()) {
     const auto formula = read_formula(value);
     if (!formula) return std::nullopt;
@@ -29,8 +63,17 @@ std::optional<Event> read_event(const std::string& name, const JsonReader& value
   } else {
     entry.default_value("stop", false);
   }
+  std::vector<Event::Reset> resets;
+  if (const auto set = entry.optional("set")) {
+    const auto entries = set->entries();
+    if (entries && entries->empty()) set->problem("sets nothing; expected values by name");
+    if (entries && stops) set->problem("is for a run that goes on; expected no \"stop\" beside it");
+    if (entries)
+      for (const auto& [key, formula_of_key] : *entries)
+        read_reset(key, formula_of_key, model, symbols, resets);
+  }
   if (!formula) return std::nullopt;
-  return Event{name, *formula, sense, stops};
+  return Event{name, *formula, sense, stops, std::move(resets)};
 }
 
 // The name stands in a file between commas, and in expectations.
@@ -59,6 +102,20 @@ bool Event::is_between(double before, double after) const {
   return rises || falls;
 }
 
+bool Event::sets_velocities() const { return std::ranges::any_of(resets, &Reset::is_velocity); }
+
+bool Event::is_beyond(double value) const {
+  switch (direction) {
+    case Direction::rising:
+      return value > 0.0;
+    case Direction::falling:
+      return value < 0.0;
+    case Direction::either:
+      break;
+  }
+  return true;
+}
+
 std::vector<Event> read_events(const JsonReader& events, const Model& model) {
   std::vector<Event> list;
   const auto entries = events.entries();
@@ -71,7 +128,7 @@ std::vector<Event> read_events(const JsonReader& events, const Model& model) {
       graph.variables("z", system.auxiliary_size()), graph.variable("t"));
   for (const auto& [name, value] : *entries) {
     const bool named = is_name(name, value);
-    const auto event = read_event(name, value);
+    const auto event = read_event(name, value, model, symbols);
     if (!event || !check(event->formula, symbols, value.findings()) || !named) continue;
     if (evaluate(event->formula, symbols).is_constant())
       value.problem("is constant; expected a formula that has zeros");
@@ -79,6 +136,12 @@ std::vector<Event> read_events(const JsonReader& events, const Model& model) {
       list.push_back(*event);
   }
   return list;
+}
+
+std::optional<std::string> place_of_resets(const std::vector<Event>& events) {
+  const auto found = std::ranges::find_if(events, &Event::sets);
+  if (found == events.end()) return std::nullopt;
+  return "/events/" + found->name + "/set";
 }
 
 }  // namespace courant

@@ -309,6 +309,20 @@ NamedFormulas formulas_of_state(const Experiment& experiment) {
   return named;
 }
 
+// What looks at a run as one smooth map of its start.
+void require_resets_fit(const Experiment& experiment, bool has_boundary, Findings& findings) {
+  const std::optional<std::string> place = place_of_resets(experiment.events);
+  if (!place) return;
+  const auto refuse = [&](bool is_there, const std::string& what) {
+    if (is_there) findings.problem(*place, "jumps, and " + what + "; expected one of the two");
+  };
+  refuse(experiment.sensitivities.has_value(), "\"sensitivities\" are derivatives without jumps");
+  refuse(!experiment.defects.empty(), "\"defects\" are of a map without jumps");
+  refuse(has_boundary, "\"boundary\" is solved by a flow without jumps");
+  refuse(experiment.time && experiment.time->is_transformed(),
+         "\"transformation\" of time goes on without jumps");
+}
+
 }  // namespace
 
 std::string column_of(Defect defect) {
@@ -425,6 +439,7 @@ Experiment read_document(const Json& written, const Model* given) {
         experiment.sensitivities = read_sensitivities(*sensitivities, *model, experiment.initial,
                                                       experiment.symmetries, experiment.observe);
       if (events) experiment.events = read_events(*events, *model);
+      if (events) require_resets_fit(experiment, boundary.has_value(), findings);
       // What is not given of a guess is 0.
       if (boundary) experiment.model.starts_at_zero = true;
       if (boundary)

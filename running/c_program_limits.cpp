@@ -23,6 +23,10 @@ void check_exportable(const Experiment& experiment) {
   if (experiment.sensitivities)
     throw ExperimentError("/sensitivities",
                           "are not computed by a program in C; expected an experiment without");
+  if (const std::optional<std::string> place = place_of_resets(experiment.events))
+    throw ExperimentError(*place,
+                          "is done by a run, not by a program in C; expected events that set "
+                          "nothing");
   if (experiment.time->is_transformed())
     throw ExperimentError("/time/transformation",
                           "is not written in C; expected steps of one size in t");

@@ -45,33 +45,75 @@ void EventWatch::set_curve(Stepper& stepper, Measure measure) {
 }
 
 std::optional<RunEnd> EventWatch::watch(const RunMoment& moment) {
+  if (end_) return end_;
   const auto count = static_cast<Index>(events_.size());
+  const std::set<std::size_t> behind = std::exchange(behind_, {});
   std::vector<Zero> zeros;
   try {
     for (std::size_t i = 0; moment.k > 0 && i < events_.size(); ++i) {
-      const double before = memory_.values[static_cast<Index>(i)];
       const double after = moment.row[first_ + static_cast<Index>(i)];
-      if (events_[i].is_between(before, after)) zeros.push_back(locate(i, before, moment));
+      if (behind.contains(i)) {
+        if (const auto back = events_[i].is_beyond(after) ? side_before(i, moment) : std::nullopt)
+          zeros.push_back(locate(i, *back, moment));
+        continue;
+      }
+      const double before = memory_.values[static_cast<Index>(i)];
+      if (events_[i].is_between(before, after)) zeros.push_back(locate(i, {0.0, before}, moment));
     }
   } catch (const std::runtime_error& error) {
-    return cannot_locate(moment, error);
+    return end_ = cannot_locate(moment, error);
   } catch (const std::domain_error& error) {
-    return cannot_locate(moment, error);
+    return end_ = cannot_locate(moment, error);
   }
-  memory_.values = moment.row.segment(first_, count);
+  VectorXd sides = std::exchange(memory_.values, moment.row.segment(first_, count));
   std::stable_sort(zeros.begin(), zeros.end(), [&](const Zero& a, const Zero& b) {
     return moment.step.h > 0.0 ? a.t < b.t : b.t < a.t;
   });
   for (Zero& zero : zeros) {
     take(zero);
+    sides[static_cast<Index>(zero.event)] = memory_.values[static_cast<Index>(zero.event)];
+    if (events_[zero.event].sets()) {
+      memory_.values = sides;  // what has not passed a zero yet may pass it there
+      reset_ = Reset{zero.event, std::move(zero.part), std::move(zero.row)};
+      return std::nullopt;
+    }
     if (!events_[zero.event].stops) continue;
     stop_ = Stop{events_[zero.event].name, zero.t, std::move(zero.row), std::move(zero.part)};
-    return RunEnd{RunStatus::completed, ""};
+    return end_ = RunEnd{RunStatus::completed, ""};
   }
   return std::nullopt;
 }
 
-EventWatch::Zero EventWatch::locate(std::size_t event, double before, const RunMoment& moment) {
+std::optional<EventWatch::Reset> EventWatch::go_on_behind(const Reset& reset, const VectorXd& row,
+                                                          Stepper& way) {
+  stepper_ = &way;
+  const VectorXd before = std::exchange(memory_.values, row.segment(first_, std::ssize(events_)));
+  behind_.insert(reset.event);
+  for (std::size_t i = 0; i < events_.size(); ++i) {
+    const auto place = static_cast<Index>(i);
+    if (i == reset.event || !events_[i].is_between(before[place], memory_.values[place])) continue;
+    take({i, reset.step.after.t, row, reset.step});
+    if (events_[i].sets()) return Reset{i, reset.step, row};
+  }
+  return std::nullopt;
+}
+
+std::optional<EventWatch::From> EventWatch::side_before(std::size_t event,
+                                                        const RunMoment& moment) {
+  // Its quantity is zero where the step begins, to round-off, so its sign there says nothing.
+  constexpr int halvings = 20;
+  const Index column = first_ + static_cast<Index>(event);
+  const double after = moment.row[column];
+  double s = 1.0;
+  for (int k = 0; k < halvings; ++k) {
+    s /= 2.0;
+    const double value = measure_(stepper_->part(s))[column];
+    if (value * after < 0.0) return From{s, value};
+  }
+  return std::nullopt;
+}
+
+EventWatch::Zero EventWatch::locate(std::size_t event, From from, const RunMoment& moment) {
   const Index column = first_ + static_cast<Index>(event);
   const double after = moment.row[column];
   if (after == 0.0) return {event, moment.t, moment.row, moment.step};
@@ -86,7 +128,7 @@ EventWatch::Zero EventWatch::locate(std::size_t event, double before, const RunM
     }
     return row[column];
   };
-  bracketed_root(value, {0.0, 1.0}, before, after, kBracket, kMaxEvaluations);
+  bracketed_root(value, {from.s, 1.0}, from.value, after, kBracket, kMaxEvaluations);
   return nearest;
 }
 

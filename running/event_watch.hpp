@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "courant/core/files/content_hash.hpp"
@@ -47,8 +48,24 @@ class EventWatch final : public RunWatcher {
   void set_curve(Stepper& stepper, Measure measure);
 
   // Ends the run as failed where a zero cannot be located, and as completed with a zero of an event that
-  // stops it.
+  // stops it; a run that it ended before it ends again.
   std::optional<RunEnd> watch(const RunMoment& moment) override;
+
+  // What it has ended the run with.
+  const std::optional<RunEnd>& end() const { return end_; }
+
+  // A zero of an event that sets something: what comes after it in the step that was watched is to be made again,
+  // from another state.
+  struct Reset {
+    std::size_t event;
+    Step step;     // that ends there
+    VectorXd row;  // what is measured there
+  };
+  // That of the step that was watched last, once: the first. Zeros behind it were not looked for.
+  std::optional<Reset> take_reset() { return std::exchange(reset_, std::nullopt); }
+  // Goes on behind a reset, where this is measured; the curve is that of the way on. Zeros that the jump itself passes, and
+  // those at the same time, count at its time: if such an event sets something, it is the one that is returned.
+  std::optional<Reset> go_on_behind(const Reset& reset, const VectorXd& row, Stepper& way);
 
   // Where an event stopped the run, within the step that was watched last.
   struct Stop {
@@ -71,7 +88,14 @@ class EventWatch final : public RunWatcher {
     VectorXd row;
     Step part;  // of the step, up to there
   };
-  Zero locate(std::size_t event, double before, const RunMoment& moment);
+  // A part of the step, 0 to 1, and the value of a quantity there.
+  struct From {
+    double s, value;
+  };
+  Zero locate(std::size_t event, From from, const RunMoment& moment);
+  // Of the event that set something where the step begins: a part at whose end its quantity has the other sign than at
+  // the end of the step. Nothing where it keeps its sign.
+  std::optional<From> side_before(std::size_t event, const RunMoment& moment);
   void take(const Zero& zero);
 
   std::vector<Event> events_;
@@ -83,6 +107,9 @@ class EventWatch final : public RunWatcher {
   Measure measure_;
   Memory memory_;
   std::optional<Stop> stop_;
+  std::optional<RunEnd> end_;
+  std::optional<Reset> reset_;
+  std::set<std::size_t> behind_;  // the events that set something where the step begins
 };
 
 }  // namespace courant

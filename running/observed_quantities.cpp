@@ -177,6 +177,14 @@ ObservedQuantities::ObservedQuantities(const Experiment& experiment, const Const
   first_event = names.size();
   for (const Event& event : experiment.events)
     add("event[" + event.name + "]", evaluate(event.formula, symbols));
+  first_reset = names.size();
+  const ExprVector velocity = M.frame(at.x) * at.v;
+  for (const Event& event : experiment.events) {
+    const std::string name = "set[" + event.name + "]";
+    for (const Event::Reset& reset : event.resets) add(name, evaluate(reset.value, symbols));
+    if (!event.sets_velocities()) continue;
+    for (const Expr& component : velocity) add(name, component);
+  }
   const SymbolTable closed_forms = experiment.model.vocabulary.symbols({.t = at.t});
   forms.resize(static_cast<Index>(experiment.expect.deviations.size()));
   for (const Expectations::Deviation& deviation : experiment.expect.deviations) {

@@ -17,7 +17,8 @@ struct ObservedQuantities {
   ObservedQuantities(const Experiment& experiment, const ConstraintLadder& ladder);
 
   std::vector<std::string> names;
-  std::size_t coordinate_count = 0, first_constraint = 0, written_count = 0, first_event = 0;
+  std::size_t coordinate_count = 0, first_constraint = 0, written_count = 0, first_event = 0,
+              first_reset = 0;
   std::optional<Index> H, balance;  // places in a row
   std::vector<Defect> defects;
   std::vector<Index> defect_places;

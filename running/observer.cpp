@@ -19,6 +19,7 @@ Observer::Observer(const ObservedQuantities& of, Backend backend)
       first_constraint_(of.first_constraint),
       written_count_(of.written_count),
       first_event_(of.first_event),
+      first_reset_(of.first_reset),
       stage_places_(of.stage_places),
       deviating_(of.deviating),
       asked_defects_(of.defects),

@@ -54,6 +54,8 @@ class Observer {
   std::size_t first_constraint() const { return first_constraint_; }
   std::size_t constraint_count() const { return written_count_ - first_constraint_; }
   std::size_t first_event() const { return first_event_; }
+  // What events set, one after the other, and behind that of an event that sets velocities the whole of dx/dt.
+  std::size_t first_reset() const { return first_reset_; }
   Index first_sensitivity() const { return first_sensitivity_; }
 
   // The numbers at a state by itself; the reference is valid until the next call.
@@ -111,7 +113,7 @@ class Observer {
   void take_defects();
 
   std::vector<std::string> names_;
-  std::size_t coordinate_count_, first_constraint_, written_count_, first_event_;
+  std::size_t coordinate_count_, first_constraint_, written_count_, first_event_, first_reset_;
   // x, v, z, t, what the field leaves out, energies ↦ all between the coordinates and the deviations
   Function quantities_;
   // H and what it is a function of, until its sizes are asked for: few runs ask for them.

@@ -76,6 +76,11 @@ std::vector<double> RunTable::column(const std::string& name) const {
 
 RunInMemory run_in_memory(const Experiment& experiment, const RunInMemoryOptions& options) {
   RunInMemory result;
+  if (const auto place = place_of_resets(experiment.events); place && options.has_curve)
+    throw ExperimentError(
+        *place,
+        "jumps, and the curve of a run is one of steps without; expected rows, or "
+        "events that set nothing");
   MemoryKeeper keeper(experiment, options.has_curve, result);
   result.outcome = run(experiment, keeper, options.run);
   return result;

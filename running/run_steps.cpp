@@ -213,10 +213,14 @@ void RunSteps::next() {
 }
 
 void RunSteps::skip_to(const State& state) {
+  replace(state);
+  ++k_;
+}
+
+void RunSteps::replace(const State& state) {
   start_.state = state;
   goes_on_ = false;
   stepper_->forget();
-  ++k_;
 }
 
 const Step& RunSteps::ended() const { return ahead_ ? ahead_->step() : stepper_->ended(); }

@@ -35,6 +35,8 @@ class RunSteps {
   void next();
   // In place of next(), of steps that are not made ahead: the step ended at this state.
   void skip_to(const State& state);
+  // The last step, of steps that are not made ahead, ended at this state instead.
+  void replace(const State& state);
   long k() const { return k_; }  // the step that it was, or that of the start
   // That step, without what it was evaluated at, and where it ended; valid until next(). Before the first one, where
   // that begins. `before` is where the step before ended, maybe prepared once more.

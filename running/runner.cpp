@@ -22,6 +22,7 @@
 #include "courant/running/left_constraints.hpp"
 #include "courant/running/observer_elsewhere.hpp"
 #include "courant/running/other_values.hpp"
+#include "courant/running/restart.hpp"
 #include "courant/running/run_backend.hpp"
 #include "courant/running/run_clock.hpp"
 #include "courant/running/run_failure.hpp"
@@ -227,8 +228,8 @@ class RunUnderway {
     if (options_.stop) watchers_.push_back(stop_when(*options_.stop));
   }
 
-  // Whether the run goes on from this state, which is that after step k.
-  bool goes_on(const Step& step, long k) {
+  // Whether the run goes on from this state, which is that after step k. `events_told`: those on the way to it.
+  bool goes_on(const Step& step, long k, bool events_told = false) {
     const State& state = step.after;
     const double t = clock_.t(state, k);
     RunMoment moment{.k = k,
@@ -237,7 +238,7 @@ class RunUnderway {
                      .row = k == 0 ? observer_.begin(state) : observer_.advance(step),
                      .step = step};
     std::optional<RunEnd> end;
-    if (event_watch_) end = event_watch_->watch(moment);
+    if (event_watch_) end = events_told ? event_watch_->end() : event_watch_->watch(moment);
     // Where an event stops the run, that is its last state.
     if (event_watch_ && event_watch_->stop()) {
       const EventWatch::Stop& stop = *event_watch_->stop();
@@ -320,6 +321,8 @@ class RunUnderway {
         },
         from ? from->event_watch : std::nullopt);
     results_.event_watch = &*event_watch_;
+    if (std::ranges::any_of(experiment_.events, &Event::sets))
+      resets_.emplace(experiment_, observer_.first_reset());
   }
 
   void watch_ladder() {
@@ -397,9 +400,10 @@ class RunUnderway {
       else
         going = goes_on(steps.ended(), 0);
       while (going && steps.k() < time.steps) {
-        const std::optional<Step> jump = next(steps, *method.integrator);
+        std::optional<Step> jump = next(steps, *method.integrator);
+        const bool is_reset = !jump && resets_ && (jump = over_resets(steps, *method.integrator));
         if (jump) {
-          going = goes_on(*jump, steps.k());
+          going = goes_on(*jump, steps.k(), is_reset);
         } else {
           if (looks_into_steps()) look_into(steps);
           going = goes_on(is_told_whole() ? steps.stepper().last() : steps.ended(), steps.k());
@@ -476,42 +480,100 @@ class RunUnderway {
 
   // The consistent state that impulses lead to on the other side of a corner; nothing where there is none.
   std::optional<State> beyond(const State& before, double corner) {
-    Experiment there = experiment_;
-    there.time->start = corner;
-    InitialValues& initial = there.initial;
-    initial = {.x = PartialVector(before.x.size()),
-               .velocity = PartialVector(before.x.size()),
-               .z = PartialVector(initial.z.values.size()),
-               .weight = initial.weight,
-               .nominal = initial.nominal};
-    initial.x.values = before.x;
-    initial.x.given.setConstant(true);
-    const ConsistentStart ladder = consistent_start(there);
-    if (ladder.verdict == Verdict::inconsistent || ladder.verdict == Verdict::not_reached)
-      return std::nullopt;
-    constexpr std::size_t most = 4;
-    std::string text;
-    std::size_t count = 0;
-    for (const Movement& move : ladder.moves)
-      if (++count <= most)
-        text += (text.empty() ? "" : ", ") + move.name + " from " + number_text(move.from) +
-                " to " + number_text(move.to);
-    if (count > most) text += " and " + std::to_string(count - most) + " more";
-    if (!text.empty() && ++jumps_ <= kMostJumpsTold)
-      results_.warnings.push_back("At the corner t = " + number_text(corner) +
-                                  " there is a jump: " + text +
-                                  (ladder.is_impulse ? ", as an impulse makes it." : "."));
-    State state = before;
-    state.t = corner;
-    state.x = ladder.point.x;
-    state.v = ladder.point.v;
-    state.z = ladder.point.z;
-    return state;
+    std::optional<Restart> behind = restart(experiment_, before, corner);
+    if (!behind) return std::nullopt;
+    tell_of_jump("At the corner t = " + number_text(corner) + " there is a jump: ", *behind);
+    return std::move(behind->state);
+  }
+
+  void tell_of_jump(const std::string& where, const Restart& behind) {
+    if (!behind.moves.empty() && ++jumps_ <= kMostJumpsTold)
+      results_.warnings.push_back(where + behind.moves +
+                                  (behind.is_impulse ? ", as an impulse makes it." : "."));
+  }
+
+  // The last step, where events in it set something: up to the first of these, the state behind it, the way on from
+  // there with all that comes then. Nothing where none does.
+  std::optional<Step> over_resets(RunSteps& steps, const Integrator& integrator) {
+    // Less of a step is none, and what comes again after less accumulates.
+    constexpr double no_way = 1e-12, no_pause = 1e-9;
+    const Step whole = steps.stepper().last();
+    const double h = experiment_.time->step, end = experiment_.time->time(steps.k());
+    elsewhere_.begin_step();
+    std::unique_ptr<Stepper> way;
+    Step part = whole;
+    State after;
+    std::vector<Step> ways;
+    std::map<std::size_t, double> last;  // of each event
+    bool is_over = false;
+    for (std::optional<EventWatch::Reset> reset; !is_over && (reset = reset_in(part, steps.k()));) {
+      const double t = reset->step.after.t;
+      const auto before = last.find(reset->event);
+      if (std::ssize(ways) >= kMostResets ||
+          (before != last.end() && std::abs(t - before->second) < no_pause * std::abs(h)))
+        throw std::domain_error("The times of the event " + experiment_.events[reset->event].name +
+                                " accumulate at t = " + number_text(t) + ": it has set something " +
+                                std::to_string(std::ssize(ways)) + " times within a step.");
+      last[reset->event] = t;
+      ways.push_back(reset->step);
+      way = integrator.stepper();
+      tell_parts_to(*way);
+      after = behind(*reset, *way);
+      is_over = std::abs(end - t) < no_way * std::abs(h);
+      if (is_over) continue;
+      way->step(after, end - t, end);
+      part = way->last();
+    }
+    if (ways.empty()) return std::nullopt;
+    if (!is_over) ways.push_back(part);
+    // The curve of the next step is that of the run again.
+    look_at(steps.stepper());
+    after.t = end;
+    steps.replace(after);
+    observer_.restart(whole.before);
+    return Step{.h = h,
+                .before = whole.before,
+                .after = after,
+                .stage = ways.back().stage,
+                .effort = ways.back().effort,
+                .parts = std::move(ways)};
+  }
+
+  // The first reset of a part of a step, whose other events are told.
+  std::optional<EventWatch::Reset> reset_in(const Step& part, long k) {
+    if (part.h == 0.0) return std::nullopt;
+    const VectorXd row = elsewhere_.row_within(part);
+    event_watch_->watch({.k = k, .steps = k, .t = part.after.t, .row = row, .step = part});
+    return event_watch_->take_reset();
+  }
+
+  // The state behind a reset, and behind those that its jump leads to.
+  State behind(EventWatch::Reset reset, Stepper& way) {
+    for (int count = 0; count < kMostResets; ++count) {
+      const State& at = reset.step.after;
+      const std::string name = experiment_.events[reset.event].name;
+      const std::optional<Restart> there = (*resets_)(reset.event, at, reset.row);
+      if (!there)
+        throw std::domain_error("Nothing goes on from what the event " + name + " sets at t = " +
+                                number_text(at.t) + ": there is no consistent state near it.");
+      tell_of_jump("At t = " + number_text(at.t) + " the event " + name + " moves also ", *there);
+      std::optional<EventWatch::Reset> next =
+          event_watch_->go_on_behind(reset, elsewhere_.row(there->state), way);
+      if (!next) return there->state;
+      next->step.after = there->state;
+      reset = *std::move(next);
+    }
+    throw std::domain_error("Events set something over and over at t = " +
+                            number_text(reset.step.after.t) + ": each leads to the next.");
+  }
+
+  void tell_parts_to(Stepper& stepper) const {
+    if (observer_.account() || observer_.tangent_map() || observer_.sensitivities())
+      stepper.tell_parts();
   }
 
   void look_at(Stepper& stepper) {
-    if (observer_.account() || observer_.tangent_map() || observer_.sensitivities())
-      stepper.tell_parts();
+    tell_parts_to(stepper);
     if (event_watch_)
       event_watch_->set_curve(stepper, [this](const Step& part) -> const VectorXd& {
         return elsewhere_.row_within(part);
@@ -582,6 +644,7 @@ class RunUnderway {
   std::string place_;  // in the experiment, of what is being made ready: "/examine: "
   std::optional<NotFinite> not_finite_;
   static constexpr int kMostJumpsTold = 3;
+  static constexpr int kMostResets = 30;  // within a step
   int jumps_ = 0;
   RunClock clock_{experiment_.time};
   std::optional<LadderWatch> ladder_watch_;
@@ -590,6 +653,7 @@ class RunUnderway {
   std::optional<GradientWatch> gradient_watch_;
   TrajectoryRows rows_{experiment_, observer_, clock_, results_.rows_at_times};
   std::optional<EventWatch> event_watch_;
+  std::optional<EventResets> resets_;  // where events set something
   std::vector<std::unique_ptr<RunWatcher>> watchers_;
 };
 

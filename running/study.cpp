@@ -50,6 +50,10 @@ class StudiedProblem {
           "is not solved by a study; expected an experiment without, such as the "
           "one that a run writes, whose initial values are those of the solution");
     const TimeSpan& time = *experiment().time;
+    if (const std::optional<std::string> place = place_of_resets(experiment().events))
+      throw ExperimentError(*place,
+                            "is done by a run; a study compares methods between jumps; expected "
+                            "events that set nothing");
     if (time.steps == 0) throw ExperimentError("/time/end", "is the start; expected a later time");
     stride_ = time.is_transformed() ? 1 : (time.steps + kMostMoments - 1) / kMostMoments;
     choose_quantities();

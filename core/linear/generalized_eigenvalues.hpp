@@ -12,7 +12,8 @@ struct GeneralizedEigenvalues {
   Eigen::VectorXd betas;
 };
 
-// Throws std::invalid_argument unless A and B are square and of one size.
+// By QZ, of the balanced pencil. Throws std::invalid_argument unless A and B are square and of one size, std::domain_error where
+// an entry is not finite, std::runtime_error where the iteration does not end.
 GeneralizedEigenvalues generalized_eigenvalues(const Eigen::Ref<const Eigen::MatrixXd>& A,
                                                const Eigen::Ref<const Eigen::MatrixXd>& B);
 

@@ -46,18 +46,30 @@ class Import {
     const double steps = times_.end / rows_interval();
     Json observe = Json::object();
     for (std::size_t node = 1; node < circuit_.nodes.size(); ++node) {
-      if (node == circuit_.resting) continue;
+      if (node == circuit_.resting ||
+          std::ranges::find(circuit_.switches, node, &NetlistSwitch::memory) !=
+              circuit_.switches.end())
+        continue;
       const std::string name = "potential_" + circuit_.name_of(node);
       observe[name] = name;
     }
     for (const std::string& name : circuit_.sources) observe["i_" + name] = "i_" + name;
-    return {{"title", title_.empty() ? "A netlist" : title_},
-            {"system", system},
-            {"initial", initial_},
-            {"method", method()},
-            {"time", time()},
-            {"observe", observe},
-            {"output", {{"interval", times_.end / steps}}}};
+    Json all = {{"title", title_.empty() ? "A netlist" : title_},
+                {"system", system},
+                {"initial", initial_},
+                {"method", method()},
+                {"time", time()},
+                {"observe", observe},
+                {"output", {{"interval", times_.end / steps}}}};
+    for (const NetlistSwitch& one : circuit_.switches) {
+      all["events"][one.name + "_on"] = {{"zero", one.control + " - " + one.high},
+                                         {"direction", "rising"},
+                                         {"set", {{one.state, 1}}}};
+      all["events"][one.name + "_off"] = {{"zero", one.control + " - " + one.low},
+                                          {"direction", "falling"},
+                                          {"set", {{one.state, 0}}}};
+    }
+    return all;
   }
   const std::vector<Problem>& notes() const { return notes_; }
 
@@ -227,7 +239,15 @@ class Import {
     }
     if (circuit_.from_given) return given_values();
     Json initial = Json::object();
-    if (circuit_.at_rest) {
+    bool begins_empty = circuit_.at_rest;
+    if (!begins_empty && !set_switches(circuit_.fixed, circuit_.switches)) {
+      begins_empty = true;
+      note(circuit_.lines[circuit_.switches.front().element],
+           "switches have no state at rest: each operating point moves one of them; it begins with "
+           "empty capacitors and inductors, as with uic");
+    }
+    add_states_of_switches(initial);
+    if (begins_empty) {
       for (const NetlistStorage& storage : circuit_.storages) initial[storage.state] = 0;
       for (const NetlistJunction& junction : circuit_.junctions) initial[junction.state] = 0;
       return initial;
@@ -263,6 +283,10 @@ class Import {
     return initial;
   }
 
+  void add_states_of_switches(Json& initial) const {
+    for (const NetlistSwitch& one : circuit_.switches) initial[one.state] = one.begins_on ? 1 : 0;
+  }
+
   void tell(const NoOperatingPoint& none) {
     const std::string expected =
         "; expected one to start from, or uic in .tran, with initial values by ic= and .ic";
@@ -279,8 +303,10 @@ class Import {
 
   // With uic: from ic=, else from .ic, where the potential of other nodes is 0. Charges of junctions are those at these
   // potentials.
-  Json given_values() const {
+  Json given_values() {
     Json initial = Json::object();
+    StaticCircuit begin = circuit_.fixed;
+    begin.couplings.clear();
     for (const NetlistStorage& storage : circuit_.storages) {
       const StaticElement& element = circuit_.fixed.elements[storage.element];
       std::optional<std::string> given = storage.given;
@@ -294,7 +320,13 @@ class Import {
           given = "(-" + to->second + ")";
       }
       initial[storage.state] = given ? written_value(storage.value + "*" + *given) : Json(0);
+      StaticElement& stands = begin.elements[storage.element];
+      stands.kind =
+          storage.is_capacitor ? StaticElement::Kind::voltage : StaticElement::Kind::current;
+      stands.value = given ? circuit_.value_of(*given, storage.line) : 0.0;
     }
+    set_switches(begin, circuit_.switches);
+    add_states_of_switches(initial);
     for (const NetlistJunction& junction : circuit_.junctions)
       initial[junction.state] =
           junction.at(given_voltage(junction.element), given_voltage(junction.other));

@@ -10,6 +10,7 @@
 #include "courant/core/language/symbol_table.hpp"
 #include "courant/extensions/spice/netlist_cards.hpp"
 #include "courant/extensions/spice/netlist_operating_point.hpp"
+#include "courant/extensions/spice/netlist_switches.hpp"
 #include "courant/reading/junction_charge.hpp"
 
 namespace courant::netlist {
@@ -53,6 +54,7 @@ struct NetlistCircuit {
   std::vector<std::pair<int, std::string>> notes;  // what of a line has no effect
   std::vector<NetlistStorage> storages;
   std::vector<NetlistJunction> junctions;
+  std::vector<NetlistSwitch> switches;
   std::map<std::size_t, std::size_t> terminals;  // of nodes behind the resistance of a device
   StaticCircuit fixed;                           // at t = 0
   std::vector<std::string> names;                // of the elements of `fixed`

@@ -74,7 +74,7 @@ NetlistCircuit CircuitReader::read() {
   expand(deck_.whole, "", {}, global_);
   if (problems_.empty()) problems_.guard([&] { connect(); });
   if (problems_.empty() && circuit_.storages.empty() && circuit_.junctions.empty() &&
-      !circuit_.elements.empty())
+      circuit_.switches.empty() && !circuit_.elements.empty())
     add_state();
   circuit_.scope = global_;
   return std::move(circuit_);

@@ -122,8 +122,8 @@ class CircuitReader {
   void add_diode(const Card& card, const Part& part, const std::string& prefix, const NodeMap& map,
                  const Scope& scope);
 
-  // A resistor whose conductance goes from off to on by the control, geometrically over 2 vh or, where that is 0, over a
-  // thousandth of vt.
+  // A resistor whose conductance goes from off to on by the control, geometrically from `voff` to `von` or, without `vh`, over a
+  // thousandth of vt; with `vh` a switch that keeps its state.
   void add_switch(const Card& card, const Part& part, const std::string& prefix, const NodeMap& map,
                   const Scope& scope);
 
@@ -149,6 +149,10 @@ class CircuitReader {
 
   void add_instance(const Card& card, const Part& around, const std::string& prefix,
                     const NodeMap& map, const Scope& scope);
+
+  // … at both of whose states its resistance is one number.
+  void add_hysteresis(const NetlistSwitch& hysteresis, Json element, const StaticElement& fixed,
+                      const std::string& off, const std::string& on, int line);
 
   // What elements say of others.
   void connect();
@@ -182,6 +186,7 @@ class CircuitReader {
     std::string by;
   };
   std::vector<LawControl> law_controls_;
+  std::vector<std::pair<std::size_t, std::string>> switch_controls_;  // of circuit_.switches, keys
 };
 
 NetlistCircuit read_circuit(const Deck& deck, LineProblems& problems);

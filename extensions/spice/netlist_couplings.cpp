@@ -13,6 +13,8 @@ void CircuitReader::connect() {
     circuit_.fixed.elements[element].control = names_.at(by).element;
   for (const auto& [law, control, by] : law_controls_)
     law->controls[control].element = names_.at(by).element;
+  for (const auto& [place, by] : switch_controls_)
+    circuit_.switches[place].source = names_.at(by).element;
   std::vector<std::size_t> gone;
   for (const Coupling& coupling : couplings_) {
     const Named &first = names_.at(coupling.inductors[0]),

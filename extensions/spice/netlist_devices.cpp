@@ -76,23 +76,25 @@ void CircuitReader::add_switch(const Card& card, const Part& part, const std::st
     const std::string at_on = used.formula(on, "1"), at_off = used.formula(off, "0");
     middle = "((" + at_on + " + " + at_off + ")/2)";
     half = "((" + at_on + " - " + at_off + ")/2)";
-  } else if (circuit_.value_of(half, line) > 0.0) {
-    circuit_.notes.emplace_back(
-        line, "the hysteresis of the switch has no memory here: it goes over between " + letter +
-                  "t - " + letter + "h and " + letter + "t + " + letter + "h, both ways alike");
   }
+  const bool has_memory = !used.model->values.contains(on) && !used.model->values.contains(off) &&
+                          circuit_.value_of(half, line) > 0.0;
   double width = circuit_.value_of(half, line);
   if (width == 0.0) {
     width = 1e-3 * std::max(std::abs(circuit_.value_of(middle, line)), 1e-3);
     half = exact_text(width);
   }
-  std::string control;
+  NetlistSwitch hysteresis;
+  std::string source;
   if (by_voltage) {
-    const std::size_t plus = node(card.word(3, "node"), prefix, map, line);
-    control = difference(plus, node(card.word(4, "node"), prefix, map, line));
+    hysteresis.plus = node(card.word(3, "node"), prefix, map, line);
+    hysteresis.minus = node(card.word(4, "node"), prefix, map, line);
+    hysteresis.control = difference(hysteresis.plus, hysteresis.minus);
   } else {
-    control = "i_" + names_.at(reference(card.word(3, "source"), 'v', prefix, line)).name;
+    source = reference(card.word(3, "source"), 'v', prefix, line);
+    hysteresis.control = "i_" + names_.at(source).name;
   }
+  const std::string& control = hysteresis.control;
   const std::string s =
       "min(max((" + control + " - (" + middle + "))/(2*(" + half + ")) + 0.5, 0), 1)";
   const std::string smooth = s + "^2*(3 - 2*" + s + ")";
@@ -104,6 +106,16 @@ void CircuitReader::add_switch(const Card& card, const Part& part, const std::st
   fixed.to = node(card.word(2, "second node"), prefix, map, line);
   element["from"] = circuit_.nodes[fixed.from];
   element["to"] = circuit_.nodes[fixed.to];
+  if (has_memory) {
+    hysteresis.name = named.name;
+    hysteresis.low = "(" + middle + " - (" + half + "))";
+    hysteresis.high = "(" + middle + " + (" + half + "))";
+    hysteresis.begins_on = card.words.back() == "on";
+    if (!by_voltage) switch_controls_.emplace_back(circuit_.switches.size(), source);
+    named.entry = circuit_.elements.size();
+    named.element = circuit_.fixed.elements.size();
+    return add_hysteresis(hysteresis, std::move(element), fixed, off_value, on_value, line);
+  }
   const std::string conductance =
       "exp(-log(" + off_value + ") + log((" + off_value + ")/(" + on_value + "))*" + smooth + ")";
   law_of(element, fixed, difference(fixed.from, fixed.to) + "*" + conductance, prefix, line);
@@ -111,6 +123,32 @@ void CircuitReader::add_switch(const Card& card, const Part& part, const std::st
   element["current"] = "v_" + named.name + "*" + conductance;
   named.entry = circuit_.elements.size();
   named.element = put(element, fixed, line);
+}
+
+void CircuitReader::add_hysteresis(const NetlistSwitch& hysteresis, Json element,
+                                   const StaticElement& fixed, const std::string& off,
+                                   const std::string& on, int line) {
+  NetlistSwitch& made = circuit_.switches.emplace_back(hysteresis);
+  made.off = circuit_.value_of(off, line);
+  made.on = circuit_.value_of(on, line);
+  made.below = circuit_.value_of(made.low, line);
+  made.above = circuit_.value_of(made.high, line);
+  made.element = circuit_.fixed.elements.size();
+  circuit_.at_rest = circuit_.at_rest && !made.begins_on && made.above >= 0.0;
+  const std::string memory = names_of_elements_.of(made.name + "_on");
+  made.state = "q_" + memory;
+  element["current"] = "v_" + made.name + "/if(" + made.state + " > 0.5, " + on + ", " + off + ")";
+  StaticElement resistor = fixed;
+  resistor.kind = StaticElement::Kind::resistor;
+  resistor.value = made.begins_on ? made.on : made.off;
+  put(element, resistor, line);
+  const std::size_t own = made.memory = own_node(memory, line);
+  put({{"type", "capacitor"},
+       {"name", memory},
+       {"from", circuit_.nodes[own]},
+       {"to", circuit_.nodes[0]},
+       {"energy", "0"}},
+      {.kind = StaticElement::Kind::capacitor, .from = own, .value = 1.0}, line);
 }
 
 }  // namespace courant::netlist

@@ -49,11 +49,12 @@ BOOST_AUTO_TEST_CASE(areas_of_diodes) {
   BOOST_TEST(circuit_of("V1 a 0 1\nD1 a 0 dm\n.model dm d").junctions.empty());
 }
 
-// By hand: 1 kΩ below 2 V - 1 V, 10 Ω above 2 V + 1 V, the geometric middle of both at 2 V; and so by a current.
+// By hand: 1 kΩ below 1 V, 10 Ω above 3 V, the geometric middle of both at 2 V; and so by a current.
 BOOST_AUTO_TEST_CASE(switches_go_over_between_two_resistances) {
   const NetlistCircuit circuit = circuit_of(
       "V1 a 0 1\nV2 g 0 1\nS1 a 0 g 0 sm\nW1 a 0 V2 wm on\n"
-      ".model sm sw vt=2 vh=1 ron=10 roff=1k\n.model wm iswitch ion=3 ioff=1 ron=10 roff=1k");
+      ".model sm vswitch von=3 voff=1 ron=10 roff=1k\n.model wm iswitch ion=3 ioff=1 ron=10 "
+      "roff=1k");
   for (const auto& [control, conductance] :
        {std::pair(-5.0, 1e-3), {0.9, 1e-3}, {2.0, 1e-2}, {3.1, 0.1}, {9.0, 0.1}})
     BOOST_TEST(
@@ -62,8 +63,45 @@ BOOST_AUTO_TEST_CASE(switches_go_over_between_two_resistances) {
   BOOST_TEST(circuit.elements[2].at("type") == "resistor");
   BOOST_TEST(circuit.elements[3].at("current").get<std::string>().find("i_V2") !=
              std::string::npos);
-  BOOST_TEST_REQUIRE(circuit.notes.size() == 1u);
-  BOOST_TEST(circuit.notes[0].second.starts_with("the hysteresis of the switch has no memory"));
+  BOOST_TEST(circuit.notes.empty());
+}
+
+// With vh a switch keeps its state between vt - vh and vt + vh.
+BOOST_AUTO_TEST_CASE(switches_with_hysteresis_have_a_state) {
+  const NetlistCircuit circuit = circuit_of(
+      "V1 a 0 1\nV2 g 0 1\nR2 g 0 1\nS1 a 0 g 0 sm\nW1 a 0 V2 wm on\n"
+      ".model sm sw vt=2 vh=1 ron=10 roff=1k\n.model wm csw it=2 ih=1 ron=10 roff=1k");
+  BOOST_TEST_REQUIRE(circuit.switches.size() == 2u);
+  const NetlistSwitch &by_voltage = circuit.switches[0], &by_current = circuit.switches[1];
+  BOOST_TEST(by_voltage.below == 1.0);
+  BOOST_TEST(by_voltage.above == 3.0);
+  BOOST_TEST(!by_voltage.begins_on);
+  BOOST_TEST(by_current.begins_on);
+  BOOST_TEST(by_current.source.value() == 1u);
+  BOOST_TEST(circuit.fixed.elements[by_voltage.element].value == 1e3);
+  BOOST_TEST(circuit.fixed.elements[by_current.element].value == 10.0);
+  BOOST_TEST(circuit.elements[3].at("current") == "v_S1/if(q_S1_on > 0.5, 10, 1000)");
+}
+
+// Where the control is between its thresholds the netlist says whether it is on, else they do; that of another switch may
+// follow from it.
+BOOST_AUTO_TEST_CASE(switches_begin_as_at_the_operating_point) {
+  const auto begins = [](const std::string& control, const std::string& flag) {
+    NetlistCircuit circuit =
+        circuit_of("V1 a 0 10\nV2 g 0 " + control + "\nR1 a m 1k\nS1 m 0 g 0 sm " + flag +
+                   "\nR2 a n 1k\nS2 n 0 m 0 sm\n.model sm sw vt=2 vh=1 ron=1 roff=1meg");
+    set_switches(circuit.fixed, circuit.switches);
+    return std::pair(circuit.switches[0].begins_on, circuit.switches[1].begins_on);
+  };
+  BOOST_TEST((begins("0.5", "on") == std::pair(false, true)));
+  BOOST_TEST((begins("2", "") == std::pair(false, true)));
+  BOOST_TEST((begins("2", "on") == std::pair(true, false)));
+  BOOST_TEST((begins("4", "") == std::pair(true, false)));
+  // A source of current charges a capacitor that its switch discharges: at rest it is neither on nor off.
+  NetlistCircuit oscillator = circuit_of(
+      "C1 a 0 1n\nI1 0 a 100u\nS1 a 0 a 0 sm\n.model sm sw vt=2.5 vh=2.475 ron=1 roff=10meg");
+  BOOST_TEST(!set_switches(oscillator.fixed, oscillator.switches));
+  BOOST_TEST(!oscillator.switches[0].begins_on);
 }
 
 BOOST_AUTO_TEST_CASE(what_a_device_does_not_have_is_refused) {
