@@ -6,6 +6,8 @@
 #include "courant/cli/experiment_file.hpp"
 #include "courant/cli/force.hpp"
 #include "courant/core/files/own_file.hpp"
+#include "courant/extensions/importing/included_text.hpp"
+#include "courant/extensions/robots/import_robot.hpp"
 #include "courant/extensions/spice/netlist.hpp"
 
 namespace courant::cli {
@@ -14,12 +16,13 @@ namespace {
 int import(const Console& console, const std::string& file, const std::string& output, bool force) {
   const OwnFiles files("import", force);
   if (!output.empty()) files.check(output);
-  const auto text = read_input(console, file, "a netlist");
+  const auto text = read_input(console, file, "a netlist or a robot");
   if (!text) return wrong;
   return reporting_errors(console, file, [&]() -> int {
     std::vector<Problem> notes;
-    const Json experiment =
-        import_netlist(*text, &notes, files_below(std::filesystem::path(file).parent_path()));
+    const IncludedText beside = files_below(std::filesystem::path(file).parent_path());
+    const Json experiment = is_robot_file(file, *text) ? import_robot(*text, &notes, beside)
+                                                       : import_netlist(*text, &notes, beside);
     for (const auto& [where, what] : notes)
       print_error(console, "note: " + file + ": " + where + ": " + what);
     // A title may have letters that are not UTF-8.
@@ -36,8 +39,10 @@ int import(const Console& console, const std::string& file, const std::string& o
 
 void add_import(CLI::App& app, Session& session) {
   auto file = std::make_shared<std::string>(), output = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("import", "Make an experiment of a SPICE netlist");
-  command->add_option("FILE", *file, "the netlist, - for standard input")->required();
+  CLI::App* command = app.add_subcommand(
+      "import",
+      "Make an experiment of a SPICE netlist (.cir) or of a robot (.urdf, .sdf, MJCF .xml)");
+  command->add_option("FILE", *file, "the netlist or the robot, - for standard input")->required();
   command->add_option("-o,--output", *output, "where to write; by default to standard output")
       ->type_name("FILE");
   auto force = std::make_shared<bool>(false);

@@ -1,4 +1,6 @@
 // Experiments, and what is asked of them without a run.
+#include "courant/extensions/importing/included_text.hpp"
+#include "courant/extensions/robots/import_robot.hpp"
 #include "courant/extensions/spice/netlist.hpp"
 #include "courant/plotting/palette.hpp"
 #include "courant/python/objects.hpp"
@@ -112,6 +114,13 @@ void bind_experiments(py::module_& module) {
   });
   module.def("imported_netlist",
              [](const std::string& text) { return import_netlist(text).dump(); });
+  module.def("imported_robot", [](const std::string& text, const std::string& folder) {
+    std::vector<Problem> notes;
+    const Json experiment = import_robot(text, &notes, files_below(folder));
+    std::vector<std::string> lines;
+    for (const Problem& note : notes) lines.push_back(note.line());
+    return std::pair(experiment.dump(), lines);
+  });
   module.def("catalogue", [] {
     Json all = Json::object();
     for (const Shelf& shelf : courant::catalogue()) {

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
 #include "courant/core/words/message.hpp"
@@ -377,7 +375,7 @@ class Import {
     }
   }
 
-  LineProblems problems_;
+  LineProblems problems_{"the netlist"};
   std::vector<Problem> notes_;
   Deck deck_;
   std::string title_;
@@ -392,23 +390,6 @@ class Import {
 };
 
 }  // namespace
-
-IncludedText files_below(const std::filesystem::path& folder) {
-  namespace fs = std::filesystem;
-  return [root = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder)](
-             const std::string& file) -> std::string {
-    constexpr std::uintmax_t largest = std::uintmax_t{16} << 20;  // bytes
-    std::error_code error;
-    const fs::path path = fs::weakly_canonical(root / file, error);
-    const fs::path below = path.lexically_relative(root);
-    if (error || below.empty() || *below.begin() == "..")
-      throw std::runtime_error("is outside of the netlist's folder; expected one below it");
-    if (!fs::is_regular_file(path, error)) throw std::runtime_error("is not there");
-    if (fs::file_size(path, error) > largest) throw std::runtime_error("is larger than 16 MB");
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  };
-}
 
 Json import_netlist(std::string_view text, std::vector<Problem>* notes,
                     const IncludedText& included) {

@@ -1,7 +1,6 @@
 // SPICE netlists as experiments.
 #pragma once
 
-#include <filesystem>
 #include <string_view>
 #include <vector>
 
@@ -19,9 +18,6 @@ namespace courant {
 // Throws ExperimentError with every line that is wrong or not supported, as `line 7`. `notes` are of
 // lines that have no effect. `included` gives the text of a file that the netlist includes.
 Json import_netlist(std::string_view text, std::vector<Problem>* notes = nullptr,
-                    const netlist::IncludedText& included = {});
-
-// The files of a folder, and of those below, and no others: what a netlist may include.
-netlist::IncludedText files_below(const std::filesystem::path& folder);
+                    const IncludedText& included = {});
 
 }  // namespace courant

@@ -13,25 +13,6 @@
 
 namespace courant::netlist {
 
-// What is wrong with a netlist, by lines. The same of one line is told once: a line of a subcircuit
-// is read for each instance.
-class LineProblems {
- public:
-  // Line 0 is the whole.
-  void add(int line, const std::string& what);
-  // Does it; a LineError is a problem. `origin`: of a line of an included file.
-  void guard(const std::function<void()>& action, const std::string& origin = "");
-  bool empty() const { return problems_.empty(); }
-  // Throws ExperimentError, in the order of the lines, unless empty().
-  void require_none() const;
-
- private:
-  std::vector<std::pair<int, std::string>> problems_;
-};
-
-// `rs`, `rs and cjo`, `rs, cjo and tt`
-std::string in_words(const std::vector<std::string>& names);
-
 // `name = value` of a netlist, with the number of its line.
 struct Assignment {
   std::string name, value;

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "courant/extensions/importing/different_names.hpp"
 #include "courant/extensions/spice/netlist_behaviour.hpp"
 #include "courant/extensions/spice/netlist_circuit.hpp"
-#include "courant/extensions/spice/netlist_names.hpp"
 #include "courant/extensions/spice/netlist_parameters.hpp"
 
 namespace courant::netlist {

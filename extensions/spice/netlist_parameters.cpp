@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "courant/extensions/importing/different_names.hpp"
 #include "courant/extensions/spice/netlist_behaviour.hpp"
-#include "courant/extensions/spice/netlist_names.hpp"
 
 namespace courant::netlist {
 

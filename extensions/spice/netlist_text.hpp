@@ -1,20 +1,16 @@
 // The text of a SPICE netlist: lines, words, numbers and expressions.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace courant::netlist {
+#include "courant/extensions/importing/included_text.hpp"
+#include "courant/extensions/importing/line_problems.hpp"
 
-// What is wrong with a line.
-struct LineError {
-  int line;
-  std::string what;
-};
+namespace courant::netlist {
 
 // A line with those that continue it: its words in lower case, `{…}` and '…' as one word with
 // braces; "(", ")" and "," are spaces, "=" is a word.
@@ -26,9 +22,6 @@ struct Line {
   std::vector<std::string> written;  // the same in the case of the text
   std::string origin = {};           // of an included file: `models.lib, line 7`
 };
-
-// The text of a file that .include or .lib names. Throws std::runtime_error with what is wrong with it.
-using IncludedText = std::function<std::string(const std::string& file)>;
 
 // All lines after the title but comments, with those of included files and what .func defines put in their
 // places. `title` is the first line. Lines of included files have the number of the line that includes them.

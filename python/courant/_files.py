@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from collections.abc import Mapping
 
 from courant import _courant as core
@@ -40,15 +41,26 @@ def load(path, **keys) -> Experiment:
     Parameters
     ----------
     path : path
-        ``.json``, an experiment; ``.cir``, a netlist of SPICE.
+        ``.json``, an experiment; ``.cir``, a netlist of SPICE; ``.urdf``, ``.sdf``, MuJoCo's ``.xml``, a robot.
     **keys
         Other values than those of the file, see :func:`courant.run`.
+
+    Raises
+    ------
+    ExperimentError
+        Where the file is wrong or not supported, with the line. What is left out of a robot is a warning each.
     """
     path = os.fspath(path)
     suffix = os.path.splitext(path)[1].lower()
     if suffix in (".cir", ".net", ".sp", ".spice"):
         with open(path, encoding="utf-8", errors="replace") as file:
             return Experiment(json.loads(core.imported_netlist(file.read())), **keys)
+    if suffix in (".urdf", ".sdf", ".world", ".xml", ".mjcf", ".xacro"):
+        with open(path, encoding="utf-8", errors="replace") as file:
+            document, notes = core.imported_robot(file.read(), os.path.dirname(path))
+        for note in notes:
+            warnings.warn(f"{path}: {note}", stacklevel=2)
+        return Experiment(json.loads(document), **keys)
     if suffix == ".json":
         return Experiment(path, **keys)
-    raise ValueError(f"{path}: there is no import of {suffix or 'such'} files; expected .json or .cir")
+    raise ValueError(f"{path}: there is no import of {suffix or 'such'} files; expected .json, .cir, .urdf, .sdf or .xml")

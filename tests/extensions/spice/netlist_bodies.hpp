@@ -9,7 +9,7 @@ namespace courant {
 
 inline netlist::NetlistCircuit circuit_of(const std::string& body,
                                           const std::string& transient = ".tran 1u 1m") {
-  netlist::LineProblems problems;
+  LineProblems problems{"the netlist"};
   const netlist::Deck deck =
       netlist::read_deck("A title\n" + body + "\n" + transient + "\n", problems);
   netlist::NetlistCircuit circuit = netlist::read_circuit(deck, problems);

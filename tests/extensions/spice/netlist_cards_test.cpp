@@ -13,7 +13,7 @@ using namespace courant::netlist;
 namespace {
 
 Deck deck_of(const std::string& body) {
-  LineProblems problems;
+  LineProblems problems{"the netlist"};
   Deck deck = read_deck("A title\n" + body + "\n", problems);
   problems.require_none();
   return deck;
@@ -131,7 +131,7 @@ BOOST_AUTO_TEST_CASE(cards_out_of_place_are_refused) {
 }
 
 BOOST_AUTO_TEST_CASE(problems_are_told_once_in_the_order_of_lines) {
-  LineProblems problems;
+  LineProblems problems{"the netlist"};
   BOOST_TEST(problems.empty());
   problems.add(0, "has no end");
   problems.add(9, "is late");

@@ -14,7 +14,7 @@ namespace {
 
 struct Defined {
   NetlistCircuit circuit;
-  LineProblems problems;
+  LineProblems problems{"the netlist"};
   NetlistParameters parameters{circuit, problems};
   Scope scope;
 };

@@ -18,7 +18,7 @@ namespace courant {
 //  * potentials of .ic are no initial voltages of capacitors
 //  * a corner of a pulse stands for the first period alone (extensions/spice/netlist_sources.cpp)
 //  * AC behind a waveform is a value of it (extensions/spice/netlist_sources.cpp)
-//  * names that look alike are one (extensions/spice/netlist_names.cpp)
+//  * names that look alike are one (extensions/importing/different_names.cpp)
 //  * an error that changes its sign after the edge of a pulse is taken for none of the method
 //    (running/energy_watch.cpp)
 //  * a change of H that ports account for is a finding (running/energy_watch.cpp)
@@ -114,8 +114,8 @@ BOOST_AUTO_TEST_CASE(waveforms) {
   for (const double t : {0.5, 3.5, 6.5}) BOOST_TEST(source_at(again, t) == 0.0);
   for (const double t : {2.0, 5.0, 8.0})
     BOOST_TEST(std::abs(source_at(again, t) - (1.0 - std::exp(-2.0))) < 1e-12);
-  BOOST_CHECK_THROW(source_at({"sin", "colour", "=", "2"}, 1.2), netlist::LineError);
-  BOOST_CHECK_THROW(source_at({"pulse", "iv", "=", "1"}, 1.2), netlist::LineError);
+  BOOST_CHECK_THROW(source_at({"sin", "colour", "=", "2"}, 1.2), LineError);
+  BOOST_CHECK_THROW(source_at({"pulse", "iv", "=", "1"}, 1.2), LineError);
 }
 
 BOOST_AUTO_TEST_CASE(expressions_of_constants) {
@@ -125,7 +125,7 @@ BOOST_AUTO_TEST_CASE(expressions_of_constants) {
                       (std::asinh(2.0) + 3.0 - std::atanh(0.5))) < 1e-14);
   BOOST_TEST(value("{max(1, 4, 2) + min(3)}") == 7.0);
   BOOST_TEST(value("{temper}") == 27.0);
-  BOOST_CHECK_THROW(value("{v(a)}"), netlist::LineError);
+  BOOST_CHECK_THROW(value("{v(a)}"), LineError);
 }
 
 // Comments of all dialects, and a netlist whose commands have quotes of their own.
@@ -421,7 +421,7 @@ BOOST_AUTO_TEST_CASE(three_coils_on_one_core) {
 
 // Files beside the netlist, and below it; none outside.
 BOOST_AUTO_TEST_CASE(files_are_included_from_the_folder_alone) {
-  const netlist::IncludedText files = [](const std::string& file) -> std::string {
+  const IncludedText files = [](const std::string& file) -> std::string {
     if (file == "models.lib") return "* models\n.model dm d is=1e-12\n.param half={r/2}\n";
     if (file == "sections.lib")
       return ".lib fast\n.param r=1k\n.endl\n.lib slow\n.param r=2k\n.endl\n";

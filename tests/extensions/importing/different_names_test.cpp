@@ -1,13 +1,13 @@
-#include "courant/extensions/spice/netlist_names.hpp"
+#include "courant/extensions/importing/different_names.hpp"
 
 #include <boost/test/unit_test.hpp>
 
 // Mistakes that these cases have to notice:
 //  * a new name is that of a later word
-BOOST_AUTO_TEST_SUITE(netlist_names)
+BOOST_AUTO_TEST_SUITE(different_names_test)
 
-using courant::netlist::DifferentNames;
-using courant::netlist::identifier;
+using courant::DifferentNames;
+using courant::identifier;
 
 BOOST_AUTO_TEST_CASE(what_is_no_letter_becomes_an_underscore) {
   BOOST_TEST(identifier("R-1") == "R_1");

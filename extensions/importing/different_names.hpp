@@ -1,11 +1,11 @@
-// Names of SPICE as names of formulas.
+// Names of a file of another program as names of formulas.
 #pragma once
 
 #include <map>
 #include <set>
 #include <string>
 
-namespace courant::netlist {
+namespace courant {
 
 // The text with _ for what is no letter and no digit, and `_plus` and `_minus` for + and - at its end.
 std::string identifier(const std::string& text);
@@ -14,7 +14,7 @@ std::string identifier(const std::string& text);
 // is another one's name, R_1_2. A name that is an identifier is kept.
 class DifferentNames {
  public:
-  // All words of the netlist: what stands there is no name for anything else.
+  // All words of the file: what stands there is no name for anything else.
   explicit DifferentNames(std::set<std::string> words) : taken_(std::move(words)) {}
 
   const std::string& of(const std::string& written);
@@ -24,4 +24,4 @@ class DifferentNames {
   std::map<std::string, std::string> names_;
 };
 
-}  // namespace courant::netlist
+}  // namespace courant

@@ -1,8 +1,8 @@
-#include "courant/extensions/spice/netlist_names.hpp"
+#include "courant/extensions/importing/different_names.hpp"
 
 #include <cctype>
 
-namespace courant::netlist {
+namespace courant {
 
 std::string identifier(const std::string& text) {
   std::string result;
@@ -30,4 +30,4 @@ const std::string& DifferentNames::of(const std::string& written) {
   return known->second = different;
 }
 
-}  // namespace courant::netlist
+}  // namespace courant
