@@ -112,8 +112,11 @@ void apply_setting(const Setting& setting, Json& document, const std::string& op
     const Json::json_pointer place(setting.pointer);
     const Json::json_pointer above = place.parent_pointer();
     Json* const parent = document.contains(above) ? &document.at(above) : nullptr;
-    // The short form of a kind, "midpoint", stands for {"type": "midpoint"}.
-    if (parent && parent->is_string() && !above.empty()) *parent = {{"type", *parent}};
+    // The short form of a kind, "midpoint", stands for {"type": "midpoint"}; that of initial values for {"rest": true}.
+    if (parent && *parent == "rest" && above == Json::json_pointer("/initial"))
+      *parent = {{"rest", true}};
+    else if (parent && parent->is_string() && !above.empty())
+      *parent = {{"type", *parent}};
     if (!parent || !(parent->is_object() || (parent->is_array() && document.contains(place))))
       refuse(option, setting.pointer,
              "there is no such place in the experiment; expected one, or a new key of an object");

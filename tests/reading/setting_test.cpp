@@ -47,6 +47,9 @@ BOOST_AUTO_TEST_CASE(a_word_stands_for_its_type) {
   apply_setting({"/method/discretization", "midpoint"}, document);
   BOOST_TEST(document ==
              Json({{"method", {{"type", "discretize-first"}, {"discretization", "midpoint"}}}}));
+  document = {{"initial", "rest"}};
+  apply_setting({"/initial/A", 0.3}, document);
+  BOOST_TEST(document == Json({{"initial", {{"rest", true}, {"A", 0.3}}}}));
 }
 
 BOOST_AUTO_TEST_CASE(a_table_of_cases_has_its_rows_as_cases) {
