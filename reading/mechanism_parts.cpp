@@ -201,22 +201,43 @@ class Reader {
     return true;
   }
 
-  // Components in space, or in the plane; the third one is 0 then.
+  // Components in space, or in the plane; the third one is 0 then, and may be written.
   std::optional<Formulas> components(const JsonReader& value) {
-    const Index n = mechanism_.is_plane ? 2 : 3;
     const auto formulas = read_formula_vector(value);
     if (!formulas) {
       right_ = false;
       return std::nullopt;
     }
-    if (std::ssize(formulas->formulas) != n) {
-      problem(value, "has " + std::to_string(formulas->formulas.size()) + " numbers; expected " +
-                         std::to_string(n) + (mechanism_.is_plane ? ", in a plane" : ""));
+    Formulas all = formulas->formulas;
+    if (mechanism_.is_plane && all.size() == 2) all.push_back(literal("0"));
+    if (all.size() != 3) {
+      problem(value, "has " + std::to_string(all.size()) + " numbers; expected " +
+                         (mechanism_.is_plane ? "2, in a plane" : "3"));
       return std::nullopt;
     }
-    Formulas all = formulas->formulas;
-    if (mechanism_.is_plane) all.push_back(literal("0"));
+    if (mechanism_.is_plane && !is_zero(all[2])) {
+      problem(value, "leaves the plane; expected 2 numbers, or 0 as the third");
+      return std::nullopt;
+    }
     return all;
+  }
+  bool is_zero(const WrittenFormula& formula) const {
+    Findings findings;
+    const auto value = evaluate_constants({{}, {formula}}, constants_, findings);
+    return value && (*value)[0] == 0.0;
+  }
+  // An axis, or angles, along z alone where all is in a plane.
+  Formulas along_z(const JsonReader& value) {
+    const auto formulas = read_formula_vector(value);
+    if (!formulas || !constant(formulas->formulas)) {
+      right_ = false;
+      return zeros();
+    }
+    const Formulas& f = formulas->formulas;
+    if (f.size() == 3 && is_zero(f[0]) && is_zero(f[1])) return f;
+    value.expected("[0, 0, z], in a plane");
+    right_ = false;
+    return zeros();
   }
   Formulas vector(const JsonReader& value) {
     const auto formulas = components(value);
@@ -239,7 +260,7 @@ class Reader {
     WrittenMechanism::Pose result{zeros(), rotation_formulas(zeros())};
     const auto value = object.optional(key);
     if (!value) return result;
-    if (mechanism_.is_plane) {
+    if (mechanism_.is_plane && !value->value().is_object()) {
       const auto formulas = read_formula_vector(*value);
       if (formulas && formulas->formulas.size() == 3) {
         if (!constant(formulas->formulas)) return result;
@@ -253,7 +274,8 @@ class Reader {
     ObjectReader entries(*value);
     if (!value->value().is_object()) right_ = false;
     if (const auto xyz = entries.optional("xyz")) result.xyz = vector(*xyz);
-    if (const auto rpy = entries.optional("rpy")) result.rotation = rotation_formulas(vector(*rpy));
+    if (const auto rpy = entries.optional("rpy"))
+      result.rotation = rotation_formulas(mechanism_.is_plane ? along_z(*rpy) : vector(*rpy));
     return result;
   }
 
@@ -321,16 +343,12 @@ class Reader {
     }
     const Formulas& f = formulas->formulas;
     const Shape& shape = formulas->shape;
-    if (mechanism_.is_plane) {
-      if (!shape.empty()) {
-        value.expected("a number, about the axis of z");
-        right_ = false;
-      } else if (constant(f)) {
-        body.inertia[2] = f[0];
-        if (!(evaluate(f[0], constants_).value() >= 0.0))
-          problem(value,
-                  "is " + exact_text(evaluate(f[0], constants_).value()) + "; expected at least 0");
-      }
+    if (mechanism_.is_plane && shape.empty()) {
+      if (!constant(f)) return;
+      body.inertia[2] = f[0];
+      if (!(evaluate(f[0], constants_).value() >= 0.0))
+        problem(value,
+                "is " + exact_text(evaluate(f[0], constants_).value()) + "; expected at least 0");
       return;
     }
     if (shape == Shape{6}) {
@@ -338,7 +356,8 @@ class Reader {
     } else if (shape == Shape{3, 3}) {
       body.inertia = {f[0], f[4], f[8], f[1], f[2], f[5]};
     } else {
-      value.expected("[xx, yy, zz, xy, xz, yz], or a 3 x 3 matrix");
+      value.expected(mechanism_.is_plane ? "a number, about the axis of z"
+                                         : "[xx, yy, zz, xy, xz, yz], or a 3 x 3 matrix");
       right_ = false;
       return;
     }
@@ -477,8 +496,7 @@ class Reader {
                  const std::string& word, WrittenMechanism::Joint& joint) {
     const bool in_plane = mechanism_.is_plane && joint.type == JointType::prismatic;
     if (mechanism_.is_plane && !in_plane) {
-      if (axis) problem(*axis, "is of a joint in a plane, where axes are z; expected no axis");
-      joint.axis = {literal("0"), literal("0"), literal("1")};
+      joint.axis = axis ? along_z(*axis) : Formulas{literal("0"), literal("0"), literal("1")};
     } else if (axis) {
       joint.axis = vector(*axis);
     } else {

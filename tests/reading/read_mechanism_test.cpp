@@ -148,18 +148,35 @@ BOOST_AUTO_TEST_CASE(a_name_has_one_meaning) {
 }
 
 BOOST_AUTO_TEST_CASE(in_a_plane_numbers_are_fewer) {
-  BOOST_TEST(with_in_plane("/joints/A/axis", "[0, 1]") ==
-             "/system/joints/A/axis: is of a joint in a plane, where axes are z; expected no axis");
+  BOOST_TEST(with_in_plane("/joints/A/axis", "[0, 1, 0]") ==
+             "/system/joints/A/axis: is an array; expected [0, 0, z], in a plane");
+  BOOST_TEST(with_in_plane("/joints/A/axis", "[0, 0, 0]") ==
+             "/system/joints/A/axis: is zero; expected a direction");
   BOOST_TEST(with_in_plane("/joints/A/origin", "[0, 1]") ==
              "/system/joints/A/origin: is an array; expected [x, y, angle], in a plane");
+  BOOST_TEST(with_in_plane("/joints/A/origin", R"({"rpy": [0.1, 0, 0]})") ==
+             "/system/joints/A/origin/rpy: is an array; expected [0, 0, z], in a plane");
   BOOST_TEST(with_in_plane("/gravity", "[0, 0, -9.81]") ==
-             "/system/gravity: has 3 numbers; expected 2, in a plane");
+             "/system/gravity: leaves the plane; expected 2 numbers, or 0 as the third");
+  BOOST_TEST(with_in_plane("/gravity", "[0]") ==
+             "/system/gravity: has 1 numbers; expected 2, in a plane");
   BOOST_TEST(with_in_plane("/joints/A/type", R"("ball")")
                  .starts_with("/system/joints/A/type: is \"ball\"; expected revolute"));
-  BOOST_TEST(with_in_plane("/bodies/rod/inertia", "[1, 1, 1, 0, 0, 0]") ==
+  BOOST_TEST(with_in_plane("/bodies/rod/inertia", "[1, 1]") ==
              "/system/bodies/rod/inertia: is an array; expected a number, about the axis of z");
   BOOST_TEST(
       with_in_plane("/plane", "1").starts_with("/system/plane: is 1; expected true or false"));
+}
+
+// A mechanism of space whose numbers lie in the plane is the same one.
+BOOST_AUTO_TEST_CASE(in_a_plane_numbers_of_space_are_taken) {
+  for (const auto& [place, value] :
+       {std::pair("/gravity", "[0, -9.81, 0]"),
+        {"/joints/A/axis", "[0, 0, 1]"},
+        {"/joints/A/origin", R"({"xyz": [1, 2, 0], "rpy": [0, 0, 0.3]})"},
+        {"/bodies/rod/center", "[0.5, 0, 0]"},
+        {"/bodies/rod/inertia", "[1, 1, 1, 0, 0, 0]"}})
+    BOOST_TEST(with_in_plane(place, value) == "", place);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
