@@ -34,6 +34,8 @@ class LinearSolver {
   // Keeps the factors of the matrix with these entries, in the order of the pattern. False, with no
   // factors kept, if they are not finite.
   bool factorize(const double* entries) { return do_factorize(entries); }
+  // What earlier matrices were like is forgotten: the next factors are to the bit those of a new solver.
+  void forget() { do_forget(); }
   // b: m numbers, x: n numbers. After factorize() has succeeded.
   void solve(const double* b, double* x) { do_solve(b, x); }
   // Whether A determines all of x: its columns are independent.
@@ -50,6 +52,7 @@ class LinearSolver {
  private:
   // To subclass, override:
   virtual bool do_factorize(const double* entries) = 0;
+  virtual void do_forget() {}
   virtual void do_solve(const double* b, double* x) = 0;
   virtual bool do_is_determined() const = 0;
   // May override, if A may leave unknowns open:

@@ -21,6 +21,8 @@ class SparseLu {
 
   // For S (n × n) of the pattern. False: a pivot is zero, and there are no factors.
   bool factorize(const Matrix& S);
+  // The next factors are those of a new object: pivots that earlier factors kept are sought anew.
+  void forget();
 
   // After factorize() has succeeded:
   double pivot_ratio() const;   // min |u_ii| / max |u_ii|; 1 for n = 0

@@ -28,6 +28,8 @@ bool SparseLu::factorize(const Matrix& S) {
   return factors_->info() == Eigen::Success;
 }
 
+void SparseLu::forget() {}  // keeps no pivots
+
 double SparseLu::pivot_ratio() const {
   if (factors_->cols() == 0) return 1.0;
   const Eigen::VectorXd pivots = factors_->pivots().cwiseAbs();

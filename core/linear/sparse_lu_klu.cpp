@@ -98,6 +98,8 @@ bool SparseLu::factorize(const Matrix& S) {
   return f.numeric != nullptr;
 }
 
+void SparseLu::forget() { klu_free_numeric(&factors_->numeric, &factors_->common); }
+
 double SparseLu::pivot_ratio() const {
   Factors& f = *factors_;
   if (f.symbolic == nullptr) return 1.0;

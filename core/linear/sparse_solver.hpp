@@ -6,10 +6,9 @@
 
 #include "courant/core/linear/dense_solver.hpp"
 #include "courant/core/linear/linear_solver.hpp"
+#include "courant/core/linear/sparse_lu.hpp"
 
 namespace courant {
-
-class SparseLu;
 
 // For large systems whose equations contain few unknowns each: networks, chains, grids. Time and memory
 // grow with the entries of the factors, which for chains and trees are as many as those of the matrix.
@@ -22,6 +21,9 @@ class SparseSolver final : public LinearSolver {
 
  private:
   bool do_factorize(const double* entries) override;
+  void do_forget() override {
+    if (lu_) lu_->forget();
+  }
   void do_solve(const double* b, double* x) override;
   bool do_is_determined() const override {
     return is_sparse_ || (dense_ && dense_->is_determined());

@@ -71,9 +71,10 @@ class Newton {
   // is open grow without bounds.
   void settle(VectorXd& y, const VectorXd& y0);
 
-  // Forgets the kept factorisation.
+  // Forgets the kept factorisation, and what the solver keeps of it.
   void reset() {
     factorized_ = false;
+    if (solver_) solver_->forget();
     round_off_ = 0.0;
   }
 

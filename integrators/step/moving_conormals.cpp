@@ -144,6 +144,7 @@ void MovingConormals::take_over(const MovingConormals& other) {
 
 void MovingConormals::forget() {
   is_found_ = false;
+  solver_->forget();
   kept_.setZero();
   conormals_.setZero();
 }
