@@ -51,10 +51,11 @@ ExprVector momentum_rates(const Mechanism& mechanism, const ExprVector& q, const
   const std::vector<ExprMatrix> maps = momentum_maps(mechanism, motion);
   const ExprMatrix M = mass_matrix(mechanism, motion, maps);
   const ExprVector flow = Q.frame(at) * moving, p = M * moving;
-  const ExprVector acceleration = solve(M, ExprMatrix(rate - tangent(p, at, flow)));
   ExprVector momenta(6 * std::ssize(maps));
   for (std::size_t b = 0; b < maps.size(); ++b)
     momenta.segment(6 * static_cast<Index>(b), 6) = maps[b] * moving;
+  // Where nothing heavy moves, any ẇ will do: no momentum has it in it.
+  const ExprVector acceleration = solve_semidefinite(M, ExprMatrix(rate - tangent(p, at, flow)));
   return substitute(tangent(momenta, joined(at, moving), joined(flow, acceleration)),
                     joined(at, moving, rate), joined(q, w, p_rate));
 }

@@ -14,8 +14,8 @@ namespace courant {
 //
 //   force = Σ (m a - loads),   torque = Σ (dL/dt + (c - o) × m a - moments of the loads about o)
 //
-// Accelerations are those of ṗ: M(q) ẇ = ṗ - Ṁ w, where p = M w are the momenta. Where M is singular, since bodies without
-// mass move, accelerations are no functions of these: std::domain_error if a pivot of M is identically zero.
+// Accelerations are those of ṗ: M(q) ẇ = ṗ - Ṁ w, where p = M w are the momenta. Where M is singular, since something moves
+// without mass, ẇ is one of many, and momenta do not differ by which.
 //
 //   q, w, p_rate   configuration (N), its velocity (Ñ), dp/dt (Ñ)
 //   lambda         of the conditions of mechanism.loops(), in their order

@@ -48,6 +48,38 @@ unsigned all_rows(const ExprMatrix& A, const char* function) {
   return (1U << A.rows()) - 1U;
 }
 
+void require_square(const ExprMatrix& A, const ExprMatrix& b, const char* function) {
+  if (A.cols() != A.rows() || b.rows() != A.rows())
+    throw std::invalid_argument(std::string(function) + ": A is " + std::to_string(A.rows()) +
+                                " x " + std::to_string(A.cols()) + " and b has " +
+                                std::to_string(b.rows()) +
+                                " rows; expected a square A with as many rows as b.");
+}
+
+// Takes unknown k out of the rows below row k; false, and nothing is done, if its pivot is identically zero.
+bool eliminate(Index k, ExprMatrix& A, ExprMatrix& b) {
+  if (A(k, k).is_constant(0.0)) return false;
+  for (Index i = k + 1; i < A.rows(); ++i) {
+    const Expr factor = A(i, k) / A(k, k);
+    if (factor.is_constant(0.0)) continue;
+    for (Index j = k + 1; j < A.rows(); ++j) A(i, j) -= factor * A(k, j);
+    for (Index j = 0; j < b.cols(); ++j) b(i, j) -= factor * b(k, j);
+  }
+  return true;
+}
+
+// U⁻¹ b, of the upper triangle U of A.
+ExprMatrix back_substituted(const ExprMatrix& A, ExprMatrix b) {
+  for (Index k = A.rows() - 1; k >= 0; --k) {
+    for (Index i = k + 1; i < A.rows(); ++i) {
+      if (A(k, i).is_constant(0.0)) continue;
+      for (Index j = 0; j < b.cols(); ++j) b(k, j) -= A(k, i) * b(i, j);
+    }
+    for (Index j = 0; j < b.cols(); ++j) b(k, j) = b(k, j) / A(k, k);
+  }
+  return b;
+}
+
 }  // namespace
 
 Expr determinant(const ExprMatrix& A) {
@@ -68,31 +100,23 @@ ExprMatrix adjugate(const ExprMatrix& A) {
 }
 
 ExprMatrix solve(ExprMatrix A, ExprMatrix b) {
-  const Index n = A.rows();
-  if (A.cols() != n || b.rows() != n)
-    throw std::invalid_argument("solve: A is " + std::to_string(A.rows()) + " x " +
-                                std::to_string(A.cols()) + " and b has " +
-                                std::to_string(b.rows()) +
-                                " rows; expected a square A with as many rows as b.");
-  for (Index k = 0; k < n; ++k) {
-    if (A(k, k).is_constant(0.0))
+  require_square(A, b, "solve");
+  for (Index k = 0; k < A.rows(); ++k)
+    if (!eliminate(k, A, b))
       throw std::domain_error("solve: pivot " + std::to_string(k) +
                               " is identically zero; expected regular leading minors.");
-    for (Index i = k + 1; i < n; ++i) {
-      const Expr factor = A(i, k) / A(k, k);
-      if (factor.is_constant(0.0)) continue;
-      for (Index j = k + 1; j < n; ++j) A(i, j) -= factor * A(k, j);
-      for (Index j = 0; j < b.cols(); ++j) b(i, j) -= factor * b(k, j);
+  return back_substituted(A, std::move(b));
+}
+
+ExprMatrix solve_semidefinite(ExprMatrix A, ExprMatrix b) {
+  require_square(A, b, "solve_semidefinite");
+  for (Index k = 0; k < A.rows(); ++k)
+    if (!eliminate(k, A, b)) {  // then row k of what is left is zero
+      A.row(k).setConstant(0.0);
+      A(k, k) = 1.0;
+      b.row(k).setConstant(0.0);
     }
-  }
-  for (Index k = n - 1; k >= 0; --k) {
-    for (Index i = k + 1; i < n; ++i) {
-      if (A(k, i).is_constant(0.0)) continue;
-      for (Index j = 0; j < b.cols(); ++j) b(k, j) -= A(k, i) * b(i, j);
-    }
-    for (Index j = 0; j < b.cols(); ++j) b(k, j) = b(k, j) / A(k, k);
-  }
-  return b;
+  return back_substituted(A, std::move(b));
 }
 
 }  // namespace courant
