@@ -14,13 +14,6 @@ Event::Direction direction(ObjectReader& entry) {
   return Event::Direction::either;
 }
 
-// Whether a momentum goes with the coordinate, so that its velocity can be set.
-bool has_momentum(const Model& model, Index coordinate) {
-  const std::vector<std::string>& names = model.system->names().coordinates;
-  return std::ranges::find(names, "p_" + names[static_cast<std::size_t>(coordinate)]) !=
-         names.end();
-}
-
 // The entry `key` of "set", of one number or of an array of them.
 void read_reset(const std::string& key, const JsonReader& value, const Model& model,
                 const SymbolTable& symbols, std::vector<Event::Reset>& resets) {
@@ -33,7 +26,7 @@ void read_reset(const std::string& key, const JsonReader& value, const Model& mo
       return value.problem("has " + std::to_string(formulas->formulas.size()) +
                            " values; expected " + std::to_string(count) + ", for " + key);
     for (Index i = 0; i < count; ++i) {
-      if (reference.is_velocity && !has_momentum(model, first + i))
+      if (reference.is_velocity && !model.system->names().momentum_of(first + i))
         return value.problem(
             "is set as a velocity that has no momentum; expected a coordinate of the state");
       const WrittenFormula& formula = formulas->formulas[static_cast<std::size_t>(i)];

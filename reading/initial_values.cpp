@@ -225,12 +225,11 @@ bool rest(const Model& model, InitialValues& values) {
     if (!vector.given[i]) vector.values[i] = 0.0;
     vector.given[i] = true;
   };
-  const std::vector<std::string>& names = system.names().coordinates;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto momentum = std::ranges::find(names, "p_" + names[i]);
-    if (momentum == names.end()) continue;
+  for (Index i = 0; i < M.ambient_dimension(); ++i) {
+    const auto momentum = system.names().momentum_of(i);
+    if (!momentum) continue;
     any = true;
-    if (!values.x.given[momentum - names.begin()]) set(values.velocity, static_cast<Index>(i));
+    if (!values.x.given[*momentum]) set(values.velocity, i);
   }
   if (any || M.tangent_dimension() != M.ambient_dimension()) return any;
   Graph graph;

@@ -69,17 +69,14 @@ std::optional<Restart> EventResets::operator()(std::size_t event, const State& a
   InitialValues initial = nothing_given(experiment_);
   initial.x.values = at.x;
   initial.x.given.setConstant(true);
-  const std::vector<std::string>& names = experiment_.model.system->names().coordinates;
-  const auto momentum_of = [&](Index i) {
-    return std::ranges::find(names, "p_" + names[static_cast<std::size_t>(i)]) - names.begin();
-  };
+  const ImplicitSystem::Names& names = experiment_.model.system->names();
   const Index N = at.x.size();
   if (experiment_.events[event].sets_velocities()) {
     initial.velocity.values = row.segment(places_[event] + std::ssize(resets), N);
     for (Index i = 0; i < N; ++i)
-      if (const Index p = momentum_of(i); p < std::ssize(names)) {
+      if (const auto momentum = names.momentum_of(i)) {
         initial.velocity.given[i] = true;
-        initial.x.given[p] = false;
+        initial.x.given[*momentum] = false;
       }
   }
   for (std::size_t i = 0; i < resets.size(); ++i) {
@@ -87,7 +84,7 @@ std::optional<Restart> EventResets::operator()(std::size_t event, const State& a
     if (!std::isfinite(value))
       throw std::domain_error("The event " + experiment_.events[event].name +
                               " at t = " + number_text(at.t) + " sets " +
-                              names[static_cast<std::size_t>(resets[i].coordinate)] +
+                              names.coordinates[static_cast<std::size_t>(resets[i].coordinate)] +
                               (resets[i].is_velocity ? "'" : "") + " to " + number_text(value) +
                               "; expected a number.");
     PartialVector& vector = resets[i].is_velocity ? initial.velocity : initial.x;

@@ -1,6 +1,9 @@
 #include "courant/structures/implicit_system.hpp"
 
+#include <algorithm>
 #include <stdexcept>
+
+#include "courant/core/numbers/as_size.hpp"
 
 namespace courant {
 namespace {
@@ -23,6 +26,12 @@ void check_size(const char* function, const char* argument, Index size, Index ex
 }
 
 }  // namespace
+
+std::optional<Index> ImplicitSystem::Names::momentum_of(Index coordinate) const {
+  const auto found = std::ranges::find(coordinates, "p_" + coordinates[as_size(coordinate)]);
+  if (found == coordinates.end()) return std::nullopt;
+  return found - coordinates.begin();
+}
 
 ImplicitSystem::ImplicitSystem(std::shared_ptr<const Manifold> manifold, Index auxiliary_size,
                                Index equation_count, Names names)

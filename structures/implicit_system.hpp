@@ -29,6 +29,9 @@ class ImplicitSystem {
     std::vector<std::string> coordinates = {};  // N; default x[0] …
     std::vector<std::string> auxiliary = {};    // m; default z[0] …
     std::vector<std::string> equations = {};    // r; default equation[0] …
+
+    // The coordinate that is the momentum of this one by its name, p_x of x. Nothing where there is none.
+    std::optional<Index> momentum_of(Index coordinate) const;
   };
 
   virtual ~ImplicitSystem() = default;
