@@ -89,6 +89,8 @@ void read(const Json& json, HashedBytes::Record& record) {
 Json written(const HashedBytes::Record& record) {
   return {{"size", record.size}, {"part", record.part}, {"hashes", record.hashes}};
 }
+void read(const Json& json, std::set<long>& numbers) { numbers = json.get<std::set<long>>(); }
+Json written(const std::set<long>& numbers) { return numbers; }
 void read(const Json& json, bool& value) { value = json.get<bool>(); }
 void read(const Json& json, long& value) { value = json.get<long>(); }
 void read(const Json& json, std::string& value) { value = json.get<std::string>(); }
@@ -167,6 +169,7 @@ void each_member(Is<EventRecord> auto& event, const auto& visit) {
 void each_member(Is<EventWatch::Memory> auto& event_watch, const auto& visit) {
   visit("values", event_watch.values);
   visit("records", event_watch.records);
+  visit("behind", event_watch.behind);
   visit("file", event_watch.file);
 }
 

@@ -47,12 +47,12 @@ void EventWatch::set_curve(Stepper& stepper, Measure measure) {
 std::optional<RunEnd> EventWatch::watch(const RunMoment& moment) {
   if (end_) return end_;
   const auto count = static_cast<Index>(events_.size());
-  const std::set<std::size_t> behind = std::exchange(behind_, {});
+  const std::set<long> behind = std::exchange(memory_.behind, {});
   std::vector<Zero> zeros;
   try {
     for (std::size_t i = 0; moment.k > 0 && i < events_.size(); ++i) {
       const double after = moment.row[first_ + static_cast<Index>(i)];
-      if (behind.contains(i)) {
+      if (behind.contains(static_cast<long>(i))) {
         if (const auto back = events_[i].is_beyond(after) ? side_before(i, moment) : std::nullopt)
           zeros.push_back(locate(i, *back, moment));
         continue;
@@ -88,7 +88,7 @@ std::optional<EventWatch::Reset> EventWatch::go_on_behind(const Reset& reset, co
                                                           Stepper& way) {
   stepper_ = &way;
   const VectorXd before = std::exchange(memory_.values, row.segment(first_, std::ssize(events_)));
-  behind_.insert(reset.event);
+  memory_.behind.insert(static_cast<long>(reset.event));
   for (std::size_t i = 0; i < events_.size(); ++i) {
     const auto place = static_cast<Index>(i);
     if (i == reset.event || !events_[i].is_between(before[place], memory_.values[place])) continue;

@@ -34,6 +34,7 @@ class EventWatch final : public RunWatcher {
   struct Memory {
     VectorXd values = {};  // of the quantities at the last state
     std::map<std::string, EventRecord> records = {};
+    std::set<long> behind = {};     // events that set something at the last state
     HashedBytes::Record file = {};  // events.csv, where it is kept there
   };
 
@@ -109,7 +110,6 @@ class EventWatch final : public RunWatcher {
   std::optional<Stop> stop_;
   std::optional<RunEnd> end_;
   std::optional<Reset> reset_;
-  std::set<std::size_t> behind_;  // the events that set something where the step begins
 };
 
 }  // namespace courant

@@ -13,6 +13,7 @@ namespace courant {
 //  * velocities of a stage stand for those at the event (running/observed_quantities.cpp)
 //  * the second event of a step is not seen (running/event_watch.cpp, side_before)
 //  * what the jump itself passes is not told (running/event_watch.cpp, go_on_behind)
+//  * a run that goes on forgets what has just been set (running/checkpoint.cpp, behind)
 //  * parts of a step have no account of powers (running/runner.cpp, over_resets)
 BOOST_AUTO_TEST_SUITE(event_resets)
 
@@ -116,6 +117,18 @@ BOOST_AUTO_TEST_CASE(a_relay_remembers) {
 
 BOOST_AUTO_TEST_CASE(a_run_with_jumps_goes_on_with_the_same_bytes) {
   check_resumption(relay, {0, 60, 130, 199}, "relay");
+}
+
+// The ball lands where the first step ends, and again within the second, which a run that goes on makes.
+BOOST_AUTO_TEST_CASE(a_jump_where_an_epoch_ends_is_behind_the_run) {
+  Json thrown = with(ball, "/system/parameters", {{"m", 1}, {"g", 2}, {"k", 0.45}});
+  thrown["time"] = {{"step", 1}, {"end", 2}};
+  thrown["output"] = {{"epoch", 1}};
+  const std::vector<double> found = times(run_of(thrown), "bounce");
+  BOOST_TEST_REQUIRE(found.size() == 2u);
+  BOOST_TEST(found[0] == 1.0);
+  BOOST_TEST(std::abs(found[1] - 1.9) < 1e-12);
+  check_resumption(thrown, {1, 2}, "ball");
 }
 
 // What a jump of s passes is an event at its time: c follows s at once.
