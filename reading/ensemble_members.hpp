@@ -14,15 +14,13 @@ class EnsembleMembers {
   Index count() const;
   // By several threads at once. Throws ExperimentError where its values are wrong.
   Experiment operator()(Index i) const;
-  // Whether members differ in what they start with alone: then they have one system.
-  bool share_system() const { return shares_system_; }
 
  private:
   Json document(Index i) const;
 
   const Experiment& experiment_;
-  Json base_;  // with one member, which has no values
-  bool shares_system_ = true;
+  Json base_;                  // with one member, which has no values
+  bool shares_system_ = true;  // members differ in what they start with alone
 };
 
 }  // namespace courant

@@ -164,10 +164,8 @@ class EnsembleUnderway {
  private:
   RunInMemory run_of(Index i, bool is_first) const {
     RunInMemoryOptions options;
-    // Parameters are constants of compiled code: each member would be compiled anew.
-    options.run.backend = options_.backend == Backend::automatic && !members_.share_system()
-                              ? Backend::interpreter
-                              : options_.backend;
+    options.run.backend = options_.backend;
+    options.run.alike = members_.count();
     options.run.stop = options_.stop;
     options.run.ahead = false;  // the cores have work
     options.run.explains_start = is_first;

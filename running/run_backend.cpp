@@ -8,12 +8,19 @@ namespace {
 // the first in a tenth of a second, and of the last two in 20 s.
 constexpr long kManySteps = 20'000;
 
+// What is compiled takes a part of a millisecond to write down and load.
+constexpr long kSomeSteps = 1'000;
+
+bool is_short(const Experiment& experiment, long alike) {
+  if (!experiment.time || experiment.time->is_transformed()) return false;
+  const long steps = experiment.time->steps;
+  return steps < kManySteps && (steps < kSomeSteps || steps < (kManySteps + alike - 1) / alike);
+}
+
 }  // namespace
 
-Backend worthwhile(const Backend& asked, const Experiment& experiment) {
-  const bool is_short =
-      experiment.time && !experiment.time->is_transformed() && experiment.time->steps < kManySteps;
-  return asked == Backend::automatic && is_short ? Backend::interpreter : asked;
+Backend worthwhile(const Backend& asked, const Experiment& experiment, long alike) {
+  return asked == Backend::automatic && is_short(experiment, alike) ? Backend::interpreter : asked;
 }
 
 }  // namespace courant

@@ -76,7 +76,7 @@ class RunUnderway {
       : experiment_(experiment),
         keeper_(keeper),
         options_(options),
-        backend_(worthwhile(options.backend, experiment)),
+        backend_(worthwhile(options.backend, experiment, options.alike)),
         ladder_(start_of_run(experiment)),
         ladder_report_(options.explains_start
                            ? report_of_start(experiment, ladder_)
@@ -692,8 +692,8 @@ RunOutcome run(const Experiment& experiment, RunKeeper& keeper, const RunOptions
                           "makes many runs, and one is asked for; expected run_ensemble in C++, "
                           "courant.ensemble in Python, or no \"ensemble\"");
   if (experiment.time && !experiment.time->is_chosen) {
-    const ChosenStep chosen =
-        chosen_step(experiment, worthwhile(options.backend, experiment), options.stop);
+    const ChosenStep chosen = chosen_step(
+        experiment, worthwhile(options.backend, experiment, options.alike), options.stop);
     return run(*with_chosen_step(experiment, chosen), keeper, options);
   }
   if (experiment.boundary && !experiment.solution)

@@ -35,6 +35,8 @@ struct RunOptions {
   // Whether a thread of its own may make steps ahead of what is done with them, see RunSteps. All else is done, and
   // all of these are called, in the thread that called run().
   bool ahead = core_count() > 1;
+  // How many runs have the code of this one, but for numbers: the cases of a sweep, the members of an ensemble.
+  long alike = 1;
   // Whether the summary has the constraints of the start in formulas, which takes a part of the set-up.
   bool explains_start = true;
   // A run that goes on: after which step, at which time; 0 from its start.

@@ -129,13 +129,35 @@ Json entry_of(const SweepCase& one, const RunSummary& summary) {
           {"values", values}};
 }
 
+// Whether cases that differ in this alone differ in numbers of formulas. Whole numbers may be sizes.
+bool is_of_numbers(const ValueRange& range) {
+  const auto is_fraction = [](const Json& value) {
+    return value.is_number() && std::floor(value.get<double>()) != value.get<double>();
+  };
+  return (range.pointer.starts_with("/initial/") ||
+          range.pointer.starts_with("/system/parameters/")) &&
+         std::ranges::any_of(range.values, is_fraction);
+}
+
+// How many cases differ in numbers alone.
+std::size_t alike(std::span<const ValueRange> ranges) {
+  std::size_t count = 1;
+  for (std::size_t first = 0, end = 0; first < ranges.size(); first = end) {
+    for (end = first + 1; end < ranges.size() && ranges[end].is_tied;) ++end;
+    const auto together = ranges.subspan(first, end - first);
+    if (std::ranges::all_of(together, is_of_numbers)) count *= together.front().values.size();
+  }
+  return count;
+}
+
 }  // namespace
 
 std::vector<SweepCase> sweep_cases(const Json& document, std::span<const ValueRange> ranges) {
   std::vector<SweepCase> cases;
   const auto all = combinations(ranges);
   for (const auto& settings : all) {
-    SweepCase one{settings, name_of(cases.size() + 1, all.size(), settings), document};
+    SweepCase one{settings, name_of(cases.size() + 1, all.size(), settings), document,
+                  alike(ranges)};
     for (const Setting& setting : settings) apply_setting(setting, one.document, "--sweep");
     if (cases.empty()) require_used(one.document, settings, "--sweep");
     cases.push_back(std::move(one));
@@ -305,7 +327,8 @@ Json run_of_case(const SweepCase& one, const std::filesystem::path& folder, Back
                        .stop = stop,
                        .on_ladder = {},
                        .on_progress = {},
-                       .ahead = false});  // other cases run meanwhile
+                       .ahead = false,  // other cases run meanwhile
+                       .alike = static_cast<long>(one.alike)});
   RunSummary summary = outcome.summary;
   summary.expectations = outcome.expectations;
   Json entry = entry_of(one, summary);

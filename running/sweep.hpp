@@ -18,6 +18,7 @@ struct SweepCase {
   std::vector<Setting> settings;  // one for each swept place
   std::string name;               // of its folder, "03-theta=0.2": letters, digits and . = + - _ ,
   Json document;                  // with the settings
+  std::size_t alike = 1;  // how many cases have the same code but for numbers, see RunOptions
 };
 
 // A case for each combination of values. Throws ExperimentError where a place cannot be changed.

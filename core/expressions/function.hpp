@@ -88,11 +88,12 @@ class Function {
   }
   void value_with_held(const double* const* in, double* out) const {
     const auto native = native_->value.load(std::memory_order_acquire);
-    native != nullptr ? native(in, out) : run_value_->run(in, out);
+    native != nullptr ? native(in, native_->constants.data(), out) : run_value_->run(in, out);
   }
   void value_and_jacobian_with_held(const double* const* in, double* out) const {
     const auto native = native_->value_and_jacobian.load(std::memory_order_acquire);
-    native != nullptr ? native(in, out) : run_all_->run(in, out);
+    native != nullptr ? native(in, native_->constants_with_jacobian.data(), out)
+                      : run_all_->run(in, out);
   }
   // J as a matrix, from what value_and_jacobian has put out.
   MatrixXd dense_jacobian(const VectorXd& out) const;

@@ -9,7 +9,8 @@ namespace courant {
 // Code that a NativeCompiler made; valid as long as this object.
 class NativeCode {
  public:
-  using Evaluate = void (*)(const double* const* in, double* out);
+  // `constants`: of the formulas, which are no part of the code (Program::c_source).
+  using Evaluate = void (*)(const double* const* in, const double* constants, double* out);
 
   virtual ~NativeCode() = default;
   // Throws std::runtime_error if there is no such symbol.

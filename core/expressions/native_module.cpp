@@ -19,8 +19,12 @@ std::shared_ptr<const NativeModule::Entry> NativeModule::add(const Program& valu
                                                              const Program* value_and_jacobian) {
   Added added{std::make_shared<Entry>(), value_and_jacobian != nullptr,
               std::to_string(added_.size()), ""};
-  added.source = value.c_source(kValue + added.number);
-  if (added.has_jacobian) added.source += value_and_jacobian->c_source(kAll + added.number);
+  const auto add = [&](const Program& program, const char* symbol, std::vector<double>& constants) {
+    added.source += program.c_source(symbol + added.number, Program::Constants::passed);
+    constants = program.constants();
+  };
+  add(value, kValue, added.entry->constants);
+  if (added.has_jacobian) add(*value_and_jacobian, kAll, added.entry->constants_with_jacobian);
   added_.push_back(std::move(added));
   return added_.back().entry;
 }

@@ -12,13 +12,15 @@
 namespace courant {
 
 // C source of several functions, for one run of the compiler. What is long goes into a module of
-// its own, because compilers are told to optimise that less.
+// its own, because compilers are told to optimise that less. Functions that differ in their constants alone, as those of
+// the cases of a sweep do, have one source, which a compiler with a cache is given once.
 class NativeModule {
  public:
   // The machine code of a function; null before the module is compiled, and of what is not in it.
   struct Entry {
     std::atomic<NativeCode::Evaluate> value = nullptr;
     std::atomic<NativeCode::Evaluate> value_and_jacobian = nullptr;
+    std::vector<double> constants, constants_with_jacobian;  // that these are called with
     std::shared_ptr<const NativeCode> owner;
   };
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 
 #include "courant/core/expressions/program.hpp"
 
@@ -14,6 +15,14 @@ std::string exact(double value) {
   const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::hex).ptr;
   const std::string digits(buffer, end);
   return digits.front() == '-' ? "(-0x" + digits.substr(1) + ")" : "0x" + digits;
+}
+
+// Compilers turn a division by these into a product.
+bool is_small_power_of_two(double value) {
+  constexpr int largest = 5;
+  int exponent = 0;
+  return value == 0.0 ||
+         (std::fabs(std::frexp(value, &exponent)) == 0.5 && std::abs(exponent) <= largest);
 }
 
 // The operation in C; what it means is said by evaluate() in operation.hpp.
@@ -101,7 +110,7 @@ std::string expression(Op op, std::int32_t k, const std::string& a, const std::s
 
 }  // namespace
 
-std::string Program::c_source(const std::string& symbol) const {
+std::string Program::c_source(const std::string& symbol, Constants how) const {
   // Compilers take more than linear time for a function. So a long one calls parts, which hand on
   // in w the values that later ones need; v are the values within a part.
   constexpr std::size_t kWhole = 1000;
@@ -114,7 +123,10 @@ std::string Program::c_source(const std::string& symbol) const {
   const std::size_t first_value =
       loads_.empty() ? constants_.size() : std::size_t{loads_.back().slot} + loads_.back().count;
   std::vector<std::string> name(slots_);
-  for (std::size_t i = 0; i < constants_.size(); ++i) name[i] = exact(constants_[i]);
+  for (std::size_t i = 0; i < constants_.size(); ++i)
+    name[i] = how == Constants::written || is_small_power_of_two(constants_[i])
+                  ? exact(constants_[i])
+                  : "c[" + std::to_string(i) + "]";
   for (const Load& load : loads_)
     for (std::uint32_t i = 0; i < load.count; ++i)
       name[load.slot + i] =
@@ -169,17 +181,21 @@ std::string Program::c_source(const std::string& symbol) const {
     parts.push_back(part + store);
   }
 
+  const bool are_passed = how == Constants::passed;
+  const std::string constants = are_passed ? "const double *c, " : "";
+  const std::string unused =
+      std::string("  (void)in, ") + (are_passed ? "(void)c, " : "") + "(void)w, (void)out;\n}\n";
   std::string source, calls;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const std::string part = symbol + "_" + std::to_string(i);
     source += (whole ? "static void " : "__attribute__((noinline)) static void ") + part +
-              "(const double *const *in, double *w, double *out) {\n" +
-              parts[parts.size() - 1 - i] + "  (void)in, (void)w, (void)out;\n}\n";
-    calls += "  " + part + "(in, w, out);\n";
+              "(const double *const *in, " + constants + "double *w, double *out) {\n" +
+              parts[parts.size() - 1 - i] + unused;
+    calls += "  " + part + (are_passed ? "(in, c, w, out);\n" : "(in, w, out);\n");
   }
-  return source + "void " + symbol + "(const double *const *in, double *out) {\n  double w[" +
-         std::to_string(slots_ - first_value + 1) + "];\n" + calls +
-         "  (void)in, (void)w, (void)out;\n}\n";
+  return source + "void " + symbol + "(const double *const *in, " + constants +
+         "double *out) {\n  double w[" + std::to_string(slots_ - first_value + 1) + "];\n" + calls +
+         unused;
 }
 
 }  // namespace courant

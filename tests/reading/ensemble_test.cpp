@@ -69,7 +69,6 @@ BOOST_AUTO_TEST_CASE(members_have_numbers_of_lists_and_formulas) {
     BOOST_TEST(ensemble.values(i, 3) == 3.0);
   }
   const EnsembleMembers members(experiment);
-  BOOST_TEST(!members.share_system());
   BOOST_TEST(members(2).initial.x.values[1] == 6.0);
   BOOST_TEST(members(2).document["system"]["parameters"]["k"][0] == 1.2);
 }

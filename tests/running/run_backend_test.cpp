@@ -30,6 +30,10 @@ BOOST_AUTO_TEST_CASE(short_runs_are_interpreted) {
   BOOST_TEST((worthwhile(Backend::automatic, chain(5, 19'000)) == Backend::interpreter));
   BOOST_TEST((worthwhile(Backend::automatic, chain(5, 20'000)) == Backend::automatic));
   BOOST_TEST((worthwhile(Backend::native, chain(150, 100)) == Backend::native));
+  // The code of ten runs is compiled once.
+  BOOST_TEST((worthwhile(Backend::automatic, chain(5, 2'000), 9) == Backend::interpreter));
+  BOOST_TEST((worthwhile(Backend::automatic, chain(5, 2'000), 10) == Backend::automatic));
+  BOOST_TEST((worthwhile(Backend::automatic, chain(5, 100), 10'000) == Backend::interpreter));
 }
 
 BOOST_AUTO_TEST_SUITE_END()
