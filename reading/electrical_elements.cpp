@@ -1,51 +1,46 @@
 #include "courant/reading/element_parts.hpp"
-#include "courant/reading/junction_charge.hpp"
+#include "courant/structures/elements/electrical.hpp"
 
 namespace courant {
 namespace {
 
 using namespace element_parts;
-using Kind = NetworkBranch::Kind;
-using Role = NetworkBranch::Role;
 
 Key secondary() {
   return required_key("secondary", takes::array_of(takes::text(), 2, 2),
                       "the two nodes of the other side, from and to");
 }
 
-std::optional<NetworkElement> read_resistor(ObjectReader& object, const NetworkSite& site) {
-  ElementReader reader(object, site);
-  const auto from = reader.node("from"), to = reader.node("to");
-  const std::string key = reader.one_of({"value", "voltage", "current"});
-  const auto formula = reader.formula(key);
-  if (!formula) return std::nullopt;
-  const bool heats = reader.has("heat");
-  const NetworkTerminal heat = reader.node("heat");
-  if (key == "value") {
-    reader.branch(domains::electrical, from, to, Kind::current,
-                  heats ? Role::coupler : Role::resistor, resistance(reader.value_of(*formula)));
-  } else {
-    reader.formula_branch(domains::electrical, from, to,
-                          key == "voltage" ? Kind::current : Kind::voltage,
-                          heats ? Role::coupler : Role::resistor, *formula);
-  }
-  if (heats)
-    reader.branch(domains::thermal, heat, reader.ground(), Kind::voltage, Role::coupler,
-                  [](const NetworkVariables& variables, Index first) {
-                    return -variables.current(first) * variables.voltage(first) /
-                           variables.voltage(first + 1);
-                  });
-  return reader.result();
+// The nodes of two sides.
+std::vector<NetworkTerminal> with_secondary(ElementReader& reader) {
+  const NetworkTerminal from = reader.node("from"), to = reader.node("to");
+  const auto [other_from, other_to] = reader.pair("secondary");
+  return {from, to, other_from, other_to};
 }
 
-Read storage(Kind kind, const char* letters, const char* law) {
-  return [=](ObjectReader& object, const NetworkSite& site) {
-    ElementReader reader(object, site);
-    reader.storage(domains::electrical, reader.node("from"), reader.node("to"), kind, letters);
-    const auto value = read_energy(reader, law);
-    if (kind == Kind::flux) reader.element().inductance = value;
-    return reader.result();
-  };
+std::optional<NetworkElement> read_resistor(ObjectReader& object, const NetworkSite& site) {
+  ElementReader reader(object, site);
+  const std::string key = reader.one_of({"value", "voltage", "current"});
+  const elements::Law law = reader.law(key);
+  const Element resistor = key == "value"     ? elements::resistor(law)
+                           : key == "voltage" ? elements::resistor_of_current(law)
+                                              : elements::resistor_of_voltage(law);
+  if (!reader.has("heat")) return reader.result(resistor, between);
+  return reader.result(elements::heating(resistor), {"from", "to", "heat"});
+}
+
+std::optional<NetworkElement> read_capacitor(ObjectReader& object, const NetworkSite& site) {
+  ElementReader reader(object, site);
+  Element capacitor = elements::capacitor(elements::StateLaw());
+  read_energy(reader, capacitor, "voltage");
+  return reader.result(std::move(capacitor), between);
+}
+
+std::optional<NetworkElement> read_inductor(ObjectReader& object, const NetworkSite& site) {
+  ElementReader reader(object, site);
+  Element inductor = elements::inductor(elements::StateLaw());
+  inductor.inductance = read_energy(reader, inductor, "current");
+  return reader.result(std::move(inductor), between);
 }
 
 std::optional<NetworkElement> read_mutual_inductance(ObjectReader& object,
@@ -54,63 +49,39 @@ std::optional<NetworkElement> read_mutual_inductance(ObjectReader& object,
   const auto [first, second] = reader.pair("inductors");
   const std::string key = reader.one_of({"value", "coupling"});
   const double value = reader.constant(key);
-  reader.element().mutual = {{first.node, second.node}, second.pointer, value, key == "coupling"};
-  return reader.result();
+  return reader.result({{first.node, second.node}, second.pointer, value, key == "coupling"});
 }
 
 std::optional<NetworkElement> read_diode(ObjectReader& object, const NetworkSite& site) {
   ElementReader reader(object, site);
-  JunctionCurrent law;
+  elements::JunctionCurrent law;
   law.saturation = reader.constant("saturation");
   const double emission = reader.positive("emission");
   law.scale = emission * reader.positive("thermal_voltage");
   law.leak = reader.constant("leak");
   law.breakdown = reader.constant("breakdown");
   law.breakdown_current = reader.constant("breakdown_current");
-  const JunctionCharge junction{.capacitance = reader.constant("capacitance"),
-                                .junction = reader.positive("junction"),
-                                .grading = reader.constant("grading"),
-                                .forward = reader.constant("forward"),
-                                .transit = reader.constant("transit"),
-                                .saturation = law.saturation,
-                                .scale = law.scale,
-                                .leak = law.leak};
-  const auto from = reader.node("from"), to = reader.node("to");
-  reader.branch(domains::electrical, from, to, Kind::voltage, Role::resistor,
-                [law](const NetworkVariables& variables, Index first) {
-                  return law.current(variables.voltage(first));
-                });
-  if (junction.capacitance > 0.0 || junction.transit > 0.0)
-    store_in_junction(reader, junction, 0, from, to);
-  return reader.result();
+  const elements::JunctionCharge junction{.capacitance = reader.constant("capacitance"),
+                                          .junction = reader.positive("junction"),
+                                          .grading = reader.constant("grading"),
+                                          .forward = reader.constant("forward"),
+                                          .transit = reader.constant("transit"),
+                                          .saturation = law.saturation,
+                                          .scale = law.scale,
+                                          .leak = law.leak};
+  return reader.result(elements::diode(law, junction), between);
 }
 
 std::optional<NetworkElement> read_transformer(ObjectReader& object, const NetworkSite& site) {
   ElementReader reader(object, site);
-  const auto [from, to] = reader.pair("secondary");
   const double ratio = reader.nonzero("ratio");
-  transform(reader, ratio, {domains::electrical, reader.node("from"), reader.node("to"), "_1"},
-            {domains::electrical, from, to, "_2"});
-  return reader.result();
+  return reader.result(elements::ideal_transformer(ratio), with_secondary(reader));
 }
 
 std::optional<NetworkElement> read_gyrator(ObjectReader& object, const NetworkSite& site) {
   ElementReader reader(object, site);
-  const auto [from, to] = reader.pair("secondary");
   const double resistance = reader.constant("value");
-  reader.branch(
-      domains::electrical, reader.node("from"), reader.node("to"), Kind::current, Role::coupler,
-      [resistance](const NetworkVariables& variables, Index first) {
-        return resistance * variables.current(first + 1);
-      },
-      "_1");
-  reader.branch(
-      domains::electrical, from, to, Kind::current, Role::coupler,
-      [resistance](const NetworkVariables& variables, Index first) {
-        return -resistance * variables.current(first);
-      },
-      "_2");
-  return reader.result();
+  return reader.result(elements::gyrator(resistance), with_secondary(reader));
 }
 
 std::optional<NetworkElement> read_switch(ObjectReader& object, const NetworkSite& site) {
@@ -120,14 +91,7 @@ std::optional<NetworkElement> read_switch(ObjectReader& object, const NetworkSit
   if (!closed) return std::nullopt;
   // A condition is no number: `if` makes it one.
   closed->text = "if(" + closed->text + ", 1, 0)";
-  const auto is_closed = reader.value_of(*closed);
-  reader.branch(domains::electrical, reader.node("from"), reader.node("to"), Kind::current,
-                Role::resistor,
-                [is_closed, on, off](const NetworkVariables& variables, Index first) {
-                  const Expr current = variables.current(first);
-                  return select(is_closed(variables, first), on * current, off * current);
-                });
-  return reader.result();
+  return reader.result(elements::electrical_switch(reader.law_of(*closed), on, off), between);
 }
 
 }  // namespace
@@ -150,7 +114,7 @@ ElementKinds electrical_elements() {
          optional_key("energy", takes::formula(), "in J, as a function of the charge"),
          optional_key("voltage", takes::formula(), "in V, as a function of the charge")},
         {{"value", "energy", "voltage"}}},
-       storage(Kind::charge, "q_", "voltage")},
+       read_capacitor},
       {{"inductor",
         "a flux linkage phi_<name> in Wb",
         {name(), current_from(), current_to(),
@@ -158,7 +122,7 @@ ElementKinds electrical_elements() {
          optional_key("energy", takes::formula(), "in J, as a function of the flux"),
          optional_key("current", takes::formula(), "in A, as a function of the flux")},
         {{"value", "energy", "current"}}},
-       storage(Kind::flux, "phi_", "current")},
+       read_inductor},
       {{"mutual-inductance",
         "of two inductors that are given by their value",
         {name(),
@@ -200,11 +164,11 @@ ElementKinds electrical_elements() {
       {{"voltage-source",
         "holds the voltage from from to to",
         {name(), current_from(), current_to(), value("in V; may depend on t and anything else")}},
-       source(domains::electrical, Kind::current)},
+       of_value([](elements::Law v) { return elements::voltage_source(std::move(v)); })},
       {{"current-source",
         "holds the current through it from from to to",
         {name(), current_from(), current_to(), value("in A; may depend on t and anything else")}},
-       source(domains::electrical, Kind::voltage)},
+       of_value([](elements::Law i) { return elements::current_source(std::move(i)); })},
       {{"switch",
         "a small resistance while a condition holds, else a large one",
         {name(), current_from(), current_to(),

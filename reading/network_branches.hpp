@@ -9,7 +9,7 @@
 
 namespace courant {
 
-// Branches of all elements, in order, and after them one without current for each potential that laws depend on. Their
+// The elements, in order, and after them a branch without current for each potential that laws depend on. Their
 // names go into `words`, their states and unknowns into its vocabulary.
 class NetworkBranches {
  public:
@@ -17,14 +17,13 @@ class NetworkBranches {
   NetworkBranches(const NetworkNodes& nodes, const std::vector<NetworkElement>& elements,
                   NetworkWords& words, Findings& findings);
 
-  std::vector<NetworkBranch> branches;
-  NameList outputs;                        // of ports
-  std::vector<std::vector<Index>> states;  // of each element
-  std::size_t of_elements = 0;             // branches before those that measure potentials
-  bool right = true;                       // whether there were no problems
+  elements::NetworkAssembly assembly;
+  NameList outputs;             // of ports
+  std::size_t of_elements = 0;  // branches before those that measure potentials
+  bool right = true;            // whether there were no problems
 
  private:
-  class Assembly;
+  class Naming;
 };
 
 }  // namespace courant

@@ -37,14 +37,6 @@ struct GaussRule {
 
 }  // namespace
 
-namespace domains {
-const NetworkDomain electrical{"electrical", "i_", "v_", "potential_"};
-const NetworkDomain translation{"translational", "F_", "v_", "velocity_"};
-const NetworkDomain rotation{"rotational", "tau_", "omega_", "speed_"};
-const NetworkDomain hydraulic{"hydraulic", "Q_", "P_", "pressure_"};
-const NetworkDomain thermal{"thermal", "s_", "T_", "temperature_"};
-}  // namespace domains
-
 // With what the formula names alone: a table of everything for every element of a large network
 // would take long.
 Expr NetworkWords::value(const WrittenFormula& formula, const NetworkVariables& variables) const {
@@ -83,11 +75,14 @@ ElementReader::ElementReader(ObjectReader& object, const NetworkSite& site)
   right_ = false;
 }
 
-NetworkTerminal ElementReader::ground() const { return {"", element_.pointer}; }
+NetworkTerminal NetworkElement::terminal(Index number) const {
+  if (number == elements::Element::ground) return {"", pointer};
+  return terminals[static_cast<std::size_t>(number)];
+}
 
 NetworkTerminal ElementReader::node(const std::string& key) {
   const auto given = object_.optional(key);
-  if (!given) return ground();
+  if (!given) return {"", element_.pointer};
   const auto name = given->text();
   if (!name) right_ = false;
   return {name.value_or(""), given->pointer()};
@@ -104,7 +99,7 @@ std::pair<NetworkTerminal, NetworkTerminal> ElementReader::pair(const std::strin
                    (nodes->size() == 1 ? " entry" : " entries") + "; expected two names");
   }
   right_ = false;
-  return {ground(), ground()};
+  return {{"", element_.pointer}, {"", element_.pointer}};
 }
 
 bool ElementReader::has(const std::string& key) const {
@@ -171,106 +166,69 @@ std::optional<WrittenFormula> ElementReader::formula(const std::string& key) {
   return formula;
 }
 
-void ElementReader::branch(const NetworkDomain& domain, NetworkTerminal from, NetworkTerminal to,
-                           Kind kind, Role role, OwnLaw law, const std::string& suffix) {
-  Law whole = [law = std::move(law), first = element_.first](const NetworkVariables& variables) {
-    return law(variables, *first);
-  };
-  element_.ports.push_back({.suffix = suffix,
-                            .domain = &domain,
-                            .from = std::move(from),
-                            .to = std::move(to),
-                            .kind = kind,
-                            .role = role,
-                            .law = std::move(whole)});
-}
-
-void ElementReader::formula_branch(const NetworkDomain& domain, NetworkTerminal from,
-                                   NetworkTerminal to, Kind kind, Role role,
-                                   const WrittenFormula& law, const std::string& suffix) {
-  branch(domain, std::move(from), std::move(to), kind, role, value_of(law), suffix);
-}
-
-ElementReader::OwnLaw ElementReader::value_of(const WrittenFormula& formula) {
+elements::Law ElementReader::law_of(const WrittenFormula& formula) {
   element_.formulas.push_back(formula);
-  return [formula, words = site_.words](const NetworkVariables& variables, Index) {
-    return words->value(formula, variables);
+  return [formula, words = site_.words](const elements::Variables& own) {
+    return words->value(formula, own.network());
   };
 }
 
-void ElementReader::storage(const NetworkDomain& domain, NetworkTerminal from, NetworkTerminal to,
-                            Kind kind, const std::string& letters, const std::string& suffix) {
-  element_.ports.push_back({.suffix = suffix,
-                            .domain = &domain,
-                            .from = std::move(from),
-                            .to = std::move(to),
-                            .kind = kind,
-                            .role = Role::storage,
-                            .state = letters});
+elements::Law ElementReader::law(const std::string& key) {
+  if (const auto written = formula(key)) return law_of(*written);
+  right_ = false;
+  return elements::constant(1.0);
 }
 
-void ElementReader::implicit_storage(const NetworkDomain& domain, NetworkTerminal from,
-                                     NetworkTerminal to, const std::string& letters,
-                                     const std::string& suffix, ChargeLaw voltage, OwnLaw energy) {
-  const std::string state = letters + element_.name;
-  storage(domain, std::move(from), std::move(to), Kind::charge, letters, suffix);
-  NetworkElement::Port& port = element_.ports.back();
-  port.law = [voltage = std::move(voltage), state, words = site_.words,
-              first = element_.first](const NetworkVariables& variables) {
-    const Index place = words->vocabulary.coordinates.find({.name = state, .indices = {}}).first;
-    return voltage(variables, *first, variables.x()[place]);
-  };
-  port.energy = [energy = std::move(energy), first = element_.first](
-                    const NetworkVariables& variables) { return energy(variables, *first); };
-}
-
-void ElementReader::port(const NetworkDomain& domain, NetworkTerminal from, NetworkTerminal to,
-                         Kind kind) {
-  element_.ports.push_back({.suffix = "",
-                            .domain = &domain,
-                            .from = std::move(from),
-                            .to = std::move(to),
-                            .kind = kind,
-                            .role = Role::port});
-}
-
-void ElementReader::energy(const WrittenFormula& formula) {
-  element_.energy_formulas.push_back(formula);
-  element_.energy = [formula, words = site_.words](const ExprVector&, const ExprVector& x,
+elements::StateLaw ElementReader::state_law(const std::string& key) {
+  const auto written = formula(key);
+  if (!written) {
+    right_ = false;
+    return {};
+  }
+  element_.energy_formulas.push_back(*written);
+  return [formula = *written, words = site_.words](const ExprVector&, const ExprVector& x,
                                                    const Expr& t) {
     return words->value(formula, x, t);
   };
 }
 
-void ElementReader::quadratic_energy(double value) {
-  element_.energy = [value](const ExprVector& own, const ExprVector&, const Expr&) {
-    return square(own[0]) / (2.0 * value);
+void ElementReader::take_law_of_state(elements::Element& element, const std::string& key) {
+  const elements::StateLaw law = state_law(key);
+  element.branches[0].law = [law](const elements::Variables& own) {
+    return law({}, own.network().x(), own.t());
   };
-}
-
-void ElementReader::law_of_state(const WrittenFormula& formula) {
-  element_.energy_formulas.push_back(formula);
-  const auto words = site_.words;
-  const std::string state = element_.ports.back().state + element_.name;
-  element_.ports.back().law = [formula, words](const NetworkVariables& variables) {
-    return words->value(formula, variables.x(), variables.t());
-  };
-  element_.energy = [formula, words, state](const ExprVector& own, const ExprVector& x,
-                                            const Expr& t) {
+  element.energy = [law, words = site_.words, state = element.branches[0].letters + name()](
+                       const ExprVector& own, const ExprVector& x, const Expr& t) {
     static const GaussRule rule;
     const Index place = words->vocabulary.coordinates.find({.name = state, .indices = {}}).first;
     Expr sum = 0.0;
     ExprVector at = x;
     for (std::size_t k = 0; k < rule.node.size(); ++k) {
       at[place] = rule.node[k] * own[0];
-      sum += rule.weight[k] * words->value(formula, at, t);
+      sum += rule.weight[k] * law({}, at, t);
     }
     return own[0] * sum;
   };
 }
 
-std::optional<NetworkElement> ElementReader::result() {
+std::optional<NetworkElement> ElementReader::result(elements::Element element,
+                                                    const std::vector<std::string>& keys) {
+  std::vector<NetworkTerminal> terminals;
+  for (const std::string& key : keys) terminals.push_back(node(key));
+  return result(std::move(element), std::move(terminals));
+}
+
+std::optional<NetworkElement> ElementReader::result(elements::Element element,
+                                                    std::vector<NetworkTerminal> terminals) {
   if (!right_) return std::nullopt;
+  element_.element = std::move(element);
+  element_.terminals = std::move(terminals);
+  return element_;
+}
+
+std::optional<NetworkElement> ElementReader::result(NetworkElement::Mutual mutual) {
+  if (!right_) return std::nullopt;
+  element_.mutual = std::move(mutual);
   return element_;
 }
 

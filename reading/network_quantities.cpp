@@ -9,7 +9,7 @@
 namespace courant {
 
 std::vector<std::string> potential_names(const NetworkNodes& nodes,
-                                         const std::vector<const NetworkDomain*>& kinds) {
+                                         const std::vector<const elements::Domain*>& kinds) {
   std::vector<std::string> potentials;
   for (std::size_t node = 1; node < kinds.size(); ++node)
     potentials.push_back(kinds[node]->node + nodes.names[node]);
@@ -71,7 +71,7 @@ bool check_formulas(const std::vector<NetworkElement>& elements, const NetworkWo
 Vocabulary::Derived network_quantities(const std::shared_ptr<const Network>& network,
                                        const Vocabulary& vocabulary, std::size_t of_elements,
                                        const NetworkNodes& nodes,
-                                       const std::vector<const NetworkDomain*>& kinds) {
+                                       const std::vector<const elements::Domain*>& kinds) {
   const auto unknowns = vocabulary.unknowns.element_names();
   const std::unordered_set<std::string> known(unknowns.begin(), unknowns.end());
   const auto is_new = [&](const std::string& name) { return !known.contains(name); };

@@ -11,7 +11,7 @@ namespace courant {
 
 // The names of the potentials of all nodes but the ground, of the domains that these have.
 std::vector<std::string> potential_names(const NetworkNodes& nodes,
-                                         const std::vector<const NetworkDomain*>& kinds);
+                                         const std::vector<const elements::Domain*>& kinds);
 
 // Definitions may depend on what laws give, which may depend on definitions of states and t: they
 // are checked with the names alone.
@@ -26,6 +26,6 @@ bool check_formulas(const std::vector<NetworkElement>& elements, const NetworkWo
 Vocabulary::Derived network_quantities(const std::shared_ptr<const Network>& network,
                                        const Vocabulary& vocabulary, std::size_t of_elements,
                                        const NetworkNodes& nodes,
-                                       const std::vector<const NetworkDomain*>& kinds);
+                                       const std::vector<const elements::Domain*>& kinds);
 
 }  // namespace courant

@@ -16,7 +16,7 @@ namespace {
 
 using Kind = NetworkBranch::Kind;
 using Role = NetworkBranch::Role;
-using Port = NetworkElement::Port;
+using Port = elements::Element::Branch;
 
 // `a`, `a and b`, `a, b and c`, and only the first of many.
 std::string listed(const std::vector<std::string>& names) {
@@ -40,8 +40,9 @@ struct Edge {
 std::vector<Edge> edges_of(const NetworkNodes& nodes, const std::vector<NetworkElement>& elements) {
   std::vector<Edge> edges;
   for (const NetworkElement& element : elements)
-    for (const Port& port : element.ports)
-      edges.push_back({&element, &port, as_size(nodes.at(port.from)), as_size(nodes.at(port.to))});
+    for (const Port& port : element.element.branches)
+      edges.push_back({&element, &port, as_size(nodes.at(element.terminal(port.from))),
+                       as_size(nodes.at(element.terminal(port.to)))});
   return edges;
 }
 
@@ -63,14 +64,13 @@ bool check_terminals(const NetworkNodes& nodes, const std::vector<NetworkElement
                      Findings& findings) {
   bool right = true;
   for (const NetworkElement& element : elements)
-    for (const Port& port : element.ports)
-      for (const NetworkTerminal* terminal : {&port.from, &port.to}) {
-        if (terminal->node.empty() || nodes.index.count(terminal->node)) continue;
-        findings.problem(terminal->pointer, "unknown node " + in_quotes(terminal->node) +
-                                                did_you_mean(terminal->node, nodes.names) +
-                                                element.turn);
-        right = false;
-      }
+    for (const NetworkTerminal& terminal : element.terminals) {
+      if (terminal.node.empty() || nodes.index.count(terminal.node)) continue;
+      findings.problem(terminal.pointer, "unknown node " + in_quotes(terminal.node) +
+                                             did_you_mean(terminal.node, nodes.names) +
+                                             element.turn);
+      right = false;
+    }
   return right;
 }
 
@@ -106,7 +106,8 @@ bool check_domains(const std::vector<Edge>& edges, const NetworkNodes& nodes, Fi
       if (node == 0) continue;
       if (!first[node]) first[node] = &edge;
       if (first[node]->port->domain == edge.port->domain) continue;
-      const NetworkTerminal& terminal = node == edge.from ? edge.port->from : edge.port->to;
+      const NetworkTerminal terminal =
+          edge.element->terminal(node == edge.from ? edge.port->from : edge.port->to);
       findings.problem(terminal.pointer,
                        "the node " + in_quotes(nodes.names[node]) + " is " +
                            first[node]->port->domain->name + " for " + first[node]->element->name +
@@ -224,7 +225,8 @@ bool check_topology(const NetworkNodes& nodes, const std::vector<NetworkElement>
 }
 
 bool check_circles(const std::vector<NetworkElement>& elements, const NetworkWords& words,
-                   const std::vector<NetworkBranch>& branches, Findings& findings) {
+                   const elements::NetworkAssembly& assembly, Findings& findings) {
+  const std::vector<NetworkBranch>& branches = assembly.branches();
   // The elements whose laws give a variable.
   const auto owner = [&](const std::string& name) -> Index {
     Index branch = -1;
@@ -235,8 +237,8 @@ bool check_circles(const std::vector<NetworkElement>& elements, const NetworkWor
     }
     if (branch < 0) return -1;
     for (std::size_t k = 0; k < elements.size(); ++k) {
-      const Index first = *elements[k].first;
-      if (branch >= first && branch < first + static_cast<Index>(elements[k].ports.size()))
+      const Index first = assembly.places()[k].first_branch;
+      if (branch >= first && branch < first + std::ssize(elements[k].element.branches))
         return static_cast<Index>(k);
     }
     return -1;
@@ -281,13 +283,13 @@ bool check_circles(const std::vector<NetworkElement>& elements, const NetworkWor
   return true;
 }
 
-std::vector<const NetworkDomain*> node_domains(const NetworkNodes& nodes,
-                                               const std::vector<NetworkElement>& elements) {
-  std::vector<const NetworkDomain*> domains(nodes.names.size(), nullptr);
+std::vector<const elements::Domain*> node_domains(const NetworkNodes& nodes,
+                                                  const std::vector<NetworkElement>& elements) {
+  std::vector<const elements::Domain*> domains(nodes.names.size(), nullptr);
   for (const NetworkElement& element : elements)
-    for (const Port& port : element.ports)
-      for (const NetworkTerminal* terminal : {&port.from, &port.to}) {
-        const Index node = nodes.at(*terminal);
+    for (const Port& port : element.element.branches)
+      for (const Index terminal : {port.from, port.to}) {
+        const Index node = nodes.at(element.terminal(terminal));
         if (node > 0 && !domains[as_size(node)]) domains[as_size(node)] = port.domain;
       }
   return domains;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "courant/reading/network_element.hpp"
+#include "courant/structures/elements/network_assembly.hpp"
 
 namespace courant {
 
@@ -24,12 +25,13 @@ struct NetworkNodes {
 // of current no cut-set. Otherwise false, and problems in the words of the network.
 bool check_topology(const NetworkNodes& nodes, const std::vector<NetworkElement>& elements,
                     Findings& findings);
-// No element needs its own results by way of others. `words` has the currents and voltages.
+// No element needs its own results by way of others. `words` has the currents and voltages, `assembly` the elements at the same
+// places.
 bool check_circles(const std::vector<NetworkElement>& elements, const NetworkWords& words,
-                   const std::vector<NetworkBranch>& branches, Findings& findings);
+                   const elements::NetworkAssembly& assembly, Findings& findings);
 
 // The domain of each node, that of the first element there; null for the ground.
-std::vector<const NetworkDomain*> node_domains(const NetworkNodes& nodes,
-                                               const std::vector<NetworkElement>& elements);
+std::vector<const elements::Domain*> node_domains(const NetworkNodes& nodes,
+                                                  const std::vector<NetworkElement>& elements);
 
 }  // namespace courant

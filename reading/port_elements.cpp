@@ -11,7 +11,7 @@ using Kind = NetworkBranch::Kind;
 // What the input of a port may be: the variable that whatever is joined to it gives.
 struct PortInput {
   std::string word;
-  const NetworkDomain& domain;
+  const Domain& domain;
   Kind kind;
 };
 
@@ -38,13 +38,13 @@ std::vector<std::string> words() {
 
 std::optional<NetworkElement> read_port(ObjectReader& object, const NetworkSite& site) {
   ElementReader reader(object, site);
-  const auto from = reader.node("from"), to = reader.node("to");
   const auto key = object.required("input");
   const auto word = key ? key->word(words()) : std::nullopt;
   if (!word) return std::nullopt;
   for (const PortInput& input : inputs())
-    if (input.word == *word) reader.port(input.domain, from, to, input.kind);
-  return reader.result();
+    if (input.word == *word)
+      return reader.result(elements::port(input.domain, input.kind), between);
+  return std::nullopt;
 }
 
 }  // namespace

@@ -123,9 +123,8 @@ std::optional<Model> read_network(ObjectReader& system) {
   if (!nodes || !elements || !check_topology(*nodes, *elements, findings)) return std::nullopt;
 
   words->vocabulary = model.vocabulary;
-  const NetworkBranches assembly(*nodes, *elements, *words, findings);
-  const auto coupled = couple(*elements, findings);
-  if (!assembly.right || !coupled) return std::nullopt;
+  NetworkBranches branches(*nodes, *elements, *words, findings);
+  if (!branches.right || !couple(*elements, branches.assembly, findings)) return std::nullopt;
   if (words->vocabulary.coordinates.size() == 0) {
     findings.problem(system.place().pointer() + "/elements",
                      "nothing stores energy; expected a capacitor, an inductor, a mass, …");
@@ -136,32 +135,15 @@ std::optional<Model> read_network(ObjectReader& system) {
   check_network_definitions(words->vocabulary, *words, potentials, findings);
   model.vocabulary = words->vocabulary;
   if (!check_formulas(*elements, *words, potentials, findings) ||
-      !check_circles(*elements, *words, assembly.branches, findings))
+      !check_circles(*elements, *words, branches.assembly, findings))
     return std::nullopt;
 
-  const auto energy = [elements = *elements, states = assembly.states, coupled = *coupled](
-                          const ExprVector& x, const Expr& t) {
-    Expr sum = 0.0;
-    const auto own = [&](std::size_t element) {
-      ExprVector result(static_cast<Index>(states[element].size()));
-      for (Index k = 0; k < result.size(); ++k) result[k] = x[states[element][as_size(k)]];
-      return result;
-    };
-    for (std::size_t k = 0; k < elements.size(); ++k)
-      if (elements[k].energy &&
-          std::find(coupled.members.begin(), coupled.members.end(), k) == coupled.members.end())
-        sum += elements[k].energy(own(k), x, t);
-    ExprVector flux(static_cast<Index>(coupled.members.size()));
-    for (Index k = 0; k < flux.size(); ++k) flux[k] = own(coupled.members[as_size(k)])[0];
-    return flux.size() > 0 ? sum + coupled.energy(flux) : sum;
-  };
-  const auto network =
-      std::make_shared<Network>(static_cast<Index>(nodes->names.size()), assembly.branches, energy);
+  const std::shared_ptr<const Network> network = branches.assembly.network();
   model.vocabulary.derived.push_back(
-      network_quantities(network, model.vocabulary, assembly.of_elements, *nodes, kinds));
+      network_quantities(network, model.vocabulary, branches.of_elements, *nodes, kinds));
   if (network->port_count() > 0)
     model.vocabulary.derived.push_back(
-        {assembly.outputs, [network](const Vocabulary::Arguments& at) -> std::optional<ExprVector> {
+        {branches.outputs, [network](const Vocabulary::Arguments& at) -> std::optional<ExprVector> {
            if (!at.x || !at.z || !at.t) return std::nullopt;
            return network->output(
                *at.x, at.effort ? *at.effort : network->effort(*at.x, *at.z, *at.t), *at.z);

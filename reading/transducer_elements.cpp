@@ -1,34 +1,23 @@
 #include "courant/reading/element_parts.hpp"
+#include "courant/structures/elements/transducers.hpp"
 
 namespace courant {
 namespace {
 
 using namespace element_parts;
-using Kind = NetworkBranch::Kind;
-using Role = NetworkBranch::Role;
 
-// v = K times a velocity against the ground, and K i pushes there.
-Read read_motor(const NetworkDomain& domain, const char* moving) {
+Read read_motor(const Domain& domain, const char* moving) {
   return [&domain, moving](ObjectReader& object, const NetworkSite& site) {
     ElementReader reader(object, site);
     const double constant = reader.constant("constant");
-    transform(reader, constant, {domains::electrical, reader.node("from"), reader.node("to"), ""},
-              {domain, reader.node(moving), reader.ground(), "_motion"});
-    return reader.result();
+    return reader.result(elements::motor(constant, domain), {"from", "to", moving});
   };
 }
 
 std::optional<NetworkElement> read_electromagnet(ObjectReader& object, const NetworkSite& site) {
   ElementReader reader(object, site);
-  reader.storage(domains::electrical, reader.node("from"), reader.node("to"), Kind::flux, "phi_");
-  const auto armature = reader.node("armature");
-  reader.storage(domains::translation, armature, reader.ground(), Kind::flux, "x_", "_motion");
-  if (auto inductance = reader.formula("inductance")) {
-    // phi²/(2 L(x))
-    inductance->text = "phi_" + reader.element().name + "^2/2/(" + inductance->text + ")";
-    reader.energy(*inductance);
-  }
-  return reader.result();
+  return reader.result(elements::electromagnet(reader.state_law("inductance")),
+                       {"from", "to", "armature"});
 }
 
 }  // namespace

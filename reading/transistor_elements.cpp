@@ -1,61 +1,26 @@
-#include "courant/reading/bipolar_transistor.hpp"
+#include <algorithm>
+
 #include "courant/reading/element_parts.hpp"
-#include "courant/reading/junction_charge.hpp"
-#include "courant/reading/mos_channel.hpp"
+#include "courant/structures/elements/transistors.hpp"
 
 namespace courant {
 namespace {
 
 using namespace element_parts;
-using Kind = NetworkBranch::Kind;
-using Role = NetworkBranch::Role;
 
-// The voltage between two terminals as that of a branch of the element; 0 where they are the same node, which needs no
-// branch.
-struct Across {
-  std::optional<Index> branch;  // counted from the first of the element
-
-  Expr at(const NetworkVariables& variables, Index first) const {
-    return branch ? variables.voltage(first + *branch) : Expr(0.0);
-  }
-};
-
-// Adds the branches of an element whose terminals may be joined.
-class Terminals {
- public:
-  // From the first to the second, for `reversed` from the second to the first.
-  Terminals(ElementReader& reader, bool reversed) : reader_(reader), reversed_(reversed) {}
-
-  Across across(const NetworkTerminal& from, const NetworkTerminal& to) {
-    if (from.node == to.node) return {};
-    return {count_++};
-  }
-  void conduct(const Across& across, const NetworkTerminal& from, const NetworkTerminal& to,
-               const std::string& suffix, ElementReader::OwnLaw current) {
-    if (!across.branch) return;
-    reader_.branch(domains::electrical, reversed_ ? to : from, reversed_ ? from : to, Kind::voltage,
-                   Role::resistor, std::move(current), suffix);
-  }
-  void store(const Across& across, const NetworkTerminal& from, const NetworkTerminal& to,
-             const std::string& suffix, const JunctionCharge& charge, const MoreCharge& more) {
-    if (!stores(across, charge)) return;
-    store_in_junction(reader_, charge, *across.branch, reversed_ ? to : from, reversed_ ? from : to,
-                      suffix, more);
-  }
-  static bool stores(const Across& across, const JunctionCharge& charge) {
-    return across.branch && (charge.capacitance != 0.0 || charge.transit != 0.0);
-  }
-
- private:
-  ElementReader& reader_;
-  bool reversed_;
-  Index count_ = 0;
-};
+// Of each terminal the first that is at its node.
+std::vector<Index> joined(const std::vector<NetworkTerminal>& terminals) {
+  std::vector<Index> first;
+  for (const NetworkTerminal& terminal : terminals)
+    first.push_back(std::ranges::find(terminals, terminal.node, &NetworkTerminal::node) -
+                    terminals.begin());
+  return first;
+}
 
 std::optional<NetworkElement> read_bipolar(ObjectReader& object, const NetworkSite& site) {
   ElementReader reader(object, site);
   const double thermal = reader.positive("thermal_voltage");
-  BipolarTransistor law;
+  elements::BipolarTransistor law;
   law.saturation = reader.positive("saturation");
   law.forward_gain = reader.positive("forward_gain");
   law.reverse_gain = reader.positive("reverse_gain");
@@ -71,74 +36,44 @@ std::optional<NetworkElement> read_bipolar(ObjectReader& object, const NetworkSi
   law.knee_reverse = reader.constant("knee_reverse");
   law.leak = reader.constant("leak");
   const double forward = reader.constant("forward");
-  const JunctionCharge at_emitter{.capacitance = reader.constant("emitter_capacitance"),
-                                  .junction = reader.positive("emitter_junction"),
-                                  .grading = reader.constant("emitter_grading"),
-                                  .forward = forward,
-                                  .transit = reader.constant("forward_transit"),
-                                  .saturation = law.saturation,
-                                  .scale = law.forward_scale,
-                                  .leak = law.leak};
-  const JunctionCharge at_collector{.capacitance = reader.constant("collector_capacitance"),
-                                    .junction = reader.positive("collector_junction"),
-                                    .grading = reader.constant("collector_grading"),
-                                    .forward = forward,
-                                    .transit = reader.constant("reverse_transit"),
-                                    .saturation = law.saturation,
-                                    .scale = law.reverse_scale,
-                                    .leak = law.leak};
-  const NetworkTerminal collector = reader.node("collector"), base = reader.node("base"),
-                        emitter = reader.node("emitter");
-  Terminals terminals(reader, reader.word("polarity") == "pnp");
-  const Across e = terminals.across(base, emitter), c = terminals.across(base, collector);
-  terminals.conduct(e, base, emitter, "_be", [=](const NetworkVariables& variables, Index first) {
-    const Expr v_e = e.at(variables, first);
-    return law.emitter_current(v_e) + law.transport(v_e, c.at(variables, first));
-  });
-  terminals.conduct(c, base, collector, "_bc", [=](const NetworkVariables& variables, Index first) {
-    const Expr v_c = c.at(variables, first);
-    return law.collector_current(v_c) - law.transport(e.at(variables, first), v_c);
-  });
-  MoreCharge more_at_emitter, more_at_collector;
-  if (law.early_forward != 0.0 && Terminals::stores(e, at_emitter) &&
-      Terminals::stores(c, at_collector)) {
-    const auto part = [=](Expr BipolarTransistor::Widening::*which) {
-      return [=](const NetworkVariables& variables, Index first) {
-        return law.widening(at_emitter.transit, e.at(variables, first), c.at(variables, first)).*
-               which;
-      };
-    };
-    more_at_emitter = {part(&BipolarTransistor::Widening::at_emitter),
-                       part(&BipolarTransistor::Widening::energy)};
-    more_at_collector = {part(&BipolarTransistor::Widening::at_collector), {}};
-  }
-  terminals.store(e, base, emitter, "be", at_emitter, more_at_emitter);
-  terminals.store(c, base, collector, "bc", at_collector, more_at_collector);
-  return reader.result();
+  const elements::JunctionCharge at_emitter{.capacitance = reader.constant("emitter_capacitance"),
+                                            .junction = reader.positive("emitter_junction"),
+                                            .grading = reader.constant("emitter_grading"),
+                                            .forward = forward,
+                                            .transit = reader.constant("forward_transit"),
+                                            .saturation = law.saturation,
+                                            .scale = law.forward_scale,
+                                            .leak = law.leak};
+  const elements::JunctionCharge at_collector{
+      .capacitance = reader.constant("collector_capacitance"),
+      .junction = reader.positive("collector_junction"),
+      .grading = reader.constant("collector_grading"),
+      .forward = forward,
+      .transit = reader.constant("reverse_transit"),
+      .saturation = law.saturation,
+      .scale = law.reverse_scale,
+      .leak = law.leak};
+  const std::vector<NetworkTerminal> terminals = {reader.node("collector"), reader.node("base"),
+                                                  reader.node("emitter")};
+  const bool is_pnp = reader.word("polarity") == "pnp";
+  return reader.result(
+      elements::bipolar_transistor(law, at_emitter, at_collector, is_pnp, joined(terminals)),
+      terminals);
 }
 
 std::optional<NetworkElement> read_mos(ObjectReader& object, const NetworkSite& site) {
   ElementReader reader(object, site);
   const bool is_p = reader.word("polarity") == "p";
-  MosChannel channel;
+  elements::MosChannel channel;
   channel.threshold = (is_p ? -1.0 : 1.0) * reader.constant("threshold");
   channel.transconductance =
       reader.positive("transconductance") * reader.positive("width") / reader.positive("length");
   channel.modulation = reader.constant("modulation");
   channel.body = reader.constant("body");
   channel.surface = reader.positive("surface");
-  const NetworkTerminal drain = reader.node("drain"), gate = reader.node("gate"),
-                        source = reader.node("source"), bulk = reader.node("bulk");
-  Terminals terminals(reader, is_p);
-  const Across d = terminals.across(drain, source), g = terminals.across(gate, source),
-               b = terminals.across(bulk, source);
-  terminals.conduct(d, drain, source, "_ds", [=](const NetworkVariables& variables, Index first) {
-    return channel.current(g.at(variables, first), d.at(variables, first), b.at(variables, first));
-  });
-  const auto none = [](const NetworkVariables&, Index) { return Expr(0.0); };
-  terminals.conduct(g, gate, source, "_gs", none);
-  terminals.conduct(b, bulk, source, "_bs", none);
-  return reader.result();
+  const std::vector<NetworkTerminal> terminals = {reader.node("drain"), reader.node("gate"),
+                                                  reader.node("source"), reader.node("bulk")};
+  return reader.result(elements::mos_transistor(channel, is_p, joined(terminals)), terminals);
 }
 
 Key terminal(const char* name, const char* summary) {

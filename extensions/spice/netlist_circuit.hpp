@@ -11,7 +11,7 @@
 #include "courant/extensions/spice/netlist_cards.hpp"
 #include "courant/extensions/spice/netlist_operating_point.hpp"
 #include "courant/extensions/spice/netlist_switches.hpp"
-#include "courant/reading/junction_charge.hpp"
+#include "courant/structures/elements/junction_charge.hpp"
 
 namespace courant::netlist {
 
@@ -29,7 +29,7 @@ struct NetlistStorage {
 struct NetlistJunction {
   std::string state;    // q_D1
   std::size_t element;  // of `fixed`
-  JunctionCharge charge;
+  elements::JunctionCharge charge;
   // What is added to the charge, by the voltage of this junction and that of another one.
   std::size_t other = 0;
   std::function<double(double v, double other)> more = {};

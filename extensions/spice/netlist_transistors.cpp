@@ -6,8 +6,8 @@
 #include "courant/core/expressions/function.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/extensions/spice/netlist_circuit_reader.hpp"
-#include "courant/reading/bipolar_transistor.hpp"
-#include "courant/reading/mos_channel.hpp"
+#include "courant/structures/elements/bipolar_transistor.hpp"
+#include "courant/structures/elements/mos_channel.hpp"
 
 namespace courant::netlist {
 namespace {
@@ -130,7 +130,7 @@ void CircuitReader::add_bipolar(const Card& card, const Part& part, const std::s
     if (value != otherwise) element[key] = written_value(value);
     return number_of(value);
   };
-  BipolarTransistor law;
+  elements::BipolarTransistor law;
   law.saturation = number_of(saturation);
   law.forward_gain = say("forward_gain", first_of({"bf"}, "100"), "100");
   law.reverse_gain = say("reverse_gain", first_of({"br"}, "1"), "1");
@@ -268,14 +268,14 @@ std::optional<std::size_t> CircuitReader::add_junction(const OwnJunction& juncti
     element["breakdown"] = written_value(junction.breakdown);
     element["breakdown_current"] = written_value(junction.breakdown_current);
   }
-  const JunctionCharge charge{.capacitance = number_of(junction.capacitance),
-                              .junction = number_of(junction.voltage),
-                              .grading = number_of(junction.grading),
-                              .forward = number_of(junction.forward),
-                              .transit = number_of(junction.transit),
-                              .saturation = fixed.value,
-                              .scale = fixed.scale,
-                              .leak = fixed.leak};
+  const elements::JunctionCharge charge{.capacitance = number_of(junction.capacitance),
+                                        .junction = number_of(junction.voltage),
+                                        .grading = number_of(junction.grading),
+                                        .forward = number_of(junction.forward),
+                                        .transit = number_of(junction.transit),
+                                        .saturation = fixed.value,
+                                        .scale = fixed.scale,
+                                        .leak = fixed.leak};
   if (charge.capacitance > 0.0 || charge.transit > 0.0) {
     element["capacitance"] = written_value(junction.capacitance);
     element["transit"] = written_value(junction.transit);
@@ -321,7 +321,7 @@ void CircuitReader::add_mos(const Card& card, const Part& part, const std::strin
   const double sign = is_p ? -1.0 : 1.0;
   const double multiple = number_of(on_card("m", "1"));
 
-  MosChannel channel;
+  elements::MosChannel channel;
   const double oxide = of_model("tox") > 0.0 ? kOxide / of_model("tox") : 0.0;  // F/m²
   channel.surface = is_given("phi") ? of_model("phi") : 0.6;
   channel.body = of_model("gamma");

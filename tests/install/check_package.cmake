@@ -66,7 +66,7 @@ configure(${CONSUMER}_asan "${CXX_FLAGS} -fsanitize=address")
 run(${CMAKE_COMMAND} --build ${CONSUMER}_asan --target consumer)
 run(${CONSUMER}_asan/consumer)
 
-foreach(example method_2 discrete_flow discretization_map generating_family pendulum pendulum_three_ways)
+foreach(example circuit method_2 discrete_flow discretization_map generating_family pendulum pendulum_three_ways)
   run(${CONSUMER}/${example})
 endforeach()
 

@@ -32,10 +32,10 @@ NetworkWords words() {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(potentials_have_the_names_of_their_domains) {
-  BOOST_TEST(potential_names(nodes, {nullptr, &domains::electrical}) ==
+  BOOST_TEST(potential_names(nodes, {nullptr, &elements::domains::electrical}) ==
                  std::vector<std::string>{"potential_a"},
              boost::test_tools::per_element());
-  BOOST_TEST(potential_names(nodes, {nullptr, &domains::thermal}) ==
+  BOOST_TEST(potential_names(nodes, {nullptr, &elements::domains::thermal}) ==
                  std::vector<std::string>{"temperature_a"},
              boost::test_tools::per_element());
 }
@@ -75,7 +75,7 @@ BOOST_AUTO_TEST_CASE(what_is_no_unknown_is_computed) {
       2, branches, [](const ExprVector& x, const Expr&) { return square(x[0]) / 4.0; });
   Vocabulary vocabulary = words().vocabulary;
   const Vocabulary::Derived derived =
-      network_quantities(network, vocabulary, 1, nodes, {nullptr, &domains::electrical});
+      network_quantities(network, vocabulary, 1, nodes, {nullptr, &elements::domains::electrical});
   BOOST_TEST(
       derived.names.element_names() == (std::vector<std::string>{"i_C", "v_C", "potential_a"}),
       boost::test_tools::per_element());

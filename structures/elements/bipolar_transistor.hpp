@@ -2,9 +2,9 @@
 #pragma once
 
 #include "courant/core/expressions/expr.hpp"
-#include "courant/reading/junction_charge.hpp"
+#include "courant/structures/elements/junction_charge.hpp"
 
-namespace courant {
+namespace courant::elements {
 
 // The transport model of Ebers and Moll with the base charge of Gummel and Poon, as in SPICE. With v_e and v_c the
 // voltages of the junctions, positive where they conduct (from the base of an npn, to that of a pnp), and
@@ -41,4 +41,4 @@ struct BipolarTransistor {
   Expr collector_current(const Expr& v_c) const;
 };
 
-}  // namespace courant
+}  // namespace courant::elements

@@ -1,9 +1,9 @@
-#include "courant/reading/bipolar_transistor.hpp"
+#include "courant/structures/elements/bipolar_transistor.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-namespace courant {
+namespace courant::elements {
 BOOST_AUTO_TEST_SUITE(bipolar_transistor_test)
 
 // Where one junction blocks, currents have the ratio of the gain of the other, and the Early voltage is where the tangents of the
@@ -85,4 +85,4 @@ BOOST_AUTO_TEST_CASE(the_base_that_widens_stores_an_energy) {
 
 BOOST_AUTO_TEST_SUITE_END()
 
-}  // namespace courant
+}  // namespace courant::elements

@@ -1,8 +1,8 @@
-#include "courant/reading/mos_channel.hpp"
+#include "courant/structures/elements/mos_channel.hpp"
 
 #include <cmath>
 
-namespace courant {
+namespace courant::elements {
 
 Expr MosChannel::current(const Expr& v_gs, const Expr& v_ds, const Expr& v_bs) const {
   return select(v_ds < Expr(0.0), -forward(v_gs - v_ds, -v_ds, v_bs - v_ds),
@@ -21,4 +21,4 @@ Expr MosChannel::forward(const Expr& v_gs, const Expr& v_ds, const Expr& v_bs) c
   return transconductance * (1.0 + modulation * v_ds) * select(v_ds < a, linear, square(a) / 2.0);
 }
 
-}  // namespace courant
+}  // namespace courant::elements

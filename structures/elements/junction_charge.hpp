@@ -3,7 +3,7 @@
 
 #include "courant/core/expressions/expr.hpp"
 
-namespace courant {
+namespace courant::elements {
 
 // i = saturation (exp(v/scale) - 1) + leak v - breakdown_current exp(-(v + breakdown)/scale), the last only for a breakdown > 0.
 struct JunctionCurrent {
@@ -39,4 +39,4 @@ struct JunctionCharge {
 // exp of an argument; beyond 60 its tangent, since Newton's method may ask for more.
 Expr bounded_exp(const Expr& exponent);
 
-}  // namespace courant
+}  // namespace courant::elements

@@ -1,8 +1,8 @@
-#include "courant/reading/junction_charge.hpp"
+#include "courant/structures/elements/junction_charge.hpp"
 
 #include <cmath>
 
-namespace courant {
+namespace courant::elements {
 namespace {
 
 constexpr double kLargestExponent = 60.0;
@@ -78,4 +78,4 @@ Expr JunctionCharge::about_voltage(const Expr& q) const {
   return select(q <= Expr(0.0), below, beside_curved(positive / capacitance));
 }
 
-}  // namespace courant
+}  // namespace courant::elements

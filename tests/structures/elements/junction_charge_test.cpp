@@ -1,9 +1,9 @@
-#include "courant/reading/junction_charge.hpp"
+#include "courant/structures/elements/junction_charge.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-namespace courant {
+namespace courant::elements {
 BOOST_AUTO_TEST_SUITE(junction_charge_test)
 
 // dq/dv is the capacitance of SPICE, and v dq/dv the slope of the energy; both functions go over the end of the
@@ -67,4 +67,4 @@ BOOST_AUTO_TEST_CASE(a_charge_tells_the_voltage_of_a_junction_that_blocks) {
 
 BOOST_AUTO_TEST_SUITE_END()
 
-}  // namespace courant
+}  // namespace courant::elements

@@ -1,9 +1,9 @@
-#include "courant/reading/mos_channel.hpp"
+#include "courant/structures/elements/mos_channel.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-namespace courant {
+namespace courant::elements {
 BOOST_AUTO_TEST_SUITE(mos_channel_test)
 
 namespace {
@@ -47,4 +47,4 @@ BOOST_AUTO_TEST_CASE(regions_meet_smoothly) {
 
 BOOST_AUTO_TEST_SUITE_END()
 
-}  // namespace courant
+}  // namespace courant::elements

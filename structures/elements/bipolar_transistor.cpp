@@ -1,6 +1,6 @@
-#include "courant/reading/bipolar_transistor.hpp"
+#include "courant/structures/elements/bipolar_transistor.hpp"
 
-namespace courant {
+namespace courant::elements {
 
 Expr BipolarTransistor::transport(const Expr& v_e, const Expr& v_c) const {
   // Far from all that a transistor stands Newton's method may ask for the other side of the pole of q₁.
@@ -47,4 +47,4 @@ Expr BipolarTransistor::collector_current(const Expr& v_c) const {
          collector_leak.current(v_c);
 }
 
-}  // namespace courant
+}  // namespace courant::elements

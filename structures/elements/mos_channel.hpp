@@ -3,7 +3,7 @@
 
 #include "courant/core/expressions/expr.hpp"
 
-namespace courant {
+namespace courant::elements {
 
 // The model of Shichman and Hodges, level 1 of SPICE. With v_ds ≥ 0 and v_t = threshold + body (√(surface - v_bs) - √surface),
 // a = v_gs - v_t:
@@ -28,4 +28,4 @@ struct MosChannel {
   Expr forward(const Expr& v_gs, const Expr& v_ds, const Expr& v_bs) const;
 };
 
-}  // namespace courant
+}  // namespace courant::elements
