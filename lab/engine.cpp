@@ -118,7 +118,7 @@ struct PageOfLadder {
 PageOfLadder constraint_algorithm(const Experiment& experiment) {
   const ConsistentStart start = consistent_start(experiment);
   const ImplicitSystem& system = *experiment.model.system;
-  const ConstraintFormulas formulas = constraint_formulas(system, start);
+  const ConstraintFormulas formulas = formulas_of_start(experiment, start);
   PageOfLadder found;
   found.ladder = ladder_report(start, system, formulas);
   tell_of_start(experiment, start, found.ladder);

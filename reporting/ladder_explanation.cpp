@@ -309,6 +309,10 @@ void tell(const std::string& head, const std::vector<Prose>& list, std::vector<P
   tell_rest(list.size(), lines);
 }
 
+constexpr const char* kNumbersOfBrackets =
+    "Brackets whose formulas are longer than five lines are numbers here: their values at the "
+    "point.";
+
 void explain_brackets(const ConstraintBrackets& found, std::vector<Prose>& lines) {
   if (!found.missing.empty())
     lines.push_back("The brackets have no formulas here: " + found.missing + ".");
@@ -324,6 +328,7 @@ void explain_brackets(const ConstraintBrackets& found, std::vector<Prose>& lines
     names.push_back("    " + Prose::formula(phi(a) + " = " + found.constraints[a]));
   tell("Brackets of the constraints", names, lines);
   tell("that are not 0 on M_f:", brackets, lines);
+  if (found.has_numbers) lines.emplace_back(kNumbersOfBrackets);
 }
 
 // Which constraints generate what, and what is left of the brackets of coordinates.
