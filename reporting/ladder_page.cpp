@@ -273,7 +273,7 @@ LadderPage ladder_page(const Experiment& experiment, const LadderReport& ladder,
     page.model.push_back(std::move(lines));
   }
   std::vector<Prose> verdict = {verdict_in_words(ladder)};
-  if (!ladder.reason.empty()) verdict.emplace_back(ladder.reason);
+  if (!ladder.reason.empty()) verdict.push_back(reason_in_words(ladder));
   page.sections.push_back(section("Verdict", verdict));
   const LadderWords words = ladder_words(ladder, brackets);
   page.sections.push_back(section("Level by level", words.levels));
