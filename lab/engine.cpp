@@ -126,6 +126,19 @@ PageOfLadder constraint_algorithm(const Experiment& experiment) {
   return found;
 }
 
+// Of a network: what is across its nodes, as potential_a, for eight of them.
+Json waveforms(const Experiment& experiment) {
+  constexpr std::size_t most = 8;
+  Json names = Json::array();
+  const Json& system = experiment.document.at("system");
+  if (!system.is_object() || system.value("type", "") != "network") return names;
+  for (const Vocabulary::Derived& derived : experiment.model.vocabulary.derived)
+    for (const std::string& name : derived.names.element_names())
+      for (const char* of_node : {"potential_", "velocity_", "speed_", "pressure_", "temperature_"})
+        if (name.starts_with(of_node) && names.size() < most) names.push_back(name);
+  return names;
+}
+
 Json ladder(const Json& question) {
   const Experiment experiment = experiment_of(question);
   const PageOfLadder found = constraint_algorithm(experiment);
@@ -133,6 +146,7 @@ Json ladder(const Json& question) {
           {"title", found.page.title},
           {"page", to_markup(found.page).str()},
           {"method", experiment.method ? experiment.method->description : ""},
+          {"waveforms", waveforms(experiment)},
           {"remarks", listed(experiment.remarks)}};
 }
 
