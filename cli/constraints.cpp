@@ -212,7 +212,7 @@ void add_constraints(CLI::App& app, Session& session) {
                                              : arguments->digits ? Decider::digits
                                                                  : Decider::both);
             const ImplicitSystem& system = *experiment.model.system;
-            const ConstraintFormulas formulas = constraint_formulas(system, start);
+            const ConstraintFormulas formulas = formulas_of_start(experiment, start);
             LadderReport whole = ladder_report(start, system, formulas);
             tell_of_start(experiment, start, whole);
             std::optional<ConstraintBrackets> brackets;

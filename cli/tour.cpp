@@ -143,7 +143,7 @@ LadderPage page_of_chapter(const TourChapter& chapter) {
   const Experiment experiment = read_experiment(chapter.experiment);
   const ConsistentStart start = consistent_start(experiment);
   const ImplicitSystem& system = *experiment.model.system;
-  const ConstraintFormulas formulas = constraint_formulas(system, start);
+  const ConstraintFormulas formulas = formulas_of_start(experiment, start);
   const auto has = [&](const char* option) {
     return std::ranges::find(chapter.arguments, option) != chapter.arguments.end();
   };

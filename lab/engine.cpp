@@ -118,12 +118,25 @@ struct PageOfLadder {
 PageOfLadder constraint_algorithm(const Experiment& experiment) {
   const ConsistentStart start = consistent_start(experiment);
   const ImplicitSystem& system = *experiment.model.system;
-  const ConstraintFormulas formulas = constraint_formulas(system, start);
+  const ConstraintFormulas formulas = formulas_of_start(experiment, start);
   PageOfLadder found;
   found.ladder = ladder_report(start, system, formulas);
   tell_of_start(experiment, start, found.ladder);
   found.page = ladder_page(experiment, found.ladder, constraint_brackets(system, start, formulas));
   return found;
+}
+
+// Of a network: what is across its nodes, as potential_a, for eight of them.
+Json waveforms(const Experiment& experiment) {
+  constexpr std::size_t most = 8;
+  Json names = Json::array();
+  const Json& system = experiment.document.at("system");
+  if (!system.is_object() || system.value("type", "") != "network") return names;
+  for (const Vocabulary::Derived& derived : experiment.model.vocabulary.derived)
+    for (const std::string& name : derived.names.element_names())
+      for (const char* of_node : {"potential_", "velocity_", "speed_", "pressure_", "temperature_"})
+        if (name.starts_with(of_node) && names.size() < most) names.push_back(name);
+  return names;
 }
 
 Json ladder(const Json& question) {
@@ -133,6 +146,7 @@ Json ladder(const Json& question) {
           {"title", found.page.title},
           {"page", to_markup(found.page).str()},
           {"method", experiment.method ? experiment.method->description : ""},
+          {"waveforms", waveforms(experiment)},
           {"remarks", listed(experiment.remarks)}};
 }
 

@@ -284,6 +284,16 @@ SymbolTable Vocabulary::symbols(const Arguments& arguments) const {
   return symbols;
 }
 
+std::vector<Parameter> Vocabulary::numbers() const {
+  std::vector<Parameter> found;
+  for (const auto& [name, symbol] : parameters) {
+    const std::vector<std::string> elements = Declaration{name, symbol.shape}.element_names();
+    for (std::size_t i = 0; i < elements.size(); ++i)
+      found.push_back({elements[i], symbol.values[static_cast<Index>(i)].value()});
+  }
+  return found;
+}
+
 SymbolTable Vocabulary::symbols_of(const std::vector<std::string>& names, const ExprVector& x,
                                    const Expr& t) const {
   const auto is_one_of = [&](const std::string& name) {

@@ -94,6 +94,8 @@ struct Vocabulary {
   // Throws FormulaError if a definition is wrong, std::invalid_argument if a name repeats or a size
   // is wrong.
   SymbolTable symbols(const Arguments& arguments) const;
+  // Parameters element by element, as numbers with names: what add_parameters() may make variables of a graph.
+  std::vector<Parameter> numbers() const;
   // The part of it that formulas of x, t and these names need, and maybe more: quick where there are many
   // coordinates and the names are few.
   SymbolTable symbols_of(const std::vector<std::string>& names, const ExprVector& x,

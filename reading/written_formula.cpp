@@ -106,16 +106,23 @@ ExprVector evaluate(const WrittenFormulas& formulas, const SymbolTable& symbols)
 
 std::optional<VectorXd> evaluate_constants(const WrittenFormulas& formulas,
                                            const SymbolTable& constants, Findings& findings) {
-  if (!check(formulas, constants, findings)) return std::nullopt;
-  const VectorXd numbers = values(evaluate(formulas, constants));
-  bool finite = true;
+  VectorXd numbers(std::ssize(formulas.formulas));
+  bool right = true;
   for (Index i = 0; i < numbers.size(); ++i) {
+    const WrittenFormula& formula = formulas.formulas[static_cast<std::size_t>(i)];
+    try {
+      numbers[i] = evaluate(formula, constants).value();
+    } catch (const FormulaError& error) {
+      findings.problem(formula.pointer, error.what());
+      right = false;
+      continue;
+    }
     if (std::isfinite(numbers[i])) continue;
-    findings.problem(formulas.formulas[static_cast<std::size_t>(i)].pointer,
+    findings.problem(formula.pointer,
                      "is " + number_text(numbers[i]) + "; expected a finite number");
-    finite = false;
+    right = false;
   }
-  return finite ? std::optional(numbers) : std::nullopt;
+  return right ? std::optional(numbers) : std::nullopt;
 }
 
 bool check(const WrittenFormula& formula, const SymbolTable& symbols, Findings& findings) {

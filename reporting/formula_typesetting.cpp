@@ -130,6 +130,9 @@ struct MathMl {
   static Piece fenced(std::string_view left, const Piece& inner, std::string_view right) {
     return row(element("mo", {}, left) + inner + element("mo", {}, right));
   }
+  // Parentheses that are in two lines.
+  static Piece open() { return element("mo", {{"form", "prefix"}}, "("); }
+  static Piece close() { return element("mo", {{"form", "postfix"}}, ")"); }
   static Piece comma() { return element("mo", {}, ","); }
   static Piece matrix(const std::vector<std::vector<Piece>>& rows) {
     Piece all;
@@ -209,6 +212,8 @@ struct Latex {
   static Piece fenced(std::string_view left, const Piece& inner, std::string_view right) {
     return "\\left" + std::string(left) + " " + inner + "\\right" + std::string(right);
   }
+  static Piece open() { return "\\bigl( "; }
+  static Piece close() { return "\\bigr)"; }
   static Piece comma() { return ", "; }
   static Piece matrix(const std::vector<std::vector<Piece>>& rows) {
     Piece all;
@@ -337,9 +342,51 @@ class Typesetter {
     if (tree.kind == Kind::operation && tree.text == "/" && is_sum(tree.operands[0]) &&
         extent(tree) >= kLettersOfLine)
       return terms(divided(tree.operands[0], tree.operands[1]));
+    if (auto opened = product_with_sum(tree)) return *std::move(opened);
     if (!is_sum(tree)) return {{set(tree), extent(tree)}};
     std::vector<Part> all = terms(tree.operands[0]);
-    all.push_back({Out::infix(tree.text) + last_term(tree), 3 + extent(tree.operands[1])});
+    if (auto opened = product_with_sum(tree.operands[1])) {
+      opened->front().piece = Out::infix(tree.text) + opened->front().piece;
+      opened->front().extent += 3;
+      all.insert(all.end(), opened->begin(), opened->end());
+    } else {
+      all.push_back({Out::infix(tree.text) + last_term(tree), 3 + extent(tree.operands[1])});
+    }
+    return all;
+  }
+  // P (a + b)/D that is wider than a line as P/D (a + b), where a line may end in the parentheses.
+  std::optional<std::vector<Part>> product_with_sum(const FormulaTree& tree) const {
+    if (extent(tree) < kLettersOfLine) return std::nullopt;
+    if (tree.kind == Kind::sign && tree.text == "-") {
+      auto opened = product_with_sum(tree.operands[0]);
+      if (opened) opened->front().piece = Out::prefix("-") + opened->front().piece;
+      return opened;
+    }
+    if (tree.kind != Kind::operation || (tree.text != "*" && tree.text != "/")) return std::nullopt;
+    const bool is_over = tree.text == "/";
+    std::vector<const FormulaTree*> factors;
+    const FormulaTree* rest = is_over ? &tree.operands[0] : &tree;
+    for (; rest->kind == Kind::operation && rest->text == "*"; rest = &rest->operands[0])
+      factors.insert(factors.begin(), &rest->operands[1]);
+    factors.insert(factors.begin(), rest);
+    const FormulaTree* sum = nullptr;
+    for (const FormulaTree* factor : factors)
+      if (is_sum(*factor) && (!sum || extent(*factor) > extent(*sum))) sum = factor;
+    if (!sum) return std::nullopt;
+    std::optional<FormulaTree> before;
+    for (const FormulaTree* factor : factors)
+      if (factor != sum)
+        before = before ? FormulaTree{Kind::operation, "*", {*before, *factor}} : *factor;
+    if (is_over)
+      before = FormulaTree{Kind::operation,
+                           "/",
+                           {before.value_or(FormulaTree{Kind::number, "1"}), tree.operands[1]}};
+    std::vector<Part> all = terms(*sum);
+    if (before) {
+      all.insert(all.begin(),
+                 {inside(*before, kProduct) + Out::times() + Out::open(), extent(*before) + 1});
+      all.back().piece = all.back().piece + Out::close();
+    }
     return all;
   }
 

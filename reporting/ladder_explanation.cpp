@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "courant/core/language/formula_tree.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/core/words/text_layout.hpp"
 #include "courant/core/words/word_list.hpp"
@@ -37,16 +38,24 @@ Prose listed(const std::vector<std::string>& names) {
   return list;
 }
 
+// An equation by its name, which may be its formula; not dL/dq', which the language of formulas takes for a quotient.
+Prose equation_in_words(const std::string& name) {
+  const auto tree = formula_tree(name);
+  const bool has_derivative = name.find("/d") != std::string::npos;
+  return tree && tree->kind != FormulaTree::Kind::name && !has_derivative ? Prose::formula(name)
+                                                                          : Prose(name);
+}
+
 // The highest derivatives first: they are what the constraint is made of, the others what removes
 // the rest.
-std::string sources(LadderReport::Origin list) {
+Prose sources(LadderReport::Origin list) {
   std::stable_sort(list.begin(), list.end(),
                    [](const auto& a, const auto& b) { return a.derivative > b.derivative; });
-  std::string text;
+  Prose text;
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (i == 5) return text + " and " + std::to_string(list.size() - 5) + " more";
-    text +=
-        (i == 0 ? "" : ", ") + time_derivative("[" + list[i].equation + "]", list[i].derivative);
+    text += (i == 0 ? "" : ", ") + time_derivative("[", list[i].derivative) +
+            equation_in_words(list[i].equation) + "]";
   }
   return text;
 }
@@ -309,6 +318,10 @@ void tell(const std::string& head, const std::vector<Prose>& list, std::vector<P
   tell_rest(list.size(), lines);
 }
 
+constexpr const char* kNumbersOfBrackets =
+    "Brackets whose formulas are longer than five lines are numbers here: their values at the "
+    "point.";
+
 void explain_brackets(const ConstraintBrackets& found, std::vector<Prose>& lines) {
   if (!found.missing.empty())
     lines.push_back("The brackets have no formulas here: " + found.missing + ".");
@@ -324,6 +337,7 @@ void explain_brackets(const ConstraintBrackets& found, std::vector<Prose>& lines
     names.push_back("    " + Prose::formula(phi(a) + " = " + found.constraints[a]));
   tell("Brackets of the constraints", names, lines);
   tell("that are not 0 on M_f:", brackets, lines);
+  if (found.has_numbers) lines.emplace_back(kNumbersOfBrackets);
 }
 
 // Which constraints generate what, and what is left of the brackets of coordinates.
@@ -416,6 +430,37 @@ std::string family_in_words(const LadderReport& ladder) {
   return "E is no Morse family here: " + measured + ", less than the " +
          plural(multipliers, "multiplier") +
          " \u03bb, so that nothing says that \U0001d4db is a Lagrangian submanifold.";
+}
+
+Prose reason_in_words(const LadderReport& ladder) {
+  // After this, and ended by a full stop: d^2/dt^2 of names, with commas between them.
+  constexpr std::string_view contradiction = "contradict each other: ";
+  const std::string& reason = ladder.reason;
+  const std::size_t at = reason.find(contradiction);
+  if (at == std::string::npos || !reason.ends_with('.')) return reason;
+  const std::size_t begin = at + contradiction.size();
+  std::string_view list(reason);
+  list = list.substr(begin, list.size() - begin - 1);
+  Prose text = reason.substr(0, begin);
+  while (!list.empty()) {
+    const std::size_t end = std::min(list.find(", "), list.size());
+    std::string name(list.substr(0, end));
+    if (const std::size_t over = name.find("/dt"); name.starts_with("d") && over <= 4) {
+      const std::size_t space = std::min(name.find(' '), name.size());
+      std::string derivative = name.substr(0, space);
+      for (std::size_t hat; (hat = derivative.find("^2")) != std::string::npos;)
+        derivative.replace(hat, 2, "²");
+      text += derivative + " ";
+      name.erase(0, space + 1);
+    }
+    const auto tree = formula_tree(name);
+    const bool is_side =
+        tree && tree->kind != FormulaTree::Kind::name && tree->kind != FormulaTree::Kind::equation;
+    text += equation_in_words(is_side ? name + " = 0" : name);
+    list.remove_prefix(end);
+    if (!list.empty()) text += ", ", list.remove_prefix(2);
+  }
+  return text + ".";
 }
 
 std::vector<std::string> choices_in_words(const LadderReport& ladder) {

@@ -34,6 +34,9 @@ LadderWords ladder_words(const LadderReport& ladder,
 std::vector<Prose> ladder_explanation(
     const LadderReport& ladder, const std::optional<ConstraintBrackets>& brackets = std::nullopt);
 
+// Why the verdict is what it is. Equations that contradict each other are formulas, = 0, where their names are some.
+Prose reason_in_words(const LadderReport& ladder);
+
 // That the value of an unknown is one of several, for each of the choices.
 std::vector<std::string> choices_in_words(const LadderReport& ladder);
 

@@ -72,8 +72,19 @@ constexpr std::size_t kMostLines = 12;
 constexpr const char* kBrackets = "Brackets of the constraints";
 
 bool has_matrix(const LadderPage& page) {
-  return page.brackets && page.brackets->missing.empty() && page.ladder.classes &&
-         page.ladder.classes->brackets && page.brackets->constraints.size() <= 8;
+  if (!page.brackets || !page.brackets->missing.empty() || !page.ladder.classes ||
+      !page.ladder.classes->brackets || page.brackets->constraints.size() > 8)
+    return false;
+  // What stands beside each other in a row of a page.
+  constexpr std::size_t letters = 100;
+  const auto& matrix = page.brackets->matrix;
+  std::size_t width = 0;
+  for (std::size_t b = 0; b < matrix.size(); ++b) {
+    std::size_t widest = 0;
+    for (const auto& row : matrix) widest = std::max(widest, row[b].size());
+    width += widest;
+  }
+  return width <= letters;
 }
 
 std::string capitalized(std::string text) {
@@ -262,13 +273,15 @@ LadderPage ladder_page(const Experiment& experiment, const LadderReport& ladder,
     page.model.push_back(std::move(lines));
   }
   std::vector<Prose> verdict = {verdict_in_words(ladder)};
-  if (!ladder.reason.empty()) verdict.emplace_back(ladder.reason);
+  if (!ladder.reason.empty()) verdict.push_back(reason_in_words(ladder));
   page.sections.push_back(section("Verdict", verdict));
   const LadderWords words = ladder_words(ladder, brackets);
   page.sections.push_back(section("Level by level", words.levels));
   page.sections.push_back(section("Freedom and classes", words.freedom));
-  page.sections.push_back(
-      section(kBrackets, has_matrix(page) ? std::vector<Prose>() : words.brackets));
+  page.sections.push_back(section(kBrackets, !has_matrix(page) ? words.brackets
+                                             : page.brackets->has_numbers
+                                                 ? std::vector{words.brackets.back()}
+                                                 : std::vector<Prose>()));
   page.sections.push_back(section("Hamiltonian dynamics", words.dynamics));
   page.sections.push_back(section("Unknowns", words.unknowns));
   std::vector<Prose> certainty = words.certainty;

@@ -20,6 +20,7 @@
 #include "courant/reporting/report_tables.hpp"
 #include "courant/reporting/typesetting.hpp"
 #include "courant/running/consistent_start.hpp"
+#include "courant/running/other_values.hpp"
 
 namespace courant {
 
@@ -99,7 +100,7 @@ std::optional<ConstraintBrackets> brackets_of(const Run& run, const LadderReport
     const Experiment experiment = read_experiment_document(run.experiment);
     const ConsistentStart start = consistent_start(experiment);
     const ImplicitSystem& system = *experiment.model.system;
-    return constraint_brackets(system, start, constraint_formulas(system, start));
+    return constraint_brackets(system, start, formulas_of_start(experiment, start));
   } catch (const std::exception&) {
     return std::nullopt;
   }

@@ -280,8 +280,11 @@ std::vector<Figure> curves_of_motion(std::span<const Run> runs) {
     });
   }
   if (!bodies.empty()) figures.push_back(planar_figure(runs, bodies));
-  if (!figures.empty()) return figures;
-  return {over_time(runs, coordinates, caption, "coordinates")};
+  const bool is_one_point =
+      coordinates.size() == 3 && std::ranges::count(figures, "space", &Figure::name) > 0;
+  if (figures.empty() || is_one_point)
+    figures.push_back(over_time(runs, coordinates, caption, "coordinates"));
+  return figures;
 }
 
 }  // namespace

@@ -25,7 +25,8 @@ std::vector<PlanarBody> planar_bodies(std::span<const std::string> coordinates);
 // all rows, and at least 50.
 std::size_t legible_rows(const TrajectoryTable& trajectory, std::span<const PlanarBody> bodies);
 
-// The motion. A system with two coordinates: its phase portrait and both over time. With rotations,
+// The motion. A system with two coordinates: its phase portrait and both over time. One with three that are a point in
+// space: its path and all three over time. With rotations,
 // points of spheres, points in space, planar bodies or observed points P_x, P_y of the plane: the paths of
 // all of these, a panel for each run; a page draws rods between points that constraints hold at one distance. Any other: its coordinates over time, the first twelve. Poincaré sections after that.
 std::vector<Figure> motion_figures(std::span<const Run> runs);

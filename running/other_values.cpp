@@ -67,8 +67,14 @@ void tell_of_start(const Experiment& experiment, const ConsistentStart& start,
   report.choices = other_values(experiment, start);
 }
 
+ConstraintFormulas formulas_of_start(const Experiment& experiment, const ConsistentStart& start) {
+  return constraint_formulas(*experiment.model.system, start,
+                             experiment.model.vocabulary.numbers());
+}
+
 LadderReport report_of_start(const Experiment& experiment, const ConsistentStart& start) {
-  LadderReport report = ladder_report(start, *experiment.model.system);
+  LadderReport report =
+      ladder_report(start, *experiment.model.system, formulas_of_start(experiment, start));
   tell_of_start(experiment, start, report);
   return report;
 }

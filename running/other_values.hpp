@@ -21,7 +21,10 @@ std::vector<Movement> other_values(const Experiment& experiment, const Constrain
 void tell_of_start(const Experiment& experiment, const ConsistentStart& start,
                    LadderReport& report);
 
-// ladder_report of a start, with that.
+// Those of a start, with the parameters of the experiment by name.
+ConstraintFormulas formulas_of_start(const Experiment& experiment, const ConsistentStart& start);
+
+// ladder_report of a start with these, and with that.
 LadderReport report_of_start(const Experiment& experiment, const ConsistentStart& start);
 
 }  // namespace courant

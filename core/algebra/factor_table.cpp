@@ -15,6 +15,13 @@ int FactorTable::number(Factor factor) {
   return at->second;
 }
 
+std::pair<Monomial, Monomial> FactorTable::divided(const Monomial& monomial) const {
+  std::pair<Monomial, Monomial> parts;
+  for (const auto& power : monomial)
+    ((*this)[power.first].is_parameter ? parts.first : parts.second).push_back(power);
+  return parts;
+}
+
 bool FactorTable::is_before(int a, int b) const {
   const Factor &of_a = (*this)[a], &of_b = (*this)[b];
   if (of_a.variable && of_b.variable) return *of_a.variable < *of_b.variable;
@@ -31,7 +38,11 @@ FactorTable::Terms FactorTable::with_sorted_factors(const Polynomial& sum) const
 }
 
 bool FactorTable::is_above(const Monomial& a, const Monomial& b) const {
-  return leads(a, b, [this](int of_a, int of_b) { return is_before(of_a, of_b); });
+  const auto before = [this](int of_a, int of_b) { return is_before(of_a, of_b); };
+  const auto [numbers_a, others_a] = divided(a);
+  const auto [numbers_b, others_b] = divided(b);
+  return others_a == others_b ? leads(numbers_a, numbers_b, before)
+                              : leads(others_a, others_b, before);
 }
 
 FactorTable::Terms FactorTable::in_descending_order(const Polynomial& sum) const {

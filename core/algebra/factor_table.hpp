@@ -21,6 +21,7 @@ class FactorTable {
     Polynomial sum = {};  // of a sum in parentheses, or the argument of a square root
     bool is_sum = false, is_root = false;
     std::optional<std::uint32_t> variable = {};  // its place among the variables
+    bool is_parameter = false;                   // a number with a name, not 0
   };
   using Terms = std::vector<std::pair<Monomial, double>>;
 
@@ -28,8 +29,11 @@ class FactorTable {
   int number(Factor factor);
   const Factor& operator[](int number) const { return factors_[static_cast<std::size_t>(number)]; }
 
+  // The powers of parameters, and those of all else.
+  std::pair<Monomial, Monomial> divided(const Monomial& monomial) const;
+
   // High degrees first; among factors, which each monomial has in this order, first variables by their
-  // places, then what stands in parentheses by its text.
+  // places, then what stands in parentheses by its text. Parameters count where all else is equal.
   Terms in_descending_order(const Polynomial& sum) const;
   // The same with a positive term in front, if there is one.
   Terms in_order(const Polynomial& sum) const;

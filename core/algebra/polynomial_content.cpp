@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
 
 #include "courant/core/words/written_number.hpp"
 
@@ -13,6 +15,23 @@ Monomial common_monomial(const Polynomial& polynomial) {
   for (const auto& [monomial, c] : polynomial)
     common = combined(common, monomial, [](int a, int b) { return std::min(a, b); });
   return common;
+}
+
+// The number p/q by which all coefficients over `lead` are integers without a common divisor, where q is at most 48; else 1.
+double common_fraction(const Polynomial& polynomial, double lead) {
+  constexpr int largest = 48;
+  constexpr double most = 1e6, round_off = 1e-12;
+  for (int q = 1; q <= largest; ++q) {
+    std::int64_t divisor = 0;
+    const bool are_integers = std::ranges::all_of(polynomial, [&](const auto& term) {
+      const double number = term.second / lead * q, integer = std::round(number);
+      divisor = std::gcd(divisor, static_cast<std::int64_t>(std::min(std::fabs(integer), most)));
+      return std::fabs(integer) < most &&
+             std::fabs(number - integer) <= round_off * std::fabs(number);
+    });
+    if (are_integers && divisor > 0) return static_cast<double>(divisor) / q;
+  }
+  return 1.0;
 }
 
 double common_number(const Polynomial& polynomial, const FactorTable& factors) {
@@ -32,7 +51,7 @@ double common_number(const Polynomial& polynomial, const FactorTable& factors) {
   };
   double best = lead;
   std::size_t fewest = letters(lead);
-  for (const double other : {smallest, largest}) {
+  for (const double other : {smallest, largest, lead * common_fraction(polynomial, lead)}) {
     if (other == lead) continue;
     if (const std::size_t count = letters(other); count < fewest) {
       fewest = count;

@@ -36,9 +36,25 @@ Polynomial PolynomialReduction::plus(const Polynomial& a, const Polynomial& b, d
 void PolynomialReduction::assume(Polynomial relation) {
   std::set<int> factors;
   for (const auto& [monomial, c] : relation)
-    for (const auto& [factor, exponent] : monomial) factors.insert(factor);
+    if (!is_constant(monomial))
+      for (const auto& [factor, exponent] : monomial)
+        if (!parameters_.contains(factor)) factors.insert(factor);
   factors_.emplace_back(factors.begin(), factors.end());
   relations_.push_back(std::move(relation));
+}
+
+bool PolynomialReduction::is_constant(const Monomial& term) const {
+  return std::ranges::all_of(term,
+                             [&](const auto& power) { return parameters_.contains(power.first); });
+}
+
+// As divides(), but by parameters too.
+bool PolynomialReduction::may_divide(const Monomial& a, const Monomial& b) const {
+  return std::ranges::all_of(a, [&](const auto& of_a) {
+    if (parameters_.contains(of_a.first)) return true;
+    const auto of_b = std::ranges::find(b, of_a.first, &std::pair<int, int>::first);
+    return of_b != b.end() && of_b->second >= of_a.second;
+  });
 }
 
 // Whether a polynomial contains all of these.
@@ -73,28 +89,26 @@ Polynomial PolynomialReduction::reduced(Polynomial polynomial) {
   return polynomial;
 }
 
-// Replaces one multiple of the terms of a relation by that of its constant.
+// Replaces one multiple of the terms of a relation by that of its constants.
 bool PolynomialReduction::apply(const Polynomial& relation, Polynomial& sum) {
   const auto lead = std::find_if(relation.begin(), relation.end(),
-                                 [](const auto& term) { return !term.first.empty(); });
+                                 [&](const auto& term) { return !is_constant(term.first); });
   if (lead == relation.end()) return false;
   for (const auto& [monomial, c] : sum) {
-    if (!divides(lead->first, monomial)) continue;
+    if (!may_divide(lead->first, monomial)) continue;
     const Monomial multiplier = product(monomial, lead->first, -1);
     const double scale = c / lead->second;
     bool all = true;
     for (const auto& [term, coefficient] : relation) {
-      if (term.empty()) continue;
+      if (is_constant(term)) continue;
       const auto found = sum.find(product(multiplier, term));
       all = all && found != sum.end() && is_same_number(found->second, scale * coefficient);
     }
     if (!all) continue;
-    for (const auto& [term, coefficient] : relation) {
-      if (term.empty())
-        add(sum, multiplier, -scale * coefficient);
-      else
-        sum.erase(product(multiplier, term));
-    }
+    for (const auto& [term, coefficient] : relation)
+      if (!is_constant(term)) sum.erase(product(multiplier, term));
+    for (const auto& [term, coefficient] : relation)
+      if (is_constant(term)) add(sum, product(multiplier, term), -scale * coefficient);
     return true;
   }
   return false;

@@ -7,6 +7,7 @@
 
 #include "courant/core/algebra/sum_arithmetic.hpp"
 #include "courant/core/expressions/function_name.hpp"
+#include "courant/core/expressions/graph_parameters.hpp"
 #include "courant/core/expressions/subgraph.hpp"
 
 namespace courant {
@@ -34,7 +35,8 @@ class Simplifier {
     if (style.relations != Style::Relations::where_shorter)
       reduction.conclude({.backwards = style.relations == Style::Relations::last});
     else
-      for (const Expr& constraint : given.constraints) reduction.assume(of(constraint));
+      for (const Expr& constraint : given.constraints)
+        reduction.assume(arithmetic_.equation(of(constraint)));
     arithmetic_.set_expanding(style.expand);
     known_.clear();
   }
@@ -65,7 +67,7 @@ class Simplifier {
       case Op::constant:
         return SumArithmetic::number(graph.constant(index));
       case Op::variable:
-        return arithmetic_.factor({.text = graph.name(index), .variable = index});
+        return variable(graph, index);
       case Op::negate:
         return SumArithmetic::scaled(operand(node.a), -1.0);
       case Op::add:
@@ -106,6 +108,14 @@ class Simplifier {
                                    : call(name, {&operand(node.a), &operand(node.b)});
       }
     }
+  }
+
+  Sum variable(const Graph& graph, std::uint32_t index) {
+    const bool is_number = is_parameter(graph, index);
+    const Sum sum = arithmetic_.factor(
+        {.text = written_name(graph, index), .variable = index, .is_parameter = is_number});
+    if (is_number) arithmetic_.reduction().add_parameter(sum.begin()->first[0].first);
+    return sum;
   }
 
   Sum as_it_is(const Graph& graph, std::uint32_t index) {
@@ -177,11 +187,22 @@ std::optional<std::string> simplified(const Expr& a, const Simplification& given
 
 std::optional<std::string> simplified_equation(const Expr& a, const Simplification& given) {
   const auto texts = [&](Simplifier& simplifier) {
-    const SumArithmetic& sums = simplifier.arithmetic();
-    const Sum sum = sums.equation(simplifier.of(a));
-    const double c = sums.leading(sum);
-    return std::vector<std::string>{sums.text(SumArithmetic::scaled(sum, c < 0.0 ? -1.0 : 1.0)),
-                                    sums.text(SumArithmetic::scaled(sum, 1.0 / c))};
+    SumArithmetic& sums = simplifier.arithmetic();
+    const Sum whole = simplifier.of(a);
+    std::vector<std::string> found;
+    const auto add = [&](const Sum& sum) {
+      const double c = sums.leading(sum);
+      for (const double factor : {c < 0.0 ? -1.0 : 1.0, 1.0 / c})
+        found.push_back(sums.text(SumArithmetic::scaled(sum, factor)));
+    };
+    const Sum equation = sums.equation(whole);
+    add(equation);
+    try {
+      if (const Sum divided = sums.equation(whole, true); divided != equation) add(divided);
+      if (simplifier.adds_fractions()) add(sums.equation(sums.as_fraction(whole)));
+    } catch (const std::length_error&) {  // the first ones will do
+    }
+    return found;
   };
   return easiest(given, texts, effort_of_equation);
 }

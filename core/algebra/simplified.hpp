@@ -12,7 +12,7 @@ namespace courant {
 // What a formula is an expression of: relations that hold where it is looked at, each = 0.
 struct Simplification {
   // Polynomials, such as x² + y² + z² - 1 on a sphere: a multiple of all their terms but the
-  // constant one is replaced by that multiple of the constant. What is zero on all points where
+  // constant ones, which have numbers and parameters alone, is replaced by that multiple of the constants. What is zero on all points where
   // they are, as a consequence of several of them too, is found to be 0.
   std::vector<Expr> relations = {};
   // The same, but nothing more is concluded from them than the replacement of multiples.
@@ -30,8 +30,8 @@ struct Simplification {
 // with six digits. No value where the expression has more than a few hundred terms.
 std::optional<std::string> simplified(const Expr& a, const Simplification& given = {});
 
-// The same of an equation a = 0, which may be divided: by a number, and by what stands under all of
-// its terms or is a denominator of all.
+// The same of an equation a = 0, which may be divided: by numbers and parameters, which are not 0, and by what stands
+// under all of its terms or is a denominator of all.
 std::optional<std::string> simplified_equation(const Expr& a, const Simplification& given = {});
 
 }  // namespace courant

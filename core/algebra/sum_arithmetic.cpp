@@ -138,19 +138,88 @@ Polynomial SumArithmetic::as_fraction(const Polynomial& sum) {
   return opened({{normal(product(monomial, {powers.begin(), powers.end()}, -1)), c}});
 }
 
-Polynomial SumArithmetic::equation(const Polynomial& sum) const {
+Polynomial SumArithmetic::equation(const Polynomial& sum, bool divides) {
+  if (sum.empty()) return sum;
   const PolynomialContent of = content(sum, factors_);
   Monomial above;
   for (const auto& [factor, exponent] : of.monomial)
-    if (exponent > 0) above.emplace_back(factor, exponent);
+    if (exponent > 0 && !factors_[factor].is_parameter) above.emplace_back(factor, exponent);
+  Monomial
+      below;  // what all parameters of the primitive part stand over: no power is positive then
+  if (divides)
+    for (const auto& [monomial, c] : of.primitive_part)
+      below = combined(below, factors_.divided(monomial).first,
+                       [](int a, int b) { return std::max(a, b); });
   Polynomial result;
   for (const auto& [monomial, c] : of.primitive_part)
-    result[product(monomial, above)] = of.number * c;
-  return result;
+    result[product(product(monomial, above), below, -1)] = of.number * c;
+  return divides ? result : without_sums_of_parameters(std::move(result));
+}
+
+// Multiplied out: M (m + M) - M² is m M.
+Polynomial SumArithmetic::without_sums_of_parameters(Polynomial sum) {
+  const auto is_one = [&](const std::pair<int, int>& power) {
+    const FactorTable::Factor& factor = factors_[power.first];
+    return factor.is_sum && power.second > 0 &&
+           std::ranges::all_of(factor.sum, [&](const auto& term) {
+             return factors_.divided(term.first).second.empty();
+           });
+  };
+  const auto has_one = [&](const auto& term) { return std::ranges::any_of(term.first, is_one); };
+  while (std::ranges::any_of(sum, has_one)) {
+    Polynomial result;
+    for (const auto& [monomial, c] : sum) {
+      const auto power = std::ranges::find_if(monomial, is_one);
+      if (power == monomial.end()) {
+        reduction_.add(result, monomial, c);
+        continue;
+      }
+      const Monomial rest = product(monomial, {{power->first, 1}}, -1);
+      for (const auto& [term, d] : factors_[power->first].sum)
+        reduction_.add(result, product(rest, term), c * d);
+    }
+    sum = std::move(result);
+  }
+  return sum;
 }
 
 double SumArithmetic::leading(const Polynomial& sum) const {
   return sum.empty() ? 1.0 : factors_.in_descending_order(sum).front().second;
+}
+
+std::string SumArithmetic::text(const Polynomial& sum) {
+  const Polynomial other = with_coefficients(sum);
+  std::string text = factors_.text(sum);
+  if (other == sum) return text;
+  std::string shorter = factors_.text(other);
+  return shorter.size() < text.size() ? shorter : text;
+}
+
+// Terms that are the same but for parameters have one coefficient, and those whose coefficients are the same but for a
+// factor are put together.
+Polynomial SumArithmetic::with_coefficients(const Polynomial& sum) {
+  std::map<Monomial, Polynomial> coefficients;
+  for (const auto& [monomial, c] : sum) {
+    const auto [parameters, others] = factors_.divided(monomial);
+    coefficients[others][parameters] = c;
+  }
+  const bool is_coefficient = coefficients.size() == 1 && coefficients.begin()->first.empty();
+  if (is_coefficient || coefficients.size() == sum.size()) return sum;
+  std::map<Polynomial, Polynomial> alike;
+  for (const auto& [others, coefficient] : coefficients) {
+    const PolynomialContent of = content(coefficient, factors_);
+    alike[of.primitive_part][product(others, of.monomial)] = of.number;
+  }
+  Polynomial result;
+  for (const auto& [coefficient, others] : alike) {
+    if (coefficient.size() == 1) {
+      result.insert(others.begin(), others.end());
+      continue;
+    }
+    const auto [monomial, c] = as_factor(others);
+    result.emplace(normal(product(monomial, {{parentheses(coefficient), 1}})), c);
+  }
+  return result;
 }
 
 int SumArithmetic::parentheses(const Polynomial& sum) {

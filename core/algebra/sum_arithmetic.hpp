@@ -46,14 +46,18 @@ class SumArithmetic {
   // divide what stands above are divided out.
   Polynomial as_fraction(const Polynomial& sum);
   // The left side of an equation without its denominators, and divided by what stands in all terms: but
-  // positive powers of common factors stay, since the equation holds where they vanish.
-  Polynomial equation(const Polynomial& sum) const;
+  // positive powers of common factors stay, since the equation holds where they vanish. Parameters vanish nowhere.
+  // Sums of parameters are multiplied out; or, where that is asked for, all parameters stand below: x²/a² + y²/b² = 1.
+  Polynomial equation(const Polynomial& sum, bool divides = false);
 
   // The coefficient of the term of highest degree; 1 for 0.
   double leading(const Polynomial& sum) const;
-  std::string text(const Polynomial& sum) const { return factors_.text(sum); }
+  // With coefficients put together where that is shorter: p - q + a (p - q) as (a + 1)*(p - q), where a is a parameter.
+  std::string text(const Polynomial& sum);
 
  private:
+  Polynomial without_sums_of_parameters(Polynomial sum);
+  Polynomial with_coefficients(const Polynomial& sum);
   int parentheses(const Polynomial& sum);
   Monomial normal(Monomial monomial);
   std::pair<Monomial, double> as_factor(const Polynomial& sum);

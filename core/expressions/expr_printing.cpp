@@ -3,6 +3,7 @@
 
 #include "courant/core/expressions/expr.hpp"
 #include "courant/core/expressions/function_name.hpp"
+#include "courant/core/expressions/graph_parameters.hpp"
 #include "courant/core/words/message.hpp"
 
 namespace courant {
@@ -89,7 +90,7 @@ class Printer {
     const Graph& graph = piece.expression.graph();
     const Node& node = graph.node(piece.expression.node());
     if (node.op == Op::variable) {
-      text_ += graph.name(piece.expression.node());
+      text_ += written_name(graph, piece.expression.node());
       return;
     }
     parts_.clear();

@@ -9,12 +9,17 @@ namespace {
 // No variable of a formula has a name with a space in it.
 const std::string kMark = "parameter ";
 
+}  // namespace
+
 bool is_parameter(const Graph& graph, std::uint32_t node) {
   return node < graph.size() && graph.node(node).op == Op::variable &&
          graph.name(node).starts_with(kMark);
 }
 
-}  // namespace
+std::string written_name(const Graph& graph, std::uint32_t node) {
+  const std::string& name = graph.name(node);
+  return is_parameter(graph, node) ? name.substr(kMark.size()) : name;
+}
 
 ExprVector add_parameters(const Graph& graph, const std::vector<std::string>& names) {
   if (graph.size() > 0)

@@ -1,6 +1,7 @@
 // Parameters of formulas, which a graph may have as variables.
 #pragma once
 
+#include <cstdint>
 #include <initializer_list>
 #include <string>
 #include <vector>
@@ -30,6 +31,9 @@ ExprVector add_parameters(const Graph& graph, const std::vector<std::string>& na
 
 // Those of a graph; none of Graph::none().
 std::vector<std::string> parameter_names(const Graph& graph);
+// Whether a node is one of them, and the name of a variable as formulas write it.
+bool is_parameter(const Graph& graph, std::uint32_t node);
+std::string written_name(const Graph& graph, std::uint32_t node);
 // The parameter of this name; the constant `otherwise` where the graph has none.
 Expr parameter_of(const Graph& graph, const std::string& name, const Expr& otherwise);
 

@@ -6,6 +6,7 @@
 
 #include "courant/core/algebra/simplified.hpp"
 #include "courant/core/expressions/derivative.hpp"
+#include "courant/core/words/message.hpp"
 #include "courant/structures/dirac_structure.hpp"
 #include "courant/structures/dirac_system.hpp"
 
@@ -21,21 +22,36 @@ ExprVector variables(const Graph& graph, const std::string& name, Index count) {
   return result;
 }
 
-// A⁻¹ B by elimination with pivots that are constants; nothing where one is missing.
-std::optional<ExprMatrix> quotient(ExprMatrix A, ExprMatrix B) {
+// The number that an expression of nothing but parameters is; 0 for another one, and for what is round-off of 1 or more.
+double number_of(const Expr& a, const std::vector<Parameter>& parameters) {
+  if (a.is_constant()) return a.value();
+  ExprVector names(std::ssize(parameters));
+  VectorXd numbers(names.size());
+  for (Index i = 0; i < names.size(); ++i) {
+    const Parameter& parameter = parameters[static_cast<std::size_t>(i)];
+    names[i] = parameter_of(a.graph(), parameter.name, Expr(parameter.value));
+    numbers[i] = parameter.value;
+  }
+  const Expr number = substitute(a, names, constants(numbers));
+  return number.is_constant() && std::abs(number.value()) > 1e-12 ? number.value() : 0.0;
+}
+
+// A⁻¹ B by elimination with pivots that are made of numbers and parameters; nothing where one is missing.
+std::optional<ExprMatrix> quotient(ExprMatrix A, ExprMatrix B,
+                                   const std::vector<Parameter>& parameters) {
   const Index n = A.rows();
   for (Index k = 0; k < n; ++k) {
     Index pivot = -1;
     double largest = 0.0;
     for (Index i = k; i < n; ++i)
-      if (A(i, k).is_constant() && std::abs(A(i, k).value()) > largest) {
-        largest = std::abs(A(i, k).value());
+      if (const double size = std::abs(number_of(A(i, k), parameters)); size > largest) {
+        largest = size;
         pivot = i;
       }
     if (pivot < 0) return std::nullopt;
     A.row(k).swap(A.row(pivot));
     B.row(k).swap(B.row(pivot));
-    const Expr inverse = Expr(1.0 / A(k, k).value());
+    const Expr inverse = 1.0 / A(k, k);
     A.row(k) *= inverse;
     B.row(k) *= inverse;
     for (Index i = 0; i < n; ++i) {
@@ -50,23 +66,25 @@ std::optional<ExprMatrix> quotient(ExprMatrix A, ExprMatrix B) {
 
 // Λ of F v + E α = 0, v = Λ α, at the coordinates x.
 std::optional<ExprMatrix> bivector(const DiracStructure& structure, const ExprVector& x,
-                                   const Graph& graph) {
+                                   const Graph& graph, const std::vector<Parameter>& parameters) {
   const Index n = structure.manifold()->tangent_dimension();
   if (structure.port_size() > 0 || structure.equation_count() != n) return std::nullopt;
   const ExprVector v = variables(graph, "v of bracket ", n),
                    alpha = variables(graph, "covector of bracket ", n);
   const ExprVector membership = structure.membership(x, v, alpha, ExprVector());
   const ExprMatrix F = jacobian(membership, v).dense(), E = jacobian(membership, alpha).dense();
-  auto solved = quotient(F, E);
+  auto solved = quotient(F, E, parameters);
   if (solved) *solved = -*solved;
   return solved;
 }
 
 class Brackets {
  public:
-  Brackets(const ImplicitSystem& system, const ConstraintFormulas& formulas, ExprMatrix bivector)
+  Brackets(const ImplicitSystem& system, const ConstraintFormulas& formulas, const State& point,
+           ExprMatrix bivector)
       : system_(system),
         formulas_(formulas),
+        point_(point),
         bivector_(std::move(bivector)),
         x_(formulas.coordinates) {
     const Manifold& M = *system.manifold();
@@ -94,9 +112,10 @@ class Brackets {
       result.matrix.emplace_back();
       bool vanish = true;
       for (std::size_t b = 0; b < count; ++b) {
-        const auto text = written(bracket(a, b));
-        if (!text) return too_long;
-        vanish = vanish && *text == "0";
+        auto text = written(bracket(a, b));
+        result.has_numbers = result.has_numbers || !text;
+        vanish = vanish && text == "0";
+        if (!text) text = number_text(value(bracket(a, b)), 6);
         result.matrix.back().push_back(*text);
       }
       result.is_first_class.push_back(vanish);
@@ -112,6 +131,14 @@ class Brackets {
   ExprVector differential(const Expr& f) const { return frame_.transpose() * gradient(f, x_); }
   Expr bracket(std::size_t a, std::size_t b) const {
     return a == b ? Expr(0.0) : differentials_[a].dot(fields_[b]);
+  }
+  double value(const Expr& f) const {
+    ExprVector variables(x_.size() + 1);
+    variables << x_, formulas_.time;
+    VectorXd numbers(variables.size());
+    numbers << point_.x, point_.t;
+    const Expr there = substitute(f, variables, constants(numbers));
+    return there.is_constant() ? there.value() : number_of(there, formulas_.parameters);
   }
   static std::optional<std::string> written(const Expr& f, const Simplification& given) {
     auto text = simplified(f, given);
@@ -184,11 +211,12 @@ class Brackets {
     for (Index a = 0; a < count; ++a)
       for (Index b = 0; b < count; ++b) {
         C(a, b) = bracket(second[static_cast<std::size_t>(a)], second[static_cast<std::size_t>(b)]);
-        constant = constant && C(a, b).is_constant();
+        constant =
+            constant && (C(a, b).is_constant() || number_of(C(a, b), formulas_.parameters) != 0.0);
       }
     ExprMatrix inverse;
     if (constant) {
-      const auto solved = quotient(C, ExprMatrix::Identity(count, count));
+      const auto solved = quotient(C, ExprMatrix::Identity(count, count), formulas_.parameters);
       if (!solved) return {};
       inverse = *solved;
     } else if (count == 2) {
@@ -234,6 +262,7 @@ class Brackets {
 
   const ImplicitSystem& system_;
   const ConstraintFormulas& formulas_;
+  const State& point_;
   ExprMatrix bivector_;
   LinearMap<Expr> frame_;
   ExprVector x_;
@@ -256,9 +285,9 @@ std::optional<ConstraintBrackets> constraint_brackets(const ImplicitSystem& syst
   if (formulas.constraints.size() > most_constraints)
     return ConstraintBrackets{.missing = "there are more than 24 constraints"};
   const ExprVector& x = formulas.coordinates;
-  auto lambda = bivector(*structure, x, x[0].graph());
+  auto lambda = bivector(*structure, x, x[0].graph(), formulas.parameters);
   if (!lambda) return std::nullopt;
-  return Brackets(system, formulas, std::move(*lambda))();
+  return Brackets(system, formulas, ladder.point, std::move(*lambda))();
 }
 
 }  // namespace courant

@@ -22,6 +22,8 @@ struct ConstraintBrackets {
   // rows.
   std::vector<std::string> constraints = {};
   std::vector<std::vector<std::string>> matrix = {};
+  // Whether it has numbers, those at the point, in the place of formulas that are longer than five lines.
+  bool has_numbers = false;
   // Whether φ_a is first class as it stands: {φ_a, φ_b} = 0 on M_f for all b.
   std::vector<bool> is_first_class = {};
 
@@ -48,8 +50,8 @@ struct ConstraintBrackets {
 };
 
 // Nothing where there are no constraints, where there is no structure or none whose bivector elimination with constant
-// pivots finds, and with constraints on velocities; no formulas where not all constraints have some, of more than 24
-// constraints, and where a bracket is longer than five lines.
+// pivots finds, and with constraints on velocities; no formulas where not all constraints have some, or one that is longer
+// than five lines, and of more than 24 constraints.
 // Reference: Henneaux, Teitelboim, Quantization of Gauge Systems (1992), chapter 1.
 std::optional<ConstraintBrackets> constraint_brackets(const ImplicitSystem& system,
                                                       const ConstraintLadder& ladder,

@@ -1,6 +1,7 @@
 #include "courant/integrators/certificate/constraint_formulas.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -21,6 +22,7 @@ namespace courant {
 namespace {
 
 constexpr std::size_t longest = 450;  // characters of a formula: five lines
+constexpr std::size_t most_parameters = 50;
 constexpr std::size_t most_operations = 20000, most_operations_of_one = 1000;
 
 using Kind = ConstraintFormulas::Step::Kind;
@@ -30,6 +32,12 @@ ExprVector named(const Graph& graph, const std::vector<std::string>& names) {
   for (std::size_t i = 0; i < names.size(); ++i)
     result[static_cast<Index>(i)] = graph.variable(names[i]);
   return result;
+}
+
+ExprVector added(const Graph& graph, const std::vector<Parameter>& parameters) {
+  std::vector<std::string> names;
+  for (const Parameter& parameter : parameters) names.push_back(parameter.name);
+  return add_parameters(graph, names);
 }
 
 // A table in which formulas of these names can be read: x, r[2][1], x', with an array of each r. Elements that nobody
@@ -89,8 +97,11 @@ struct OpenEquation {
 // are ẋ, and equations are taken modulo what points and velocities satisfy.
 class EquationReduction {
  public:
-  EquationReduction(const ImplicitSystem& system, const State& point)
-      : x_(named(graph_, system.names().coordinates)), t_(graph_.variable("t")) {
+  EquationReduction(const ImplicitSystem& system, const State& point,
+                    const std::vector<Parameter>& parameters)
+      : parameters_(added(graph_, parameters)),
+        x_(named(graph_, system.names().coordinates)),
+        t_(graph_.variable("t")) {
     const Manifold& M = *system.manifold();
     const ExprVector rates = named(graph_, velocity_names(system));
     const ExprVector z = named(graph_, system.names().auxiliary);
@@ -101,8 +112,11 @@ class EquationReduction {
     solved_.assign(static_cast<std::size_t>(unknowns_.size()), false);
     in_solution_.resize(solved_.size());
     motion_ = M.frame(x_) * rates;
-    numbers_.resize(x_.size() + 1 + unknowns_.size());
-    numbers_ << point.x, point.t, point.v, point.z;
+    VectorXd of_parameters(parameters_.size());
+    for (Index i = 0; i < of_parameters.size(); ++i)
+      of_parameters[i] = parameters[static_cast<std::size_t>(i)].value;
+    numbers_.resize(x_.size() + 1 + unknowns_.size() + parameters_.size());
+    numbers_ << point.x, point.t, point.v, point.z, of_parameters;
 
     ExprVector v = rates;
     const ExprVector constraint = M.constraint(x_);
@@ -126,8 +140,9 @@ class EquationReduction {
     names.emplace_back("t");
     for (const auto& more : {velocity_names(system), system.names().auxiliary})
       names.insert(names.end(), more.begin(), more.end());
+    for (const Parameter& parameter : parameters) names.push_back(parameter.name);
     variables_.resize(numbers_.size());
-    variables_ << x_, t_, unknowns_;
+    variables_ << x_, t_, unknowns_, parameters_;
     for (Index i = 0; i < variables_.size(); ++i) place_[variables_[i].node()] = i;
     symbols_ = readable(names, variables_);
     const ExprVector equations = system.residual(x_, v, z, t_);
@@ -183,7 +198,8 @@ class EquationReduction {
     std::vector<Expr> left;
     for (const OpenEquation& equation : equations_)
       if (has_unknown(equation.function)) left.push_back(equation.function);
-    return NormalForm(variables_, {}).consequences(left, unknowns_);
+    const Index count = variable_of(unknowns_.size());
+    return NormalForm(variables_.head(count), {}).consequences(left, unknowns_);
   }
   // Whether functions of the point have no zero in common.
   bool have_no_common_zero(const std::vector<Expr>& functions) const {
@@ -199,28 +215,26 @@ class EquationReduction {
                                [](const auto& slope) { return !slope.second.is_constant(0.0); });
   }
   double value(const Expr& function) const {
-    const std::vector<Index> of = contained(function);
-    const VectorXd there = numbers_(of);
-    const Expr number = substitute(function, ExprVector(variables_(of)), constants(there));
-    return number.is_constant() ? number.value() : std::nan("");
+    return values_at_point(ExprVector::Constant(1, function), contained(function))[0];
   }
   // In the tangent representation.
   VectorXd gradient_at_point(const Expr& function) const {
     const ExprVector v = unknowns_.head(velocity_count_);
     const ExprVector along = gradient(derivative(function), v);
-    VectorXd result(along.size());
-    for (Index i = 0; i < along.size(); ++i) result[i] = value(along[i]);
-    return result;
+    return values_at_point(along, contained(along));
   }
 
   // Texts are read again, and nothing is written that says other numbers at the point; then they are empty, as those
   // that are too long.
   std::string written(const Expr& function) const {
+    if (is_too_long(function)) return "";
     const std::string text = short_enough(simplified(function, given(function)));
     return says(text, value(function)) ? text : "";
   }
   std::string written_equation(const Expr& function) const {
+    if (is_too_long(function)) return "";
     const std::string text = short_enough(simplified_equation(function, given(function)));
+    if (text.empty()) return "";
     const bool holds = std::abs(value(function)) <= 1e-8 * change(function);
     return !holds || says(text, 0.0) ? text : "";
   }
@@ -232,7 +246,8 @@ class EquationReduction {
     for (const Index u : of) functions.push_back(reduced(unknowns_[u]));
     std::vector<std::string> texts(of.size());
     in_parallel(of.size(), core_count(), [&](std::size_t i) {
-      texts[i] = short_enough(simplified(functions[i], on_solutions));
+      if (!is_too_long(functions[i]))
+        texts[i] = short_enough(simplified(functions[i], on_solutions));
     });
     for (std::size_t i = 0; i < texts.size(); ++i)
       if (!says(texts[i], value(functions[i]))) texts[i].clear();
@@ -247,6 +262,10 @@ class EquationReduction {
   Index velocity_count() const { return velocity_count_; }
 
  private:
+  // Nothing that could be written comes of it.
+  static bool is_too_long(const Expr& function) {
+    return Subgraph(ExprVector::Constant(1, function)).size() > most_operations_of_one;
+  }
   static std::string short_enough(const std::optional<std::string>& text) {
     return text && text->size() <= longest ? *text : "";
   }
@@ -277,11 +296,9 @@ class EquationReduction {
   }
   // How far a function moves when each variable does by its size, or by 1 where that is less.
   double change(const Expr& function) const {
-    double size = 0.0;
-    for (const auto& [i, slope] : slopes(function, contained(function)))
-      if (!slope.is_constant(0.0))
-        size += std::abs(value(slope)) * std::max(1.0, std::abs(numbers_[i]));
-    return size;
+    const std::vector<Index> of = contained(function);
+    const ExprVector along = gradient(function, ExprVector(variables_(of)));
+    return values_at_point(along, of).cwiseAbs().dot(numbers_(of).cwiseAbs().cwiseMax(1.0));
   }
 
   // At the point, next to how fast it changes there and to the other coefficients of its equation: what is
@@ -292,10 +309,20 @@ class EquationReduction {
     return !(std::abs(value(function)) > 1e-6 * change(function));
   }
 
+  // Of functions of these variables; NaN where one is no number there.
+  VectorXd values_at_point(const ExprVector& functions, const std::vector<Index>& of) const {
+    const VectorXd there = numbers_(of);
+    return substitute(functions, ExprVector(variables_(of)), constants(there))
+        .unaryExpr([](const Expr& a) { return a.is_constant() ? a.value() : std::nan(""); });
+  }
+
   // Variables in a function, ascending.
   std::vector<Index> contained(const Expr& function) const {
+    return contained(ExprVector::Constant(1, function));
+  }
+  std::vector<Index> contained(const ExprVector& functions) const {
     std::vector<Index> found;
-    const Subgraph subgraph(ExprVector::Constant(1, function));
+    const Subgraph subgraph(functions);
     for (const std::uint32_t node : subgraph.nodes())
       if (const auto place = place_.find(node); place != place_.end())
         found.push_back(place->second);
@@ -303,7 +330,13 @@ class EquationReduction {
     return found;
   }
   std::vector<Index> unknowns_in(const std::vector<Index>& variables) const {
-    return {std::ranges::lower_bound(variables, x_.size() + 1), variables.end()};
+    return {std::ranges::lower_bound(variables, variable_of(0)),
+            std::ranges::lower_bound(variables, variable_of(unknowns_.size()))};
+  }
+  // With more than parameters.
+  bool varies(const Expr& function) const {
+    const std::vector<Index> variables = contained(function);
+    return !variables.empty() && variables.front() < variable_of(unknowns_.size());
   }
   Index variable_of(Index unknown) const { return x_.size() + 1 + unknown; }
   // Derivatives by some variables, each with its variable.
@@ -324,9 +357,7 @@ class EquationReduction {
     constexpr double of_varying = 1000.0;
     equation.is_weighed = true;
     if (equation.function.is_constant()) return;
-    // Nothing that could be written comes of what is so long.
-    if (Subgraph(ExprVector::Constant(1, equation.function)).size() > most_operations_of_one)
-      return;
+    if (is_too_long(equation.function)) return;
     auto along = slopes(equation.function, unknowns_in(equation.contained));
     std::erase_if(along, [](const auto& slope) { return slope.second.is_constant(0.0); });
     double largest = 0.0;
@@ -335,7 +366,7 @@ class EquationReduction {
       double cost = static_cast<double>(along.size());
       if (!slope.is_constant()) {
         if (vanishes(slope, largest) || has_unknown(slope)) continue;
-        cost += of_varying;
+        if (varies(slope)) cost += of_varying;
       }
       if (equation.unknown >= 0 && cost >= equation.cost) continue;
       equation.cost = cost;
@@ -382,12 +413,12 @@ class EquationReduction {
   }
 
   Graph graph_;
-  ExprVector x_;
+  ExprVector parameters_, x_;
   Expr t_;
   Index velocity_count_ = 0;
   ExprVector unknowns_, solution_;                  // velocities, then auxiliary unknowns
   ExprVector motion_;                               // ẋ
-  ExprVector variables_;                            // x, t and the unknowns
+  ExprVector variables_;                            // x, t, the unknowns and the parameters
   std::unordered_map<std::uint32_t, Index> place_;  // of a variable's node in variables_
   VectorXd numbers_;                                // of the variables, at the point
   std::optional<SymbolTable> symbols_;              // of the variables
@@ -403,11 +434,14 @@ class EquationReduction {
 // The formulas of one system, found level by level.
 class Derivation {
  public:
-  Derivation(const ImplicitSystem& system, const ConstraintLadder& ladder)
+  Derivation(const ImplicitSystem& system, const ConstraintLadder& ladder,
+             std::vector<Parameter> parameters)
       : ladder_(ladder),
-        elimination_(system, ladder.point),
+        elimination_(system, ladder.point, parameters),
         known_(system.manifold()->tangent_dimension(), 0),
-        is_told_(static_cast<std::size_t>(elimination_.velocity_count()), false) {}
+        is_told_(static_cast<std::size_t>(elimination_.velocity_count()), false) {
+    result_.parameters = std::move(parameters);
+  }
 
   ConstraintFormulas operator()(Index levels) {
     if (elimination_.is_too_large()) return {};
@@ -558,6 +592,36 @@ class Derivation {
   ConstraintFormulas result_;
 };
 
+// Whether formulas need the parameter as an integer, as the bound of a sum.
+bool is_counting(const ImplicitSystem& system, const Parameter& parameter) {
+  const Graph graph;
+  added(graph, {parameter});
+  const ExprVector x = named(graph, system.names().coordinates);
+  const ExprVector z = named(graph, system.names().auxiliary);
+  const ExprVector v = graph.variables("v", system.manifold()->tangent_dimension());
+  try {
+    system.residual(x, v, z, graph.variable("t"));
+    return false;
+  } catch (const std::exception&) {
+    return true;
+  }
+}
+
+// Whether there is nothing that formulas could say and do not.
+bool is_whole(const ConstraintFormulas& formulas, const ConstraintLadder& ladder) {
+  return ladder.index >= 0 && formulas.constraints.size() == ladder.constraints.size() &&
+         std::ssize(formulas.values) == std::ranges::count(ladder.determined, true) &&
+         std::ssize(formulas.velocities) == std::ranges::count(ladder.determined_velocities, true);
+}
+
+// What tells which of two derivations of one system found more: contradictions, constraints, then the rest.
+std::array<std::size_t, 4> findings(const ConstraintFormulas& found) {
+  const auto contradictions = static_cast<std::size_t>(
+      std::ranges::count(found.steps, Kind::contradiction, &ConstraintFormulas::Step::kind));
+  return {contradictions, found.constraints.size(), found.values.size() + found.velocities.size(),
+          found.steps.size()};
+}
+
 }  // namespace
 
 std::string to_string(ConstraintFormulas::Step::Kind kind) {
@@ -619,8 +683,8 @@ std::vector<std::string> velocity_names(const ImplicitSystem& system) {
   return names;
 }
 
-ConstraintFormulas constraint_formulas(const ImplicitSystem& system,
-                                       const ConstraintLadder& ladder) {
+ConstraintFormulas constraint_formulas(const ImplicitSystem& system, const ConstraintLadder& ladder,
+                                       std::vector<Parameter> parameters) {
   const bool is_empty =
       (ladder.verdict == Verdict::inconsistent || ladder.verdict == Verdict::rank_change) &&
       !ladder.levels.empty();
@@ -630,7 +694,18 @@ ConstraintFormulas constraint_formulas(const ImplicitSystem& system,
       ladder.point.z.size() != system.auxiliary_size() ||
       M.tangent_dimension() + system.auxiliary_size() > 200)
     return {};
-  return Derivation(system, ladder)(is_empty ? ladder.levels.back().k : ladder.index);
+  const Index levels = is_empty ? ladder.levels.back().k : ladder.index;
+  std::erase_if(parameters, [&](const Parameter& parameter) {
+    return parameter.value == 0.0 || !std::isfinite(parameter.value) ||
+           (parameter.value == std::floor(parameter.value) && is_counting(system, parameter));
+  });
+  if (!parameters.empty() && parameters.size() <= most_parameters) {
+    ConstraintFormulas named = Derivation(system, ladder, std::move(parameters))(levels);
+    if (is_whole(named, ladder)) return named;
+    ConstraintFormulas in_numbers = Derivation(system, ladder, {})(levels);
+    return findings(in_numbers) > findings(named) ? in_numbers : named;
+  }
+  return Derivation(system, ladder, {})(levels);
 }
 
 }  // namespace courant

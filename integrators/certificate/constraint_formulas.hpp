@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "courant/core/expressions/graph_parameters.hpp"
 #include "courant/integrators/certificate/constraint_ladder.hpp"
 #include "courant/structures/implicit_system.hpp"
 
@@ -46,10 +47,11 @@ struct ConstraintFormulas {
   std::vector<Velocity> velocities;
   std::vector<Step> steps;
   // The constraints and the values as expressions, in the same order, of coordinates (N) and time, which have the
-  // names of the system.
+  // names of the system, and of parameters (graph_parameters.hpp).
   std::vector<Expr> constraint_functions = {}, value_functions = {};
   ExprVector coordinates = {};
   Expr time = {};
+  std::vector<Parameter> parameters = {};  // of their graph
 };
 
 std::string to_string(ConstraintFormulas::Step::Kind kind);
@@ -65,8 +67,11 @@ std::string to_string(ConstraintFormulas::Step::Kind kind);
 // `ladder` has an index; or its rank changes, and constraints may be singular; or it is inconsistent, and
 // the last step may be a contradiction: that of a derivative, or of constraints without a common zero, the
 // last of which it names.
-ConstraintFormulas constraint_formulas(const ImplicitSystem& system,
-                                       const ConstraintLadder& ladder);
+//
+// Formulas have these parameters by name, where as much is found so as with their numbers: that two of them are
+// equal, names do not tell. Those that are 0, or count the terms of a sum, are numbers. Names are those of elements: "l", "m[1]".
+ConstraintFormulas constraint_formulas(const ImplicitSystem& system, const ConstraintLadder& ladder,
+                                       std::vector<Parameter> parameters = {});
 
 // Names of the components of the velocity (Ñ) in the representation of the manifold: x' of a
 // coordinate x that is one of them; else v_R[0] of R[3][3], or v[0].

@@ -3,6 +3,9 @@ import {element} from './dom.js';
 
 const netlist = /\.(cir|ckt|net|netlist|sp|spi|spice)$/i;
 
+// URDF, SDF and MJCF, which are XML.
+const robot = /<(robot|sdf|mujoco)[\s>]/;
+
 // A JSON text that is an experiment.
 function isExperiment(text) {
   try {
@@ -13,10 +16,11 @@ function isExperiment(text) {
 }
 
 export class Files {
-  // changed(): a file came, or went; experiment(text); netlist(text); all by what its user adds.
-  constructor(parent, desk, {changed, experiment, netlist}) {
+  // changed(): a file came, or went; experiment(text); netlist(text); robot(name): one that cannot be read here; all by what
+  // its user adds.
+  constructor(parent, desk, {changed, experiment, netlist, robot}) {
     this.texts = new Map();
-    this.host = {changed, experiment, netlist};
+    this.host = {changed, experiment, netlist, robot};
     this.parent = parent;
     this.list = element('ul', {});
     const chosen = element('input', {type: 'file', multiple: true, hidden: true, 'aria-label': 'Files to add', onchange: () => {
@@ -41,7 +45,10 @@ export class Files {
   }
 
   async add(files) {
-    const read = await Promise.all(files.map(async (file) => ({name: file.name, text: await file.text()})));
+    const all = await Promise.all(files.map(async (file) => ({name: file.name, text: await file.text()})));
+    const robots = all.filter(({text}) => robot.test(text.slice(0, 10000))), read = all.filter((one) => !robots.includes(one));
+    if (robots.length > 0) this.host.robot(robots[0].name);
+    if (read.length === 0) return;
     const experiments = read.filter(({text}) => isExperiment(text)), others = read.filter((one) => !experiments.includes(one));
     for (const {name, text} of others) this.texts.set(name, text);
     if (others.length > 0) this.parent.open = true;

@@ -334,6 +334,7 @@ async function begin() {
     changed: () => redraw(),
     experiment: (text) => load(text),
     netlist: openNetlist,
+    robot: (name) => showProblems(editor.text, [{where: name, what: 'is a robot, which the laboratory cannot read. The command can: courant import ' + name + ' -o robot.json writes an experiment that opens here.'}]),
   });
   runs = new Runs({
     schema,

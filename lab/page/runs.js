@@ -27,6 +27,7 @@ export class Runs {
     for (const name of ['step', 'end'])
       $(name).addEventListener('change', () => { if ($(name).valueAsNumber) this.write(['time', name], $(name).valueAsNumber); });
     this.written = {};
+    this.waveforms = [];  // what a circuit shows that observes nothing
   }
 
   methodAsObject() {
@@ -52,8 +53,9 @@ export class Runs {
   time() { return this.written.time || {step: 0.05, end: 10}; }
 
   // Shows what the text says, or what a run would take where it says nothing.
-  settingsOf(written) {
+  settingsOf(written, {waveforms = []} = {}) {
     this.written = written;
+    this.waveforms = waveforms;
     const type = typeOf(written.method) || 'constrain-first';
     const known = Object.entries(methods);
     if (!methods[type]) known.push([type, type]);
@@ -72,6 +74,7 @@ export class Runs {
     let text = this.text();
     if (!this.written.method) text = withCompactValue(text, ['method'], {type: 'constrain-first'});
     if (!this.written.time) text = withCompactValue(text, ['time'], this.time());
+    if (!this.written.observe && this.waveforms.length > 0) text = withCompactValue(text, ['observe'], Object.fromEntries(this.waveforms.map((name) => [name, name])));
     if (!$('both').checked) return [text];
     // What is expected is expected of the method of the text.
     const bare = withValue(text, ['expect'], undefined);

@@ -98,4 +98,15 @@ BOOST_AUTO_TEST_CASE(inconsistent_systems_have_pages) {
   BOOST_TEST(!has(to_html(page), "<table class=\"brackets\">"));
 }
 
+// Equations that contradict each other are set, as equations.
+BOOST_AUTO_TEST_CASE(contradictions_are_formulas) {
+  const LadderPage page = page_of({{"system",
+                                    {{"type", "implicit"},
+                                     {"coordinates", {"x", "y"}},
+                                     {"equations", {"x' - y", "x + y - 1", "x + y - 5"}}}},
+                                   {"initial", {{"x", 1}, {"y", 0}}}});
+  const std::string latex = to_latex(page);
+  BOOST_TEST(has(latex, "contradict each other: $x + y - 1 = 0$, $x + y - 5 = 0$."), latex);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

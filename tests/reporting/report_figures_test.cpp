@@ -102,6 +102,18 @@ BOOST_AUTO_TEST_CASE(one_degree_of_freedom_has_a_phase_portrait) {
   BOOST_TEST(figures[1].panels.size() == 2);
 }
 
+// As of a circuit of three elements that store energy.
+BOOST_AUTO_TEST_CASE(three_coordinates_have_a_path_and_time_series) {
+  const std::vector<Run> runs = {table({"t", "x", "y", "z"}, 100, [](std::size_t c, double t) {
+    return c == 1 ? std::cos(t) : c == 2 ? std::sin(t) : t;
+  })};
+  const auto figures = motion_figures(runs);
+  BOOST_TEST_REQUIRE(figures.size() == 2u);
+  BOOST_TEST(figures[0].name == "space");
+  BOOST_TEST(figures[1].name == "coordinates");
+  BOOST_TEST(figures[1].panels.size() == 3u);
+}
+
 BOOST_AUTO_TEST_CASE(any_other_system_has_time_series) {
   const std::vector<Run> few = {table({"t", "a", "b", "c"}, 100, oscillation)};
   BOOST_TEST_REQUIRE(motion_figures(few).size() == 1);

@@ -32,6 +32,20 @@ BOOST_AUTO_TEST_CASE(multiples_of_all_terms_become_that_of_the_constant) {
   BOOST_CHECK((reduction.reduced({{x2, 1.0}}) == Polynomial{{x2, 1.0}}));
 }
 
+// x² + y² = l² with a parameter l: a l² is a constant as a number is.
+BOOST_AUTO_TEST_CASE(parameters_are_numbers) {
+  PolynomialReduction reduction({});
+  constexpr int l = 4;
+  const Monomial l2 = {{l, 2}};
+  reduction.add_parameter(l);
+  reduction.assume({{x2, 1.0}, {y2, 1.0}, {l2, -1.0}});
+  BOOST_CHECK((reduction.reduced({{product(x2, y), 2.0}, {{{1, 3}}, 2.0}}) ==
+               Polynomial{{product(y, l2), 2.0}}));
+  BOOST_CHECK((reduction.reduced({{product(x2, l2, -1), 1.0}, {product(y2, l2, -1), 1.0}}) ==
+               Polynomial{{one, 1.0}}));
+  BOOST_CHECK((reduction.reduced({{l2, 1.0}}) == Polynomial{{l2, 1.0}}));
+}
+
 // x y = 1 and x = y² have y³ = 1 as a consequence.
 BOOST_AUTO_TEST_CASE(consequences_of_several_relations_hold_once_they_are_concluded) {
   PolynomialReduction reduction({});

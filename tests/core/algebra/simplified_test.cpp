@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "courant/core/expressions/expr_vectors.hpp"
+#include "courant/core/expressions/graph_parameters.hpp"
 
 namespace courant {
 namespace {
@@ -79,7 +80,7 @@ BOOST_AUTO_TEST_CASE(the_factor_in_front_leaves_short_numbers) {
 BOOST_AUTO_TEST_CASE(terms_over_the_same_sum_are_put_together) {
   const Expr one = 1 / (1 - x * y), two = 1 / (1 - x * z);
   BOOST_TEST(text(one * x + 2 * two * y - one * z + 3 * two * z) ==
-             "(x - z)/(1 - x*y) + 2*(y + 1.5*z)/(1 - x*z)");
+             "(x - z)/(1 - x*y) + (2*y + 3*z)/(1 - x*z)");
   BOOST_TEST(text(one * x + two * y) == "x/(1 - x*y) + y/(1 - x*z)");
 }
 
@@ -129,6 +130,23 @@ BOOST_AUTO_TEST_CASE(relations_are_used) {
   BOOST_TEST(simplified(square(x) + square(y), on_sphere).value() == "1 - z^2");
   // All terms of the relation, but no multiple of it: one of x² and z² is left out.
   BOOST_TEST(simplified(square(x) + 2 * square(y) + square(z), on_sphere).value() == "y^2 + 1");
+}
+
+BOOST_AUTO_TEST_CASE(parameters_stand_by_name_and_are_not_zero) {
+  Graph with;
+  const ExprVector theta = add_parameters(with, {"m", "l"});
+  const Expr m = theta[0], l = theta[1], q = with.variable("q"), r = with.variable("r");
+  BOOST_TEST(text(m * q / l) == "m*q/l");
+  BOOST_TEST(equation(m * q * r - m * l * q) == "q*r - l*q");
+  const Simplification circle{.constraints = {m * square(q) / l + m * square(r) / l - m * l}};
+  BOOST_TEST(simplified(square(q) * r + r * square(r), circle).value() == "l^2*r");
+  // Coordinates come first, whatever the degree of a coefficient is.
+  BOOST_TEST(equation(square(l) - square(q) - square(r)) == "q^2 + r^2 - l^2");
+  BOOST_TEST(equation(square(q) / square(l) + square(r) / square(m) - 1) ==
+             "q^2/l^2 + r^2/m^2 - 1");
+  // Coefficients are put together.
+  BOOST_TEST(text(m * q + l * q - m * r - l * r) == "(m + l)*(q - r)");
+  BOOST_TEST(text(square(q * r) / m - square(q * r) / l) == "q^2*r^2*(1/m - 1/l)");
 }
 
 // Sums that nobody would write are not written.

@@ -13,7 +13,9 @@
 #include "courant/manifolds/cotangent_bundle.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/structures/canonical_symplectic.hpp"
+#include "courant/structures/dirac_system.hpp"
 #include "courant/structures/lagrangian_system.hpp"
+#include "courant/structures/morse_family.hpp"
 
 BOOST_AUTO_TEST_SUITE(constraint_brackets_test)
 
@@ -182,6 +184,31 @@ BOOST_AUTO_TEST_CASE(what_has_no_formula_says_why) {
   BOOST_REQUIRE(found.has_value());
   BOOST_TEST(found->constraints.empty());
   BOOST_TEST(!found->missing.empty());
+}
+
+// {y + Σ sin kx, p_y + Σ sin kp_x} = 1 + Σ k cos kx Σ k cos kp_x, which is longer than five lines: 1 + 325² at 0.
+BOOST_AUTO_TEST_CASE(a_bracket_that_is_too_long_is_a_number) {
+  const auto M = phase_space(2);
+  const auto waves = [](const Expr& a) {
+    Expr sum = 0.0;
+    for (int k = 1; k <= 25; ++k) sum += sin(static_cast<double>(k) * a);
+    return sum;
+  };
+  const DiracSystem system(
+      std::make_shared<CanonicalSymplectic>(M),
+      std::make_shared<MorseFamily>(
+          M, 2,
+          [waves](const ExprVector& x, const ExprVector& lambda, const Expr&) {
+            return Expr(lambda[0] * (x[1] + waves(x[0])) + lambda[1] * (x[3] + waves(x[2])));
+          }),
+      {.coordinates = {"x", "y", "p_x", "p_y"}});
+  const auto found = brackets(system, {.x = VectorXd::Zero(4)});
+  BOOST_REQUIRE(found.has_value());
+  BOOST_TEST(found->missing == "");
+  BOOST_TEST(found->has_numbers);
+  BOOST_TEST_REQUIRE(found->matrix.size() == 2u);
+  BOOST_TEST(std::abs(std::stod(found->matrix[0][1])) == 105626.0);
+  BOOST_TEST(!found->is_first_class[0]);
 }
 
 BOOST_AUTO_TEST_CASE(nothing_is_said_of_systems_without_constraints) {
