@@ -47,12 +47,28 @@ class Observables {
   SymbolTable symbols_;
 };
 
-void read_quantity(const std::string& key, const JsonReader& value, const SymbolTable& constants,
-                   InitialValues& values) {
-  const auto formula = read_formula(value);
-  if (!formula) return;
-  const auto number = evaluate_constants({{}, {*formula}}, constants, value.findings());
-  if (number) values.quantities.push_back({{key, value.pointer()}, (*number)[0]});
+// A quantity, or all the entries of one that is an array. Whether it is one.
+bool read_quantity(const std::string& key, const JsonReader& value, const SymbolTable& constants,
+                   const Observables& known, InitialValues& values) {
+  std::vector<std::string> entries;
+  for (Index i = 0; known.has(key + "[" + std::to_string(i) + "]"); ++i)
+    entries.push_back(key + "[" + std::to_string(i) + "]");
+  if (entries.empty()) {
+    if (!known.has(key)) return false;
+    entries.push_back(key);
+  }
+  const auto formulas = read_formulas(value);
+  if (!formulas) return true;
+  if (formulas->formulas.size() != entries.size()) {
+    value.problem("has " + std::to_string(formulas->formulas.size()) + " values; expected " +
+                  std::to_string(entries.size()) + ", for " + key);
+    return true;
+  }
+  const auto numbers = evaluate_constants(*formulas, constants, value.findings());
+  if (!numbers) return true;
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    values.quantities.push_back({{entries[i], value.pointer()}, (*numbers)[static_cast<Index>(i)]});
+  return true;
 }
 
 void read_entry(const std::string& key, const JsonReader& value, const SymbolTable& constants,
@@ -61,9 +77,7 @@ void read_entry(const std::string& key, const JsonReader& value, const SymbolTab
   try {
     target = find(parse_reference(key), model.vocabulary, values);
   } catch (const FormulaError& error) {
-    if (Observables(model).has(key))
-      read_quantity(key, value, constants, values);
-    else
+    if (!read_quantity(key, value, constants, Observables(model), values))
       value.problem(std::string("key, ") + error.what());
     return;
   }
@@ -225,11 +239,23 @@ bool rest(const Model& model, InitialValues& values) {
     if (!vector.given[i]) vector.values[i] = 0.0;
     vector.given[i] = true;
   };
-  for (Index i = 0; i < M.ambient_dimension(); ++i) {
-    const auto momentum = system.names().momentum_of(i);
-    if (!momentum) continue;
+  const NameList &names = model.vocabulary.coordinates, &unknowns = model.vocabulary.unknowns;
+  const auto is_given = [&](const std::string& unknown) {
+    if (!unknowns.contains(unknown)) return false;
+    const auto [first, count] = unknowns.find(Reference{unknown, {}});
+    return values.z.given.segment(first, count).any();
+  };
+  for (const Declaration& declaration : names.declarations()) {
+    const std::string momentum = "p_" + declaration.name;
+    if (!names.contains(momentum)) continue;
     any = true;
-    if (!values.x.given[*momentum]) set(values.velocity, i);
+    const auto [position, count] = names.find(Reference{declaration.name, {}});
+    const auto [first, momenta] = names.find(Reference{momentum, {}});
+    const auto given = values.x.given.segment(first, momenta);
+    // Of a matrix of rotation the momentum has fewer entries: all of its rates are 0, or none is said to be.
+    if (momenta != count && (given.any() || is_given("v_" + declaration.name))) continue;
+    for (Index i = 0; i < count; ++i)
+      if (momenta != count || !given[i]) set(values.velocity, position + i);
   }
   if (any || M.tangent_dimension() != M.ambient_dimension()) return any;
   Graph graph;
@@ -298,7 +324,7 @@ std::optional<InitialValues> read_initial_values(const JsonReader& initial,
     }
   }
   if (model.reference) begin_at_reference(model, values);
-  if (rests && !rest(model, values))
+  if (rests && !rest(model, values) && !model.starts_at_zero)
     initial.problem("asks for rest, but no coordinate has a velocity; expected values");
   if (const auto names = hold ? hold->elements() : std::nullopt)
     for (const JsonReader& name : *names) read_hold(name, model, values);

@@ -137,6 +137,8 @@ Takes array_of(const Takes& entry, std::size_t least, std::optional<std::size_t>
   return {"an array, each entry " + entry.text, schema};
 }
 
+Takes one(const KindDescription& part) { return {"an object", part.schema()}; }
+
 Takes named(const KindDescription& part) {
   return {"an object of objects",
           {{"type", "object"},

@@ -52,8 +52,9 @@ Takes nodes();       // names, and patterns of names that are repeated
 // "system".
 Takes kind(const std::string& noun);
 Takes array_of(const Takes& entry, std::size_t least = 0, std::optional<std::size_t> most = {});
-// Parts of a mechanism: objects with the keys of a kind without a type, by name or in a list; true or false; a pose, an
-// object of positions, a point of a body.
+// Parts of a mechanism: objects with the keys of a kind without a type, one, by name or in a list; true or false; a pose,
+// an object of positions, a point of a body.
+Takes one(const KindDescription& part);
 Takes named(const KindDescription& part);
 Takes list_of(const KindDescription& part);
 Takes flag();

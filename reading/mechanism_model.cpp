@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/core/expressions/expr_vectors.hpp"
@@ -34,33 +36,67 @@ bool is_coordinate(const Mechanism& mechanism, Index joint) {
 
 using Given = std::pair<std::string, double>;
 
-// q with the loops closed by the least change of the coordinates `open`, by Gauss-Newton; q itself if that does not end.
-VectorXd closed(const Mechanism& mechanism, const VectorXd& q, const std::vector<Index>& open) {
-  constexpr int most_steps = 50;
-  constexpr double near_enough = 1e-10;  // m, rad: the certificate finds the digits
-  if (mechanism.loops().empty() || open.empty()) return q;
-  Graph graph;
-  const ExprVector x = graph.variables("q", q.size());
-  const Mechanism::Motion motion = mechanism.motion(x);
-  std::vector<Expr> conditions;
-  for (const Index loop : mechanism.loops())
-    for (const JointCondition& condition : mechanism.conditions(motion, loop))
-      conditions.push_back(condition.value);
-  const Function phi("loops", {{"q", x}},
-                     Eigen::Map<const ExprVector>(conditions.data(), std::ssize(conditions)),
-                     {.differentiate = {"q"}});
-  VectorXd y = q;
-  for (int step = 0; step < most_steps; ++step) {
-    const VectorXd residual = phi({y});
-    if (!(residual.norm() > near_enough)) return y;
-    const MatrixXd J = phi.jacobian({y})(Eigen::all, open);
-    const VectorXd change = CompleteOrthogonalDecomposition(J).solve(-residual);
-    // No coordinate turns by more than half a radian at once, so that the search stays near.
-    const double largest = change.lpNorm<Eigen::Infinity>();
-    y(open) += (largest > 0.5 ? 0.5 / largest : 1.0) * change;
+// Where the conditions of a mechanism are met, by Gauss-Newton.
+class Closing {
+ public:
+  explicit Closing(const MechanismModel& model) : Q_(*model.typed().manifold()) {
+    const ExprVector q = graph_.variables("q", Q_.ambient_dimension());
+    const ExprVector conditions = model.conditions(q);
+    if (conditions.size() > 0)
+      phi_ = Function("loops", {{"q", q}}, conditions, {.differentiate = {"q"}});
   }
-  return q;
-}
+
+  bool is_needed() const { return phi_.has_value(); }
+
+  // From q by the least change along these of the velocities; nothing if that does not end. Redundant conditions follow from
+  // the others where these hold, so that next to such a place their own gradients are neglected.
+  std::optional<VectorXd> from(VectorXd q, const std::vector<Index>& open) const {
+    constexpr int most_steps = 50;
+    constexpr double near_enough = 1e-10, negligible = 1e-8;  // m, rad
+    double before = std::numeric_limits<double>::infinity();
+    VectorXd best = q;
+    for (int step = 0; step < most_steps; ++step) {
+      const VectorXd residual = (*phi_)({q});
+      const double left = residual.norm();
+      if (left < before) best = q;
+      // Near a place steps go on while they help, to the last digits.
+      if (left <= near_enough && !(0.0 < left && left < 0.5 * before)) return best;
+      before = left;
+      const MatrixXd J = (phi_->jacobian({q}) * Q_.frame(q))(Eigen::all, open);
+      const VectorXd change = CompleteOrthogonalDecomposition(J, negligible).solve(-residual);
+      // No coordinate turns by more than half a radian at once, so that the search stays near.
+      const double largest = change.lpNorm<Eigen::Infinity>();
+      if (!(largest < std::numeric_limits<double>::infinity())) return std::nullopt;
+      q = moved(q, open, (largest > 0.5 ? 0.5 / largest : 1.0) * change);
+    }
+    return std::nullopt;
+  }
+
+  // From poses around q: in q itself gradients may depend on each other, as those of links in a line do.
+  std::optional<VectorXd> from_around(const VectorXd& q, const std::vector<Index>& open) const {
+    constexpr int directions = 3;
+    for (const double distance : {0.1, 0.3, 1.0})
+      for (int direction = 0; direction < directions; ++direction) {
+        VectorXd change(std::ssize(open));
+        for (Index i = 0; i < change.size(); ++i)
+          change[i] = distance * std::cos((1.0 + 1.7 * static_cast<double>(i)) * (direction + 1.0) +
+                                          direction);
+        if (auto found = from(moved(q, open, change), open)) return found;
+      }
+    return std::nullopt;
+  }
+
+ private:
+  VectorXd moved(const VectorXd& q, const std::vector<Index>& open, const VectorXd& change) const {
+    VectorXd w = VectorXd::Zero(Q_.tangent_dimension());
+    w(open) = change;
+    return Q_.retract(q, w);
+  }
+
+  const Manifold& Q_;
+  Graph graph_;
+  std::optional<Function> phi_;
+};
 
 // The coordinates of all bodies as free ones, of these poses.
 VectorXd poses(const Mechanism::Motion& motion, const Mechanism& absolute) {
@@ -124,7 +160,30 @@ std::vector<std::string> MechanismModel::condition_names() const {
   for (const Index loop : typed_.loops())
     for (const JointCondition& condition : typed_.conditions(motion, loop))
       names.push_back(equation_of(typed_.parts().joints[as_size(loop)].name, condition));
+  for (const WrittenMechanism::Joint& joint : written_.joints)
+    if (joint.mimic)
+      names.push_back(equation_of(
+          joint.name, {"mimic of " + written_.joints[as_size(joint.mimic->of)].name, 0.0, {}}));
   return names;
+}
+
+ExprVector MechanismModel::conditions(const ExprVector& q) const {
+  const SymbolTable constants = constants_.symbols({.x = q});
+  const Mechanism mechanism = written_.at(constants);
+  const Mechanism::Motion motion = mechanism.motion(q);
+  std::vector<Expr> values;
+  for (const Index loop : mechanism.loops())
+    for (const JointCondition& condition : mechanism.conditions(motion, loop))
+      values.push_back(condition.value);
+  for (Index j = 0; j < std::ssize(written_.joints); ++j) {
+    const auto& mimic = written_.joints[as_size(j)].mimic;
+    if (!mimic) continue;
+    values.push_back(mechanism.displacement(motion, q, j)[0] -
+                     evaluate(mimic->multiplier, constants) *
+                         mechanism.displacement(motion, q, mimic->of)[0] -
+                     evaluate(mimic->offset, constants));
+  }
+  return Eigen::Map<const ExprVector>(values.data(), std::ssize(values));
 }
 
 VectorXd MechanismModel::reference(const std::vector<std::pair<std::string, double>>& given) const {
@@ -133,15 +192,34 @@ VectorXd MechanismModel::reference(const std::vector<std::pair<std::string, doub
   const MechanismModel joints(tree, constants_);
   const std::vector<std::string> names = joints.coordinates().element_names();
   VectorXd q = joints.typed_.rest();
-  std::vector<Index> open;
-  for (Index i = 0; i < q.size(); ++i) {
+  // Velocities of what is not given: numbers, and turns in space.
+  std::vector<Index> numbers, all;
+  const auto take = [&](Index i) {
     const auto value = std::ranges::find(given, names[as_size(i)], &Given::first);
-    if (value != given.end())
-      q[i] = value->second;
-    else if (!names[as_size(i)].starts_with("R_"))
-      open.push_back(i);
+    if (value == given.end()) return false;
+    q[i] = value->second;
+    return true;
+  };
+  for (const Mechanism::Branch& branch : joints.typed_.branches()) {
+    const JointType type = joints.typed_.type_of(branch);
+    const Index flat = has_angles(type)              ? degrees_of_freedom(type)
+                       : type == JointType::floating ? 3
+                                                     : 0;
+    for (Index i = 0; i < flat; ++i)
+      if (!take(branch.position + i)) numbers.push_back(branch.velocity + i);
+    if (has_angles(type)) continue;
+    bool is_given = false;
+    for (Index i = 0; i < 9; ++i) is_given = take(branch.position + flat + i) || is_given;
+    for (Index i = 0; i < 3 && !is_given; ++i) all.push_back(branch.velocity + flat + i);
   }
-  q = closed(joints.typed_, q, open);
+  all.insert(all.end(), numbers.begin(), numbers.end());
+  if (const Closing closing(joints); closing.is_needed()) {
+    std::optional<VectorXd> found;
+    if (!numbers.empty()) found = closing.from(q, numbers);
+    if (!found && !all.empty()) found = closing.from(q, all);
+    if (!found && !all.empty()) found = closing.from_around(q, all);
+    if (found) q = *found;
+  }
   return written_.is_absolute ? poses(joints.typed_.motion(constants(q)), typed_) : q;
 }
 

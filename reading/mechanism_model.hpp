@@ -21,10 +21,12 @@ class MechanismModel {
   const Mechanism& typed() const { return typed_; }  // at the values of the parameters
   NameList coordinates() const;                      // of Q
   NameList momenta() const;
-  std::vector<std::string> condition_names() const;  // of all loops, in their order
+  // Of all loops, in their order, then of joints that mimic others.
+  std::vector<std::string> condition_names() const;
+  ExprVector conditions(const ExprVector& q) const;  // their values, in the graph of q
 
-  // The q where a search for a start begins: joints have the coordinates that are given by name, others 0, or what closes the
-  // loops from there, if that is found near. Rotations in space and free bodies are where nothing has moved.
+  // The q where a search for a start begins: joints have the coordinates that are given by name, others those of the pose in
+  // which nothing has moved, or what closes the loops from there, if that is found near.
   VectorXd reference(const std::vector<std::pair<std::string, double>>& given) const;
 
   // In the graph of q.

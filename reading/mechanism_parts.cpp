@@ -52,6 +52,15 @@ const KindDescription& body_keys() {
   return keys;
 }
 
+const KindDescription& mimic_keys() {
+  static const KindDescription keys{"",
+                                    "the coordinate of a joint by that of another one",
+                                    {required_key("joint", takes::text(), "the other one"),
+                                     optional_key("multiplier", takes::formula(), "by default 1"),
+                                     optional_key("offset", takes::formula(), "by default 0")}};
+  return keys;
+}
+
 const KindDescription& joint_keys() {
   static const KindDescription keys{
       "",
@@ -78,7 +87,9 @@ const KindDescription& joint_keys() {
        optional_key("force", takes::formula(), "on the child of a prismatic joint, along the axis"),
        optional_key("effort", takes::formula_vector(),
                     "forces and torques of cylindrical, planar and floating joints, one for each "
-                    "degree of freedom")}};
+                    "degree of freedom"),
+       optional_key("mimic", takes::one(mimic_keys()),
+                    "its coordinate is multiplier * that of another joint + offset, exactly")}};
   return keys;
 }
 
@@ -171,6 +182,7 @@ class Reader {
     if (forces) read_forces(*forces);
     if (!right_) return std::nullopt;
     check_child_origins();
+    check_mimics();
     return right_ ? std::optional(mechanism_) : std::nullopt;
   }
 
@@ -430,6 +442,41 @@ class Reader {
       }
       read_joint(name, value, object);
     }
+    for (const auto& [joint, value] : mimics_) read_mimic(value, mechanism_.joints[joint]);
+  }
+
+  void read_mimic(const JsonReader& value, WrittenMechanism::Joint& joint) {
+    ObjectReader object(value, mimic_keys());
+    if (!value.value().is_object()) {
+      right_ = false;
+      return;
+    }
+    WrittenMechanism::Mimic mimic{0, literal("1"), literal("0")};
+    for (const auto& [key, formula] :
+         {std::pair("multiplier", &mimic.multiplier), {"offset", &mimic.offset}}) {
+      const auto given = object.optional(key);
+      const auto read = given ? read_formula(*given) : std::nullopt;
+      if (given && !read) right_ = false;
+      if (read && constant({*read})) *formula = *read;
+    }
+    const auto named = object.required("joint");
+    const auto name = named ? named->text() : std::nullopt;
+    if (!name) {
+      right_ = false;
+      return;
+    }
+    const auto of = std::ranges::find(mechanism_.joints, *name, &WrittenMechanism::Joint::name);
+    if (of == mechanism_.joints.end() || *name == joint.name) {
+      std::vector<std::string> others;
+      for (const auto& other : mechanism_.joints)
+        if (other.name != joint.name) others.push_back(other.name);
+      const std::string meant = did_you_mean(*name, others);
+      return problem(*named, (of == mechanism_.joints.end() ? "unknown joint " + in_quotes(*name)
+                                                            : "is the joint itself") +
+                                 (meant.empty() ? "; expected another one of \"joints\"" : meant));
+    }
+    mimic.of = of - mechanism_.joints.begin();
+    joint.mimic = mimic;
   }
 
   void read_joint(const std::string& name, const JsonReader& value, ObjectReader& object) {
@@ -448,6 +495,7 @@ class Reader {
                rest = object.optional("rest");
     const std::array efforts{object.optional("torque"), object.optional("force"),
                              object.optional("effort")};
+    const auto mimic = object.optional("mimic");
     if (!word) {
       right_ = false;
       return;
@@ -477,6 +525,7 @@ class Reader {
       }
       joint.effort = formulas_of(*efforts[i], n, false);
     }
+    if (mimic) mimics_.emplace_back(mechanism_.joints.size(), *mimic);
     mechanism_.joints.push_back(std::move(joint));
   }
 
@@ -654,6 +703,31 @@ class Reader {
       right_ = false;
     }
   }
+  // What mimics and what it mimics are numbers among the coordinates.
+  void check_mimics() {
+    const Mechanism built = mechanism_.at(constants_);
+    const auto is_number = [&](Index joint) {
+      return degrees_of_freedom(mechanism_.joints[as_size(joint)].type) == 1 &&
+             std::ranges::find(built.branches(), joint, &Mechanism::Branch::joint) !=
+                 built.branches().end();
+    };
+    for (Index j = 0; j < std::ssize(mechanism_.joints); ++j) {
+      const WrittenMechanism::Joint& joint = mechanism_.joints[as_size(j)];
+      if (!joint.mimic) continue;
+      for (const Index one : {j, joint.mimic->of}) {
+        if (is_number(one)) continue;
+        findings_.problem(
+            joint.pointer + "/mimic",
+            "is about " + in_quotes(mechanism_.joints[as_size(one)].name) +
+                (mechanism_.is_absolute ? ", and coordinates are those of bodies; expected joint "
+                                          "coordinates"
+                                        : ", whose coordinate is not one of the system; expected "
+                                          "revolute or prismatic joints that close no loop"));
+        right_ = false;
+        break;
+      }
+    }
+  }
   bool is_identity(const WrittenMechanism::Pose& pose) const {
     const VectorXd R = value_of(pose.rotation, constants_), one{{1, 0, 0, 0, 1, 0, 0, 0, 1}};
     return value_of(pose.xyz, constants_).isZero(0.0) && R == one;
@@ -662,6 +736,7 @@ class Reader {
   const SymbolTable& constants_;
   Findings& findings_;
   WrittenMechanism mechanism_;
+  std::vector<std::pair<std::size_t, JsonReader>> mimics_;  // by the number of the joint
   bool right_ = true;
 };
 

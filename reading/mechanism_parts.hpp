@@ -28,6 +28,11 @@ struct WrittenMechanism {
     std::vector<WrittenFormula> center, inertia;  // 3; xx yy zz xy xz yz
     std::vector<Point> points = {};
   };
+  // The coordinate of a joint is multiplier * that of another one + offset.
+  struct Mimic {
+    Index of = 0;  // joint
+    WrittenFormula multiplier, offset;
+  };
   struct Joint {
     std::string name, pointer;
     JointType type = JointType::fixed;
@@ -39,6 +44,7 @@ struct WrittenMechanism {
     Index largest = 2;                                     // component of the axis
     std::vector<WrittenFormula> damping, stiffness, rest;  // n or none
     std::vector<WrittenFormula> effort;  // n or none: of coordinates, velocities, t
+    std::optional<Mimic> mimic = {};
   };
   struct Place {
     Index body = Mechanism::ground;

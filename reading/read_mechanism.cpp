@@ -55,14 +55,7 @@ Mechanics mechanics_of(const std::shared_ptr<const MechanismModel>& model,
   Mechanics mechanics;
   mechanics.holonomic.names = model->condition_names();
   mechanics.holonomic.formula = [model, N](const ExprVector& x, const ExprVector&, const Expr&) {
-    const ExprVector q = x.head(N);
-    const Mechanism mechanism = model->at(q);
-    const Mechanism::Motion motion = mechanism.motion(q);
-    std::vector<Expr> values;
-    for (const Index loop : mechanism.loops())
-      for (const JointCondition& condition : mechanism.conditions(motion, loop))
-        values.push_back(condition.value);
-    return ExprVector(Eigen::Map<const ExprVector>(values.data(), std::ssize(values)));
+    return model->conditions(x.head(N));
   };
   mechanics.damping = [model, N](const ExprVector& x, const ExprVector& w, const Expr&) {
     const ExprVector q = x.head(N);

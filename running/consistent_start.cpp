@@ -50,8 +50,8 @@ void check_near_manifold(const Experiment& experiment, const VectorXd& x) {
   }
 }
 
-// F is not finite where an unknown that was given nothing is tried at 0 and divides: then what equations give it.
-void solve_unknowns(const Experiment& experiment, InitialGuess& guess) {
+// Unknowns that were given nothing are tried at 0; where these divide, or are under a root, elsewhere.
+void place_unknowns(const Experiment& experiment, InitialGuess& guess) {
   constexpr Index most = 200;
   const ImplicitSystem& system = *experiment.model.system;
   const Index m = system.auxiliary_size();
@@ -59,13 +59,12 @@ void solve_unknowns(const Experiment& experiment, InitialGuess& guess) {
   const VectorXd v =
       guess.v.size() > 0 ? guess.v : VectorXd::Zero(system.manifold()->tangent_dimension());
   const VectorXd z = guess.z.size() > 0 ? guess.z : system.auxiliary_guess(guess.x, guess.v);
-  if (system.residual(guess.x, v, z, guess.t).allFinite()) return;
   std::vector<Index> open;
   for (Index i = 0; i < m; ++i)
     if (!experiment.initial.z.given[i]) open.push_back(i);
-  const VectorXd solved =
-      solved_unknowns(system, {.t = guess.t, .x = guess.x, .v = v, .z = z}, std::move(open));
-  if (system.residual(guess.x, v, solved, guess.t).allFinite()) guess.z = solved;
+  const auto defined =
+      defined_unknowns(system, {.t = guess.t, .x = guess.x, .v = v, .z = z}, std::move(open));
+  if (defined && *defined != z) guess.z = *defined;
 }
 
 void check_finite(const Experiment& experiment, const InitialGuess& guess) {
@@ -349,7 +348,7 @@ class StartSearch {
     InitialGuess guess{.t = experiment_.start(), .x = initial_.x.values};
     if (initial_.velocity.given.any()) guess.v = coframe_ * initial_.velocity.values;
     if (initial_.z.given.any()) guess.z = initial_.z.values;
-    solve_unknowns(experiment_, guess);
+    place_unknowns(experiment_, guess);
     check_finite(experiment_, guess);
     return guess;
   }

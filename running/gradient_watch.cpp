@@ -49,8 +49,9 @@ GradientWatch::GradientWatch(std::shared_ptr<const Integrator> integrator, const
   if (all.size() == 0 || all.size() > kMostConstraints) return;
   constraints_ = Function("constraints", {{"x", x}, {"t", t}}, all, {.differentiate = {"x"}});
   const MatrixXd J = gradients(initial);
-  // Of dependent ones the gradient of one may vanish where those of others do not.
-  if (!J.allFinite() ||
+  // Of dependent ones the gradient of one may vanish where those of others do not, here too.
+  const VectorXd lengths = J.rowwise().norm();
+  if (!J.allFinite() || lengths.minCoeff() == 0.0 ||
       CompleteOrthogonalDecomposition(J.rowwise().normalized().transpose(), kIndependentGradients)
               .rank() < J.rows())
     constraints_ = Function();

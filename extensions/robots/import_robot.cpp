@@ -70,7 +70,7 @@ Json import_robot(std::string_view text, std::vector<Problem>* notes,
     const Json experiment = {
         {"title", robot.title.empty() ? "A robot" : robot.title},
         {"system", mechanism.system},
-        {"initial", mechanism.initial},
+        {"initial", "rest"},
         {"method", {{"type", "constrain-first"}, {"discretization", "midpoint"}}},
         {"time", {{"step", robot.step}, {"end", std::max(end, robot.step)}}}};
     try {

@@ -90,11 +90,6 @@ class MechanismMaker {
   explicit MechanismMaker(Robot& robot) : robot_(robot) {}
 
   MechanismOfRobot make() {
-    if (!robot_.couplings.empty())
-      fail(robot_.couplings.front().place,
-           "couples the joint " + in_quotes(robot_.joints[robot_.couplings.front().joint].name) +
-               " to " + in_quotes(robot_.joints[robot_.couplings.front().of].name) +
-               ", which a mechanism cannot say; expected joints that move by themselves");
     for (const Joint& joint : robot_.joints)
       if (joint.armature != 0.0)
         robot_.notes.add(joint.place,
@@ -111,7 +106,6 @@ class MechanismMaker {
         {"type", "mechanism"}, {"gravity", numbers(robot_.gravity)}, {"coordinates", "joint"}};
     result.system["bodies"] = bodies(result.bodies);
     result.system["joints"] = joints(result.joints);
-    result.initial = initial();
     return result;
   }
 
@@ -165,7 +159,8 @@ class MechanismMaker {
 
   // Joints between bodies rather than links.
   void attach_joints() {
-    for (Joint joint : robot_.joints) {
+    for (std::size_t index = 0; index < robot_.joints.size(); ++index) {
+      Joint joint = robot_.joints[index];
       if (joint.type == JointType::fixed) continue;
       joint.origin = in_body_[joint.parent] * joint.origin;
       joint.child_origin = in_body_[joint.child] * joint.child_origin;
@@ -179,6 +174,7 @@ class MechanismMaker {
         continue;
       }
       joints_.push_back(joint);
+      written_.push_back(index);
     }
   }
 
@@ -359,23 +355,31 @@ class MechanismMaker {
       places[joint_names_[i]] = joint.place;
       all[joint_names_[i]] = entry;
     }
+    for (const Coupling& coupling : robot_.couplings) {
+      const std::string name = coupled(coupling, coupling.joint),
+                        of = coupled(coupling, coupling.of);
+      if (all[name].contains("mimic"))
+        fail(coupling.place, "couples the joint " + in_quotes(robot_.joints[coupling.joint].name) +
+                                 " a second time; expected one joint that it follows");
+      Json mimic = {{"joint", of}};
+      if (coupling.factor != 1.0) mimic["multiplier"] = coupling.factor;
+      if (coupling.offset != 0.0) mimic["offset"] = coupling.offset;
+      all[name]["mimic"] = mimic;
+    }
     return all;
   }
 
-  // Turns in space have an angular velocity, and no coordinate whose rate it is.
-  Json initial() const {
-    Json values = Json::object();
-    bool has_rates = false;
+  // The name of a joint that is coupled: of one coordinate, in the tree.
+  std::string coupled(const Coupling& coupling, std::size_t joint) const {
     for (std::size_t i = 0; i < joints_.size(); ++i) {
-      if (bodies_[joints_[i].child].joint != i) continue;  // closes a loop
+      if (written_[i] != joint) continue;
       const JointType type = joints_[i].type;
-      if (type == JointType::ball || type == JointType::floating)
-        values["v_R_" + joint_names_[i]] = {0, 0, 0};
-      has_rates = has_rates || type != JointType::ball;
+      if (bodies_[joints_[i].child].joint == i &&
+          (type == JointType::revolute || type == JointType::prismatic))
+        return joint_names_[i];
     }
-    if (values.empty()) return "rest";
-    if (has_rates) values["rest"] = true;
-    return values;
+    fail(coupling.place, "couples the joint " + in_quotes(robot_.joints[joint].name) +
+                             "; expected joints of one degree of freedom that close no loop");
   }
 
   Robot& robot_;
@@ -383,7 +387,8 @@ class MechanismMaker {
   std::vector<std::size_t> body_of_;  // of a link
   std::vector<Pose> in_body_;         // a link, in the frame of the first one of its body
   std::vector<Body> bodies_;
-  std::vector<Joint> joints_;  // between bodies
+  std::vector<Joint> joints_;         // between bodies
+  std::vector<std::size_t> written_;  // of these, which of the robot's they are
   std::vector<std::size_t>
       order_;  // of joints: those of the tree from the ground on, then the others
   std::vector<std::string> body_names_, joint_names_;

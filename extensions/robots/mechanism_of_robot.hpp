@@ -10,7 +10,6 @@ namespace courant::robots {
 // hangs on it. Adds notes to those of the robot.
 struct MechanismOfRobot {
   Json system;
-  Json initial;  // at rest
   std::map<std::string, Place> bodies,
       joints;  // where they are in the file, by their names in the system
 };

@@ -126,6 +126,37 @@ BOOST_AUTO_TEST_CASE(joints_that_cannot_be_are_told) {
   BOOST_TEST(with("/joints/A/limit", "1").starts_with("/system/joints/A/limit: unknown key"));
 }
 
+BOOST_AUTO_TEST_CASE(joints_that_mimic_others) {
+  BOOST_TEST(with("/joints/A/mimic", R"({"joint": "B", "multiplier": "2*pi", "offset": 0.1})") ==
+             "");
+  BOOST_TEST(with("/joints/A/mimic", R"({"joint": "b"})") ==
+             "/system/joints/A/mimic/joint: unknown joint \"b\" (did you mean \"B\"?)");
+  BOOST_TEST(with("/joints/A/mimic", R"({"joint": "A"})") ==
+             "/system/joints/A/mimic/joint: is the joint itself; expected another one of "
+             "\"joints\"");
+  BOOST_TEST(with("/joints/A/mimic", R"({"multiplier": 2})") ==
+             "/system/joints/A/mimic/joint: is missing");
+  BOOST_TEST(with("/joints/A/mimic", R"({"joint": "B", "ratio": 2})")
+                 .starts_with("/system/joints/A/mimic/ratio: unknown key"));
+  BOOST_TEST(with("/joints/A/mimic", R"({"joint": "B", "multiplier": "k"})") ==
+             "/system/joints/A/mimic/multiplier: column 1: unknown name \"k\"");
+  BOOST_TEST(
+      with(
+          "/joints",
+          R"({"A": {"type": "revolute", "parent": "ground", "child": "rod", "mimic": {"joint": "B"}},
+               "B": {"type": "spherical", "parent": "rod", "child": "weight"}})") ==
+      "/system/joints/A/mimic: is about \"B\", whose coordinate is not one of the system; expected "
+      "revolute or prismatic joints that close no loop");
+  Json absolute = two_bodies();
+  absolute["system"]["coordinates"] = "absolute";
+  absolute["system"]["bodies"]["weight"]["inertia"] = {1, 1, 1, 0, 0, 0};
+  absolute["system"]["joints"]["A"]["mimic"] = {{"joint", "B"}};
+  BOOST_TEST(
+      problems(absolute) ==
+      "/system/joints/A/mimic: is about \"A\", and coordinates are those of bodies; expected "
+      "joint coordinates");
+}
+
 BOOST_AUTO_TEST_CASE(springs_and_forces_that_cannot_be_are_told) {
   BOOST_TEST(with("/springs", R"({"s": {"from": "rod.tipp", "to": "ground"}})") ==
              "/system/springs/s/from: unknown point \"tipp\" of \"rod\" (did you mean \"tip\"?)");

@@ -668,6 +668,26 @@ BOOST_AUTO_TEST_CASE(unknowns_that_divide) {
   BOOST_TEST(given.point.z[0] == -2.0);
 }
 
+// At 0 a root has a value and no derivative. Two throttles in a row take half of the pressure each, which no equation gives
+// alone.
+BOOST_AUTO_TEST_CASE(unknowns_under_a_root) {
+  const auto find = [](const Json& unknowns, const Json& equations) {
+    return start({{"system",
+                   {{"type", "implicit"},
+                    {"coordinates", {"x"}},
+                    {"unknowns", unknowns},
+                    {"equations", equations}}},
+                  {"initial", {{"x", 1}}}});
+  };
+  const ConstraintLadder one = find({"P", "Q"}, {"x' + Q", "P - 4*x", "Q - sqrt(P)"});
+  BOOST_TEST((one.verdict == Verdict::regular));
+  BOOST_TEST(std::abs(one.point.v[0] + 2.0) < 1e-14);
+  const ConstraintLadder two =
+      find({"P1", "P2", "Q"}, {"x' + Q", "P1 + P2 - 8*x", "Q - sqrt(P1)", "Q - sqrt(P2)"});
+  BOOST_TEST((two.verdict == Verdict::regular));
+  BOOST_TEST(std::abs(two.point.v[0] + 2.0) < 1e-13);
+}
+
 // A line with three loads of constant power has two states: one with voltages, and one in which all of the source falls
 // off on the way. Which of them is meant the voltages tell that are given, at one node as at all; those by hand are
 // v₃ = v, v₂ = v₃ + 0.3·5000/v₃, … up to 230 V at the source.

@@ -78,6 +78,19 @@ BOOST_AUTO_TEST_CASE(rest_is_no_velocity) {
       point(R"json({ "type": "implicit", "coordinates": ["x"], "equations": ["x' + x"] })json",
             "rest"),
       ExperimentError);
+  // All of a network that is not given is 0.
+  BOOST_TEST(start("rest").isZero(0.0));
+  // Of a rotation the velocity has three numbers, and its matrix nine.
+  const char* const body =
+      R"json({ "type": "mechanical", "coordinates": ["R[3][3]"], "manifold": "so3",
+    "metric": [1, 2, 3] })json";
+  const Json one = Json::parse("[[1, 0, 0], [0, 1, 0], [0, 0, 1]]");
+  BOOST_TEST(point(body, {{"R", one}, {"rest", true}}).x.tail(3).isZero(0.0));
+  BOOST_TEST(point(body, {{"R", one}, {"rest", true}, {"p_R", {1, 2, 3}}}).x.tail(3) ==
+             (VectorXd{{1, 2, 3}}));
+  BOOST_TEST((point(body, {{"R", one}, {"rest", true}, {"v_R", {1, 1, 1}}}).x.tail(3) -
+              VectorXd{{1, 2, 3}})
+                 .norm() < 1e-14);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

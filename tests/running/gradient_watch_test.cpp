@@ -13,6 +13,7 @@ BOOST_AUTO_TEST_SUITE(gradient_watch_test)
 //  * gradients that turn far in a long step count as turned round
 //  * steps across a point without gradients are not looked at
 //  * of dependent constraints each must have a gradient
+//  * one that has none where the run begins ends it
 
 namespace {
 
@@ -46,6 +47,14 @@ BOOST_AUTO_TEST_CASE(the_tip_of_a_cone_ends_a_run) {
       BOOST_TEST(reached < 0.81 + step);
     }
   }
+}
+
+// x y = 0 follows from y = 0, and has no gradient at the origin.
+BOOST_AUTO_TEST_CASE(a_constraint_that_follows_may_begin_without_a_gradient) {
+  const RunOutcome run = outcome({"x", "y"}, "0*x", {"y", "x*y"},
+                                 {{"x", 0}, {"y", 0}, {"p_x", 1}, {"p_y", 0}}, 0.125, 1.0);
+  BOOST_TEST((run.status == RunStatus::completed), run.message);
+  BOOST_TEST(std::abs(final_value(run, "x") - 1.0) <= 1e-12);
 }
 
 // A bob goes round by 109 degrees in a step, as far as its rod's direction turns: by a ninth of that in each part.

@@ -85,14 +85,41 @@ BOOST_AUTO_TEST_CASE(redundant_conditions_are_of_the_joint_that_closes_the_loop)
 
 // A rotation that is given by its vector, and velocities along the axes of the body.
 BOOST_AUTO_TEST_CASE(a_rotation_vector_is_a_start) {
-  const Problem top =
-      test::problem(Json::parse(R"({"system": {"type": "mechanism", "gravity": [0, 0, -9.81],
+  Json experiment = Json::parse(R"({"system": {"type": "mechanism", "gravity": [0, 0, -9.81],
     "bodies": {"b": {"mass": 1, "center": [0, 0, 0.3], "inertia": [0.1, 0.1, 0.05, 0, 0, 0]}},
     "joints": {"A": {"type": "spherical", "parent": "ground", "child": "b"}}},
-    "initial": {"A[0]": 0.5, "A[1]": 0, "A[2]": 0, "b.w[2]": 30, "b.w[0]": 0, "b.w[1]": 0}})"));
+    "initial": {"A[0]": 0.5, "A[1]": 0, "A[2]": 0, "b.w[2]": 30, "b.w[0]": 0, "b.w[1]": 0}})");
   const VectorXd expected{
       {1, 0, 0, 0, std::cos(0.5), -std::sin(0.5), 0, std::sin(0.5), std::cos(0.5), 0, 0, 1.5}};
-  BOOST_TEST((top.ladder.point.x - expected).norm() < 1e-12);
+  BOOST_TEST((test::problem(experiment).ladder.point.x - expected).norm() < 1e-12);
+  experiment["initial"] = {{"A", {0.5, 0, 0}}, {"b.w", {0, 0, 30}}};
+  BOOST_TEST((test::problem(experiment).ladder.point.x - expected).norm() < 1e-12);
+  experiment["initial"] = {{"A", {0.5, 0}}};
+  BOOST_CHECK_THROW(test::problem(experiment), ExperimentError);
+  experiment["initial"] = "rest";
+  BOOST_TEST(test::problem(experiment).ladder.point.x ==
+             (VectorXd{{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}}));
+}
+
+// Two cranks on perpendicular axes and a coupler between balls, which lie in a line where nothing has moved: the coupler is 0.2
+// too short to reach the second one there, and its ends are at one place where that stands upright.
+BOOST_AUTO_TEST_CASE(links_in_a_line_come_together) {
+  Json experiment = Json::parse(R"({"system": {"type": "mechanism",
+    "bodies": {"in": {"mass": 1, "center": [0.1, 0, 0], "inertia": [0.01, 0.01, 0.01, 0, 0, 0]},
+               "coupler": {"mass": 1, "inertia": [0.01, 0.01, 0.01, 0, 0, 0]},
+               "out": {"mass": 1, "center": [0.15, 0, 0], "inertia": [0.01, 0.01, 0.01, 0, 0, 0]}},
+    "joints": {"A": {"type": "revolute", "parent": "ground", "child": "in", "axis": [0, 0, 1]},
+               "S": {"type": "spherical", "parent": "in", "child": "coupler", "origin": {"xyz": [0.2, 0, 0]}},
+               "D": {"type": "revolute", "parent": "ground", "child": "out", "origin": {"xyz": [0.6, 0, 0]}, "axis": [0, 1, 0]},
+               "E": {"type": "spherical", "parent": "coupler", "child": "out", "origin": {"xyz": [0.5, 0, 0]},
+                     "child_origin": {"xyz": [0.3, 0, 0]}}}},
+    "initial": {"A": 0, "rest": true}})");
+  const Problem linkage = test::problem(experiment);
+  BOOST_TEST((linkage.ladder.verdict == Verdict::regular), linkage.ladder.reason);
+  BOOST_TEST(linkage.ladder.degrees_of_freedom == 4);
+  // A, R_S, D.
+  BOOST_TEST(linkage.ladder.point.x[0] == 0.0);
+  BOOST_TEST(std::abs(std::cos(linkage.ladder.point.x[10])) < 1e-12);
 }
 
 // A joint's load is the weight, and the moment of a weight ahead of a joint that a spring or a motor holds.

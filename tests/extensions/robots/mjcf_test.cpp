@@ -188,6 +188,28 @@ BOOST_AUTO_TEST_CASE(what_is_wrong_is_told_by_line) {
       [](const std::string&) -> std::string { throw std::runtime_error("is not there"); });
 }
 
+// joint1 = a0 + a1 joint2, both from the rest of the file.
+BOOST_AUTO_TEST_CASE(coupled_joints) {
+  const auto coupled = [](const std::string& inside) {
+    const std::string rod = "<inertial pos='0.5 0 0' mass='1' diaginertia='0.01 0.1 0.1'/>";
+    return "<mujoco><worldbody><body name='a'><joint name='A' axis='0 1 0'/>" + rod +
+           "<body name='b' pos='1 0 0'><joint name='B' axis='0 1 0'/>" + rod +
+           "</body></body></worldbody><equality>" + inside + "</equality></mujoco>";
+  };
+  const Json joints =
+      import_robot(coupled("<joint joint1='B' joint2='A' polycoef='0.25 -2 0 0 0'/>"))
+          .at("system")
+          .at("joints");
+  const Json expected = {{"joint", "A"}, {"multiplier", -2.0}, {"offset", 0.25}};
+  BOOST_TEST(joints.at("B").at("mimic") == expected);
+  BOOST_TEST(problem_of_robot(coupled("<joint joint1='B' joint2='A' polycoef='0 1 1 0 0'/>"))
+                 .ends_with("has a polycoef beyond the linear one; expected 0 for the last three"));
+  BOOST_TEST(
+      problem_of_robot(coupled("<joint joint1='B' joint2='A'/><joint joint1='B' joint2='A'/>"))
+          .ends_with("couples the joint \"B\" a second time; expected one joint that it "
+                     "follows"));
+}
+
 BOOST_AUTO_TEST_SUITE_END()
 
 }  // namespace courant

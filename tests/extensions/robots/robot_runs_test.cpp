@@ -72,6 +72,34 @@ BOOST_AUTO_TEST_CASE(a_cart_with_a_pole_swings_with_its_period) {
   BOOST_TEST(std::abs(final_value(outcome, "swing") / 1e-4 - std::cos(2.0 * omega)) <= 1e-6);
 }
 
+// Two wheels on parallel axles, the second by two teeth for each of the first: about the axes J = 2 and 3, so a torque that
+// only the first one has, of a weight at 1 m of it, turns 2 + 3 · 2². ω² = m g l / (2 + m l² + 12) of small swings.
+BOOST_AUTO_TEST_CASE(gears_turn_together) {
+  const auto wheel = [](const char* name, const char* center, const char* inertia) {
+    return std::string("<link name='") + name + "'><inertial><origin xyz='" + center +
+           "'/><mass value='1'/><inertia ixx='" + inertia + "' iyy='" + inertia + "' izz='" +
+           inertia + "' ixy='0' ixz='0' iyz='0'/></inertial></link>";
+  };
+  const std::string text =
+      "<robot name='gears'><link name='world'/>" + wheel("one", "0 0 -1", "2") +
+      wheel("two", "0 0 0", "3") +
+      "<joint name='A' type='continuous'><parent link='world'/><child link='one'/><axis xyz='0 1 "
+      "0'/></joint><joint name='B' type='continuous'><parent link='world'/><child "
+      "link='two'/><origin xyz='2 0 0'/><axis xyz='0 1 0'/><mimic joint='A' multiplier='-2' "
+      "offset='0.5'/></joint></robot>";
+  const TemporaryFolder folder;
+  const Json experiment = with(import_robot(text), {{"initial", {{"A", 1e-4}, {"rest", true}}},
+                                                    {"observe", {{"torque", "m_B[1]"}}},
+                                                    {"time", {{"step", 1e-2}, {"end", 2.0}}}});
+  const RunOutcome outcome = completed_run(folder, experiment);
+  const double omega = std::sqrt(9.81 / (2.0 + 1.0 + 12.0)), A = 1e-4 * std::cos(2.0 * omega);
+  BOOST_TEST(std::abs(final_value(outcome, "A") / 1e-4 - A / 1e-4) <= 1e-5);
+  BOOST_TEST(std::abs(final_value(outcome, "B") - (0.5 - 2.0 * final_value(outcome, "A"))) <=
+             1e-14);
+  // The ground gives the second wheel what turns it: 3 B''.
+  BOOST_TEST(std::abs(observed(outcome, "torque") - 3.0 * 2.0 * omega * omega * A) <= 1e-8);
+}
+
 // A parallelogram, whose cranks lean by an angle with the sine 0.6 at rest: the coupler does not turn, and with the angle A from
 // there ½ (2 · 0.35 + 2) A'² + 3 g (0.8 cos A - 0.6 sin A) stays.
 BOOST_AUTO_TEST_CASE(four_bars_fall_with_their_energy) {

@@ -160,11 +160,29 @@ BOOST_AUTO_TEST_CASE(what_is_wrong_is_told_by_line) {
           "line 2: <xacro:property name=\"x\"> is of xacro, the macros of URDF; run `xacro "
           "FILE.xacro > FILE.urdf` "
           "first");
-  refused(a + b + link_text("c") + joint_text("j", "a", "b") +
+  refused(a + b + link_text("c") + joint_text("j", "a", "b", "", "floating") +
               joint_text("k", "a", "c", "<mimic joint='j' multiplier='2'/>"),
-          "line 6: couples the joint \"k\" to \"j\", which a mechanism cannot say; expected joints "
-          "that move by "
-          "themselves");
+          "line 6: couples the joint \"j\"; expected joints of one degree of freedom that close no "
+          "loop");
+  refused(a + b + link_text("c") + joint_text("j", "a", "b", "", "fixed") +
+              joint_text("k", "a", "c", "<mimic joint='j'/>"),
+          "line 6: couples the joint \"j\"; expected joints of one degree of freedom that close no "
+          "loop");
+}
+
+BOOST_AUTO_TEST_CASE(joints_that_mimic_others) {
+  const Json system =
+      import_robot(
+          robot_text(link_text("a") + link_text("b") + link_text("c") +
+                     joint_text("left-finger", "a", "b", "<axis xyz='1 0 0'/>", "prismatic") +
+                     joint_text("right-finger", "a", "c",
+                                "<axis xyz='1 0 0'/><mimic joint='left-finger' "
+                                "multiplier='-1' offset='0.02'/>",
+                                "prismatic")))
+          .at("system");
+  BOOST_TEST(!system.at("joints").at("left_finger").contains("mimic"));
+  const Json expected = {{"joint", "left_finger"}, {"multiplier", -1.0}, {"offset", 0.02}};
+  BOOST_TEST(system.at("joints").at("right_finger").at("mimic") == expected);
 }
 
 BOOST_AUTO_TEST_CASE(what_is_no_robot) {
