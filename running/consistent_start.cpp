@@ -60,8 +60,10 @@ void place_unknowns(const Experiment& experiment, InitialGuess& guess) {
       guess.v.size() > 0 ? guess.v : VectorXd::Zero(system.manifold()->tangent_dimension());
   const VectorXd z = guess.z.size() > 0 ? guess.z : system.auxiliary_guess(guess.x, guess.v);
   std::vector<Index> open;
+  // Unknowns without names cannot be given.
+  const Flags& given = experiment.initial.z.given;
   for (Index i = 0; i < m; ++i)
-    if (!experiment.initial.z.given[i]) open.push_back(i);
+    if (i >= given.size() || !given[i]) open.push_back(i);
   const auto defined =
       defined_unknowns(system, {.t = guess.t, .x = guess.x, .v = v, .z = z}, std::move(open));
   if (defined && *defined != z) guess.z = *defined;
