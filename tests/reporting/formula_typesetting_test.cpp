@@ -62,6 +62,14 @@ BOOST_AUTO_TEST_CASE(long_formulas_have_lines) {
   BOOST_TEST(count(over, "\\frac{") == 6u, over);
   BOOST_TEST(count(over, "{} - \\frac{") == 3u, over);
   BOOST_TEST(count(over, "}{4\\,\\pi}") == 6u, over);
+  // And in a product, over something: lines end in the parentheses.
+  const std::string product =
+      latex_displayed("p' = -k*(" + formula.substr(5) + " - " + term + " + " + term + ")/(4*pi)");
+  BOOST_TEST(product.find("& \\dot{p} = -\\frac{k}{4\\,\\pi}\\,\\bigl( ") != std::string::npos,
+             product);
+  BOOST_TEST(count(product, "\\\\\n& \\quad {} ") >= 1u, product);
+  BOOST_TEST(count(product, "\\bigr)") == 1u, product);
+  BOOST_TEST(count(product, "e_{5}") == 6u, product);
   BOOST_TEST(latex_displayed("no formula & text") == latex_math("no formula & text"));
 }
 
