@@ -26,8 +26,9 @@ constexpr const char* kTagContent =
     "# Compiled code of courant, which makes it again: `courant cache --clear` removes it.\n";
 constexpr std::size_t kNameDigits = 32;
 
-std::string sum_of(const std::string& object) {
-  return std::to_string(object.size()) + ' ' + content_hash(object) + '\n';
+// Of the object as that of this entry: a whole object of another one has another sum.
+std::string sum_of(const std::string& name, const std::string& object) {
+  return std::to_string(object.size()) + ' ' + content_hash(name + object) + '\n';
 }
 
 // Whether it is a file of an entry, by its name.
@@ -100,7 +101,7 @@ std::optional<fs::path> NativeCache::find(const std::string& content) const {
   const fs::path object = file(name, ".so"), sum = file(name, ".sum");
   std::error_code error;
   if (!fs::exists(sum, error) || content_of(file(name, ".c")) != content ||
-      content_of(sum) != sum_of(content_of(object)))
+      content_of(sum) != sum_of(name, content_of(object)))
     return std::nullopt;
   const auto now = fs::file_time_type::clock::now();
   if (now - fs::last_write_time(sum, error) > std::chrono::hours(24))
@@ -113,7 +114,7 @@ fs::path NativeCache::add(const std::string& content, const fs::path& source,
   const std::string name = content_hash(content);
   const fs::path sum = object.parent_path() / "sum";
   try {
-    write_file(sum, sum_of(content_of(object)));
+    write_file(sum, sum_of(name, content_of(object)));
     fs::rename(source, file(name, ".c"));
     fs::rename(object, file(name, ".so"));
     fs::rename(sum, file(name, ".sum"));

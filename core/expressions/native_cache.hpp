@@ -14,9 +14,10 @@ namespace courant {
 // $XDG_CACHE_HOME/courant, else ~/.cache/courant.
 //
 // An entry is three files with the hash of its content as name: the content (.c), the object (.so),
-// and length and hash of the object (.sum), which appears last. An object that is not what its .sum
-// says was cut off by a full disk or a crash: loading it would end the program. Files appear by an
-// atomic rename, so that threads and programs may share the folder.
+// and the object's length and a hash of name and object (.sum), which appears last. An object that is not what its .sum
+// says was cut off by a full disk or a crash: loading it would end the program. One that is there under the name of
+// another entry would compute something else. Files appear by an atomic rename, so that threads and programs may share
+// the folder.
 //
 // The folder is marked as ours by a CACHEDIR.TAG, which backups heed too. A folder that cannot be
 // written to, belongs to somebody else, may be written to by others, or has files of somebody else

@@ -228,6 +228,20 @@ BOOST_FIXTURE_TEST_CASE(an_entry_of_another_source_is_not_used, Cache) {
   BOOST_TEST(call(*machine_compiler()->compile(constant_function(1.0))) == 1.0);
 }
 
+// All functions have the same symbol, so that an object of another entry loads, and computes something else.
+BOOST_FIXTURE_TEST_CASE(an_entry_with_the_object_of_another_is_made_anew, Cache) {
+  machine_compiler()->compile(constant_function(1.0));
+  const fs::path first = objects().at(0);
+  machine_compiler()->compile(constant_function(2.0));
+  const auto all = objects();
+  const fs::path second = all.at(0) == first ? all.at(1) : all.at(0);
+  for (const char* extension : {".so", ".sum"})
+    fs::copy_file(fs::path(second).replace_extension(extension),
+                  fs::path(first).replace_extension(extension),
+                  fs::copy_options::overwrite_existing);
+  BOOST_TEST(call(*machine_compiler()->compile(constant_function(1.0))) == 1.0);
+}
+
 // A full disk or a crash leaves half of an object, and loading that ends the program (SIGBUS).
 BOOST_FIXTURE_TEST_CASE(an_object_that_was_cut_off_is_made_anew, Cache) {
   machine_compiler()->compile(constant_function(1.0));
