@@ -11,12 +11,14 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <system_error>
 #include <vector>
 
 #include "courant/core/expressions/host.hpp"
+#include "courant/core/expressions/native_cache.hpp"
 #include "courant/core/files/output_file.hpp"
 #include "courant/core/files/own_file.hpp"
 #include "courant/core/files/work_folder.hpp"
@@ -133,12 +135,12 @@ class SharedObject final : public NativeCode {
 
 }  // namespace
 
-CCompiler::CCompiler(std::string program, std::optional<NativeCache> cache)
-    : program_(std::move(program)), cache_(std::move(cache)) {}
+CCompiler::CCompiler(std::string program, bool keeps_objects)
+    : program_(std::move(program)), keeps_objects_(keeps_objects) {}
 
 CCompiler CCompiler::from_environment() {
   const std::string wanted = environment_variable("COURANT_CC");
-  return CCompiler(wanted.empty() ? "cc" : wanted, NativeCache::open());
+  return CCompiler(wanted.empty() ? "cc" : wanted, true);
 }
 
 std::shared_ptr<const NativeCompiler> machine_compiler() {
@@ -158,15 +160,16 @@ std::shared_ptr<const NativeCode> CCompiler::compile(const std::string& c_source
   for (const std::string& option : options) content += " " + option;
   content += " */\n" + c_source;
 
-  if (const auto cached = cache_ ? cache_->find(content) : std::nullopt)
+  const auto cache = keeps_objects_ ? NativeCache::open() : std::nullopt;
+  if (const auto cached = cache ? cache->find(content) : std::nullopt)
     if (auto code = SharedObject::load(*cached)) return code;  // one that doesn't load is made anew
 
-  const WorkFolder work(cache_ ? cache_->folder() : WorkFolder::temporary_folder());
+  const WorkFolder work(cache ? cache->folder() : WorkFolder::temporary_folder());
   const fs::path source = work.path() / "source.c";
   fs::path object = work.path() / "object.so";
   write_file(source, content);
   run_compiler(compiler, options, source, object);
-  if (cache_) object = cache_->add(content, source, object);
+  if (cache) object = cache->add(content, source, object);
   if (auto code = SharedObject::load(object)) return code;
   throw std::runtime_error(std::string("CCompiler::compile: the object does not load: ") +
                            dlerror());

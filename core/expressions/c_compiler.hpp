@@ -1,22 +1,22 @@
 // The C compiler of a machine with POSIX. Not part of a build with COURANT_NATIVE=OFF.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "courant/core/expressions/native.hpp"
-#include "courant/core/expressions/native_cache.hpp"
 
 namespace courant {
 
-// Runs a C compiler, no shell between, and loads the shared object that it makes. Objects are kept
-// in the cache; without one an object is made in a temporary folder and forgotten.
+// Runs a C compiler, no shell between, and loads the shared object that it makes. Where objects are
+// kept, it is in the cache of this user, which is opened when something is compiled: a compiler that
+// is only asked whether it is there leaves no folder behind. Without a cache an object is made in a
+// temporary folder and forgotten.
 class CCompiler final : public NativeCompiler {
  public:
   // `program`: a name that is looked for in $PATH, or a path.
-  explicit CCompiler(std::string program, std::optional<NativeCache> cache = std::nullopt);
+  explicit CCompiler(std::string program, bool keeps_objects = false);
 
-  // The program that $COURANT_CC names, else cc, with NativeCache::open().
+  // The program that $COURANT_CC names, else cc; it keeps objects in NativeCache::open().
   static CCompiler from_environment();
 
   std::shared_ptr<const NativeCode> compile(const std::string& c_source) const override;
@@ -24,7 +24,7 @@ class CCompiler final : public NativeCompiler {
 
  private:
   std::string program_;
-  std::optional<NativeCache> cache_;
+  bool keeps_objects_;
 };
 
 }  // namespace courant
