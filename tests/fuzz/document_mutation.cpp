@@ -187,10 +187,6 @@ Json changed(const Json& value, Generator& generator) {
 
 }  // namespace
 
-std::size_t below(std::size_t bound, Generator& generator) {
-  return std::uniform_int_distribution<std::size_t>(0, bound - 1)(generator);
-}
-
 void mutate_document(Json& document, Generator& generator) {
   std::vector<Json::json_pointer> places;
   collect_places(document, Json::json_pointer(), places);

@@ -2,19 +2,16 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <random>
 #include <string_view>
+
+#include "mutation.hpp"
 
 namespace courant::fuzz {
 
 using Json = nlohmann::ordered_json;
-using Generator = std::mt19937;
 
 // A word that stands in no program, and is planted in texts behind what ends a comment, a text or a line of C.
 inline constexpr std::string_view planted_word = "courant_planted";
-
-// A number below the bound, which is positive.
-std::size_t below(std::size_t bound, Generator& generator);
 
 // One value of the document is left out, doubled, replaced by another one of it, by a number at an edge
 // or by something else; a key becomes another key of the format, a word another word of it (a kind, a

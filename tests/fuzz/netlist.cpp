@@ -1,26 +1,19 @@
 // Netlists of SPICE: whole commands that read any text as one.
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <random>
 #include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "answer.hpp"
-#include "words.hpp"
+#include "importing.hpp"
+#include "mutation.hpp"
 
 namespace courant::fuzz {
 
 namespace {
 
 using Lines = std::vector<std::vector<std::string>>;  // of words
-
-std::size_t below_of(std::size_t bound, std::mt19937& generator) {
-  return std::uniform_int_distribution<std::size_t>(0, bound - 1)(generator);
-}
 
 Lines lines_of(const std::string& text) {
   Lines lines;
@@ -43,7 +36,7 @@ std::string text_of(const Lines& lines) {
 }
 
 // A word, or a line, is replaced by another one of the netlist or of the language, left out or doubled.
-void mutate_lines(Lines& lines, std::mt19937& generator) {
+void mutate_lines(Lines& lines, Generator& generator) {
   static const std::vector<std::string> words = {"0",
                                                  "-1",
                                                  "1e308",
@@ -116,8 +109,8 @@ void mutate_lines(Lines& lines, std::mt19937& generator) {
       {"S9", "a", "0", "a", "0", "sw"},
       {"+", "1"},
       {"T9", "a", "0", "b", "0", "z0=50", "td=0"}};
-  const std::size_t at = below_of(lines.size(), generator);
-  switch (below_of(7, generator)) {
+  const std::size_t at = below(lines.size(), generator);
+  switch (below(7, generator)) {
     case 0:
       lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(at));
       return;
@@ -126,32 +119,32 @@ void mutate_lines(Lines& lines, std::mt19937& generator) {
       return;
     case 2:
       lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(at),
-                   statements[below_of(statements.size(), generator)]);
+                   statements[below(statements.size(), generator)]);
       return;
     case 3:
-      std::swap(lines[at], lines[below_of(lines.size(), generator)]);
+      std::swap(lines[at], lines[below(lines.size(), generator)]);
       return;
     default:
       break;
   }
   std::vector<std::string>& line = lines[at];
   if (line.empty()) return;
-  std::string& word = line[below_of(line.size(), generator)];
-  const std::vector<std::string>& other = lines[below_of(lines.size(), generator)];
-  switch (below_of(4, generator)) {
+  std::string& word = line[below(line.size(), generator)];
+  const std::vector<std::string>& other = lines[below(lines.size(), generator)];
+  switch (below(4, generator)) {
     case 0:
-      if (!other.empty()) word = std::string(other[below_of(other.size(), generator)]);
+      if (!other.empty()) word = std::string(other[below(other.size(), generator)]);
       return;
     case 1:
-      line.push_back(words[below_of(words.size(), generator)]);
+      line.push_back(words[below(words.size(), generator)]);
       return;
     case 2: {  // another kind of element
       constexpr std::string_view kinds = "RCLKVIEFGHBDQMSWTXJAOU.+*";
-      word[0] = kinds[below_of(kinds.size(), generator)];
+      word[0] = kinds[below(kinds.size(), generator)];
       return;
     }
     default:
-      word = words[below_of(words.size(), generator)];
+      word = words[below(words.size(), generator)];
   }
 }
 
@@ -160,33 +153,19 @@ void mutate_lines(Lines& lines, std::mt19937& generator) {
 }  // namespace courant::fuzz
 
 // Three of four executions change the lines and words of the netlist rather than its letters.
-extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
                                                std::size_t most, unsigned seed) {
   using namespace courant::fuzz;
-  std::mt19937 generator(seed);
-  Lines lines = lines_of({reinterpret_cast<const char*>(data), size});
-  if (lines.size() < 2 || below_of(4, generator) == 0) return LLVMFuzzerMutate(data, size, most);
-  for (std::size_t count = 1 + below_of(3, generator); count > 0 && !lines.empty(); --count)
-    mutate_lines(lines, generator);
-  const std::string text = text_of(lines);
-  if (text.size() > most) return LLVMFuzzerMutate(data, size, most);
-  std::copy(text.begin(), text.end(), data);
-  return text.size();
+  return mutate_text(data, size, most, seed,
+                     [](const std::string& text, std::size_t times, Generator& generator) {
+                       Lines lines = lines_of(text);
+                       if (lines.size() < 2) return std::string();
+                       for (; times > 0 && !lines.empty(); --times) mutate_lines(lines, generator);
+                       return text_of(lines);
+                     });
 }
 
-// What is imported is an experiment that reads: `constraints` is given it, and finds no mistake in how it is
-// written.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace courant::fuzz;
-  const std::string text(reinterpret_cast<const char*>(data), size);
-  const Answer import = require_answer({"import", "-"}, text);
-  if (import.status != 0) return 0;
-  const Answer ladder = require_answer({"constraints", "-"}, import.out);
-  require(ladder.status != 2 || (ladder.err.find("JSON") == std::string::npos &&
-                                 ladder.err.find(": /system") == std::string::npos),
-          "what was imported does not read", ladder.err);
-  require_answer({"run", "-", "--quiet", "--force", "--backend", "interpreter", "-o", run_folder()},
-                 import.out);
+  courant::fuzz::require_import({reinterpret_cast<const char*>(data), size});
   return 0;
 }

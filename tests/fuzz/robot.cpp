@@ -2,20 +2,16 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "answer.hpp"
-#include "words.hpp"
+#include "importing.hpp"
+#include "mutation.hpp"
 
 namespace courant::fuzz {
 
 namespace {
-
-std::size_t any_of(std::size_t bound, std::mt19937& generator) {
-  return std::uniform_int_distribution<std::size_t>(0, bound - 1)(generator);
-}
 
 // Tags, and what is between them.
 std::vector<std::string> pieces_of(const std::string& text) {
@@ -31,7 +27,7 @@ std::vector<std::string> pieces_of(const std::string& text) {
 }
 
 // From a quotation mark to the next one, both within; npos if there is none.
-std::pair<std::size_t, std::size_t> value_in(const std::string& piece, std::mt19937& generator) {
+std::pair<std::size_t, std::size_t> value_in(const std::string& piece, Generator& generator) {
   std::vector<std::pair<std::size_t, std::size_t>> values;
   for (std::size_t i = piece.find('"'); i != std::string::npos; i = piece.find('"', i + 1)) {
     const std::size_t end = piece.find('"', i + 1);
@@ -40,11 +36,11 @@ std::pair<std::size_t, std::size_t> value_in(const std::string& piece, std::mt19
     i = end;
   }
   if (values.empty()) return {std::string::npos, 0};
-  return values[any_of(values.size(), generator)];
+  return values[below(values.size(), generator)];
 }
 
 // A tag or a text is left out, doubled or moved, or a value is replaced by another one of the robot or of the formats.
-void mutate_pieces(std::vector<std::string>& pieces, std::mt19937& generator) {
+void mutate_pieces(std::vector<std::string>& pieces, Generator& generator) {
   static const std::vector<std::string> words = {
       "0",      "-1",       "1e308",     "1e30",    "1e-320",      "nan",       "inf",   "0 0 0",
       "1 0 0",  "0 0 1",    "1 2",       "",        "world",       "ground",    "t",     "sin",
@@ -69,9 +65,9 @@ void mutate_pieces(std::vector<std::string>& pieces, std::mt19937& generator) {
       "<equality><weld body1=\"bob\"/></equality>",
       "<!DOCTYPE r [<!ENTITY a \"b\">]>",
       "<![CDATA[x]]>"};
-  const std::size_t at = any_of(pieces.size(), generator);
-  const std::size_t other = any_of(pieces.size(), generator);
-  switch (any_of(8, generator)) {
+  const std::size_t at = below(pieces.size(), generator);
+  const std::size_t other = below(pieces.size(), generator);
+  switch (below(8, generator)) {
     case 0:
       pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(at));
       return;
@@ -83,12 +79,12 @@ void mutate_pieces(std::vector<std::string>& pieces, std::mt19937& generator) {
       return;
     case 3:
       pieces.insert(pieces.begin() + static_cast<std::ptrdiff_t>(at),
-                    statements[any_of(statements.size(), generator)]);
+                    statements[below(statements.size(), generator)]);
       return;
     default:
       break;
   }
-  const std::string word = words[any_of(words.size(), generator)];
+  const std::string word = words[below(words.size(), generator)];
   if (pieces[at][0] != '<') {
     pieces[at] = word;
     return;
@@ -96,7 +92,7 @@ void mutate_pieces(std::vector<std::string>& pieces, std::mt19937& generator) {
   const auto [first, end] = value_in(pieces[at], generator);
   if (first == std::string::npos) return;
   const auto [of_other, other_end] = value_in(pieces[other], generator);
-  if (any_of(2, generator) == 0 && of_other != std::string::npos)
+  if (below(2, generator) == 0 && of_other != std::string::npos)
     pieces[at] = pieces[at].substr(0, first) +
                  pieces[other].substr(of_other, other_end - of_other) + pieces[at].substr(end);
   else
@@ -108,34 +104,24 @@ void mutate_pieces(std::vector<std::string>& pieces, std::mt19937& generator) {
 }  // namespace courant::fuzz
 
 // Three of four executions change tags and values rather than letters.
-extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
                                                std::size_t most, unsigned seed) {
   using namespace courant::fuzz;
-  std::mt19937 generator(seed);
-  auto pieces = pieces_of({reinterpret_cast<const char*>(data), size});
-  if (pieces.size() < 2 || any_of(4, generator) == 0) return LLVMFuzzerMutate(data, size, most);
-  for (std::size_t count = 1 + any_of(3, generator); count > 0 && !pieces.empty(); --count)
-    mutate_pieces(pieces, generator);
-  std::string text;
-  for (const std::string& piece : pieces) text += piece;
-  if (text.size() > most) return LLVMFuzzerMutate(data, size, most);
-  std::copy(text.begin(), text.end(), data);
-  return text.size();
+  return mutate_text(data, size, most, seed,
+                     [](const std::string& robot, std::size_t times, Generator& generator) {
+                       auto pieces = pieces_of(robot);
+                       if (pieces.size() < 2) return std::string();
+                       for (; times > 0 && !pieces.empty(); --times)
+                         mutate_pieces(pieces, generator);
+                       std::string text;
+                       for (const std::string& piece : pieces) text += piece;
+                       return text;
+                     });
 }
 
-// What is imported is an experiment that reads: `constraints` is given it, and finds no mistake in how it is
-// written.
+// What begins with a comment of XML is read as a robot, not as a netlist.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace courant::fuzz;
-  const std::string text = "<!-- -->" + std::string(reinterpret_cast<const char*>(data), size);
-  const Answer import = require_answer({"import", "-"}, text);
-  if (import.status != 0) return 0;
-  const Answer ladder = require_answer({"constraints", "-"}, import.out);
-  require(ladder.status != 2 || (ladder.err.find("JSON") == std::string::npos &&
-                                 ladder.err.find(": /system") == std::string::npos),
-          "what was imported does not read", ladder.err);
-  require_answer({"run", "-", "--quiet", "--force", "--backend", "interpreter", "-o", run_folder()},
-                 import.out);
+  courant::fuzz::require_import("<!-- -->" +
+                                std::string(reinterpret_cast<const char*>(data), size));
   return 0;
 }
