@@ -25,6 +25,10 @@ function(courant_optimise target room)
   target_compile_options(${target} PRIVATE $<$<OR:$<CONFIG:Release>,$<BOOL:${COURANT_SANITIZE}>>:${level}>
     $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-finline-small-functions;-findirect-inlining>
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>) # seen in Eigen, and not there
+  # What is not fast keeps checking indices: a mistake is one line and status 3, and writes nothing where it must not.
+  if(NOT EMSCRIPTEN)
+    target_compile_options(${target} PRIVATE -UNDEBUG -D_GLIBCXX_ASSERTIONS)
+  endif()
 endfunction()
 
 # courant_precompile(<target> <room> <suffix> [<header>...])
