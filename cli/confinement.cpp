@@ -46,7 +46,8 @@ void Confinement::begin(const std::atomic<bool>* heeds_stop) {
   lower(RLIMIT_CORE, 0);
   lower(RLIMIT_FSIZE, kFileMegabytes * megabyte);
   lower(RLIMIT_CPU, kSeconds, 10);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which reserve more addresses than there are
+#if !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)  // which reserve more addresses than there are
   lower(RLIMIT_AS, kMegabytes * megabyte);
 #endif
 }

@@ -40,11 +40,15 @@ if(COURANT_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL GNU AND memory GREATER_EQUAL
 endif()
 
 if(COURANT_SANITIZE)
-  # Left out of the undefined behaviour: what the address sanitizer sees as well. Eigen, inlined, compiles
-  # twice as long with it, and as long again with full debug information.
-  set(sanitizers -fsanitize=address,undefined -fno-sanitize=null,alignment,object-size,vptr)
-  add_compile_options(${sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer -O1 -g1)
-  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  if(COURANT_SANITIZE STREQUAL thread)
+    set(courant_sanitizers -fsanitize=thread)
+  else()
+    # Left out of the undefined behaviour: what the address sanitizer sees as well. Eigen, inlined, compiles
+    # twice as long with it, and as long again with full debug information.
+    set(courant_sanitizers -fsanitize=address,undefined -fno-sanitize=null,alignment,object-size,vptr)
+  endif()
+  add_compile_options(${courant_sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer -O1 -g1)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT COURANT_SANITIZE STREQUAL thread)
     # Undefined behaviour traps, and AddressSanitizer prints where (handle_sigill=1); in large functions accesses are
     # checked by calls. Both keep the instrumented code small. Calls everywhere run three times as long.
     add_compile_options(-fsanitize-undefined-trap-on-error "SHELL:--param asan-instrumentation-with-call-threshold=200")
@@ -55,7 +59,7 @@ if(COURANT_SANITIZE)
   endif()
   # Instrumented code hides from GCC that an empty optional is never read: its manual warns of such warnings.
   add_compile_options($<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
-  add_link_options(${sanitizers})
+  add_link_options(${courant_sanitizers})
 endif()
 
 # Release builds are hardened, as Debian's packages are.

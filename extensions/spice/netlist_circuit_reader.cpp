@@ -200,6 +200,7 @@ void CircuitReader::add_element(const Part& part, const Line& line, const std::s
   const char type = line.words[0][0];
   const bool is_source = type == 'v' || type == 'i' || type == 'b';
   const Card card = is_source ? Card{&line, line.words, {}} : card_of(line);
+  card.word(0, "name");  // "m=0" assigns something, and names nothing
   if (type == 'x') return add_instance(card, part, prefix, map, scope);
   Named& named = names_.at(prefix + line.words[0]);
   named.entry = circuit_.elements.size();

@@ -65,13 +65,14 @@ class Cache {
 };
 
 std::string constant_function(double value) {
-  return "void f(const double *const *in, double *out) { (void)in; out[0] = " +
+  return "void f(const double *const *in, const double *constants, double *out) { (void)in; "
+         "(void)constants; out[0] = " +
          std::to_string(value) + "; }\n";
 }
 
 double call(const NativeCode& library) {
   double out = 0.0;
-  library.function("f")(nullptr, &out);
+  library.function("f")(nullptr, nullptr, &out);
   return out;
 }
 
