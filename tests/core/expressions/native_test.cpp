@@ -103,7 +103,7 @@ BOOST_AUTO_TEST_CASE(functions_that_differ_in_numbers_have_one_source) {
   for (std::size_t k = 0; k < native.size(); ++k) {
     BOOST_TEST(native[k].is_native());
     BOOST_TEST(native[k]({at})[0] == interpreted[k]({at})[0]);
-    BOOST_TEST(native[k].jacobian({at}) == interpreted[k].jacobian({at}));
+    BOOST_TEST((native[k].jacobian({at}) - interpreted[k].jacobian({at})).norm() == 0.0);
   }
 }
 
