@@ -22,7 +22,6 @@ namespace courant {
 namespace {
 
 constexpr std::size_t longest = 450;  // characters of a formula: five lines
-constexpr std::size_t most_parameters = 50;
 constexpr std::size_t most_operations = 20000, most_operations_of_one = 1000;
 
 using Kind = ConstraintFormulas::Step::Kind;
@@ -592,19 +591,46 @@ class Derivation {
   ConstraintFormulas result_;
 };
 
-// Whether formulas need the parameter as an integer, as the bound of a sum.
-bool is_counting(const ImplicitSystem& system, const Parameter& parameter) {
+// Those of the parameters that the equations have in them; nothing where equations need one of them as an integer, as the bound
+// of a sum.
+std::optional<std::vector<Parameter>> contained_in(const ImplicitSystem& system,
+                                                   const std::vector<Parameter>& parameters) {
   const Graph graph;
-  added(graph, {parameter});
+  const ExprVector variables = added(graph, parameters);
   const ExprVector x = named(graph, system.names().coordinates);
   const ExprVector z = named(graph, system.names().auxiliary);
   const ExprVector v = graph.variables("v", system.manifold()->tangent_dimension());
   try {
-    system.residual(x, v, z, graph.variable("t"));
-    return false;
+    const Subgraph of_equations(system.residual(x, v, z, graph.variable("t")));
+    std::vector<bool> is_there(parameters.size(), false);
+    for (const std::uint32_t node : of_equations.nodes())
+      if (node < is_there.size()) is_there[node] = true;  // parameters are the first nodes
+    std::vector<Parameter> found;
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      if (is_there[i]) found.push_back(parameters[i]);
+    return found;
   } catch (const std::exception&) {
-    return true;
+    return std::nullopt;
   }
+}
+
+// The parameters that may stand in formulas by name. 0 is a number, and so are those that are needed as integers; all are
+// where there are too many.
+std::vector<Parameter> that_may_be_named(const ImplicitSystem& system,
+                                         std::vector<Parameter> parameters) {
+  constexpr std::size_t most_looked_at = 200, most_named = 50;
+  std::erase_if(parameters, [](const Parameter& parameter) {
+    return parameter.value == 0.0 || !std::isfinite(parameter.value);
+  });
+  if (parameters.size() > most_looked_at) return {};
+  auto found = contained_in(system, parameters);
+  if (!found) {
+    std::erase_if(parameters, [&](const Parameter& parameter) {
+      return parameter.value == std::floor(parameter.value) && !contained_in(system, {parameter});
+    });
+    found = contained_in(system, parameters);
+  }
+  return found && found->size() <= most_named ? *found : std::vector<Parameter>();
 }
 
 // Whether there is nothing that formulas could say and do not.
@@ -695,11 +721,8 @@ ConstraintFormulas constraint_formulas(const ImplicitSystem& system, const Const
       M.tangent_dimension() + system.auxiliary_size() > 200)
     return {};
   const Index levels = is_empty ? ladder.levels.back().k : ladder.index;
-  std::erase_if(parameters, [&](const Parameter& parameter) {
-    return parameter.value == 0.0 || !std::isfinite(parameter.value) ||
-           (parameter.value == std::floor(parameter.value) && is_counting(system, parameter));
-  });
-  if (!parameters.empty() && parameters.size() <= most_parameters) {
+  parameters = that_may_be_named(system, std::move(parameters));
+  if (!parameters.empty()) {
     ConstraintFormulas named = Derivation(system, ladder, std::move(parameters))(levels);
     if (is_whole(named, ladder)) return named;
     ConstraintFormulas in_numbers = Derivation(system, ladder, {})(levels);
