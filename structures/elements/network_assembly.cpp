@@ -41,7 +41,7 @@ void NetworkAssembly::add(const std::string& name, Element element,
              branch.name + " has both its ends at the node " + std::to_string(branch.from) + ".");
   states_ += place.element.state_count();
   for (const Index node : nodes) nodes_ = std::max(nodes_, node + 1);
-  std::ranges::move(branches, std::back_inserter(branches_));
+  for (NetworkBranch& branch : branches) branches_.push_back(std::move(branch));
   numbers_.emplace(name, places_.size());
   places_.push_back(std::move(place));
 }
