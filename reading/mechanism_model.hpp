@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "courant/reading/mechanics_keys.hpp"
-#include "courant/reading/mechanism_parts.hpp"
+#include "courant/reading/written_mechanism.hpp"
 
 namespace courant {
 

@@ -8,130 +8,18 @@
 #include "courant/core/numbers/as_size.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/core/words/spelling.hpp"
+#include "courant/reading/mechanism_keys.hpp"
 
 namespace courant {
 namespace {
 
 using Formulas = std::vector<WrittenFormula>;
 
-// The word of a joint, its type, and the key of what drives it.
-struct JointWord {
-  const char* word;
-  JointType type;
-  const char* effort;
-};
-constexpr std::array kJoints{JointWord{"revolute", JointType::revolute, "torque"},
-                             JointWord{"continuous", JointType::revolute, "torque"},
-                             JointWord{"prismatic", JointType::prismatic, "force"},
-                             JointWord{"fixed", JointType::fixed, ""},
-                             JointWord{"spherical", JointType::spherical, "torque"},
-                             JointWord{"ball", JointType::spherical, "torque"},
-                             JointWord{"universal", JointType::universal, "torque"},
-                             JointWord{"cylindrical", JointType::cylindrical, "effort"},
-                             JointWord{"planar", JointType::planar, "effort"},
-                             JointWord{"floating", JointType::floating, "effort"}};
-
-std::vector<std::string> joint_words() {
-  std::vector<std::string> words;
-  for (const JointWord& joint : kJoints) words.emplace_back(joint.word);
-  return words;
-}
-
-const KindDescription& body_keys() {
-  static const KindDescription keys{
-      "",
-      "a rigid body",
-      {required_key("mass", takes::formula(), "in kg, at least 0"),
-       optional_key("center", takes::formula_vector(),
-                    "of mass, in the frame of the body; by default its origin"),
-       optional_key(
-           "inertia", takes::formulas(),
-           "about the centre, [xx, yy, zz, xy, xz, yz] or a matrix, in a plane a number; by "
-           "default 0, a point"),
-       optional_key("points", takes::places(), "by name, in the frame of the body")}};
-  return keys;
-}
-
-const KindDescription& mimic_keys() {
-  static const KindDescription keys{"",
-                                    "the coordinate of a joint by that of another one",
-                                    {required_key("joint", takes::text(), "the other one"),
-                                     optional_key("multiplier", takes::formula(), "by default 1"),
-                                     optional_key("offset", takes::formula(), "by default 0")}};
-  return keys;
-}
-
-const KindDescription& joint_keys() {
-  static const KindDescription keys{
-      "",
-      "a joint",
-      {required_key("type", takes::word(joint_words()), "how the child moves"),
-       required_key("parent", takes::text(), "a body, or ground"),
-       required_key("child", takes::text(), "a body, or ground"),
-       optional_key("origin", takes::pose(),
-                    "the frame of the joint on the parent; by default the parent's own"),
-       optional_key("child_origin", takes::pose(),
-                    "of a joint that closes a loop, its frame on the child"),
-       optional_key("axis", takes::formula_vector(),
-                    "in the frame of the joint, of any length; by default [1, 0, 0]"),
-       optional_key(
-           "axis2", takes::formula_vector(),
-           "of a universal joint, perpendicular to the axis and moving with it; by default "
-           "the next coordinate direction"),
-       optional_key("damping", takes::formulas(), "a number, or one for each degree of freedom"),
-       optional_key("stiffness", takes::formulas(), "likewise, of a spring in the joint"),
-       optional_key("rest", takes::formulas(), "likewise, where that spring is at rest"),
-       optional_key("torque", takes::formulas(),
-                    "on the child: a formula in coordinates, velocities and t; of universal joints "
-                    "two, of spherical ones three along the axes of the child"),
-       optional_key("force", takes::formula(), "on the child of a prismatic joint, along the axis"),
-       optional_key("effort", takes::formula_vector(),
-                    "forces and torques of cylindrical, planar and floating joints, one for each "
-                    "degree of freedom"),
-       optional_key("mimic", takes::one(mimic_keys()),
-                    "its coordinate is multiplier * that of another joint + offset, exactly")}};
-  return keys;
-}
-
-const KindDescription& spring_keys() {
-  static const KindDescription keys{
-      "",
-      "a spring between two points",
-      {required_key("from", takes::place_on_body(), "where it begins"),
-       required_key("to", takes::place_on_body(), "where it ends"),
-       optional_key("stiffness", takes::formula(), "in N/m; by default 0"),
-       optional_key("rest", takes::formula(), "its length without load, in m; by default 0"),
-       optional_key("damping", takes::formula(), "in N s/m; by default 0")}};
-  return keys;
-}
-
-const KindDescription& force_keys() {
-  static const KindDescription keys{
-      "",
-      "a force on a body",
-      {required_key("at", takes::place_on_body(), "where it acts"),
-       optional_key("force", takes::formula_vector(),
-                    "its components, formulas in coordinates, velocities and t; by default 0"),
-       optional_key("torque", takes::formulas(), "likewise; in a plane one formula"),
-       default_key("frame", takes::word({"world", "body"}), "world",
-                   "whose axes the components are along")}};
-  return keys;
-}
-
 WrittenFormula literal(const char* text) { return {text, ""}; }
 Formulas zeros() { return {literal("0"), literal("0"), literal("0")}; }
 
 VectorXd value_of(const Formulas& formulas, const SymbolTable& constants) {
-  VectorXd values(static_cast<Index>(formulas.size()));
-  for (Index i = 0; i < values.size(); ++i)
-    values[i] = evaluate(formulas[as_size(i)], constants).value();
-  return values;
-}
-
-ExprVector expressions(const Formulas& formulas, const SymbolTable& constants) {
-  ExprVector values(static_cast<Index>(formulas.size()));
-  for (Index i = 0; i < values.size(); ++i) values[i] = evaluate(formulas[as_size(i)], constants);
-  return values;
+  return values(evaluate({{}, formulas}, constants));
 }
 
 // R = R_z(yaw) R_y(pitch) R_x(roll), entry by entry: the language knows that cos(pi/2) is 0.
@@ -153,14 +41,6 @@ Formulas rotation_formulas(const Formulas& rpy) {
   Formulas formulas;
   for (const std::string& entry : entries) formulas.push_back({entry, rpy.front().pointer});
   return formulas;
-}
-
-Pose pose_of(const WrittenMechanism::Pose& written, const SymbolTable& constants) {
-  Pose result;
-  result.r = expressions(written.xyz, constants);
-  const ExprVector entries = expressions(written.rotation, constants);
-  for (Index i = 0; i < 3; ++i) result.R.row(i) = entries.segment(3 * i, 3).transpose();
-  return result;
 }
 
 // The parts of one mechanism, with what is known while they are read.
@@ -502,8 +382,8 @@ class Reader {
     }
     if (right_ && joint.parent == joint.child)
       problem(value, "connects a body with itself; expected two bodies");
-    const JointWord& kind =
-        *std::ranges::find_if(kJoints, [&](const JointWord& one) { return *word == one.word; });
+    const JointWord& kind = *std::ranges::find_if(
+        joint_types(), [&](const JointWord& one) { return *word == one.word; });
     joint.type = kind.type;
     const Index n =
         mechanism_.is_plane ? plane_type(joint, *type, *word) : degrees_of_freedom(joint.type);
@@ -741,67 +621,6 @@ class Reader {
 };
 
 }  // namespace
-
-std::vector<Key> mechanism_keys() {
-  return {
-      required_key("bodies", takes::named(body_keys()), "by name: mass, center, inertia, points"),
-      optional_key("joints", takes::named(joint_keys()),
-                   "by name: between a parent and a child, bodies or the ground"),
-      optional_key("springs", takes::named(spring_keys()), "by name: between two points"),
-      optional_key("forces", takes::list_of(force_keys()), "on points of bodies"),
-      optional_key("gravity", takes::formula_vector(), "in m/s^2; by default 0"),
-      default_key("coordinates", takes::word({"joint", "absolute"}), "joint",
-                  "of joints, with constraints where loops close; or of bodies, with joints as "
-                  "constraints"),
-      default_key("plane", takes::flag(), false,
-                  "all in a plane: axes are z, positions [x, y], poses [x, y, angle]")};
-}
-
-Mechanism::Point WrittenMechanism::point(const Place& place, const SymbolTable& constants) const {
-  const Formulas& at = place.at.empty() ? bodies[as_size(place.body)].center : place.at;
-  return {place.body, expressions(at, constants)};
-}
-
-Mechanism WrittenMechanism::at(const SymbolTable& constants) const {
-  Mechanism::Parts parts;
-  parts.is_plane = is_plane;
-  parts.is_absolute = is_absolute;
-  parts.gravity = expressions(gravity, constants);
-  for (const Body& body : bodies) {
-    const ExprVector J = expressions(body.inertia, constants);
-    ExprMatrix inertia(3, 3);
-    inertia << J[0], J[3], J[4], J[3], J[1], J[5], J[4], J[5], J[2];
-    parts.bodies.push_back(
-        {body.name, evaluate(body.mass, constants), expressions(body.center, constants), inertia});
-  }
-  for (const Joint& joint : joints) {
-    const ExprVector axis = expressions(joint.axis, constants);
-    ExprMatrix axes = is_plane && joint.type == JointType::prismatic
-                          ? joint_axes_in_plane(axis)
-                          : joint_axes(axis, joint.largest);
-    if (!joint.axis2.empty()) {
-      const ExprVector u = expressions(joint.axis2, constants);
-      axes.col(1) = u / sqrt(u.dot(u));
-      axes.col(2) = cross_product(axes.col(0), axes.col(1));
-    }
-    parts.joints.push_back({.name = joint.name,
-                            .type = joint.type,
-                            .parent = joint.parent,
-                            .child = joint.child,
-                            .origin = pose_of(joint.origin, constants),
-                            .child_origin = pose_of(joint.child_origin, constants),
-                            .axes = axes,
-                            .damping = expressions(joint.damping, constants),
-                            .stiffness = expressions(joint.stiffness, constants),
-                            .rest = expressions(joint.rest, constants)});
-  }
-  for (const Spring& spring : springs)
-    parts.springs.push_back({point(spring.from, constants), point(spring.to, constants),
-                             evaluate(spring.stiffness, constants),
-                             evaluate(spring.rest, constants),
-                             evaluate(spring.damping, constants)});
-  return Mechanism(std::move(parts));
-}
 
 std::optional<WrittenMechanism> read_mechanism_parts(ObjectReader& system,
                                                      const SymbolTable& constants) {

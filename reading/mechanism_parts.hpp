@@ -2,78 +2,14 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
-#include "courant/reading/vocabulary.hpp"
-#include "courant/structures/mechanism.hpp"
+#include "courant/reading/json_reader.hpp"
+#include "courant/reading/written_mechanism.hpp"
 
 namespace courant {
 
-// Keys of the kind `mechanism`.
-std::vector<Key> mechanism_keys();
-
-// A mechanism whose numbers are formulas of the parameters, so that they can be made expressions of any graph, with the
-// formulas of its loads.
-struct WrittenMechanism {
-  // xyz (3), and a rotation as nine formulas by rows.
-  struct Pose {
-    std::vector<WrittenFormula> xyz, rotation;
-  };
-  using Point = std::pair<std::string, std::vector<WrittenFormula>>;  // name, position (3)
-  struct Body {
-    std::string name, pointer;
-    WrittenFormula mass;
-    std::vector<WrittenFormula> center, inertia;  // 3; xx yy zz xy xz yz
-    std::vector<Point> points = {};
-  };
-  // The coordinate of a joint is multiplier * that of another one + offset.
-  struct Mimic {
-    Index of = 0;  // joint
-    WrittenFormula multiplier, offset;
-  };
-  struct Joint {
-    std::string name, pointer;
-    JointType type = JointType::fixed;
-    Index parent = Mechanism::ground, child = Mechanism::ground;
-    Pose origin, child_origin;
-    bool has_child_origin = false;
-    std::vector<WrittenFormula> axis;                      // 3
-    std::vector<WrittenFormula> axis2;                     // 3, of universal joints
-    Index largest = 2;                                     // component of the axis
-    std::vector<WrittenFormula> damping, stiffness, rest;  // n or none
-    std::vector<WrittenFormula> effort;  // n or none: of coordinates, velocities, t
-    std::optional<Mimic> mimic = {};
-  };
-  struct Place {
-    Index body = Mechanism::ground;
-    std::vector<WrittenFormula> at;  // 3; empty: the centre of the body
-  };
-  struct Spring {
-    std::string name;
-    Place from, to;
-    WrittenFormula stiffness, rest, damping;
-  };
-  struct Force {
-    Place at;
-    bool in_body = false;                       // along the axes of the body, not of the world
-    std::vector<WrittenFormula> force, torque;  // 3 each: of coordinates, velocities, t
-  };
-
-  bool is_plane = false, is_absolute = false;
-  std::vector<WrittenFormula> gravity;  // 3
-  std::vector<Body> bodies;
-  std::vector<Joint> joints;
-  std::vector<Spring> springs;
-  std::vector<Force> forces;
-
-  // With the numbers that the parameters have in this table.
-  Mechanism at(const SymbolTable& constants) const;
-  Mechanism::Point point(const Place& place, const SymbolTable& constants) const;
-};
-
-// Reads the keys above; the numbers are checked at the values of the parameters. Nothing, and problems, where a part is wrong.
+// Reads the keys of a mechanism (mechanism_keys); the numbers are checked at the values of the parameters. Nothing, and
+// problems, where a part is wrong.
 std::optional<WrittenMechanism> read_mechanism_parts(ObjectReader& system,
                                                      const SymbolTable& constants);
 

@@ -7,6 +7,7 @@
 #include "courant/core/words/text_layout.hpp"
 #include "courant/manifolds/cotangent_bundle.hpp"
 #include "courant/reading/mechanism_model.hpp"
+#include "courant/reading/mechanism_parts.hpp"
 #include "courant/reading/system_kinds.hpp"
 #include "courant/structures/lagrangian_system.hpp"
 

@@ -3,7 +3,7 @@
 #include "courant/reading/catalogue_system.hpp"
 #include "courant/reading/lie_algebra_keys.hpp"
 #include "courant/reading/mechanics_keys.hpp"
-#include "courant/reading/mechanism_parts.hpp"
+#include "courant/reading/mechanism_keys.hpp"
 #include "courant/reading/system_examples.hpp"
 
 namespace courant {

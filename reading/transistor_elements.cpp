@@ -36,23 +36,21 @@ std::optional<NetworkElement> read_bipolar(ObjectReader& object, const NetworkSi
   law.knee_reverse = reader.constant("knee_reverse");
   law.leak = reader.constant("leak");
   const double forward = reader.constant("forward");
-  const elements::JunctionCharge at_emitter{.capacitance = reader.constant("emitter_capacitance"),
-                                            .junction = reader.positive("emitter_junction"),
-                                            .grading = reader.constant("emitter_grading"),
-                                            .forward = forward,
-                                            .transit = reader.constant("forward_transit"),
-                                            .saturation = law.saturation,
-                                            .scale = law.forward_scale,
-                                            .leak = law.leak};
-  const elements::JunctionCharge at_collector{
-      .capacitance = reader.constant("collector_capacitance"),
-      .junction = reader.positive("collector_junction"),
-      .grading = reader.constant("collector_grading"),
-      .forward = forward,
-      .transit = reader.constant("reverse_transit"),
-      .saturation = law.saturation,
-      .scale = law.reverse_scale,
-      .leak = law.leak};
+  // `transit`: the key of its time; what is stored so grows with the current of this scale.
+  const auto charge = [&](const std::string& junction, const char* transit, double scale) {
+    return elements::JunctionCharge{.capacitance = reader.constant(junction + "_capacitance"),
+                                    .junction = reader.positive(junction + "_junction"),
+                                    .grading = reader.constant(junction + "_grading"),
+                                    .forward = forward,
+                                    .transit = reader.constant(transit),
+                                    .saturation = law.saturation,
+                                    .scale = scale,
+                                    .leak = law.leak};
+  };
+  const elements::JunctionCharge at_emitter =
+                                     charge("emitter", "forward_transit", law.forward_scale),
+                                 at_collector =
+                                     charge("collector", "reverse_transit", law.reverse_scale);
   const std::vector<NetworkTerminal> terminals = {reader.node("collector"), reader.node("base"),
                                                   reader.node("emitter")};
   const bool is_pnp = reader.word("polarity") == "pnp";

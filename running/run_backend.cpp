@@ -14,7 +14,7 @@ constexpr long kSomeSteps = 1'000;
 bool is_short(const Experiment& experiment, long alike) {
   if (!experiment.time || experiment.time->is_transformed()) return false;
   const long steps = experiment.time->steps;
-  return steps < kManySteps && (steps < kSomeSteps || steps < (kManySteps + alike - 1) / alike);
+  return steps < kSomeSteps || steps < (kManySteps + alike - 1) / alike;
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 #include "courant/running/solved_unknowns.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/core/expressions/expr_vectors.hpp"
@@ -10,12 +12,14 @@
 namespace courant {
 namespace {
 
+// Where unknowns are tried that nobody gave.
+constexpr std::array kPlaces = {0.0, 1.0, -1.0, 0.1, -0.1, 10.0, -10.0};
+
 // Whether a zero of the equation in the one unknown was found; z is as it was where none is.
 bool solve(const Function& equation, VectorXd& z, Index unknown) {
   constexpr int most_steps = 50;
-  constexpr double places[] = {0.0, 1.0, -1.0, 0.1, -0.1, 10.0, -10.0};
   const double before = z[unknown];
-  for (const double place : places) {
+  for (const double place : kPlaces) {
     z[unknown] = place;
     for (int step = 0; step < most_steps; ++step) {
       const double value = equation({z})[0], slope = equation.jacobian({z})(0, unknown);
@@ -91,7 +95,7 @@ std::optional<VectorXd> defined_unknowns(const ImplicitSystem& system, const Sta
   if (equations.are_finite_at(z)) return z;
   if (!equations.have_values_at(z)) return std::nullopt;
   VectorXd tried = z;
-  for (const double place : {1.0, -1.0, 0.1, -0.1, 10.0, -10.0}) {
+  for (const double place : std::span(kPlaces).subspan(1)) {  // 0 was the first that was tried
     // Each at another place, since differences may be under a root.
     for (std::size_t i = 0; i < open.size(); ++i)
       tried[open[i]] = place * (1.0 + 0.1 * static_cast<double>(i));

@@ -155,9 +155,9 @@ std::size_t alike(std::span<const ValueRange> ranges) {
 std::vector<SweepCase> sweep_cases(const Json& document, std::span<const ValueRange> ranges) {
   std::vector<SweepCase> cases;
   const auto all = combinations(ranges);
+  const std::size_t of_one_code = alike(ranges);
   for (const auto& settings : all) {
-    SweepCase one{settings, name_of(cases.size() + 1, all.size(), settings), document,
-                  alike(ranges)};
+    SweepCase one{settings, name_of(cases.size() + 1, all.size(), settings), document, of_one_code};
     for (const Setting& setting : settings) apply_setting(setting, one.document, "--sweep");
     if (cases.empty()) require_used(one.document, settings, "--sweep");
     cases.push_back(std::move(one));

@@ -596,7 +596,7 @@ class Derivation {
 std::optional<std::vector<Parameter>> contained_in(const ImplicitSystem& system,
                                                    const std::vector<Parameter>& parameters) {
   const Graph graph;
-  const ExprVector variables = added(graph, parameters);
+  added(graph, parameters);
   const ExprVector x = named(graph, system.names().coordinates);
   const ExprVector z = named(graph, system.names().auxiliary);
   const ExprVector v = graph.variables("v", system.manifold()->tangent_dimension());
@@ -722,13 +722,11 @@ ConstraintFormulas constraint_formulas(const ImplicitSystem& system, const Const
     return {};
   const Index levels = is_empty ? ladder.levels.back().k : ladder.index;
   parameters = that_may_be_named(system, std::move(parameters));
-  if (!parameters.empty()) {
-    ConstraintFormulas named = Derivation(system, ladder, std::move(parameters))(levels);
-    if (is_whole(named, ladder)) return named;
-    ConstraintFormulas in_numbers = Derivation(system, ladder, {})(levels);
-    return findings(in_numbers) > findings(named) ? in_numbers : named;
-  }
-  return Derivation(system, ladder, {})(levels);
+  const bool has_names = !parameters.empty();
+  ConstraintFormulas found = Derivation(system, ladder, std::move(parameters))(levels);
+  if (!has_names || is_whole(found, ladder)) return found;
+  ConstraintFormulas in_numbers = Derivation(system, ladder, {})(levels);
+  return findings(in_numbers) > findings(found) ? in_numbers : found;
 }
 
 }  // namespace courant

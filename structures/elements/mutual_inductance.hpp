@@ -19,8 +19,6 @@ class MutualInductance {
   // Adds a coupling between -1 and 1 of two different inductors; false, and nothing is done, where both together would be
   // coupled wholly or more.
   bool add(Index i, Index j, double coupling);
-  // M/√(L_i L_j).
-  double coupling(Index i, Index j, double mutual) const { return mutual / (root_[i] * root_[j]); }
   // Whether 𝓛 is positive definite: each pair may be coupled so, and all together not.
   bool is_definite() const;
   // 𝓛⁻¹ (n × n), of a definite 𝓛.
