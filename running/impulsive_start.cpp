@@ -21,6 +21,8 @@ constexpr double kMostGrowth = 1e6;
 constexpr double kReached = 1e-10;
 constexpr double kRoundOffOfJump = 1e-14;
 constexpr double kLeastSine = 1e-9;
+// Next to how much constraints are violated: an impulse that leaves more of it leads to none of their points.
+constexpr double kMostLeft = 0.5;
 
 // Columns: the directions of Δx (n), none where the residual has no derivative.
 MatrixXd impulse_directions(const Experiment& experiment, const State& at) {
@@ -111,7 +113,10 @@ ConsistentStart impulsive_start(
       // Sines of angles between impulses and constraints: where these are round-off, no impulse acts.
       const MatrixXd sines = A * K;
       const MatrixXd acting = (sines.array().abs() > kLeastSine).select(sines, 0.0);
-      x = begin - K * CompleteOrthogonalDecomposition(acting).solve(A * (begin - ladder.point.x));
+      const VectorXd violated = A * (begin - ladder.point.x);
+      const VectorXd sizes = CompleteOrthogonalDecomposition(acting).solve(violated);
+      if ((violated - acting * sizes).norm() > kMostLeft * violated.norm()) return nearest;
+      x = begin - K * sizes;
       if (size(x) > kMostGrowth * size(nearest.point.x)) return nearest;
       ladder = nearest_to(x);
       if (!is_start(ladder)) return nearest;

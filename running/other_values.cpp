@@ -4,6 +4,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "courant/core/expressions/function.hpp"
 #include "courant/integrators/certificate/constraint_algorithm.hpp"
 
 namespace courant {
@@ -15,18 +16,18 @@ constexpr double kDifferentValue = 1e-6;
 // A residual that is linear leaves this part of its size, round-off, at the middle of two points.
 constexpr double kLinear = 1e-12;
 
-// Whether the residual is no linear function on the way from z to -z in entry i.
-bool is_nonlinear(const ImplicitSystem& system, const State& at, Index i) {
+// Whether the residual F(z) is no linear function on the way from z to -z in entry i.
+bool is_nonlinear(const Function& F, const VectorXd& z, Index i) {
   const auto residual = [&](double value) {
-    VectorXd z = at.z;
-    z[i] = value;
-    return system.residual(at.x, at.v, z, at.t);
+    VectorXd there = z;
+    there[i] = value;
+    return F({there});
   };
-  const VectorXd here = residual(at.z[i]), there = residual(-at.z[i]), middle = residual(0.0);
-  if (!middle.allFinite() || !there.allFinite()) return false;
+  const VectorXd here = residual(z[i]), opposite = residual(-z[i]), middle = residual(0.0);
+  if (!middle.allFinite() || !opposite.allFinite()) return false;
   const double size =
-      here.cwiseAbs().maxCoeff() + there.cwiseAbs().maxCoeff() + middle.cwiseAbs().maxCoeff();
-  return (here + there - 2.0 * middle).cwiseAbs().maxCoeff() > kLinear * size;
+      here.cwiseAbs().maxCoeff() + opposite.cwiseAbs().maxCoeff() + middle.cwiseAbs().maxCoeff();
+  return (here + opposite - 2.0 * middle).cwiseAbs().maxCoeff() > kLinear * size;
 }
 
 }  // namespace
@@ -40,11 +41,15 @@ std::vector<Movement> other_values(const Experiment& experiment, const Constrain
   ConstraintAlgorithm::Options options;
   options.max_level = 0;
   const ConstraintAlgorithm solve(options);
+  Graph graph;
+  const ExprVector z = graph.variables("z", at.z.size());
+  const Function F("equations", {{"z", z}},
+                   system->residual(constants(at.x), constants(at.v), z, Expr(at.t)));
   // Unknowns that have names.
   for (Index i = 0; i < experiment.initial.z.given.size(); ++i) {
     if (experiment.initial.z.given[i] || at.z[i] == 0.0) continue;
     try {
-      if (!is_nonlinear(*system, at, i)) continue;
+      if (!is_nonlinear(F, at.z, i)) continue;
       InitialGuess guess{.t = at.t, .x = at.x, .v = at.v, .z = at.z};
       guess.z[i] = -at.z[i];
       guess.hold_x.resize(static_cast<std::size_t>(at.x.size()));

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "courant/core/linear/complete_orthogonal_decomposition.hpp"
+#include "courant/core/linear/orthogonal_rows.hpp"
 #include "courant/integrators/certificate/least_solution.hpp"
 
 namespace courant {
@@ -83,6 +85,13 @@ bool are_rounded(const Jet& jet, const Jet& start, const std::vector<bool>& held
     change = std::max(change, std::fabs(static_cast<double>(jet.y[j] - start.y[j])));
   }
   return change <= rounding * largest;
+}
+
+// The first digits of the fine part.
+DoubleDouble two_terms(const Digits& number) {
+  const auto high = static_cast<double>(number);
+  const Digits rest = number.corrected(0.0, high);
+  return {high, static_cast<double>(rest)};
 }
 
 // What is left of a zero in the fine digits, next to the terms of an equation: where a search ends earlier what depends on
@@ -489,12 +498,15 @@ NearestJet::Found NearestJet::find_displaced(const Jet& from, const BinaryScales
   return refined(from, std::vector<bool>(from.y.size(), false), scales);
 }
 
-// Newton's method in Digits by orthogonal rows: least change of the scaled_part unknowns.
+// Newton's method with steps of least change in the scaled unknowns. Its matrix has 106 bits: what these leave of a step
+// the next one corrects in each precision, as steps of one factorisation in doubles do.
 NearestJet::Found NearestJet::newton(Jet jet, const std::vector<bool>& stays,
                                      BinaryScales scales) const {
-  constexpr int most_steps = 14;
-  constexpr std::int64_t negligible_row = -64, coarse_end = -90, fine_end = -240;
-  std::int64_t before = std::numeric_limits<std::int64_t>::max(), left_before = before;
+  constexpr int most_steps = 20;
+  constexpr double negligible_row = 0x1p-64, coarse_end = 0x1p-90, fine_end = 0x1p-240;
+  // What dependent rows leave falls like the square of the error next to a zero.
+  constexpr double much_less = 0x1p-4;
+  double before = std::numeric_limits<double>::infinity(), left_before = before;
   const Index k = jet.k;
   begin_at_one_place(jet);
   const std::vector<JetEquations::Entry> places = equations_.pattern(k);
@@ -509,74 +521,41 @@ NearestJet::Found NearestJet::newton(Jet jet, const std::vector<bool>& stays,
     const std::size_t row_count = at.residual.size();
     scales.update(places, at.entries, jet);
     scales.scale_rows(places, at.entries, stays);
-    std::vector<std::vector<Digits>> rows(row_count, std::vector<Digits>(columns));
+    OrthogonalRows::Rows rows(row_count, std::vector<DoubleDouble>(columns));
     for (std::size_t e = 0; e < places.size(); ++e) {
       const auto unknown = static_cast<std::size_t>(places[e].column);
       if (unknown >= part.column.size() || part.column[unknown] < 0) continue;
       const auto i = static_cast<std::size_t>(places[e].row);
       Digits entry = at.entries[e].times_power_of_two(scales.row[i] + scales.column[unknown]);
-      rows[i][static_cast<std::size_t>(part.column[unknown])] = entry.settle();
+      rows[i][static_cast<std::size_t>(part.column[unknown])] = two_terms(entry.settle());
     }
-    std::vector<Digits> right(row_count);
+    std::vector<DoubleDouble> coarse(row_count), fine(row_count);
     for (std::size_t i = 0; i < row_count; ++i) {
-      right[i] = -at.residual[i].times_power_of_two(scales.row[i]);
-      right[i].settle();
+      Digits right = -at.residual[i].times_power_of_two(scales.row[i]);
+      right.settle();
+      coarse[i] = right.coarse();
+      fine[i] = two_terms(right);
     }
-    const auto dot = [](const std::vector<Digits>& a, const std::vector<Digits>& b) {
-      Digits sum;
-      for (std::size_t j = 0; j < a.size(); ++j)
-        if (!a[j].is_zero() && !b[j].is_zero()) sum += a[j] * b[j];
-      return sum;
-    };
-    std::vector<Digits> change(columns);
-    std::vector<bool> done(row_count, false);
-    for (;;) {
-      std::size_t best = row_count;
-      std::int64_t largest = negligible_row;
-      for (std::size_t i = 0; i < row_count; ++i) {
-        if (done[i]) continue;
-        for (const Digits& entry : rows[i])
-          if (!entry.is_zero() && entry.exponent() > largest) {
-            largest = entry.exponent();
-            best = i;
-          }
-      }
-      if (best == row_count) break;
-      done[best] = true;
-      const std::vector<Digits>& q = rows[best];
-      const Digits square = dot(q, q);
-      const Digits along = right[best] / square;
-      for (std::size_t j = 0; j < columns; ++j)
-        if (!q[j].is_zero()) change[j] += along * q[j];
-      for (std::size_t i = 0; i < row_count; ++i) {
-        if (done[i]) continue;
-        const Digits product = dot(rows[i], q);
-        if (product.is_zero()) continue;
-        const Digits factor = product / square;
-        subtract_multiple(rows[i].data(), factor, q.data(), columns);
-        subtract_multiple(&right[i], factor, &right[best], 1);
-      }
-    }
-    // What dependent rows leave falls like the square of the error next to a zero.
-    constexpr std::int64_t much_less = 4;
-    std::int64_t left = fine_end;
-    for (std::size_t i = 0; i < row_count; ++i)
-      if (!done[i] && !right[i].is_zero()) left = std::max(left, right[i].exponent());
-    if (left > fine_end && step > 2 && left > left_before - much_less) break;
-    left_before = left;
-    std::int64_t length = fine_end;
+    const OrthogonalRows inverse(std::move(rows), negligible_row);
+    const OrthogonalRows::Solution change = inverse.solve(std::move(fine));
+    if (change.left > fine_end && step > 2 && change.left > much_less * left_before) break;
+    left_before = std::max(change.left, fine_end);
+    double length = 0.0;
     for (std::size_t c = 0; c < columns; ++c)
-      if (!change[c].is_zero() && change[c].is_finite())
-        length = std::max(length, change[c].exponent() -
-                                      std::ilogb(size_of_unknown(
-                                          jet, scales, static_cast<std::size_t>(part.unknown[c]))));
+      length = std::max(
+          length, std::fabs(change.x[c].high) /
+                      size_of_unknown(jet, scales, static_cast<std::size_t>(part.unknown[c])));
+    const bool moves_coarse = length > coarse_end;
+    const std::vector<DoubleDouble> of_coarse =
+        moves_coarse ? inverse.solve(std::move(coarse)).x : std::vector<DoubleDouble>(columns);
     for (std::size_t c = 0; c < columns; ++c) {
       const auto j = static_cast<std::size_t>(part.unknown[c]);
-      const Digits d = change[c].times_power_of_two(scales.column[j]);
-      jet.y[j] += length > coarse_end ? d : d.fine_alone();
+      const auto [high, low] = change.x[c];
+      const Digits d = Digits().corrected(-of_coarse[c].high, -high).corrected(0.0, -low);
+      jet.y[j] += d.times_power_of_two(scales.column[j]);
     }
     // The error is not squared, nor halved.
-    if (length > fine_end && step > 2 && length >= before) break;
+    if (length > fine_end && step > 2 && length > 0.5 * before) break;
     before = length;
     if (length > fine_end) continue;
     const std::vector<Digits> F = equations_.residual(jet.t, jet.y, k);

@@ -11,7 +11,7 @@ namespace courant {
 
 // Zeros of F^[k] near a guess: where x can stay, from the zero of the level below; else what a search in doubles
 // (ConsistentPoint) finds. Both are taken to the ends of both precisions by corrections with one factorisation, or,
-// where these do not converge, by Newton's method in Digits.
+// where these do not converge, by Newton's method with 106 bits.
 //
 // A zero is one if every equation shrinks there: how it was found plays no part. What the search left where it was
 // given is what was written there (Digits::written), and stays if it can.
@@ -47,7 +47,7 @@ class NearestJet {
   Found descended(Index k, const Found& before) const;
   Jet jet_of(const ConsistentJet& rough, Index k) const;
   std::vector<bool> held_unknowns(Index k) const;
-  // `with_digits`: by Newton's method in Digits where steps in doubles do not end at a zero.
+  // `with_digits`: by Newton's method with 106 bits where steps in doubles do not end at a zero.
   Found refined(Jet jet, const std::vector<bool>& stays, BinaryScales scales,
                 bool with_digits = true) const;
   Found newton(Jet jet, const std::vector<bool>& stays, BinaryScales scales) const;
