@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "courant/core/language/declaration.hpp"
 #include "courant/core/linear/symmetric_eigenvalues.hpp"
 #include "courant/core/numbers/as_size.hpp"
 #include "courant/core/words/message.hpp"
