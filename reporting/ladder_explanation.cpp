@@ -46,6 +46,13 @@ Prose equation_in_words(const std::string& name) {
                                                                           : Prose(name);
 }
 
+// "d²/dt² ", of order 2; empty of order 0.
+std::string derivative_sign(Index order) {
+  if (order == 0) return "";
+  const std::string power = order == 1 ? "" : superscript(order);
+  return "d" + power + "/dt" + power + " ";
+}
+
 // The highest derivatives first: they are what the constraint is made of, the others what removes
 // the rest.
 Prose sources(LadderReport::Origin list) {
@@ -433,34 +440,20 @@ std::string family_in_words(const LadderReport& ladder) {
 }
 
 Prose reason_in_words(const LadderReport& ladder) {
-  // After this, and ended by a full stop: d^2/dt^2 of names, with commas between them.
-  constexpr std::string_view contradiction = "contradict each other: ";
   const std::string& reason = ladder.reason;
-  const std::size_t at = reason.find(contradiction);
-  if (at == std::string::npos || !reason.ends_with('.')) return reason;
-  const std::size_t begin = at + contradiction.size();
-  std::string_view list(reason);
-  list = list.substr(begin, list.size() - begin - 1);
-  Prose text = reason.substr(0, begin);
-  while (!list.empty()) {
-    const std::size_t end = std::min(list.find(", "), list.size());
-    std::string name(list.substr(0, end));
-    if (const std::size_t over = name.find("/dt"); name.starts_with("d") && over <= 4) {
-      const std::size_t space = std::min(name.find(' '), name.size());
-      std::string derivative = name.substr(0, space);
-      for (std::size_t hat; (hat = derivative.find("^2")) != std::string::npos;)
-        derivative.replace(hat, 2, "²");
-      text += derivative + " ";
-      name.erase(0, space + 1);
-    }
+  const std::string list = in_words(ladder.contradiction);
+  const std::size_t at = reason.rfind(list);
+  if (list.empty() || at == std::string::npos) return reason;
+  Prose text = reason.substr(0, at);
+  for (const auto& [name, derivative] : ladder.contradiction) {
+    if (&name != &ladder.contradiction.front().name) text += ", ";
+    text += derivative_sign(derivative);
     const auto tree = formula_tree(name);
     const bool is_side =
         tree && tree->kind != FormulaTree::Kind::name && tree->kind != FormulaTree::Kind::equation;
     text += equation_in_words(is_side ? name + " = 0" : name);
-    list.remove_prefix(end);
-    if (!list.empty()) text += ", ", list.remove_prefix(2);
   }
-  return text + ".";
+  return text + reason.substr(at + list.size());
 }
 
 std::vector<std::string> choices_in_words(const LadderReport& ladder) {

@@ -189,7 +189,8 @@ LadderReport discrete_ladder_report(const ConstraintLadder& ladder, const Implic
       .is_ambiguous = ladder.is_ambiguous(),
       .doubts = ladder.doubts,
       .proof = ladder.proof,
-      .reason = ladder.reason};
+      .reason = ladder.reason,
+      .contradiction = ladder.contradiction};
   for (const LadderLevel& level : ladder.levels) {
     LadderReport::Level told{.k = level.k, .residual = level.residual};
     if (!level.is_empty) {
@@ -256,6 +257,7 @@ LadderReport up_to_level(LadderReport ladder, Index level) {
   ladder.index.reset();
   ladder.degrees_of_freedom.reset();
   ladder.gauge_dimension = 0;
+  ladder.contradiction.clear();
   ladder.reason = "Stopped at level " + std::to_string(level) + ", as asked.";
   return ladder;
 }

@@ -53,6 +53,7 @@ struct LadderReport {
   std::vector<Doubt> doubts = {};
   std::optional<LadderProof> proof = {};
   std::string reason = {};
+  std::vector<NamedEquation> contradiction = {};  // that the reason has in words
 
   struct Classes {
     Index primary = 0, secondary = 0;

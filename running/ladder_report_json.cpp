@@ -205,6 +205,8 @@ Json to_json(const LadderReport& ladder) {
             {"ambiguous", ladder.is_ambiguous},
             {"doubts", Json::array()},
             {"reason", ladder.reason}};
+  for (const NamedEquation& term : ladder.contradiction)
+    json["contradiction"].push_back({{"equation", term.name}, {"derivative", term.derivative}});
   for (const Doubt& doubt : ladder.doubts)
     json["doubts"].push_back({{"kind", to_string(doubt.kind)}, {"text", doubt.text}});
   if (ladder.proof)
@@ -255,6 +257,9 @@ LadderReport read_ladder_report(const Json& json) {
                       .moved = number_at(json, "moved"),
                       .is_ambiguous = json.value("ambiguous", false),
                       .reason = json.value("reason", "")};
+  for (const Json& term : part(json, "contradiction"))
+    ladder.contradiction.push_back(
+        {term.value("equation", ""), whole(term, "derivative").value_or(0)});
   for (const Json& level : part(json, "levels"))
     ladder.levels.push_back({.k = whole(level, "k").value_or(0),
                              .dim_S = whole(level, "dim_S"),

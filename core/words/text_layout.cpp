@@ -17,13 +17,25 @@ std::string counted(std::ptrdiff_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-std::string subscript(std::ptrdiff_t k) {
-  static constexpr std::array<const char*, 10> digits = {"₀", "₁", "₂", "₃", "₄",
-                                                         "₅", "₆", "₇", "₈", "₉"};
+namespace {
+
+using DigitSigns = std::array<const char*, 10>;
+
+std::string in_signs(std::ptrdiff_t k, const DigitSigns& digits, const char* minus) {
   std::string text;
   for (const char digit : std::to_string(k))
-    text += digit == '-' ? "₋" : digits[static_cast<std::size_t>(digit - '0')];
+    text += digit == '-' ? minus : digits[static_cast<std::size_t>(digit - '0')];
   return text;
+}
+
+}  // namespace
+
+std::string subscript(std::ptrdiff_t k) {
+  return in_signs(k, {"₀", "₁", "₂", "₃", "₄", "₅", "₆", "₇", "₈", "₉"}, "₋");
+}
+
+std::string superscript(std::ptrdiff_t k) {
+  return in_signs(k, {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"}, "⁻");
 }
 
 std::string time_derivative(const std::string& name, std::ptrdiff_t order) {

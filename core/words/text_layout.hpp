@@ -12,6 +12,8 @@ std::string counted(std::ptrdiff_t count, const std::string& noun);
 
 // k in small digits: "₁₂".
 std::string subscript(std::ptrdiff_t k);
+// k in raised digits: "¹²".
+std::string superscript(std::ptrdiff_t k);
 
 // The derivative of this order by t: "F", "d/dt F", "d^2/dt^2 F".
 std::string time_derivative(const std::string& name, std::ptrdiff_t order);

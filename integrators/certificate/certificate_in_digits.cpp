@@ -11,6 +11,7 @@
 #include "courant/integrators/certificate/elimination_reading.hpp"
 #include "courant/integrators/certificate/ladder_in_units.hpp"
 #include "courant/integrators/certificate/ladder_proof.hpp"
+#include "courant/integrators/certificate/movements.hpp"
 #include "courant/integrators/certificate/neighbourhood.hpp"
 
 namespace courant {
@@ -22,25 +23,6 @@ std::string dimensions_in_words(const std::vector<LadderLevel>& levels) {
     text += (text.empty() ? "(" : ", (") + std::to_string(level.dim_S) + "," +
             std::to_string(level.dim_M) + ")";
   return text;
-}
-
-std::vector<Movement> moves_from_guess(const ImplicitSystem& system, const InitialGuess& guess,
-                                       const State& point) {
-  std::vector<Movement> moves;
-  const auto compare = [&](const VectorXd& given, const VectorXd& found, const auto& name) {
-    for (Index i = 0; i < given.size(); ++i)
-      if (std::fabs(given[i] - found[i]) >
-          1e-12 * std::max(given.lpNorm<Eigen::Infinity>(), found.lpNorm<Eigen::Infinity>()))
-        moves.push_back({name(static_cast<std::size_t>(i)), given[i], found[i]});
-  };
-  const ImplicitSystem::Names& names = system.names();
-  const bool one_name_each = guess.v.size() == guess.x.size();
-  compare(guess.x, point.x, [&](std::size_t i) { return names.coordinates[i]; });
-  compare(guess.v, point.v, [&](std::size_t i) {
-    return one_name_each ? names.coordinates[i] + "'" : "v[" + std::to_string(i) + "]";
-  });
-  compare(guess.z, point.z, [&](std::size_t i) { return names.auxiliary[i]; });
-  return moves;
 }
 
 // One certificate on its way.
@@ -128,7 +110,7 @@ class Certifier {
     result_.point = state_of(equations_, jet);
     result_.jet = chart_jet(equations_, jet);
     result_.moved = nearest_.distance(jet);
-    result_.moves = moves_from_guess(equations_.system(), guess_, result_.point);
+    result_.moves = movements(equations_.system(), guess_, result_.point);
     result_.degrees_of_freedom = result_.levels.back().dim_M;
     result_.gauge_dimension = result_.levels.back().fibre();
   }
@@ -208,9 +190,10 @@ class Certifier {
     for (const auto& row : elimination.rows()) {
       if (!is_visible || row.stage != StagedElimination::dependent || row.residual.is_zero())
         continue;
+      result_.contradiction = equations_of(equations_, elimination, row);
       end_inconsistent(empty,
                        " was found near the given values: these equations contradict each other: " +
-                           equations_in_words(equations_, elimination, row) + ".");
+                           in_words(result_.contradiction) + ".");
       return;
     }
     if (found.was_near) {
@@ -249,8 +232,9 @@ class Certifier {
     std::string why = " is consistent but at this instant";
     for (const auto& row : elimination_->rows())
       if (row.stage == StagedElimination::point && row.level == jet.k) {
+        result_.contradiction = equations_of(equations_, *elimination_, row);
         why += ": a moment later these equations contradict each other: " +
-               equations_in_words(equations_, *elimination_, row);
+               in_words(result_.contradiction);
         break;
       }
     end_inconsistent(empty, why + ".");

@@ -8,30 +8,10 @@
 #include "courant/integrators/certificate/ladder_ascent.hpp"
 #include "courant/integrators/certificate/ladder_evidence.hpp"
 #include "courant/integrators/certificate/ladder_levels.hpp"
+#include "courant/integrators/certificate/movements.hpp"
 
 namespace courant {
 namespace {
-
-std::vector<Movement> movements(const ImplicitSystem& system, const InitialGuess& guess,
-                                const State& point) {
-  std::vector<Movement> moves;
-  const auto compare = [&](const VectorXd& given, const VectorXd& found, const auto& name) {
-    const double size = given.size() == 0 ? 0.0
-                                          : std::max(given.lpNorm<Eigen::Infinity>(),
-                                                     found.lpNorm<Eigen::Infinity>());
-    for (Index i = 0; i < given.size(); ++i)
-      if (std::abs(given[i] - found[i]) > 1e-12 * size)
-        moves.push_back({name(static_cast<std::size_t>(i)), given[i], found[i]});
-  };
-  const ImplicitSystem::Names& names = system.names();
-  compare(guess.x, point.x, [&](std::size_t i) { return names.coordinates[i]; });
-  const bool one_name_each = guess.v.size() == guess.x.size();
-  compare(guess.v, point.v, [&](std::size_t i) {
-    return one_name_each ? names.coordinates[i] + "'" : "v[" + std::to_string(i) + "]";
-  });
-  compare(guess.z, point.z, [&](std::size_t i) { return names.auxiliary[i]; });
-  return moves;
-}
 
 // Counts what other points of the final constraint set need as well, now and a moment later: a
 // multiplier that is zero at this point, as x₁ of a rod in the plane x₁ = 0, is not along a motion
@@ -113,6 +93,7 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
   ladder.moves = movements(*system, guess, ladder.point);
   ladder.doubts = doubts(consistent, ascent, evidence);
   ladder.reason = ascent.is_singular() ? ascent.singular.reason : ascent.reason;
+  if (!ascent.is_singular()) ladder.contradiction = ascent.contradiction;
   if (ascent.is_singular())
     ladder.verdict = Verdict::rank_change;
   else if (!ladder.levels.empty() && ladder.levels.back().is_empty)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "courant/core/words/text_layout.hpp"
 #include "courant/structures/implicit_system.hpp"
 
 namespace courant {
@@ -45,6 +46,16 @@ Doubt::Kind doubt_kind(const std::string& name) {
                           Kind::search, Kind::at_switch})
     if (to_string(kind) == name) return kind;
   throw std::invalid_argument("doubt_kind: \"" + name + "\" is no kind of doubt.");
+}
+
+std::string in_words(const std::vector<NamedEquation>& equations) {
+  constexpr std::size_t most = 6;
+  std::string text;
+  for (std::size_t i = 0; i < equations.size(); ++i) {
+    if (i == most) return text + ", …";
+    text += (i == 0 ? "" : ", ") + time_derivative(equations[i].name, equations[i].derivative);
+  }
+  return text;
 }
 
 MatrixXd ConstraintLadder::conormals() const {

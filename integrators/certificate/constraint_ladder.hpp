@@ -66,6 +66,14 @@ std::string to_string(Doubt::Kind kind);
 // The kind of that name; throws std::invalid_argument if there is none.
 Doubt::Kind doubt_kind(const std::string& name);
 
+// An equation, or one of its time derivatives, by its name.
+struct NamedEquation {
+  std::string name;
+  Index derivative = 0;
+};
+// "x + y - 1, d/dt x - t": up to six of them, with commas between.
+std::string in_words(const std::vector<NamedEquation>& equations);
+
 // A given value that had to move to be consistent.
 struct Movement {
   std::string name;
@@ -148,6 +156,8 @@ struct ConstraintLadder {
 
   // One sentence: why the verdict is what it is.
   std::string reason;
+  // The equations that contradict each other, where they are why: the reason has them in words.
+  std::vector<NamedEquation> contradiction;
   // Why the verdict is not certain, a sentence each: what the levels contradict, where two ways to
   // count disagree.
   std::vector<Doubt> doubts;

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "courant/core/words/text_layout.hpp"
-
 namespace courant {
 namespace {
 
@@ -258,20 +256,18 @@ void describe(ConstraintLadder& ladder, const JetEquations& equations,
   ladder.determined = determined_unknowns(equations, elimination);
 }
 
-std::string equations_in_words(const JetEquations& equations, const StagedElimination& elimination,
-                               const EliminatedRow& row) {
-  constexpr int most = 6;
-  std::string names;
-  int listed = 0;
+std::vector<NamedEquation> equations_of(const JetEquations& equations,
+                                        const StagedElimination& elimination,
+                                        const EliminatedRow& row) {
+  std::vector<NamedEquation> found;
   for (const auto& [i, coefficient] : elimination.origin(row)) {
-    if (++listed > most) return names + ", …";
     const Index e = i % equations.row_size();
-    const std::string name = e < equations.system_rows()
-                                 ? equations.system().names().equations[static_cast<std::size_t>(e)]
-                                 : "the equations of " + equations.system().manifold()->name();
-    names += (names.empty() ? "" : ", ") + time_derivative(name, i / equations.row_size());
+    found.push_back({e < equations.system_rows()
+                         ? equations.system().names().equations[static_cast<std::size_t>(e)]
+                         : "the equations of " + equations.system().manifold()->name(),
+                     i / equations.row_size()});
   }
-  return names;
+  return found;
 }
 
 }  // namespace courant

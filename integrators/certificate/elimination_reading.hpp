@@ -23,8 +23,9 @@ void describe(ConstraintLadder& ladder, const JetEquations& equations,
 std::vector<int> differentiations(const JetEquations& equations,
                                   const StagedElimination& elimination, Index index);
 
-// The equations of a combination of rows, by name, for a sentence.
-std::string equations_in_words(const JetEquations& equations, const StagedElimination& elimination,
-                               const StagedElimination::Row& row);
+// The equations that a row is a combination of.
+std::vector<NamedEquation> equations_of(const JetEquations& equations,
+                                        const StagedElimination& elimination,
+                                        const StagedElimination::Row& row);
 
 }  // namespace courant

@@ -10,19 +10,15 @@ namespace {
 
 // The equations that contradict each other at a point where Jᵀ F = 0: those that F, a left null
 // vector, consists of.
-std::string contradiction(const ImplicitSystem& system, const Zero& zero) {
+std::vector<NamedEquation> contradicting(const ImplicitSystem& system, const Zero& zero) {
   const Index r = system.equation_count();
   const double largest =
       zero.scaled_value.size() == 0 ? 0.0 : zero.scaled_value.lpNorm<Eigen::Infinity>();
-  std::string names;
-  int listed = 0;
-  for (Index i = 0; i < zero.scaled_value.size(); ++i) {
-    if (std::abs(zero.scaled_value[i]) < 0.1 * largest) continue;
-    if (++listed > 6) return names + ", …";
-    names += names.empty() ? "" : ", ";
-    names += time_derivative(system.names().equations[static_cast<std::size_t>(i % r)], i / r);
-  }
-  return names;
+  std::vector<NamedEquation> found;
+  for (Index i = 0; i < zero.scaled_value.size(); ++i)
+    if (std::abs(zero.scaled_value[i]) >= 0.1 * largest)
+      found.push_back({system.names().equations[static_cast<std::size_t>(i % r)], i / r});
+  return found;
 }
 
 // The levels at the jet. Where they are doubtful the jet is found once more, and stays what was
@@ -135,9 +131,10 @@ void LadderAscent::end_without_point(const ConsistentPoint& consistent,
   empty.is_empty = true;
   empty.residual = ended.array().residual(ended.zero().y).lpNorm<Eigen::Infinity>();
   levels.push_back(empty);
+  contradiction = contradicting(system, ended.zero());
   reason = "No point of S" + subscript(k) +
            " was found near the given values: these equations contradict each other: " +
-           contradiction(system, ended.zero()) + ".";
+           in_words(contradiction) + ".";
   jet = ended;
 }
 

@@ -20,8 +20,9 @@ struct LadderAscent {
   bool is_stopped = false;    // whether the last level repeats the one before
   bool has_converged = true;  // whether every search ended at a point or a contradiction
   std::string reason = "";    // why the way ended without a point; empty if it did not
-  Singularity singular = {};  // of the last point that was looked at
-  std::string changed = "";   // what a later point changed of earlier levels, in words
+  std::vector<NamedEquation> contradiction = {};  // where that is why
+  Singularity singular = {};                      // of the last point that was looked at
+  std::string changed = "";  // what a later point changed of earlier levels, in words
 
   LadderAscent(const ConsistentPoint& consistent, const ImplicitSystem& system, Index max_level);
 

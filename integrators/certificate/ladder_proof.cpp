@@ -111,7 +111,7 @@ void count_numbers(const JetEquations& equations, const StagedElimination& elimi
       ++result.zero;
       if (!entry.contains_zero())
         result.missing = "A number that counts as zero is not, of " +
-                         equations_in_words(equations, elimination, rows[i]) + ".";
+                         in_words(equations_of(equations, elimination, rows[i])) + ".";
     }
   }
 }
@@ -150,7 +150,7 @@ LadderProof proof(const JetEquations& equations, const StagedElimination& elimin
     const BallElimination there(pattern, values.entries, rows, residual);
     if (const std::size_t i = there.first_doubtful(); i < rows.size()) {
       result.missing = "It is not proved that a number is not zero, of " +
-                       equations_in_words(equations, elimination, rows[i]) + ".";
+                       in_words(equations_of(equations, elimination, rows[i])) + ".";
       return result;
     }
     const std::map<Index, Ball> step = there.newton_step();

@@ -109,4 +109,16 @@ BOOST_AUTO_TEST_CASE(contradictions_are_formulas) {
   BOOST_TEST(has(latex, "contradict each other: $x + y - 1 = 0$, $x + y - 5 = 0$."), latex);
 }
 
+// So are those of which derivatives do.
+BOOST_AUTO_TEST_CASE(derivatives_that_contradict_have_their_order) {
+  const LadderPage page = page_of({{"system",
+                                    {{"type", "implicit"},
+                                     {"coordinates", {"x", "y"}},
+                                     {"equations", {"x' - y", "y' - 1", "x - 3*t"}}}},
+                                   {"initial", {{"x", 0}, {"y", 3}}}});
+  const std::string latex = to_latex(page);
+  BOOST_TEST(has(latex, "d/dt $\\dot{x} - y = 0$, d\\ensuremath{^2}/dt\\ensuremath{^2} $x - 3"),
+             latex);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -23,6 +23,8 @@ BOOST_AUTO_TEST_CASE(small_digits) {
   BOOST_TEST(subscript(0) == "₀");
   BOOST_TEST(subscript(127) == "₁₂₇");
   BOOST_TEST(subscript(-3) == "₋₃");
+  BOOST_TEST(superscript(127) == "¹²⁷");
+  BOOST_TEST(superscript(-3) == "⁻³");
 }
 
 BOOST_AUTO_TEST_CASE(derivatives_by_time) {

@@ -199,6 +199,10 @@ BOOST_AUTO_TEST_CASE(the_equations_that_contradict_each_other_are_named) {
   BOOST_TEST(ladder.reason.find("first") != std::string::npos, ladder.reason);
   BOOST_TEST(ladder.reason.find("third") != std::string::npos, ladder.reason);
   BOOST_TEST(ladder.reason.find("bystander") == std::string::npos, ladder.reason);
+  BOOST_TEST_REQUIRE(ladder.contradiction.size() == 2u);
+  BOOST_TEST(ladder.contradiction[0].name == "first");
+  BOOST_TEST(ladder.contradiction[1].name == "third");
+  BOOST_TEST(ladder.contradiction[1].derivative == 0);
 }
 
 // x'² = x with z = x': two velocities at each point. The velocity and the unknown of the last point

@@ -92,6 +92,8 @@ BOOST_AUTO_TEST_CASE(or_at_a_level_that_is_empty) {
   BOOST_TEST(
       found.reason.starts_with("No point of S₁ was found near the given values: these "
                                "equations contradict each other: "));
+  BOOST_TEST_REQUIRE(found.contradiction.size() == 2u);
+  BOOST_TEST(found.contradiction[0].derivative + found.contradiction[1].derivative == 1);
 }
 
 BOOST_AUTO_TEST_CASE(or_where_equations_are_not_finite) {
