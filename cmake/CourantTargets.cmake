@@ -167,6 +167,17 @@ function(courant_tests room)
   courant_unite(${target})
   target_compile_definitions(${target} PRIVATE BOOST_TEST_DYN_LINK)
   target_link_libraries(${target} PRIVATE courant_${room} Boost::unit_test_framework)
+  # Of a template that several objects make, the linker keeps the first: that of what is optimised, and not that of a test.
+  if(NOT BUILD_SHARED_LIBS AND NOT room STREQUAL plotting)
+    set(first core)
+    if(NOT room MATCHES "^(core|manifolds|structures|systems)$")
+      list(APPEND first integrators)
+    endif()
+    foreach(optimised IN LISTS first)
+      target_link_options(${target} PRIVATE
+        $<FILTER:$<TARGET_OBJECTS:courant_${optimised}_steps>,EXCLUDE,cmake_pch>)
+    endforeach()
+  endif()
 
   set(discover ${PROJECT_SOURCE_DIR}/cmake/DiscoverTests.cmake)
   set(suites ${CMAKE_CURRENT_BINARY_DIR}/${target}.cmake)
