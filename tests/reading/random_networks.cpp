@@ -206,10 +206,11 @@ RandomNetwork random_network(std::mt19937& generator, Index most_nodes, Spread s
 }
 
 LadderTally tally_ladders(std::mt19937& generator, int networks, Index most_nodes, Spread spread,
-                          Starts starts) {
+                          Starts starts, const Campaign& campaign) {
   LadderTally tally;
   for (int trial = 0; trial < networks; ++trial) {
     const RandomNetwork network = random_network(generator, most_nodes, spread);
+    if (!campaign.has(trial)) continue;
     tally.with_loops += network.capacitor_loops > 0;
     tally.with_cut_sets += network.inductor_cut_sets > 0;
     Findings findings;
@@ -221,6 +222,7 @@ LadderTally tally_ladders(std::mt19937& generator, int networks, Index most_node
       const VectorXd& x = at_rest ? network.at_rest : network.consistent;
       const ConstraintLadder ladder = ConstraintAlgorithm().run(model->system, {.x = x});
       const std::string found = told(ladder);
+      ++tally.count;
       tally.right += found == expected;
       tally.ambiguous += ladder.is_ambiguous();
       if (found != expected && !ladder.is_ambiguous())

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "../core/campaign.hpp"
 #include "courant/reading/findings.hpp"
 
 namespace courant::test {
@@ -37,6 +38,7 @@ RandomNetwork random_network(std::mt19937& generator, Index most_nodes, Spread s
 
 // What the constraint algorithm says of networks.
 struct LadderTally {
+  int count = 0;                 // of ladders
   int right = 0, ambiguous = 0;  // right ones may be ambiguous
   std::vector<std::string>
       wrong;  // and not ambiguous: what was expected and found, and the network
@@ -52,6 +54,6 @@ enum class Starts { in_turn, each };
 //
 // where n counts charges and fluxes, d loops and cut-sets.
 LadderTally tally_ladders(std::mt19937& generator, int networks, Index most_nodes, Spread spread,
-                          Starts starts);
+                          Starts starts, const Campaign& campaign = {});
 
 }  // namespace courant::test

@@ -10,6 +10,7 @@
 #include <map>
 #include <random>
 
+#include "../core/campaign.hpp"
 #include "problems.hpp"
 
 BOOST_AUTO_TEST_SUITE(closed_loops_long)
@@ -156,9 +157,14 @@ Json system_of(const Linkage& of, const Setting& setting) {
           {"holonomic", holonomic}};
 }
 
-test::Problem linkage(const Linkage& of, const Setting& setting, std::mt19937* guess) {
-  std::uniform_real_distribution<double> off(-0.01, 0.01);
-  const auto guessed = [&](double value) { return guess ? value + off(*guess) : value; };
+// By how much the guess of each number is off.
+using Guess = std::vector<double>;
+
+test::Problem linkage(const Linkage& of, const Setting& setting, const Guess& guess) {
+  std::size_t number = 0;
+  const auto guessed = [&](double value) {
+    return guess.empty() ? value : value + guess.at(number++);
+  };
   Json initial, hold = Json::array();
   int i = 0;
   for (const Rod& rod : of.rods) {
@@ -183,7 +189,7 @@ test::Problem linkage(const Linkage& of, const Setting& setting, std::mt19937* g
 constexpr double kTime = 0.2;
 
 // The state at the end, lengths in metres.
-VectorXd end(const Linkage& of, const Setting& setting, long steps, std::mt19937* guess = nullptr) {
+VectorXd end(const Linkage& of, const Setting& setting, long steps, const Guess& guess = {}) {
   const test::Problem motion = linkage(of, setting, guess);
   VectorXd x = motion.end("constrain-first", kTime, steps);
   const Index n = x.size() / 2;
@@ -208,13 +214,18 @@ BOOST_AUTO_TEST_CASE(from_rest_to_what_another_way_finds) {
 
 // Twenty guesses each, with dampers and without, from rest.
 BOOST_AUTO_TEST_CASE(whatever_was_guessed) {
+  const test::Campaign campaign = test::Campaign::of_environment();
+  std::uniform_real_distribution<double> off(-0.01, 0.01);
   for (const Linkage& of : linkages())
     for (const bool is_damped : {true, false}) {
       std::mt19937 generator(17);
       const Setting setting{.is_damped = is_damped};
       const VectorXd first = end(of, setting, 20);
       for (int guess = 0; guess < 20; ++guess) {
-        const double difference = (end(of, setting, 20, &generator) - first).norm();
+        Guess by(3 * of.rods.size() - of.held.size() + (of.block > 0.0 ? 1 : 0));
+        for (double& number : by) number = off(generator);
+        if (!campaign.has(guess)) continue;
+        const double difference = (end(of, setting, 20, by) - first).norm();
         BOOST_TEST(difference < 1e-9, of.name << (is_damped ? " with" : " without")
                                               << " dampers, guess " << guess << ": " << difference);
       }
