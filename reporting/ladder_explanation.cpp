@@ -445,8 +445,13 @@ Prose reason_in_words(const LadderReport& ladder) {
   const std::size_t at = reason.rfind(list);
   if (list.empty() || at == std::string::npos) return reason;
   Prose text = reason.substr(0, at);
-  for (const auto& [name, derivative] : ladder.contradiction) {
-    if (&name != &ladder.contradiction.front().name) text += ", ";
+  for (std::size_t i = 0; i < ladder.contradiction.size(); ++i) {
+    if (i > 0) text += ", ";
+    if (i == kMostEquationsInWords) {
+      text += "…";
+      break;
+    }
+    const auto& [name, derivative] = ladder.contradiction[i];
     text += derivative_sign(derivative);
     const auto tree = formula_tree(name);
     const bool is_side =

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 
 #include "courant/core/expressions/function.hpp"
@@ -15,6 +16,14 @@ constexpr Index kMostTried = 50;
 constexpr double kDifferentValue = 1e-6;
 // A residual that is linear leaves this part of its size, round-off, at the middle of two points.
 constexpr double kLinear = 1e-12;
+
+// F(z) where the state is what it is.
+Function equations_of_unknowns(const ImplicitSystem& system, const State& at) {
+  const Graph graph;
+  const ExprVector z = graph.variables("z", at.z.size());
+  return Function("equations", {{"z", z}},
+                  system.residual(constants(at.x), constants(at.v), z, Expr(at.t)));
+}
 
 // Whether the residual F(z) is no linear function on the way from z to -z in entry i.
 bool is_nonlinear(const Function& F, const VectorXd& z, Index i) {
@@ -41,15 +50,13 @@ std::vector<Movement> other_values(const Experiment& experiment, const Constrain
   ConstraintAlgorithm::Options options;
   options.max_level = 0;
   const ConstraintAlgorithm solve(options);
-  Graph graph;
-  const ExprVector z = graph.variables("z", at.z.size());
-  const Function F("equations", {{"z", z}},
-                   system->residual(constants(at.x), constants(at.v), z, Expr(at.t)));
+  std::optional<Function> equations;  // of z, compiled for the first unknown that is asked about
   // Unknowns that have names.
   for (Index i = 0; i < experiment.initial.z.given.size(); ++i) {
     if (experiment.initial.z.given[i] || at.z[i] == 0.0) continue;
     try {
-      if (!is_nonlinear(F, at.z, i)) continue;
+      if (!equations) equations.emplace(equations_of_unknowns(*system, at));
+      if (!is_nonlinear(*equations, at.z, i)) continue;
       InitialGuess guess{.t = at.t, .x = at.x, .v = at.v, .z = at.z};
       guess.z[i] = -at.z[i];
       guess.hold_x.resize(static_cast<std::size_t>(at.x.size()));

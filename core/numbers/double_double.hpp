@@ -12,11 +12,10 @@ struct DoubleDouble {
   double high = 0.0, low = 0.0;
 
   constexpr DoubleDouble() = default;
-  constexpr DoubleDouble(double number)
-      : high(number) {}  // NOLINT: numbers are what formulas are written with
+  // The number that the double is.
+  constexpr DoubleDouble(double number) : high(number) {}  // NOLINT
   constexpr DoubleDouble(double of_high, double of_low) : high(of_high), low(of_low) {}
 
-  explicit constexpr operator double() const { return high; }
   constexpr bool is_zero() const { return high == 0.0; }
 
   // a + b for |a| ≥ |b|, and for any two.

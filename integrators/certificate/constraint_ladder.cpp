@@ -49,10 +49,9 @@ Doubt::Kind doubt_kind(const std::string& name) {
 }
 
 std::string in_words(const std::vector<NamedEquation>& equations) {
-  constexpr std::size_t most = 6;
   std::string text;
   for (std::size_t i = 0; i < equations.size(); ++i) {
-    if (i == most) return text + ", …";
+    if (i == kMostEquationsInWords) return text + ", …";
     text += (i == 0 ? "" : ", ") + time_derivative(equations[i].name, equations[i].derivative);
   }
   return text;

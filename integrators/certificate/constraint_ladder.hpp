@@ -71,7 +71,8 @@ struct NamedEquation {
   std::string name;
   Index derivative = 0;
 };
-// "x + y - 1, d/dt x - t": up to six of them, with commas between.
+// "x + y - 1, d/dt x - t": up to so many of them, with commas between, and "…" for the others.
+inline constexpr std::size_t kMostEquationsInWords = 6;
 std::string in_words(const std::vector<NamedEquation>& equations);
 
 // A given value that had to move to be consistent.
