@@ -49,8 +49,10 @@ build_in() {
   local dir=$1 target=$2
   shift 2
   local options=("$@")
-  # Without the first ccache keeps nothing that uses a precompiled header, without the second it preprocesses twice.
+  # Without the first ccache keeps nothing that uses a precompiled header, without the second it preprocesses twice. With the others
+  # what it keeps of one checkout serves another.
   export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS-pch_defines,time_macros} CCACHE_DEPEND=${CCACHE_DEPEND-1}
+  export CCACHE_BASEDIR=${CCACHE_BASEDIR-$root} CCACHE_NOHASHDIR=${CCACHE_NOHASHDIR-1}
   mkdir -p "$dir"
   if [ ! -f "$dir/CMakeCache.txt" ]; then
     command -v ninja >/dev/null && options+=(-G Ninja)
