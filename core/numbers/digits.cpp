@@ -1,24 +1,20 @@
 #include "courant/core/numbers/digits.hpp"
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <new>
 #include <type_traits>
 
+#include "courant/core/numbers/long_arithmetic.hpp"
 #include "courant/core/numbers/meant_number.hpp"
 
 namespace courant {
 namespace {
 
 namespace multiprecision = boost::multiprecision;
-template <unsigned bits>
-using FloatOfBits = multiprecision::number<
-    multiprecision::cpp_bin_float<bits, multiprecision::digit_base_2, void, std::int32_t>,
-    multiprecision::et_off>;
-using Coarse = FloatOfBits<128>;
-using Fine = FloatOfBits<256>;
+using Coarse = LongNumber<128>;
+using Fine = LongNumber<256>;
 
 constexpr int kShrunkExponent = -64;
 
@@ -80,8 +76,10 @@ struct Digits::Pair {
 Digits::Digits(const Pair& pair) : is_zero_(pair.fine.is_zero()) {
   static_assert(sizeof(Pair) <= sizeof(numbers_) && alignof(Pair) <= alignof(Digits) &&
                 std::is_trivially_destructible_v<Pair>);
-  // What only the coarse part has left is its rounding.
-  ::new (numbers_.data()) Pair(is_zero_ ? Pair{} : pair);
+  if (is_zero_)  // what only the coarse part has left is its rounding
+    ::new (numbers_.data()) Pair{};
+  else
+    ::new (numbers_.data()) Pair(pair);
 }
 
 const Digits::Pair& Digits::pair() const {
@@ -167,18 +165,21 @@ Digits operator-(const Digits& a) { return Digits(Digits::Pair{-a.pair().coarse,
 Digits operator+(const Digits& a, const Digits& b) {
   if (a.is_zero_) return b;
   if (b.is_zero_) return a;
-  return Digits(Digits::Pair{a.pair().coarse + b.pair().coarse, a.pair().fine + b.pair().fine});
+  return Digits(Digits::Pair{sum<128>(a.pair().coarse, b.pair().coarse),
+                             sum<256>(a.pair().fine, b.pair().fine)});
 }
 
 Digits operator-(const Digits& a, const Digits& b) {
   if (b.is_zero_) return a;
-  return Digits(Digits::Pair{a.pair().coarse - b.pair().coarse, a.pair().fine - b.pair().fine});
+  return Digits(Digits::Pair{difference<128>(a.pair().coarse, b.pair().coarse),
+                             difference<256>(a.pair().fine, b.pair().fine)});
 }
 
 Digits operator*(const Digits& a, const Digits& b) {
   if (a.is_zero_) return b.is_finite() ? a : b;
   if (b.is_zero_) return a.is_finite() ? b : a;
-  return Digits(Digits::Pair{a.pair().coarse * b.pair().coarse, a.pair().fine * b.pair().fine});
+  return Digits(Digits::Pair{product<128>(a.pair().coarse, b.pair().coarse),
+                             product<256>(a.pair().fine, b.pair().fine)});
 }
 
 Digits operator/(const Digits& a, const Digits& b) {
@@ -198,8 +199,10 @@ void subtract_multiple(Digits* row, const Digits& factor, const Digits* pivot, s
   for (std::size_t j = 0; j < count; ++j) {
     if (pivot[j].is_zero_) continue;
     Digits::Pair& target = row[j].pair();
-    target.coarse -= factor.pair().coarse * pivot[j].pair().coarse;
-    target.fine -= factor.pair().fine * pivot[j].pair().fine;
+    const Digits::Pair& other = pivot[j].pair();
+    target.coarse =
+        difference<128>(target.coarse, product<128>(factor.pair().coarse, other.coarse));
+    target.fine = difference<256>(target.fine, product<256>(factor.pair().fine, other.fine));
     row[j].is_zero_ = false;
     row[j].settle();
   }
