@@ -1,6 +1,7 @@
 // Every experiment that is kept goes on with the same bytes.
 #include <boost/test/unit_test.hpp>
 
+#include "../core/files/experiment_files.hpp"
 #include "courant/reading/table.hpp"
 #include "resumed_run.hpp"
 
@@ -8,10 +9,10 @@ BOOST_AUTO_TEST_SUITE(resume_long)
 
 BOOST_AUTO_TEST_CASE(every_experiment) {
   using namespace courant;
-  int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator("experiments")) {
-    if (entry.path().extension() != ".json" || entry.path().stem() == "schema") continue;
-    Json document = Json::parse(read_text(entry.path()));
+  const test::Campaign campaign = test::Campaign::of_environment();
+  long count = 0;
+  for (const std::filesystem::path& file : test::experiment_files(campaign)) {
+    Json document = Json::parse(read_text(file));
     load_tables(document, "experiments");
     const Experiment experiment = read_experiment(document.dump());
     if (!experiment.time || experiment.time->steps > 10'000)
@@ -20,9 +21,9 @@ BOOST_AUTO_TEST_CASE(every_experiment) {
     const long steps = experiment.time->steps;
     document["output"]["epoch"] = steps / 7 + 1;
     document["output"]["format"] = ++count % 2 == 0 ? "npy" : "csv";
-    check_resumption(document, {steps / 20, 6 * steps / 10}, entry.path().stem());
+    check_resumption(document, {steps / 20, 6 * steps / 10}, file.stem());
   }
-  BOOST_TEST(count > 50);
+  BOOST_TEST(count > campaign.of(100));
 }
 
 BOOST_AUTO_TEST_SUITE_END()
