@@ -173,6 +173,10 @@ Value Parser::named(const Token& name) {
     symbol = velocity;
     if (symbol == nullptr)
       fail(name, "velocity " + std::string(name.text) + "' is not available here");
+    if (is_next(TokenKind::prime))
+      fail(*token_,
+           "formulas have no second derivatives; expected v' of an unknown v with the equation " +
+               std::string(name.text) + "' - v");
   } else if (symbol == nullptr) {
     fail(name, std::string(name.text) + " is not available here; expected its velocity " +
                    std::string(name.text) + "'");

@@ -73,7 +73,9 @@ BOOST_AUTO_TEST_CASE(what_was_expected) {
   check_refused("(q+1", 5, "expected \")\", found end of formula");
   check_refused("(q+1]", 5, "expected \")\", found \"]\"");
   check_refused("q + 1)", 6, "expected end of formula, found \")\"");
-  check_refused("q''", 3, "expected end of formula, found \"'\"");
+  check_refused(
+      "q''", 3,
+      "formulas have no second derivatives; expected v' of an unknown v with the equation q' - v");
   check_refused("2q", 2, "expected an operator, found \"q\"");
   check_refused("(q + 1)(q - 1)", 8, "expected an operator, found \"(\"");
   check_refused("q(n + 1)", 2, "expected an operator after \"q\", found \"(\"");
