@@ -261,7 +261,9 @@ class LadderSearch {
     there.v = start.v;
     there.z = start.z;
     ConstraintLadder ladder = restored(in_units_->run(measured_, there), *measured_);
-    if (ladder.levels.empty()) return own;
+    // A search that comes to no point in one kind of units says nothing of what was found in the other.
+    const bool is_lost = ladder.verdict == Verdict::not_reached && !has_no_start(own);
+    if (ladder.levels.empty() || is_lost) return own;
     ladder.moved *= length_;
     // A search that ended without a point where numbers are far apart says nothing of the point that was found here.
     if (!are_alike(ladder, own) && !has_no_start(own))

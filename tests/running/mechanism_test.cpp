@@ -12,6 +12,8 @@
 //  * dampers that give energy, forces of springs that are not those of their potential (structures/mechanism.cpp)
 //  * numbers of a mechanism do not follow its parameters (reading/mechanism_model.cpp)
 //  * coordinates that nobody gave begin at 0, which no rotation is (reading/initial_values.cpp)
+//  * a search that comes to no point in its own units outweighs one that did in those of the experiment
+//    (running/consistent_start.cpp)
 BOOST_AUTO_TEST_SUITE(mechanism)
 
 using namespace courant;
@@ -81,6 +83,15 @@ BOOST_AUTO_TEST_CASE(redundant_conditions_are_of_the_joint_that_closes_the_loop)
   BOOST_TEST(redundant(four_bar("absolute")) == R"([["C",3,5]])");
   BOOST_TEST(redundant(experiment_file("mechanism_bennett")) == R"([["D",3,5]])");
   BOOST_TEST(redundant(experiment_file("mechanism_slider_crank")) == "[]");
+}
+
+// The other bodies go where the crank leaves them.
+BOOST_AUTO_TEST_CASE(a_crank_is_set_in_absolute_coordinates) {
+  Json experiment = experiment_file("mechanism_four_bar_absolute");
+  experiment["initial"] = {{"A", 0.5}, {"rest", true}};
+  const Problem linkage = test::problem(experiment);
+  BOOST_TEST((linkage.ladder.verdict == Verdict::regular), linkage.ladder.reason);
+  BOOST_TEST(linkage.ladder.moves.empty());
 }
 
 // A rotation that is given by its vector, and velocities along the axes of the body.
