@@ -18,6 +18,13 @@ quietly() {
   fi
 }
 
+# name_campaign: which part of campaigns tests make, by the number of commits.
+name_campaign() {
+  local commits
+  commits=$(git -C "$root" rev-list --count HEAD 2>/dev/null || echo 0)
+  export COURANT_CAMPAIGN=${COURANT_CAMPAIGN:-$((commits % 4))/4}
+}
+
 # install_packages <list file>: installs what is missing of the Debian packages in the list.
 install_packages() {
   command -v dpkg-query >/dev/null || return 0 # not Debian: CMake says what it does not find

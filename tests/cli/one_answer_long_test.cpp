@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "../core/files/experiment_files.hpp"
 #include "../core/files/temporary_folder.hpp"
 #include "answer.hpp"
 #include "courant/reading/json_document.hpp"
@@ -22,28 +23,29 @@ using namespace courant;
 BOOST_AUTO_TEST_CASE(a_run_begins_with_the_ladder_that_constraints_shows) {
   const TemporaryFolder folder;
   const std::atomic<bool> stop = true;
-  int experiments = 0;
-  for (const auto& file : std::filesystem::directory_iterator("experiments")) {
-    const std::string name = file.path().stem().string();
-    if (file.path().extension() != ".json" || name == "schema") continue;
-    const Json document = Json::parse(read_text(file.path()), nullptr, true, true);
+  const test::Campaign campaign = test::Campaign::of_environment();
+  long experiments = 0;
+  for (const std::filesystem::path& file : test::experiment_files(campaign)) {
+    const std::string name = file.stem().string();
+    const Json document = Json::parse(read_text(file), nullptr, true, true);
     if (document.contains("boundary") || document.contains("ensemble")) continue;
-    const auto shown = test::courant_command({"constraints", file.path().string(), "--json"});
+    const auto shown = test::courant_command({"constraints", file.string(), "--json"});
     BOOST_TEST_REQUIRE(shown.status == 0, name << ": " << shown.err);
     Json ladder = Json::parse(shown.out);
     ladder.erase("brackets");
 
     const std::filesystem::path there = folder / name;
     const auto run = test::courant_command(
-        {"run", file.path().string(), "-o", there.string(), "--quiet", "--backend", "interpreter"},
-        "", &stop);
+        {"run", file.string(), "-o", there.string(), "--quiet", "--backend", "interpreter"}, "",
+        &stop);
     const Json summary = Json::parse(read_text(there / "summary.json"));
     BOOST_TEST(summary.at("ladder") == ladder, name << ": " << run.err
                                                     << summary.at("ladder").dump() << "\n"
                                                     << ladder.dump());
     ++experiments;
   }
-  BOOST_TEST(experiments >= 160);
+  // A part may have more than its share of those that are left out.
+  BOOST_TEST(experiments >= (campaign.is_whole() ? 160 : campaign.of(160) - 6));
 }
 
 BOOST_AUTO_TEST_SUITE_END()
