@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <unordered_set>
 
-#include "courant/core/linear/rank_decision.hpp"
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/core/words/word_list.hpp"
 #include "courant/integrators/certificate/certificate_in_digits.hpp"

@@ -8,7 +8,7 @@
 #include "courant/core/expressions/expr_vectors.hpp"
 #include "courant/core/expressions/function.hpp"
 #include "courant/core/linear/complete_orthogonal_decomposition.hpp"
-#include "courant/core/linear/rank_decision.hpp"
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/core/words/message.hpp"
 
 namespace courant {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "courant/core/linear/rank_decision.hpp"
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/structures/dirac_system.hpp"
 #include "courant/structures/family_rank.hpp"
 #include "courant/structures/joint.hpp"

@@ -8,7 +8,7 @@
 
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/core/expressions/expr_vectors.hpp"
-#include "courant/core/linear/rank_decision.hpp"
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/core/numbers/uncertain.hpp"
 
 namespace courant {

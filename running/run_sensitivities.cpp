@@ -7,8 +7,8 @@
 
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/core/expressions/expr_vectors.hpp"
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/core/linear/qr_decomposition.hpp"
-#include "courant/core/linear/rank_decision.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/integrators/step/solve_error.hpp"
 #include "courant/running/varied_start.hpp"

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/structures/blocks.hpp"
 
 namespace courant {

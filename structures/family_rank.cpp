@@ -1,6 +1,7 @@
 #include "courant/structures/family_rank.hpp"
 
 #include "courant/core/expressions/function.hpp"
+#include "courant/core/linear/fundamental_subspaces.hpp"
 
 namespace courant {
 

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "courant/core/expressions/derivative.hpp"
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/core/linear/singular_value_decomposition.hpp"
 #include "courant/structures/blocks.hpp"
 

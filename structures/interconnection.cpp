@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "courant/core/expressions/expr_vectors.hpp"
-#include "courant/core/linear/rank_decision.hpp"
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/manifolds/product.hpp"
 

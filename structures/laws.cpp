@@ -6,6 +6,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/manifolds/measurement.hpp"
 #include "courant/structures/rank_profile.hpp"
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/core/linear/lu_decomposition.hpp"
 #include "courant/core/linear/qr_decomposition.hpp"
 #include "courant/core/linear/singular_value_decomposition.hpp"

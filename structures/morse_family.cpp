@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "courant/core/expressions/derivative.hpp"
-#include "courant/core/linear/rank_decision.hpp"
+#include "courant/core/linear/fundamental_subspaces.hpp"
 
 namespace courant {
 namespace {

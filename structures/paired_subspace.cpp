@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/core/linear/singular_value_decomposition.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/structures/blocks.hpp"

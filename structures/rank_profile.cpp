@@ -4,6 +4,7 @@
 #include <ostream>
 #include <sstream>
 
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/structures/blocks.hpp"
 
 namespace courant {

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
 #include <iosfwd>
 
-#include "courant/core/linear/equilibration.hpp"
-
 namespace courant {
+
+using Eigen::Index;
+using Eigen::VectorXd;
 
 // What is known of a matrix besides its entries.
 struct RankOptions {
@@ -53,58 +53,5 @@ struct RankDecision {
 
 // One line: rank 3 of 5 × 4, gap 2.1e+14 (0.38 | 6e-17, threshold 2.6e-08)
 std::ostream& operator<<(std::ostream& out, const RankDecision& decision);
-
-// By the singular value decomposition. Throws std::domain_error if an entry is not finite.
-RankDecision decide_rank(const Eigen::Ref<const MatrixXd>& A, const RankOptions& options = {});
-
-// The same for a sparse matrix, by a rank-revealing sparse QR: A E = Q [R W; 0 δ], with R square and triangular.
-// QR looks at the diagonal of R only; a triangle can be singular with ones on it. So the smallest
-// singular values of R are computed too, by inverse iteration, and what W adds in their directions:
-// they bound σ_r from below (to about 5 %), and together with δ they bound σ_{r+1} from above; where
-// r = min(m, n) there is none, and δ lowers the bound of σ_r. The
-// gap is that of the dense decision or less. If R⁻¹ overflows, the decision is ambiguous with gap
-// 0.
-RankDecision decide_rank(const SparseMatrixXd& A, const RankOptions& options = {});
-
-// The four subspaces of A (m × n) and its pseudo-inverse, all on one rank decision.
-//
-//   kernel      {x : Ax = 0}      n × (n-r)          row_space   im Aᵀ   n × r
-//   left_kernel {y : yᵀA = 0}     m × (m-r)          range       im A    m × r
-//
-// Columns are orthonormal, [range left_kernel] and [row_space kernel] are orthogonal matrices:
-// bases for A itself, the scales of the equilibration are undone.
-//
-// Rounding noise next to the only number of its row, a small one, is too large for equilibrate to
-// see it as noise, and is scaled up: that can leave 2 digits of a basis of an orthogonal matrix's
-// blocks. It shows in the residuals AX and YᵀA of the kernels X, Y; where those are beyond
-// rounding, the kernels of the decided rank are taken from A as it is, if these have smaller ones.
-class FundamentalSubspaces {
- public:
-  explicit FundamentalSubspaces(const Eigen::Ref<const MatrixXd>& A,
-                                const RankOptions& options = {});
-
-  const RankDecision& decision() const { return decision_; }
-  Index rank() const { return decision_.rank; }
-
-  MatrixXd kernel() const { return rows_.rightCols(rows_.cols() - rank()); }
-  MatrixXd row_space() const { return rows_.leftCols(rank()); }
-  MatrixXd left_kernel() const { return columns_.rightCols(columns_.cols() - rank()); }
-  MatrixXd range() const { return columns_.leftCols(rank()); }
-
-  // A⁺B: the least-squares solution of least norm of AX = B, columnwise. B is m × k.
-  MatrixXd pseudo_solve(const Eigen::Ref<const MatrixXd>& B) const;
-
- private:
-  void prefer_smaller_residuals(const Eigen::Ref<const MatrixXd>& A, const RankOptions& options);
-
-  RankDecision decision_;
-  MatrixXd rows_;     // [row_space kernel]
-  MatrixXd columns_;  // [range left_kernel]
-  MatrixXd core_;     // rangeᵀ A row_space, regular
-};
-
-// Orthonormal bases where only one is wanted.
-MatrixXd kernel(const Eigen::Ref<const MatrixXd>& A, const RankOptions& options = {});
-MatrixXd range(const Eigen::Ref<const MatrixXd>& A, const RankOptions& options = {});
 
 }  // namespace courant

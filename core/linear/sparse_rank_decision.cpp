@@ -1,4 +1,5 @@
-#include <Eigen/SparseCore>
+#include "courant/core/linear/sparse_rank_decision.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -7,9 +8,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "courant/core/linear/equilibration.hpp"
 #include "courant/core/linear/qr_decomposition.hpp"
 #include "courant/core/linear/rank_cut.hpp"
-#include "courant/core/linear/rank_decision.hpp"
 #include "courant/core/linear/singular_value_decomposition.hpp"
 #include "courant/core/linear/sparse_qr.hpp"
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "courant/core/numbers/uncertain.hpp"
+
 namespace courant {
 namespace {
 

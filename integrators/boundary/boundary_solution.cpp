@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "courant/core/linear/complete_orthogonal_decomposition.hpp"
-#include "courant/core/linear/rank_decision.hpp"
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/integrators/boundary/conjugate_times.hpp"
 #include "courant/integrators/boundary/shooting.hpp"

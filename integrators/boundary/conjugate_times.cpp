@@ -1,7 +1,7 @@
 #include "courant/integrators/boundary/conjugate_times.hpp"
 
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/core/linear/lu_decomposition.hpp"
-#include "courant/core/linear/rank_decision.hpp"
 #include "courant/core/linear/singular_value_decomposition.hpp"
 
 namespace courant {

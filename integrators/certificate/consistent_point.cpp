@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/integrators/certificate/ladder_levels.hpp"
 #include "courant/integrators/certificate/natural_scaling.hpp"
 

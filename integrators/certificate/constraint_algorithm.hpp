@@ -1,6 +1,7 @@
 // ConstraintAlgorithm: the sets S_f over M_f of an implicit system, as a certificate.
 #pragma once
 
+#include <Eigen/SparseCore>
 #include <memory>
 
 #include "courant/integrators/certificate/constraint_ladder.hpp"
@@ -8,6 +9,8 @@
 #include "courant/structures/implicit_system.hpp"
 
 namespace courant {
+
+using SparseMatrixXd = Eigen::SparseMatrix<double>;
 
 // Near the point, by derivative arrays (DESIGN, section 5):
 //

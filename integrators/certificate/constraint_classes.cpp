@@ -4,9 +4,11 @@
 #include <cmath>
 #include <memory>
 
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/core/linear/lu_decomposition.hpp"
 #include "courant/core/linear/solver_choice.hpp"
-#include "courant/core/linear/uncertain_matrix.hpp"
+#include "courant/core/linear/sparse_rank_decision.hpp"
+#include "courant/core/linear/uncertain_rank.hpp"
 #include "courant/structures/dirac_structure.hpp"
 #include "courant/structures/dirac_system.hpp"
 

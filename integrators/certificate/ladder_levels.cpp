@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/integrators/certificate/damped_inverse.hpp"
 #include "courant/integrators/certificate/derivative_array.hpp"
 #include "courant/integrators/certificate/natural_scaling.hpp"

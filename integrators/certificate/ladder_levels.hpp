@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "courant/core/linear/uncertain_matrix.hpp"
+#include "courant/core/linear/uncertain_rank.hpp"
 #include "courant/integrators/certificate/constraint_ladder.hpp"
 #include "courant/integrators/certificate/prolongation.hpp"
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/core/linear/singular_value_decomposition.hpp"
+#include "courant/core/linear/sparse_rank_decision.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/integrators/certificate/constraint_algorithm.hpp"
 #include "courant/integrators/certificate/natural_scaling.hpp"

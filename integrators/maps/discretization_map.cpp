@@ -78,7 +78,8 @@ DiscretizationMap::TangentVector<double> DiscretizationMap::numeric_inverse(
     const TangentVector<Expr> result = inverse(constants(x0), constants(x1));
     return {values(result.x), values(result.v)};
   }
-  return Inversion(*this)(x0, x1);
+  const auto [x, v] = Inversion(*this)(x0, x1);
+  return {x, v};
 }
 
 }  // namespace courant

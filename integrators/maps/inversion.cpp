@@ -8,8 +8,10 @@
 
 namespace courant {
 
-Inversion::Inversion(const DiscretizationMap& map) : map_(map) {
-  const Manifold& M = *map.manifold();
+Inversion::Inversion(std::string name, std::shared_ptr<const Manifold> manifold,
+                     const Forward& forward)
+    : name_(std::move(name)), manifold_(std::move(manifold)) {
+  const Manifold& M = *manifold_;
   const Index n = M.dimension();
   Graph graph;
   const ExprVector y = graph.variables("y", 2 * n);
@@ -18,19 +20,18 @@ Inversion::Inversion(const DiscretizationMap& map) : map_(map) {
   const ExprMatrix basis = entries.reshaped(M.tangent_dimension(), n);
   const ExprVector x = M.chart(x0, basis, y.head(n));
   const ExprVector v = M.tangent_projector(x) * (basis * y.tail(n)).eval();
-  const auto image = map.forward(x, v);
+  const auto [first, second] = forward(x, v);
   ExprVector outputs(2 * x0.size() + x.size() + v.size());
-  outputs << image.first, image.second, x, v;
+  outputs << first, second, x, v;
   image_ = Function("inverse", {{"y", y}, {"x0", x0}, {"basis", entries}}, outputs);
 }
 
-DiscretizationMap::TangentVector<double> Inversion::operator()(const VectorXd& x0,
-                                                               const VectorXd& x1) const {
-  const Manifold& M = *map_.manifold();
+Inversion::TangentVector Inversion::operator()(const VectorXd& x0, const VectorXd& x1) const {
+  const Manifold& M = *manifold_;
   const Index n = M.dimension(), N = M.ambient_dimension();
   for (const auto& [argument, size] : {std::pair("x0", x0.size()), std::pair("x1", x1.size())})
     if (size != N)
-      throw std::invalid_argument(map_.name() + "::inverse: " + argument + " has " +
+      throw std::invalid_argument(name_ + "::inverse: " + argument + " has " +
                                   std::to_string(size) + " entries, expected " + std::to_string(N) +
                                   ".");
   const MatrixXd basis = M.tangent_basis(x0);
@@ -67,8 +68,7 @@ DiscretizationMap::TangentVector<double> Inversion::operator()(const VectorXd& x
     const VectorXd value = image_({zero.y, x0, entries});
     return {value.segment(2 * N, N), value.tail(M.tangent_dimension())};
   }
-  throw std::domain_error(map_.name() +
-                          "::inverse: no tangent vector is mapped to (x0, x1), defect " +
+  throw std::domain_error(name_ + "::inverse: no tangent vector is mapped to (x0, x1), defect " +
                           number_text(zero.defect) +
                           " after Newton's method; expected 0. The points are too far apart for "
                           "this map.");

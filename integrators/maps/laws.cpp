@@ -60,7 +60,8 @@ class DiscretizationMapLaws {
   DiscretizationMap::TangentVector<double> inverse(const VectorXd& x0, const VectorXd& x1) {
     if (map_.has_inverse()) return map_.inverse(x0, x1);
     if (!inversion_) inversion_.emplace(map_);
-    return (*inversion_)(x0, x1);
+    const auto [x, v] = (*inversion_)(x0, x1);
+    return {x, v};
   }
 
   LawResult zero_section() const {

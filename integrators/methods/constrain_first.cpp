@@ -1,55 +1,46 @@
 #include "courant/integrators/methods/constrain_first.hpp"
 
-#include <cmath>
-#include <stdexcept>
-
 #include "courant/core/linear/pairs.hpp"
-#include "courant/core/linear/qr_decomposition.hpp"
 #include "courant/core/words/message.hpp"
+#include "courant/integrators/methods/constrain_first_functions.hpp"
 #include "courant/integrators/methods/constrain_first_projection.hpp"
 #include "courant/integrators/methods/constrain_first_trace.hpp"
 #include "courant/integrators/step/round_off_projection.hpp"
 
 namespace courant {
+
 namespace {
 
-// W if it is the same at every x, as for momenta that positions determine; empty otherwise.
-MatrixXd fixed_directions(const Manifold& M, const Projector& projector,
-                          const ConstraintLadder& ladder) {
-  const Index n = M.dimension(), d = n - ladder.degrees_of_freedom;
-  if (d == 0 || n != M.tangent_dimension() || !projector.has_constant_directions(d)) return {};
-  MatrixXd W =
-      projector.directions(ladder.point.x, LinearMap<double>::identity(n),
-                           orthonormalized(ladder.conormals().transpose()), ladder.point.t);
-  // Unit vectors where their span is the same: formulas become simpler.
-  constexpr double round_off = 1e-12;
-  const MatrixXd onto = W * W.transpose(), rounded = onto.array().round();
-  if ((onto - rounded).norm() > round_off) return W;
-  MatrixXd units(n, d);
-  Index column = 0;
-  for (Index i = 0; i < n; ++i)
-    if (rounded(i, i) == 1.0) units.col(column++) = VectorXd::Unit(n, i);
-  return units;
+// The method that solves the equations which follow from others too.
+ConstrainFirst with_all_equations(const ConstrainFirstScheme& scheme) {
+  return {scheme.system,
+          *scheme.ladder,
+          scheme.map,
+          scheme.projector,
+          {.backend = Backend::interpreter, .keeps_all_equations = true}};
 }
 
 }  // namespace
 
 class ConstrainFirst::Trajectory final : public Stepper {
  public:
-  explicit Trajectory(const ConstrainFirst& method)
-      : Stepper(method.name(), method.system()),
-        method_(method),
+  explicit Trajectory(std::shared_ptr<const ConstrainFirstFunctions> functions)
+      : Stepper(functions->scheme.name(), functions->scheme.system),
+        shared_(std::move(functions)),
+        functions_(*shared_),
         n_(manifold().dimension()),
-        d_(method.codimension_),
-        solver_(method.equations_, {n_, n_, (method.blocks_ - 2) * n_ + method.auxiliaries_, d_},
-                method.name(), method.whole_, {.displacements = n_, .shifts = d_, .h = 4}),
-        predictor_(Projection::predicted_groups(method, solver_.unknown().size()),
+        d_(functions_.scheme.codimension()),
+        solver_(functions_.equations,
+                {n_, n_, (functions_.blocks - 2) * n_ + functions_.auxiliaries, d_},
+                functions_.scheme.name(), functions_.whole,
+                {.displacements = n_, .shifts = d_, .h = 4}),
+        predictor_(ConstrainFirstProjection::predicted_groups(functions_, solver_.unknown().size()),
                    solver_.predicted()),
-        round_off_projection_(method.constraint_),
-        basis_(manifold(), method.basis_),
-        projection_(method_, basis_),
+        round_off_projection_(functions_.constraint),
+        basis_(manifold(), functions_.basis),
+        projection_(functions_, basis_),
         near_(manifold().ambient_dimension()),
-        advanced_(method.advance_.output_size()),
+        advanced_(functions_.advance.output_size()),
         kept_(advanced_) {}
 
  private:
@@ -65,14 +56,14 @@ class ConstrainFirst::Trajectory final : public Stepper {
 
   // Without redundant equations, and false where they do not hold then.
   bool is_prepared_without(State& state, double h) {
-    const bool leaves_some_out = method_.redundant_.output_size() > 0;
+    const bool leaves_some_out = functions_.redundant.output_size() > 0;
     try {
       if (!basis_.move_to(state.x)) forget_motion();
       VectorXd& y = projection_.unknown();
       y = projection_.jets();
       basis_.coordinates_of(state.v, y.segment(n_, n_));
-      y.segment(method_.blocks_ * n_, state.z.size()) = state.z;
-      for (const auto& [i, value] : method_.held_z_) y[method_.blocks_ * n_ + i] = value;
+      y.segment(functions_.blocks * n_, state.z.size()) = state.z;
+      for (const auto& [i, value] : functions_.held_z) y[functions_.blocks * n_ + i] = value;
       const VectorXd x = state.x;
       const VectorXd no_shift = VectorXd::Zero(d_);
       projection_.project(x, {state, {state.t, h}, state.t, no_shift, false}, statistics_);
@@ -108,7 +99,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
   }
 
   void do_step(const State& before, double h, State& after) override {
-    if (method_.redundant_.output_size() == 0) return step_without(before, h, after);
+    if (functions_.redundant.output_size() == 0) return step_without(before, h, after);
     steps_with_all_ = false;
     State state = before;
     try {
@@ -144,8 +135,9 @@ class ConstrainFirst::Trajectory final : public Stepper {
     const Inputs in(
         y.data(), {before.x.data(), basis_.data(), projection_.directions().data(), &h, &before.t});
     const StepSolver::Attempt attempt{before.t, h};
-    solver_.solve_connected(in, Projection::scales(before, h).data(), begin, attempt, statistics_);
-    method_.advance_.value(in.data(), advanced_.data());
+    solver_.solve_connected(in, ConstrainFirstProjection::scales(before, h).data(), begin, attempt,
+                            statistics_);
+    functions_.advance.value(in.data(), advanced_.data());
     copy_pairs(advanced_.data(), near_.size(), near_.data());
     if (!are_finite(near_.data(), near_.size()))
       throw SolveError(SolveError::Reason::left_domain, method(), before.t, h,
@@ -174,7 +166,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
     accept(before.x);
     kept_.swap(advanced_);
     stage_z_.resize(before.z.size());
-    copy_pairs(solver_.unknown().data() + method_.blocks_ * n_, stage_z_.size(), stage_z_.data());
+    copy_pairs(solver_.unknown().data() + functions_.blocks * n_, stage_z_.size(), stage_z_.data());
   }
 
   void do_stage(Step& step) const override {
@@ -182,7 +174,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
       step.stage = with_all_->last().stage;
       return;
     }
-    step.stage.t = step.before.t + method_.map_->stage_time() * step.h;
+    step.stage.t = step.before.t + functions_.scheme.map->stage_time() * step.h;
     const Index N = step.before.x.size();
     step.stage.x = kept_.segment(N, N);
     step.stage.v = kept_.tail(step.before.v.size());
@@ -210,16 +202,14 @@ class ConstrainFirst::Trajectory final : public Stepper {
   }
   void do_expect(const Motion& motion) override { solver_.expect(motion); }
   std::unique_ptr<Stepper> do_fresh() const override {
-    return std::make_unique<Trajectory>(method_);
+    return std::make_unique<Trajectory>(shared_);
   }
 
   // Of all equations, for steps after which those that are left out do not hold: where those that are left have become
   // dependent, or where some have ceased to follow.
   Stepper& with_all() {
     if (!with_all_) {
-      const ConstrainFirst all(method_.system(), *method_.ladder_, method_.map_, method_.projector_,
-                               {.backend = Backend::interpreter, .keeps_all_equations = true});
-      with_all_ = all.stepper();
+      with_all_ = with_all_equations(functions_.scheme).stepper();
     }
     return *with_all_;
   }
@@ -243,13 +233,14 @@ class ConstrainFirst::Trajectory final : public Stepper {
     if (!projection_.accept(x)) predictor_.forget();
   }
 
-  const ConstrainFirst method_;  // its functions are shared, not copied
+  std::shared_ptr<const ConstrainFirstFunctions> shared_;
+  const ConstrainFirstFunctions& functions_;
   Index n_, d_;
   StepSolver solver_;
   Predictor predictor_;  // of the unknowns of the step
   RoundOffProjection round_off_projection_;
   MovingBasis basis_;  // B at x_k
-  Projection projection_;
+  ConstrainFirstProjection projection_;
   VectorXd start_;  // what the state alone predicts
   VectorXd near_, advanced_;
   VectorXd kept_, stage_z_;            // what was advanced, and z, of the last step that stands
@@ -263,75 +254,40 @@ ConstrainFirst::ConstrainFirst(std::shared_ptr<const ImplicitSystem> system,
                                std::shared_ptr<const DiscretizationMap> map,
                                std::shared_ptr<const Projector> projector, const Options& options)
     : Integrator(std::move(system)),
-      map_(std::move(map)),
-      projector_(std::move(projector)),
-      keeps_all_equations_(options.keeps_all_equations) {
-  if (!map_ || !projector_ || *map_->manifold() != *this->system()->manifold())
-    throw std::invalid_argument(
-        "ConstrainFirst::ConstrainFirst: the system, the map or the projector is missing, or the "
-        "map is not on the manifold of the system.");
-  if (ladder.verdict != Verdict::regular && ladder.verdict != Verdict::gauge)
-    throw std::invalid_argument("ConstrainFirst::ConstrainFirst: the ladder's verdict is " +
-                                to_string(ladder.verdict) + "; expected regular or gauge. " +
-                                ladder.reason);
-  check_ladder("ConstrainFirst::ConstrainFirst", *this->system(), ladder);
-  ladder_ = std::make_shared<const ConstraintLadder>(ladder);
-  const Manifold& M = *this->system()->manifold();
-  codimension_ = M.dimension() - ladder.degrees_of_freedom;
-  gauge_dimension_ = ladder.gauge_dimension;
-  differentiations_ = ladder.differentiations;
-  fixed_directions_ = fixed_directions(M, *projector_, ladder);
+      functions_(std::make_shared<const ConstrainFirstFunctions>(
+          ConstrainFirstScheme(this->system(), ladder, std::move(map), std::move(projector),
+                               options.keeps_all_equations),
+          options.backend)) {}
 
-  const Trace trace(*this);
-  omitted_ = trace.omitted;
-  held_z_ = trace.held_z;
-  const Backend backend = options.backend.together();
-  const Function::Options compiled = {.backend = backend};
-  blocks_ = trace.blocks;
-  auxiliaries_ = trace.auxiliaries;
-  equations_ = trace.step.compile(backend);
-  whole_ = trace.step.followed(equations_);
-  advance_ = Function("advance", trace.step.inputs, trace.advanced, compiled);
-  projection_ = trace.projection.compile(backend);
-  projected_ = Function("projected", trace.projection.inputs, trace.projected, compiled);
-  if (engine_of(backend) && trace.redundant.size() > 0)
-    throw std::invalid_argument(
-        "ConstrainFirst::ConstrainFirst: the system has equations that follow from others, which "
-        "steps "
-        "may have to be solved with by least squares; the engine solves as many equations as "
-        "unknowns.");
-  redundant_ = Function("redundant equations", trace.projection.inputs, trace.redundant,
-                        {.differentiate = {"y"}, .backend = backend});
-  shift_ = Function("shift", {{"near", trace.near}, {"s", trace.s}}, trace.shifted, compiled);
-  corrected_shift_ = Function(
-      "corrected shift", {{"near", trace.near}, {"s", trace.s}, {"x0", trace.x0}, {"x", trace.x}},
-      trace.corrected, compiled);
-  conormals_ = {trace.conormals(), has_fixed_directions() ? Backend::interpreter : backend};
-  if (!has_fixed_directions()) {
-    MatrixXd conormals = ladder.conormals().transpose();
-    if (const VectorXd sizes = projector_->conormal_sizes(); sizes.size() > 0)
-      conormals = (sizes.cwiseInverse().asDiagonal() * conormals).eval();
-    references_ = MovingConormals::references(orthonormalized(conormals));
-    span_ = Function("directions", projector_->span_formulas(M, codimension_), compiled);
-  }
-  basis_ = MovingBasis::projection(M, backend);
-  constraint_ = RoundOffProjection::constraint(M, backend);
-  backend.compile();
+std::string ConstrainFirst::name() const { return functions_->scheme.name(); }
+
+int ConstrainFirst::order() const { return functions_->scheme.map->order(); }
+
+bool ConstrainFirst::is_symmetric() const {
+  return functions_->scheme.gauge_dimension() == 0 && functions_->scheme.map->is_symmetric();
 }
 
+std::optional<bool> ConstrainFirst::is_symplectic() const {
+  const ConstrainFirstScheme& scheme = functions_->scheme;
+  if (scheme.codimension() == 0 && scheme.map->is_symplectic().value_or(false) &&
+      system()->is_lagrangian().value_or(false))
+    return true;
+  return std::nullopt;
+}
+
+bool ConstrainFirst::is_native() const { return functions_->equations.is_native(); }
+
 std::vector<StepFormulas> ConstrainFirst::do_formulas() const {
-  const Trace trace(*this);
+  const ConstrainFirstTrace trace(functions_->scheme, functions_->omitted);
   return {trace.step, trace.projection};
 }
 
 StepProgram ConstrainFirst::program() const {
   // A program does not look at what steps do without.
-  if (!omitted_->redundant.empty())
-    return ConstrainFirst(system(), *ladder_, map_, projector_,
-                          {.backend = Backend::interpreter, .keeps_all_equations = true})
-        .program();
-  const Manifold& M = *system()->manifold();
-  const Trace trace(*this);
+  const ConstrainFirstScheme& scheme = functions_->scheme;
+  if (!functions_->omitted.redundant.empty()) return with_all_equations(scheme).program();
+  const Manifold& M = scheme.manifold();
+  const ConstrainFirstTrace trace(functions_->scheme, functions_->omitted);
   StepProgram program{.method = name()};
   program.solve = {.formulas = trace.step,
                    .space = SpaceFormulas(M),
@@ -343,28 +299,28 @@ StepProgram ConstrainFirst::program() const {
                    .effort = ExprVector(0),
                    .stage_inputs = {},
                    .stage = ExprVector(0),
-                   .stage_time = map_->stage_time(),
+                   .stage_time = scheme.map->stage_time(),
                    .stage_is_advanced = true,
                    .projection = StepProgram::Solve::Projection{
                        .formulas = trace.projection,
-                       .shifts = codimension_,
+                       .shifts = scheme.codimension(),
                        .projected = trace.projected,
                        .shift_inputs = {{"near", trace.near}, {"s", trace.s}},
                        .correction_inputs =
                            {{"near", trace.near}, {"s", trace.s}, {"x0", trace.x0}, {"x", trace.x}},
                        .shifted = trace.shifted,
                        .corrected = trace.corrected}};
-  if (!has_fixed_directions())
+  if (!scheme.has_fixed_directions())
     program.solve->projection->turning = StepProgram::Solve::Projection::Turning{
         .conormals = trace.conormals(),
-        .references = references_,
-        .span = projector_->span_formulas(M, codimension_),
-        .is_always_complement = projector_->is_always_complement()};
+        .references = functions_->references,
+        .span = scheme.projector->span_formulas(M, scheme.codimension()),
+        .is_always_complement = scheme.projector->is_always_complement()};
   return program;
 }
 
 std::unique_ptr<Stepper> ConstrainFirst::do_stepper() const {
-  return std::make_unique<Trajectory>(*this);
+  return std::make_unique<Trajectory>(functions_);
 }
 
 }  // namespace courant

@@ -7,6 +7,7 @@
 #include "courant/core/linear/complete_orthogonal_decomposition.hpp"
 #include "courant/core/numbers/central_difference.hpp"
 #include "courant/integrators/methods/constrain_first.hpp"
+#include "courant/integrators/methods/constrain_first_functions.hpp"
 #include "courant/integrators/step/conormal_turning.hpp"
 #include "courant/integrators/step/vector_field_differential.hpp"
 
@@ -32,26 +33,27 @@ constexpr double kAlongConstraints = 1e-6;
 //   δy = ∂R/∂x δx + ∂R/∂s (B ∂(Wμ)/∂x δx + B W δμ),   δx ∈ T_xM_f
 class ConstrainFirst::Differential final : public StepDifferential {
  public:
-  explicit Differential(const ConstrainFirst& method)
-      : method_(method),
-        M_(*method_.system()->manifold()),
-        field_(method_.system(), *method.ladder_, Backend::interpreter),
+  explicit Differential(std::shared_ptr<const ConstrainFirstFunctions> functions)
+      : functions_(std::move(functions)),
+        scheme_(functions_->scheme),
+        M_(scheme_.manifold()),
+        field_(scheme_.system, *scheme_.ladder, Backend::interpreter),
         differential_(field_.formulas()) {
     Graph graph;
     const ExprVector x = graph.variables("x", M_.ambient_dimension());
     const ExprVector w = graph.variables("w", M_.tangent_dimension());
     const ExprVector tangent = M_.tangent_projector(x) * w;
-    const auto ends = method_.map_->forward(x, tangent);
+    const auto ends = scheme_.map->forward(x, tangent);
     const Function::Options by_both = {.differentiate = {"x", "w"}};
     first_ = Function("R-", {{"x", x}, {"w", w}}, ends.first, by_both);
     second_ = Function("R+", {{"x", x}, {"w", w}}, ends.second, by_both);
     retraction_ = Function("R", {{"x", x}, {"w", w}}, M_.retract(x, tangent), by_both);
-    if (method_.codimension_ == 0 || method_.fixed_directions_.size() > 0 ||
+    if (scheme_.codimension() == 0 || scheme_.fixed_directions.size() > 0 ||
         field_.formulas().inputs[2].variables.size() > 0)
       return;
     conormal_turning_.emplace(field_.formulas());
-    if (method_.span_.output_size() == 0) return;
-    const auto span = method_.projector_->span_formulas(M_, method_.codimension_);
+    if (functions_->span.output_size() == 0) return;
+    const auto span = scheme_.projector->span_formulas(M_, scheme_.codimension());
     span_ = Function("directions", span, {.differentiate = {"x", "C"}});
   }
 
@@ -116,7 +118,7 @@ class ConstrainFirst::Differential final : public StepDifferential {
     VectorXd rate(state.x.size());
     at.evaluation(state, rate);
     std::tie(at.directions, at.conormals) =
-        differential_.split(place(state.x, state.t, at.evaluation), method_.codimension_);
+        differential_.split(place(state.x, state.t, at.evaluation), scheme_.codimension());
     at.velocities = (M_.frame(state.x) * at.evaluation.basis()).matrix() * at.directions;
     return at;
   }
@@ -129,22 +131,22 @@ class ConstrainFirst::Differential final : public StepDifferential {
   MatrixXd shifts(const VectorXd& x, double t, const Site& at) const {
     const LinearMap<double>& B = at.evaluation.basis();
     const MatrixXd basis = B.matrix();
-    if (method_.fixed_directions_.size() > 0) return basis * method_.fixed_directions_;
+    if (scheme_.fixed_directions.size() > 0) return basis * scheme_.fixed_directions;
     const MatrixXd& C = at.conormals;
     MatrixXd V = C;
     MatrixXd sized = C;
-    if (const VectorXd sizes = method_.projector_->conormal_sizes(); sizes.size() > 0)
+    if (const VectorXd sizes = scheme_.projector->conormal_sizes(); sizes.size() > 0)
       sized = sizes.cwiseInverse().asDiagonal() * C;
-    if (method_.span_.output_size() > 0)
-      V = method_.span_({x, B.entries().reshaped(), sized.reshaped(), VectorXd::Constant(1, t)})
+    if (functions_->span.output_size() > 0)
+      V = functions_->span({x, B.entries().reshaped(), sized.reshaped(), VectorXd::Constant(1, t)})
               .reshaped(C.rows(), C.cols());
-    return basis * method_.projector_->orthonormal_directions(V, B, C);
+    return basis * scheme_.projector->orthonormal_directions(V, B, C);
   }
 
   // T P: images in T_xM_f, at the state, of ambient velocities at y, which P takes to its x.
   MatrixXd projected(const State& state, const Site& at, const VectorXd& y,
                      const MatrixXd& velocities) const {
-    if (method_.codimension_ == 0) return velocities;
+    if (scheme_.codimension() == 0) return velocities;
     const VectorXd shift = M_.inverse_retract(state.x, y);
     const MatrixXd R = retraction_.jacobian({state.x, shift});
     const auto by_point = R.leftCols(state.x.size());
@@ -160,7 +162,7 @@ class ConstrainFirst::Differential final : public StepDifferential {
   MatrixXd turning(const State& state, const Site& at, const VectorXd& shift) const {
     MatrixXd result = MatrixXd::Zero(shift.size(), at.directions.cols());
     const double size = state.x.lpNorm<Eigen::Infinity>();
-    if (method_.fixed_directions_.size() > 0 ||
+    if (scheme_.fixed_directions.size() > 0 ||
         shift.lpNorm<Eigen::Infinity>() <= kOnConstraints * size)
       return result;
     if (conormal_turning_) return exact_turning(state, at, shift);
@@ -181,10 +183,11 @@ class ConstrainFirst::Differential final : public StepDifferential {
   // The same where tangent vectors are dx/dt: of W μ = V(x, C) m, with V linear in the conormals C, along with α = C m.
   MatrixXd exact_turning(const State& state, const Site& at, const VectorXd& shift) const {
     const auto here = place(state.x, state.t, at.evaluation);
-    if (method_.span_.output_size() == 0) return (*conormal_turning_)(here, shift, at.directions);
+    if (functions_->span.output_size() == 0)
+      return (*conormal_turning_)(here, shift, at.directions);
     const MatrixXd& C = at.conormals;
     const Index n = C.rows(), d = C.cols(), N = state.x.size();
-    VectorXd sizes = method_.projector_->conormal_sizes();
+    VectorXd sizes = scheme_.projector->conormal_sizes();
     if (sizes.size() == 0) sizes = VectorXd::Ones(n);
     const MatrixXd sized = sizes.cwiseInverse().asDiagonal() * C;
     const std::array<VectorXd, 4> in = {state.x, at.evaluation.basis().entries().reshaped(),
@@ -204,7 +207,8 @@ class ConstrainFirst::Differential final : public StepDifferential {
     return result;
   }
 
-  const ConstrainFirst method_;  // its functions are shared, not copied
+  std::shared_ptr<const ConstrainFirstFunctions> functions_;
+  const ConstrainFirstScheme& scheme_;
   const Manifold& M_;
   VectorField field_;
   VectorFieldDifferential differential_;
@@ -214,11 +218,11 @@ class ConstrainFirst::Differential final : public StepDifferential {
 };
 
 std::shared_ptr<const StepDifferential> ConstrainFirst::do_differential() const {
-  if (gauge_dimension_ > 0)
+  if (functions_->scheme.gauge_dimension() > 0)
     throw std::domain_error(
         "ConstrainFirst::differential: with gauge freedom a step depends on the steps before; "
         "expected a regular system.");
-  return std::make_shared<Differential>(*this);
+  return std::make_shared<Differential>(functions_);
 }
 
 }  // namespace courant

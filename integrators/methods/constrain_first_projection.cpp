@@ -27,41 +27,42 @@ constexpr double kNoDistance = 1e-10;
 
 }  // namespace
 
-ConstrainFirst::Projection::Projection(const ConstrainFirst& method, MovingBasis& basis)
-    : method_(method),
-      n_(method.system()->manifold()->dimension()),
-      d_(method.codimension_),
-      rest_((method.blocks_ - 2) * n_ + method.auxiliaries_),
-      solver_(method.projection_, {n_, n_, rest_, d_}, method.name() + " (projection)"),
-      is_explicit_(solver_.is_explicit() && method.projection_.left().output_size() == 0 &&
-                   method_.has_fixed_directions() &&
-                   n_ == method.system()->manifold()->tangent_dimension()),
+ConstrainFirstProjection::ConstrainFirstProjection(const ConstrainFirstFunctions& functions,
+                                                   MovingBasis& basis)
+    : functions_(functions),
+      n_(functions.scheme.manifold().dimension()),
+      d_(functions.scheme.codimension()),
+      rest_((functions.blocks - 2) * n_ + functions.auxiliaries),
+      solver_(functions.projection, {n_, n_, rest_, d_}, functions.scheme.name() + " (projection)"),
+      is_explicit_(solver_.is_explicit() && functions.projection.left().output_size() == 0 &&
+                   functions_.scheme.has_fixed_directions() &&
+                   n_ == functions.scheme.manifold().tangent_dimension()),
       gives_all_(is_explicit_ && std::ssize(solver_.found()) == solver_.unknown().size()),
-      end_(predicted_groups(method, solver_.unknown().size()),
-           method.fixed_directions_.size() > 0 ? solver_.predicted() : solver_.found()),
-      shift_({method.system()->manifold()->tangent_dimension()}),
+      end_(predicted_groups(functions, solver_.unknown().size()),
+           functions.scheme.fixed_directions.size() > 0 ? solver_.predicted() : solver_.found()),
+      shift_({functions.scheme.manifold().tangent_dimension()}),
       basis_(basis),
-      conormals_(method.conormals_, n_, d_, method.references_),
-      directions_(*method.projector_, method.span_, n_, d_),
+      conormals_(functions.conormals, n_, d_, functions.references),
+      directions_(*functions.scheme.projector, functions.span, n_, d_),
       jets_(VectorXd::Zero(solver_.unknown().size())),
       given_(jets_),
       start_(jets_),
-      near_(method.system()->manifold()->ambient_dimension()),
+      near_(functions.scheme.manifold().ambient_dimension()),
       guess_(near_.size()),
-      shifted_(VectorXd::Zero(method.system()->manifold()->tangent_dimension())),
+      shifted_(VectorXd::Zero(functions.scheme.manifold().tangent_dimension())),
       corrected_(shifted_),
-      vectors_(shifted_.size(), method.blocks_),
-      found_(method.projected_.output_size()),
+      vectors_(shifted_.size(), functions.blocks),
+      found_(functions.projected.output_size()),
       velocity_(n_) {}
 
-std::vector<Index> ConstrainFirst::Projection::predicted_groups(const ConstrainFirst& method,
-                                                                Index unknowns) {
-  const Index tangent = method.blocks_ * method.system()->manifold()->dimension();
+std::vector<Index> ConstrainFirstProjection::predicted_groups(
+    const ConstrainFirstFunctions& functions, Index unknowns) {
+  const Index tangent = functions.blocks * functions.scheme.manifold().dimension();
   return {tangent, unknowns - tangent};
 }
 
-std::array<double, 4> ConstrainFirst::Projection::scales(const State& before, double h,
-                                                         double besides) {
+std::array<double, 4> ConstrainFirstProjection::scales(const State& before, double h,
+                                                       double besides) {
   // A start at zero, as of a circuit at rest, has the size of its first step.
   const double given = std::max(largest(before.x), besides);
   const double size = given > 0.0 ? given : std::fabs(h) * largest(before.v);
@@ -69,22 +70,22 @@ std::array<double, 4> ConstrainFirst::Projection::scales(const State& before, do
 }
 
 // ξ and μ
-void ConstrainFirst::Projection::clear_places(VectorXd& y) const {
+void ConstrainFirstProjection::clear_places(VectorXd& y) const {
   y.head(n_).setZero();
   y.tail(d_).setZero();
 }
 
-const VectorXd& ConstrainFirst::Projection::jets() {
+const VectorXd& ConstrainFirstProjection::jets() {
   clear_places(jets_);
   return jets_;
 }
 
-void ConstrainFirst::Projection::begin_with(const VectorXd& y) {
+void ConstrainFirstProjection::begin_with(const VectorXd& y) {
   if (!gives_all_) copy_pairs(y.data(), y.size(), solver_.unknown().data());
 }
 
-void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& approach,
-                                         SolverStatistics& statistics) {
+void ConstrainFirstProjection::project(const VectorXd& near, const Approach& approach,
+                                       SolverStatistics& statistics) {
   const State& before = approach.before;
   const StepSolver::Attempt& attempt = approach.attempt;
   const double t = time_ = approach.t;
@@ -94,9 +95,9 @@ void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& a
   if (is_explicit_) {
     const double* const in[] = {
         y.data(), near.data(), basis_.data(), directions_.matrix().data(), near.data(), &t};
-    method_.projection_.unknowns().value(in, y.data());
-    method_.projected_.value(in, found_.data());
-    if (method_.redundant_.output_size() > 0) guess_ = near_ = near;
+    functions_.projection.unknowns().value(in, y.data());
+    functions_.projected.value(in, found_.data());
+    if (functions_.redundant.output_size() > 0) guess_ = near_ = near;
     return;
   }
   near_ = near;
@@ -105,7 +106,7 @@ void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& a
   if (goes_on && !shift_.is_empty()) {
     shift_.predict(shifted_);
     const double* in[] = {near_.data(), shifted_.data()};
-    method_.shift_.value(in, guess_.data());
+    functions_.shift.value(in, guess_.data());
   }
   foreseen_ = guess_;
   double previous = std::numeric_limits<double>::infinity();
@@ -125,7 +126,7 @@ void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& a
     const auto begin = [&] { y = start_; };
     const auto lands_nearby = [&] {
       solver_.solve(in, sizes.data(), begin, attempt, statistics);
-      method_.projected_.value(in.data(), found_.data());
+      functions_.projected.value(in.data(), found_.data());
       return !goes_on || is_nearby(before, attempt.h * speed, sizes[0]);
     };
     if (!lands_nearby()) {
@@ -133,13 +134,14 @@ void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& a
       solver_.forget();
       begin();
       if (!lands_nearby())
-        throw SolveError(SolveError::Reason::disconnected, method_.name(), attempt.time, attempt.h,
+        throw SolveError(SolveError::Reason::disconnected, functions_.scheme.name(), attempt.time,
+                         attempt.h,
                          "is too large: the projection onto M_f leads farther than half the "
                          "step.");
     }
     const double moved = largest(y.head(n_));
     const double size = largest(found_.head(guess_.size()));
-    if (method_.has_fixed_directions()) return;
+    if (functions_.scheme.has_fixed_directions()) return;
     // P does not depend on W once x no longer moves with it. Where steps begin, x moves with W not
     // at all; but the next one begins along W.
     if (iteration == 0) {
@@ -158,12 +160,12 @@ void ConstrainFirst::Projection::project(const VectorXd& near, const Approach& a
     y.head(n_).setZero();
     previous = moved;
   }
-  throw SolveError(SolveError::Reason::diverged, method_.name(), attempt.time, attempt.h,
+  throw SolveError(SolveError::Reason::diverged, functions_.scheme.name(), attempt.time, attempt.h,
                    "is too large: the projection onto M_f does not converge.");
 }
 
 // The largest of the velocity before the step, of that in its middle and of that after it, extrapolated.
-double ConstrainFirst::Projection::largest_speed(const State& before, const VectorXd& y) {
+double ConstrainFirstProjection::largest_speed(const State& before, const VectorXd& y) {
   if (n_ == 0) return 0.0;
   basis_.coordinates_of(before.v, velocity_);
   const auto middle = y.segment(n_, n_);
@@ -174,7 +176,7 @@ double ConstrainFirst::Projection::largest_speed(const State& before, const Vect
 // Whether what was found is not far from near_, next to the step from `before` and to coordinates of
 // that size; nor ξ from guess_, which may have gone around a compact space. Where a coordinate turns it is
 // back after the step where it was: how far the step led, its velocities tell.
-bool ConstrainFirst::Projection::is_nearby(const State& before, double path, double size) const {
+bool ConstrainFirstProjection::is_nearby(const State& before, double path, double size) const {
   const auto found = found_.head(near_.size());
   const double step = std::max((near_ - before.x).lpNorm<Eigen::Infinity>(), std::fabs(path));
   const double nearby = std::max(kNearby * step, kNoDistance * size);
@@ -184,7 +186,7 @@ bool ConstrainFirst::Projection::is_nearby(const State& before, double path, dou
 }
 
 // By how much ξ', … and z, … differ, relative to their size: W is computed with them.
-double ConstrainFirst::Projection::jet_change(const VectorXd& from, const VectorXd& to) const {
+double ConstrainFirstProjection::jet_change(const VectorXd& from, const VectorXd& to) const {
   const auto change = [&](Index first, Index size) {
     const double moved = (to - from).segment(first, size).lpNorm<Eigen::Infinity>();
     return moved == 0.0 ? 0.0 : moved / to.segment(first, size).lpNorm<Eigen::Infinity>();
@@ -193,25 +195,25 @@ double ConstrainFirst::Projection::jet_change(const VectorXd& from, const Vector
 }
 
 // The same vectors in the basis at x.
-void ConstrainFirst::Projection::move_basis(const VectorXd& x, VectorXd& y) {
-  if (n_ == method_.system()->manifold()->tangent_dimension()) return;
+void ConstrainFirstProjection::move_basis(const VectorXd& x, VectorXd& y) {
+  if (n_ == functions_.scheme.manifold().tangent_dimension()) return;
   const MatrixXd& B = basis_.map().entries();
   const Index size = B.rows();
-  plain_product(B.data(), size, y.data(), n_, method_.blocks_, vectors_.data());
+  plain_product(B.data(), size, y.data(), n_, functions_.blocks, vectors_.data());
   if (!basis_.move_to(x)) is_turned_ = true;
-  for (Index k = 0; k < method_.blocks_; ++k)
+  for (Index k = 0; k < functions_.blocks; ++k)
     for (Index j = 0; j < n_; ++j)
       y[k * n_ + j] = plain_product(B.data() + j * size, vectors_.data() + k * size, size);
 }
 
 // W at x, with columns near those of the last step, so that μ and the kept factorisations go on.
-void ConstrainFirst::Projection::aim(const VectorXd& x, const VectorXd& y, double t) {
-  if (method_.has_fixed_directions()) return;
+void ConstrainFirstProjection::aim(const VectorXd& x, const VectorXd& y, double t) {
+  if (functions_.scheme.has_fixed_directions()) return;
   conormals_.move_to({.jets = y.data(), .origin = x.data(), .basis = basis_.data(), .t = &t});
   directions_.move_to(x, t, basis_.map(), conormals_.matrix());
 }
 
-void ConstrainFirst::Projection::record() {
+void ConstrainFirstProjection::record() {
   if (is_explicit_) return;
   VectorXd& y = solver_.unknown();
   if (!solver_.is_determined()) end_.limit_degree(Predictor::kUndetermined);
@@ -219,16 +221,16 @@ void ConstrainFirst::Projection::record() {
   end_.record(y);
   // shifted_ led to foreseen_: to first order in what is left, this one leads to x.
   const double* in[] = {near_.data(), shifted_.data(), foreseen_.data(), found_.data()};
-  method_.corrected_shift_.value(in, corrected_.data());
+  functions_.corrected_shift.value(in, corrected_.data());
   shift_.record(corrected_);
 }
 
 // Newton's method asks for eight digits of what converges with the state, and for all of the state and its velocity.
-bool ConstrainFirst::Projection::redundant_hold(const State& before, double h) {
+bool ConstrainFirstProjection::redundant_hold(const State& before, double h) {
   constexpr double of_states = 1e-14, of_others = 1e-7;
   constexpr double at_rest =
       1e-3;  // of what moves coordinates by their size in a step, no velocity
-  const Function& F = method_.redundant_;
+  const Function& F = functions_.redundant;
   const VectorXd& y = gives_all_ ? given_ : solver_.unknown();
   const double* const in[] = {
       y.data(), guess_.data(), basis_.data(), directions_.matrix().data(), near_.data(), &time_};
@@ -250,7 +252,7 @@ bool ConstrainFirst::Projection::redundant_hold(const State& before, double h) {
   return true;
 }
 
-void ConstrainFirst::Projection::take(State& state) const {
+void ConstrainFirstProjection::take(State& state) const {
   const Index N = near_.size();
   state.x.resize(N);
   const double* from = found_.data();
@@ -260,8 +262,8 @@ void ConstrainFirst::Projection::take(State& state) const {
   }
 }
 
-bool ConstrainFirst::Projection::accept(const VectorXd& x) {
-  if (!method_.has_fixed_directions()) {
+bool ConstrainFirstProjection::accept(const VectorXd& x) {
+  if (!functions_.scheme.has_fixed_directions()) {
     const double moved = plain_distance(found_.data(), x.data(), x.size());
     if (directions_.is_kept() && moved > 1e-7 * largest(x)) {
       const MatrixXd& W = directions_.matrix();
@@ -284,7 +286,7 @@ bool ConstrainFirst::Projection::accept(const VectorXd& x) {
   return goes_on;
 }
 
-void ConstrainFirst::Projection::take_over(const Projection& other, bool goes_on) {
+void ConstrainFirstProjection::take_over(const ConstrainFirstProjection& other, bool goes_on) {
   if (!goes_on) forget_motion();
   conormals_.take_over(other.conormals_);
   directions_.take_over(other.directions_);
@@ -293,8 +295,8 @@ void ConstrainFirst::Projection::take_over(const Projection& other, bool goes_on
   is_turned_ = false;
 }
 
-void ConstrainFirst::Projection::learn_from(const Projection& other,
-                                            const Stepper::Companion& companion) {
+void ConstrainFirstProjection::learn_from(const ConstrainFirstProjection& other,
+                                          const Stepper::Companion& companion) {
   const double ratio = companion.ratio, times = companion.at_end;
   if (times == 0.0 || is_explicit_) return;
   end_.learn_from(other.end_, times_of(times, ratio, 0));
@@ -302,26 +304,25 @@ void ConstrainFirst::Projection::learn_from(const Projection& other,
 }
 
 // Steps end off M_f by what goes like their squares.
-VectorXd ConstrainFirst::Projection::times_of(double times, double ratio,
-                                              Index displacements) const {
+VectorXd ConstrainFirstProjection::times_of(double times, double ratio, Index displacements) const {
   VectorXd all = VectorXd::Constant(solver_.unknown().size(), times);
   all.head(displacements) *= ratio;
   all.tail(d_) *= ratio * ratio;
   return all;
 }
 
-void ConstrainFirst::Projection::discard() {
+void ConstrainFirstProjection::discard() {
   conormals_.discard();
   directions_.discard();
   is_turned_ = false;
 }
 
-void ConstrainFirst::Projection::forget_motion() {
+void ConstrainFirstProjection::forget_motion() {
   end_.forget();
   shift_.forget();
 }
 
-void ConstrainFirst::Projection::forget() {
+void ConstrainFirstProjection::forget() {
   solver_.forget();
   forget_motion();
   conormals_.forget();

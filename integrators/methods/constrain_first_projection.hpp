@@ -4,7 +4,7 @@
 #include <array>
 #include <limits>
 
-#include "courant/integrators/methods/constrain_first.hpp"
+#include "courant/integrators/methods/constrain_first_functions.hpp"
 #include "courant/integrators/step/moving_basis.hpp"
 #include "courant/integrators/step/moving_conormals.hpp"
 #include "courant/integrators/step/moving_directions.hpp"
@@ -20,10 +20,10 @@ namespace courant {
 // for (ξ, ξ', …, z, …, μ), where ξ is x in the chart at a guess of it. W is taken at the last iterate,
 // until that no longer changes. Where x will be, and the other unknowns, are foreseen from the points
 // before. Holds workspace: one object a trajectory, whose basis of tangent vectors it moves.
-class ConstrainFirst::Projection {
+class ConstrainFirstProjection {
  public:
-  // `method` and `basis` outlive this object.
-  Projection(const ConstrainFirst& method, MovingBasis& basis);
+  // `functions` and `basis` outlive this object.
+  ConstrainFirstProjection(const ConstrainFirstFunctions& functions, MovingBasis& basis);
 
   // A step that leads to a point near M_f.
   struct Approach {
@@ -52,9 +52,9 @@ class ConstrainFirst::Projection {
   bool accept(const VectorXd& x);
   // The next step begins where the other one's last accept() was; the basis is there already, or was
   // made afresh on the way (`goes_on` false).
-  void take_over(const Projection& other, bool goes_on);
+  void take_over(const ConstrainFirstProjection& other, bool goes_on);
   // As of Stepper, at the ends of steps.
-  void learn_from(const Projection& other, const Stepper::Companion& companion);
+  void learn_from(const ConstrainFirstProjection& other, const Stepper::Companion& companion);
   // For each unknown of a step, or of a projection, what `times` becomes for steps of this ratio; so many of the first are
   // displacements.
   VectorXd times_of(double times, double ratio, Index displacements) const;
@@ -70,7 +70,8 @@ class ConstrainFirst::Projection {
   // of `before`.
   static std::array<double, 4> scales(const State& before, double h, double besides = 0.0);
   // Sizes of the groups of unknowns that are extrapolated apart: tangent vectors, and the rest.
-  static std::vector<Index> predicted_groups(const ConstrainFirst& method, Index unknowns);
+  static std::vector<Index> predicted_groups(const ConstrainFirstFunctions& functions,
+                                             Index unknowns);
 
  private:
   void clear_places(VectorXd& y) const;
@@ -80,7 +81,7 @@ class ConstrainFirst::Projection {
   void move_basis(const VectorXd& x, VectorXd& y);
   void aim(const VectorXd& x, const VectorXd& y, double t);
 
-  const ConstrainFirst& method_;
+  const ConstrainFirstFunctions& functions_;
   Index n_, d_, rest_;
   StepSolver solver_;
   bool is_explicit_;  // formulas give what is found: nothing is foreseen

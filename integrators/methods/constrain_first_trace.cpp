@@ -108,12 +108,12 @@ std::vector<std::string> chosen_names(const std::vector<std::string>& names,
 }  // namespace
 
 // What steps can do without.
-ConstrainFirst::Omissions ConstrainFirst::Trace::omissions(const ConstrainFirst& method,
-                                                           const LocalFormulation& local) const {
-  const ImplicitSystem& S = *method.system();
-  const ConstraintLadder& ladder = *method.ladder_;
+ConstrainFirstScheme::Omissions ConstrainFirstTrace::omissions(
+    const ConstrainFirstScheme& scheme, const LocalFormulation& local) const {
+  const ImplicitSystem& S = *scheme.system;
+  const ConstraintLadder& ladder = *scheme.ladder;
   Omissions result;
-  if (method.gauge_dimension_ > 0) return result;
+  if (scheme.gauge_dimension() > 0) return result;
   const StepNames called(S);
   const LinearMap<double> B = S.manifold()->tangent_basis(ladder.point.x);
   const std::vector<VectorXd> at_point = {ladder.point.x, B.entries().reshaped(),
@@ -128,7 +128,7 @@ ConstrainFirst::Omissions ConstrainFirst::Trace::omissions(const ConstrainFirst&
   const VectorXd origin = VectorXd::Zero(xi.size());
   const Derivatives all(local, constraints, ladder.jet, called, JetRole::asked_for);
   const std::vector<Index> named = equations_in_dependences(S, ladder);
-  if (!method.keeps_all_equations_ && !named.empty() &&
+  if (!scheme.keeps_all_equations && !named.empty() &&
       xi.size() + all.symbols.size() <= kManyUnknowns) {
     const Function F(
         "dependences",
@@ -161,18 +161,20 @@ ConstrainFirst::Omissions ConstrainFirst::Trace::omissions(const ConstrainFirst&
 }
 
 // S_f without what follows from the rest, or is open there.
-void ConstrainFirst::Trace::describe(const ConstrainFirst& method, const LocalFormulation& local) {
-  const StepNames called(*method.system());
+void ConstrainFirstTrace::describe(const ConstrainFirstScheme& scheme,
+                                   const LocalFormulation& local,
+                                   const std::optional<Omissions>& known) {
+  const StepNames called(*scheme.system);
   constraints = local.nonzero_equations();
   constraint_names = called.equations(local);
-  omitted = method.omitted_ ? *method.omitted_ : omissions(method, local);
+  omitted = known ? *known : omissions(scheme, local);
   step.redundant = chosen_names(constraint_names, omitted.redundant);
   redundant = constraints(omitted.redundant);
   const std::vector<Index> kept = complement(omitted.redundant, constraints.size());
   constraint_names = chosen_names(constraint_names, kept);
   constraints = constraints(kept).eval();
 
-  const Derivatives y(local, constraints, method.ladder_->jet, called, JetRole::asked_for);
+  const Derivatives y(local, constraints, scheme.ladder->jet, called, JetRole::asked_for);
   const std::vector<Index> left = complement(omitted.open.equations, constraints.size());
   step.left_out = chosen_names(constraint_names, omitted.open.equations);
   constraint_names = chosen_names(constraint_names, left);
@@ -204,18 +206,19 @@ void ConstrainFirst::Trace::describe(const ConstrainFirst& method, const LocalFo
   redundant = tried(tests);
 }
 
-MovingConormals::Formulas ConstrainFirst::Trace::conormals() const {
+MovingConormals::Formulas ConstrainFirstTrace::conormals() const {
   return MovingConormals::trace(step.graph, constraints, jets, dimension, codimension,
                                 {{"x0", x0}, {"basis", basis_entries}, {"t", t}}, conormal_sizes);
 }
 
-ConstrainFirst::Trace::Trace(const ConstrainFirst& method) {
-  const ImplicitSystem& S = *method.system();
-  const DiscretizationMap& map = *method.map_;
+ConstrainFirstTrace::ConstrainFirstTrace(const ConstrainFirstScheme& scheme,
+                                         const std::optional<Omissions>& known) {
+  const ImplicitSystem& S = *scheme.system;
+  const DiscretizationMap& map = *scheme.map;
   const Manifold& M = *S.manifold();
-  const Index n = dimension = M.dimension(), d = codimension = method.codimension_;
+  const Index n = dimension = M.dimension(), d = codimension = scheme.codimension();
   const Graph& graph = step.graph;
-  conormal_sizes = method.projector_->conormal_sizes();
+  conormal_sizes = scheme.projector->conormal_sizes();
   x0 = graph.variables("x0", M.ambient_dimension());
   const LinearMap<Expr> basis = basis_variables(graph, M);
   basis_entries = basis_parameters(basis);
@@ -223,12 +226,12 @@ ConstrainFirst::Trace::Trace(const ConstrainFirst& method) {
   const ExprVector h = graph.variables("h", 1);
   const ExprVector directions = graph.variables("W", n * d);
   const ExprVector mu = graph.variables("mu", d);
-  const ExprMatrix W = method.fixed_directions_.size() > 0
-                           ? constants(method.fixed_directions_)
+  const ExprMatrix W = scheme.fixed_directions.size() > 0
+                           ? constants(scheme.fixed_directions)
                            : ExprMatrix(Eigen::Map<const ExprMatrix>(directions.data(), n, d));
   const ExprVector shift = W * mu;
-  const LocalFormulation local(graph, S, x0, basis, t[0], method.differentiations_);
-  describe(method, local);
+  const LocalFormulation local(graph, S, x0, basis, t[0], scheme.ladder->differentiations);
+  describe(scheme, local, known);
   const auto [tangents, orders] = contained_jets(local, constraints);
   blocks = tangents;
   std::vector<ExprVector> parts(local.xi.begin(), local.xi.begin() + blocks);
@@ -243,7 +246,7 @@ ConstrainFirst::Trace::Trace(const ConstrainFirst& method) {
   for (Index k = 0; k < orders; ++k) append(unknowns, names.auxiliary(k));
   append(unknowns, StepNames::numbered("mu", d));
 
-  step.name = method.name();
+  step.name = scheme.name();
   const auto ends = map.forward(local.x, ExprVector(h[0] * local.v));
   const ExprVector moved = M.chart(x0, basis, shift);
   const ExprVector at_start = M.coframe(x0) * ExprVector(ends.first - moved);
@@ -259,7 +262,7 @@ ConstrainFirst::Trace::Trace(const ConstrainFirst& method) {
   append(step.equation_names, constraint_names);
   advanced = joined({ends.second, local.x, local.v});
   // Of what is not determined the solver takes the least change, in all unknowns.
-  step.eliminates = method.gauge_dimension_ == 0;
+  step.eliminates = scheme.gauge_dimension() == 0;
   // ξ and μ are displacements of the state, ξ' its rate; the rest converges with them.
   step.elimination.never_zero = h;
   auto& coarseness = step.elimination.coarseness;
@@ -268,7 +271,7 @@ ConstrainFirst::Trace::Trace(const ConstrainFirst& method) {
   std::fill_n(coarseness.rbegin(), d, 0);
 
   projection = step;
-  projection.name = method.name() + ", projection";
+  projection.name = scheme.name() + ", projection";
   near = graph.variables("near", M.ambient_dimension());
   const ExprVector along = M.tangent_projector(local.x) * ExprVector(basis * shift);
   const ExprVector distance = M.coframe(x0) * ExprVector(M.retract(local.x, along) - near);

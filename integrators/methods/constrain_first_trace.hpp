@@ -2,15 +2,19 @@
 #pragma once
 
 #include "courant/integrators/certificate/local_formulation.hpp"
-#include "courant/integrators/methods/constrain_first.hpp"
-#include "courant/integrators/step/open_jets.hpp"
+#include "courant/integrators/methods/constrain_first_scheme.hpp"
+#include "courant/integrators/step/moving_conormals.hpp"
 #include "courant/integrators/step/step_formulas.hpp"
 
 namespace courant {
 
 // The formulas of a step and of the projection that follows it.
-struct ConstrainFirst::Trace {
-  explicit Trace(const ConstrainFirst& method);
+struct ConstrainFirstTrace {
+  using Omissions = ConstrainFirstScheme::Omissions;
+
+  // Without `known`, what steps can do without is found.
+  explicit ConstrainFirstTrace(const ConstrainFirstScheme& scheme,
+                               const std::optional<Omissions>& known = std::nullopt);
 
   StepFormulas step, projection;
   Omissions omitted;     // what `constraints` are without, of S_f as LocalFormulation has it
@@ -29,8 +33,9 @@ struct ConstrainFirst::Trace {
   MovingConormals::Formulas conormals() const;
 
  private:
-  Omissions omissions(const ConstrainFirst& method, const LocalFormulation& local) const;
-  void describe(const ConstrainFirst& method, const LocalFormulation& local);
+  Omissions omissions(const ConstrainFirstScheme& scheme, const LocalFormulation& local) const;
+  void describe(const ConstrainFirstScheme& scheme, const LocalFormulation& local,
+                const std::optional<Omissions>& known);
 };
 
 }  // namespace courant

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/core/linear/generalized_eigenvalues.hpp"
 #include "courant/core/linear/lu_decomposition.hpp"
 #include "courant/core/linear/qr_decomposition.hpp"
-#include "courant/core/linear/rank_decision.hpp"
 #include "courant/core/words/message.hpp"
 
 namespace courant {

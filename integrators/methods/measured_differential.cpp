@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "courant/core/linear/rank_decision.hpp"
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/structures/dirac_interconnection.hpp"
 #include "courant/structures/system_in_units.hpp"
 

@@ -6,7 +6,7 @@
 #include "courant/core/expressions/expr_vectors.hpp"
 #include "courant/core/expressions/graph_parameters.hpp"
 #include "courant/core/linear/complete_orthogonal_decomposition.hpp"
-#include "courant/core/linear/rank_decision.hpp"
+#include "courant/core/linear/fundamental_subspaces.hpp"
 
 namespace courant {
 namespace {

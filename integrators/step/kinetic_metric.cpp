@@ -8,7 +8,7 @@
 #include "courant/core/expressions/graph_parameters.hpp"
 #include "courant/core/expressions/linear_algebra.hpp"
 #include "courant/core/linear/cholesky_decomposition.hpp"
-#include "courant/core/linear/rank_decision.hpp"
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/structures/dirac_system.hpp"
 
 namespace courant {

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "courant/core/linear/equilibration.hpp"
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/core/linear/matching.hpp"
 #include "courant/core/linear/qr_decomposition.hpp"
-#include "courant/core/linear/rank_decision.hpp"
 #include "courant/core/linear/regular_matrix.hpp"
 
 namespace courant {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "courant/core/linear/equilibration.hpp"
-#include "courant/core/linear/rank_decision.hpp"
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/core/linear/regular_matrix.hpp"
 
 namespace courant {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "courant/core/linear/equilibration.hpp"
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/core/linear/lu_decomposition.hpp"
-#include "courant/core/linear/rank_decision.hpp"
 #include "courant/core/words/message.hpp"
 
 namespace courant {

@@ -3,7 +3,7 @@
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/core/expressions/expr_vectors.hpp"
 #include "courant/core/linear/equilibration.hpp"
-#include "courant/core/linear/rank_decision.hpp"
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/core/linear/singular_value_decomposition.hpp"
 #include "courant/integrators/step/step_differential.hpp"
 

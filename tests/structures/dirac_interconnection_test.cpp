@@ -6,6 +6,8 @@
 #include <random>
 #include <vector>
 
+#include "courant/core/linear/fundamental_subspaces.hpp"
+
 namespace courant {
 BOOST_AUTO_TEST_SUITE(dirac_interconnection_test)
 

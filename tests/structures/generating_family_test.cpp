@@ -6,7 +6,7 @@
 
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/core/linear/complete_orthogonal_decomposition.hpp"
-#include "courant/core/linear/rank_decision.hpp"
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/special_orthogonal3.hpp"
 #include "courant/manifolds/sphere.hpp"

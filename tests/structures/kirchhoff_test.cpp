@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <random>
 
+#include "courant/core/linear/fundamental_subspaces.hpp"
+#include "courant/core/linear/sparse_rank_decision.hpp"
 #include "courant/structures/dirac_interconnection.hpp"
 #include "courant/structures/kirchhoff_laws.hpp"
 

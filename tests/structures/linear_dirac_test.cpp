@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/core/linear/lu_decomposition.hpp"
 #include "courant/core/linear/qr_decomposition.hpp"
 

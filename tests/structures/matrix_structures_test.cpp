@@ -4,6 +4,7 @@
 #include <random>
 
 #include "catalogue.hpp"
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/core/linear/lu_decomposition.hpp"
 #include "courant/core/linear/qr_decomposition.hpp"
 #include "courant/manifolds/euclidean.hpp"

@@ -4,6 +4,8 @@
 #include <random>
 #include <sstream>
 
+#include "courant/core/linear/fundamental_subspaces.hpp"
+
 namespace courant {
 // Mistakes that these cases have to notice:
 //  * a sum doubts as little as the better of its parts

@@ -1,5 +1,3 @@
-#include "courant/core/linear/rank_decision.hpp"
-
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -8,7 +6,9 @@
 #include <random>
 #include <sstream>
 
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/core/linear/qr_decomposition.hpp"
+#include "courant/core/linear/sparse_rank_decision.hpp"
 
 namespace courant {
 BOOST_AUTO_TEST_SUITE(rank_decision_test)

@@ -1,10 +1,12 @@
+#include "courant/core/linear/sparse_rank_decision.hpp"
+
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <limits>
 #include <random>
 #include <vector>
 
-#include "courant/core/linear/rank_decision.hpp"
+#include "courant/core/linear/fundamental_subspaces.hpp"
 
 namespace courant {
 BOOST_AUTO_TEST_SUITE(sparse_rank_decision_test)

@@ -5,9 +5,11 @@
 #include <limits>
 #include <random>
 
+#include "courant/core/linear/uncertain_rank.hpp"
+
 namespace courant {
 // Mistakes that these cases have to notice:
-//  * errors of other entries hide a small pivot (core/linear/uncertain_matrix.cpp)
+//  * errors of other entries hide a small pivot (core/linear/uncertain_rank.cpp)
 //  * a pivot that may be zero counts
 //  * elimination forgets errors of entries that are zero within them
 BOOST_AUTO_TEST_SUITE(uncertain_elimination_test)

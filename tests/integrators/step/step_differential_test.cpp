@@ -4,6 +4,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "../example_systems.hpp"
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/integrators/maps/theta.hpp"
 #include "courant/integrators/methods/composition.hpp"
 #include "courant/integrators/methods/constrain_first.hpp"

@@ -1,10 +1,11 @@
-#include "courant/core/linear/uncertain_matrix.hpp"
+#include "courant/core/linear/uncertain_rank.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <limits>
 #include <random>
 
+#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/core/linear/singular_value_decomposition.hpp"
 
 namespace courant {
@@ -13,7 +14,7 @@ namespace courant {
 //  * a pivot is taken that hides numbers in errors
 //  * no scales heed errors
 //  * errors times 10⁸ leave the range of doubles
-BOOST_AUTO_TEST_SUITE(uncertain_matrix_test)
+BOOST_AUTO_TEST_SUITE(uncertain_rank_test)
 
 namespace {
 
