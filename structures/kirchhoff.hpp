@@ -1,14 +1,16 @@
 // Kirchhoff: the Dirac structure of the currents and voltages of a circuit graph.
 #pragma once
 
+#include <Eigen/SparseCore>
 #include <vector>
 
-#include "courant/core/linear/equilibration.hpp"
 #include "courant/structures/circuit_graph.hpp"
 #include "courant/structures/dirac_representations.hpp"
 #include "courant/structures/linear_dirac.hpp"
 
 namespace courant {
+
+using SparseMatrixXd = Eigen::SparseMatrix<double>;
 
 // The currents i ∈ V = R^m and voltages v ∈ V* of the m elements of a graph with N nodes and c
 // components that obey Kirchhoff's laws, A the incidence matrix (+1 at the source of an element, -1

@@ -1,15 +1,17 @@
 // Network: branches between nodes, Kirchhoff's laws and the energy that is stored.
 #pragma once
 
+#include <Eigen/SparseCore>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "courant/core/linear/equilibration.hpp"
 #include "courant/structures/port_system.hpp"
 
 namespace courant {
+
+using SparseMatrixXd = Eigen::SparseMatrix<double>;
 
 class Kirchhoff;
 class NetworkVariables;

@@ -7,6 +7,7 @@
 #include "courant/core/linear/sparse_rank_decision.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/integrators/certificate/constraint_algorithm.hpp"
+#include "courant/integrators/certificate/derivative_array.hpp"
 #include "courant/integrators/certificate/natural_scaling.hpp"
 
 namespace courant {
@@ -35,14 +36,16 @@ VectorXd reach(const DerivativeArray& array, const VectorXd& y) {
 
 LadderWatch::LadderWatch(std::shared_ptr<const ImplicitSystem> system,
                          const ConstraintLadder& start)
-    : system_(std::move(system)), start_(start), array_(system_, start.point.t, start.point.x) {
-  const GenericScaling scaling(array_, start.jet, reach(array_, start.jet));
+    : system_(std::move(system)),
+      start_(start),
+      array_(std::make_shared<const DerivativeArray>(system_, start.point.t, start.point.x)) {
+  const GenericScaling scaling(*array_, start.jet, reach(*array_, start.jet));
   row_scale_ = scaling.row_scale;
   column_scale_ = scaling.column_scale;
 }
 
 VectorXd LadderWatch::smallest_counted(const ConstraintLadder& now) const {
-  const DerivativeArray there = array_.at(now.point.t, now.point.x);
+  const DerivativeArray there = array_->at(now.point.t, now.point.x);
   const SparseMatrixXd J =
       row_scale_.asDiagonal() * there.linearize(now.jet).jacobian * column_scale_.asDiagonal();
   const Index n = there.base_size();

@@ -6,10 +6,11 @@
 #include <utility>
 
 #include "courant/integrators/certificate/constraint_ladder.hpp"
-#include "courant/integrators/certificate/derivative_array.hpp"
 #include "courant/structures/implicit_system.hpp"
 
 namespace courant {
+
+class DerivativeArray;
 
 // Runs the constraint algorithm again at states of a trajectory and says when the ladder that the
 // method was built on no longer holds:
@@ -49,7 +50,7 @@ class LadderWatch {
 
   std::shared_ptr<const ImplicitSystem> system_;
   ConstraintLadder start_;
-  DerivativeArray array_;
+  std::shared_ptr<const DerivativeArray> array_;
   VectorXd row_scale_, column_scale_;  // of the Jacobian at the start
   Memory memory_;
 };

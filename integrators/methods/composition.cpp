@@ -10,6 +10,7 @@
 #include "courant/integrators/methods/composed_differential.hpp"
 #include "courant/integrators/methods/verlet.hpp"
 #include "courant/integrators/step/step_parts.hpp"
+#include "courant/integrators/step/step_program.hpp"
 
 namespace courant {
 namespace {

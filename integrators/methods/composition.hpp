@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "courant/integrators/step/integrator.hpp"
-#include "courant/integrators/step/step_program.hpp"
+#include "courant/integrators/step/programmed.hpp"
 
 namespace courant {
 

@@ -6,6 +6,7 @@
 #include "courant/integrators/methods/constrain_first_projection.hpp"
 #include "courant/integrators/methods/constrain_first_trace.hpp"
 #include "courant/integrators/step/round_off_projection.hpp"
+#include "courant/integrators/step/step_program.hpp"
 
 namespace courant {
 

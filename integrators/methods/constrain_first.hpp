@@ -5,7 +5,7 @@
 #include "courant/integrators/maps/discretization_map.hpp"
 #include "courant/integrators/step/integrator.hpp"
 #include "courant/integrators/step/kinetic_projector.hpp"
-#include "courant/integrators/step/step_program.hpp"
+#include "courant/integrators/step/programmed.hpp"
 #include "courant/structures/implicit_system.hpp"
 
 namespace courant {

@@ -1,7 +1,9 @@
 #include "courant/integrators/methods/discrete_gradient.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
+#include "courant/integrators/step/stage_step.hpp"
 #include "courant/structures/explicit_energy.hpp"
 
 namespace courant {
@@ -67,7 +69,28 @@ DiscreteGradient::DiscreteGradient(std::shared_ptr<const ImplicitSystem> system,
                                  : throw std::invalid_argument(
                                        "DiscreteGradient::DiscreteGradient: the differential is "
                                        "missing.")),
-      step_(name(), this->system(), map,
-            method(checked(this->system()), map, differential_, options.units), options.backend) {}
+      step_(std::make_shared<const StageStep>(
+          name(), this->system(), map,
+          method(checked(this->system()), map, differential_, options.units), options.backend)) {}
+
+int DiscreteGradient::order() const {
+  return std::min(step_->map().order(), differential_->order());
+}
+
+bool DiscreteGradient::is_symmetric() const {
+  return step_->map().is_symmetric() && differential_->is_symmetric();
+}
+
+bool DiscreteGradient::is_native() const { return step_->is_native(); }
+
+StepProgram DiscreteGradient::program() const { return step_->program(); }
+
+std::unique_ptr<Stepper> DiscreteGradient::do_stepper() const { return step_->stepper(); }
+
+std::vector<StepFormulas> DiscreteGradient::do_formulas() const { return {step_->formulas()}; }
+
+std::shared_ptr<const StepDifferential> DiscreteGradient::do_differential() const {
+  return step_->differential();
+}
 
 }  // namespace courant

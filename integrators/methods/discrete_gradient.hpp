@@ -1,14 +1,15 @@
 // Discrete gradients: steps with an exact balance of energy.
 #pragma once
 
-#include <algorithm>
-
+#include "courant/integrators/maps/discretization_map.hpp"
 #include "courant/integrators/methods/discrete_differential.hpp"
 #include "courant/integrators/step/integrator.hpp"
-#include "courant/integrators/step/stage_step.hpp"
+#include "courant/integrators/step/programmed.hpp"
 #include "courant/structures/energy_system.hpp"
 
 namespace courant {
+
+class StageStep;
 
 // Method 1 with a discrete differential of E in the place of dE(x̄) (Section 7.1, end): with the
 // equations G of an EnergySystem and (x̄, h v) = R_d⁻¹(x₀, x₁),
@@ -47,23 +48,19 @@ class DiscreteGradient final : public Integrator, public Programmed {
       : DiscreteGradient(std::move(system), std::move(map), std::move(differential), Options()) {}
 
   std::string name() const override { return "discrete-gradient"; }
-  int order() const override { return std::min(step_.map().order(), differential_->order()); }
-  bool is_symmetric() const override {
-    return step_.map().is_symmetric() && differential_->is_symmetric();
-  }
+  int order() const override;
+  bool is_symmetric() const override;
   bool has_exact_energy() const override { return true; }
-  bool is_native() const override { return step_.is_native(); }
-  StepProgram program() const override { return step_.program(); }
+  bool is_native() const override;
+  StepProgram program() const override;
 
  private:
-  std::unique_ptr<Stepper> do_stepper() const override { return step_.stepper(); }
-  std::vector<StepFormulas> do_formulas() const override { return {step_.formulas()}; }
-  std::shared_ptr<const StepDifferential> do_differential() const override {
-    return step_.differential();
-  }
+  std::unique_ptr<Stepper> do_stepper() const override;
+  std::vector<StepFormulas> do_formulas() const override;
+  std::shared_ptr<const StepDifferential> do_differential() const override;
 
   std::shared_ptr<const DiscreteDifferential> differential_;
-  StageStep step_;
+  std::shared_ptr<const StageStep> step_;
 };
 
 }  // namespace courant

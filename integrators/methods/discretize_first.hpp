@@ -1,10 +1,13 @@
 // Method 1: discretize first.
 #pragma once
 
+#include "courant/integrators/maps/discretization_map.hpp"
 #include "courant/integrators/step/integrator.hpp"
-#include "courant/integrators/step/stage_step.hpp"
+#include "courant/integrators/step/programmed.hpp"
 
 namespace courant {
+
+class StageStep;
 
 // The discrete system (S₀)_d^h = {(x₀, x₁) ∈ M × M : (1/h) R_d⁻¹(x₀, x₁) ∈ S} of an implicit system
 // as a one-step method (Option 1 of Section 5.2, equations (3), (12), (28), (30), (36)-(38)): a
@@ -23,27 +26,21 @@ class DiscretizeFirst final : public Integrator, public Programmed {
       : DiscretizeFirst(std::move(system), std::move(map), Options()) {}
 
   std::string name() const override { return "discretize-first"; }
-  int order() const override { return step_.map().order(); }
-  bool is_symmetric() const override { return step_.map().is_symmetric(); }
+  int order() const override;
+  bool is_symmetric() const override;
   // A symplectic map takes the Lagrangian submanifold S to one of T*Q × T*Q, the graph of a
   // symplectic map (Section 5.1.1): a claim about the two together. Of other systems, those with
   // damping say, nothing is known.
-  std::optional<bool> is_symplectic() const override {
-    if (step_.map().is_symplectic().value_or(false) && system()->is_lagrangian().value_or(false))
-      return true;
-    return std::nullopt;
-  }
-  bool is_native() const override { return step_.is_native(); }
-  StepProgram program() const override { return step_.program(); }
+  std::optional<bool> is_symplectic() const override;
+  bool is_native() const override;
+  StepProgram program() const override;
 
  private:
-  std::unique_ptr<Stepper> do_stepper() const override { return step_.stepper(); }
-  std::vector<StepFormulas> do_formulas() const override { return {step_.formulas()}; }
-  std::shared_ptr<const StepDifferential> do_differential() const override {
-    return step_.differential();
-  }
+  std::unique_ptr<Stepper> do_stepper() const override;
+  std::vector<StepFormulas> do_formulas() const override;
+  std::shared_ptr<const StepDifferential> do_differential() const override;
 
-  StageStep step_;
+  std::shared_ptr<const StageStep> step_;
 };
 
 }  // namespace courant

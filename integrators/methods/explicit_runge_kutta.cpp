@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "courant/core/words/message.hpp"
+#include "courant/integrators/step/step_program.hpp"
 #include "courant/integrators/step/vector_field_differential.hpp"
 
 namespace courant {
@@ -34,6 +35,39 @@ StepProgram::Explicit fehlberg_tableau() {
                     2193.0 / 4100.0, 51.0 / 82.0, 33.0 / 164.0, 12.0 / 41.0, 0.0, 1.0},
                    {0.0, 0.0, 0.0, 0.0, 0.0, 34.0 / 105.0, 9.0 / 35.0, 9.0 / 35.0, 9.0 / 280.0,
                     9.0 / 280.0, 0.0, 41.0 / 840.0, 41.0 / 840.0}}};
+}
+
+StepProgram::Explicit tableau_of(ExplicitRungeKutta::Kind kind, const VectorFieldFormulas& field) {
+  using Kind = ExplicitRungeKutta::Kind;
+  StepProgram::Explicit tableau;
+  switch (kind) {
+    case Kind::midpoint:
+      tableau = {.times = {0.0, 0.5}, .rows = {{0.5}, {0.0, 1.0}}};
+      break;
+    case Kind::classical:
+      tableau = {
+          .times = {0.0, 0.5, 0.5, 1.0},
+          .rows = {
+              {0.5}, {0.0, 0.5}, {0.0, 0.0, 1.0}, {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0}}};
+      break;
+    case Kind::dormand_prince:
+      tableau = {.times = {0.0, 1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0},
+                 .rows = {{1.0 / 5.0},
+                          {3.0 / 40.0, 9.0 / 40.0},
+                          {44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0},
+                          {19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0},
+                          {9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0,
+                           -5103.0 / 18656.0},
+                          {35.0 / 384.0, std::nullopt, 500.0 / 1113.0, 125.0 / 192.0,
+                           -2187.0 / 6784.0, 11.0 / 84.0}},
+                 .keeps_rate = true};
+      break;
+    case Kind::fehlberg:
+      tableau = fehlberg_tableau();
+      break;
+  }
+  tableau.field = &field;
+  return tableau;
 }
 
 class Trajectory final : public Stepper {
@@ -145,38 +179,6 @@ int ExplicitRungeKutta::order() const {
   return 8;
 }
 
-StepProgram::Explicit ExplicitRungeKutta::tableau() const {
-  StepProgram::Explicit tableau;
-  switch (kind_) {
-    case Kind::midpoint:
-      tableau = {.times = {0.0, 0.5}, .rows = {{0.5}, {0.0, 1.0}}};
-      break;
-    case Kind::classical:
-      tableau = {
-          .times = {0.0, 0.5, 0.5, 1.0},
-          .rows = {
-              {0.5}, {0.0, 0.5}, {0.0, 0.0, 1.0}, {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0}}};
-      break;
-    case Kind::dormand_prince:
-      tableau = {.times = {0.0, 1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0},
-                 .rows = {{1.0 / 5.0},
-                          {3.0 / 40.0, 9.0 / 40.0},
-                          {44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0},
-                          {19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0},
-                          {9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0,
-                           -5103.0 / 18656.0},
-                          {35.0 / 384.0, std::nullopt, 500.0 / 1113.0, 125.0 / 192.0,
-                           -2187.0 / 6784.0, 11.0 / 84.0}},
-                 .keeps_rate = true};
-      break;
-    case Kind::fehlberg:
-      tableau = fehlberg_tableau();
-      break;
-  }
-  tableau.field = &field_->formulas();
-  return tableau;
-}
-
 StepProgram ExplicitRungeKutta::program() const {
   const SpaceFormulas space(*system()->manifold());
   if (space.has_basis() || space.has_equations())
@@ -184,7 +186,7 @@ StepProgram ExplicitRungeKutta::program() const {
                                 ", where its steps are known as formulas to no program; expected a "
                                 "system on Rⁿ or a torus");
   StepProgram program{.method = name()};
-  program.explicit_steps = tableau();
+  program.explicit_steps = tableau_of(kind_, field_->formulas());
   return program;
 }
 
@@ -197,7 +199,7 @@ class ExplicitRungeKutta::Differential final : public StepDifferential {
 
  private:
   MatrixXd do_images(const Step& step, const MatrixXd& V) const override {
-    const StepProgram::Explicit tableau = method_.tableau();
+    const StepProgram::Explicit tableau = tableau_of(method_.kind_, method_.field_->formulas());
     VectorField::Evaluation evaluate(*method_.field_);
     evaluate.start(step.before);
     std::vector<VectorXd> rates;
@@ -237,7 +239,7 @@ std::shared_ptr<const StepDifferential> ExplicitRungeKutta::do_differential() co
 }
 
 std::unique_ptr<Stepper> ExplicitRungeKutta::do_stepper() const {
-  return std::make_unique<Trajectory>(field_, name(), tableau());
+  return std::make_unique<Trajectory>(field_, name(), tableau_of(kind_, field_->formulas()));
 }
 
 }  // namespace courant

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "courant/integrators/step/integrator.hpp"
-#include "courant/integrators/step/step_program.hpp"
+#include "courant/integrators/step/programmed.hpp"
 #include "courant/integrators/step/vector_field.hpp"
 
 namespace courant {
@@ -32,7 +32,6 @@ class ExplicitRungeKutta final : public Integrator, public Programmed {
 
   std::unique_ptr<Stepper> do_stepper() const override;
   std::shared_ptr<const StepDifferential> do_differential() const override;
-  StepProgram::Explicit tableau() const;
 
   std::shared_ptr<const VectorField> field_;
   Kind kind_;

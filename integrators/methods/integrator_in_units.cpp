@@ -7,6 +7,7 @@
 #include "courant/integrators/step/natural_units.hpp"
 #include "courant/integrators/step/step_differential.hpp"
 #include "courant/integrators/step/step_parts.hpp"
+#include "courant/integrators/step/step_program.hpp"
 
 namespace courant {
 namespace {

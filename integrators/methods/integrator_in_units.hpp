@@ -2,7 +2,7 @@
 #pragma once
 
 #include "courant/integrators/methods/wrapping_integrator.hpp"
-#include "courant/integrators/step/step_program.hpp"
+#include "courant/integrators/step/programmed.hpp"
 #include "courant/structures/system_in_units.hpp"
 
 namespace courant {

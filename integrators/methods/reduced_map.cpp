@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "courant/core/expressions/expr_vectors.hpp"
+#include "courant/core/solve/equation_system.hpp"
 #include "courant/core/solve/gauss_newton.hpp"
 #include "courant/integrators/step/displacement_stepper.hpp"
 #include "courant/integrators/step/step_names.hpp"
@@ -13,7 +14,7 @@ class ReducedMap::Trajectory final : public DisplacementStepper {
  public:
   explicit Trajectory(const ReducedMap& method)
       : DisplacementStepper(method.name(), method.system(),
-                            {.equations = method.equations_,
+                            {.equations = *method.equations_,
                              .whole = method.whole_,
                              .advance = method.advance_,
                              .constraint = method.constraint_,
@@ -224,13 +225,15 @@ ReducedMap::ReducedMap(std::shared_ptr<const DiracSystem> system,
   const Trace trace(*this);
   const Backend backend = options.backend.together();
   contained_ = trace.formulas.contained(1);
-  equations_ = trace.formulas.compile(backend);
-  whole_ = trace.formulas.followed(equations_);
+  equations_ = std::make_shared<const EquationSystem>(trace.formulas.compile(backend));
+  whole_ = trace.formulas.followed(*equations_);
   advance_ = Function("advance", trace.formulas.inputs, trace.advanced, {.backend = backend});
   rate_ = Function("rate", trace.start_inputs, trace.start, {.backend = backend});
   constraint_ = RoundOffProjection::constraint(*reduced_->manifold(), backend);
   backend.compile();
 }
+
+bool ReducedMap::is_native() const { return equations_->is_native(); }
 
 std::unique_ptr<Stepper> ReducedMap::do_stepper() const {
   return std::make_unique<Trajectory>(*this);

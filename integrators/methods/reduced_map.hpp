@@ -3,7 +3,6 @@
 
 #include <memory>
 
-#include "courant/core/solve/equation_system.hpp"
 #include "courant/integrators/maps/cotangent_lift.hpp"
 #include "courant/integrators/step/integrator.hpp"
 #include "courant/structures/dirac_system.hpp"
@@ -11,6 +10,8 @@
 #include "courant/structures/lie_poisson.hpp"
 
 namespace courant {
+
+class EquationSystem;
 
 // Method 1 with the cotangent lift of a left-invariant discretization map R_d on G, for a
 // left-invariant system on T*G, or one on T*G × V* whose energy G leaves invariant, reduced to
@@ -57,7 +58,7 @@ class ReducedMap final : public Integrator {
   std::string name() const override { return "reduced"; }
   int order() const override { return map_->order(); }
   bool is_symmetric() const override { return map_->is_symmetric(); }
-  bool is_native() const override { return equations_.is_native(); }
+  bool is_native() const override;
 
  private:
   class Differential;
@@ -73,8 +74,8 @@ class ReducedMap final : public Integrator {
   std::shared_ptr<const DiscretizationMap> map_;
   GroupAction action_;
   std::vector<Index> contained_;  // the coordinates of x₀ that the equations contain
-  EquationSystem equations_;      // y = (w, Δμ, z); x₀, h, t ↦ residual
-  Function whole_;                // the same without elimination, unless it is affine
+  std::shared_ptr<const EquationSystem> equations_;  // y = (w, Δμ, z); x₀, h, t ↦ residual
+  Function whole_;       // the same without elimination, unless it is affine
   Function advance_;     // the same ↦ (μ₁, a₁, x₁), its rate at the stage, (p̄, ā, x̄)
   Function rate_;        // x₀, z, t ↦ v/h and dμ/dt there
   Function constraint_;  // of RoundOffProjection

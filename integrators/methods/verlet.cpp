@@ -15,6 +15,7 @@
 #include "courant/integrators/step/round_off_projection.hpp"
 #include "courant/integrators/step/step_names.hpp"
 #include "courant/integrators/step/step_parts.hpp"
+#include "courant/integrators/step/step_program.hpp"
 #include "courant/integrators/step/step_solver.hpp"
 
 namespace courant {

@@ -11,7 +11,7 @@
 #include "courant/integrators/maps/discretization_map.hpp"
 #include "courant/integrators/methods/explicit_verlet.hpp"
 #include "courant/integrators/step/integrator.hpp"
-#include "courant/integrators/step/step_program.hpp"
+#include "courant/integrators/step/programmed.hpp"
 
 namespace courant {
 

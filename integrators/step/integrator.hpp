@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -48,19 +47,10 @@ class Integrator {
   std::shared_ptr<const StepDifferential> differential() const { return do_differential(); }
 
   // Φ_h applied `count` times, by a stepper of its own. Throws as Stepper::step does.
-  State advance(State state, double h, long count = 1) const {
-    if (count < 1) return state;
-    const auto workspace = stepper();
-    const double start = state.t;
-    workspace->step(state, h, start + h);
-    for (long k = 2; k <= count; ++k) workspace->go_on(h, start + static_cast<double>(k) * h);
-    return workspace->ended().after;
-  }
+  State advance(State state, double h, long count = 1) const;
 
  protected:
-  explicit Integrator(std::shared_ptr<const ImplicitSystem> system) : system_(std::move(system)) {
-    if (!system_) throw std::invalid_argument("Integrator::Integrator: system is null.");
-  }
+  explicit Integrator(std::shared_ptr<const ImplicitSystem> system);
 
  private:
   // To subclass, override:

@@ -5,6 +5,7 @@
 
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/core/expressions/subgraph.hpp"
+#include "courant/core/solve/equation_system.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/core/words/text_layout.hpp"
 

@@ -5,10 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "courant/core/solve/equation_system.hpp"
+#include "courant/core/algebra/elimination.hpp"
+#include "courant/core/expressions/function.hpp"
 #include "courant/structures/implicit_system.hpp"
 
 namespace courant {
+
+class EquationSystem;
 
 // F(y; p) = 0 for the unknowns y of a step, with names: what a solver is compiled from, and what explains
 // or exports it.

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "courant/integrators/step/integrator.hpp"
+#include "courant/integrators/step/programmed.hpp"
 
 namespace courant {
 

@@ -88,14 +88,6 @@ struct StepProgram {
   std::optional<Units> units = {};
 };
 
-// A method that knows its steps as formulas.
-class Programmed {
- public:
-  virtual ~Programmed() = default;
-  // Throws std::invalid_argument, with what is the matter, for steps that a StepProgram does not describe.
-  virtual StepProgram program() const = 0;
-};
-
 // That of a method that has one. Throws std::invalid_argument as program() does.
 StepProgram step_program(const Integrator& method);
 

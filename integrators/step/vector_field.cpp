@@ -15,8 +15,10 @@
 #include "courant/core/linear/qr_decomposition.hpp"
 #include "courant/core/linear/regular_matrix.hpp"
 #include "courant/core/numbers/uncertain.hpp"
+#include "courant/core/solve/newton.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/integrators/certificate/local_formulation.hpp"
+#include "courant/integrators/step/moving_basis.hpp"
 #include "courant/integrators/step/step_solver.hpp"
 
 namespace courant {
@@ -222,8 +224,9 @@ VectorField::VectorField(VectorFieldFormulas formulas, Backend backend)
     : formulas_(std::move(formulas)) {
   const auto& inputs = formulas_.inputs;
   const Backend together = backend.together();
-  equations_ = EquationSystem("vector field", inputs, formulas_.solved,
-                              {.backend = together, .eliminates = false});
+  equations_ = std::make_shared<const EquationSystem>(
+      "vector field", inputs, formulas_.solved,
+      EquationSystem::Options{.backend = together, .eliminates = false});
   left_out_ = Function("left out", inputs, formulas_.left_out, {.backend = together});
   rate_ = Function("rate", inputs, formulas_.rate, {.backend = together});
   basis_ = MovingBasis::projection(*formulas_.system->manifold(), together);
@@ -239,35 +242,49 @@ const Function& VectorField::all() const {
   return all_->function;
 }
 
+// What solves the equations, and the basis of their ξ', ….
+struct VectorField::Evaluation::Engine {
+  explicit Engine(const VectorField& field)
+      // Velocities, accelerations and forces have no unit in common: each is measured by itself.
+      : newton(*field.equations_,
+               std::vector<Index>(static_cast<std::size_t>(field.formulas_.start.size()), 1), {}),
+        basis(*field.formulas_.system->manifold(), field.basis_) {}
+
+  Newton newton;
+  MovingBasis basis;
+};
+
 VectorField::Evaluation::Evaluation(const VectorField& field)
     : field_(field),
-      // Velocities, accelerations and forces have no unit in common: each is measured by itself.
-      newton_(field.equations_,
-              std::vector<Index>(static_cast<std::size_t>(field.formulas_.start.size()), 1), {}),
+      engine_(std::make_unique<Engine>(field)),
       y_(field.formulas_.start),
       kept_(y_),
       out_(field.rate_.output_size()),
       v_(VectorXd::Zero(field.formulas_.system->manifold()->tangent_dimension())),
       z_(VectorXd::Zero(field.formulas_.system->auxiliary_size())),
       left_out_(VectorXd::Zero(field.left_out_count())),
-      sizes_(VectorXd::Zero(std::max<Index>(1, field.formulas_.start.size()))),
-      basis_(*field.formulas_.system->manifold(), field.basis_) {}
+      sizes_(VectorXd::Zero(std::max<Index>(1, field.formulas_.start.size()))) {}
+
+VectorField::Evaluation::Evaluation(Evaluation&& other) noexcept = default;
+VectorField::Evaluation::~Evaluation() = default;
+
+const LinearMap<double>& VectorField::Evaluation::basis() const { return engine_->basis.map(); }
 
 void VectorField::Evaluation::start(const State& state) {
   sizes_.setZero();
   explained_ = 0.0;
-  basis_.move_to(state.x);
+  engine_->basis.move_to(state.x);
   y_ = field_.formulas_.start;
   const Manifold& M = *field_.formulas_.system->manifold();
   if (field_.is_explicit()) return;
   if (state.v.size() == M.tangent_dimension())
-    basis_.coordinates_of(state.v, y_.head(M.dimension()));
+    engine_->basis.coordinates_of(state.v, y_.head(M.dimension()));
   if (state.z.size() == z_.size()) y_.segment(field_.formulas_.z_offset, z_.size()) = state.z;
   kept_ = y_;
 }
 
 void VectorField::Evaluation::discard() {
-  newton_.reset();
+  engine_->newton.reset();
   y_ = kept_;
   sizes_.head(y_.size()) = y_.cwiseAbs();
 }
@@ -275,18 +292,18 @@ void VectorField::Evaluation::discard() {
 void VectorField::Evaluation::forget() {
   sizes_.setZero();
   explained_ = 0.0;
-  newton_.reset();
-  basis_.forget();
+  engine_->newton.reset();
+  engine_->basis.forget();
   kept_ = y_ = field_.formulas_.start;
 }
 
 void VectorField::Evaluation::operator()(const VectorXd& x, VectorXd& rate, double t) {
-  basis_.move_to(x);
+  engine_->basis.move_to(x);
   solve(x, rate, t);
 }
 
 void VectorField::Evaluation::operator()(const State& state, VectorXd& rate) {
-  newton_.reset();
+  engine_->newton.reset();
   start(state);
   solve(state.x, rate, state.t);
 }
@@ -295,7 +312,7 @@ void VectorField::Evaluation::operator()(const State& state, VectorXd& rate) {
 // equations know one: units in which their derivatives are comparable with 1, times the largest residual or
 // unknown in these.
 void VectorField::Evaluation::take_natural_sizes(const Inputs& in) {
-  const Function& F = field_.equations_.left();
+  const Function& F = field_.equations_->left();
   VectorXd all(F.output_size() + F.nonzeros());
   F.value_and_jacobian(in.data(), all.data());
   if (!all.allFinite()) return;
@@ -319,15 +336,16 @@ bool VectorField::Evaluation::holds(const Function& F, const Inputs& in, double 
 bool VectorField::Evaluation::is_solved(const Inputs& in) {
   for (const Index i : field_.formulas_.held) y_[i] = field_.formulas_.start[i];
   const auto converges = [&] {
-    return newton_.solve(in, sizes_.data()).status == Newton::Status::converged;
+    return engine_->newton.solve(in, sizes_.data()).status == Newton::Status::converged;
   };
   const auto begin_again = [&] {
-    newton_.reset();
+    engine_->newton.reset();
     y_ = field_.formulas_.start;
   };
   // What is found by a matrix that sees some directions only has to hold.
   const auto is_found_again = [&] {
-    return converges() && (newton_.is_determined() || holds(field_.equations_.left(), in, kSolved));
+    return converges() &&
+           (engine_->newton.is_determined() || holds(field_.equations_->left(), in, kSolved));
   };
   if (converges()) return true;
   begin_again();
@@ -337,7 +355,7 @@ bool VectorField::Evaluation::is_solved(const Inputs& in) {
   take_natural_sizes(in);
   if (is_found_again()) return true;
   begin_again();
-  return newton_.approach(in, sizes_.data()) && is_found_again();
+  return engine_->newton.approach(in, sizes_.data()) && is_found_again();
 }
 
 // Where those are dependent, all equations tell the velocity, on M_f.
@@ -360,7 +378,7 @@ bool VectorField::Evaluation::is_solved_by_all(const Inputs& in, bool is_solved)
 }
 
 void VectorField::Evaluation::solve(const VectorXd& x, VectorXd& rate, double t) {
-  const Inputs in(y_.data(), {x.data(), basis_.data(), &t});
+  const Inputs in(y_.data(), {x.data(), engine_->basis.data(), &t});
   if (field_.is_explicit()) {
     take_rate(in, rate);
     if (!are_finite(out_.data(), out_.size())) refuse(x, t);
@@ -372,7 +390,7 @@ void VectorField::Evaluation::solve(const VectorXd& x, VectorXd& rate, double t)
   };
   constexpr double growth = 4.0;
   bool is_found = is_solved(in);
-  if (!is_found || !newton_.is_determined() || violation() > growth * explained_) {
+  if (!is_found || !engine_->newton.is_determined() || violation() > growth * explained_) {
     is_found = is_solved_by_all(in, is_found);
     explained_ = std::max(explained_, violation());
   }

@@ -5,12 +5,13 @@
 #include <mutex>
 
 #include "courant/core/expressions/function.hpp"
-#include "courant/core/solve/newton.hpp"
 #include "courant/integrators/certificate/constraint_ladder.hpp"
-#include "courant/integrators/step/moving_basis.hpp"
 #include "courant/structures/implicit_system.hpp"
 
 namespace courant {
+
+class EquationSystem;
+class Inputs;
 
 // The equations that a VectorField solves, as formulas. Where they give all of y explicitly there is no y, and
 // no equation is left: the rate is a formula in x and t.
@@ -69,6 +70,8 @@ class VectorField {
    public:
     // `field` has to outlive it.
     explicit Evaluation(const VectorField& field);
+    Evaluation(Evaluation&& other) noexcept;
+    ~Evaluation();
     // The next evaluation starts from v and z at x, the one after forget() from those at the
     // ladder's point.
     void start(const State& state);
@@ -83,7 +86,7 @@ class VectorField {
     void operator()(const State& state, VectorXd& rate);
     // y there, and the basis of its ξ', ….
     const VectorXd& unknowns() const { return y_; }
-    const LinearMap<double>& basis() const { return basis_.map(); }
+    const LinearMap<double>& basis() const;
     const VectorXd& v() const { return v_; }
     const VectorXd& z() const { return z_; }
     // What the equations that are left out are at the x of the last evaluation: with constraints
@@ -99,13 +102,14 @@ class VectorField {
     bool is_solved(const Inputs& in);
     bool is_solved_by_all(const Inputs& in, bool is_solved);
 
+    struct Engine;
+
     const VectorField& field_;
-    Newton newton_;
+    std::unique_ptr<Engine> engine_;
     VectorXd y_, kept_, out_, v_, z_, left_out_;
     // The largest of left_out that is no fault of the equations that are kept.
     double explained_ = 0.0;
     VectorXd sizes_;  // the largest that each of y_ was; one entry where there is no y_
-    MovingBasis basis_;
   };
 
  private:
@@ -117,9 +121,9 @@ class VectorField {
   const Function& all() const;
 
   VectorFieldFormulas formulas_;
-  EquationSystem
-      equations_;  // y = (ξ', …, z, …); x, basis, t ↦ the equations kept, less what is held
-  Function rate_;  // the same ↦ ẋ, v, z
+  // y = (ξ', …, z, …); x, basis, t ↦ the equations kept, less what is held
+  std::shared_ptr<const EquationSystem> equations_;
+  Function rate_;      // the same ↦ ẋ, v, z
   Function left_out_;  // the same ↦ the equations of y that are not kept
   Function basis_;     // of MovingBasis
   std::shared_ptr<All> all_ = std::make_shared<All>();
