@@ -365,10 +365,30 @@ BOOST_AUTO_TEST_CASE(help_fits_a_terminal) {
              kinds);
 }
 
+BOOST_AUTO_TEST_CASE(files_of_another_command_are_told_which) {
+  const TemporaryFolder folder;
+  const std::string netlist = (folder / "rc.cir").string(),
+                    experiment = (folder / "o.json").string();
+  write_text(netlist, "rc\nV1 a 0 1\nR1 a 0 1k\n.tran 1u 1m\n");
+  write_text(experiment, oscillator);
+  const Answer run = courant_command({"run", netlist}),
+               import = courant_command({"import", experiment});
+  BOOST_TEST(run.status == 2);
+  BOOST_TEST(run.err ==
+             "courant: " + netlist +
+                 ": is a netlist or a robot; expected an experiment, which `courant import " +
+                 netlist + " -o FILE.json` makes of it\n");
+  BOOST_TEST(import.status == 2);
+  BOOST_TEST(import.err.find("`courant run " + experiment + "`") != std::string::npos, import.err);
+}
+
 BOOST_AUTO_TEST_CASE(wrong_command_lines_are_status_2) {
   BOOST_TEST(courant_command({"rnu", "x"}).err ==
              "courant: unknown command \"rnu\" (did you mean \"run\"?); `courant --help` lists the "
              "commands\n");
+  BOOST_TEST(
+      courant_command({"--frobnicate"})
+          .err.starts_with("courant: unknown option \"--frobnicate\"; expected a command first"));
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{},
                                                     {"run"},
                                                     {"run", "x", "--frce"},
