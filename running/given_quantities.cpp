@@ -1,8 +1,12 @@
 #include "courant/running/given_quantities.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/core/expressions/expr_vectors.hpp"
@@ -10,13 +14,18 @@
 #include "courant/core/linear/complete_orthogonal_decomposition.hpp"
 #include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/core/words/message.hpp"
+#include "courant/integrators/certificate/natural_scaling.hpp"
 
 namespace courant {
 namespace {
 
+using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
+
 constexpr int kMostCorrections = 50;
 // A part of a value that is round-off.
 constexpr double kSameValue = 1e-9;
+// Likewise of the derivatives in a row.
+constexpr double kNoDerivative = 1e-12;
 
 // The equations of a system with those of its manifold, time derivatives of those of coordinates alone, and those of given
 // quantities, as one map of (x, v, z).
@@ -69,11 +78,27 @@ VectorXd stacked(const State& at) {
   return y;
 }
 
-VectorXd given_values(const Experiment& experiment) {
-  const auto& given = experiment.initial.quantities;
-  VectorXd values(std::ssize(given));
-  for (Index i = 0; i < values.size(); ++i) values[i] = given[static_cast<std::size_t>(i)].value;
+// Some of the quantities, by their places.
+using Chosen = std::vector<Index>;
+
+const GivenQuantity& quantity_at(const InitialValues& initial, Index place) {
+  return initial.quantities[static_cast<std::size_t>(place)];
+}
+
+VectorXd given_values(const InitialValues& initial, const Chosen& chosen) {
+  VectorXd values(std::ssize(chosen));
+  for (Index i = 0; i < values.size(); ++i)
+    values[i] = quantity_at(initial, chosen[static_cast<std::size_t>(i)]).value;
   return values;
+}
+
+// Those that depend on one of the variables, or those that do not.
+Chosen depending(const ExprVector& quantities, const ExprVector& variables, bool depends) {
+  const std::vector<bool> does = each_depends(quantities, variables);
+  Chosen chosen;
+  for (Index i = 0; i < quantities.size(); ++i)
+    if (does[static_cast<std::size_t>(i)] == depends) chosen.push_back(i);
+  return chosen;
 }
 
 // The solution of J (dx, dy) = b with the least dx (N), whatever dy is: by the rows that no dy reaches.
@@ -92,16 +117,160 @@ VectorXd least_change(const MatrixXd& J, Index N, const VectorXd& b) {
   return change;
 }
 
+// Rows in units of their largest entry; a row of zeros has none.
+VectorXd sizes_of_rows(const MatrixXd& J) {
+  const VectorXd size = J.rowwise().lpNorm<Eigen::Infinity>();
+  return (size.array() > 0.0).select(size, 1.0);
+}
+
+// Where a search for a zero ended, and its last step.
+struct Ended {
+  VectorXd y;
+  double last_step = 0.0;
+
+  bool is_settled() const { return last_step <= kSameValue * y.norm(); }
+};
+
+// A zero of map - target from y, of whose entries some move: the first N as little as they can, others as they like. An
+// equation that none of these changes, as that of a loop whose angles are all given, says nothing of them. Nothing where the map is not finite.
+std::optional<Ended> zero_near(const Function& map, const VectorXd& target, VectorXd y,
+                               const VectorXd& moves, Index N) {
+  double before = std::numeric_limits<double>::infinity(), last_step = 0.0;
+  for (int step = 0; step < kMostCorrections; ++step) {
+    const VectorXd rest = map({y}) - target;
+    MatrixXd J = map.jacobian({y});
+    const VectorXd whole = J.rowwise().lpNorm<Eigen::Infinity>();
+    J = (J * moves.asDiagonal()).eval();
+    if (!rest.allFinite() || !J.allFinite()) return std::nullopt;
+    const VectorXd size = sizes_of_rows(J);
+    const Flags says_nothing =
+        J.rowwise().lpNorm<Eigen::Infinity>().array() <= kNoDerivative * whole.array();
+    const VectorXd unit = says_nothing.select(0.0, size.cwiseInverse());
+    const VectorXd scaled = unit.cwiseProduct(rest);
+    J = unit.asDiagonal() * J;
+    const VectorXd change = moves.cwiseProduct(least_change(J, N, scaled));
+    y -= change;
+    last_step = change.norm();
+    const double now = scaled.lpNorm<Eigen::Infinity>();
+    if (now <= 1e-14 * y.lpNorm<Eigen::Infinity>() || now == 0.0 || (step > 3 && now >= before))
+      break;
+    before = now;
+  }
+  return Ended{std::move(y), last_step};
+}
+
+// Which of the columns have the same entry in all solutions d of J d = b.
+Flags determined(const MatrixXd& J) {
+  constexpr double negligible = 1e-6;
+  const MatrixXd rows = sizes_of_rows(J).cwiseInverse().asDiagonal() * J;
+  const VectorXd size = rows.colwise().lpNorm<Eigen::Infinity>();
+  std::vector<Index> touched;
+  for (Index j = 0; j < size.size(); ++j)
+    if (size[j] > 0.0) touched.push_back(j);
+  const MatrixXd scaled = rows(Eigen::all, touched) * size(touched).cwiseInverse().asDiagonal();
+  Flags result = Flags::Constant(J.cols(), false);
+  if (touched.empty()) return result;
+  const MatrixXd open = kernel(scaled, {.data_error = 1e-9});
+  for (std::size_t k = 0; k < touched.size(); ++k)
+    result[touched[k]] = open.row(static_cast<Index>(k)).norm() <= negligible;
+  return result;
+}
+
+// Which coordinates that are not given each quantity contains.
+std::vector<std::vector<Index>> open_coordinates(const Equations& equations,
+                                                 const InitialValues& initial) {
+  std::vector<std::vector<Index>> open(static_cast<std::size_t>(equations.quantities.size()));
+  const SparseExprMatrix of_x = jacobian(equations.quantities, equations.all.head(equations.N));
+  for (std::size_t k = 0; k < of_x.col.size(); ++k)
+    if (!initial.x.given[of_x.col[k]])
+      open[static_cast<std::size_t>(of_x.row[k])].push_back(of_x.col[k]);
+  return open;
+}
+
+// Coordinates where some quantities have their values, and which of them these determine.
+struct Determination {
+  VectorXd x;
+  Flags is_given;
+};
+
+// By these quantities, functions of coordinates alone.
+std::optional<Determination> determination(const Equations& equations, const Chosen& chosen,
+                                           const InitialValues& initial) {
+  const Index N = equations.N;
+  const Function map("definitions", {{"x", equations.all.head(N)}}, equations.quantities(chosen),
+                     {.differentiate = {"x"}});
+  const VectorXd moves = (!initial.x.given).cast<double>();
+  const auto found = zero_near(map, given_values(initial, chosen), initial.x.values, moves, N);
+  if (!found || !found->is_settled()) return std::nullopt;
+  const MatrixXd J = map.jacobian({found->y}) * moves.asDiagonal();
+  if (!J.allFinite()) return std::nullopt;
+  return Determination{found->y, determined(J)};
+}
+
+// Gives the coordinates that the chosen quantities determine by their own definitions, as the voltage of a capacitor does
+// its charge: those of quantities that are as many as the coordinates in them. What the system says of these comes
+// later: where it contradicts them, an impulse begins at them. They are held where such a quantity is.
+void give_coordinates(const Equations& equations, Chosen chosen, InitialValues& initial) {
+  const auto open = open_coordinates(equations, initial);
+  while (!chosen.empty()) {
+    const auto found = determination(equations, chosen, initial);
+    if (!found) return;
+    const auto is_open = [&](Index quantity) {
+      return !std::ranges::all_of(open[static_cast<std::size_t>(quantity)],
+                                  [&](Index i) { return found->is_given[i]; });
+    };
+    if (std::erase_if(chosen, is_open) > 0) continue;
+    for (const Index quantity : chosen)
+      for (const Index i : open[static_cast<std::size_t>(quantity)]) {
+        initial.x.values[i] = found->x[i];
+        initial.x.given[i] = true;
+        if (quantity_at(initial, quantity).held) initial.x.held[i] = true;
+      }
+    return;
+  }
+}
+
+// Of what is held first: it is kept whatever else is given.
+void give_coordinates(const Equations& equations, InitialValues& initial) {
+  const ExprVector others = equations.all.tail(equations.n + equations.m);
+  const Chosen of_place = depending(equations.quantities, others, false);
+  Chosen held;
+  for (const Index i : of_place)
+    if (quantity_at(initial, i).held) held.push_back(i);
+  give_coordinates(equations, held, initial);
+  give_coordinates(equations, of_place, initial);
+}
+
+// Quantities that depend on more than the coordinates that are given.
+Chosen left_open(const Equations& equations, const InitialValues& initial) {
+  std::vector<Expr> open;
+  for (Index i = 0; i < equations.all.size(); ++i)
+    if (i >= equations.N || !initial.x.given[i]) open.push_back(equations.all[i]);
+  const ExprVector variables = Eigen::Map<const ExprVector>(open.data(), std::ssize(open));
+  return depending(equations.quantities, variables, true);
+}
+
+// Which numbers differ by more than the round-off of the units that the equations at y measure them by: momenta that could
+// stay come out of a search with 10⁻³³.
+Flags moved(const VectorXd& y, const VectorXd& from, const MatrixXd& jacobian) {
+  constexpr double round_off = 1e-14, vanishing = 1e-10;
+  const NaturalScaling units({VectorXd::Zero(jacobian.rows()), jacobian.sparseView()}, y.cwiseAbs(),
+                             round_off, vanishing);
+  return (y - from).array().abs() > round_off * units.column_scale.array();
+}
+
 }  // namespace
 
 InitialValues with_quantities(const Experiment& experiment) {
   InitialValues initial = experiment.initial;
   if (initial.quantities.empty()) return initial;
   const Equations equations(experiment);
+  give_coordinates(equations, initial);
+  const Chosen open = left_open(equations, initial);
+  if (open.empty()) return initial;
   const auto [N, n, m] = std::tuple(equations.N, equations.n, equations.m);
-  const Index r = equations.residual.size(), q = equations.quantities.size();
-  ExprVector both(r + q);
-  both << equations.residual, equations.quantities;
+  const Index r = equations.residual.size(), q = std::ssize(open);
+  const ExprVector both = joined(equations.residual, ExprVector(equations.quantities(open)));
   const Function map("given quantities", {{"y", equations.all}}, both, {.differentiate = {"y"}});
   // What is given stays; velocities and other unknowns move as they like, and coordinates as little as they can.
   VectorXd y = VectorXd::Zero(N + n + m), moves = VectorXd::Ones(y.size());
@@ -112,35 +281,22 @@ InitialValues with_quantities(const Experiment& experiment) {
       y[N + n + i] = initial.z.values[i];
       moves[N + n + i] = 0.0;
     }
-  for (Index i = 0; i < N; ++i)
-    if (initial.x.given[i]) moves[i] = 0.0;
+  moves.head(N) = (!initial.x.given).cast<double>();
   VectorXd target = VectorXd::Zero(r + q);
-  target.tail(q) = given_values(experiment);
-  const auto refuse = [&](const std::string& what) {
-    throw ExperimentError(initial.quantities.front().formula.pointer, what);
-  };
-  double before = std::numeric_limits<double>::infinity();
-  for (int step = 0; step < kMostCorrections; ++step) {
-    const VectorXd rest = map({y}) - target;
-    MatrixXd J = map.jacobian({y}) * moves.asDiagonal();
-    if (!rest.allFinite() || !J.allFinite())
-      refuse("is given, but the equations have no value where a state with it is looked for");
-    const VectorXd size =
-        J.rowwise().lpNorm<Eigen::Infinity>().cwiseMax(std::numeric_limits<double>::min());
-    const VectorXd scaled = rest.cwiseQuotient(size);
-    J = size.cwiseInverse().asDiagonal() * J;
-    y -= moves.cwiseProduct(least_change(J, N, scaled));
-    const double now = scaled.lpNorm<Eigen::Infinity>();
-    if (now <= 1e-14 * y.lpNorm<Eigen::Infinity>() || now == 0.0 || (step > 3 && now >= before))
-      break;
-    before = now;
-  }
+  target.tail(q) = given_values(initial, open);
+  const auto found = zero_near(map, target, y, moves, N);
+  if (!found)
+    throw ExperimentError(quantity_at(initial, open.front()).formula.pointer,
+                          "is given, but the equations have no value where a state with it is "
+                          "looked for");
+  const bool held =
+      std::ranges::any_of(open, [&](Index i) { return quantity_at(initial, i).held; });
+  const Flags is_moved = moved(found->y, y, map.jacobian({found->y}));
   for (Index i = 0; i < N; ++i) {
-    if (initial.x.given[i] || y[i] == initial.x.values[i]) continue;
-    initial.x.values[i] = y[i];
+    if (initial.x.given[i] || !is_moved[i]) continue;
+    initial.x.values[i] = found->y[i];
     initial.x.given[i] = true;
-    for (const GivenQuantity& quantity : initial.quantities)
-      initial.x.held[i] = initial.x.held[i] || quantity.held;
+    initial.x.held[i] = initial.x.held[i] || held;
   }
   return initial;
 }

@@ -24,8 +24,10 @@ constexpr double kLeastSine = 1e-9;
 // Next to how much constraints are violated: an impulse that leaves more of it leads to none of their points.
 constexpr double kMostLeft = 0.5;
 
-// Columns: the directions of Δx (n), none where the residual has no derivative.
-MatrixXd impulse_directions(const Experiment& experiment, const State& at) {
+using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
+
+// Columns: the directions of Δx (n) in which what is kept does not move, none where the residual has no derivative.
+MatrixXd impulse_directions(const Experiment& experiment, const Flags& kept, const State& at) {
   const ImplicitSystem& system = *experiment.model.system;
   const Index n = at.x.size(), m = at.z.size();
   Graph graph;
@@ -38,12 +40,21 @@ MatrixXd impulse_directions(const Experiment& experiment, const State& at) {
   if (!J.allFinite()) return MatrixXd(n, 0);
   std::vector<Index> held;
   for (Index i = 0; i < n; ++i)
-    if (experiment.initial.x.held[i]) held.push_back(i);
+    if (kept[i]) held.push_back(i);
   MatrixXd conditions = MatrixXd::Zero(J.rows() + std::ssize(held), n + m);
   conditions.topRows(J.rows()) = J;
   for (std::size_t k = 0; k < held.size(); ++k)
     conditions(J.rows() + static_cast<Index>(k), held[k]) = 1.0;
   return kernel(conditions, {.data_error = 1e-9}).topRows(n);
+}
+
+// Where an impulse begins: at what is given, and of the rest where the nearest start has it. Where all that is not given is
+// 0, and coordinates alone are given, it is 0.
+VectorXd beginning(const Experiment& experiment, const VectorXd& nearest) {
+  const InitialValues& initial = experiment.initial;
+  const bool at_zero =
+      experiment.model.starts_at_zero && !initial.velocity.given.any() && !initial.z.given.any();
+  return at_zero ? initial.x.values : VectorXd(initial.x.given.select(initial.x.values, nearest));
 }
 
 bool is_start(const ConstraintLadder& ladder) {
@@ -75,7 +86,7 @@ ConsistentStart as_impulse(const Experiment& experiment, ConstraintLadder ladder
   for (Index i = 0; i < x.size(); ++i)
     if (experiment.initial.x.given[i] && std::fabs(x[i] - begin[i]) > least)
       ladder.moves.push_back({names[static_cast<std::size_t>(i)], begin[i], x[i]});
-  ladder.moved = (x - begin).norm();
+  ladder.moved = experiment.initial.x.given.select(x - begin, 0.0).matrix().norm();
   return {std::move(ladder), true};
 }
 
@@ -90,12 +101,17 @@ ConsistentStart impulsive_start(
   if (!is_start(nearest) || n != M.tangent_dimension() || n > kMostMovable ||
       !M.frame(nearest.point.x).is_identity() || !(initial.weight.array() == 1.0).all())
     return nearest;
-  const VectorXd begin = initial.x.given.select(initial.x.values, nearest.point.x);
+  const VectorXd begin = beginning(experiment, nearest.point.x);
   const auto size = [&](const VectorXd& x) {
     return begin.cwiseAbs().cwiseMax(x.cwiseAbs()).maxCoeff();
   };
   if ((begin - nearest.point.x).lpNorm<Eigen::Infinity>() <= kReached * size(nearest.point.x))
     return nearest;
+  // What is given stays if it can: then only the rest moves.
+  const VectorXd given_moves = initial.x.given.select(begin - nearest.point.x, 0.0);
+  Flags kept = initial.x.held;
+  if (given_moves.lpNorm<Eigen::Infinity>() <= kReached * size(nearest.point.x))
+    kept = kept || initial.x.given;
   VectorXd x = begin;
   ConstraintLadder ladder = nearest;
   double before = std::numeric_limits<double>::infinity();
@@ -107,7 +123,7 @@ ConsistentStart impulsive_start(
       if (step > 0 && is_settled)
         return as_impulse(experiment, polished(std::move(ladder), nearest_to), begin);
       before = step > 0 ? beside : before;
-      const MatrixXd K = impulse_directions(experiment, ladder.point);
+      const MatrixXd K = impulse_directions(experiment, kept, ladder.point);
       const MatrixXd A = ladder.conormals().rowwise().normalized();
       if (K.cols() == 0 || A.rows() == 0) return nearest;
       // Sines of angles between impulses and constraints: where these are round-off, no impulse acts.

@@ -29,6 +29,9 @@ struct ConsistentStart : ConstraintLadder {
 // since in F(x, v, z, t) = 0 velocities and unknowns grow beyond all bounds while x stays finite: charges
 // round a loop, momenta along a reaction. Among these directions it is the least Δx.
 //
+// What is given stays where it can, and only the rest moves. Of a model that starts at 0 of which coordinates alone are given
+// the rest begins at 0: a source of current switched on in front of two coils at rest is divided as its impulse divides it.
+//
 // `nearest`: the start that moves least, whatever the directions; it is returned where nothing that was given
 // moved, where impulses alone do not lead to a consistent point (as from positions beside a constraint), and where
 // the experiment has weights, which choose another metric. `nearest_to`: the same from another x. On Rⁿ only.

@@ -31,8 +31,8 @@ double last_digit(double number) {
 }
 
 struct GivenPart {
-  const char* name;
-  bool may_move;  // unknowns
+  std::string name;
+  bool may_move;  // unknowns, quantities
   std::vector<std::string> names;
   std::vector<double> given, found;
 
@@ -46,12 +46,12 @@ struct GivenPart {
   double rounding() const {
     double least = std::numeric_limits<double>::infinity();
     for (const double number : given) least = std::min(least, last_digit(number));
-    // Zeros alone have no size: they are measured by 1.
-    const double exact = size() > 0.0 ? 1e-9 * (size() + norm(found)) : 1e-15;
     return std::isfinite(least)
-               ? std::max(exact, 2.0 * least * std::sqrt(static_cast<double>(given.size())))
-               : exact;
+               ? std::max(round_off(), 2.0 * least * std::sqrt(static_cast<double>(given.size())))
+               : round_off();
   }
+  // Zeros alone have no size: they are measured by 1.
+  double round_off() const { return size() > 0.0 ? 1e-9 * (size() + norm(found)) : 1e-15; }
   // The numbers that moved most, in words.
   std::string largest() const {
     constexpr std::size_t most = 3;
@@ -104,6 +104,16 @@ std::vector<GivenPart> parts_of(const Experiment& experiment, const ConstraintLa
   for (Index i = 0; i < initial.z.given.size(); ++i)
     add(kinds[3], initial.z, ladder.point.z, i,
         system.names().auxiliary[static_cast<std::size_t>(i)]);
+  // Quantities have units of their own, each. They are what coordinates that are not given are chosen by, and give way
+  // where all are given. A zero is measured by 1, as the sum of others that it is.
+  constexpr double zero = 1e-9;
+  for (const GivenQuantity& quantity : initial.quantities) {
+    const std::string& name = quantity.formula.text;
+    const auto move = std::ranges::find(ladder.moves, name, &Movement::name);
+    if (move == ladder.moves.end() || (quantity.value == 0.0 && std::fabs(move->to) <= zero))
+      continue;
+    kinds.push_back({"value of " + name, true, {name}, {move->from}, {move->to}});
+  }
   return kinds;
 }
 
@@ -118,10 +128,9 @@ std::string lost(const Experiment& experiment, const ConstraintLadder& ladder) {
     return "";
   for (const GivenPart& kind : parts_of(experiment, ladder))
     if (!kind.may_move && kind.size() > 0.0 && kind.moved() > far * kind.size())
-      return "no consistent start was found: the search for one left the initial " +
-             std::string(kind.name) + " by " + number_text(kind.moved(), 3) + ", of " +
-             number_text(kind.size(), 3) + " (" + kind.largest() +
-             "); expected values near a consistent start";
+      return "no consistent start was found: the search for one left the initial " + kind.name +
+             " by " + number_text(kind.moved(), 3) + ", of " + number_text(kind.size(), 3) + " (" +
+             kind.largest() + "); expected values near a consistent start";
   return "";
 }
 
@@ -140,16 +149,19 @@ StartMoves start_moves(const Experiment& experiment, const ConsistentStart& ladd
                         initial.velocity.held.any() || initial.z.held.any();
   for (const GivenPart& kind : parts_of(experiment, ladder)) {
     const double moved = kind.moved();
-    if (!(moved > kind.rounding())) continue;
-    const std::string how_far = "the initial " + std::string(kind.name) + " had to move by " +
+    const bool is_far = moved > std::max(far * kind.size(), kind.round_off());
+    const bool is_explained = !(moved > kind.rounding());  // by the digits that were typed
+    if (!is_far && is_explained) continue;
+    const std::string how_far = "the initial " + kind.name + " had to move by " +
                                 number_text(moved, 3) + ", of " + number_text(kind.size(), 3) +
                                 ", to be consistent (" + kind.largest() + ')';
-    if (!may_move && !kind.may_move && moved > far * kind.size() && moves.refusal.empty())
+    if (!may_move && !kind.may_move && is_far && !is_explained && moves.refusal.empty())
       moves.refusal = how_far +
                       "; expected values within a tenth, or \"start\": \"nearest\" beside "
                       "\"initial\", which begins there";
-    moves.warning +=
-        (moves.warning.empty() ? "T" : " T") + how_far.substr(1) + ", which is more than rounding.";
+    moves.warning += (moves.warning.empty() ? "T" : " T") + how_far.substr(1) +
+                     (is_explained ? ", which is more than a tenth, though within its digits."
+                                   : ", which is more than rounding.");
   }
   if (!ladder.is_nearest)
     moves.warning += std::string(moves.warning.empty() ? "" : " ") +

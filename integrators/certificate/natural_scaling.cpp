@@ -55,12 +55,12 @@ NaturalScaling::NaturalScaling(const Linearization& at, const VectorXd& reach, d
   for (Index i = 0; i < m; ++i) row_component.push_back(component_of(i));
   for (Index j = 0; j < n; ++j) column_component.push_back(component_of(m + j));
 
-  VectorXd size = VectorXd::Zero(component_count),
-           inverse_residual = VectorXd::Zero(component_count),
-           rounding = VectorXd::Zero(component_count);
+  VectorXd size = VectorXd::Zero(component_count), number_in = size, inverse_residual = size,
+           rounding = size;
   for (Index j = 0; j < n; ++j) {
-    double& s = size[column_component[static_cast<std::size_t>(j)]];
-    s = std::max(s, reach[j] / column_scale[j]);
+    const Index component = column_component[static_cast<std::size_t>(j)];
+    size[component] = std::max(size[component], reach[j] / column_scale[j]);
+    number_in[component] = std::max(number_in[component], reach[j]);
   }
   const VectorXd value = significant(at);
   for (Index i = 0; i < m; ++i) {
@@ -71,12 +71,22 @@ NaturalScaling::NaturalScaling(const Linearization& at, const VectorXd& reach, d
     error = std::max(error, at.value_error[i] * row_scale[i]);
   }
   // Scales divided by less than 10⁻²⁹⁰ leave the range of doubles.
-  const double least = std::max(least_size, 1e-290);
+  constexpr double least = 1e-290;
+  // Round-off of zeros is small next to the numbers of other components, or to what its equations lack. Lengths that are
+  // small in the units of equilibration alone, whose factor nothing tells, may be all that there is.
+  const double largest = n == 0 ? 0.0 : reach.maxCoeff();
+  const auto is_zero = [&](Index component) {
+    const bool is_round_off = number_in[component] <= least_size * largest ||
+                              size[component] <= least_size * inverse_residual[component];
+    return size[component] <= least || (size[component] <= least_size && is_round_off);
+  };
   // A unit of which rounding errors are not a small part is itself made of them.
   constexpr double seen = 1e3;
   const auto factor = [&](Index component) {
-    const double made_of = size[component] > least ? size[component] : inverse_residual[component];
-    return made_of > least ? std::max(made_of, seen * rounding[component]) : 1.0;
+    const bool zero = is_zero(component);
+    const double made_of = zero ? inverse_residual[component] : size[component];
+    const bool is_unit = made_of > (zero ? std::max(least, least_size) : least);
+    return is_unit ? std::max(made_of, seen * rounding[component]) : 1.0;
   };
   for (Index i = 0; i < m; ++i) row_scale[i] /= factor(row_component[static_cast<std::size_t>(i)]);
   for (Index j = 0; j < n; ++j)

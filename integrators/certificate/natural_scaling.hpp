@@ -30,7 +30,7 @@ struct NaturalScaling {
 
   // `reach`: sizes of the unknowns, ≥ 0. Entries of the Jacobian that are at most `noise` times the
   // others of their row and column count as zero, and so do sizes up to `least_size` in the units
-  // of equilibration.
+  // of equilibration, where they are as small next to the numbers of other components or to the value.
   NaturalScaling(const Linearization& at, const VectorXd& reach, double noise = 1.5e-14,
                  double least_size = 0.0);
 

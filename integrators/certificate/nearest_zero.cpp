@@ -23,6 +23,22 @@ bool is_rounded(const Linearization& at) {
          (at.value.cwiseAbs().array() <= at.value_error.array()).all();
 }
 
+// Whether every F_i that is more than rounding is small next to its own terms, of numbers as large as `reach` and with
+// derivatives of this size: those of other equations, which units of a component are made of, say nothing of
+// x² + y² = l² of nanometres beside a weight. Numbers that are round-off in these units are as large as those; the point
+// only where it vanishes.
+bool is_small_next_to_terms(const Linearization& at, const SparseMatrixXd& derivatives,
+                            const NaturalScaling& units, const VectorXd& reach, Index point_size) {
+  constexpr double round_off = 1e-9;
+  VectorXd sizes = reach;
+  for (Index j = 0; j < sizes.size(); ++j) {
+    const double vanishing = j < point_size ? 0.0 : round_off * units.column_scale[j];
+    if (sizes[j] <= vanishing) sizes[j] = units.column_scale[j];
+  }
+  const VectorXd terms = derivatives * sizes;
+  return (significant(at).array().abs() <= kAccepted * terms.array()).all();
+}
+
 // y + c ∘ δ, where unknowns that are round-off of the step that made them are 0: what is left of them
 // must not look like numbers, nor choose units.
 VectorXd stepped(const VectorXd& y, const VectorXd& units, const VectorXd& delta,
@@ -75,7 +91,11 @@ class ZeroSearch {
     zero_.scaled_value = g;
     zero_.defect = units.defect(value, zero_.reach);
     const bool rounded = is_rounded(at_);
-    zero_.found = rounded || zero_.defect <= kAccepted;
+    const SparseMatrixXd here = at_.jacobian.cwiseAbs();
+    derivatives_ = derivatives_.size() == 0 ? here : SparseMatrixXd(derivatives_.cwiseMax(here));
+    zero_.found = rounded || (zero_.defect <= kAccepted &&
+                              is_small_next_to_terms(at_, derivatives_, units, zero_.reach,
+                                                     mobility_.offset.size()));
     zero_.history.push_back(zero_.defect);
     const bool is_curbed =
         mobility_.has_exponentials && !zero_.found && is_factored_dense(at_.jacobian);
@@ -92,8 +112,8 @@ class ZeroSearch {
     const int most_iterations = is_careful_ ? 100 : 25;
     const SparseMatrixXd& S = here.S;
     const VectorXd& g = here.g;
-    if (here.is_exact || zero_.defect <= eps || zero_.iterations == most_iterations ||
-        !g.allFinite())
+    if (here.is_exact || (zero_.found && zero_.defect <= eps) ||
+        zero_.iterations == most_iterations || !g.allFinite())
       return false;
     // A step damped by μ has about the length ‖F‖ / μ. Where numbers are small and a zero is far, as
     // 10⁻⁸ is from a circle of radius 1, ‖F‖ is large in these units.
@@ -114,6 +134,8 @@ class ZeroSearch {
       Linearization next = map_(y);
       if (!is_finite(next)) continue;
       const VectorXd residual = here.units.row_scale.cwiseProduct(significant(next));
+      // What grows like exp x may leave the range of doubles in these units alone.
+      if (!residual.allFinite()) continue;
       if (!helps(inverse, delta, residual, g)) continue;
       if (has_crept(mu == 0.0 && !is_factored_dense(S), residual, g)) return false;
       zero_.y = y;
@@ -195,7 +217,8 @@ class ZeroSearch {
   const Mobility& mobility_;
   const bool is_careful_;
   Zero zero_;
-  Linearization at_;  // zero_.y
+  Linearization at_;            // zero_.y
+  SparseMatrixXd derivatives_;  // the largest on the way
   std::optional<SearchUnits> units_at_;
   double damping_ = 0.0;
   int slow_steps_ = 0;

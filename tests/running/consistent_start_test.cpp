@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <fstream>
+#include <vector>
 
 // Mistakes that these cases have to notice:
 //  * residuals that are a visible part of their terms count as none
@@ -10,6 +11,10 @@
 //  * an unknown that is given goes to another branch with the velocity
 //    (integrators/certificate/consistent_point.cpp)
 //  * a point is consistent next to what a search came by (integrators/certificate/consistent_point.cpp)
+//  * residuals in squares of small lengths are compared with 1, or with other equations
+//    (integrators/certificate/consistent_point.cpp, nearest_zero.cpp)
+//  * small lengths count as round-off of zeros, for the units of equations or beside large units
+//    (integrators/certificate/natural_scaling.cpp, consistent_point.cpp)
 //  * velocities that cannot be kept are forgotten (running/start_stages.cpp)
 //  * round-off of an exponential stays as a voltage at rest
 //    (integrators/certificate/nearest_zero.cpp)
@@ -564,6 +569,21 @@ BOOST_AUTO_TEST_CASE(a_slider_crank_with_a_momentum_that_does_not_fit_starts_nea
   BOOST_TEST((ladder.point.x - given).norm() < 0.9);
 }
 
+// 3² + 3.9² - 25 = -0.79.
+BOOST_AUTO_TEST_CASE(a_violation_by_what_is_held_is_told_in_the_numbers_of_the_experiment) {
+  const Json experiment = {{"system",
+                            {{"type", "implicit"},
+                             {"coordinates", {"x", "y"}},
+                             {"unknowns", {"l"}},
+                             {"equations", {"x' + l*x", "y' + l*y - 1", "x^2 + y^2 - 25"}}}},
+                           {"initial", {{"x", 3}, {"y", 3.9}}},
+                           {"hold", {"x", "y"}}};
+  BOOST_TEST(problem(experiment)
+                 .starts_with("/hold: what is held contradicts the constraints: the "
+                              "equation \"x^2 + y^2 - 25\" is -0.79; they hold near by with x"),
+             problem(experiment));
+}
+
 BOOST_AUTO_TEST_CASE(held_momenta_against_held_positions_are_an_error) {
   Json experiment = {{"system",
                       {{"type", "mechanical"},
@@ -626,6 +646,84 @@ BOOST_AUTO_TEST_CASE(a_point_is_consistent_by_its_own_numbers) {
   const VectorXd& x = ladder.point.x;
   BOOST_TEST((ladder.verdict == Verdict::regular));
   BOOST_TEST(std::fabs(x[0] * x[0] + x[1] * x[1] - 1.0) < 1e-12);
+}
+
+namespace {
+
+// Points on circles of radius l, with a weight, without one, and as equations.
+std::vector<Json> on_a_circle(double l) {
+  const std::string circle = "x^2 + y^2 - (" + Json(l).dump() + ")^2";
+  return {{{"type", "mechanical"}, {"coordinates", {"x", "y"}}, {"holonomic", circle}},
+          {{"type", "mechanical"},
+           {"coordinates", {"x", "y"}},
+           {"metric", 1e-3},
+           {"potential", "1e-3*9.81*y"},
+           {"holonomic", circle}},
+          {{"type", "implicit"},
+           {"coordinates", {"x", "y", "v", "w"}},
+           {"unknowns", {"s"}},
+           {"equations", {"x' - v", "y' - w", "v' + s*x", "w' + s*y", circle}}},
+          {{"type", "implicit"},
+           {"coordinates", {"x", "y", "v", "w"}},
+           {"unknowns", {"s"}},
+           {"equations", {"x' - v", "y' - w", "v' + s*x", "w' + s*y + 9.81", circle}}}};
+}
+
+}  // namespace
+
+// The nearest point of x² + y² = l² is l (x, y) / |(x, y)|, whatever metres are called.
+BOOST_AUTO_TEST_CASE(small_lengths_are_measured_by_themselves) {
+  for (const double l : {1.0, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10})
+    for (const Json& system : on_a_circle(l))
+      for (const double part : {0.6001, 0.65, 0.7}) {
+        const VectorXd given = l * VectorXd{{part, -0.8}};
+        const ConstraintLadder ladder = start(
+            {{"system", system}, {"initial", {{"x", given[0]}, {"y", given[1]}, {"rest", true}}}});
+        const VectorXd nearest = l / given.norm() * given;
+        BOOST_TEST((ladder.verdict == Verdict::regular), system.dump());
+        BOOST_TEST((ladder.point.x.head(2) - nearest).norm() < 1e-9 * l,
+                   system.dump() << " from " << part << ": " << ladder.point.x.transpose() / l);
+        BOOST_TEST(std::fabs(ladder.moved - (given - nearest).norm()) < 1e-9 * l, system.dump());
+      }
+}
+
+BOOST_AUTO_TEST_CASE(small_lengths_that_are_held_off_their_circle_are_an_error) {
+  for (const double l : {1.0, 1e-8, 1e-10})
+    for (const Json& system : on_a_circle(l)) {
+      const Json experiment = {{"system", system},
+                               {"initial", {{"x", 0.9 * l}, {"y", -0.8 * l}, {"rest", true}}},
+                               {"hold", {"x", "y"}}};
+      BOOST_TEST(problem(experiment).find("/hold: what is held contradicts the constraints") == 0u,
+                 system.dump() << ": " << problem(experiment));
+    }
+}
+
+// Three rods of some 10⁻¹⁰ m between masses of 10⁻²⁶ kg, whose given distances are off by 7·10⁻⁵ of themselves. A triangle
+// of the right sides that has moved by what they lack is a nearest one to first order; distances tell that it is one.
+BOOST_AUTO_TEST_CASE(a_molecule_starts_with_its_bonds) {
+  constexpr double bond = 9.572e-11, between = 1.5139e-10;
+  const ConstraintLadder ladder =
+      start({{"system",
+              {{"type", "mechanical"},
+               {"coordinates", {"o[2]", "a[2]", "b[2]"}},
+               {"metric", {2.657e-26, 2.657e-26, 1.674e-27, 1.674e-27, 1.674e-27, 1.674e-27}},
+               {"potential", "-1e-11*a[1]"},
+               {"holonomic",
+                {"(o[0]-a[0])^2 + (o[1]-a[1])^2 - 9.572e-11^2",
+                 "(o[0]-b[0])^2 + (o[1]-b[1])^2 - 9.572e-11^2",
+                 "(a[0]-b[0])^2 + (a[1]-b[1])^2 - 1.5139e-10^2"}}}},
+             {"initial",
+              {{"o", {0, 0}},
+               {"a", {5.859e-11, 7.57e-11}},
+               {"b", {5.859e-11, -7.57e-11}},
+               {"rest", true}}}});
+  const VectorXd& x = ladder.point.x;
+  BOOST_TEST((ladder.verdict == Verdict::regular));
+  BOOST_TEST((x.segment(2, 2) - x.head(2)).norm() == bond, boost::test_tools::tolerance(1e-10));
+  BOOST_TEST((x.segment(4, 2) - x.head(2)).norm() == bond, boost::test_tools::tolerance(1e-10));
+  BOOST_TEST((x.segment(4, 2) - x.segment(2, 2)).norm() == between,
+             boost::test_tools::tolerance(1e-10));
+  BOOST_TEST(ladder.moved < 2e-4 * bond);
 }
 
 // y y' = -1 has a point as near to y = 0 as one likes, with a velocity beyond all bounds, and none at 0.

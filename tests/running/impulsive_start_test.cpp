@@ -44,6 +44,61 @@ BOOST_AUTO_TEST_CASE(rotors_that_are_joined_keep_their_momentum) {
   BOOST_TEST(std::abs(found.point.x[1] - 1.0) < 1e-12);
 }
 
+// T = T₀ exp (S/C) is the same of both where S is 100 s and 300 s: the entropy, 15.98 + 3.95, is kept. The search meets
+// exponentials that are no doubles in their units.
+BOOST_AUTO_TEST_CASE(heat_capacities_that_are_joined_keep_their_entropy) {
+  const auto found = start(R"json({
+    "system": { "type": "network", "nodes": ["0", "a"], "elements": [
+      { "type": "heat-capacity", "name": "H1", "at": "a", "value": 100 },
+      { "type": "heat-capacity", "name": "H2", "at": "a", "value": 300 } ] },
+    "initial": { "S_H1": 15.9818, "S_H2": 3.95238 } })json");
+  BOOST_TEST(found.is_impulse);
+  const double s = (15.9818 + 3.95238) / 400.0;
+  BOOST_TEST((found.point.x - VectorXd{{100.0 * s, 300.0 * s}}).norm() < 1e-10);
+}
+
+// A source of 10 mA in front of coils of 10 µH and L at rest: both have the flux of its impulse, 10 mA 10 µH L/(10 µH + L), of whatever
+// size L is. A current that is given stays.
+BOOST_AUTO_TEST_CASE(what_is_not_given_begins_at_0) {
+  const auto fluxes = [](double L, const Json& initial) {
+    Json document = Json::parse(R"json({
+      "system": { "type": "network", "nodes": ["0", "a", "b"], "elements": [
+        { "type": "current-source", "name": "I", "from": "0", "to": "a", "value": 0.01 },
+        { "type": "inductor", "name": "L1", "from": "a", "to": "0", "value": 1e-5 },
+        { "type": "inductor", "name": "L2", "from": "a", "to": "b" },
+        { "type": "resistor", "name": "R", "from": "b", "to": "0", "value": 47 } ] } })json");
+    document["system"]["elements"][2]["value"] = L;
+    document["initial"] = initial;
+    return consistent_start(read_experiment_document(document)).point.x;
+  };
+  for (const double L : {1e-5, 2.2e-5, 3.1e-5, 4e-5}) {
+    const double flux = 0.01 * 1e-5 * L / (1e-5 + L);
+    for (const Json& initial : {Json::object(), Json("rest"), Json{{"phi_L1", 0}, {"phi_L2", 0}}})
+      BOOST_TEST((fluxes(L, initial) - VectorXd{{flux, flux}}).norm() < 1e-12 * flux,
+                 L << ' ' << initial.dump());
+    const VectorXd given{{0.008 * 1e-5, 0.002 * L}};
+    for (const Json& initial :
+         {Json{{"i_L2", 0.002}}, Json{{"phi_L1", 8e-8}}, Json{{"i_R", 0.002}}})
+      BOOST_TEST((fluxes(L, initial) - given).norm() < 1e-12, L << ' ' << initial.dump());
+  }
+}
+
+// 12 C on 2 F beside 4 F, of which 0 C are given, and 6 F, of which nothing is: 1 V. One voltage that is given is that of all.
+BOOST_AUTO_TEST_CASE(a_capacitor_of_which_nothing_is_given_has_no_charge_of_its_own) {
+  Json document = Json::parse(R"json({
+    "system": { "type": "network", "nodes": ["0", "a"], "elements": [
+      { "type": "capacitor", "name": "C1", "from": "a", "to": "0", "value": 2 },
+      { "type": "capacitor", "name": "C2", "from": "a", "to": "0", "value": 4 },
+      { "type": "capacitor", "name": "C3", "from": "a", "to": "0", "value": 6 },
+      { "type": "resistor", "name": "R", "from": "a", "to": "0", "value": 1 } ] },
+    "initial": { "q_C1": 12, "q_C2": 0 } })json");
+  const VectorXd jumped = consistent_start(read_experiment_document(document)).point.x;
+  BOOST_TEST((jumped - VectorXd{{2.0, 4.0, 6.0}}).norm() < 1e-12);
+  document["initial"] = {{"q_C1", 12}};
+  const VectorXd kept = consistent_start(read_experiment_document(document)).point.x;
+  BOOST_TEST((kept - VectorXd{{12.0, 24.0, 36.0}}).norm() < 1e-12);
+}
+
 // Of two masses on a rod the momenta move along the reaction, (x, y) of the bob and the opposite of the block's x; nothing that the given
 // metric says enters, and the masses do.
 BOOST_AUTO_TEST_CASE(momenta_move_along_the_reaction) {

@@ -12,6 +12,7 @@
 //    (integrators/certificate/natural_scaling.cpp)
 //  * a unit is made of rounding errors (integrators/certificate/natural_scaling.cpp)
 //  * what a step leaves of an unknown looks like a number
+//  * a residual of infinity in its units is compared with others
 BOOST_AUTO_TEST_SUITE(nearest_zero_test)
 
 using namespace courant;
@@ -52,6 +53,20 @@ BOOST_AUTO_TEST_CASE(what_a_step_leaves_of_an_unknown_is_zero) {
   BOOST_TEST(zero.found);
   BOOST_TEST(zero.y[1] == 0.0);
   BOOST_TEST(std::abs(zero.y[0] - 0.7) < 1e-15);
+}
+
+// exp y = 1 from y = -6.572: the step exp 6.572 - 1 leads to 1.4 · 10³⁰⁷, which is no double in units of exp (-6.572).
+BOOST_AUTO_TEST_CASE(a_residual_that_is_infinite_in_its_units_makes_no_step) {
+  const auto map = [](const VectorXd& y) {
+    const double power = std::exp(y[0]);
+    return linear(MatrixXd::Constant(1, 1, power), vector({power - 1.0}),
+                  vector({unit * (power + 1.0)}));
+  };
+  Mobility mobility;
+  mobility.cost = VectorXd::Ones(1);
+  const Zero zero = find_zero(map, vector({-6.572}), mobility);
+  BOOST_TEST(zero.found);
+  BOOST_TEST(std::abs(zero.y[0]) < 1e-12);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
