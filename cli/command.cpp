@@ -28,15 +28,20 @@ int unless_lost(const Console& console, int status) {
   return refuse(console, "what was printed is lost: standard output cannot be written", failed);
 }
 
-// What is wrong with a first argument that is neither an option nor a command; nothing if it is
-// one.
+// What is wrong with a first argument that is neither an option of all commands nor a command; nothing if it is one.
 std::string unknown_command(const std::string& word, const CLI::App& app) {
   std::vector<std::string> commands;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
     commands.push_back(command->get_name());
-  if (word.rfind('-', 0) == 0 ||
-      std::find(commands.begin(), commands.end(), word) != commands.end())
+  const bool is_option = word.starts_with('-');
+  if (is_option ? app.get_option_no_throw(word) != nullptr
+                : std::find(commands.begin(), commands.end(), word) != commands.end())
     return "";
+  if (is_option)
+    return "unknown option \"" + word +
+           "\"; expected a command first, whose options stand behind it: `courant --help` lists "
+           "the "
+           "commands";
   return "unknown command \"" + word + "\"" + did_you_mean(word, commands) +
          "; `courant --help` lists the commands";
 }

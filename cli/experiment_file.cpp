@@ -1,7 +1,9 @@
 #include "courant/cli/experiment_file.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
@@ -13,6 +15,7 @@
 #include "courant/cli/waiting.hpp"
 #include "courant/core/files/output_file.hpp"
 #include "courant/core/words/message.hpp"
+#include "courant/extensions/robots/import_robot.hpp"
 #include "courant/reading/json_document.hpp"
 #include "courant/reading/setting.hpp"
 #include "courant/reading/unused_parameters.hpp"
@@ -33,6 +36,14 @@ std::optional<std::string> read_text(const Console& console, const std::string& 
   if (text.size() <= kLargest) return text;
   print_error(console, file + ": is larger than 16 MB; expected " + expected);
   return std::nullopt;
+}
+
+// A netlist by the end of its name, or a robot.
+bool is_to_be_imported(const std::string& file, const std::string& text) {
+  std::string suffix = std::filesystem::path(file).extension().string();
+  std::ranges::transform(suffix, suffix.begin(), [](unsigned char c) { return std::tolower(c); });
+  constexpr std::array netlists = {".cir", ".ckt", ".net", ".sp", ".spi", ".spice"};
+  return std::ranges::find(netlists, suffix) != netlists.end() || is_robot_file(file, text);
 }
 
 void report_problems(const Console& console, const std::string& file,
@@ -86,6 +97,12 @@ int with_document(const Console& console, const std::string& file,
                   const std::vector<std::string>& settings, TableFiles tables) {
   const auto text = read_input(console, file, "an experiment");
   if (!text) return wrong;
+  if (is_to_be_imported(file, *text) && !Json::accept(*text)) {
+    print_error(console,
+                file + ": is a netlist or a robot; expected an experiment, which `courant import " +
+                    file + " -o FILE.json` makes of it");
+    return wrong;
+  }
   return reporting_errors(console, file, [&] {
     Json document = parse_json(*text);
     std::vector<Setting> changes;

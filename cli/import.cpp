@@ -18,6 +18,13 @@ int import(const Console& console, const std::string& file, const std::string& o
   if (!output.empty()) files.check(output);
   const auto text = read_input(console, file, "a netlist or a robot");
   if (!text) return wrong;
+  if (const Json document = Json::parse(*text, nullptr, false); document.is_object()) {
+    print_error(console, file +
+                             ": is JSON; expected a netlist or a robot. An experiment needs no "
+                             "import: `courant run " +
+                             file + "`");
+    return wrong;
+  }
   return reporting_errors(console, file, [&]() -> int {
     std::vector<Problem> notes;
     const IncludedText beside = files_below(std::filesystem::path(file).parent_path());

@@ -1,5 +1,6 @@
 #include "courant/reading/setting.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -88,6 +89,31 @@ std::vector<std::string> row_of_cells(std::string_view text, std::size_t& i) {
   return cells;
 }
 
+// The tokens of a pointer, where those of elements of a list are the names that these have.
+std::vector<std::string> tokens_by_name(const std::string& pointer, const Json& document) {
+  std::vector<std::string> tokens;
+  const Json* at = &document;
+  for (const std::string_view token : pieces(std::string_view(pointer).substr(1), '/')) {
+    const Json* const above = at;
+    const auto place = number_in<std::size_t>(token);
+    at = nullptr;
+    if (above && above->is_array() && place && *place < above->size()) at = &(*above)[*place];
+    if (above && above->is_object() && above->contains(token)) at = &above->at(std::string(token));
+    const bool is_named = at && above->is_array() && at->is_object() && at->contains("name") &&
+                          at->at("name").is_string();
+    tokens.push_back(is_named ? at->at("name").get<std::string>() : std::string(token));
+  }
+  return tokens;
+}
+
+// The last n of them, with slashes between.
+std::string end_of(const std::vector<std::string>& tokens, std::size_t n) {
+  std::string end;
+  for (std::size_t i = tokens.size() - std::min(n, tokens.size()); i < tokens.size(); ++i)
+    end += (end.empty() ? "" : "/") + tokens[i];
+  return end;
+}
+
 // n numbers from a to b, both of them exactly.
 std::vector<Json> numbers(double a, double b, std::size_t n) {
   std::vector<Json> values;
@@ -144,11 +170,32 @@ ValueRange read_range(const std::string& text, const std::string& option) {
     range.values = numbers(*a, *b, *n);
     return range;
   }
+  // Of a formula or a text colons are no ends: what begins with a number, and is none, is meant for a range.
+  if (list.size() == 1 && ends.size() > 1 && number_in<double>(ends[0]))
+    refuse(option, pointer,
+           "is " + written +
+               "; expected a:b:n, n numbers from a to b, such as 0.1:1:10, or a list v,w,…");
   for (const std::string_view piece : list) {
     if (piece.empty()) refuse(option, pointer, "has a value that is empty; expected " + expected);
     range.values.push_back(value_of(piece));
   }
   return range;
+}
+
+std::vector<std::string> short_names(std::span<const std::string> pointers, const Json& document) {
+  std::vector<std::vector<std::string>> tokens;
+  for (const std::string& pointer : pointers) tokens.push_back(tokens_by_name(pointer, document));
+  std::vector<std::string> names;
+  for (const auto& own : tokens) {
+    const auto is_shared = [&](std::size_t n) {
+      return std::ranges::count_if(
+                 tokens, [&](const auto& other) { return end_of(other, n) == end_of(own, n); }) > 1;
+    };
+    std::size_t n = 1;
+    while (n < own.size() && is_shared(n)) ++n;
+    names.push_back(end_of(own, n));
+  }
+  return names;
 }
 
 std::vector<ValueRange> read_cases(std::string_view text, const std::string& name,

@@ -37,6 +37,11 @@ struct ValueRange {
 // ExperimentError.
 ValueRange read_range(const std::string& text, const std::string& option = "--sweep");
 
+// What places of an experiment are called beside each other: the ends of their pointers, as long as it takes to tell
+// them apart, "step" of /time/step. An element of a list is called by its name where it has one: "R1/value" and
+// "C1/value" of /system/elements/2/value and /system/elements/4/value.
+std::vector<std::string> short_names(std::span<const std::string> pointers, const Json& document);
+
 // The columns of a table of cases (comma-separated values, RFC 4180): its head has a JSON pointer for each
 // column, a row a value for each, as in a setting. The ranges after the first are tied to it. `name` is that of the file, for
 // messages. Throws ExperimentError.

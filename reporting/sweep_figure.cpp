@@ -6,6 +6,8 @@
 #include <map>
 #include <string_view>
 
+#include "courant/reading/setting.hpp"
+
 namespace courant {
 
 namespace {
@@ -16,9 +18,11 @@ using plot::Series;
 constexpr std::size_t most_quantities = 8;
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-// "theta" of "/method/theta".
-std::string last_token(const std::string& pointer) {
-  return pointer.substr(pointer.rfind('/') + 1);
+// What each swept place is called beside the others.
+std::vector<std::string> places_of(const Json& table) {
+  std::vector<std::string> pointers;
+  for (const Json& range : table.at("sweep")) pointers.push_back(range.at("pointer"));
+  return short_names(pointers, table.value("experiment", Json()));
 }
 
 std::string text_of(const Json& value) {
@@ -30,8 +34,8 @@ std::string text_of(const Json& value) {
 // The values of a swept place as positions on an axis, and the axis.
 class Places {
  public:
-  explicit Places(const Json& range) : values_(range.at("values")) {
-    axis_.label = last_token(range.at("pointer"));
+  Places(const Json& range, const std::string& name) : values_(range.at("values")) {
+    axis_.label = name;
     numeric_ = std::ranges::all_of(values_, [](const Json& value) { return value.is_number(); });
     if (!numeric_) {
       std::vector<std::string> words;
@@ -69,13 +73,15 @@ class Places {
 };
 
 // The swept places but the first, "theta=0.2, step=0.1", and what is tied to it.
-std::string label_of(const Json& settings, const Json& ranges) {
+std::string label_of(const Json& settings, const Json& ranges,
+                     const std::vector<std::string>& names) {
   std::string label;
   std::size_t place = 0, end = 1;
   while (end < ranges.size() && ranges[end].value("tied", false)) ++end;
-  for (const auto& [pointer, value] : settings.items())
-    if (place++ >= end)
-      label += (label.empty() ? "" : ", ") + last_token(pointer) + " = " + text_of(value);
+  for (const auto& [pointer, value] : settings.items()) {
+    if (place >= end) label += (label.empty() ? "" : ", ") + names[place] + " = " + text_of(value);
+    ++place;
+  }
   return label;
 }
 
@@ -111,8 +117,8 @@ std::vector<std::pair<std::string, std::string>> shown_values(const Json& runs) 
   return shown;
 }
 
-Panel panel_of(const std::string& name, const std::string& label, const Json& runs,
-               const Json& ranges, const Places& places) {
+Panel panel_of(const std::string& name, const std::string& label, const Json& table,
+               const Places& places) {
   Panel panel;
   panel.title = label;
   panel.x = places.axis();
@@ -120,9 +126,10 @@ Panel panel_of(const std::string& name, const std::string& label, const Json& ru
   panel.points = true;
   panel.height = 220;
   std::vector<double> all;
-  for (const Json& run : runs) {
+  const std::vector<std::string> names = places_of(table);
+  for (const Json& run : table.at("runs")) {
     const Json& settings = run.at("settings");
-    const std::string curve = label_of(settings, ranges);
+    const std::string curve = label_of(settings, table.at("sweep"), names);
     auto found = std::ranges::find(panel.series, curve, &Series::label);
     if (found == panel.series.end())
       found = panel.series.insert(found, Series{curve, {}, {}, panel.series.size()});
@@ -143,12 +150,13 @@ std::optional<Figure> sweep_figure(const Json& table) {
   const Json& runs = table.at("runs");
   const Json& ranges = table.at("sweep");
   if (runs.empty() || ranges.empty()) return std::nullopt;
-  const Places places(ranges.front());
+  const std::vector<std::string> names = places_of(table);
+  const Places places(ranges.front(), names.front());
   Figure figure;
   figure.name = "sweep";
   const auto shown = shown_values(runs);
   for (const auto& [name, label] : shown) {
-    figure.panels.push_back(panel_of(name, label, runs, ranges, places));
+    figure.panels.push_back(panel_of(name, label, table, places));
     if (shown.size() > 3) figure.panels.back().width = 380;
   }
   if (figure.panels.empty()) return std::nullopt;
@@ -158,10 +166,9 @@ std::optional<Figure> sweep_figure(const Json& table) {
   if (const std::size_t most = 2 * plot::palette().size(); figure.legend.size() > most)
     figure.legend = {figure.legend.begin(),
                      figure.legend.begin() + static_cast<std::ptrdiff_t>(most)};
-  figure.caption = "A sweep over " + last_token(ranges.front().at("pointer"));
-  for (std::size_t i = 1; i < ranges.size(); ++i)
-    figure.caption +=
-        (i + 1 == ranges.size() ? " and " : ", ") + last_token(ranges[i].at("pointer"));
+  figure.caption = "A sweep over " + names.front();
+  for (std::size_t i = 1; i < names.size(); ++i)
+    figure.caption += (i + 1 == names.size() ? " and " : ", ") + names[i];
   figure.caption += ".";
   return figure;
 }

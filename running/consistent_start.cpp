@@ -550,9 +550,31 @@ std::string held_moves(const Experiment& experiment, const ConstraintLadder& fre
   }
   constexpr std::size_t most = 6;
   if (moves.empty()) return "";
-  return ": they hold near by with " +
+  return "; they hold near by with " +
          word_list(std::span(moves).first(std::min(moves.size(), most))) +
          (moves.size() > most ? ", …" : "");
+}
+
+// What the equations that contradict each other are at a point, in the numbers of the experiment: those that are not 0
+// there. Of derivatives of equations the point alone does not tell.
+std::string violations(const ImplicitSystem& system, const ConstraintLadder& ladder,
+                       const State& point) {
+  constexpr double nothing = 1e-9;
+  const VectorXd residual = system.residual(point.x, point.v, point.z, point.t);
+  const double least = nothing * residual.lpNorm<Eigen::Infinity>();
+  const auto& names = system.names().equations;
+  std::vector<std::string> parts;
+  for (const NamedEquation& equation : ladder.contradiction) {
+    const auto found = std::ranges::find(names, equation.name);
+    if (found == names.end() || equation.derivative > 0) continue;
+    const Index i = found - names.begin();
+    if (std::fabs(residual[i]) > least)
+      parts.push_back(equation_in_words(system, i) + " is " + number_text(residual[i], 3));
+  }
+  constexpr std::size_t most = 3;
+  if (parts.empty()) return "";
+  return ": " + word_list(std::span(parts).first(std::min(parts.size(), most))) +
+         (parts.size() > most ? ", …" : "");
 }
 
 // Unknowns that nobody gave, and that are round-off of others or of 1, are 0 where this solves each equation no worse: of
@@ -613,13 +635,14 @@ ConsistentStart found_start(const Experiment& experiment, Decider decider) {
     const ConstraintLadder free = search.free();
     if (has_no_start(free)) return free;
     const bool is_empty = !ladder.levels.empty() && ladder.levels.back().is_empty;
-    throw ExperimentError(
-        "/hold",
-        "what is held contradicts the constraints" +
-            (is_empty ? ", which are violated by " + number_text(ladder.levels.back().residual, 3) +
-                            held_moves(experiment, free)
-                      : std::string()) +
-            "; expected values that satisfy them");
+    State where = ladder.point;
+    if (is_empty) search.keep_to_the_bit(where);
+    throw ExperimentError("/hold",
+                          "what is held contradicts the constraints" +
+                              (is_empty ? violations(*experiment.model.system, ladder, where) +
+                                              held_moves(experiment, free)
+                                        : std::string()) +
+                              "; expected values that satisfy them");
   }
   search.keep_to_the_bit(ladder.point);
   drop_round_off_of_unknowns(experiment, ladder.point);

@@ -6,14 +6,17 @@
 #include <stdexcept>
 
 #include "courant/core/expressions/function.hpp"
+#include "courant/integrators/certificate/consistent_point.hpp"
 #include "courant/integrators/certificate/constraint_algorithm.hpp"
+#include "courant/integrators/certificate/ladder_in_units.hpp"
+#include "courant/integrators/methods/integrator_in_units.hpp"
 
 namespace courant {
 namespace {
 
 constexpr Index kMostTried = 50;
-// Values that differ by less, next to their size, are one.
-constexpr double kDifferentValue = 1e-6;
+// Of the way from one solution to the next: of three that are evenly spaced the one between is not there.
+constexpr double kAside = 0.381966;
 // A residual that is linear leaves this part of its size, round-off, at the middle of two points.
 constexpr double kLinear = 1e-12;
 
@@ -39,6 +42,53 @@ bool is_nonlinear(const Function& F, const VectorXd& z, Index i) {
   return (here + opposite - 2.0 * middle).cwiseAbs().maxCoeff() > kLinear * size;
 }
 
+// The system, in natural units where its numbers are far apart: charges of 10⁻¹² C are no round-off of 1 there.
+class OtherSolutions {
+ public:
+  OtherSolutions(const std::shared_ptr<const ImplicitSystem>& system, const State& at)
+      : system_(system), at_(at) {
+    if (const auto units = needed_units(system, at)) {
+      const auto measured = std::make_shared<SystemInUnits>(system, *units);
+      units_ = units;
+      system_ = measured;
+      at_ = units->measure(at);
+    }
+  }
+
+  // What unknown i is in the solution that a search comes to from -z_i at these coordinates, if it comes to another one.
+  std::optional<double> value_from_opposite(Index i) const {
+    ConstraintAlgorithm::Options options;
+    options.max_level = 0;
+    InitialGuess guess{.t = at_.t, .x = at_.x, .v = at_.v, .z = at_.z};
+    guess.z[i] = -at_.z[i];
+    guess.hold_x.resize(static_cast<std::size_t>(at_.x.size()));
+    std::iota(guess.hold_x.begin(), guess.hold_x.end(), Index{0});
+    const ConstraintLadder found = ConstraintAlgorithm(options).run(system_, guess);
+    if (found.levels.empty()) return std::nullopt;
+    const State& other = found.point;
+    if (!other.v.allFinite() || !other.z.allFinite() || !is_solution(other)) return std::nullopt;
+    // Where a value between the two solves the equations as well, they differ by round-off.
+    State between = other;
+    between.z[i] += kAside * (at_.z[i] - other.z[i]);
+    if (is_solution(between)) return std::nullopt;
+    return (units_ ? units_->restore(other) : other).z[i];
+  }
+
+ private:
+  // Whether each equation vanishes at the state next to its own terms.
+  bool is_solution(const State& state) const {
+    const DerivativeArray array(system_, state.t, at_.x);
+    Zero zero(array.jet(state.v, state.z));
+    zero.found = true;
+    const ConsistentPoint point(system_, {.t = state.t, .x = at_.x}, {});
+    return point.is_met_at({array, std::move(zero)});
+  }
+
+  std::shared_ptr<const ImplicitSystem> system_;
+  State at_;
+  std::optional<Units> units_;
+};
+
 }  // namespace
 
 std::vector<Movement> other_values(const Experiment& experiment, const ConstraintLadder& ladder) {
@@ -47,25 +97,18 @@ std::vector<Movement> other_values(const Experiment& experiment, const Constrain
   std::vector<Movement> others;
   if (ladder.verdict != Verdict::regular || at.z.size() > kMostTried || at.x.size() > kMostTried)
     return others;
-  ConstraintAlgorithm::Options options;
-  options.max_level = 0;
-  const ConstraintAlgorithm solve(options);
-  std::optional<Function> equations;  // of z, compiled for the first unknown that is asked about
+  // Of z, compiled for the first unknown that is asked about.
+  std::optional<Function> equations;
+  std::optional<OtherSolutions> solutions;
   // Unknowns that have names.
   for (Index i = 0; i < experiment.initial.z.given.size(); ++i) {
     if (experiment.initial.z.given[i] || at.z[i] == 0.0) continue;
     try {
       if (!equations) equations.emplace(equations_of_unknowns(*system, at));
       if (!is_nonlinear(*equations, at.z, i)) continue;
-      InitialGuess guess{.t = at.t, .x = at.x, .v = at.v, .z = at.z};
-      guess.z[i] = -at.z[i];
-      guess.hold_x.resize(static_cast<std::size_t>(at.x.size()));
-      std::iota(guess.hold_x.begin(), guess.hold_x.end(), Index{0});
-      const ConstraintLadder other = solve.run(system, guess);
-      if (other.levels.empty() || !other.levels.back().is_solved) continue;
-      const double value = other.point.z[i], size = std::fabs(value) + std::fabs(at.z[i]);
-      if (std::isfinite(value) && std::fabs(value - at.z[i]) > kDifferentValue * size)
-        others.push_back({system->names().auxiliary[static_cast<std::size_t>(i)], at.z[i], value});
+      if (!solutions) solutions.emplace(system, at);
+      if (const auto value = solutions->value_from_opposite(i))
+        others.push_back({system->names().auxiliary[static_cast<std::size_t>(i)], at.z[i], *value});
     } catch (const std::runtime_error&) {  // nothing is found there
     } catch (const std::domain_error&) {
     }

@@ -196,6 +196,15 @@ void check_one_run(const Run& run, const std::filesystem::path& experiment,
       fail(trajectory, "is of another run than summary.json: " + name + " ends elsewhere.");
 }
 
+// How many steps led to the last row, of a run that had no time to count them; 0 where steps are not of the time of rows.
+long steps_of_rows(const Run& run) {
+  const auto& time = run.summary.time;
+  const Json* const asked = run.experiment.contains("time") ? &run.experiment.at("time") : nullptr;
+  const bool is_transformed = asked && asked->is_object() && asked->contains("transformation");
+  if (!time || !(time->step > 0.0) || is_transformed || run.trajectory.rows() == 0) return 0;
+  return std::lround((run.trajectory.column("t").back() - time->start) / time->step);
+}
+
 }  // namespace
 
 std::vector<std::filesystem::path> run_folders_in(const std::filesystem::path& directory) {
@@ -256,6 +265,7 @@ Run read_run(const std::filesystem::path& directory) {
           .trajectory = trajectory(),
           .summary = std::move(told),
           .experiment = read_json(experiment)};
+  if (!ended) run.summary.steps = steps_of_rows(run);
   if (const auto events = directory / "events.csv"; file_exists(events))
     run.events = read_events_csv(events, !ended);
   check_one_run(run, experiment, file_exists(csv) ? csv : npy);

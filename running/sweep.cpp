@@ -33,10 +33,9 @@ std::string text_of(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-// "theta=0.2" of "/method/theta": what a folder may be called.
-std::string name_of(const Setting& setting) {
-  std::string name =
-      setting.pointer.substr(setting.pointer.rfind('/') + 1) + "=" + text_of(setting.value);
+// "theta=0.2" of "/method/theta", whose place is called theta: what a folder may be called.
+std::string name_of(const std::string& place, const Json& value) {
+  std::string name = place + "=" + text_of(value);
   for (char& c : name)
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 &&
         std::string_view(".=+-_").find(c) == std::string_view::npos)
@@ -44,13 +43,14 @@ std::string name_of(const Setting& setting) {
   return name;
 }
 
-std::string name_of(std::size_t number, std::size_t count, const std::vector<Setting>& settings) {
+std::string name_of(std::size_t number, std::size_t count, const std::vector<Setting>& settings,
+                    const std::vector<std::string>& places) {
   constexpr std::size_t longest = 80;
   std::string name = std::to_string(number);
   name.insert(0, std::to_string(count).size() - name.size(), '0');
   const char* separator = "-";
-  for (const Setting& setting : settings) {
-    name += separator + name_of(setting);
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    name += separator + name_of(places[i], settings[i].value);
     separator = ",";
   }
   return name.substr(0, longest);
@@ -156,8 +156,12 @@ std::vector<SweepCase> sweep_cases(const Json& document, std::span<const ValueRa
   std::vector<SweepCase> cases;
   const auto all = combinations(ranges);
   const std::size_t of_one_code = alike(ranges);
+  std::vector<std::string> pointers;
+  for (const ValueRange& range : ranges) pointers.push_back(range.pointer);
+  const std::vector<std::string> places = short_names(pointers, document);
   for (const auto& settings : all) {
-    SweepCase one{settings, name_of(cases.size() + 1, all.size(), settings), document, of_one_code};
+    SweepCase one{settings, name_of(cases.size() + 1, all.size(), settings, places), document,
+                  of_one_code};
     for (const Setting& setting : settings) apply_setting(setting, one.document, "--sweep");
     if (cases.empty()) require_used(one.document, settings, "--sweep");
     cases.push_back(std::move(one));

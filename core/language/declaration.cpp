@@ -14,6 +14,13 @@ using formula::TokenKind;
 
 constexpr Index kMostElements = 10'000'000;  // beyond this an extent is a typing error
 
+// Of a name that has one in every formula: ", Euler's number". Empty for those that an experiment made itself.
+std::string meaning_everywhere(std::string_view name) {
+  if (name == "e") return ", Euler's number";
+  if (name == "pi") return ", the number π";
+  return formula::find_function(name) != nullptr ? ", a function" : "";
+}
+
 }  // namespace
 
 std::vector<std::string> Declaration::element_names() const {
@@ -37,8 +44,8 @@ Declaration parse_declaration(std::string_view text, const SymbolTable& known) {
                        "unexpected \".\"; expected a name of letters, digits "
                        "and _");
   if (formula::find_function(name.text) != nullptr || known.find(name.text) != nullptr)
-    throw FormulaError(name.column,
-                       "\"" + declaration.name + "\" has a meaning already; expected a new name");
+    throw FormulaError(name.column, "\"" + declaration.name + "\" has a meaning already" +
+                                        meaning_everywhere(name.text) + "; expected a new name");
   for (const auto& [extent, column] : parser.subscripts("size", name.text)) {
     if (extent < 1 || extent > kMostElements / declaration.size())
       throw FormulaError(column, "size of " + declaration.name + " is " + std::to_string(extent) +

@@ -9,6 +9,7 @@
 #include "courant/extensions/spice/netlist_circuit_reader.hpp"
 #include "courant/reading/experiment.hpp"
 #include "courant/reading/linear_spectrum.hpp"
+#include "courant/reading/unused_parameters.hpp"
 
 namespace courant {
 namespace {
@@ -19,6 +20,18 @@ using namespace netlist;
 constexpr int kHalvings = 10;
 // By which steps are chosen: about what simulators of circuits have.
 constexpr double kTolerance = 1e-3;
+
+// Parameters of which only values are left, as of the widths of transistors, would be no use of the experiment to change.
+void drop_unused_parameters(Json& experiment) {
+  Json& system = experiment["system"];
+  for (auto unused = unused_parameters(experiment); !unused.empty();
+       unused = unused_parameters(experiment))
+    for (const Problem& parameter : unused) {
+      const Json::json_pointer place(parameter.where);
+      experiment.at(place.parent_pointer()).erase(place.back());
+    }
+  if (system.contains("parameters") && system["parameters"].empty()) system.erase("parameters");
+}
 
 class Import {
  public:
@@ -69,6 +82,7 @@ class Import {
                                           {"direction", "falling"},
                                           {"set", {{one.state, 0}}}};
     }
+    drop_unused_parameters(all);
     return all;
   }
   const std::vector<Problem>& notes() const { return notes_; }

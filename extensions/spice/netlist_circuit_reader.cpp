@@ -23,6 +23,21 @@ std::set<std::string> words_in(const Deck& deck, bool as_written) {
   return words;
 }
 
+// Of what is no model, as 4k7 where 4.7k is meant: simulators read 4 kΩ, 4.7 kΩ or nothing.
+std::string number_that_is_meant(const std::string& word) {
+  const std::size_t letter = word.find_first_not_of("0123456789");
+  if (letter == 0 || letter == std::string::npos || letter + 1 == word.size() ||
+      word.find_first_not_of("0123456789", letter + 1) != std::string::npos)
+    return "";
+  const std::string digits = word.substr(0, letter) + "." + word.substr(letter + 1);
+  const std::string unit(1, word[letter]);
+  if (unit == "r") return ", and no number; expected " + digits;
+  if (unit == "m")
+    return ", and no number; expected " + digits + "m for 10⁻³ or " + digits + "meg for 10⁶";
+  if (!number("1" + unit) || number("1" + unit) == std::optional(1.0)) return "";
+  return ", and no number; expected " + digits + unit;
+}
+
 bool mentions(const std::string& text, const std::string& name) {
   const auto is_of_name = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
@@ -168,7 +183,8 @@ CircuitReader::UsedModel CircuitReader::model(const std::string& name,
                                               const Part& part, const Scope& scope,
                                               int line) const {
   const UsedModel found = find_model(name, part, scope);
-  if (!found.model) throw LineError{line, "unknown model \"" + name + "\""};
+  if (!found.model)
+    throw LineError{line, "unknown model \"" + name + "\"" + number_that_is_meant(name)};
   if (std::ranges::find(types, found.model->type) == types.end())
     throw LineError{line, "the model " + name + " is of the type " + found.model->type +
                               "; expected " + in_words(types)};

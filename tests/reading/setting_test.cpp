@@ -106,6 +106,34 @@ BOOST_AUTO_TEST_CASE(what_is_no_range_is_refused) {
   BOOST_TEST(refusal("a=1").find("is not a change") != std::string::npos);
 }
 
+// Two numbers with a colon, and three that are not, are no texts: no place has such a value.
+BOOST_AUTO_TEST_CASE(half_a_range_is_refused) {
+  BOOST_TEST(
+      refusal("/a=0.1:0.2") ==
+      "--sweep /a: is 0.1:0.2; expected a:b:n, n numbers from a to b, such as 0.1:1:10, or a "
+      "list v,w,…");
+  BOOST_TEST(values("x:y") == Json::array({"x:y"}));
+}
+
+BOOST_AUTO_TEST_CASE(places_are_called_by_as_much_as_tells_them_apart) {
+  const Json document = {
+      {"system", {{"elements", {{{"name", "R1"}, {"value", 1}}, {{"name", "C1"}, {"value", 2}}}}}},
+      {"initial", {{"x", {1, 2}}}},
+      {"time", {{"step", 1}}},
+      {"output", {{"step", 1}}}};
+  const auto names = [&](const std::vector<std::string>& pointers) {
+    return short_names(pointers, document);
+  };
+  using Names = std::vector<std::string>;
+  BOOST_TEST(names({"/system/elements/0/value", "/time/step"}) == Names({"value", "step"}));
+  BOOST_TEST(names({"/system/elements/0/value", "/system/elements/1/value", "/initial/x/1"}) ==
+             Names({"R1/value", "C1/value", "1"}));
+  BOOST_TEST(names({"/time/step", "/output/step"}) == Names({"time/step", "output/step"}));
+  // A place that is not there yet, and one that stands there twice.
+  BOOST_TEST(names({"/method/step", "/time/step"}) == Names({"method/step", "time/step"}));
+  BOOST_TEST(names({"/time/step", "/time/step"}) == Names({"time/step", "time/step"}));
+}
+
 BOOST_AUTO_TEST_CASE(all_combinations_the_last_range_fastest) {
   const std::vector<ValueRange> ranges = {{"/a", {1, 2}}, {"/b", {"x", "y", "z"}}};
   const auto all = combinations(ranges);

@@ -238,6 +238,7 @@ BOOST_AUTO_TEST_CASE(a_run_that_did_not_end_is_read_as_far_as_it_got) {
   const Run run = read_run(folder / "run");
   BOOST_TEST(run.trajectory.rows() == 3u);
   BOOST_TEST(run.summary.message == "The run did not end: it was killed.");
+  BOOST_TEST(run.summary.steps == 2);  // from the first to the third row
 
   const std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 2), }";
   write_text(folder / "a.npy", npy(header, {0, 1, 2, 3, 4}));

@@ -70,9 +70,11 @@ BOOST_AUTO_TEST_CASE(wrong_declarations) {
   check_refused(parse, "r[2][2][2]", 8, "column 8: expected end of declaration, found \"[\"");
   check_refused(parse, "r[length]", 3, "column 3: size of r is 1.5; expected an integer");
   check_refused(parse, "r[m]", 3, "column 3: unknown name \"m\"");
-  check_refused(parse, "e", 1, "column 1: \"e\" has a meaning already; expected a new name");
+  check_refused(parse, "e", 1,
+                "column 1: \"e\" has a meaning already, Euler's number; expected a new name");
   check_refused(parse, "n[2]", 1, "column 1: \"n\" has a meaning already; expected a new name");
-  check_refused(parse, "cos", 1, "column 1: \"cos\" has a meaning already; expected a new name");
+  check_refused(parse, "cos", 1,
+                "column 1: \"cos\" has a meaning already, a function; expected a new name");
 }
 
 BOOST_AUTO_TEST_CASE(references) {

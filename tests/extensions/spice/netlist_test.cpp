@@ -191,6 +191,10 @@ BOOST_AUTO_TEST_CASE(what_is_wrong_is_told_by_line) {
           "I, K, D, E, F, G, H, B, S, W, Q, M or X");
   refused("R1 a 0 {r}", "line 2: unknown parameter \"r\"");
   refused("D1 a 0 missing", "line 2: unknown model \"missing\"");
+  refused("R1 a 0 4R7", "line 2: unknown model \"4r7\", and no number; expected 4.7");
+  refused("R1 a 0 4K7", "line 2: unknown model \"4k7\", and no number; expected 4.7k");
+  refused("R1 a 0 1M5",
+          "line 2: unknown model \"1m5\", and no number; expected 1.5m for 10⁻³ or 1.5meg for 10⁶");
   refused("D1 a 0 q\n.model q npn", "line 2: the model q is of the type npn; expected d");
   refused("* comment\nR1 a 0\n+ 1k\nF1 a 0 V9 2",
           "line 5: needs the voltage source v9, which is not there");
@@ -225,7 +229,7 @@ BOOST_AUTO_TEST_CASE(subcircuits_and_parameters) {
   BOOST_TEST(system.at("elements")[3].at("value") == "2*potential_x1_m");
   BOOST_TEST(found.at("initial") == Json({{"q_x1_C1", 0}, {"q_x2_C1", 0}}));
   const Experiment experiment = read_experiment(found.dump());
-  BOOST_TEST(experiment.model.vocabulary.parameters.size() == 5u);
+  BOOST_TEST(experiment.model.vocabulary.parameters.size() == 4u);  // tau is used by nothing
   BOOST_TEST(experiment.time->steps == 10);
 }
 
