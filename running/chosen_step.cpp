@@ -3,10 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "courant/core/words/message.hpp"
 #include "courant/running/consistent_start.hpp"
+#include "courant/running/run_keeper.hpp"
+#include "courant/running/run_underway.hpp"
 
 namespace courant {
 namespace {
@@ -19,7 +25,62 @@ constexpr double kNoEstimate = std::numeric_limits<double>::infinity();
 // Ways of coordinates below this part of their greatest value are round-off.
 constexpr double kLeastWayCompared = 1e-9;
 
-// The coordinates at the ends of the longest steps, as columns; nothing where a step cannot be made.
+// What a trial leaves: the coordinates at the ends of the longest steps, as columns, and those at which an event stopped it;
+// and when events stopped it or set something, by their names.
+struct Trial {
+  MatrixXd x;
+  std::map<std::string, std::vector<double>> jumps = {};
+  VectorXd stopped_at = {};  // empty where it came to its end
+};
+
+// Whether steps by themselves do not know how the run goes on behind it.
+bool ends_a_way(const Event& event) { return event.sets() || event.stops; }
+
+// Keeps of a run what a trial leaves, of every so many steps.
+class TrialKeeper final : public RunKeeper {
+ public:
+  TrialKeeper(long parts, const TimeSpan& time) : parts_(parts), time_(time) {}
+
+  void open(const RunOpening&) override {}
+  void append(double, const std::optional<double>&, const Eigen::Ref<const VectorXd>&) override {}
+  void append_event(const std::string& name, double t, const Eigen::Ref<const VectorXd>&) override {
+    events_[name].push_back(t);
+  }
+  void see(const RunMoment& moment) override {
+    constexpr double round_off = 1e-9;
+    const double end = time_.time(moment.k / parts_);
+    last_ = moment.step.after.x;
+    // An event may have stopped the run within the step.
+    if (moment.k % parts_ == 0 && std::fabs(moment.t - end) <= round_off * std::fabs(time_.step))
+      states_.push_back(last_);
+  }
+  void close() override {}
+  void tell(const RunSummary&) override {}
+
+  Trial trial(const std::vector<Event>& events) const {
+    Trial trial{.x = MatrixXd(last_.size(), std::ssize(states_))};
+    for (Index k = 0; k < trial.x.cols(); ++k)
+      trial.x.col(k) = states_[static_cast<std::size_t>(k)];
+    for (const Event& event : events) {
+      if (!ends_a_way(event)) continue;
+      const auto found = events_.find(event.name);
+      const std::vector<double> times =
+          found == events_.end() ? std::vector<double>() : found->second;
+      if (event.stops && !times.empty()) trial.stopped_at = last_;
+      trial.jumps[event.name] = times;
+    }
+    return trial;
+  }
+
+ private:
+  long parts_;
+  const TimeSpan& time_;
+  std::vector<VectorXd> states_;
+  VectorXd last_;
+  std::map<std::string, std::vector<double>> events_;
+};
+
+// Runs with steps that are tried; nothing where a step cannot be made.
 class Trials {
  public:
   Trials(const Experiment& experiment, Backend backend, const std::atomic<bool>* stop)
@@ -28,7 +89,30 @@ class Trials {
         stop_(stop),
         start_(consistent_start(experiment)) {}
 
-  std::optional<MatrixXd> run(long parts) const {
+  std::optional<Trial> run(long parts) const {
+    // Boundary values are sought after a step is chosen, of one smooth map.
+    const bool jumps = !experiment_.boundary && std::ranges::any_of(experiment_.events, ends_a_way);
+    return jumps ? with_events(parts) : steps_alone(parts);
+  }
+
+ private:
+  std::optional<Trial> with_events(long parts) const {
+    const TimeSpan& time = *experiment_.time;
+    const auto whole =
+        with_chosen_step(experiment_, {.step = time.step / static_cast<double>(parts)});
+    TrialKeeper keeper(parts, time);
+    RunOptions options;
+    options.backend = backend_;
+    options.stop = stop_;
+    options.explains_start = false;
+    const RunOutcome outcome = carry_out(*whole, keeper, options);
+    if (outcome.status == RunStatus::interrupted) throw std::runtime_error("interrupted");
+    const Trial trial = keeper.trial(experiment_.events);
+    if (outcome.status == RunStatus::failed || !trial.x.allFinite()) return std::nullopt;
+    return trial;
+  }
+
+  std::optional<Trial> steps_alone(long parts) const {
     const TimeSpan& time = *experiment_.time;
     const double h = time.step / static_cast<double>(parts);
     try {
@@ -51,28 +135,70 @@ class Trials {
         if (stop_ && *stop_) throw std::runtime_error("interrupted");
         x.col(k + 1) = state.x;
       }
-      return x;
+      return Trial{.x = std::move(x)};
     } catch (const SolveError&) {
     } catch (const std::domain_error&) {
     }
     return std::nullopt;
   }
 
- private:
   const Experiment& experiment_;
   Backend backend_;
   const std::atomic<bool>* stop_;
   ConstraintLadder start_;
 };
 
-double difference(const std::optional<MatrixXd>& coarse, const std::optional<MatrixXd>& fine) {
+// The times from an occurrence of an event in one trial to the same one in the other, or to the end where that has none:
+// one has jumped then, and the other has not.
+std::vector<std::pair<double, double>> times_between_jumps(const TimeSpan& time, const Trial& a,
+                                                           const Trial& b) {
+  std::vector<std::pair<double, double>> result;
+  for (const auto& [name, of_a] : a.jumps) {
+    const std::vector<double>& of_b = b.jumps.at(name);
+    for (std::size_t i = 0; i < std::max(of_a.size(), of_b.size()); ++i)
+      result.push_back(std::minmax(i < of_a.size() ? of_a[i] : time.end(),
+                                   i < of_b.size() ? of_b[i] : time.end()));
+  }
+  return result;
+}
+
+// States of two trials at the same times, as columns: those at which both have jumped as often, and where both stopped.
+std::pair<MatrixXd, MatrixXd> comparable(const TimeSpan& time, const Trial& a, const Trial& b,
+                                         const std::vector<std::pair<double, double>>& between) {
+  constexpr double beside = 1e-9;
+  const auto is_between = [&](Index k) {
+    const double t = time.time(k), near = beside * std::fabs(time.step);
+    return std::ranges::any_of(between, [&](const auto& times) {
+      return t >= times.first - near && t <= times.second + near;
+    });
+  };
+  std::vector<Index> columns;
+  for (Index k = 0; k < std::min(a.x.cols(), b.x.cols()); ++k)
+    if (!is_between(k)) columns.push_back(k);
+  std::pair<MatrixXd, MatrixXd> result{a.x(Eigen::all, columns), b.x(Eigen::all, columns)};
+  if (a.stopped_at.size() == 0 || b.stopped_at.size() == 0) return result;
+  for (auto& [states, end] : {std::pair<MatrixXd&, const VectorXd&>{result.first, a.stopped_at},
+                              {result.second, b.stopped_at}}) {
+    states.conservativeResize(Eigen::NoChange, states.cols() + 1);
+    states.rightCols(1) = end;
+  }
+  return result;
+}
+
+// The greatest of coordinates where they can be compared, next to their ways, and the part of the time in which they
+// cannot.
+double difference(const TimeSpan& time, const std::optional<Trial>& coarse,
+                  const std::optional<Trial>& fine) {
   if (!coarse || !fine) return kNoEstimate;
   double greatest = 0.0;
-  for (Index i = 0; i < fine->rows(); ++i) {
-    const auto row = fine->row(i);
+  const auto between = times_between_jumps(time, *coarse, *fine);
+  for (const auto& [from, to] : between) greatest += (to - from) / (time.end() - time.start);
+  const auto [of_coarse, of_fine] = comparable(time, *coarse, *fine, between);
+  for (Index i = 0; i < of_fine.rows() && of_fine.cols() > 0; ++i) {
+    const auto row = of_fine.row(i);
     const double way = row.maxCoeff() - row.minCoeff();
     if (way <= kLeastWayCompared * row.cwiseAbs().maxCoeff()) continue;
-    greatest = std::max(greatest, (coarse->row(i) - row).cwiseAbs().maxCoeff() / way);
+    greatest = std::max(greatest, (of_coarse.row(i) - row).cwiseAbs().maxCoeff() / way);
   }
   return greatest;
 }
@@ -85,14 +211,14 @@ ChosenStep chosen_step(const Experiment& experiment, Backend backend,
   const double tolerance = *time.tolerance;
   const Trials trials(experiment, backend, stop);
   long parts = 1;
-  std::optional<MatrixXd> coarse = trials.run(parts);
+  std::optional<Trial> coarse = trials.run(parts);
   ChosenStep best{time.step, kNoEstimate};
   int in_vain = 0;  // halvings that left the estimate as it was
   double before = kNoEstimate;
   while (in_vain < kMostInVain &&
          static_cast<double>(parts) * static_cast<double>(time.steps) <= kMostStepsTried) {
-    const std::optional<MatrixXd> fine = trials.run(2 * parts);
-    const double estimate = difference(coarse, fine);
+    const std::optional<Trial> fine = trials.run(2 * parts);
+    const double estimate = difference(time, coarse, fine);
     if (estimate < best.estimate) best = {time.step / static_cast<double>(parts), estimate};
     if (estimate <= tolerance) return best;
     if (std::isfinite(estimate) && estimate > kFalls * before) ++in_vain;

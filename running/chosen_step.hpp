@@ -21,7 +21,9 @@ struct ChosenStep {
 // tolerance, where h is the time between rows (`output`), or a thousandth of the run. One step is kept for the whole
 // run, so that a method keeps what it promises. The experiment is run without files, to its end, with each step that is tried; steps that are
 // far too long are passed over by the order of their errors. Where a million steps do not do, or the estimate no
-// longer falls, the step with the least one. Throws ExperimentError, at
+// longer falls, the step with the least one. Events that set something or stop the run do so in the trials; where one of two
+// runs has jumped and the other not yet they are not compared, and the part of the time in which that is so is added to
+// the estimate. Throws ExperimentError, at
 // /time/tolerance, where no run comes to its end.
 ChosenStep chosen_step(const Experiment& experiment, Backend backend = Backend::interpreter,
                        const std::atomic<bool>* stop = nullptr);

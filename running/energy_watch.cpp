@@ -18,6 +18,8 @@ constexpr double kFurther = 4.0;
 
 // Numbers are rounded in each step, and in the solution of the first.
 constexpr double kFirstSteps = 10.0;
+// By so much next to the largest of them coordinates are rounded in a step.
+constexpr double kRoundings = 4.0 * std::numeric_limits<double>::epsilon();
 
 // A method of order 1 has a third; errors that do not fall at all, one or more.
 constexpr double kConvergent = 0.6;
@@ -41,7 +43,7 @@ EnergyWatch::EnergyWatch(std::shared_ptr<const Integrator> integrator,
     : integrator_(std::move(integrator)),
       energy_(std::move(energy)),
       sizes_(std::move(sizes)),
-      columns_(columns),
+      columns_(std::move(columns)),
       start_(std::move(start)) {}
 
 std::optional<RunEnd> EnergyWatch::watch(const RunMoment& moment) {
@@ -55,7 +57,7 @@ std::optional<RunEnd> EnergyWatch::watch(const RunMoment& moment) {
   // Where H is a sum of terms that cancel, |H| is no measure of them, nor of its round-off.
   const auto [terms, round_off] = sizes(moment.step.after);
   const double noise = (kFirstSteps + static_cast<double>(moment.k)) * round_off;
-  if (!(change > std::max(noise, kLeast * terms))) return std::nullopt;
+  if (!(change > std::max(noise, kLeast * terms)) || stands_still(moment)) return std::nullopt;
   const std::string what =
       "H has changed by " + number_text(H - memory_.initial) + " at t = " + number_text(moment.t);
   const std::string so = " The trajectory may be wrong from there on.";
@@ -111,6 +113,20 @@ bool EnergyWatch::is_accounted(const RunMoment& moment) const {
   return columns_.balance && std::fabs(moment.row[*columns_.balance]) <= kAccounted * change;
 }
 
+double EnergyWatch::through_ports(const RunMoment& moment) const {
+  double sum = 0.0;
+  for (const Index column : columns_.through_ports) sum += std::fabs(moment.row[column]);
+  return sum;
+}
+
+bool EnergyWatch::stands_still(const RunMoment& moment) const {
+  State first = start_;
+  integrator_->stepper()->prepare(first, moment.step.h);  // where a method on M_f moves it
+  const double rounding = kRoundings * first.x.lpNorm<Eigen::Infinity>();
+  return (moment.step.after.x - first.x).lpNorm<Eigen::Infinity>() <=
+         (kFirstSteps + static_cast<double>(moment.k)) * rounding;
+}
+
 std::optional<RunEnd> EnergyWatch::end_where_broken(const RunMoment& moment) const {
   const Step& step = moment.step;
   const double before = sizes(step.before).terms;
@@ -129,7 +145,7 @@ std::optional<RunEnd> EnergyWatch::end_where_broken(const RunMoment& moment) con
   } catch (const std::domain_error&) {
     return std::nullopt;
   }
-  const double size = std::max(before, least);
+  const double size = std::max({before, least, through_ports(moment)});
   const double error = std::fabs(end[0] - end[1]) + std::fabs(end[1] - end[2]);
   if (!(size > 0.0) || !(error > size)) return std::nullopt;
   constexpr double all_parts = 1 + 3 + 9;

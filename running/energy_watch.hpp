@@ -30,10 +30,14 @@ namespace courant {
 // is said, though its order explains it.
 //
 // Where the parts of a step lead to values of H that differ by more than H is the sum of, before the step and after the
-// parts, the step has no digits: so it is at a collision, a pole. The run ends there. From rest, where H is the sum of nothing, and where
-// ports account for the change, nothing is said.
+// parts, the step has no digits: so it is at a collision, a pole. The run ends there. Where energy goes through ports, what
+// was supplied and dissipated since the beginning are among what H is the sum of: a circuit that is switched on stores
+// nothing beside them at first. From rest, where H is the sum of nothing, and where ports account for the change,
+// nothing is said.
 //
-// H need not be conserved; what is round-off of its terms, which may cancel, is not looked at.
+// H need not be conserved; what is round-off of its terms, which may cancel, is not looked at. Nor is a run that stands
+// still, whose coordinates have not left the start but by rounding: velocities that round-off makes have an energy that
+// is next to nothing, and no digits.
 class EnergyWatch final : public RunWatcher {
  public:
   // Where numbers are in the rows of the run.
@@ -42,6 +46,8 @@ class EnergyWatch final : public RunWatcher {
     // H - H(0) - supplied + dissipated, where energy goes through ports. Where that is little next to the
     // change of H, and shorter steps change H as much but for a hundredth, the ports explain it.
     std::optional<Index> balance = {};
+    // Where energy goes through ports, since the beginning.
+    std::vector<Index> through_ports = {};
   };
   // `energy`: H of a state that a step ended at, `sizes`: what it is made of there; `start`: of the run.
   EnergyWatch(std::shared_ptr<const Integrator> integrator,
@@ -72,6 +78,10 @@ class EnergyWatch final : public RunWatcher {
   bool is_explained(const RunMoment& moment, double terms) const;
   // Whether what went through ports accounts for the change of H.
   bool is_accounted(const RunMoment& moment) const;
+  // What went through ports since the beginning, in and out.
+  double through_ports(const RunMoment& moment) const;
+  // Whether the coordinates are those of the start, up to rounding.
+  bool stands_still(const RunMoment& moment) const;
   // Why the run ends where the last step has no digits; nothing elsewhere.
   std::optional<RunEnd> end_where_broken(const RunMoment& moment) const;
   // Steps times coordinates of the run so far.

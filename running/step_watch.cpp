@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "courant/core/words/message.hpp"
+#include "courant/integrators/step/solve_error.hpp"
 
 namespace courant {
 namespace {
@@ -61,7 +62,16 @@ std::optional<RunEnd> StepWatch::look(const RunMoment& moment) const {
       end = integrator_->advance(step.before, step.h / parts, parts).x;
       parts *= 3;
     }
-  } catch (const std::runtime_error&) {  // a shorter step that cannot be made says nothing
+  } catch (const SolveError& error) {
+    // A step over what its parts do not go through may end on another branch of the solutions. With what an event set
+    // on the way the parts are other ways.
+    if (error.reason() != SolveError::Reason::singular || !step.parts.empty()) return std::nullopt;
+    return RunEnd{RunStatus::failed,
+                  "The step to t = " + number_text(moment.t) +
+                      " turns at once, and the same way cannot be gone in shorter steps, as at an "
+                      "impasse or where solutions branch; its end is no state of the solution. " +
+                      error.what()};
+  } catch (const std::runtime_error&) {  // another fault says nothing
     return std::nullopt;
   } catch (const std::domain_error&) {
     return std::nullopt;

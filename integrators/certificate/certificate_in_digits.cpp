@@ -86,22 +86,38 @@ class Certifier {
   // Whether a switch is at its edge at the last jet, and its sides are not the same there.
   bool is_at_edge() const { return is_at_edge_; }
 
+  // Whether its sides differ there, to first order, in equations that are differentiated so often or less.
+  bool has_two_sides(const std::vector<int>& differentiations) const {
+    const Index rows = equations_.row_size();
+    return has_two_sides(*last_, [&](Index row) {
+      const auto e = static_cast<std::size_t>(row % rows);
+      return e >= differentiations.size() || row / rows <= differentiations[e];
+    });
+  }
+
  private:
   void at(const Jet& jet) {
     const auto values = equations_.at(jet.t, jet.y, jet.k);
-    is_at_edge_ = values.is_at_edge && has_two_sides(jet);
+    is_at_edge_ = values.is_at_edge && has_two_sides(jet, [](Index) { return true; });
     elimination_.emplace(equations_, values, jet);
+    if (is_at_edge_) last_ = jet;
   }
 
-  bool has_two_sides(const Jet& jet) const {
+  // Whether a row of F^[k] of which `is_read(row)` holds has another residual or other entries on the other side.
+  template <class IsRead>
+  bool has_two_sides(const Jet& jet, const IsRead& is_read) const {
     const auto above = equations_.on_side(1).at(jet.t, jet.y, jet.k);
     const auto below = equations_.on_side(-1).at(jet.t, jet.y, jet.k);
-    const auto differ = [](const std::vector<Digits>& a, const std::vector<Digits>& b) {
-      return !std::equal(a.begin(), a.end(), b.begin(), [](const Digits& c, const Digits& d) {
-        return !c.is_finite() || (c - d).shrinks();
-      });
+    const auto differ = [](const Digits& a, const Digits& b) {
+      return a.is_finite() && !(a - b).shrinks();
     };
-    return differ(above.residual, below.residual) || differ(above.entries, below.entries);
+    const std::vector<JetEquations::Entry> pattern = equations_.pattern(jet.k);
+    for (std::size_t i = 0; i < above.residual.size(); ++i)
+      if (differ(above.residual[i], below.residual[i]) && is_read(static_cast<Index>(i)))
+        return true;
+    for (std::size_t e = 0; e < pattern.size(); ++e)
+      if (differ(above.entries[e], below.entries[e]) && is_read(pattern[e].row)) return true;
+    return false;
   }
 
   // What is known of a consistent jet.
@@ -256,8 +272,34 @@ class Certifier {
   ConstraintLadder result_;
   std::optional<StagedElimination> elimination_;
   std::optional<Neighbourhood> around_;
+  std::optional<Jet> last_;  // that at() was called with
   bool is_at_edge_ = false;
 };
+
+// What there is to doubt where a switch is at its edge: nothing where both sides have this ladder, and are the same to
+// first order in the equations, differentiated as often as a ladder reads them. v |v| at rest is smooth enough for a
+// ladder that does not differentiate it, though its second derivatives jump.
+std::optional<Doubt> doubt_of_sides(const Certifier& certifier, const ConstraintLadder& result,
+                                    const JetEquations& equations, const InitialGuess& guess,
+                                    const ConstraintAlgorithm::Options& options) {
+  std::string sides;
+  std::vector<int> read = result.differentiations;
+  bool is_same = !read.empty();
+  for (const int side : {1, -1}) {
+    const JetEquations of_side = equations.on_side(side);
+    const ConstraintLadder found = Certifier(of_side, guess, options).run();
+    sides += std::string(sides.empty() ? " " : "; ") + (side > 0 ? "above the edge" : "below it") +
+             " the ladder is " + to_string(found.verdict) + " " + dimensions_in_words(found.levels);
+    is_same = is_same && are_alike(found, result) && !found.is_ambiguous() &&
+              found.differentiations.size() == read.size();
+    for (std::size_t e = 0; is_same && e < read.size(); ++e)
+      read[e] = std::max(read[e], found.differentiations[e]);
+  }
+  if (is_same && !certifier.has_two_sides(read)) return std::nullopt;
+  return Doubt(
+      Doubt::Kind::at_switch,
+      "A switch (abs, sign, min, max or a comparison) is at its edge at this point:" + sides + ".");
+}
 
 }  // namespace
 
@@ -281,17 +323,8 @@ ConstraintLadder certificate_in_digits(const JetEquations& equations, const Init
               to_string(other.verdict) + " " + dimensions_in_words(other.levels) + ".");
   }
   if (!certifier.is_at_edge()) return result;
-  std::string sides;
-  for (const int side : {1, -1}) {
-    const JetEquations of_side = equations.on_side(side);
-    Certifier there(of_side, guess, options);
-    const ConstraintLadder found = there.run();
-    sides += std::string(sides.empty() ? " " : "; ") + (side > 0 ? "above the edge" : "below it") +
-             " the ladder is " + to_string(found.verdict) + " " + dimensions_in_words(found.levels);
-  }
-  result.doubts.emplace_back(
-      Doubt::Kind::at_switch,
-      "A switch (abs, sign, min, max or a comparison) is at its edge at this point:" + sides + ".");
+  if (const auto doubt = doubt_of_sides(certifier, result, equations, guess, options))
+    result.doubts.push_back(*doubt);
   return result;
 }
 

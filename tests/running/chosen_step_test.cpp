@@ -52,6 +52,55 @@ BOOST_AUTO_TEST_CASE(a_run_keeps_the_step_and_writes_at_the_interval) {
   BOOST_TEST(read_experiment_document(written).time->is_chosen);
 }
 
+// u goes to 10 until it is 7, and to 0 until it is 3, with the time 0.01: it is switched at 0.01 ln(10/3), and then every
+// 0.01 ln(7/3). Runs without the switch would be ten times as exact.
+BOOST_AUTO_TEST_CASE(what_events_set_is_in_the_trials) {
+  const Json relaxation = Json::parse(R"json({
+    "system": { "type": "implicit", "coordinates": ["u", "s"],
+                "equations": ["u' - if(s > 0.5, -u, 10 - u)/0.01", "s'"] },
+    "initial": { "u": 0, "s": 0 },
+    "method": "discretize-first",
+    "time": { "tolerance": 1e-3, "end": 0.1 },
+    "output": { "interval": 0.002 },
+    "events": { "up": { "zero": "u-7", "direction": "rising", "set": { "s": 1 } },
+                "down": { "zero": "u-3", "direction": "falling", "set": { "s": 0 } } }
+  })json");
+  const ChosenStep chosen = chosen_step(read_experiment_document(relaxation));
+  const TemporaryFolder folder;
+  BOOST_TEST((run_in(folder, relaxation).status == RunStatus::completed));
+  const Run run = read_run(folder / "run");
+  const auto t = run.trajectory.column("t"), u = run.trajectory.column("u");
+  const double first = 0.01 * std::log(10.0 / 3.0), period = 0.01 * std::log(7.0 / 3.0);
+  double error = 0.0;
+  for (std::size_t k = 0; k < t.size(); ++k) {
+    const double switched = std::floor((t[k] - first) / period);
+    const double since = (t[k] - first - switched * period) / 0.01;
+    const double exact = t[k] < first                      ? 10.0 - 10.0 * std::exp(-t[k] / 0.01)
+                         : std::fmod(switched, 2.0) == 0.0 ? 7.0 * std::exp(-since)
+                                                           : 10.0 - 7.0 * std::exp(-since);
+    error = std::max(error, std::abs(u[k] - exact) / 7.0);
+  }
+  // The difference to the half is three quarters of an error of order 2.
+  BOOST_TEST(chosen.estimate <= 1e-3);
+  BOOST_TEST(error <= 1.5 * chosen.estimate);
+  BOOST_TEST(error >= chosen.estimate);
+}
+
+// A spring that is let go stops at q = 0, at t = π/2: what it would do behind that is not asked.
+BOOST_AUTO_TEST_CASE(trials_end_where_an_event_stops_them) {
+  Json document = oscillator;
+  document["time"]["tolerance"] = 1e-4;
+  document["events"] = {{"there", {{"zero", "q"}, {"direction", "falling"}, {"stop", true}}}};
+  const ChosenStep chosen = chosen_step(read_experiment_document(document));
+  // Late by t h²/12, in p where it stops by nothing.
+  const double late = std::acos(-1.0) / 2.0 * chosen.step * chosen.step / 12.0;
+  BOOST_TEST(chosen.estimate <= 1e-4);
+  BOOST_TEST(chosen.estimate >= 0.5 * late / 20.0);
+  Json whole = oscillator;
+  whole["time"]["tolerance"] = 1e-4;
+  BOOST_TEST(chosen.step > chosen_step(read_experiment_document(whole)).step);
+}
+
 BOOST_AUTO_TEST_CASE(what_cannot_be_chosen_is_told) {
   Json document = oscillator;
   // Where the best of the steps that were tried is not good enough, that is said.

@@ -10,6 +10,7 @@ BOOST_AUTO_TEST_SUITE(step_watch_test)
 // Mistakes that these cases have to notice:
 //  * steps that turn are not looked at
 //  * a step whose parts end apart goes on
+//  * a step whose parts cannot be made goes on
 //  * steps that turn are no steps of a solution
 
 namespace {
@@ -58,6 +59,22 @@ BOOST_AUTO_TEST_CASE(explicit_steps_end_where_the_solution_does) {
     check(equations({"y"}, {"y*y'+1"}, {{"y", 1}}, method, 0.01, 1), 0.5, 0.05);
     check(kepler({{"x", 1}, {"y", 0}, {"p_x", 0}, {"p_y", 0}}, method, 0.01, 2), 1.1107, 0.02);
   }
+}
+
+// x'² = x from x' = -1 comes to x = 0 at t = 2, where x' = ±√x branch: a step that leads to the other branch is none, though
+// x = (1 - t/2)² goes on there. x'² = 1 - x² has such points at x = ±1.
+BOOST_AUTO_TEST_CASE(explicit_steps_end_where_solutions_branch) {
+  for (const char* method : {"rk2", "rk4", "dopri5", "rkf78"})
+    for (const double step : {0.1, 0.05, 0.01, 0.001}) {
+      const RunOutcome run =
+          outcome(equations({"x"}, {"x'^2-x"}, {{"x", 1}, {"x'", -1}}, method, step, 3));
+      BOOST_TEST_CONTEXT(method << ", " << step << ": " << run.message) {
+        BOOST_TEST((run.status == RunStatus::failed));
+        const double reached = static_cast<double>(run.summary.steps) * step;
+        BOOST_TEST(reached >= 2.0 - 1.5 * step);
+        BOOST_TEST(reached <= 2.0 + 1.5 * step);
+      }
+    }
 }
 
 // Close encounters that are resolved, oscillations, relaxation and a relay turn as well.

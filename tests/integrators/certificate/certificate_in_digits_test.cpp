@@ -2,6 +2,7 @@
 // far apart, and what bounds of errors in doubles get wrong.
 #include "courant/integrators/certificate/certificate_in_digits.hpp"
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
@@ -13,6 +14,8 @@
 //  * numbers that are held are held to digits that a double does not have (integrators/certificate/nearest_jet.cpp)
 //  * what nobody gave moves where it need not (integrators/certificate/nearest_jet.cpp)
 //  * a switch is doubted whose sides are the same (integrators/certificate/certificate_in_digits.cpp)
+//  * a switch is doubted whose sides differ in what no ladder reads, or none whose sides have other ladders
+//    (integrators/certificate/certificate_in_digits.cpp)
 //  * an unknown that rounding left decides a rank without a word (integrators/certificate/binary_scales.cpp)
 BOOST_AUTO_TEST_SUITE(certificate_in_digits_test)
 
@@ -162,6 +165,57 @@ BOOST_AUTO_TEST_CASE(a_switch_whose_sides_are_the_same_is_none) {
   const auto smooth =
       flat(1, 0, 1, [](V x, V v, V, T) { return equations({v[0] - x[0] * abs(x[0])}); });
   check_known({"smooth", {}, {{1, 1}, {1, 1}}, Verdict::regular, 0}, certificate(smooth, at({0})));
+}
+
+// v |v| and max(x, 0)² have second derivatives that jump at 0, which a ladder reads only where it differentiates the
+// equation that they are in: that of the pendulum differentiates its length twice, and the drag not at all.
+BOOST_AUTO_TEST_CASE(a_switch_that_is_smooth_enough_is_none) {
+  const auto fall = flat(2, 0, 2, [](V x, V v, V, T) {
+    return equations({v[0] - x[1], v[1] + 9.81 + 0.1 * x[1] * abs(x[1])});
+  });
+  check_known({"fall", {}, {{2, 2}, {2, 2}}, Verdict::regular, 0}, certificate(fall, at({10, 0})));
+  const auto inertance =
+      flat(1, 0, 1, [](V x, V v, V, T) { return equations({v[0] + x[0] * abs(x[0]) - 1}); });
+  check_known({"inertance", {}, {{1, 1}, {1, 1}}, Verdict::regular, 0},
+              certificate(inertance, at({0})));
+  const auto contact =
+      flat(1, 0, 1, [](V x, V v, V, T) { return equations({v[0] - 1 + square(max(x[0], 0))}); });
+  check_known({"contact", {}, {{1, 1}, {1, 1}}, Verdict::regular, 0},
+              certificate(contact, at({0})));
+  const auto pendulum = flat(4, 1, 5, [](V x, V v, V z, T) {
+    return equations({v[0] - x[2], v[1] - x[3], v[2] + z[0] * x[0] + 0.1 * x[2] * abs(x[2]),
+                      v[3] + z[0] * x[1] + 1 + 0.1 * x[3] * abs(x[3]),
+                      square(x[0]) + square(x[1]) - 1});
+  });
+  check_known({"pendulum", {}, {{4, 3}, {3, 2}, {2, 2}, {2, 2}}, Verdict::regular, 2},
+              certificate(pendulum, at({0.6, -0.8, 0, 0})));
+}
+
+BOOST_AUTO_TEST_CASE(a_switch_whose_sides_differ_to_first_order_is_doubted) {
+  const auto is_doubted = [](const auto& formulas, Index size, const InitialGuess& guess) {
+    const Certificate found = certificate(flat(size, 0, size, formulas), guess);
+    return std::ranges::any_of(
+        found.doubts, [](const Doubt& doubt) { return doubt.kind == Doubt::Kind::at_switch; });
+  };
+  // Slopes jump: |x| + |y| = 1 at a corner, max(x, 2x).
+  BOOST_TEST(is_doubted(
+      [](V x, V v, V, T) {
+        return equations({v[0] - x[1], abs(x[0]) + abs(x[1]) - 1});
+      },
+      2, at({0, 1})));
+  BOOST_TEST(is_doubted([](V x, V v, V, T) { return equations({v[0] - max(x[0], 2 * x[0])}); }, 1,
+                        at({0})));
+  // y = x |x| with x' = 1, y' = 2x: on the right side it is what these lead to, on the left one it contradicts them.
+  const auto one_sided = flat(2, 0, 3, [](V x, V v, V, T) {
+    return equations({v[0] - 1, v[1] - 2 * x[0], x[1] - x[0] * abs(x[0])});
+  });
+  BOOST_TEST(certificate(one_sided, at({0, 0})).is_ambiguous());
+  // y = x |x| as a constraint of second order, passed at speed 1: the force jumps from 2 to -2.
+  const auto bent = flat(4, 1, 5, [](V x, V v, V z, T) {
+    return equations({v[0] - x[2], v[1] - x[3], v[2] + 2 * z[0] * abs(x[0]), v[3] - z[0] + 1,
+                      x[1] - x[0] * abs(x[0])});
+  });
+  BOOST_TEST(certificate(bent, at({0, 0, 1, 0})).is_ambiguous());
 }
 
 // The cosine and the sine of 0.4 are on the circle as far as doubles are, and are held.
