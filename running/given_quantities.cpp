@@ -24,6 +24,8 @@ using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
 constexpr int kMostCorrections = 50;
 // A part of a value that is round-off.
 constexpr double kSameValue = 1e-9;
+// A part of the terms of a quantity that is.
+constexpr double kRoundOff = 1e-13;
 // Likewise of the derivatives in a row.
 constexpr double kNoDerivative = 1e-12;
 
@@ -306,12 +308,16 @@ std::vector<Movement> moved_quantities(const Experiment& experiment, const State
   std::vector<Movement> moves;
   if (given.empty()) return moves;
   const Equations equations(experiment);
-  const VectorXd values =
-      Function("given quantities", {{"y", equations.all}}, equations.quantities)({stacked(point)});
+  const Function map("given quantities", {{"y", equations.all}}, equations.quantities,
+                     {.differentiate = {"y"}});
+  const VectorXd y = stacked(point), values = map({y});
+  // What rounding of the point makes of a quantity that is 0.
+  const VectorXd round_off = kRoundOff * (map.jacobian({y}).cwiseAbs() * y.cwiseAbs());
   for (Index i = 0; i < values.size(); ++i) {
     const GivenQuantity& quantity = given[static_cast<std::size_t>(i)];
     const double size = std::fabs(values[i]) + std::fabs(quantity.value);
-    if (std::fabs(values[i] - quantity.value) <= kSameValue * size) continue;
+    if (std::fabs(values[i] - quantity.value) <= std::max(kSameValue * size, round_off[i]))
+      continue;
     if (quantity.held)
       throw ExperimentError("/hold",
                             quantity.formula.text + " is held at " + number_text(quantity.value) +

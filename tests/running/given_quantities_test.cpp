@@ -57,6 +57,23 @@ BOOST_AUTO_TEST_CASE(a_quantity_that_is_not_kept_is_told) {
   BOOST_CHECK_THROW(start({{"v_Cc", 1}}), ExperimentError);
 }
 
+// x - 0.3 is 5.6e-17 at the double next to 0.1 + 0.2: no other value than 0, also where that is held.
+BOOST_AUTO_TEST_CASE(rounding_of_a_zero_is_no_other_value) {
+  const auto moves = [](double x) {
+    return consistent_start(
+               read_experiment_document({{"system",
+                                          {{"type", "lagrangian"},
+                                           {"coordinates", {"x"}},
+                                           {"definitions", {{"d", "x - 0.3"}}},
+                                           {"lagrangian", "x'^2/2"}}},
+                                         {"initial", {{"x", x}, {"d", 0}, {"rest", true}}},
+                                         {"hold", {"d"}}}))
+        .moves;
+  };
+  BOOST_TEST(moves(0.1 + 0.2).empty());
+  BOOST_CHECK_THROW(moves(0.3 + 1e-9), ExperimentError);
+}
+
 namespace {
 
 ConsistentStart start_of(const char* nodes, const char* elements, const char* initial,
