@@ -18,6 +18,7 @@
 #include <tuple>
 #include <utility>
 
+#include "courant/core/solve/equation_system.hpp"
 #include "courant/integrators/maps/theta.hpp"
 #include "courant/integrators/methods/discretize_first.hpp"
 #include "courant/integrators/step/step_formulas.hpp"

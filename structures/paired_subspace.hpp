@@ -7,6 +7,8 @@
 
 namespace courant {
 
+using Eigen::MatrixXd;
+
 // ≪(v₁, α₁), (v₂, α₂)≫ = ⟨α₁, v₂⟩ + ⟨α₂, v₁⟩, the pairing of V ⊕ V* (Section 2.1).
 double pairing(const Eigen::Ref<const VectorXd>& v1, const Eigen::Ref<const VectorXd>& alpha1,
                const Eigen::Ref<const VectorXd>& v2, const Eigen::Ref<const VectorXd>& alpha2);

@@ -4,6 +4,7 @@
 #include <boost/test/unit_test.hpp>
 #include <sstream>
 
+#include "courant/core/solve/equation_system.hpp"
 #include "courant/tests/core/says.hpp"
 #include "courant/tests/integrators/certificate/ladder_catalogue.hpp"
 #include "courant/tests/integrators/vortices.hpp"
