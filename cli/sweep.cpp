@@ -49,9 +49,7 @@ Json value_of(const Json& row, const std::string& name) {
 }
 
 void print_table(const Console& console, const SweepTask& task, const Json& table) {
-  std::vector<std::string> pointers, names;
-  for (const Json& range : table.at("sweep")) pointers.push_back(range.at("pointer"));
-  std::vector<std::string> head = short_names(pointers, table.at("experiment"));
+  std::vector<std::string> head = swept_names(table), names;
   head.emplace_back("status");
   const Json& rows = table.at("runs");
   for (const auto& column : task.columns) {

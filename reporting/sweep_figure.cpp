@@ -6,7 +6,7 @@
 #include <map>
 #include <string_view>
 
-#include "courant/reading/setting.hpp"
+#include "courant/running/sweep.hpp"
 
 namespace courant {
 
@@ -17,13 +17,6 @@ using plot::Series;
 
 constexpr std::size_t most_quantities = 8;
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-
-// What each swept place is called beside the others.
-std::vector<std::string> places_of(const Json& table) {
-  std::vector<std::string> pointers;
-  for (const Json& range : table.at("sweep")) pointers.push_back(range.at("pointer"));
-  return short_names(pointers, table.value("experiment", Json()));
-}
 
 std::string text_of(const Json& value) {
   return value.is_string()         ? value.get<std::string>()
@@ -118,7 +111,7 @@ std::vector<std::pair<std::string, std::string>> shown_values(const Json& runs) 
 }
 
 Panel panel_of(const std::string& name, const std::string& label, const Json& table,
-               const Places& places) {
+               const Places& places, const std::vector<std::string>& names) {
   Panel panel;
   panel.title = label;
   panel.x = places.axis();
@@ -126,7 +119,6 @@ Panel panel_of(const std::string& name, const std::string& label, const Json& ta
   panel.points = true;
   panel.height = 220;
   std::vector<double> all;
-  const std::vector<std::string> names = places_of(table);
   for (const Json& run : table.at("runs")) {
     const Json& settings = run.at("settings");
     const std::string curve = label_of(settings, table.at("sweep"), names);
@@ -150,13 +142,13 @@ std::optional<Figure> sweep_figure(const Json& table) {
   const Json& runs = table.at("runs");
   const Json& ranges = table.at("sweep");
   if (runs.empty() || ranges.empty()) return std::nullopt;
-  const std::vector<std::string> names = places_of(table);
+  const std::vector<std::string> names = swept_names(table);
   const Places places(ranges.front(), names.front());
   Figure figure;
   figure.name = "sweep";
   const auto shown = shown_values(runs);
   for (const auto& [name, label] : shown) {
-    figure.panels.push_back(panel_of(name, label, table, places));
+    figure.panels.push_back(panel_of(name, label, table, places, names));
     if (shown.size() > 3) figure.panels.back().width = 380;
   }
   if (figure.panels.empty()) return std::nullopt;

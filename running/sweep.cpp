@@ -156,9 +156,7 @@ std::vector<SweepCase> sweep_cases(const Json& document, std::span<const ValueRa
   std::vector<SweepCase> cases;
   const auto all = combinations(ranges);
   const std::size_t of_one_code = alike(ranges);
-  std::vector<std::string> pointers;
-  for (const ValueRange& range : ranges) pointers.push_back(range.pointer);
-  const std::vector<std::string> places = short_names(pointers, document);
+  const std::vector<std::string> places = swept_names(sweep_head(document, ranges));
   for (const auto& settings : all) {
     SweepCase one{settings, name_of(cases.size() + 1, all.size(), settings, places), document,
                   of_one_code};
@@ -195,6 +193,12 @@ Json sweep_head(const Json& document, std::span<const ValueRange> ranges, const 
   }
   if (shard.of > 1) head["shard"] = shard.text();
   return head;
+}
+
+std::vector<std::string> swept_names(const Json& table) {
+  std::vector<std::string> pointers;
+  for (const Json& range : table.at("sweep")) pointers.push_back(range.at("pointer"));
+  return short_names(pointers, table.value("experiment", Json()));
 }
 
 Json sweep(const Json& head, std::span<const SweepCase> cases,

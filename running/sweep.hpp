@@ -36,6 +36,9 @@ struct Shard {
 // What a sweep is of: two tables with the same are of one sweep.
 Json sweep_head(const Json& document, std::span<const ValueRange> ranges, const Shard& shard = {});
 
+// What the places of a table, or of its head, are called beside each other (short_names).
+std::vector<std::string> swept_names(const Json& table);
+
 // How a sweep is carried out, where its table goes, and who is told of it.
 struct SweepOptions {
   unsigned threads = 1;
