@@ -87,12 +87,13 @@ class Trials {
       : experiment_(experiment),
         backend_(backend),
         stop_(stop),
-        start_(consistent_start(experiment)) {}
+        // Boundary values are sought after a step is chosen, of one smooth map.
+        jumps_(!experiment.boundary && std::ranges::any_of(experiment.events, ends_a_way)) {
+    if (!jumps_) start_ = consistent_start(experiment);
+  }
 
   std::optional<Trial> run(long parts) const {
-    // Boundary values are sought after a step is chosen, of one smooth map.
-    const bool jumps = !experiment_.boundary && std::ranges::any_of(experiment_.events, ends_a_way);
-    return jumps ? with_events(parts) : steps_alone(parts);
+    return jumps_ ? with_events(parts) : steps_alone(parts);
   }
 
  private:
@@ -145,7 +146,8 @@ class Trials {
   const Experiment& experiment_;
   Backend backend_;
   const std::atomic<bool>* stop_;
-  ConstraintLadder start_;
+  bool jumps_;
+  ConstraintLadder start_;  // of steps alone: a run finds its own
 };
 
 // The times from an occurrence of an event in one trial to the same one in the other, or to the end where that has none:
