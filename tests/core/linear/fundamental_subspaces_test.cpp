@@ -1,3 +1,5 @@
+#include "courant/core/linear/fundamental_subspaces.hpp"
+
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -6,12 +8,11 @@
 #include <random>
 #include <sstream>
 
-#include "courant/core/linear/fundamental_subspaces.hpp"
 #include "courant/core/linear/qr_decomposition.hpp"
 #include "courant/core/linear/sparse_rank_decision.hpp"
 
 namespace courant {
-BOOST_AUTO_TEST_SUITE(rank_decision_test)
+BOOST_AUTO_TEST_SUITE(fundamental_subspaces_test)
 
 namespace {
 
