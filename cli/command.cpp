@@ -39,9 +39,8 @@ std::string unknown_command(const std::string& word, const CLI::App& app) {
     return "";
   if (is_option)
     return "unknown option \"" + word +
-           "\"; expected a command first, whose options stand behind it: `courant --help` lists "
-           "the "
-           "commands";
+           "\"; expected a command first, whose options stand behind it: `courant --help` "
+           "lists the commands";
   return "unknown command \"" + word + "\"" + did_you_mean(word, commands) +
          "; `courant --help` lists the commands";
 }

@@ -119,12 +119,6 @@ VectorXd least_change(const MatrixXd& J, Index N, const VectorXd& b) {
   return change;
 }
 
-// Rows in units of their largest entry; a row of zeros has none.
-VectorXd sizes_of_rows(const MatrixXd& J) {
-  const VectorXd size = J.rowwise().lpNorm<Eigen::Infinity>();
-  return (size.array() > 0.0).select(size, 1.0);
-}
-
 // Where a search for a zero ended, and its last step.
 struct Ended {
   VectorXd y;
@@ -134,7 +128,8 @@ struct Ended {
 };
 
 // A zero of map - target from y, of whose entries some move: the first N as little as they can, others as they like. An
-// equation that none of these changes, as that of a loop whose angles are all given, says nothing of them. Nothing where the map is not finite.
+// equation that none of these changes, as that of a loop whose angles are all given, says nothing of them. Nothing where
+// the map is not finite.
 std::optional<Ended> zero_near(const Function& map, const VectorXd& target, VectorXd y,
                                const VectorXd& moves, Index N) {
   double before = std::numeric_limits<double>::infinity(), last_step = 0.0;
@@ -144,10 +139,9 @@ std::optional<Ended> zero_near(const Function& map, const VectorXd& target, Vect
     const VectorXd whole = J.rowwise().lpNorm<Eigen::Infinity>();
     J = (J * moves.asDiagonal()).eval();
     if (!rest.allFinite() || !J.allFinite()) return std::nullopt;
-    const VectorXd size = sizes_of_rows(J);
-    const Flags says_nothing =
-        J.rowwise().lpNorm<Eigen::Infinity>().array() <= kNoDerivative * whole.array();
-    const VectorXd unit = says_nothing.select(0.0, size.cwiseInverse());
+    const VectorXd size = J.rowwise().lpNorm<Eigen::Infinity>();
+    const Flags says_something = size.array() > kNoDerivative * whole.array();
+    const VectorXd unit = says_something.select(size.cwiseInverse(), 0.0);
     const VectorXd scaled = unit.cwiseProduct(rest);
     J = unit.asDiagonal() * J;
     const VectorXd change = moves.cwiseProduct(least_change(J, N, scaled));
@@ -164,7 +158,9 @@ std::optional<Ended> zero_near(const Function& map, const VectorXd& target, Vect
 // Which of the columns have the same entry in all solutions d of J d = b.
 Flags determined(const MatrixXd& J) {
   constexpr double negligible = 1e-6;
-  const MatrixXd rows = sizes_of_rows(J).cwiseInverse().asDiagonal() * J;
+  const VectorXd largest = J.rowwise().lpNorm<Eigen::Infinity>();
+  const VectorXd unit = (largest.array() > 0.0).select(largest.cwiseInverse(), 0.0);
+  const MatrixXd rows = unit.asDiagonal() * J;
   const VectorXd size = rows.colwise().lpNorm<Eigen::Infinity>();
   std::vector<Index> touched;
   for (Index j = 0; j < size.size(); ++j)

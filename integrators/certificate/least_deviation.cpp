@@ -78,8 +78,8 @@ class DeviationDescent {
   // Preconditioners of the solves, which the minimum does not depend on. At most a thousand times those of the start:
   // where momenta are of no degree in velocities, as w / |w| is, entries vanish on the way.
   NaturalScaling scaling(const Linearization& here) {
-    constexpr double most_growth = 1e3, noise = 1.5e-14, round_off = 1e-10;
-    NaturalScaling units(here, best_.zero.reach, noise, round_off);
+    constexpr double most_growth = 1e3, round_off = 1e-10;
+    NaturalScaling units(here, best_.zero.reach, NaturalScaling::kUsualNoise, round_off);
     if (largest_units_.size() == 0) largest_units_ = most_growth * units.column_scale;
     units.column_scale = units.column_scale.cwiseMin(largest_units_);
     return units;

@@ -28,10 +28,12 @@ struct NaturalScaling {
   std::vector<Index> row_component, column_component;
   Index component_count = 0;
 
+  static constexpr double kUsualNoise = 1.5e-14;
+
   // `reach`: sizes of the unknowns, ≥ 0. Entries of the Jacobian that are at most `noise` times the
   // others of their row and column count as zero, and so do sizes up to `least_size` in the units
   // of equilibration, where they are as small next to the numbers of other components or to the value.
-  NaturalScaling(const Linearization& at, const VectorXd& reach, double noise = 1.5e-14,
+  NaturalScaling(const Linearization& at, const VectorXd& reach, double noise = kUsualNoise,
                  double least_size = 0.0);
 
   // max over components of ‖F‖_∞ / ‖ |S| |y| ‖_∞ in these units: the distance from a zero, next to

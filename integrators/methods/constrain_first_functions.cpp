@@ -27,8 +27,7 @@ ConstrainFirstFunctions::ConstrainFirstFunctions(ConstrainFirstScheme of, const 
   if (engine_of(backend) && trace.redundant.size() > 0)
     throw std::invalid_argument(
         "ConstrainFirst::ConstrainFirst: the system has equations that follow from others, which "
-        "steps "
-        "may have to be solved with by least squares; the engine solves as many equations as "
+        "steps may have to be solved with by least squares; the engine solves as many equations as "
         "unknowns.");
   redundant = Function("redundant equations", trace.projection.inputs, trace.redundant,
                        {.differentiate = {"y"}, .backend = backend});
