@@ -76,12 +76,12 @@ box-shadow:0 1px 5px rgb(0 0 0/.18);font-size:.82rem;max-width:100%}
 .rest{fill:var(--ink);stroke:none}
 .note{margin:.1rem 4.2rem .3rem 0;min-height:1.7rem;color:var(--soft);font-size:.82rem;line-height:1.3}
 .whole{position:absolute;z-index:1;right:0;bottom:.3rem}
-.moment{position:sticky;top:0;z-index:3;display:flex;align-items:center;gap:.8rem;margin:0 -1.2rem;padding:.5rem 1.2rem;background:var(--page);
+.instant{position:sticky;top:0;z-index:3;display:flex;align-items:center;gap:.8rem;margin:0 -1.2rem;padding:.5rem 1.2rem;background:var(--page);
 border-bottom:1px solid var(--faint)}
-.moment input{flex:1;min-width:0;height:1.8rem;accent-color:var(--c0)}
-.moment .time{min-width:7.5rem;font-variant-numeric:tabular-nums lining-nums;white-space:nowrap}
-.moment .play{min-width:2.4rem;min-height:2rem}
-@media print{.moment,.readout,.whole,.note,.now,.cross{display:none}:root{--page:#fff}figure,table{break-inside:avoid}
+.instant input{flex:1;min-width:0;height:1.8rem;accent-color:var(--c0)}
+.instant .time{min-width:7.5rem;font-variant-numeric:tabular-nums lining-nums;white-space:nowrap}
+.instant .play{min-width:2.4rem;min-height:2rem}
+@media print{.instant,.readout,.whole,.note,.now,.cross{display:none}:root{--page:#fff}figure,table{break-inside:avoid}
 .panels.abreast{grid-template-columns:1fr 1fr}.scroll,.panels{overflow:visible}table{font-size:7.5pt}})css";
 
 // The frame of a page that is read from top to bottom.

@@ -111,8 +111,8 @@ class IntegratorInUnits::Differential final : public StepDifferential {
 
 IntegratorInUnits::IntegratorInUnits(const std::shared_ptr<const SystemInUnits>& system,
                                      std::shared_ptr<const Integrator> method)
-    : WrappingIntegrator("IntegratorInUnits", system ? system->system() : nullptr, system,
-                         std::move(method)),
+    : IntegratorAdaptor("IntegratorInUnits", system ? system->system() : nullptr, system,
+                        std::move(method)),
       units_(system->units()) {}
 
 std::unique_ptr<Stepper> IntegratorInUnits::do_stepper() const {

@@ -1,16 +1,16 @@
 // IntegratorInUnits: a method whose steps are made in other units.
 #pragma once
 
-#include "courant/integrators/methods/wrapping_integrator.hpp"
+#include "courant/integrators/methods/integrator_adaptor.hpp"
 #include "courant/integrators/step/programmed.hpp"
 #include "courant/structures/system_in_units.hpp"
 
 namespace courant {
 
 // A method of a SystemInUnits as a method of the system itself: states are measured, stepped and restored,
-// to the last bit. What the method promises holds in any units: the map between them is a dilation of M, and
+// to the last bit. What the method promises holds in any units: the map between them is a scaling symmetry of M, and
 // discretization maps commute with those.
-class IntegratorInUnits final : public WrappingIntegrator, public Programmed {
+class IntegratorInUnits final : public IntegratorAdaptor, public Programmed {
  public:
   // `method` is one of `system`; throws std::invalid_argument otherwise.
   IntegratorInUnits(const std::shared_ptr<const SystemInUnits>& system,

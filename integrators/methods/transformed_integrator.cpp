@@ -102,9 +102,9 @@ class TransformedIntegrator::Trajectory final : public Stepper {
 TransformedIntegrator::TransformedIntegrator(
     std::shared_ptr<const TimeTransformation> transformation,
     std::shared_ptr<const Integrator> method)
-    : WrappingIntegrator("TransformedIntegrator",
-                         transformation ? transformation->system() : nullptr,
-                         transformation ? transformation->extended() : nullptr, std::move(method)),
+    : IntegratorAdaptor("TransformedIntegrator",
+                        transformation ? transformation->system() : nullptr,
+                        transformation ? transformation->extended() : nullptr, std::move(method)),
       transformation_(std::move(transformation)) {}
 
 ConstraintLadder extended_ladder(const TimeTransformation& transformation, const State& initial) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "courant/integrators/certificate/constraint_ladder.hpp"
-#include "courant/integrators/methods/wrapping_integrator.hpp"
+#include "courant/integrators/methods/integrator_adaptor.hpp"
 #include "courant/structures/time_transformation.hpp"
 
 namespace courant {
@@ -19,7 +19,7 @@ namespace courant {
 // and a symplectic method, that the form of T*(Q × R) is preserved. Order, symmetry, constraints and
 // (unless E depends on t) an exact balance of energy are those of the method. A step that does not go
 // forward in t for h > 0, as where g vanishes or is negative, throws SolveError.
-class TransformedIntegrator final : public WrappingIntegrator {
+class TransformedIntegrator final : public IntegratorAdaptor {
  public:
   // `method` is of transformation->extended(), and wrapped(): its laws are those of every integrator. Throws
   // std::invalid_argument otherwise.

@@ -11,7 +11,7 @@ function later(chart) {
   waiting.add(chart);
 }
 
-// A figure with its curves, a read-out and a mark at the moment. A subclass has `names` of what the
+// A figure with its curves, a read-out and a mark at the instant. A subclass has `names` of what the
 // read-out tells of a sample, draw(), place(curve, i) → {x, y} in pixels, read(curve, i) → rows of the
 // read-out, and what happens when the pointer drags.
 class Chart {
@@ -116,7 +116,7 @@ class Chart {
     if (!drag || !done) return;
     const point = this.pixel(event);
     if (drag.far) return this.dropped(drag, point);
-    if (this.at && this.inside(point, 12)) moment.set(this.at.curve.time[this.at.i]);
+    if (this.at && this.inside(point, 12)) instant.set(this.at.curve.time[this.at.i]);
   }
 
   key(event) {
@@ -131,7 +131,7 @@ class Chart {
       ArrowUp: () => this.change(-1),
       ArrowDown: () => this.change(1),
       Escape: () => { this.tell(null); this.reset(); },
-      Enter: () => { if (this.at) moment.set(this.at.curve.time[this.at.i]); },
+      Enter: () => { if (this.at) instant.set(this.at.curve.time[this.at.i]); },
       '+': () => this.zoom(0.5, centre),
       '=': () => this.zoom(0.5, centre),
       '-': () => this.zoom(2, centre),
@@ -203,10 +203,10 @@ class Chart {
 
   drawNow() {
     this.now.replaceChildren();
-    if (moment.time === null) return;
+    if (instant.time === null) return;
     this.beforeNow();
     for (const curve of this.curves) {
-      const place = this.placeAt(curve, moment.time);
+      const place = this.placeAt(curve, instant.time);
       if (!place || !this.inside(place, 2)) continue;
       this.spoke(curve, place);
       this.now.append(svg('circle', {class: 'dot ' + curve.colour, cx: place.x, cy: place.y, r: 5}));

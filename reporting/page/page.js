@@ -1,6 +1,6 @@
-// The page: all of its charts, and its one moment.
+// The page: all of its charts, and its one instant.
 
-const moment = new Moment();
+const instant = new Instant();
 const charts = [];
 let timeLabel = 't';
 
@@ -11,8 +11,8 @@ function start() {
   }
   const overTime = charts.find((chart) => chart.overTime);
   if (overTime) timeLabel = overTime.x.label;
-  moment.build(document.querySelector('main > section'));
-  // Only what can be seen is drawn while the moment moves.
+  instant.build(document.querySelector('main > section'));
+  // Only what can be seen is drawn while the instant moves.
   const seen = new IntersectionObserver((entries) => {
     for (const entry of entries) {
       const chart = charts.find((one) => one.frame === entry.target);

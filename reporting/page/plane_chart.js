@@ -152,11 +152,11 @@ class PlaneChart extends Chart {
 
   beforeNow() {
     for (const ends of this.rods) {
-      const [a, b] = ends.map((end) => end === null ? {x: this.x.pixel(0), y: this.y.pixel(0)} : this.placeAt(this.curves[end], moment.time));
+      const [a, b] = ends.map((end) => end === null ? {x: this.x.pixel(0), y: this.y.pixel(0)} : this.placeAt(this.curves[end], instant.time));
       if (a && b) this.now.append(svg('line', {class: 'bar', x1: a.x, y1: a.y, x2: b.x, y2: b.y}));
     }
-    if (!this.overTime || !this.x.shows(moment.time)) return;
-    const x = this.x.pixel(moment.time);
+    if (!this.overTime || !this.x.shows(instant.time)) return;
+    const x = this.x.pixel(instant.time);
     this.now.append(svg('line', {x1: x, x2: x, y1: this.area[1], y2: this.area[3]}));
   }
 

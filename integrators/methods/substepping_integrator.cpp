@@ -1,4 +1,4 @@
-#include "courant/integrators/methods/divided_integrator.hpp"
+#include "courant/integrators/methods/substepping_integrator.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ constexpr double kMostCorners = 1e4;
 }  // namespace
 
 // Whole steps have a stepper of their own, so that what it knows of equal steps stays of use.
-class DividedIntegrator::Trajectory final : public Stepper {
+class SubsteppingIntegrator::Trajectory final : public Stepper {
  public:
   Trajectory(std::shared_ptr<const Integrator> integrator, Options options, const std::string& name)
       : Stepper(name, integrator->system()),
@@ -110,25 +110,25 @@ class DividedIntegrator::Trajectory final : public Stepper {
   std::optional<Motion> expected_;  // for the step after the next preparation
 };
 
-DividedIntegrator::DividedIntegrator(const std::shared_ptr<const Integrator>& method,
-                                     Options options)
-    : WrappingIntegrator("DividedIntegrator", method ? method->system() : nullptr,
-                         method ? method->system() : nullptr, method),
+SubsteppingIntegrator::SubsteppingIntegrator(const std::shared_ptr<const Integrator>& method,
+                                             Options options)
+    : IntegratorAdaptor("SubsteppingIntegrator", method ? method->system() : nullptr,
+                        method ? method->system() : nullptr, method),
       options_(std::move(options)) {
   if (options_.halvings < 0 || options_.halvings > kMostHalvings)
-    throw std::invalid_argument("DividedIntegrator::DividedIntegrator: halvings is " +
+    throw std::invalid_argument("SubsteppingIntegrator::SubsteppingIntegrator: halvings is " +
                                 std::to_string(options_.halvings) + "; expected 0 to " +
                                 std::to_string(kMostHalvings) + ".");
   for (const Corner& corner : options_.corners)
     if (!std::isfinite(corner.first) || !std::isfinite(corner.period) || corner.period < 0.0)
-      throw std::invalid_argument("DividedIntegrator::DividedIntegrator: a corner has the time " +
-                                  number_text(corner.first) + " and the period " +
-                                  number_text(corner.period) +
-                                  "; expected finite numbers, the period 0 or greater.");
+      throw std::invalid_argument(
+          "SubsteppingIntegrator::SubsteppingIntegrator: a corner has the time " +
+          number_text(corner.first) + " and the period " + number_text(corner.period) +
+          "; expected finite numbers, the period 0 or greater.");
 }
 
-std::vector<double> DividedIntegrator::corners_within(const std::vector<Corner>& corners, double t,
-                                                      double h) {
+std::vector<double> SubsteppingIntegrator::corners_within(const std::vector<Corner>& corners,
+                                                          double t, double h) {
   const double margin = kSmallestPart * std::fabs(h);
   const double low = std::min(t, t + h) + margin, high = std::max(t, t + h) - margin;
   std::vector<double> within;
@@ -139,7 +139,7 @@ std::vector<double> DividedIntegrator::corners_within(const std::vector<Corner>&
       continue;
     }
     if (high - low > kMostCorners * period)
-      throw SolveError(SolveError::Reason::left_domain, "DividedIntegrator", t, h,
+      throw SolveError(SolveError::Reason::left_domain, "SubsteppingIntegrator", t, h,
                        "has more than " + number_text(kMostCorners) + " corners of the period " +
                            number_text(period) + "; expected a shorter step.");
     for (double k = std::max(0.0, std::floor((low - first) / period)); first + k * period < high;
@@ -153,11 +153,11 @@ std::vector<double> DividedIntegrator::corners_within(const std::vector<Corner>&
   return within;
 }
 
-std::shared_ptr<const StepDifferential> DividedIntegrator::do_differential() const {
+std::shared_ptr<const StepDifferential> SubsteppingIntegrator::do_differential() const {
   return ComposedDifferential::of(name(), {wrapped()->differential()});
 }
 
-std::unique_ptr<Stepper> DividedIntegrator::do_stepper() const {
+std::unique_ptr<Stepper> SubsteppingIntegrator::do_stepper() const {
   return std::make_unique<Trajectory>(wrapped(), options_, name());
 }
 

@@ -1,4 +1,4 @@
-// The basis of a chart along a trajectory.
+// The frame of a chart, transported along a trajectory.
 #pragma once
 
 #include "courant/core/expressions/function.hpp"
@@ -7,14 +7,14 @@
 
 namespace courant {
 
-// An orthonormal basis B of T_xM (Ñ × n) that turns as little as possible while x moves: the last
+// An orthonormal frame B of T_xM (Ñ × n) that turns as little as possible while x moves: the last
 // one projected to the new tangent space, made orthonormal by its polar factor. What was factorised
 // or extrapolated in it stays good, which a basis made afresh at every point would spoil. Programs in C
 // find the same, to the last bit.
 //
 // Nothing is computed or stored where n = Ñ: B is the identity. Nothing is allocated by move_to, but for
 // points far apart. One object a trajectory.
-class MovingBasis {
+class TransportedFrame {
  public:
   // (x, B) ↦ Π(x) B, column by column; nothing where B is the identity. To be traced once for all trajectories.
   static Function::Formulas formulas(const Manifold& manifold);
@@ -22,7 +22,7 @@ class MovingBasis {
   // The one that a trajectory begins with at x.
   static LinearMap<double> at(const Manifold& manifold, const VectorXd& x);
 
-  MovingBasis(const Manifold& manifold, Function projection);
+  TransportedFrame(const Manifold& manifold, Function projection);
 
   // Whether B went on from the last one; at the first point, and where the new tangent space is at
   // right angles to the old one, it is made afresh, and coordinates in it have nothing to do with
@@ -33,7 +33,7 @@ class MovingBasis {
   void forget() { is_set_ = false; }
   // Goes on from where the other one is, of the same manifold: whether its coordinates are those that
   // this had, moved along without being made afresh in between.
-  bool take_over(const MovingBasis& other);
+  bool take_over(const TransportedFrame& other);
   const LinearMap<double>& map() const { return basis_; }
   // Bᵀv, the coordinates of a tangent vector: `coordinates` = n numbers, `v` = Ñ.
   void coordinates_of(const VectorXd& v, Eigen::Ref<VectorXd> coordinates) const;

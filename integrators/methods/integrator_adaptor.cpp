@@ -1,13 +1,12 @@
-#include "courant/integrators/methods/wrapping_integrator.hpp"
+#include "courant/integrators/methods/integrator_adaptor.hpp"
 
 #include <utility>
 
 namespace courant {
 
-WrappingIntegrator::WrappingIntegrator(const char* name,
-                                       std::shared_ptr<const ImplicitSystem> system,
-                                       const std::shared_ptr<const ImplicitSystem>& wrapped_system,
-                                       std::shared_ptr<const Integrator> wrapped)
+IntegratorAdaptor::IntegratorAdaptor(const char* name, std::shared_ptr<const ImplicitSystem> system,
+                                     const std::shared_ptr<const ImplicitSystem>& wrapped_system,
+                                     std::shared_ptr<const Integrator> wrapped)
     : Integrator(std::move(system)), wrapped_(std::move(wrapped)) {
   if (!wrapped_ || wrapped_->system() != wrapped_system)
     throw std::invalid_argument(std::string(name) + "::" + name +

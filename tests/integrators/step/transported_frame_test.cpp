@@ -1,4 +1,4 @@
-#include "courant/integrators/step/moving_basis.hpp"
+#include "courant/integrators/step/transported_frame.hpp"
 
 #include <Eigen/Geometry>
 #include <boost/test/unit_test.hpp>
@@ -13,14 +13,14 @@
 
 // Mistakes that these cases have to notice:
 //  * after a long step the basis is made afresh
-BOOST_AUTO_TEST_SUITE(moving_basis)
+BOOST_AUTO_TEST_SUITE(transported_frame)
 
 using namespace courant;
 
 namespace {
 
-MovingBasis basis_at(const Manifold& M, const VectorXd& x) {
-  MovingBasis basis(M, MovingBasis::projection(M, Backend::interpreter));
+TransportedFrame basis_at(const Manifold& M, const VectorXd& x) {
+  TransportedFrame basis(M, TransportedFrame::projection(M, Backend::interpreter));
   basis.move_to(x);
   return basis;
 }
@@ -42,7 +42,7 @@ BOOST_AUTO_TEST_CASE(follows_a_curve) {
       std::make_shared<Sphere>(7), std::make_shared<Stiefel>(5, 3)};  // 9 columns
   for (const auto& M : manifolds) {
     VectorXd x = M->random_point(generator);
-    MovingBasis basis = basis_at(*M, x);
+    TransportedFrame basis = basis_at(*M, x);
     const double length = 0.02 * std::min(1.0, M->injectivity_radius(x));
     for (int k = 0; k < 20; ++k) {
       const MatrixXd before = basis.map();
@@ -57,7 +57,7 @@ BOOST_AUTO_TEST_CASE(follows_a_curve) {
 // Where it is the identity nothing is stored, however large the space is.
 BOOST_AUTO_TEST_CASE(is_no_matrix_on_large_flat_spaces) {
   const Euclidean flat(300'000);  // a matrix would take 720 GB
-  MovingBasis basis(flat, MovingBasis::projection(flat, Backend::interpreter));
+  TransportedFrame basis(flat, TransportedFrame::projection(flat, Backend::interpreter));
   BOOST_TEST(basis.move_to(VectorXd::Zero(flat.dimension())));
   BOOST_TEST(basis.map().is_identity());
 }
@@ -66,14 +66,14 @@ BOOST_AUTO_TEST_CASE(is_no_matrix_on_large_flat_spaces) {
 BOOST_AUTO_TEST_CASE(jumps) {
   const Sphere sphere(2);
   const Eigen::Vector3d far(std::sin(1.2), 0.0, std::cos(1.2));
-  MovingBasis basis = basis_at(sphere, Eigen::Vector3d::UnitZ());
+  TransportedFrame basis = basis_at(sphere, Eigen::Vector3d::UnitZ());
   const MatrixXd before = basis.map();
   BOOST_TEST(basis.move_to(far));
   BOOST_TEST(defect(sphere, far, basis.map()) < 1e-14);
   // The rotation by 1.2 about the second axis, which is the parallel transport.
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.2, Eigen::Vector3d::UnitY()).toRotationMatrix();
   BOOST_TEST((basis.map().matrix() - turn * before).norm() < 1e-14);
-  MovingBasis other = basis_at(sphere, Eigen::Vector3d::UnitZ());
+  TransportedFrame other = basis_at(sphere, Eigen::Vector3d::UnitZ());
   BOOST_TEST(!other.move_to(Eigen::Vector3d::UnitX()));
   BOOST_TEST(defect(sphere, Eigen::Vector3d::UnitX(), other.map()) < 1e-14);
 }
@@ -81,7 +81,7 @@ BOOST_AUTO_TEST_CASE(jumps) {
 BOOST_AUTO_TEST_CASE(is_the_identity_on_a_group) {
   const SpecialOrthogonal3 rotations;
   std::mt19937 generator(1);
-  MovingBasis basis = basis_at(rotations, rotations.random_point(generator));
+  TransportedFrame basis = basis_at(rotations, rotations.random_point(generator));
   basis.move_to(rotations.random_point(generator));
   BOOST_TEST(basis.map().is_identity());
 }

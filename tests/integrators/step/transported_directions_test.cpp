@@ -1,4 +1,4 @@
-#include "courant/integrators/step/moving_directions.hpp"
+#include "courant/integrators/step/transported_directions.hpp"
 
 #include <Eigen/Geometry>
 #include <boost/test/unit_test.hpp>
@@ -13,7 +13,7 @@
 //  * a step that is taken back leaves its directions behind
 //  * directions are made afresh where units are far apart
 //  * what combines the vectors of the projector stays as it was
-BOOST_AUTO_TEST_SUITE(moving_directions)
+BOOST_AUTO_TEST_SUITE(transported_directions)
 
 using namespace courant;
 
@@ -82,7 +82,7 @@ class Vanishing final : public Projector {
 };
 
 // Those of a projector on R⁴.
-MovingDirections moving(const Projector& projector, Index d) {
+TransportedDirections moving(const Projector& projector, Index d) {
   return {projector, Function("span", projector.span_formulas(Euclidean(4), d), {}), 4, d};
 }
 
@@ -102,7 +102,7 @@ BOOST_AUTO_TEST_CASE(span_those_of_the_projector) {
   for (const Projector* projector :
        {static_cast<const Projector*>(&in_units), static_cast<const Projector*>(&by_metric),
         static_cast<const Projector*>(&stretched), static_cast<const Projector*>(&nearest)}) {
-    MovingDirections directions = moving(*projector, 2);
+    TransportedDirections directions = moving(*projector, 2);
     for (int k = 0; k < 400; ++k) {
       const Place place(0.3 + 0.02 * k);
       directions.move_to(place.x, 0.0, kIdentity, place.conormals);
@@ -122,7 +122,7 @@ BOOST_AUTO_TEST_CASE(span_those_of_the_projector) {
 // the same: nothing is looked at afresh.
 BOOST_AUTO_TEST_CASE(are_carried_along_in_units_that_are_far_apart) {
   const Uneven uneven;
-  MovingDirections directions = moving(uneven, 2);
+  TransportedDirections directions = moving(uneven, 2);
   for (int k = 0; k < 200; ++k) {
     const Place place(0.3 + 0.02 * k);
     const MatrixXd conormals = place.conormals * Eigen::Rotation2Dd(0.05 * k).toRotationMatrix();
@@ -139,7 +139,7 @@ BOOST_AUTO_TEST_CASE(are_carried_along_in_units_that_are_far_apart) {
 // After a long step too W is as near as the span allows.
 BOOST_AUTO_TEST_CASE(are_carried_along_a_long_step) {
   const Stretched stretched;
-  MovingDirections directions = moving(stretched, 2);
+  TransportedDirections directions = moving(stretched, 2);
   const Place first(0.1), far(1.9);
   directions.move_to(first.x, 0.0, kIdentity, first.conormals);
   directions.keep();
@@ -151,7 +151,7 @@ BOOST_AUTO_TEST_CASE(are_carried_along_a_long_step) {
 
 BOOST_AUTO_TEST_CASE(go_back_and_forget) {
   const Stretched stretched;
-  MovingDirections directions = moving(stretched, 2);
+  TransportedDirections directions = moving(stretched, 2);
   const Place first(0.1), second(0.12);
   BOOST_TEST(!directions.is_kept());
   directions.move_to(first.x, 0.0, kIdentity, first.conormals);
@@ -163,7 +163,7 @@ BOOST_AUTO_TEST_CASE(go_back_and_forget) {
   BOOST_TEST((directions.matrix() == kept));
   directions.forget();
   BOOST_TEST(!directions.is_kept());
-  MovingDirections fresh = moving(stretched, 2);
+  TransportedDirections fresh = moving(stretched, 2);
   directions.move_to(second.x, 0.0, kIdentity, second.conormals);
   fresh.move_to(second.x, 0.0, kIdentity, second.conormals);
   BOOST_TEST((directions.matrix() == fresh.matrix()));
@@ -172,7 +172,7 @@ BOOST_AUTO_TEST_CASE(go_back_and_forget) {
 // Directions that were a complement and are none any more are refused on the way too.
 BOOST_AUTO_TEST_CASE(are_refused_where_they_meet_the_tangent_space) {
   const Vanishing vanishing;
-  MovingDirections directions = moving(vanishing, 1);
+  TransportedDirections directions = moving(vanishing, 1);
   const VectorXd x = VectorXd::Zero(4);
   const auto normal = [](double angle) {
     return MatrixXd(Eigen::Vector4d(std::sin(angle), 0.0, std::cos(angle), 0.0));

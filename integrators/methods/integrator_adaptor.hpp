@@ -1,4 +1,4 @@
-// WrappingIntegrator: a method whose steps are made of those of another one.
+// IntegratorAdaptor: a method whose steps are made of those of another one.
 #pragma once
 
 #include "courant/integrators/step/integrator.hpp"
@@ -7,7 +7,7 @@ namespace courant {
 
 // What it is called and what it promises are those of the other method, and so are its formulas, unless a
 // subclass says otherwise.
-class WrappingIntegrator : public Integrator {
+class IntegratorAdaptor : public Integrator {
  public:
   const std::shared_ptr<const Integrator>& wrapped() const { return wrapped_; }
 
@@ -22,9 +22,9 @@ class WrappingIntegrator : public Integrator {
  protected:
   // A method of `system` by one of `wrapped_system`. Throws std::invalid_argument, which begins with
   // `name`, if something is null or `wrapped` is a method of another system.
-  WrappingIntegrator(const char* name, std::shared_ptr<const ImplicitSystem> system,
-                     const std::shared_ptr<const ImplicitSystem>& wrapped_system,
-                     std::shared_ptr<const Integrator> wrapped);
+  IntegratorAdaptor(const char* name, std::shared_ptr<const ImplicitSystem> system,
+                    const std::shared_ptr<const ImplicitSystem>& wrapped_system,
+                    std::shared_ptr<const Integrator> wrapped);
 
   std::vector<StepFormulas> do_formulas() const override { return wrapped_->formulas(); }
 

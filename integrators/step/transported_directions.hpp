@@ -11,11 +11,11 @@ namespace courant {
 // with V(x) what the projector spans and W = V K at the last point, the orthonormal basis nearest to
 // V K at the next. The first W is the one nearest to the conormals. Where such a basis is far from V K, W is that of
 // Projector::directions(). Programs in C find the same, to the last bit. One object a trajectory.
-class MovingDirections {
+class TransportedDirections {
  public:
   // `projector` outlives this object; `span`: its span_formulas(), traced once for all trajectories. d = 0 is
   // allowed.
-  MovingDirections(const Projector& projector, Function span, Index n, Index d);
+  TransportedDirections(const Projector& projector, Function span, Index n, Index d);
 
   // W at x and t, near that of the last keep(), so that this can be repeated while a point is sought.
   // Arguments and errors as of Projector::directions().
@@ -25,7 +25,7 @@ class MovingDirections {
   void discard();  // back to what keep() left
   void forget();
   // Goes on from where the other one was at its last keep().
-  void take_over(const MovingDirections& other);
+  void take_over(const TransportedDirections& other);
 
   const MatrixXd& matrix() const { return W_; }
   bool is_kept() const { return is_kept_; }

@@ -1,4 +1,4 @@
-#include "courant/integrators/methods/divided_integrator.hpp"
+#include "courant/integrators/methods/substepping_integrator.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -53,11 +53,11 @@ State at(double x, double t = 0.0) { return {.t = t, .x = VectorXd::Constant(1, 
 //  * a corner in each period is the first alone
 //  * a step back meets its corners in the wrong order
 //  * corners next to the end of a step make pieces of round-off
-BOOST_AUTO_TEST_SUITE(divided_integrator)
+BOOST_AUTO_TEST_SUITE(substepping_integrator)
 
 BOOST_AUTO_TEST_CASE(corners_of_a_step) {
   const auto within = [](const std::vector<Corner>& corners, double t, double h) {
-    return DividedIntegrator::corners_within(corners, t, h);
+    return SubsteppingIntegrator::corners_within(corners, t, h);
   };
   const std::vector<Corner> corners = {{0.3, 0.0}, {0.1, 1.0}, {1.15, 0.0}};
   BOOST_TEST((within(corners, 0.0, 0.5) == Times{0.1, 0.3}));
@@ -79,7 +79,7 @@ BOOST_AUTO_TEST_CASE(corners_of_a_step) {
 // error that depends on where in the step it lies.
 BOOST_AUTO_TEST_CASE(steps_end_at_corners) {
   const Pointer plain = bent();
-  const DividedIntegrator divided(plain, {.corners = {{1.0 / 3.0, 0.0}}});
+  const SubsteppingIntegrator divided(plain, {.corners = {{1.0 / 3.0, 0.0}}});
   const State pieces = plain->advance(plain->advance(at(0.7), 1.0 / 3.0), 0.1);
   BOOST_TEST(std::abs(divided.advance(at(0.7), 1.0 / 3.0 + 0.1).x[0] - pieces.x[0]) < 1e-14);
 
@@ -97,7 +97,7 @@ BOOST_AUTO_TEST_CASE(refused_steps_are_made_in_halves) {
   const Pointer plain = square_growth();
   const double h = 0.7;
   BOOST_CHECK_THROW(plain->advance(at(1.0), h), SolveError);
-  const DividedIntegrator divided(plain, {.halvings = 4});
+  const SubsteppingIntegrator divided(plain, {.halvings = 4});
   // 0.35 is possible, the second half is not, its halves are.
   double x = square_step(1.0, 0.35);
   BOOST_TEST_REQUIRE(0.35 * x > 0.5);
@@ -140,7 +140,7 @@ BOOST_AUTO_TEST_CASE(refused_steps_are_made_in_halves) {
 
 BOOST_AUTO_TEST_CASE(halvings_end) {
   // With one halving the second half is refused.
-  const DividedIntegrator once(square_growth(), {.halvings = 1});
+  const SubsteppingIntegrator once(square_growth(), {.halvings = 1});
   const auto stepper = once.stepper();
   State state = at(1.0);
   BOOST_CHECK_THROW(stepper->step(state, 0.7), SolveError);
@@ -150,8 +150,8 @@ BOOST_AUTO_TEST_CASE(halvings_end) {
 
 // The tangent map is the product of those of the pieces: of 1/x(t) = 1/x - t up to the error of the method, and of
 // differences of its steps.
-BOOST_AUTO_TEST_CASE(differential_of_divided_steps) {
-  const DividedIntegrator divided(square_growth(), {.corners = {{0.1, 0.0}}, .halvings = 4});
+BOOST_AUTO_TEST_CASE(differential_of_substepping) {
+  const SubsteppingIntegrator divided(square_growth(), {.corners = {{0.1, 0.0}}, .halvings = 4});
   const auto differential = divided.differential();
   BOOST_TEST_REQUIRE(static_cast<bool>(differential));
   for (const double h : {0.05, 0.2, 0.7}) {
@@ -169,12 +169,13 @@ BOOST_AUTO_TEST_CASE(differential_of_divided_steps) {
 
 BOOST_AUTO_TEST_CASE(claims_and_refusals) {
   const Pointer plain = bent();
-  BOOST_TEST(DividedIntegrator(plain, {.corners = {{0.1, 0.2}}}).is_symmetric());
-  BOOST_TEST(DividedIntegrator(plain, {.halvings = 1}).order() == 2);
-  BOOST_CHECK_THROW(DividedIntegrator(nullptr, {}), std::invalid_argument);
-  BOOST_CHECK_THROW(DividedIntegrator(plain, {.halvings = -1}), std::invalid_argument);
-  BOOST_CHECK_THROW(DividedIntegrator(plain, {.corners = {{0.0, -1.0}}}), std::invalid_argument);
-  BOOST_CHECK_THROW(DividedIntegrator(plain, {.corners = {{NAN, 0.0}}}), std::invalid_argument);
+  BOOST_TEST(SubsteppingIntegrator(plain, {.corners = {{0.1, 0.2}}}).is_symmetric());
+  BOOST_TEST(SubsteppingIntegrator(plain, {.halvings = 1}).order() == 2);
+  BOOST_CHECK_THROW(SubsteppingIntegrator(nullptr, {}), std::invalid_argument);
+  BOOST_CHECK_THROW(SubsteppingIntegrator(plain, {.halvings = -1}), std::invalid_argument);
+  BOOST_CHECK_THROW(SubsteppingIntegrator(plain, {.corners = {{0.0, -1.0}}}),
+                    std::invalid_argument);
+  BOOST_CHECK_THROW(SubsteppingIntegrator(plain, {.corners = {{NAN, 0.0}}}), std::invalid_argument);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

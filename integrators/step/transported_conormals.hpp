@@ -25,7 +25,7 @@ namespace courant {
 // another point, or near any others where that one is at right angles. Where that fails too they are found by QR
 // decomposition. Programs in C find the same, to the last bit, where A is small and regular. One object a trajectory;
 // nothing is allocated by steps there.
-class MovingConormals {
+class TransportedConormals {
  public:
   struct Formulas {
     // (ξ, ξ', …, z, …); x₀, basis, t  ↦  F.
@@ -50,7 +50,8 @@ class MovingConormals {
                         const VectorXd& sizes = {});
 
   // `references`: of d covectors (Ñ × d) each, orthonormal; or none.
-  MovingConormals(Functions functions, Index n, Index d, std::vector<MatrixXd> references = {});
+  TransportedConormals(Functions functions, Index n, Index d,
+                       std::vector<MatrixXd> references = {});
   // Those at a point (Ñ × d), and some others that have nothing to do with the system.
   static std::vector<MatrixXd> references(const MatrixXd& at_point);
 
@@ -64,7 +65,7 @@ class MovingConormals {
   void discard();  // back to what keep() left
   void forget();
   // Goes on from where the other one was at its last keep().
-  void take_over(const MovingConormals& other);
+  void take_over(const TransportedConormals& other);
   const MatrixXd& matrix() const { return conormals_; }
 
  private:

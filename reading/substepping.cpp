@@ -1,4 +1,4 @@
-#include "courant/reading/divided_steps.hpp"
+#include "courant/reading/substepping.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -36,9 +36,9 @@ std::optional<Corner> read_corner(const JsonReader& entry, const SymbolTable& co
 
 }  // namespace
 
-std::optional<DividedIntegrator::Options> read_division(ObjectReader& time,
-                                                        const SymbolTable& constants) {
-  DividedIntegrator::Options options;
+std::optional<SubsteppingIntegrator::Options> read_division(ObjectReader& time,
+                                                            const SymbolTable& constants) {
+  SubsteppingIntegrator::Options options;
   const auto corners_key = time.optional("corners"), halvings_key = time.optional("halvings");
   if (corners_key)
     if (const auto entries = corners_key->elements())
@@ -58,11 +58,12 @@ std::optional<DividedIntegrator::Options> read_division(ObjectReader& time,
   return options;
 }
 
-MethodChoice in_divided_steps(MethodChoice choice, DividedIntegrator::Options options) {
+MethodChoice with_substeps(MethodChoice choice, SubsteppingIntegrator::Options options) {
   auto prepare = [prepare = std::move(choice.prepare),
                   options = std::move(options)](const MethodSetting& at) {
     PreparedMethod method = prepare(at);
-    method.integrator = std::make_shared<DividedIntegrator>(std::move(method.integrator), options);
+    method.integrator =
+        std::make_shared<SubsteppingIntegrator>(std::move(method.integrator), options);
     return method;
   };
   choice.prepare = std::move(prepare);

@@ -1,4 +1,4 @@
-// Starting Method 1 from two positions.
+// The starting procedure of Method 1 from two positions.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ namespace courant {
 // position comes from elsewhere. q₀ and the starting values for p₀, z are those of `initial`.
 // Throws std::invalid_argument unless the system is on a cotangent bundle and the map has a closed
 // inverse, SolveError if there is no such momentum.
-State matched_start(const ImplicitSystem& system, const DiscretizationMap& map,
-                    const State& initial, const VectorXd& q1, double h);
+State starting_procedure(const ImplicitSystem& system, const DiscretizationMap& map,
+                         const State& initial, const VectorXd& q1, double h);
 
 }  // namespace courant

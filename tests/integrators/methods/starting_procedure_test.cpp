@@ -1,4 +1,4 @@
-#include "courant/integrators/methods/matched_start.hpp"
+#include "courant/integrators/methods/starting_procedure.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <random>
@@ -10,7 +10,7 @@
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/structures/lagrangian_system.hpp"
 
-BOOST_AUTO_TEST_SUITE(matched_starts)
+BOOST_AUTO_TEST_SUITE(starting_procedures)
 
 using namespace courant;
 
@@ -54,7 +54,7 @@ BOOST_AUTO_TEST_CASE(is_the_derivative_of_the_discrete_lagrangian) {
     const VectorXd p0 = -values(substitute(gradient(discrete, from), from, constants(q0)));
     VectorXd x(4);
     x << q0, VectorXd::Zero(2);
-    const State state = matched_start(*setting.system, *setting.map, at(x), q1, h);
+    const State state = starting_procedure(*setting.system, *setting.map, at(x), q1, h);
     BOOST_TEST((state.x.head(2) - q0).norm() == 0.0);
     BOOST_TEST((state.x.tail(2) - p0).norm() < 1e-12 * (1.0 + p0.norm()));
   }
@@ -66,7 +66,7 @@ BOOST_AUTO_TEST_CASE(the_first_step_leads_to_the_second_position) {
   const VectorXd x = (VectorXd(4) << 0.3, -0.2, 1.0, 0.5).finished();
   const VectorXd q1 = (VectorXd(2) << 0.35, -0.1).finished();
   const State next =
-      method.advance(matched_start(*setting.system, *setting.map, at(x), q1, 0.1), 0.1);
+      method.advance(starting_procedure(*setting.system, *setting.map, at(x), q1, 0.1), 0.1);
   BOOST_TEST((next.x.head(2) - q1).norm() < 1e-13);
 }
 
@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(is_for_cotangent_bundles) {
   };
   const Rest system;
   const Theta map(system.manifold(), 0.5);
-  BOOST_CHECK_THROW(matched_start(system, map, at(VectorXd::Zero(2)), VectorXd::Zero(2), 0.1),
+  BOOST_CHECK_THROW(starting_procedure(system, map, at(VectorXd::Zero(2)), VectorXd::Zero(2), 0.1),
                     std::invalid_argument);
 }
 

@@ -1,4 +1,4 @@
-#include "courant/integrators/methods/wrapping_integrator.hpp"
+#include "courant/integrators/methods/integrator_adaptor.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <stdexcept>
@@ -10,7 +10,7 @@
 // Mistakes that these cases have to notice:
 //  * a method in other units is compared with numbers as they are
 //  * a method of another system is taken
-BOOST_AUTO_TEST_SUITE(wrapping_integrator)
+BOOST_AUTO_TEST_SUITE(integrator_adaptor)
 
 using namespace courant;
 
@@ -45,12 +45,12 @@ class Promising final : public Integrator {
                VectorXd::Ones(1), 1.0};
 };
 
-class Wrapped final : public WrappingIntegrator {
+class Wrapped final : public IntegratorAdaptor {
  public:
   Wrapped(std::shared_ptr<const ImplicitSystem> system,
           const std::shared_ptr<const ImplicitSystem>& other,
           std::shared_ptr<const Integrator> method)
-      : WrappingIntegrator("Wrapped", std::move(system), other, std::move(method)) {}
+      : IntegratorAdaptor("Wrapped", std::move(system), other, std::move(method)) {}
 
  private:
   std::unique_ptr<Stepper> do_stepper() const override { return nullptr; }

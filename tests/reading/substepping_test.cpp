@@ -1,4 +1,4 @@
-#include "courant/reading/divided_steps.hpp"
+#include "courant/reading/substepping.hpp"
 
 #include <boost/test/unit_test.hpp>
 
@@ -8,7 +8,7 @@
 namespace courant {
 // Mistakes that these cases have to notice:
 //  * the number of halvings is not read
-BOOST_AUTO_TEST_SUITE(divided_steps)
+BOOST_AUTO_TEST_SUITE(substepping)
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "courant/integrators/certificate/branching.hpp"
+#include "courant/integrators/certificate/bifurcation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +33,7 @@ class PointsLeftOut {
   std::optional<bool> lead_back() const {
     constexpr int directions = 4, needed = 2;
     const ConsistentJet lower = at_.at_level(level_);
-    TangentDisplacement tangents(lower.array(), lower.zero().y, lower.zero().reach);
+    TangentDisplacement tangents(lower.array(), lower.zero().y, lower.zero().nominal);
     int met = 0;
     bool is_confirmed = true;
     for (int direction = 0; direction < directions && met < needed; ++direction) {
@@ -87,8 +87,8 @@ class PointsLeftOut {
 
 }  // namespace
 
-Branching branching(const ConsistentPoint& consistent, const ConsistentJet& at,
-                    const ConstraintLadder& ladder) {
+Bifurcation bifurcation(const ConsistentPoint& consistent, const ConsistentJet& at,
+                        const ConstraintLadder& ladder) {
   constexpr Index dense_limit = 200;
   const std::vector<LadderLevel>& levels = ladder.levels;
   if (at.array().has_constant_jacobian() || at.zero().y.size() > dense_limit) return {};

@@ -1,9 +1,9 @@
-// DividedIntegrator: steps that are made in several where one does not do.
+// SubsteppingIntegrator: steps that are made in several where one does not do.
 #pragma once
 
 #include <vector>
 
-#include "courant/integrators/methods/wrapping_integrator.hpp"
+#include "courant/integrators/methods/integrator_adaptor.hpp"
 
 namespace courant {
 
@@ -13,7 +13,7 @@ struct Corner {
   double period = 0.0;
 };
 
-// A method Φ_h with steps that are divided:
+// A method Φ_h with substeps:
 //
 //   * At corners: a step from t to t + h with the corners t < c₁ < … < c_m < t + h is
 //     Φ_{t+h-c_m} ∘ … ∘ Φ_{c₁-t}. Where a system bends its dependence on t, at the edges of a pulse, a step over
@@ -26,7 +26,7 @@ struct Corner {
 // refused where the way there was. SolverStatistics::divisions counts the steps that were made in halves. A
 // Step has the pieces as its parts, each with the parts that Φ makes it of. In formulas() h is the size of a
 // piece.
-class DividedIntegrator final : public WrappingIntegrator {
+class SubsteppingIntegrator final : public IntegratorAdaptor {
  public:
   struct Options {
     std::vector<Corner> corners = {};
@@ -37,7 +37,7 @@ class DividedIntegrator final : public WrappingIntegrator {
 
   // Throws std::invalid_argument unless times and periods are finite, periods not negative, and
   // there are 0 to 60 halvings.
-  DividedIntegrator(const std::shared_ptr<const Integrator>& method, Options options);
+  SubsteppingIntegrator(const std::shared_ptr<const Integrator>& method, Options options);
 
   // The corners within the step from t to t + h, in the order of the way. Throws SolveError for more than
   // 1e4 of one period.

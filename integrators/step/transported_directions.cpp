@@ -1,4 +1,4 @@
-#include "courant/integrators/step/moving_directions.hpp"
+#include "courant/integrators/step/transported_directions.hpp"
 
 #include <cmath>
 #include <utility>
@@ -15,7 +15,8 @@ constexpr double kSurelyComplement = 1e-6;
 
 }  // namespace
 
-MovingDirections::MovingDirections(const Projector& projector, Function span, Index n, Index d)
+TransportedDirections::TransportedDirections(const Projector& projector, Function span, Index n,
+                                             Index d)
     : projector_(projector),
       span_(std::move(span)),
       W_(MatrixXd::Zero(n, d)),
@@ -27,8 +28,8 @@ MovingDirections::MovingDirections(const Projector& projector, Function span, In
       next_(d, d),
       make_orthonormal_(d) {}
 
-void MovingDirections::move_to(const VectorXd& x, double t, const LinearMap<double>& basis,
-                               const MatrixXd& conormals) {
+void TransportedDirections::move_to(const VectorXd& x, double t, const LinearMap<double>& basis,
+                                    const MatrixXd& conormals) {
   if (projector_.is_orthogonal() || conormals.cols() == 0) {
     W_ = conormals;
     return;
@@ -44,7 +45,7 @@ void MovingDirections::move_to(const VectorXd& x, double t, const LinearMap<doub
   make_orthonormal_(turned_, W_);
 }
 
-bool MovingDirections::continues(const MatrixXd& conormals) {
+bool TransportedDirections::continues(const MatrixXd& conormals) {
   if (is_kept_) multiply_plainly(V_, combination_, turned_);
   if (!(is_kept_ && make_orthonormal_(turned_, W_)) && !is_nearest_to(is_kept_ ? kept_ : conormals))
     return false;
@@ -52,7 +53,7 @@ bool MovingDirections::continues(const MatrixXd& conormals) {
 }
 
 // Whether there is such a W.
-bool MovingDirections::is_nearest_to(const MatrixXd& matrix) {
+bool TransportedDirections::is_nearest_to(const MatrixXd& matrix) {
   project(matrix);
   if (make_orthonormal_(turned_, W_)) return true;
   if (!make_orthonormal_.from_afar(turned_, W_)) return false;
@@ -61,7 +62,7 @@ bool MovingDirections::is_nearest_to(const MatrixXd& matrix) {
 }
 
 // V K nearest to the matrix, by the normal equations: whatever rounding makes of K, V K is in the span of V.
-void MovingDirections::project(const MatrixXd& matrix) {
+void TransportedDirections::project(const MatrixXd& matrix) {
   multiply_transposed_plainly(V_, V_, next_);
   factors_.compute(next_);
   multiply_transposed_plainly(V_, matrix, combination_);
@@ -69,14 +70,14 @@ void MovingDirections::project(const MatrixXd& matrix) {
   multiply_plainly(V_, combination_, turned_);
 }
 
-bool MovingDirections::is_complement(const MatrixXd& conormals) {
+bool TransportedDirections::is_complement(const MatrixXd& conormals) {
   if (projector_.is_always_complement()) return true;
   multiply_transposed_plainly(conormals, W_, next_);
   factors_.compute(next_);
   return std::fabs(factors_.determinant()) > kSurelyComplement;
 }
 
-void MovingDirections::keep() {
+void TransportedDirections::keep() {
   if (!projector_.is_orthogonal() && W_.cols() > 0) {
     if (is_continued_) {
       // W = T R for T = V K and R = (TᵀT)^{-1/2} near 1, so that TᵀW = R⁻¹; of K, so many digits as the
@@ -94,16 +95,16 @@ void MovingDirections::keep() {
   is_kept_ = true;
 }
 
-void MovingDirections::discard() { W_ = kept_; }
+void TransportedDirections::discard() { W_ = kept_; }
 
-void MovingDirections::take_over(const MovingDirections& other) {
+void TransportedDirections::take_over(const TransportedDirections& other) {
   W_ = kept_ = other.kept_;
   combination_ = other.combination_;
   is_kept_ = other.is_kept_;
   is_continued_ = false;
 }
 
-void MovingDirections::forget() {
+void TransportedDirections::forget() {
   is_kept_ = is_continued_ = false;
   W_.setZero();
   kept_.setZero();

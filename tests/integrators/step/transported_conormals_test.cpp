@@ -1,4 +1,4 @@
-#include "courant/integrators/step/moving_conormals.hpp"
+#include "courant/integrators/step/transported_conormals.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -10,7 +10,7 @@
 //  * what equations leave open is taken for a contradiction
 //  * combinations of equations stay those of the last point
 //  * conormals begin near one reference alone
-BOOST_AUTO_TEST_SUITE(moving_conormals)
+BOOST_AUTO_TEST_SUITE(transported_conormals)
 
 using namespace courant;
 
@@ -36,8 +36,8 @@ struct Pendulum {
       F[9] = 3.0 * F[4];
       F[10] = F[4] + 2.0 * F[6];
     }
-    functions = {MovingConormals::trace(graph, F, jets, 4, 2,
-                                        {{"x0", x0}, {"basis", ExprVector(0)}, {"t", t}}),
+    functions = {TransportedConormals::trace(graph, F, jets, 4, 2,
+                                             {{"x0", x0}, {"basis", ExprVector(0)}, {"t", t}}),
                  Backend::interpreter};
   }
 
@@ -55,7 +55,7 @@ struct Pendulum {
     exact.col(1) << rate * along, q;
   }
 
-  void move(MovingConormals& conormals) const {
+  void move(TransportedConormals& conormals) const {
     conormals.move_to({.jets = y.data(), .origin = x.data(), .basis = nullptr, .t = &t});
   }
 
@@ -66,14 +66,14 @@ struct Pendulum {
            (C - Q * (Q.transpose() * C)).norm();
   }
 
-  MovingConormals::Functions functions;
+  TransportedConormals::Functions functions;
   VectorXd x = VectorXd(4), y = VectorXd(13);
   MatrixXd exact = MatrixXd(4, 2);
   double t = 0.0;
 };
 
 void follow_a_curve_of(Pendulum pendulum) {
-  MovingConormals conormals(pendulum.functions, 4, 2);
+  TransportedConormals conormals(pendulum.functions, 4, 2);
   MatrixXd before;
   for (int k = 0; k < 500; ++k) {
     const double angle = 1.2 * std::cos(0.02 * k);
@@ -100,7 +100,7 @@ BOOST_AUTO_TEST_CASE(follow_a_curve_with_redundant_equations) { follow_a_curve_o
 BOOST_AUTO_TEST_CASE(begin_near_a_reference) {
   Pendulum pendulum;
   pendulum.place(0.3, 0.0);
-  const auto references = MovingConormals::references(orthonormalized(pendulum.exact));
+  const auto references = TransportedConormals::references(orthonormalized(pendulum.exact));
   BOOST_TEST_REQUIRE(references.size() >= 2u);
   const auto is_nearest = [&](const MatrixXd& C, const MatrixXd& to) {
     const MatrixXd seen = C.transpose() * to;
@@ -108,7 +108,7 @@ BOOST_AUTO_TEST_CASE(begin_near_a_reference) {
   };
   for (const double angle : {0.3, 0.4, 1.2, 0.3 + 0.5 * M_PI}) {
     pendulum.place(angle, 0.0);
-    MovingConormals conormals(pendulum.functions, 4, 2, references);
+    TransportedConormals conormals(pendulum.functions, 4, 2, references);
     pendulum.move(conormals);
     BOOST_TEST(pendulum.defect(conormals.matrix()) < 1e-12, angle);
     BOOST_TEST(is_nearest(conormals.matrix(), references[angle > 1.5 ? 1 : 0]), angle);
@@ -117,7 +117,7 @@ BOOST_AUTO_TEST_CASE(begin_near_a_reference) {
 
 BOOST_AUTO_TEST_CASE(jump) {
   Pendulum pendulum;
-  MovingConormals conormals(pendulum.functions, 4, 2);
+  TransportedConormals conormals(pendulum.functions, 4, 2);
   for (const double angle : {0.3, 0.31, 1.9, -1.0, -0.99}) {
     pendulum.place(angle, 0.5 + angle);
     pendulum.move(conormals);

@@ -1,4 +1,4 @@
-#include "courant/integrators/certificate/branching.hpp"
+#include "courant/integrators/certificate/bifurcation.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace courant {
 // Mistakes that these cases have to notice:
 //  * velocities of points nearby are no branches
 //  * whatever velocity leads back is that of a branch
-BOOST_AUTO_TEST_SUITE(branching_test)
+BOOST_AUTO_TEST_SUITE(bifurcation_test)
 
 using namespace courant::examples;
 

@@ -1,5 +1,5 @@
 // One time for all figures, with a slider and a button, which stand before an element of the page.
-class Moment {
+class Instant {
   constructor() {
     this.time = null;  // not before it is used
     this.playing = false;
@@ -19,10 +19,10 @@ class Moment {
     this.unit = unit;
     this.button = html('button', {type: 'button', class: 'play', 'aria-label': 'Play', title: 'Play'}, '▶');
     this.slider = html('input', {type: 'range', min: this.begin, max: this.end, step: (this.end - this.begin) / 1000,
-                                 value: this.begin, 'aria-label': 'Moment of all figures'});
+                                 value: this.begin, 'aria-label': 'Instant of all figures'});
     this.output = html('output', {});
     const label = html('span', {class: 'time'}, typeset(name), ' = ', this.output);
-    const bar = html('div', {class: 'moment', role: 'group', 'aria-label': 'Moment'}, this.button, this.slider, label);
+    const bar = html('div', {class: 'instant', role: 'group', 'aria-label': 'Instant'}, this.button, this.slider, label);
     before.before(bar);
     this.slider.addEventListener('input', () => { this.pause(); this.set(Number(this.slider.value)); });
     this.button.addEventListener('click', () => this.playing ? this.pause() : this.play());

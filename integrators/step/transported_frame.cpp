@@ -1,4 +1,4 @@
-#include "courant/integrators/step/moving_basis.hpp"
+#include "courant/integrators/step/transported_frame.hpp"
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@
 
 namespace courant {
 
-Function::Formulas MovingBasis::formulas(const Manifold& manifold) {
+Function::Formulas TransportedFrame::formulas(const Manifold& manifold) {
   Graph graph;
   const ExprVector x = graph.variables("x", manifold.ambient_dimension());
   const LinearMap<Expr> basis = basis_variables(graph, manifold);
@@ -19,17 +19,17 @@ Function::Formulas MovingBasis::formulas(const Manifold& manifold) {
   return result;
 }
 
-Function MovingBasis::projection(const Manifold& manifold, Backend backend) {
+Function TransportedFrame::projection(const Manifold& manifold, Backend backend) {
   return Function("basis", formulas(manifold), {.backend = backend});
 }
 
-LinearMap<double> MovingBasis::at(const Manifold& manifold, const VectorXd& x) {
-  MovingBasis basis(manifold, projection(manifold, Backend::interpreter));
+LinearMap<double> TransportedFrame::at(const Manifold& manifold, const VectorXd& x) {
+  TransportedFrame basis(manifold, projection(manifold, Backend::interpreter));
   basis.move_to(x);
   return basis.basis_;
 }
 
-MovingBasis::MovingBasis(const Manifold& manifold, Function projection)
+TransportedFrame::TransportedFrame(const Manifold& manifold, Function projection)
     : projection_(std::move(projection)),
       basis_(projection_.output_size() == 0
                  ? LinearMap<double>::identity(manifold.dimension())
@@ -39,7 +39,7 @@ MovingBasis::MovingBasis(const Manifold& manifold, Function projection)
       projected_(basis_.entries()),
       make_orthonormal_(basis_.cols()) {}
 
-bool MovingBasis::move_to(const VectorXd& x) {
+bool TransportedFrame::move_to(const VectorXd& x) {
   if (projection_.output_size() == 0) return true;
   if (is_set_) {
     const double* in[] = {x.data(), data()};
@@ -54,7 +54,7 @@ bool MovingBasis::move_to(const VectorXd& x) {
 }
 
 // From Π(x), as many of its columns at once as B has.
-void MovingBasis::make_afresh(const VectorXd& x) {
+void TransportedFrame::make_afresh(const VectorXd& x) {
   MatrixXd& B = basis_.entries();
   const Index size = B.rows(), n = B.cols();
   MatrixXd projector(size, size);
@@ -69,7 +69,7 @@ void MovingBasis::make_afresh(const VectorXd& x) {
   B = range_basis(std::move(projector), n);
 }
 
-bool MovingBasis::take_over(const MovingBasis& other) {
+bool TransportedFrame::take_over(const TransportedFrame& other) {
   if (projection_.output_size() == 0) return true;
   const bool goes_on = times_made_ == other.times_made_;
   basis_ = other.basis_;
@@ -79,7 +79,7 @@ bool MovingBasis::take_over(const MovingBasis& other) {
   return goes_on;
 }
 
-void MovingBasis::coordinates_of(const VectorXd& v, Eigen::Ref<VectorXd> coordinates) const {
+void TransportedFrame::coordinates_of(const VectorXd& v, Eigen::Ref<VectorXd> coordinates) const {
   if (basis_.is_identity()) {
     coordinates = v;
     return;

@@ -1,4 +1,4 @@
-#include "courant/integrators/methods/matched_start.hpp"
+#include "courant/integrators/methods/starting_procedure.hpp"
 
 #include <stdexcept>
 
@@ -8,12 +8,12 @@
 #include "courant/manifolds/cotangent_bundle.hpp"
 
 namespace courant {
-State matched_start(const ImplicitSystem& system, const DiscretizationMap& map,
-                    const State& initial, const VectorXd& q1, double h) {
+State starting_procedure(const ImplicitSystem& system, const DiscretizationMap& map,
+                         const State& initial, const VectorXd& q1, double h) {
   const auto* bundle = dynamic_cast<const CotangentBundle*>(system.manifold().get());
   if (!bundle || !map.has_inverse())
-    throw std::invalid_argument("matched_start: the system is on " + system.manifold()->name() +
-                                " with the map " + map.name() +
+    throw std::invalid_argument("starting_procedure: the system is on " +
+                                system.manifold()->name() + " with the map " + map.name() +
                                 "; expected a cotangent bundle and a map with a closed inverse.");
   Graph graph;
   const Index N = bundle->base()->ambient_dimension(), n = bundle->base()->tangent_dimension();
@@ -37,7 +37,7 @@ State matched_start(const ImplicitSystem& system, const DiscretizationMap& map,
   // Redundant equations are solved by least squares: that they are solved has to be seen.
   const double residual = largest(equations({solution}));
   if (result.status != Newton::Status::converged || !(residual <= 1e-9 * (1.0 + largest(solution))))
-    throw SolveError(SolveError::Reason::diverged, "matched_start", initial.t, h,
+    throw SolveError(SolveError::Reason::diverged, "starting_procedure", initial.t, h,
                      "leads to the second position from no momentum, residual " +
                          number_text(residual) + "; start on the manifold instead.",
                      {residual});

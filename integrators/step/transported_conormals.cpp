@@ -1,4 +1,4 @@
-#include "courant/integrators/step/moving_conormals.hpp"
+#include "courant/integrators/step/transported_conormals.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -45,7 +45,7 @@ std::pair<MatrixPattern, MatrixPattern> parts(const SparseExprMatrix& matrix, In
 
 }  // namespace
 
-MovingConormals::Functions::Functions(const Formulas& of, Backend backend)
+TransportedConormals::Functions::Functions(const Formulas& of, Backend backend)
     : constraints("constraints", of.constraints,
                   {.differentiate = {of.constraints.inputs.front().name}}),
       matrices("conormal equations", of.matrices, {.backend = backend}),
@@ -53,10 +53,9 @@ MovingConormals::Functions::Functions(const Formulas& of, Backend backend)
       P(of.P),
       sizes(of.sizes) {}
 
-MovingConormals::Formulas MovingConormals::trace(const Graph& graph, const ExprVector& F,
-                                                 const ExprVector& jets, Index n, Index d,
-                                                 const std::vector<Function::Input>& parameters,
-                                                 const VectorXd& sizes) {
+TransportedConormals::Formulas TransportedConormals::trace(
+    const Graph& graph, const ExprVector& F, const ExprVector& jets, Index n, Index d,
+    const std::vector<Function::Input>& parameters, const VectorXd& sizes) {
   Formulas result;
   result.sizes = sizes;
   std::vector<Function::Input> inputs = {{"y", jets}};
@@ -85,7 +84,7 @@ MovingConormals::Formulas MovingConormals::trace(const Graph& graph, const ExprV
   return result;
 }
 
-std::vector<MatrixXd> MovingConormals::references(const MatrixXd& at_point) {
+std::vector<MatrixXd> TransportedConormals::references(const MatrixXd& at_point) {
   std::vector<MatrixXd> result = {at_point};
   std::mt19937 generator(1);
   // Those of the standard are the same everywhere, distributions are not.
@@ -98,8 +97,8 @@ std::vector<MatrixXd> MovingConormals::references(const MatrixXd& at_point) {
   return result;
 }
 
-MovingConormals::MovingConormals(Functions functions, Index n, Index d,
-                                 std::vector<MatrixXd> references)
+TransportedConormals::TransportedConormals(Functions functions, Index n, Index d,
+                                           std::vector<MatrixXd> references)
     : functions_(std::move(functions)),
       n_(n),
       d_(d),
@@ -113,14 +112,14 @@ MovingConormals::MovingConormals(Functions functions, Index n, Index d,
       covectors_(n, d),
       make_orthonormal_(d) {}
 
-void MovingConormals::move_to(const Point& point) {
+void TransportedConormals::move_to(const Point& point) {
   if (d_ == 0) return;
   if (is_found_ ? continue_to(point, kept_) : start_at(point)) return;
   find(point);
 }
 
 // From a reference, in the basis at this point.
-bool MovingConormals::start_at(const Point& point) {
+bool TransportedConormals::start_at(const Point& point) {
   return std::ranges::any_of(references_, [&](const MatrixXd& reference) {
     const Index size = reference.rows();
     if (size == n_) return continue_to(point, reference);
@@ -130,26 +129,26 @@ bool MovingConormals::start_at(const Point& point) {
   });
 }
 
-void MovingConormals::keep() {
+void TransportedConormals::keep() {
   kept_ = conormals_;
   is_found_ = true;
 }
 
-void MovingConormals::discard() { conormals_ = kept_; }
+void TransportedConormals::discard() { conormals_ = kept_; }
 
-void MovingConormals::take_over(const MovingConormals& other) {
+void TransportedConormals::take_over(const TransportedConormals& other) {
   kept_ = conormals_ = other.kept_;
   is_found_ = other.is_found_;
 }
 
-void MovingConormals::forget() {
+void TransportedConormals::forget() {
   is_found_ = false;
   solver_->forget();
   kept_.setZero();
   conormals_.setZero();
 }
 
-bool MovingConormals::continue_to(const Point& point, const MatrixXd& from) {
+bool TransportedConormals::continue_to(const Point& point, const MatrixXd& from) {
   const auto& [constraints, matrices, A, P, sizes] = functions_;
   const double* in[] = {point.jets, point.origin, point.basis, point.t, from.data()};
   matrices.value(in, entries_.data());
@@ -171,7 +170,7 @@ bool MovingConormals::continue_to(const Point& point, const MatrixXd& from) {
 }
 
 // Whether least squares for u_j solve its equations.
-bool MovingConormals::is_met() const {
+bool TransportedConormals::is_met() const {
   const MatrixPattern& A = functions_.A;
   VectorXd left = -given_;
   double largest = 1.0;
@@ -187,7 +186,7 @@ bool MovingConormals::is_met() const {
 // equation. Without the two the others may have such an unknown in turn. Of the derivative array of a
 // network with a loop of capacitors this leaves the equation of the loop alone, whose decomposition is
 // small, where that of all equations takes minutes for thousands of them.
-MovingConormals::Core MovingConormals::core(const VectorXd& all) const {
+TransportedConormals::Core TransportedConormals::core(const VectorXd& all) const {
   const Function& f = functions_.constraints;
   const Index rows = f.output_size();
   std::vector<std::vector<Index>> of_row(static_cast<std::size_t>(rows));
@@ -222,7 +221,7 @@ MovingConormals::Core MovingConormals::core(const VectorXd& all) const {
   return result;
 }
 
-void MovingConormals::find(const Point& point) {
+void TransportedConormals::find(const Point& point) {
   const double* in[] = {point.jets, point.origin, point.basis, point.t};
   const Function& f = functions_.constraints;
   VectorXd all(f.output_size() + f.nonzeros());

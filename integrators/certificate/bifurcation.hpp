@@ -9,7 +9,7 @@
 namespace courant {
 
 // Why solutions branch at a point.
-struct Branching {
+struct Bifurcation {
   std::string reason = "";   // in words; empty if nothing says so
   bool is_confirmed = true;  // whether the points next to it are zeros with 113 bits too
 };
@@ -19,7 +19,7 @@ struct Branching {
 // have no velocity. If they have one, and it leads back to another velocity of the point along which the sets
 // are larger, another curve leads through the point: as at the turning points of θ'²/2 = cos θ, where both rest
 // and motion solve the equations. Up to 200 unknowns.
-Branching branching(const ConsistentPoint& consistent, const ConsistentJet& at,
-                    const ConstraintLadder& ladder);
+Bifurcation bifurcation(const ConsistentPoint& consistent, const ConsistentJet& at,
+                        const ConstraintLadder& ladder);
 
 }  // namespace courant
