@@ -18,14 +18,14 @@ namespace courant {
 // Takes a time that is linear in the size of the expressions.
 ExprVector collected(const ExprVector& expressions);
 
-// The same for many values of the variables `varying`. What the others determine is evaluated once, so only operations with
-// what varies count:
+// The same for many values of the variables `varying`. What the others determine is evaluated once, so only operations
+// with what varies count:
 //
 //   h ((y/2)/(-4))             (-h/8) y                 for d and y that vary
 //   d/h + y - (x - d)/h        (2/h) (d - x/2) + y
 //
-// Powers of two in a row, with one known factor, become one product with the same bits. Terms meet that have the same known
-// factor, if their coefficients are powers of two; of such a sum the variables that are known are added up first.
+// Powers of two in a row, with one known factor, become one product with the same bits. Terms meet that have the same
+// known factor, if their coefficients are powers of two; of such a sum the variables that are known are added up first.
 ExprVector collected(const ExprVector& expressions, const ExprVector& varying);
 
 }  // namespace courant

@@ -44,9 +44,9 @@ constexpr double kSteps[] = {1e-2, 1e-6, 1e-11};
 using Sizes = Eigen::Array3d;
 
 // The entries of a Jacobian at a generic point, for different step sizes.
-class TypicalEntries {
+class GenericEntries {
  public:
-  TypicalEntries(const SparseExprMatrix& J, const ExprVector& never_zero) : J_(J) {
+  GenericEntries(const SparseExprMatrix& J, const ExprVector& never_zero) : J_(J) {
     const ExprVector variables = variables_of(J.values);
     std::mt19937 generator(7);
     std::uniform_real_distribution<double> uniform(0.5, 1.5);
@@ -142,14 +142,14 @@ class Tableau {
         coarseness_(std::move(coarseness)),
         rows_(static_cast<std::size_t>(J.rows)),
         columns_(static_cast<std::size_t>(J.cols)) {
-    Eigen::Array<double, Eigen::Dynamic, 3> typical(J.values.size(), 3);
-    const TypicalEntries entries(J, never_zero);
+    Eigen::Array<double, Eigen::Dynamic, 3> generic(J.values.size(), 3);
+    const GenericEntries entries(J, never_zero);
     const double step = entries.natural_step();
-    for (Index i = 0; i < 3; ++i) typical.col(i) = entries.in_units(kSteps[i] * step);
+    for (Index i = 0; i < 3; ++i) generic.col(i) = entries.in_units(kSteps[i] * step);
     for (std::size_t k = 0; k < J.row.size(); ++k) {
       const auto entry = static_cast<Index>(k);
       rows_[static_cast<std::size_t>(J.row[k])].emplace(J.col[k],
-                                                        Entry{J.values[entry], typical.row(entry)});
+                                                        Entry{J.values[entry], generic.row(entry)});
       columns_[static_cast<std::size_t>(J.col[k])].insert(J.row[k]);
       columns_left_.insert(J.col[k]);
     }
@@ -195,7 +195,7 @@ class Tableau {
  private:
   struct Entry {
     Expr coefficient;
-    Sizes typical;  // NaN where it is not known, 0 where it may vanish
+    Sizes generic;  // NaN where it is not known, 0 where it may vanish
   };
   using Row = std::map<Index, Entry>;
 
@@ -235,9 +235,9 @@ class Tableau {
         return std::nullopt;
       // The comparison is false where an entry is not known, and the pivot not allowed.
       for (Index i = 0; i < largest.size(); ++i)
-        if (!(largest[i] >= std::fabs(entry.typical[i]))) largest[i] = std::fabs(entry.typical[i]);
+        if (!(largest[i] >= std::fabs(entry.generic[i]))) largest[i] = std::fabs(entry.generic[i]);
     }
-    const Sizes& size = found->second.typical;
+    const Sizes& size = found->second.generic;
     const bool is_large = (size.abs() >= kThreshold * largest).all();
     if (cost > 0 && !is_large) return std::nullopt;
     if ((size == 0.0).any() || !is_never_zero(found->second.coefficient)) return std::nullopt;
@@ -268,11 +268,11 @@ class Tableau {
                 const Entry& pivot) {
     const auto [place, is_new] = row.try_emplace(l, Entry{Expr(0.0), Sizes::Zero()});
     Entry& target = place->second;
-    const Sizes terms = factor.typical * entry.typical / pivot.typical;
-    const Sizes sums = target.typical - terms;
+    const Sizes terms = factor.generic * entry.generic / pivot.generic;
+    const Sizes sums = target.generic - terms;
     target.coefficient =
         target.coefficient - factor.coefficient * entry.coefficient / pivot.coefficient;
-    target.typical = (sums.abs() <= kCancelled * terms.abs()).select(Sizes::Zero(), sums);
+    target.generic = (sums.abs() <= kCancelled * terms.abs()).select(Sizes::Zero(), sums);
     if (target.coefficient.is_constant(0.0)) {
       row.erase(place);
       columns_[static_cast<std::size_t>(l)].erase(k);

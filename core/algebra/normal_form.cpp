@@ -2,8 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <set>
 #include <stdexcept>
+#include <tuple>
+#include <unordered_set>
+#include <utility>
 
+#include "courant/core/algebra/polynomial_factors.hpp"
 #include "courant/core/expressions/expr_vectors.hpp"
 #include "courant/core/expressions/subgraph.hpp"
 
@@ -45,6 +51,19 @@ Polynomial without_denominators(const Polynomial& polynomial) {
   return result;
 }
 
+// How many terms, of which degree, in which variables.
+using FactorOrder = std::tuple<std::size_t, int, std::vector<int>>;
+
+FactorOrder order_of(const Polynomial& factor) {
+  int degree = 0;
+  std::set<int> variables;
+  for (const auto& [monomial, c] : factor) {
+    degree = std::max(degree, total_degree(monomial));
+    for (const auto& [variable, power] : monomial) variables.insert(variable);
+  }
+  return {factor.size(), degree, {variables.begin(), variables.end()}};
+}
+
 }  // namespace
 
 NormalForm::NormalForm(const ExprVector& variables, const std::vector<Expr>& relations) {
@@ -80,6 +99,93 @@ Expr NormalForm::operator()(const Expr& a) {
   } catch (const std::length_error&) {
     return a;
   }
+}
+
+Expr NormalForm::without_factors(const Expr& a,
+                                 const std::function<bool(const Expr&)>& may_divide) {
+  if (a.is_constant()) return a;
+  try {
+    const Polynomial& whole = polynomial(a);
+    if (whole.empty()) return a;
+    Monomial common = whole.begin()->first;
+    for (const auto& [monomial, c] : whole)
+      common = combined(common, monomial, [](int of_common, int of_term) {
+        return std::max(0, std::min(of_common, of_term));
+      });
+    Monomial factors;
+    for (const auto& power : common)
+      if (may_divide(factors_.at(power.first))) factors.push_back(power);
+    if (factors.empty()) return a;
+    Polynomial rest;
+    for (const auto& [monomial, c] : whole) rest.emplace(product(monomial, factors, -1), c);
+    return expression(rest);
+  } catch (const std::length_error&) {
+    return a;
+  }
+}
+
+std::vector<Expr> NormalForm::factors(const Expr& a) {
+  // With what they are ordered by: what is no polynomial of few terms comes last.
+  std::vector<std::pair<FactorOrder, Expr>> found;
+  std::vector<Expr> left = {a};
+  std::unordered_set<std::uint32_t> visited;
+  const auto add = [&](const Expr& factor, FactorOrder order) {
+    const bool is_known =
+        std::ranges::any_of(found, [&](const auto& one) { return one.second == factor; });
+    if (!is_known) found.emplace_back(std::move(order), factor);
+  };
+  const auto look_at = [&](const Graph& graph, std::initializer_list<std::uint32_t> operands) {
+    for (const std::uint32_t operand : operands) left.push_back(graph.expression(operand));
+  };
+  while (!left.empty()) {
+    const Expr next = left.back();
+    left.pop_back();
+    if (next.is_constant(0.0)) return {};
+    if (next.is_constant() || !visited.insert(next.node()).second) continue;
+    const Graph& graph = next.graph();
+    const Node& node = graph.node(next.node());
+    switch (node.op) {
+      case Op::multiply:
+        look_at(graph, {node.b, node.a});
+        continue;
+      case Op::negate:
+      case Op::divide:
+      case Op::sqrt:
+      case Op::abs:
+      case Op::sinh:
+        look_at(graph, {node.a});
+        continue;
+      case Op::power:
+        if (node.k > 0) look_at(graph, {node.a});
+        continue;
+      case Op::exp:
+      case Op::cosh:
+        continue;
+      default:
+        break;
+    }
+    try {
+      const Polynomial whole = without_denominators(polynomial(next));
+      if (whole.empty()) return {};
+      const std::vector<Polynomial> parts = polynomial_factors(whole);
+      for (const Polynomial& part : parts) {
+        if (has_one_sign(part)) continue;
+        const Expr factor = expression(part);
+        const bool is_alone = part.size() == 1 && factors_.contains(part.begin()->first[0].first) &&
+                              part.begin()->first[0].first < 0 && !(factor == next);
+        if (is_alone)
+          left.push_back(factor);  // no variable: it may be a power of e
+        else
+          add(factor, order_of(part));
+      }
+    } catch (const std::length_error&) {
+      add(next, {most_terms_between, 0, {}});
+    }
+  }
+  std::ranges::stable_sort(found, {}, [](const auto& one) { return one.first; });
+  std::vector<Expr> factors;
+  for (const auto& [order, factor] : found) factors.push_back(factor);
+  return factors;
 }
 
 std::vector<Expr> NormalForm::basis() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <unordered_map>
@@ -24,6 +25,15 @@ class NormalForm {
   NormalForm(const ExprVector& variables, const std::vector<Expr>& relations);
 
   Expr operator()(const Expr& a);
+
+  // Divided by the factors that all of its terms, multiplied out, have in common and `may_divide` allows: x y + x exp(z)
+  // is y + exp(z) where x is not 0. As it stands where there are none.
+  Expr without_factors(const Expr& a, const std::function<bool(const Expr&)>& may_divide);
+
+  // Functions of which one is 0 wherever the expression is: its real factors (polynomial_factors), each once, those of
+  // fewest terms first, then those of lowest degree, then in the order of the variables. Numbers, powers of e, what stands
+  // below and sums of even powers of one sign, such as x² + y², are left out. Nothing of what is 0 by the relations.
+  std::vector<Expr> factors(const Expr& a);
 
   // A Gröbner basis of the relations, each = 0.
   std::vector<Expr> basis() const;

@@ -13,7 +13,8 @@ namespace courant {
 using Monomial = boost::container::small_vector<std::pair<int, int>, 4>;
 using Polynomial = std::map<Monomial, double>;  // no coefficient is 0
 
-// For each factor of a or b the power that combine(its power in a, its power in b) says, 0 where it is in one of them only.
+// For each factor of a or b the power that combine(its power in a, its power in b) says, 0 where it is in one of them
+// only.
 template <class Combine>
 Monomial combined(const Monomial& a, const Monomial& b, const Combine& combine) {
   Monomial result;
@@ -46,8 +47,8 @@ bool divides(const Monomial& a, const Monomial& b);
 // The sum of its powers.
 int total_degree(const Monomial& monomial);
 
-// Whether the monomial from a to a_end leads that from b to b_end: by degree, then by the factors, which both have in the
-// order `before`, those with high powers first: x² before x y before y².
+// Whether the monomial from a to a_end leads that from b to b_end: by degree, then by the factors, which both have in
+// the order `before`, those with high powers first: x² before x y before y².
 template <class Iterator, class Before>
 bool leads(Iterator a, Iterator a_end, Iterator b, Iterator b_end, const Before& before) {
   const auto degree = [](Iterator i, Iterator end) {

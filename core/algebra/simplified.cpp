@@ -46,7 +46,7 @@ class Simplifier {
     const Subgraph part(ExprVector::Constant(1, a));
     for (const std::uint32_t node : part.nodes())
       if (!known_.contains(node)) known_.emplace(node, value(a.graph(), node));
-    return known_.at(a.node());
+    return arithmetic_.reduction().reduced(known_.at(a.node()));
   }
 
   SumArithmetic& arithmetic() { return arithmetic_; }

@@ -11,9 +11,9 @@ namespace courant {
 
 // What a formula is an expression of: relations that hold where it is looked at, each = 0.
 struct Simplification {
-  // Polynomials, such as x² + y² + z² - 1 on a sphere: a multiple of all their terms but the
-  // constant ones, which have numbers and parameters alone, is replaced by that multiple of the constants. What is zero on all points where
-  // they are, as a consequence of several of them too, is found to be 0.
+  // Polynomials, such as x² + y² + z² - 1 on a sphere: a multiple of all their terms but the constant ones, which have
+  // numbers and parameters alone, is replaced by that multiple of the constants. What is zero on all points where they
+  // are, as a consequence of several of them too, is found to be 0.
   std::vector<Expr> relations = {};
   // The same, but nothing more is concluded from them than the replacement of multiples.
   std::vector<Expr> constraints = {};

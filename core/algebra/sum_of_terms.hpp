@@ -9,8 +9,8 @@
 
 namespace courant {
 
-// c_0 + Σ c_k f_k a_k with numbers c, factors f that are known beforehand or 1, and atoms a, which are no sums. Operations
-// with what varies are counted as they will be written.
+// c_0 + Σ c_k f_k a_k with numbers c, factors f that are known beforehand or 1, and atoms a, which are no sums.
+// Operations with what varies are counted as they will be written.
 class SumOfTerms {
  public:
   struct Term {

@@ -1,5 +1,8 @@
 #include "courant/core/language/declaration.hpp"
 
+#include <algorithm>
+#include <map>
+#include <stdexcept>
 #include <utility>
 
 #include "courant/core/language/formula_functions.hpp"
@@ -71,6 +74,44 @@ Reference parse_reference(std::string_view text) {
   reference.is_velocity = parser.accept(TokenKind::prime);
   parser.end();
   return reference;
+}
+
+std::optional<SymbolTable> symbols_of_elements(const std::vector<std::string>& names,
+                                               const ExprVector& values) {
+  struct Array {
+    Shape shape;
+    std::vector<std::pair<std::vector<Index>, Expr>> elements = {};
+  };
+  std::map<std::pair<std::string, bool>, Array> arrays;  // by name, and whether it is a velocity
+  try {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const Reference reference = parse_reference(names[i]);
+      Array& array = arrays[{reference.name, reference.is_velocity}];
+      array.shape.resize(std::max(array.shape.size(), reference.indices.size()), 0);
+      for (std::size_t k = 0; k < reference.indices.size(); ++k)
+        array.shape[k] = std::max(array.shape[k], reference.indices[k] + 1);
+      array.elements.emplace_back(reference.indices, values[static_cast<Index>(i)]);
+    }
+    SymbolTable symbols;
+    for (const auto& [name, array] : arrays) {
+      ExprVector entries = ExprVector::Constant(element_count(array.shape), Expr(0.0));
+      for (const auto& [indices, value] : array.elements) {
+        Index place = 0;
+        for (std::size_t k = 0; k < indices.size(); ++k)
+          place = place * array.shape[k] + indices[k];
+        entries[place] = value;
+      }
+      if (name.second)
+        symbols.add_velocity(name.first, array.shape, entries);
+      else
+        symbols.add(name.first, array.shape, entries);
+    }
+    return symbols;
+  } catch (const FormulaError&) {
+    return std::nullopt;
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace courant

@@ -1,6 +1,7 @@
 // Declarations `r[20][3]` and references `r[3][2]'`: how names and their elements are written.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,5 +35,10 @@ Declaration parse_declaration(std::string_view text, const SymbolTable& known = 
 
 // `x`, `x[0]`, `r[3][2]`, `x'`, `r[2]'`. Throws FormulaError.
 Reference parse_reference(std::string_view text);
+
+// A table in which formulas of these names can be read: x, r[2][1], x', with an array of each r. Elements that nobody
+// names are 0. Nothing where one of them is no name of the language.
+std::optional<SymbolTable> symbols_of_elements(const std::vector<std::string>& names,
+                                               const ExprVector& values);
 
 }  // namespace courant

@@ -110,6 +110,20 @@ BOOST_AUTO_TEST_CASE(contradictions_are_noticed) {
   BOOST_TEST(!NormalForm(variables(), {circle}).hold_nowhere());
 }
 
+// By y and exp(z), not by x, which may be 0.
+BOOST_AUTO_TEST_CASE(common_factors_are_divided_out) {
+  NormalForm form(variables(), {});
+  const Expr whole = x[0] * x[1] * exp(x[2]) * (v[0] + v[1]);
+  const auto not_x0 = [&](const Expr& factor) { return factor.node() != x[0].node(); };
+  const auto all = [](const Expr&) { return true; };
+  BOOST_TEST((form(form.without_factors(whole, not_x0) - x[0] * (v[0] + v[1])).is_constant(0.0)));
+  BOOST_TEST((form(form.without_factors(whole, all) - (v[0] + v[1])).is_constant(0.0)));
+  const Expr below = v[0] / x[0] + v[1] / square(x[0]);
+  BOOST_TEST((form.without_factors(below, all) == below));
+  BOOST_TEST((form.without_factors(x[0] + x[1], all) == x[0] + x[1]));
+  BOOST_TEST(form.without_factors(Expr(2.0), all).value() == 2.0);
+}
+
 BOOST_AUTO_TEST_CASE(what_is_too_long_stays_as_it_is) {
   NormalForm form = on_sphere();
   Expr product = 1.0;

@@ -2,6 +2,7 @@
 // over them visits a node once, or never ends.
 #include <boost/test/unit_test.hpp>
 
+#include "courant/core/algebra/affine_parts.hpp"
 #include "courant/core/algebra/collected_terms.hpp"
 #include "courant/core/algebra/divided_difference.hpp"
 #include "courant/core/algebra/elimination.hpp"
@@ -40,12 +41,13 @@ Expr square_and_itself(const Expr& a) { return a * a - a; }
 Expr of_two_arguments(const Expr& a) { return atan2(a, sqrt(1.0 + a)); }
 Expr choice(const Expr& a) { return select(a < 1.0, sin(a), exp(-a)); }
 Expr power(const Expr& a) { return pow(a, 0.5 * a); }
+Expr product_with_its_root(const Expr& a) { return a * sqrt(a); }
 
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(every_walk_visits_a_node_once) {
   for (const auto level : {product_of_functions, sum_of_functions, quotient, square_and_itself,
-                           of_two_arguments, choice, power}) {
+                           of_two_arguments, choice, power, product_with_its_root}) {
     const Shared shared(level);
     const ExprVector& x = shared.x;
     const ExprVector y = ExprVector::Constant(1, shared.value);
@@ -55,6 +57,8 @@ BOOST_AUTO_TEST_CASE(every_walk_visits_a_node_once) {
     simplified_equation(shared.value, {.relations = {x[0] * x[0] + x[1] * x[1] - 1.0}});
     NormalForm normal(x, {x[0] * x[0] + x[1] * x[1] - 1.0});
     normal(shared.value);
+    normal.factors(shared.value);
+    with_affine_parts(y, x);
     collected(y);
     collected(y, x.head(1));
     divided_difference(y, x, x, 1.0);

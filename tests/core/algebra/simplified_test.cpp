@@ -90,6 +90,9 @@ BOOST_AUTO_TEST_CASE(constraints_shorten_and_do_no_more) {
   BOOST_TEST(simplified(z / (square(x) + square(y)), given).value_or("") == "z");
   BOOST_TEST(simplified(square(x) * z + x * y, given).value_or("") == "x^2*z + x*y");
   BOOST_TEST(simplified(x * y + 2 * x * z + 3 * y, given).value_or("") == "3*y");
+  // A name by itself is such a multiple too.
+  BOOST_TEST(simplified(x, {.constraints = {x}}).value_or("") == "0");
+  BOOST_TEST(simplified(-x, {.constraints = {x - 2.0}}).value_or("") == "-2");
 }
 
 // What is left when numbers cancel is not written; a small number that nothing cancelled is.

@@ -103,4 +103,18 @@ BOOST_AUTO_TEST_CASE(wrong_references) {
   check_refused(parse_reference, "x+1", 2, "column 2: expected end of name, found \"+\"");
 }
 
+// r[1] is not named, and 0.
+BOOST_AUTO_TEST_CASE(a_table_of_elements) {
+  ExprVector values(4);
+  values << 1.0, 2.0, 3.0, 4.0;
+  const auto symbols = symbols_of_elements({"x", "r[0]", "r[2]", "x'"}, values);
+  BOOST_REQUIRE(symbols.has_value());
+  BOOST_TEST(symbols->find("x")->values[0].value() == 1.0);
+  BOOST_TEST((symbols->find("r")->shape == Shape{3}));
+  BOOST_TEST(symbols->find("r")->values[1].value() == 0.0);
+  BOOST_TEST(symbols->find("r")->values[2].value() == 3.0);
+  BOOST_TEST(symbols->find_velocity("x")->values[0].value() == 4.0);
+  BOOST_TEST(!symbols_of_elements({"no name"}, ExprVector::Zero(1)).has_value());
+}
+
 BOOST_AUTO_TEST_SUITE_END()
