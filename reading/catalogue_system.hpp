@@ -35,7 +35,8 @@ class CatalogueSystem {
   // Its example, and this in formulas, have a key for each parameter.
   const KindDescription& description() const { return description_; }
 
-  // The model of a system of this type, whose formulas `kinds` reads. What is wrong with a parameter is said at its key.
+  // The model of a system of this type, whose formulas `kinds` reads. What is wrong with a parameter is said at its
+  // key.
   std::optional<Model> read(ObjectReader& system, const Registry<Model>& kinds) const;
 
  private:

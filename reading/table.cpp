@@ -9,6 +9,7 @@
 
 #include "courant/core/files/input_file.hpp"
 #include "courant/core/words/spelling.hpp"
+#include "courant/reading/mesh_file.hpp"
 
 namespace courant {
 namespace {
@@ -224,6 +225,27 @@ TableFile opened(const std::filesystem::path& path) {
   return {path.string(), std::move(stream)};
 }
 
+// The vertices, simplices and facets of {"mesh": "drum.msh"} come to stand in its place, beside what else is there.
+void load_mesh(Json& complex, const std::string& pointer, const OpenTable& open) {
+  if (!complex.is_object() || !complex.contains("mesh") || !complex["mesh"].is_string()) return;
+  const std::string place = pointer + "/mesh";
+  const TableFile file = open(place, complex["mesh"].get<std::string>());
+  if (!file.bytes)
+    throw ExperimentError(place, file.name + " cannot be read; expected a mesh of Gmsh");
+  try {
+    const Json parts = read_mesh(*file.bytes);
+    for (const auto& [key, value] : parts.items())
+      if (complex.contains(key))
+        throw ExperimentError(pointer + "/" + key, "is in " + file.name + " too; expected it once");
+    complex.erase("mesh");
+    complex.update(parts);
+  } catch (const MeshError& error) {
+    throw ExperimentError(place, file.name +
+                                     (error.line() > 0 ? ":" + std::to_string(error.line()) : "") +
+                                     " " + error.what());
+  }
+}
+
 // In a system, and in those that it is made of.
 void load_tables_of(Json& system, const std::string& pointer, const OpenTable& open) {
   if (!system.is_object()) return;
@@ -233,6 +255,7 @@ void load_tables_of(Json& system, const std::string& pointer, const OpenTable& o
         const std::string place = pointer + "/tables/" + name;
         table = File(place, open(place + "/file", table["file"].get<std::string>())).load(table);
       }
+  if (system.contains("complex")) load_mesh(system["complex"], pointer + "/complex", open);
   if (system.contains("systems") && system["systems"].is_object())
     for (auto& [name, part] : system["systems"].items())
       load_tables_of(part, pointer + "/systems/" + name, open);

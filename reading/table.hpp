@@ -36,7 +36,8 @@ using OpenTable = std::function<TableFile(const std::string& pointer, const std:
 // Puts times and values in the place of {"file": "wind.csv", "time": "t", "column": "speed"} in the
 // tables of an experiment's system, and of those that it is made of. Files are comma-separated, with
 // names in the first line, and the default columns are the first two. In the same way the columns of the file
-// {"table": "starts.csv"} of an ensemble come to stand under its "values". Throws ExperimentError with the
+// {"table": "starts.csv"} of an ensemble come to stand under its "values", and what is in the mesh {"mesh": "drum.msh"}
+// of a system's complex in its place. Throws ExperimentError with the
 // place in the experiment, the file and the line.
 void load_tables(Json& document, const OpenTable& open);
 
