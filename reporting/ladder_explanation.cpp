@@ -9,7 +9,9 @@
 #include "courant/core/words/message.hpp"
 #include "courant/core/words/text_layout.hpp"
 #include "courant/core/words/word_list.hpp"
+#include "courant/reporting/bracket_words.hpp"
 #include "courant/reporting/ladder_diagram.hpp"
+#include "courant/reporting/short_list.hpp"
 
 namespace courant {
 namespace {
@@ -31,19 +33,21 @@ Prose linear_form(const LadderReport::Values& components, const std::string& pre
   return sum;
 }
 
-Prose listed(const std::vector<std::string>& names) {
-  Prose list;
-  for (const std::string& name : names)
-    list += (list.parts().empty() ? "" : ", ") + Prose::formula(name);
-  return list;
-}
-
-// An equation by its name, which may be its formula; not dL/dq', which the language of formulas takes for a quotient.
+// An equation by its name, which may be its formula. p_x' = dL/dx has a derivative by a variable, which the language of
+// formulas takes for a quotient.
 Prose equation_in_words(const std::string& name) {
-  const auto tree = formula_tree(name);
-  const bool has_derivative = name.find("/d") != std::string::npos;
-  return tree && tree->kind != FormulaTree::Kind::name && !has_derivative ? Prose::formula(name)
-                                                                          : Prose(name);
+  const std::size_t slash = name.find("/d");
+  if (slash == std::string::npos) {
+    const auto tree = formula_tree(name);
+    return tree && tree->kind != FormulaTree::Kind::name ? Prose::formula(name) : Prose(name);
+  }
+  const std::size_t equals = name.find(" = ");
+  const std::size_t begin = equals == std::string::npos ? 0 : equals + 3;
+  const std::string variable = name.substr(slash + 2);
+  if (name[begin] != 'd' || !formula_tree(variable)) return name;
+  const Prose derivative =
+      "∂" + name.substr(begin + 1, slash - begin - 1) + "/∂" + Prose::formula(variable);
+  return begin == 0 ? derivative : Prose::formula(name.substr(0, equals)) + " = " + derivative;
 }
 
 // "d²/dt² ", of order 2; empty of order 0.
@@ -61,7 +65,7 @@ Prose sources(LadderReport::Origin list) {
   Prose text;
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (i == 5) return text + " and " + std::to_string(list.size() - 5) + " more";
-    text += (i == 0 ? "" : ", ") + time_derivative("[", list[i].derivative) +
+    text += (i == 0 ? "" : ", ") + derivative_sign(list[i].derivative) + "[" +
             equation_in_words(list[i].equation) + "]";
   }
   return text;
@@ -74,14 +78,6 @@ std::vector<Entry> of_level(const std::vector<Entry>& list, Index k) {
   for (const Entry& entry : list)
     if (entry.level == k) entries.push_back(entry);
   return entries;
-}
-
-// How many of so many lines of a kind are shown: no line says that one or two more are left out.
-std::size_t shown_of(std::size_t count) { return count <= 8 ? count : 6; }
-
-void tell_rest(std::size_t count, std::vector<Prose>& lines) {
-  if (const std::size_t left = count - shown_of(count); left > 0)
-    lines.push_back("    \u2026 and " + std::to_string(left) + " more");
 }
 
 // x' = v: those that are functions of the point from level k on, and where all are told, those of
@@ -306,68 +302,6 @@ void explain_freedom(const LadderReport& ladder, std::vector<Prose>& lines) {
   if (classes.is_ambiguous) lines.push_back("Ambiguous: a rank behind the classes is doubtful.");
 }
 
-// What a change by a small ε is: ε, -ε x, ε (x + y).
-std::string times_epsilon(const std::string& rate) {
-  if (rate == "1" || rate == "-1") return rate == "1" ? "ε" : "-ε";
-  if (rate.find(' ') != std::string::npos) return "ε*(" + rate + ")";
-  return rate.starts_with('-') ? "-ε*" + rate.substr(1) : "ε*" + rate;
-}
-
-// {a, b} = value.
-Prose bracket(const std::string& a, const std::string& b, const std::string& value) {
-  return "    {" + Prose::formula(a) + ", " + Prose::formula(b) + "} = " + Prose::formula(value);
-}
-
-void tell(const std::string& head, const std::vector<Prose>& list, std::vector<Prose>& lines) {
-  if (list.empty()) return;
-  lines.push_back(head);
-  for (std::size_t i = 0; i < shown_of(list.size()); ++i) lines.push_back(list[i]);
-  tell_rest(list.size(), lines);
-}
-
-constexpr const char* kNumbersOfBrackets =
-    "Brackets whose formulas are longer than five lines are numbers here: their values at the "
-    "point.";
-
-void explain_brackets(const ConstraintBrackets& found, std::vector<Prose>& lines) {
-  if (!found.missing.empty())
-    lines.push_back("The brackets have no formulas here: " + found.missing + ".");
-  const auto phi = [](std::size_t a) { return "phi_" + std::to_string(a + 1); };
-  std::vector<Prose> brackets;
-  for (std::size_t a = 0; a < found.matrix.size(); ++a)
-    for (std::size_t b = a + 1; b < found.matrix.size(); ++b)
-      if (found.matrix[a][b] != "0")
-        brackets.push_back(bracket(phi(a), phi(b), found.matrix[a][b]));
-  if (brackets.empty()) return;
-  std::vector<Prose> names;
-  for (std::size_t a = 0; a < found.constraints.size(); ++a)
-    names.push_back("    " + Prose::formula(phi(a) + " = " + found.constraints[a]));
-  tell("Brackets of the constraints", names, lines);
-  tell("that are not 0 on M_f:", brackets, lines);
-  if (found.has_numbers) lines.emplace_back(kNumbersOfBrackets);
-}
-
-// Which constraints generate what, and what is left of the brackets of coordinates.
-void explain_dynamics(const ConstraintBrackets& found, std::vector<Prose>& lines) {
-  if (!found.hamiltonian.empty()) {
-    lines.push_back("Total Hamiltonian, with unknowns put in that have a formula of up to a line:");
-    lines.push_back("    " + Prose::formula("H_T = " + found.hamiltonian));
-  }
-  for (std::size_t i = 0; i < shown_of(found.generators.size()); ++i) {
-    const auto& [constraint, moves] = found.generators[i];
-    if (moves.empty()) continue;
-    lines.push_back("Generated by " + Prose::formula(constraint) + ", a change by a small \u03b5:");
-    for (std::size_t k = 0; k < shown_of(moves.size()); ++k)
-      lines.push_back(
-          "    " + Prose::formula("δ" + moves[k].first + " = " + times_epsilon(moves[k].second)));
-    tell_rest(moves.size(), lines);
-  }
-  std::vector<Prose> dirac;
-  for (const auto& [first, second, value] : found.dirac_brackets)
-    dirac.push_back(bracket(first, second, value));
-  tell("Dirac brackets, in which constraints may be put to 0 beforehand:", dirac, lines);
-}
-
 void explain_unknowns(const LadderReport& ladder, std::vector<Prose>& lines) {
   Prose free;
   int listed = 0;
@@ -507,8 +441,8 @@ LadderWords ladder_words(const LadderReport& ladder,
                     ". Nothing new: from here on every level is the same.");
     explain_freedom(ladder, words.freedom);
     if (brackets && ladder.classes && ladder.classes->brackets) {
-      explain_brackets(*brackets, words.brackets);
-      explain_dynamics(*brackets, words.dynamics);
+      words.brackets = brackets_in_words(*brackets);
+      words.dynamics = dynamics_in_words(*brackets);
     }
     explain_unknowns(ladder, words.unknowns);
     for (const std::string& line : choices_in_words(ladder)) words.unknowns.push_back(line);

@@ -8,6 +8,7 @@
 
 #include "courant/core/words/message.hpp"
 #include "courant/core/words/text_layout.hpp"
+#include "courant/reporting/branch_words.hpp"
 #include "courant/reporting/formula_typesetting.hpp"
 #include "courant/reporting/ladder_diagram.hpp"
 #include "courant/reporting/ladder_explanation.hpp"
@@ -276,6 +277,7 @@ LadderPage ladder_page(const Experiment& experiment, const LadderReport& ladder,
   if (!ladder.reason.empty()) verdict.push_back(reason_in_words(ladder));
   page.sections.push_back(section("Verdict", verdict));
   const LadderWords words = ladder_words(ladder, brackets);
+  page.sections.push_back(section("Branches", branches_in_words(branch_reports(experiment))));
   page.sections.push_back(section("Level by level", words.levels));
   page.sections.push_back(section("Freedom and classes", words.freedom));
   page.sections.push_back(section(kBrackets, !has_matrix(page) ? words.brackets

@@ -7,6 +7,7 @@
 #include "courant/core/algebra/simplified.hpp"
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/core/words/message.hpp"
+#include "courant/integrators/certificate/nearby_points.hpp"
 #include "courant/structures/dirac_structure.hpp"
 #include "courant/structures/dirac_system.hpp"
 
@@ -93,10 +94,24 @@ class Brackets {
     frame_ = M.frame(x_);
     on_manifold_ = on_M_f_;
     on_M_f_.constraints = formulas.constraint_functions;
+    std::vector<Expr> all = on_manifold_.relations;
+    all.insert(all.end(), formulas.constraint_functions.begin(),
+               formulas.constraint_functions.end());
+    ExprVector variables(x_.size() + 1), parameters(std::ssize(formulas.parameters));
+    variables << x_, formulas.time;
+    VectorXd at(variables.size()), of_parameters(parameters.size());
+    at << point.x, point.t;
+    for (Index i = 0; i < parameters.size(); ++i) {
+      const Parameter& parameter = formulas.parameters[static_cast<std::size_t>(i)];
+      parameters[i] = parameter_of(x_[0].graph(), parameter.name, Expr(parameter.value));
+      of_parameters[i] = parameter.value;
+    }
+    nearby_.emplace(variables, at, 1, parameters, of_parameters, all);
     // Equations are written divided by what is common to their terms; brackets need the function itself.
     for (Expr function : formulas.constraint_functions) {
       if (written(function, on_manifold_).value_or("").starts_with('-')) function = -function;
       names_.push_back(written(function, on_manifold_).value_or(""));
+      functions_.push_back(function);
       differentials_.push_back(differential(function));
       fields_.push_back(bivector_ * differentials_.back());
     }
@@ -104,33 +119,89 @@ class Brackets {
 
   ConstraintBrackets operator()() {
     ConstraintBrackets result;
-    const std::size_t count = formulas_.constraints.size();
+    const auto count = std::ssize(formulas_.constraints);
     const ConstraintBrackets too_long{.missing = "they are longer than five lines"};
-    for (std::size_t a = 0; a < count; ++a) {
-      if (names_[a].empty()) return too_long;
-      result.constraints.push_back(names_[a]);
+    ExprMatrix C = ExprMatrix::Zero(count, count);
+    for (Index a = 0; a < count; ++a) {
+      if (names_[at(a)].empty()) return too_long;
+      result.constraints.push_back(names_[at(a)]);
       result.matrix.emplace_back();
-      bool vanish = true;
-      for (std::size_t b = 0; b < count; ++b) {
-        auto text = written(bracket(a, b));
+      for (Index b = 0; b < count; ++b) {
+        const Expr bracket = on_M_f(bracket_of(at(a), at(b)));
+        auto text = written(bracket);
+        if (text != "0") C(a, b) = bracket;
         result.has_numbers = result.has_numbers || !text;
-        vanish = vanish && text == "0";
-        if (!text) text = number_text(value(bracket(a, b)), 6);
+        if (!text) text = number_text(value(bracket), 6);
         result.matrix.back().push_back(*text);
       }
-      result.is_first_class.push_back(vanish);
+      result.is_first_class.push_back(vanishes(C.row(a)));
     }
-    result.hamiltonian = hamiltonian();
-    for (std::size_t a = 0; a < count; ++a)
-      if (result.is_first_class[a]) result.generators.push_back(generator(a));
-    result.dirac_brackets = dirac_brackets(result);
+    write_hamiltonian(result);
+    const Classes classes = divided(C);
+    for (const ExprVector& combination : classes.first)
+      if (auto found = generator(combination)) result.generators.push_back(std::move(*found));
+    result.dirac_brackets = dirac_brackets(C, classes.second);
+    for (const Index a : classes.second) result.second_class.push_back(at(a));
     return result;
   }
 
  private:
   ExprVector differential(const Expr& f) const { return frame_.transpose() * gradient(f, x_); }
-  Expr bracket(std::size_t a, std::size_t b) const {
+  static std::size_t at(Index a) { return static_cast<std::size_t>(a); }
+  Expr bracket_of(std::size_t a, std::size_t b) const {
     return a == b ? Expr(0.0) : differentials_[a].dot(fields_[b]);
+  }
+  // 0 for what is 0 on M_f.
+  Expr on_M_f(const Expr& f) const { return nearby_->vanishes(f) ? Expr(0.0) : f; }
+  static bool vanishes(const ExprMatrix& entries) {
+    return std::ranges::all_of(entries.reshaped(),
+                               [](const Expr& entry) { return entry.is_constant(0.0); });
+  }
+
+  struct Classes {
+    std::vector<ExprVector> first;  // Σ c_a φ_a that have bracket 0 with all, by their c
+    std::vector<Index> second;      // of φ_a, as many as the rank of their matrix
+  };
+  // The classes by elimination of pairs: with d = {φ_a, φ_b}, all other φ_c become φ_c - φ_a {φ_c, φ_b}/d + φ_b {φ_c, φ_a}/d, which has
+  // bracket 0 with both. Constant d come first, then the largest. What is left is first class where all of its
+  // brackets are 0.
+  Classes divided(ExprMatrix C) const {
+    const Index count = C.rows();
+    ExprMatrix combinations = ExprMatrix::Identity(count, count);
+    Classes found;
+    std::vector<bool> is_done(at(count), false);
+    while (true) {
+      Index a = -1, b = -1;
+      std::pair<bool, double> best{false, 0.0};
+      for (Index i = 0; i < count; ++i)
+        for (Index j = 0; j < i; ++j) {
+          if (is_done[at(i)] || is_done[at(j)] || C(i, j).is_constant(0.0)) continue;
+          const bool is_constant = number_of(C(i, j), formulas_.parameters) != 0.0;
+          const std::pair<bool, double> size{is_constant, std::abs(value(C(i, j)))};
+          if (size <= best) continue;
+          best = size;
+          a = j;
+          b = i;
+        }
+      if (a < 0) break;
+      const Expr d = C(a, b);
+      found.second.insert(found.second.end(), {a, b});
+      is_done[at(a)] = is_done[at(b)] = true;
+      for (Index c = 0; c < count; ++c) {
+        if (is_done[at(c)]) continue;
+        const Expr of_a = -C(c, b) / d, of_b = C(c, a) / d;
+        if (of_a.is_constant(0.0) && of_b.is_constant(0.0)) continue;
+        combinations.row(c) += of_a * combinations.row(a) + of_b * combinations.row(b);
+        for (Index e = 0; e < count; ++e)
+          if (!is_done[at(e)]) C(c, e) = on_M_f(C(c, e) + of_a * C(a, e) + of_b * C(b, e));
+        C(c, a) = C(c, b) = 0.0;
+        C.col(c) = -C.row(c).transpose();
+      }
+    }
+    std::ranges::sort(found.second);
+    for (Index c = 0; c < count; ++c)
+      if (!is_done[at(c)] && vanishes(C.row(c))) found.first.emplace_back(combinations.row(c));
+    return found;
   }
   double value(const Expr& f) const {
     ExprVector variables(x_.size() + 1);
@@ -147,9 +218,9 @@ class Brackets {
   }
   std::optional<std::string> written(const Expr& f) const { return written(f, on_M_f_); }
 
-  std::string hamiltonian() const {
+  void write_hamiltonian(ConstraintBrackets& result) const {
     const auto* dirac = dynamic_cast<const DiracSystem*>(&system_);
-    if (!dirac) return "";
+    if (!dirac) return;
     const GeneratingFamily& family = *dirac->family();
     const Graph graph = x_[0].graph();
     const auto& names = system_.names().auxiliary;
@@ -175,45 +246,68 @@ class Brackets {
         without[i] = Expr(0.0);
       }
     const ExprVector factors = gradient(whole, unknowns);
-    const bool is_linear = jacobian(factors, unknowns).row.empty();
-    auto text =
-        written(is_linear ? family.value(x_, without, formulas_.time) : whole, on_manifold_);
-    if (!text || !is_linear) return text.value_or("");
+    if (!jacobian(factors, unknowns).row.empty()) {
+      result.hamiltonian = with_multipliers(whole, unknowns);
+      result.has_multipliers = !result.hamiltonian.empty();
+      return;
+    }
+    auto text = written(family.value(x_, without, formulas_.time), on_manifold_);
     for (const Index i : multipliers) {
       const auto factor = written(factors[i], on_manifold_);
-      if (!factor) return "";
-      if (*factor == "0") continue;
-      const bool is_term = factor->find(' ') == std::string::npos && !factor->starts_with('-');
-      *text += " + " + names[static_cast<std::size_t>(i)] + "*" +
-               (is_term ? *factor : "(" + *factor + ")");
+      if (!text || !factor) return;
+      add_product(names[at(i)], *factor, *text);
     }
-    return *text;
+    result.hamiltonian = text.value_or("");
   }
 
-  ConstraintBrackets::Generator generator(std::size_t a) const {
-    ConstraintBrackets::Generator found{names_[a], {}};
-    const ExprVector rates = frame_ * fields_[a];
+  // Where the energy E is not linear in the unknowns λ that are left, but E - λ ∂E/∂λ is free of them, as of a
+  // Lagrangian that is a length: ∂E/∂λ is 0, and λ says no more than what multiplies the primary constraints.
+  std::string with_multipliers(const Expr& energy, const ExprVector& unknowns) const {
+    const ExprVector slopes = gradient(energy, unknowns);
+    const Expr rest = energy - slopes.dot(unknowns);
+    for (const Expr& slope : ExprVector(gradient(rest, unknowns)))
+      if (written(slope, on_manifold_) != "0") return "";
+    const VectorXd here = point_.z.head(unknowns.size());
+    auto text = written(substitute(rest, unknowns, constants(here)), on_manifold_);
+    for (std::size_t a = 0, count = 0; text && a < names_.size(); ++a)
+      if (formulas_.constraints[a].level == 0)
+        add_product("u_" + std::to_string(++count), names_[a], *text);
+    return text.value_or("");
+  }
+  static void add_product(const std::string& multiplier, const std::string& factor,
+                          std::string& sum) {
+    if (factor == "0") return;
+    const bool is_term = factor.find(' ') == std::string::npos && !factor.starts_with('-');
+    sum = (sum == "0" ? "" : sum + " + ") + multiplier + "*" +
+          (is_term ? factor : "(" + factor + ")");
+  }
+
+  // Nothing where the constraint is too long to be written.
+  std::optional<ConstraintBrackets::Generator> generator(const ExprVector& combination) const {
+    Expr function = 0.0;
+    ExprVector field = ExprVector::Zero(frame_.cols());
+    for (std::size_t a = 0; a < functions_.size(); ++a) {
+      function += combination[static_cast<Index>(a)] * functions_[a];
+      field += combination[static_cast<Index>(a)] * fields_[a];
+    }
+    const auto text = written(function, on_manifold_);
+    if (!text) return std::nullopt;
+    ConstraintBrackets::Generator found{*text, {}};
+    const ExprVector rates = frame_ * field;
     for (Index i = 0; i < rates.size(); ++i)
-      if (const auto text = written(rates[i]); text && *text != "0")
-        found.moves.emplace_back(name(i), *text);
+      if (const auto rate = written(on_M_f(rates[i])); rate && *rate != "0")
+        found.moves.emplace_back(name(i), *rate);
     return found;
   }
 
   std::vector<ConstraintBrackets::DiracBracket> dirac_brackets(
-      const ConstraintBrackets& found) const {
-    std::vector<std::size_t> second;
-    for (std::size_t a = 0; a < found.is_first_class.size(); ++a)
-      if (!found.is_first_class[a]) second.push_back(a);
-    const auto count = static_cast<Index>(second.size());
+      const ExprMatrix& of_all, const std::vector<Index>& second) const {
+    const auto count = std::ssize(second);
     if (count == 0 || x_.size() > most_coordinates) return {};
-    ExprMatrix C(count, count);
-    bool constant = true;
-    for (Index a = 0; a < count; ++a)
-      for (Index b = 0; b < count; ++b) {
-        C(a, b) = bracket(second[static_cast<std::size_t>(a)], second[static_cast<std::size_t>(b)]);
-        constant =
-            constant && (C(a, b).is_constant() || number_of(C(a, b), formulas_.parameters) != 0.0);
-      }
+    const ExprMatrix C = of_all(second, second);
+    const bool constant = std::ranges::all_of(C.reshaped(), [&](const Expr& entry) {
+      return entry.is_constant() || number_of(entry, formulas_.parameters) != 0.0;
+    });
     ExprMatrix inverse;
     if (constant) {
       const auto solved = quotient(C, ExprMatrix::Identity(count, count), formulas_.parameters);
@@ -242,14 +336,12 @@ class Brackets {
     }
     std::vector<ConstraintBrackets::DiracBracket> brackets;
     ExprMatrix along(x_.size(), count);  // {x_i, φ_a}
-    for (Index a = 0; a < count; ++a)
-      along.col(a) =
-          frame_ * fields_[static_cast<std::size_t>(second[static_cast<std::size_t>(a)])];
+    for (Index a = 0; a < count; ++a) along.col(a) = frame_ * fields_[at(second[at(a)])];
     const ExprMatrix all =
         frame_ * bivector_ * frame_.transpose() + along * inverse * along.transpose();
     for (Index i = 0; i < x_.size(); ++i)
       for (Index j = i + 1; j < x_.size(); ++j) {
-        const auto text = written(all(i, j));
+        const auto text = written(on_M_f(all(i, j)));
         if (!text) return {};
         if (*text != "0") brackets.push_back({name(i), name(j), *text});
       }
@@ -267,7 +359,9 @@ class Brackets {
   LinearMap<Expr> frame_;
   ExprVector x_;
   Simplification on_manifold_, on_M_f_;
+  std::optional<NearbyPoints> nearby_;
   std::vector<std::string> names_;  // of the constraints: their formulas
+  std::vector<Expr> functions_;     // φ_a
   std::vector<ExprVector> differentials_, fields_;
 };
 

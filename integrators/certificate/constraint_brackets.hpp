@@ -32,16 +32,23 @@ struct ConstraintBrackets {
   // whose formula is longer than a line.
   // "" where it is longer than five lines.
   std::string hamiltonian = {};
+  // Whether it is written with a multiplier u_1, u_2, … of each primary constraint in the place of unknowns: of an
+  // energy that is not linear in those that nothing determines, as that of a Lagrangian that is a length.
+  bool has_multipliers = false;
 
-  // Of a first class constraint φ, what it generates: δx = ε {x, φ} for the coordinates that it moves.
+  // Of the first class, what they generate: δx = ε {x, φ} for the coordinates that φ moves. φ is one of the φ_a, or one
+  // with multiples of others that its bracket with them is 0 by.
   struct Generator {
     std::string constraint;
     std::vector<std::pair<std::string, std::string>> moves;  // coordinate, {x, φ}
   };
   std::vector<Generator> generators = {};
 
-  // {x_i, x_j} - {x_i, φ_a} C^ab {φ_b, x_j} with C the matrix of the constraints that are not first class, for
-  // i < j where that is not 0. Nothing where there are no such constraints, where C is not constant and has
+  // As many φ_a as the rank of the matrix is, whose own matrix C can be inverted.
+  std::vector<std::size_t> second_class = {};
+
+  // {x_i, x_j} - {x_i, φ_a} C^ab {φ_b, x_j} of the second class φ_a, for
+  // i < j where that is not 0. Nothing where the rank is 0, where C is not constant and has
   // more than four rows, for more than 16 coordinates, or where one is longer than five lines.
   struct DiracBracket {
     std::string first, second, value;
@@ -50,8 +57,8 @@ struct ConstraintBrackets {
 };
 
 // Nothing where there are no constraints, where there is no structure or none whose bivector elimination with constant
-// pivots finds, and with constraints on velocities; no formulas where not all constraints have some, or one that is longer
-// than five lines, and of more than 24 constraints.
+// pivots finds, and with constraints on velocities; no formulas where not all constraints have some, or one that is
+// longer than five lines, and of more than 24 constraints.
 // Reference: Henneaux, Teitelboim, Quantization of Gauge Systems (1992), chapter 1.
 std::optional<ConstraintBrackets> constraint_brackets(const ImplicitSystem& system,
                                                       const ConstraintLadder& ladder,

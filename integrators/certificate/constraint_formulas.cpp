@@ -4,431 +4,20 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <optional>
-#include <stdexcept>
-#include <unordered_map>
 #include <utility>
 
-#include "courant/core/algebra/normal_form.hpp"
-#include "courant/core/algebra/simplified.hpp"
-#include "courant/core/expressions/derivative.hpp"
 #include "courant/core/expressions/subgraph.hpp"
-#include "courant/core/language/declaration.hpp"
-#include "courant/core/language/formula.hpp"
-#include "courant/core/numbers/parallel.hpp"
+#include "courant/integrators/certificate/equation_reduction.hpp"
 
 namespace courant {
 namespace {
 
-constexpr std::size_t longest = 450;  // characters of a formula: five lines
-constexpr std::size_t most_operations = 20000, most_operations_of_one = 1000;
-
 using Kind = ConstraintFormulas::Step::Kind;
-
-ExprVector named(const Graph& graph, const std::vector<std::string>& names) {
-  ExprVector result(static_cast<Index>(names.size()));
-  for (std::size_t i = 0; i < names.size(); ++i)
-    result[static_cast<Index>(i)] = graph.variable(names[i]);
-  return result;
-}
-
-ExprVector added(const Graph& graph, const std::vector<Parameter>& parameters) {
-  std::vector<std::string> names;
-  for (const Parameter& parameter : parameters) names.push_back(parameter.name);
-  return add_parameters(graph, names);
-}
-
-// A table in which formulas of these names can be read: x, r[2][1], x', with an array of each r. Elements that nobody
-// names are 0. Empty where one of them is no name of the language.
-std::optional<SymbolTable> readable(const std::vector<std::string>& names,
-                                    const ExprVector& values) {
-  struct Array {
-    Shape shape;
-    std::vector<std::pair<std::vector<Index>, Expr>> elements = {};
-  };
-  std::map<std::pair<std::string, bool>, Array> arrays;  // by name, and whether it is a velocity
-  try {
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      const Reference reference = parse_reference(names[i]);
-      Array& array = arrays[{reference.name, reference.is_velocity}];
-      array.shape.resize(std::max(array.shape.size(), reference.indices.size()), 0);
-      for (std::size_t k = 0; k < reference.indices.size(); ++k)
-        array.shape[k] = std::max(array.shape[k], reference.indices[k] + 1);
-      array.elements.emplace_back(reference.indices, values[static_cast<Index>(i)]);
-    }
-    SymbolTable symbols;
-    for (const auto& [name, array] : arrays) {
-      ExprVector entries = ExprVector::Constant(element_count(array.shape), Expr(0.0));
-      for (const auto& [indices, value] : array.elements) {
-        Index place = 0;
-        for (std::size_t k = 0; k < indices.size(); ++k)
-          place = place * array.shape[k] + indices[k];
-        entries[place] = value;
-      }
-      if (name.second)
-        symbols.add_velocity(name.first, array.shape, entries);
-      else
-        symbols.add(name.first, array.shape, entries);
-    }
-    return symbols;
-  } catch (const FormulaError&) {
-    return std::nullopt;
-  } catch (const std::invalid_argument&) {
-    return std::nullopt;
-  }
-}
 
 bool is_number(const std::string& text) {
   return text.find_first_not_of("0123456789.+-e") == std::string::npos;
 }
-
-// An equation with the unknown that it can be solved for most simply, found once for what the equation is.
-struct OpenEquation {
-  Expr function;
-  std::vector<Index> contained = {};  // variables in it, ascending
-  bool is_weighed = false;
-  double cost = 0.0;
-  Index unknown = -1;  // none
-};
-
-// Equations on the way to their reduced form. On a manifold with as many ẋ as v = C ẋ, velocities
-// are ẋ, and equations are taken modulo what points and velocities satisfy.
-class EquationReduction {
- public:
-  EquationReduction(const ImplicitSystem& system, const State& point,
-                    const std::vector<Parameter>& parameters)
-      : parameters_(added(graph_, parameters)),
-        x_(named(graph_, system.names().coordinates)),
-        t_(graph_.variable("t")) {
-    const Manifold& M = *system.manifold();
-    const ExprVector rates = named(graph_, velocity_names(system));
-    const ExprVector z = named(graph_, system.names().auxiliary);
-    velocity_count_ = rates.size();
-    unknowns_.resize(rates.size() + z.size());
-    unknowns_ << rates, z;
-    solution_ = unknowns_;
-    solved_.assign(static_cast<std::size_t>(unknowns_.size()), false);
-    in_solution_.resize(solved_.size());
-    motion_ = M.frame(x_) * rates;
-    VectorXd of_parameters(parameters_.size());
-    for (Index i = 0; i < of_parameters.size(); ++i)
-      of_parameters[i] = parameters[static_cast<std::size_t>(i)].value;
-    numbers_.resize(x_.size() + 1 + unknowns_.size() + parameters_.size());
-    numbers_ << point.x, point.t, point.v, point.z, of_parameters;
-
-    ExprVector v = rates;
-    const ExprVector constraint = M.constraint(x_);
-    const std::vector<Expr> on_manifold(constraint.begin(), constraint.end());
-    on_points_.relations = NormalForm(x_, on_manifold).basis();
-    on_vectors_ = on_points_;
-    if (!on_manifold.empty() && M.tangent_dimension() == M.ambient_dimension()) {
-      v = M.coframe(x_) * rates;
-      motion_ = rates;
-      numbers_.segment(x_.size() + 1, rates.size()) =
-          values(M.frame(constants(point.x)) * constants(point.v));
-      const ExprVector along = tangent(constraint, x_, rates);
-      std::vector<Expr> relations = on_manifold;
-      relations.insert(relations.end(), along.begin(), along.end());
-      ExprVector all(x_.size() + 1 + unknowns_.size());
-      all << x_, t_, unknowns_;
-      normal_form_.emplace(all, relations);
-      on_vectors_.relations = normal_form_->basis();
-    }
-    std::vector<std::string> names = system.names().coordinates;
-    names.emplace_back("t");
-    for (const auto& more : {velocity_names(system), system.names().auxiliary})
-      names.insert(names.end(), more.begin(), more.end());
-    for (const Parameter& parameter : parameters) names.push_back(parameter.name);
-    variables_.resize(numbers_.size());
-    variables_ << x_, t_, unknowns_, parameters_;
-    for (Index i = 0; i < variables_.size(); ++i) place_[variables_[i].node()] = i;
-    symbols_ = readable(names, variables_);
-    const ExprVector equations = system.residual(x_, v, z, t_);
-    is_too_large_ = Subgraph(equations).size() > most_operations;
-    if (is_too_large_) return;
-    for (const Expr& equation : equations) add(equation);
-    if (!normal_form_) return;
-    std::vector<Expr> together;
-    for (const OpenEquation& equation : equations_) together.push_back(equation.function);
-    const auto others = normal_form_->eliminated(together, unknowns_);
-    if (others.empty()) return;
-    equations_.clear();
-    for (const Expr& other : others) equations_.push_back(opened(other));
-  }
-
-  bool is_too_large() const { return is_too_large_; }
-
-  // Solves for unknowns while it can; what is left without unknowns and is not identically zero is
-  // returned, and taken off.
-  std::vector<Expr> constraints() {
-    while (solve_one()) {
-    }
-    std::vector<Expr> found;
-    std::vector<OpenEquation> kept;
-    for (OpenEquation& equation : equations_) {
-      if (equation.function.is_constant(0.0)) continue;
-      if (has_unknown(equation.function))
-        kept.push_back(std::move(equation));
-      else
-        found.push_back(equation.function);
-    }
-    equations_ = std::move(kept);
-    return found;
-  }
-
-  // dφ/dt in velocities.
-  Expr derivative(const Expr& function) const {
-    ExprVector at(x_.size() + 1), rate(x_.size() + 1);
-    at << x_, t_;
-    rate << motion_, Expr(1.0);
-    return tangent(ExprVector::Constant(1, function), at, rate)[0];
-  }
-  // With what is known of the unknowns put in.
-  Expr reduced(const Expr& function) { return normal(substitute(function, unknowns_, solution_)); }
-  void add(const Expr& equation) {
-    if (const Expr remainder = normal(equation); !is_zero(remainder))
-      equations_.push_back(opened(remainder));
-  }
-
-  // What follows from the equations that are left when velocities and unknowns that occur in them in
-  // another way than linearly are eliminated.
-  std::vector<Expr> consequences() const {
-    std::vector<Expr> left;
-    for (const OpenEquation& equation : equations_)
-      if (has_unknown(equation.function)) left.push_back(equation.function);
-    const Index count = variable_of(unknowns_.size());
-    return NormalForm(variables_.head(count), {}).consequences(left, unknowns_);
-  }
-  // Whether functions of the point have no zero in common.
-  bool have_no_common_zero(const std::vector<Expr>& functions) const {
-    return NormalForm(x_, functions).hold_nowhere();
-  }
-
-  // Solutions satisfy it.
-  void add_constraint(const Expr& function) { constraints_.push_back(function); }
-
-  bool has_unknown(const Expr& function) const {
-    const auto along = slopes(function, unknowns_in(contained(function)));
-    return std::ranges::any_of(along,
-                               [](const auto& slope) { return !slope.second.is_constant(0.0); });
-  }
-  double value(const Expr& function) const {
-    return values_at_point(ExprVector::Constant(1, function), contained(function))[0];
-  }
-  // In the tangent representation.
-  VectorXd gradient_at_point(const Expr& function) const {
-    const ExprVector v = unknowns_.head(velocity_count_);
-    const ExprVector along = gradient(derivative(function), v);
-    return values_at_point(along, contained(along));
-  }
-
-  // Texts are read again, and nothing is written that says other numbers at the point; then they are empty, as those
-  // that are too long.
-  std::string written(const Expr& function) const {
-    if (is_too_long(function)) return "";
-    const std::string text = short_enough(simplified(function, given(function)));
-    return says(text, value(function)) ? text : "";
-  }
-  std::string written_equation(const Expr& function) const {
-    if (is_too_long(function)) return "";
-    const std::string text = short_enough(simplified_equation(function, given(function)));
-    if (text.empty()) return "";
-    const bool holds = std::abs(value(function)) <= 1e-8 * change(function);
-    return !holds || says(text, 0.0) ? text : "";
-  }
-  // Of some unknowns (velocities first) that are functions of the point, in x and t. Their expressions are made before
-  // the threads begin, in one order.
-  std::vector<std::string> solutions(const std::vector<Index>& of) {
-    const Simplification on_solutions{on_points_.relations, constraints_};
-    std::vector<Expr> functions;
-    for (const Index u : of) functions.push_back(reduced(unknowns_[u]));
-    std::vector<std::string> texts(of.size());
-    in_parallel(of.size(), core_count(), [&](std::size_t i) {
-      if (!is_too_long(functions[i]))
-        texts[i] = short_enough(simplified(functions[i], on_solutions));
-    });
-    for (std::size_t i = 0; i < texts.size(); ++i)
-      if (!says(texts[i], value(functions[i]))) texts[i].clear();
-    return texts;
-  }
-  Expr solution(Index u) { return reduced(unknowns_[u]); }
-  const ExprVector& coordinates() const { return x_; }
-  const Expr& time() const { return t_; }
-  bool is_function_of_the_point(Index u) {
-    return solved_[static_cast<std::size_t>(u)] && !has_unknown(reduced(unknowns_[u]));
-  }
-  Index velocity_count() const { return velocity_count_; }
-
- private:
-  // Nothing that could be written comes of it.
-  static bool is_too_long(const Expr& function) {
-    return Subgraph(ExprVector::Constant(1, function)).size() > most_operations_of_one;
-  }
-  static std::string short_enough(const std::optional<std::string>& text) {
-    return text && text->size() <= longest ? *text : "";
-  }
-  bool is_zero(const Expr& function) const {
-    return function.is_constant(0.0) ||
-           (!has_unknown(function) && simplified(function, on_points_) == "0");
-  }
-
-  // Where the point and the velocity are on the manifold.
-  Expr normal(const Expr& function) { return normal_form_ ? (*normal_form_)(function) : function; }
-  const Simplification& given(const Expr& function) const {
-    return has_unknown(function) ? on_vectors_ : on_points_;
-  }
-
-  // Whether a formula has this value at the point, up to the six digits that its numbers are written with.
-  bool says(const std::string& text, double number) const {
-    constexpr double digits = 1e-4;
-    if (text.empty() || !symbols_ || !std::isfinite(number)) return true;
-    Expr read;
-    try {
-      read = parse_formula(text, *symbols_);
-    } catch (const FormulaError&) {
-      return false;
-    }
-    const double there = value(read);
-    return !std::isfinite(there) ||
-           std::abs(there - number) <= digits * (std::abs(number) + change(read));
-  }
-  // How far a function moves when each variable does by its size, or by 1 where that is less.
-  double change(const Expr& function) const {
-    const std::vector<Index> of = contained(function);
-    const ExprVector along = gradient(function, ExprVector(variables_(of)));
-    return values_at_point(along, of).cwiseAbs().dot(numbers_(of).cwiseAbs().cwiseMax(1.0));
-  }
-
-  // At the point, next to how fast it changes there and to the other coefficients of its equation: what is
-  // identically zero, though its formula does not tell, is round-off of these.
-  bool vanishes(const Expr& function, double others) const {
-    const double least = others > 1e-6 ? 1e-10 * others : 1e-6;
-    if (!(std::abs(value(function)) > least)) return true;
-    return !(std::abs(value(function)) > 1e-6 * change(function));
-  }
-
-  // Of functions of these variables; NaN where one is no number there.
-  VectorXd values_at_point(const ExprVector& functions, const std::vector<Index>& of) const {
-    const VectorXd there = numbers_(of);
-    return substitute(functions, ExprVector(variables_(of)), constants(there))
-        .unaryExpr([](const Expr& a) { return a.is_constant() ? a.value() : std::nan(""); });
-  }
-
-  // Variables in a function, ascending.
-  std::vector<Index> contained(const Expr& function) const {
-    return contained(ExprVector::Constant(1, function));
-  }
-  std::vector<Index> contained(const ExprVector& functions) const {
-    std::vector<Index> found;
-    const Subgraph subgraph(functions);
-    for (const std::uint32_t node : subgraph.nodes())
-      if (const auto place = place_.find(node); place != place_.end())
-        found.push_back(place->second);
-    std::ranges::sort(found);
-    return found;
-  }
-  std::vector<Index> unknowns_in(const std::vector<Index>& variables) const {
-    return {std::ranges::lower_bound(variables, variable_of(0)),
-            std::ranges::lower_bound(variables, variable_of(unknowns_.size()))};
-  }
-  // With more than parameters.
-  bool varies(const Expr& function) const {
-    const std::vector<Index> variables = contained(function);
-    return !variables.empty() && variables.front() < variable_of(unknowns_.size());
-  }
-  Index variable_of(Index unknown) const { return x_.size() + 1 + unknown; }
-  // Derivatives by some variables, each with its variable.
-  std::vector<std::pair<Index, Expr>> slopes(const Expr& function,
-                                             const std::vector<Index>& by) const {
-    const ExprVector along = gradient(function, ExprVector(variables_(by)));
-    std::vector<std::pair<Index, Expr>> result;
-    for (std::size_t i = 0; i < by.size(); ++i)
-      result.emplace_back(by[i], along[static_cast<Index>(i)]);
-    return result;
-  }
-
-  OpenEquation opened(const Expr& function) const {
-    return {.function = function, .contained = contained(function)};
-  }
-  // Chooses the unknown in which an equation is linear, if there is one: constant coefficients first.
-  void weigh(OpenEquation& equation) const {
-    constexpr double of_varying = 1000.0;
-    equation.is_weighed = true;
-    if (equation.function.is_constant()) return;
-    if (is_too_long(equation.function)) return;
-    auto along = slopes(equation.function, unknowns_in(equation.contained));
-    std::erase_if(along, [](const auto& slope) { return slope.second.is_constant(0.0); });
-    double largest = 0.0;
-    for (const auto& slope : along) largest = std::max(largest, std::abs(value(slope.second)));
-    for (const auto& [variable, slope] : along) {
-      double cost = static_cast<double>(along.size());
-      if (!slope.is_constant()) {
-        if (vanishes(slope, largest) || has_unknown(slope)) continue;
-        if (varies(slope)) cost += of_varying;
-      }
-      if (equation.unknown >= 0 && cost >= equation.cost) continue;
-      equation.cost = cost;
-      equation.unknown = variable - variable_of(0);
-    }
-  }
-  // Solves the equation with fewest unknowns for one that is linear in it. False if there is none. Only equations that
-  // contain that unknown change.
-  bool solve_one() {
-    std::size_t best = equations_.size();
-    for (std::size_t e = 0; e < equations_.size(); ++e) {
-      OpenEquation& equation = equations_[e];
-      if (!equation.is_weighed) weigh(equation);
-      if (equation.unknown >= 0 &&
-          (best == equations_.size() || equation.cost < equations_[best].cost))
-        best = e;
-    }
-    if (best == equations_.size()) return false;
-    const OpenEquation solved = equations_[best];
-    equations_.erase(equations_.begin() + static_cast<std::ptrdiff_t>(best));
-    const ExprVector unknown = unknowns_.segment(solved.unknown, 1);
-    const Expr coefficient = gradient(solved.function, unknown)[0];
-    const Expr rest = substitute(solved.function, unknown, ExprVector::Constant(1, Expr(0.0)));
-    const Expr result = coefficient.is_constant(1.0)    ? -rest
-                        : coefficient.is_constant(-1.0) ? rest
-                                                        : -rest / coefficient;
-    const ExprVector by = ExprVector::Constant(1, result);
-    const auto has_it = [&](const std::vector<Index>& variables) {
-      return std::ranges::binary_search(variables, variable_of(solved.unknown));
-    };
-    for (OpenEquation& other : equations_)
-      if (has_it(other.contained)) other = opened(normal(substitute(other.function, unknown, by)));
-    set_solution(solved.unknown, normal(result));
-    for (Index u = 0; u < solution_.size(); ++u)
-      if (const auto i = static_cast<std::size_t>(u); solved_[i] && has_it(in_solution_[i]))
-        set_solution(u, normal(substitute(solution_[u], unknown, by)));
-    return true;
-  }
-  void set_solution(Index unknown, const Expr& function) {
-    const auto u = static_cast<std::size_t>(unknown);
-    solution_[unknown] = function;
-    solved_[u] = true;
-    in_solution_[u] = contained(function);
-  }
-
-  Graph graph_;
-  ExprVector parameters_, x_;
-  Expr t_;
-  Index velocity_count_ = 0;
-  ExprVector unknowns_, solution_;                  // velocities, then auxiliary unknowns
-  ExprVector motion_;                               // ẋ
-  ExprVector variables_;                            // x, t, the unknowns and the parameters
-  std::unordered_map<std::uint32_t, Index> place_;  // of a variable's node in variables_
-  VectorXd numbers_;                                // of the variables, at the point
-  std::optional<SymbolTable> symbols_;              // of the variables
-  Simplification on_points_, on_vectors_;
-  std::optional<NormalForm> normal_form_;
-  std::vector<Expr> constraints_;
-  std::vector<bool> solved_;
-  std::vector<std::vector<Index>> in_solution_;  // variables in those that are solved
-  std::vector<OpenEquation> equations_;
-  bool is_too_large_ = false;
-};
 
 // The formulas of one system, found level by level.
 class Derivation {
@@ -436,7 +25,7 @@ class Derivation {
   Derivation(const ImplicitSystem& system, const ConstraintLadder& ladder,
              std::vector<Parameter> parameters)
       : ladder_(ladder),
-        elimination_(system, ladder.point, parameters),
+        elimination_(system, velocity_names(system), ladder.point, parameters),
         known_(system.manifold()->tangent_dimension(), 0),
         is_told_(static_cast<std::size_t>(elimination_.velocity_count()), false) {
     result_.parameters = std::move(parameters);
@@ -489,11 +78,15 @@ class Derivation {
     result_.value_functions.push_back(function);
   }
 
-  void add_constraint(Index level, const Expr& function) {
+  void add_constraint(Index level, const Expr& found) {
+    // Where there is no index the point need not be consistent, nor a factor be other than 0 where the constraint is.
+    const Expr function = ladder_.index >= 0 ? elimination_.without_factors(found) : found;
     const double value = elimination_.value(function);
     VectorXd g = elimination_.gradient_at_point(function);
     const double size = g.norm();
-    const std::string formula = elimination_.written_equation(function);
+    // Where there is no index constraints may contradict those before, by which nothing is left of them.
+    const std::string formula = elimination_.written_equation(
+        function, ladder_.index >= 0 ? elimination_.known_constraints() : std::vector<Expr>());
     if (is_number(formula) && !formula.empty()) {
       if (ladder_.index >= 0 || formula == "0") return;
       result_.steps.push_back({level, Kind::contradiction, "", "", elimination_.written(function)});
@@ -540,10 +133,11 @@ class Derivation {
       std::string constraint = elimination_.written_equation(function);
       std::string raw = elimination_.written_equation(derivative);
       if (!constraint.empty() && !raw.empty() && !result.empty())
-        result_.steps.push_back({level, kind, std::move(constraint), std::move(raw),
-                                 kind == Kind::kept || kind == Kind::contradiction
-                                     ? result
-                                     : elimination_.written_equation(reduced)});
+        result_.steps.push_back(
+            {level, kind, std::move(constraint), std::move(raw),
+             kind == Kind::kept || kind == Kind::contradiction
+                 ? result
+                 : elimination_.written_equation(reduced, elimination_.known_constraints())});
     }
     contradicted_ = contradicted_ || kind == Kind::contradiction;
     if (kind != Kind::kept) elimination_.add(reduced);
@@ -596,9 +190,9 @@ class Derivation {
 std::optional<std::vector<Parameter>> contained_in(const ImplicitSystem& system,
                                                    const std::vector<Parameter>& parameters) {
   const Graph graph;
-  added(graph, parameters);
-  const ExprVector x = named(graph, system.names().coordinates);
-  const ExprVector z = named(graph, system.names().auxiliary);
+  added_parameters(graph, parameters);
+  const ExprVector x = variables_named(graph, system.names().coordinates);
+  const ExprVector z = variables_named(graph, system.names().auxiliary);
   const ExprVector v = graph.variables("v", system.manifold()->tangent_dimension());
   try {
     const Subgraph of_equations(system.residual(x, v, z, graph.variable("t")));
@@ -676,7 +270,8 @@ std::vector<std::string> velocity_names(const ImplicitSystem& system) {
   // On a cotangent bundle the fibre has as many components as the velocity of the base.
   // Components that are those of the velocity of a coordinate.
   Graph graph;
-  const ExprVector x = named(graph, coordinates), v = graph.variables("v", M.tangent_dimension());
+  const ExprVector x = variables_named(graph, coordinates),
+                   v = graph.variables("v", M.tangent_dimension());
   const ExprVector motion = M.frame(x) * v;
   names.resize(size);
   std::vector<std::string> others;  // arrays of coordinates whose velocities are no components

@@ -56,10 +56,10 @@ struct ConstraintFormulas {
 
 std::string to_string(ConstraintFormulas::Step::Kind kind);
 
-// What one finds with pencil and paper: equations are solved for velocities and auxiliary unknowns
-// that occur in them linearly, with a constant coefficient or one that does not vanish at the
-// point, and put into the others; an equation without unknowns left is a constraint, and its time
-// derivative the next equation. Constraints are kept if they vanish at the point and add a
+// The constraint algorithm as a calculation by hand does it. An equation in which a velocity or an
+// auxiliary unknown is linear, with a coefficient that is constant or does not vanish at the point, is
+// solved for it, and the result is put into the others. An equation in which no unknown is left is a
+// constraint, and its time derivative is the next equation. Constraints are kept if they vanish at the point and add a
 // direction to the gradients of those before them. Where ranks tell of more constraints, polynomial
 // elimination looks for them: p = v/|v| has the consequence |p| = 1. What takes more than a few lines is
 // left out. For up to 200 velocities and unknowns; nothing otherwise.
@@ -68,8 +68,9 @@ std::string to_string(ConstraintFormulas::Step::Kind kind);
 // the last step may be a contradiction: that of a derivative, or of constraints without a common zero, the
 // last of which it names.
 //
-// Formulas have these parameters by name, where as much is found so as with their numbers: that two of them are
-// equal, names do not tell. Those that are 0, or count the terms of a sum, are numbers. Names are those of elements: "l", "m[1]".
+// Formulas have these parameters by name, where as much is found so as with their numbers: that two of them are equal,
+// names do not tell. Those that are 0, or count the terms of a sum, are numbers. Names are those of elements: "l",
+// "m[1]".
 ConstraintFormulas constraint_formulas(const ImplicitSystem& system, const ConstraintLadder& ladder,
                                        std::vector<Parameter> parameters = {});
 

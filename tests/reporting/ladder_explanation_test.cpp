@@ -13,6 +13,7 @@
 //    (integrators/certificate/constraint_formulas.cpp)
 //  * constraints that only elimination of powers finds are left out
 //    (integrators/certificate/constraint_formulas.cpp)
+//  * velocities that constraints make 0 are formulas (integrators/certificate/nearby_points.cpp)
 //  * constraints without a common zero are not noticed
 //    (integrators/certificate/constraint_formulas.cpp)
 //  * a knife edge is said to have gauge transformations
@@ -395,6 +396,50 @@ BOOST_AUTO_TEST_CASE(what_ends_without_an_index_is_still_explained) {
   BOOST_TEST(!found.contains("constraints"));
   BOOST_TEST(ladder_text_diagram(found)[1].find("S₀  ⊇     ∅") != std::string::npos);
   BOOST_TEST(contains(ladder_explanation(found), "How sure"));
+}
+
+// p_w' = -p_z is 0, though p_z is round-off of the search at the point; y p_x - x p_y of p_A' is p_z by the constraint.
+BOOST_AUTO_TEST_CASE(velocities_that_constraints_make_zero_are_zero) {
+  const auto mixed =
+      ladder_explanation(ladder({{"system",
+                                  {{"type", "lagrangian"},
+                                   {"coordinates", {"x", "y", "z", "w"}},
+                                   {"lagrangian", "y*x' - (x^2 + y^2)/2 + (z' - w)^2/2"}}},
+                                 {"initial", {{"x", 1}, {"y", 0.3}, {"z", 0.2}, {"w", 0.4}}}}));
+  BOOST_TEST(std::ranges::count(mixed, "    p_w' = 0") == 1, all(mixed));
+  const auto universe =
+      ladder_explanation(ladder({{"system",
+                                  {{"type", "lagrangian"},
+                                   {"coordinates", {"a", "N"}},
+                                   {"lagrangian", "-a*a'^2/N - N*a*(1 - 1.2*a^2)"}}},
+                                 {"initial", {{"a", 0.8}, {"N", 1}, {"p_a", 0.9}}}}));
+  BOOST_TEST(std::ranges::count(universe, "    p_N' = 0") == 1, all(universe));
+}
+
+// x² + y² = 1 in what follows from it.
+BOOST_AUTO_TEST_CASE(constraints_are_simplified_by_those_before) {
+  const auto lines = ladder_explanation(
+      ladder({{"system",
+               {{"type", "lagrangian"},
+                {"coordinates", {"x", "y", "l"}},
+                {"lagrangian", "(x'^2 + y'^2)/2 + l*(x^2 + y^2 - 1)/2"}}},
+              {"initial", {{"x", 1}, {"y", 0}, {"l", 0}, {"p_x", 0}, {"p_y", 1}}}}));
+  BOOST_TEST(contains(lines, "    p_x^2 + p_y^2 + l = 0"), all(lines));
+  BOOST_TEST(std::ranges::count(lines, "    l' = 0") > 0, all(lines));
+}
+
+// p_y exp(x) = 0 and x p_y = 0 with x = 0.5 are p_y = 0, from which p_z = 0 follows.
+BOOST_AUTO_TEST_CASE(factors_that_are_not_zero_are_left_out) {
+  for (const char* factor : {"exp(x)", "x*z"}) {
+    const auto lines = ladder_explanation(
+        ladder({{"system",
+                 {{"type", "lagrangian"},
+                  {"coordinates", {"x", "y", "z"}},
+                  {"lagrangian", "((y' - " + std::string(factor) + ")^2 + (z' - y)^2)/2"}}},
+                {"initial", {{"x", 0.5}, {"y", 1}, {"z", 2}}}}));
+    BOOST_TEST(std::ranges::count(lines, "    p_y = 0") == 1, all(lines));
+    BOOST_TEST(std::ranges::count(lines, "    p_z = 0") == 1, all(lines));
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

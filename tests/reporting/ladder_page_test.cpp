@@ -121,4 +121,12 @@ BOOST_AUTO_TEST_CASE(derivatives_that_contradict_have_their_order) {
              latex);
 }
 
+// Names of equations that are derivatives are set too.
+BOOST_AUTO_TEST_CASE(derivatives_in_names_are_set) {
+  const std::string markdown = to_markdown(page_of(
+      {{"system", {{"type", "lagrangian"}, {"coordinates", {"q"}}, {"lagrangian", "q' + q"}}},
+       {"initial", {{"q", 0}}}}));
+  BOOST_TEST(has(markdown, "$\\dot{p}_{q}$ = ∂L/∂$q$, d/dt $p_{q}$ = ∂L/∂$\\dot{q}$."), markdown);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

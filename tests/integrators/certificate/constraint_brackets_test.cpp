@@ -112,6 +112,77 @@ BOOST_AUTO_TEST_CASE(first_class_constraints_generate) {
   BOOST_TEST((before == "y*p_x + p_x^2/2" || before == "p_x^2/2 + y*p_x"), H);
 }
 
+// L = |x' + a × x|²/2 - |x|²/2 on R⁶: of x × p = 0 two components are independent, and their bracket is the third. It is 0 on M_f,
+// though it is no sum of multiples of the two, so all five are first class and turn x and p.
+BOOST_AUTO_TEST_CASE(brackets_that_vanish_by_constraints_are_zero) {
+  const auto system =
+      lagrangian_system(phase_space(6),
+                        [](const ExprVector& q, const ExprVector& v, const Expr&) {
+                          const ExprVector x = q.head(3), a = q.tail(3);
+                          ExprVector u(3);
+                          u << v[0] + a[1] * x[2] - a[2] * x[1], v[1] + a[2] * x[0] - a[0] * x[2],
+                              v[2] + a[0] * x[1] - a[1] * x[0];
+                          return (u.squaredNorm() - x.squaredNorm()) / 2.0;
+                        },
+                        {"x", "y", "z", "a", "b", "c", "p_x", "p_y", "p_z", "p_a", "p_b", "p_c"});
+  VectorXd point = VectorXd::Zero(12);
+  point.head(6) << 1.0, 0.0, 0.0, 0.1, 0.2, 0.3;
+  point[6] = 0.5;
+  const auto found = brackets(*system, {.x = point});
+  BOOST_REQUIRE(found.has_value());
+  BOOST_TEST_REQUIRE(found->matrix.size() == 5u);
+  for (const auto& row : found->matrix)
+    for (const std::string& entry : row) BOOST_TEST(entry == "0");
+  BOOST_TEST(found->generators.size() == 5u);
+  BOOST_TEST(found->second_class.empty());
+  BOOST_TEST(found->dirac_brackets.empty());
+}
+
+// L = (x' - y)²/2 with x² + z² = 2: p_x does not commute with the circle, p_x - p_z x/z does.
+BOOST_AUTO_TEST_CASE(combinations_of_constraints_are_first_class) {
+  Mechanics mechanics;
+  mechanics.holonomic = {
+      {"circle"}, [](const ExprVector& q, const ExprVector&, const Expr&) {
+        return ExprVector(ExprVector::Constant(1, square(q[0]) + square(q[2]) - 2.0));
+      }};
+  const auto system = lagrangian_system(
+      phase_space(3),
+      [](const ExprVector& q, const ExprVector& v, const Expr&) {
+        return square(v[0] - q[1]) / 2.0;
+      },
+      {"x", "y", "z", "p_x", "p_y", "p_z"}, mechanics);
+  const auto found = brackets(*system, {.x = VectorXd{{1.0, 0.5, 1.0, 0.0, 0.0, 0.0}}});
+  BOOST_REQUIRE(found.has_value());
+  BOOST_TEST(found->second_class.size() == 2u);
+  BOOST_TEST_REQUIRE(found->generators.size() == 2u);
+  BOOST_TEST(found->generators[0].constraint == "p_y");
+  BOOST_TEST(found->generators[1].constraint == "p_x - x*p_z/z", found->generators[1].constraint);
+  std::string moves;
+  for (const auto& [name, rate] : found->generators[1].moves) moves += name + " by " + rate + "; ";
+  BOOST_TEST(moves == "x by 1; z by -x/z; ", moves);
+  // p_z and the circle: z follows x.
+  const auto all = dirac(*found);
+  BOOST_TEST(all.at("z,p_x") == "-x/z");
+  BOOST_TEST(!all.contains("z,p_z"));
+}
+
+// A Lagrangian that is a length: E is not linear in the velocity, which says no more than the multiplier of the mass
+// shell. With a potential E x T' the Hamiltonian is the same, of p_T - E x.
+BOOST_AUTO_TEST_CASE(the_hamiltonian_of_a_length_is_a_multiple_of_its_constraint) {
+  const auto system = lagrangian_system(phase_space(2),
+                                        [](const ExprVector&, const ExprVector& v, const Expr&) {
+                                          return -2.0 * sqrt(square(v[0]) - square(v[1]));
+                                        },
+                                        {"T", "x", "p_T", "p_x"});
+  const double root = std::sqrt(3.0);
+  const auto found = brackets(*system, {.x = VectorXd{{0.0, 0.0, -4.0 / root, 2.0 / root}},
+                                        .v = VectorXd{{2.0, 1.0, 0.0, 0.0}},
+                                        .z = VectorXd{{2.0, 1.0}}});
+  BOOST_REQUIRE(found.has_value());
+  BOOST_TEST(found->has_multipliers);
+  BOOST_TEST(found->hamiltonian == "u_1*(" + found->constraints[0] + ")", found->hamiltonian);
+}
+
 // Two rods, four constraints: their Dirac brackets at a point are those of numbers, J - J Dφᵀ C⁻¹ Dφ J with
 // C = Dφ J Dφᵀ.
 BOOST_AUTO_TEST_CASE(dirac_brackets_of_a_double_pendulum) {

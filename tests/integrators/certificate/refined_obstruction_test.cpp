@@ -24,7 +24,7 @@ struct Setting {
       : consistent(system, at(x), {}),
         jet(consistent.find(consistent.start())),
         levels(levels_at(jet)),
-        tangents(jet.array(), jet.zero().y, jet.zero().reach) {
+        tangents(jet.array(), jet.zero().y, jet.zero().nominal) {
     BOOST_TEST_REQUIRE(jet.zero().found);
   }
 
