@@ -41,6 +41,13 @@ RATIOS = [
     ("constrained", "heavy top in R¹⁸, Method 2, h = 0.0025", "heavy_top_by_hand",
      {"heavy_top/native": "native", "heavy_top/interpreter": "interpreter"}),
     *((
+        "verlet", f"{what}, order {order}", f"{name}/by_hand/{order}",
+        {f"{name}/native/{order}": "native", f"{name}/interpreter/{order}": "interpreter"})
+      for name, what in (("kepler", "Kepler's problem, e = 0.6, by Verlet, 200 steps a period"),
+                         ("circuit", "LC circuit by Verlet, 16 steps a period"),
+                         ("pendulum", "pendulum in Cartesian coordinates by RATTLE, 64 steps a period"))
+      for order in (2, 8)),
+    *((
         "whole_run", f"`courant run` of 10⁶ steps with `every: 1000`, {what}, next to the bare loop of these steps",
         f"bare_loop/{name}", {f"run/{name}": "run"})
       for name, what in (("method_1", "four vortices by Method 1"), ("method_2", "four vortices by Method 2"),

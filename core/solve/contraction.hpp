@@ -32,8 +32,8 @@ inline bool has_ended_everywhere(double moved, double slowest, double tolerance)
   return slowest * moved <= (1.0 - slowest) * tolerance;
 }
 
-// By the matrix of affine equations a change leaves its own rounding errors only. Those of the residual are as large
-// as of a change of length 1: next to them what a change of this length leaves is nothing, and a second one says no more.
+// By the matrix of affine equations a change leaves its own rounding errors only. Those of the residual are as large as
+// of a change of length 1: next to them what a change of this length leaves is nothing, and a second one says no more.
 constexpr double kForeseen = 1e-3;
 
 // A change of this relative length is far enough above round-off that the next one tells what A lacks; one that

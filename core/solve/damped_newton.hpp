@@ -13,7 +13,7 @@ struct DampedEquations {
   std::function<bool(const VectorXd& y)> linearize;
   // J⁺ F(y) with the factors that are kept. False if it is not finite.
   std::function<bool(const VectorXd& y, VectorXd& correction)> correct;
-  // Sizes of consecutive blocks of y, each measured by its own scale, and typical sizes of them (the
+  // Sizes of consecutive blocks of y, each measured by its own scale, and nominal sizes of them (the
   // values and corrections of a block count too).
   std::vector<Index> groups;
   VectorXd scales;

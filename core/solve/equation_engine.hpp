@@ -26,7 +26,7 @@ class EngineEquations {
   struct Question {
     const Inputs& in;  // u, where the iteration begins and the solution is written, and p
     std::span<const Index> ends;  // of consecutive groups of contained()
-    const double* scales;  // a typical size of each group, next to which changes are measured
+    const double* scales;  // a nominal size of each group, next to which changes are measured
     const void* asker;     // whose matrices these are: those of another asker are not kept
     bool keeps_matrix;     // whether the matrix of the asker's last question may be used
     bool is_damped;        // whether steps that do not reduce the residual are shortened
@@ -41,8 +41,8 @@ class EngineEquations {
   virtual Answer solve(const Question& question) const = 0;
 };
 
-// Solves the equations of steps: several processes, say, of which each evaluates the equations that it owns. It is brought
-// along as the compiler of a Backend is; StepFormulas::compile() gives it whole systems where there is one.
+// Solves the equations of steps: several processes, say, of which each evaluates the equations that it owns. It is
+// brought along as the compiler of a Backend is; StepFormulas::compile() gives it whole systems where there is one.
 //
 // To subclass, override take, taken and, as of NativeCompiler, compile.
 class EquationEngine : public NativeCompiler {

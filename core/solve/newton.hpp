@@ -13,19 +13,25 @@
 
 namespace courant {
 
-// Solves F(y; parameters) = 0 again and again along a trajectory, for those unknowns that the system
-// keeps; the others follow.
+// Solves F(y; parameters) = 0 again and again along a trajectory, for those unknowns that the system keeps; the others
+// follow from these.
 //
-// Simplified Newton: y ← y - A F(y) with A the pseudo-inverse of an earlier Jacobian (least squares
-// of redundant equations, least change of undetermined unknowns), as the linear solver keeps it, as
-// long as it contracts well. A kept inverse learns from each solve, where two changes contract badly, so that it
-// follows the Jacobian along a trajectory, see broyden_update(). Convergence is relative to the scale of the unknowns: the error left is estimated from the last change and the contraction,
-// and iterates that only move by round-off are accepted too (an absolute test goes on for ever once
-// the state is large), as are those whose residual is round-off of its terms, or that a matrix made
-// just before does not bring nearer: close to a singular point unknowns move far for round-off.
-// Where an engine has the equations it does all this, by the same measures of convergence.
-// Unknowns that F does not contain stay as they are. Holds workspace: one object a trajectory, not
-// shared between threads. No allocation after the first solve.
+// Simplified Newton: y ← y - A F(y), where A is the pseudo-inverse of an earlier Jacobian. So redundant equations are
+// met in the sense of least squares, and undetermined unknowns change least. A is kept as long as the iteration
+// contracts well. Where A is an inverse and two changes contract badly, broyden_update() corrects it, so that it
+// follows the Jacobian along a trajectory.
+//
+// The iteration ends where the error that is left is small next to the scale of the unknowns. The last change and the
+// contraction tell this error. The iteration also ends
+//
+// * where iterates move by round-off only: an absolute test would go on for ever once the state is large,
+// * where the residual is round-off of its terms,
+// * where a matrix that was just made does not bring iterates nearer: close to a singular point round-off moves
+//   unknowns far.
+//
+// An engine that has the equations does all this itself, by the same measures of convergence. Unknowns that F does not
+// contain stay as they are. Holds workspace: one object a trajectory, not shared between threads. No allocation after
+// the first solve.
 class Newton {
  public:
   struct Options {
@@ -35,8 +41,7 @@ class Newton {
     // measurable.
     double tolerance = 1e-17;
     int max_iterations = 60;
-    // Contraction above which a new factorisation is worth its price (about ten evaluations for n =
-    // 8).
+    // Contraction above which a new factorisation is worth its price (about ten evaluations for n = 8).
     double slow = 0.2;
     // What solves the linear systems; empty: linear_solver().
     LinearSolver::Maker solver = {};
@@ -53,7 +58,7 @@ class Newton {
   // block). Throws std::invalid_argument if they don't add up.
   Newton(EquationSystem system, std::vector<Index> groups, const Options& options);
 
-  // For the unknowns y and the parameters of `in`. scales[g]: a typical size of block g (its current values
+  // For the unknowns y and the parameters of `in`. scales[g]: a nominal size of block g (its current values
   // count too). On failure y holds the last iterate. Throws std::invalid_argument if `in` has not so many
   // groups as the equations.
   // The result is valid until the next solve().
@@ -61,14 +66,13 @@ class Newton {
 
   const Result& result() const { return result_; }  // of the last solve
 
-  // Moves y by damped steps to where solve() converges, from far away; see damped_newton(), which says what
-  // is to be thought of the zero that is found. Arguments as of solve(). False, y as it was: it does not
-  // get there.
+  // Moves y by damped steps from far away to where solve() converges. The zero that is found then need not be the one
+  // that is meant, see damped_newton(). Arguments as of solve(). False, with y as it was, if the steps do not get
+  // there.
   bool approach(const Inputs& in, const double* scales);
 
-  // Where the last factorisation leaves unknowns open, takes them from y₀; others stay as predicted. Those
-  // that solve() would have moved least from there are found again from there, while predictions of what
-  // is open grow without bounds.
+  // Takes the unknowns that the last factorisation leaves open from y₀; the others stay as predicted. From y₀
+  // solve() moves what is open least; predictions of it would grow without bounds.
   void settle(VectorXd& y, const VectorXd& y0);
 
   // Forgets the kept factorisation, and what the solver keeps of it.

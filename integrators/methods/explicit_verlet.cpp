@@ -1,6 +1,7 @@
 #include "courant/integrators/methods/explicit_verlet.hpp"
 
-#include <random>
+#include <string>
+#include <utility>
 
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/core/expressions/expr_vectors.hpp"
@@ -8,20 +9,6 @@
 
 namespace courant {
 namespace {
-
-// Whether these are the same numbers wherever they are looked at, though they may be written otherwise.
-bool are_equal(const ExprVector& a, const ExprVector& b, const ExprVector& variables) {
-  std::mt19937 generator(1);
-  std::uniform_real_distribution<double> number(0.5, 1.5);
-  constexpr double round_off = 1e-12;
-  for (int trial = 0; trial < 2; ++trial) {
-    const ExprVector at = constants(
-        VectorXd(VectorXd::NullaryExpr(variables.size(), [&] { return number(generator); })));
-    const VectorXd difference = values(substitute(ExprVector(a - b), variables, at));
-    if (!(difference.size() == 0 || difference.cwiseAbs().maxCoeff() <= round_off)) return false;
-  }
-  return true;
-}
 
 ExprVector chosen(const ExprVector& all, const std::vector<Index>& places) { return all(places); }
 
@@ -57,8 +44,7 @@ std::optional<ExplicitVerlet> ExplicitVerlet::of(
   const Manifold& M = *map->manifold();
   const Index n = M.dimension(), m = field.system->auxiliary_size();
   const Adjoint adjoint(map);
-  if (!field.is_explicit() || !M.has_identity_frame() || n != M.ambient_dimension() ||
-      !map->has_inverse() || map->stage_time() != 0.0)
+  if (!field.is_explicit() || map->stage_time() != 0.0 || !VerletTrace::moves_by_sums(map))
     return std::nullopt;
   const ExprVector& x = field.inputs[1].variables;
   const ExprVector& time = field.inputs[3].variables;
@@ -71,9 +57,6 @@ std::optional<ExplicitVerlet> ExplicitVerlet::of(
 
   const auto first = map->from_start(x0, w);
   const auto second = adjoint.inverse(middle, end);
-  if (!are_equal(first.v, w, joined(x0, w)) || !are_equal(first.end, x0 + w, joined(x0, w)) ||
-      !are_equal(second.v, end - middle, joined(middle, end)))
-    return std::nullopt;
 
   // Rows of the rate: ẋ, v, z. Here ẋ = v.
   const ExprVector v = field.rate.segment(n, n), z = field.rate.tail(m);
@@ -133,6 +116,26 @@ std::optional<ExplicitVerlet> ExplicitVerlet::of(
                    .outputs = joined(substitute(first.x, w, *moved), rate, z_first, at_middle,
                                      there(second.x), rate_known, z_second)};
   result.ending = {.inputs = inputs, .outputs = joined(rate_known, z_second)};
+  return result;
+}
+
+std::optional<ExplicitVerlet> ExplicitVerlet::of(const VerletTrace& trace,
+                                                 const Manifold& manifold) {
+  auto multipliers = VerletMultipliers::of(trace, manifold);
+  if (!multipliers) return std::nullopt;
+  const std::vector<Function::Input>& point = multipliers->step.inputs;
+  const auto with_nothing = [](Function::Formulas formulas, std::vector<std::string> names) {
+    for (std::string& name : names)
+      formulas.inputs.insert(formulas.inputs.begin() + 1, {std::move(name), ExprVector(0)});
+    return formulas;
+  };
+  ExplicitVerlet result{
+      .handed_on = {},
+      .beginning = {.inputs = {point.front(), point[2]}, .outputs = ExprVector(0)},
+      .step = with_nothing(multipliers->step, {"r"}),
+      .stages = with_nothing(multipliers->stages, {"r1", "r0"}),
+      .ending = with_nothing(multipliers->ending, {"r1", "r0"})};
+  result.multipliers = std::move(multipliers);
   return result;
 }
 

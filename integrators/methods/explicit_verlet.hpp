@@ -7,6 +7,7 @@
 
 #include "courant/core/expressions/function.hpp"
 #include "courant/integrators/maps/discretization_map.hpp"
+#include "courant/integrators/methods/verlet_multipliers.hpp"
 #include "courant/integrators/step/vector_field.hpp"
 
 namespace courant {
@@ -23,10 +24,14 @@ namespace courant {
 //
 // Components of X that do not change from the end of a step to the beginning of the next one, V'(q₁) here, are
 // evaluated once: they are handed on as r.
+//
+// With constraints on positions the same is true of a step once its multipliers are known; then nothing is handed on.
 struct ExplicitVerlet {
   // No value where something would have to be solved for.
   static std::optional<ExplicitVerlet> of(const VectorFieldFormulas& field,
                                           const std::shared_ptr<const DiscretizationMap>& map);
+  // With constraints; no value as of VerletMultipliers.
+  static std::optional<ExplicitVerlet> of(const VerletTrace& trace, const Manifold& manifold);
 
   std::vector<Index> handed_on;  // the components of v that are r
   Function::Formulas beginning;  // x₀, t ↦ r
@@ -34,6 +39,8 @@ struct ExplicitVerlet {
   // The stages of both halves: x₀, r₀, r₁, h, t ↦ x̄, v, z of the first half and x_m, then x̄, v, z of the second.
   Function::Formulas stages;
   Function::Formulas ending;  // the same ↦ v, z at the end
+  // Where there are some, their unknowns u are the last input of `step`, `stages` and `ending`.
+  std::optional<VerletMultipliers> multipliers = {};
 };
 
 }  // namespace courant

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "courant/core/solve/equation_system.hpp"
 #include "courant/integrators/certificate/constraint_algorithm.hpp"
 #include "courant/integrators/maps/cotangent_lift.hpp"
 #include "courant/integrators/maps/theta.hpp"
@@ -270,6 +271,151 @@ BOOST_AUTO_TEST_CASE(rattle_from_rest) {
     }
     BOOST_TEST((state.x - by_hand).norm() < 1e-13, "h = " << h);
   }
+}
+
+namespace {
+
+// Two masses in the plane under gravity, q = (a, b), and RATTLE for them with multipliers by Newton's method.
+struct TwoMasses {
+  bool hangs_together;  // b from a, or both from fixed points
+  double g = 0.8;
+  Eigen::Vector4d inverse_mass = Eigen::Vector4d(1.0 / 1.3, 1.0 / 1.3, 1.0 / 0.6, 1.0 / 0.6);
+  std::shared_ptr<const Euclidean> plane = std::make_shared<Euclidean>(4);
+  std::shared_ptr<const CotangentBundle> M = std::make_shared<CotangentBundle>(plane);
+
+  template <class Number>
+  Eigen::Matrix<Number, Eigen::Dynamic, 1> constraint(
+      const Eigen::Matrix<Number, Eigen::Dynamic, 1>& q) const {
+    Number c = hangs_together ? q[2] - q[0] : q[2], d = hangs_together ? q[3] - q[1] : q[3];
+    Eigen::Matrix<Number, Eigen::Dynamic, 1> both(2);
+    both << 0.5 * (q[0] * q[0] + q[1] * q[1] - 1.0), 0.5 * (c * c + d * d - 0.49);
+    return both;
+  }
+  Eigen::Matrix<double, 2, 4> gradients(const VectorXd& q) const {
+    Eigen::Matrix<double, 2, 4> C;
+    if (hangs_together)
+      C << q[0], q[1], 0, 0, q[0] - q[2], q[1] - q[3], q[2] - q[0], q[3] - q[1];
+    else
+      C << q[0], q[1], 0, 0, 0, 0, q[2], q[3];
+    return C;
+  }
+  Eigen::Vector4d weight() const { return {0.0, g / inverse_mass[1], 0.0, g / inverse_mass[3]}; }
+  std::shared_ptr<const DiracSystem> system() const {
+    const auto free = std::make_shared<Hamiltonian>(M, [*this](V x, T) {
+      Expr H = 0.0;
+      for (Index i = 0; i < 4; ++i)
+        H += 0.5 * inverse_mass[i] * square(x[4 + i]) + weight()[i] * x[i];
+      return H;
+    });
+    return std::make_shared<DiracSystem>(
+        std::make_shared<CanonicalSymplectic>(M),
+        std::make_shared<ConstrainedFamily>(
+            free, [*this](V x, V, T) { return constraint<Expr>(x.head(4)); }, 2));
+  }
+  VectorXd start() const {
+    VectorXd x(8);
+    x << std::sin(0.7), -std::cos(0.7), 0.7 * std::sin(1.9), -0.7 * std::cos(1.9), 0, 0, 0, 0;
+    if (hangs_together) x.segment(2, 2) += x.head(2);
+    return x;
+  }
+  VectorXd rattle(const VectorXd& x, double h) const {
+    const Eigen::Vector4d q = x.head(4), p = x.tail(4);
+    const Eigen::Matrix<double, 2, 4> C = gradients(q);
+    const auto K = inverse_mass.asDiagonal();
+    Eigen::Vector2d lambda = Eigen::Vector2d::Zero();
+    Eigen::Vector4d middle = p, q1 = q;
+    for (int i = 0; i < 50; ++i) {
+      middle = p - 0.5 * h * (weight() + C.transpose() * lambda);
+      q1 = q + h * (K * middle);
+      const Eigen::Matrix2d J = -0.5 * h * h * gradients(q1) * K * C.transpose();
+      lambda -= J.inverse() * constraint<double>(q1);
+    }
+    const Eigen::Matrix<double, 2, 4> D = gradients(q1);
+    const Eigen::Vector4d p1 = middle - 0.5 * h * weight();
+    VectorXd result(8);
+    result << q1, p1 - D.transpose() * (D * K * D.transpose()).inverse() * (D * (K * p1));
+    return result;
+  }
+};
+
+}  // namespace
+
+// Multipliers that one equation gives after the other, and two that belong together.
+BOOST_AUTO_TEST_CASE(several_multipliers_are_found_block_by_block) {
+  for (const bool hangs_together : {false, true}) {
+    const TwoMasses masses{.hangs_together = hangs_together};
+    const auto method = verlet(masses.system(), masses.M, {.x = masses.start()});
+    State state{.x = masses.start()}, composed = state;
+    VectorXd by_hand = state.x, composed_by_hand = state.x;
+    const auto stepper = method->stepper(), of_order_4 = Composition(method, 4).stepper();
+    for (int k = 0; k < 100; ++k) {
+      stepper->step(state, 0.04);
+      by_hand = masses.rattle(by_hand, 0.04);
+      of_order_4->step(composed, 0.04);
+      for (const double part : Composition::coefficients(4))
+        composed_by_hand = masses.rattle(composed_by_hand, part * 0.04);
+    }
+    BOOST_TEST((state.x - by_hand).norm() < 1e-11, "together: " << hangs_together);
+    BOOST_TEST((composed.x - composed_by_hand).norm() < 1e-11, "together: " << hangs_together);
+    BOOST_TEST(masses.constraint<double>(state.x.head(4)).norm() < 1e-14);
+  }
+}
+
+// An energy that is not separable, so that momenta are solved for as well.
+BOOST_AUTO_TEST_CASE(rattle_of_an_energy_that_is_not_separable) {
+  const auto plane = std::make_shared<Euclidean>(2);
+  const auto M = std::make_shared<CotangentBundle>(plane);
+  const auto free = std::make_shared<Hamiltonian>(
+      M, [](V x, T) { return 0.5 * (square(x[2]) + square(x[3])) * (1.0 + 0.2 * x[1]) + x[1]; });
+  const auto system = std::make_shared<DiracSystem>(
+      std::make_shared<CanonicalSymplectic>(M),
+      std::make_shared<ConstrainedFamily>(
+          free,
+          [](V x, V, T) {
+            return ExprVector(ExprVector::Constant(1, 0.5 * (square(x[0]) + square(x[1]) - 1.0)));
+          },
+          1));
+  const VectorXd start =
+      Eigen::Vector4d(std::sin(0.6), -std::cos(0.6), 0.3 * std::cos(0.6), 0.3 * std::sin(0.6));
+  State state{.x = start};
+  const double h = 0.05;
+  const auto method = verlet(system, M, {.x = start});
+  method->stepper()->step(state, h);
+  // By fixed points within a secant method for the multiplier.
+  const Eigen::Vector2d q = start.head(2), p = start.tail(2);
+  const auto force = [](const Eigen::Vector2d&, const Eigen::Vector2d& m) {
+    return Eigen::Vector2d(0.0, -1.0 - 0.1 * m.squaredNorm());
+  };
+  Eigen::Vector2d middle, q1;
+  const auto defect = [&](double lambda) {
+    middle = p;
+    for (int i = 0; i < 100; ++i) middle = p + 0.5 * h * (force(q, middle) - lambda * q);
+    q1 = q;
+    for (int i = 0; i < 100; ++i)
+      q1 = q + 0.5 * h * ((1.0 + 0.2 * q[1]) + (1.0 + 0.2 * q1[1])) * middle;
+    return 0.5 * (q1.squaredNorm() - 1.0);
+  };
+  double a = 0.0, b = 1.0, at_a = defect(a), at_b = defect(b);
+  for (int i = 0; i < 30 && at_b != at_a; ++i) {
+    const double c = b - at_b * (b - a) / (at_b - at_a);
+    a = b, at_a = at_b, b = c, at_b = defect(c);
+  }
+  const Eigen::Vector2d free_p1 = middle + 0.5 * h * force(q1, middle);
+  BOOST_TEST((state.x.head(2) - q1).norm() < 1e-13);
+  BOOST_TEST((state.x.tail(2) - (free_p1 - q1.dot(free_p1) * q1)).norm() < 1e-12);
+}
+
+// Two iterations for the multiplier of the first half do, from what is predicted for it.
+BOOST_AUTO_TEST_CASE(multipliers_of_steps_along_a_curve_take_two_iterations) {
+  const Rod rod;
+  const auto method = verlet(rod.system(), rod.M, {.x = rod.start()});
+  const auto stepper = method->stepper();
+  State state{.x = rod.start()};
+  for (int k = 0; k < 50; ++k) stepper->step(state, 0.01);
+  const long before = stepper->statistics().iterations;
+  for (int k = 0; k < 50; ++k) stepper->step(state, 0.01);
+  BOOST_TEST(stepper->statistics().iterations - before == 100);
+  BOOST_TEST(stepper->statistics().factorizations == 0);
 }
 
 BOOST_AUTO_TEST_CASE(constraints_on_velocities_are_refused) {
