@@ -1,4 +1,4 @@
-// What an experiment expects of its run.
+// What an experiment expects of its run, and what is known of the run.
 #pragma once
 
 #include <functional>
@@ -11,8 +11,8 @@
 
 #include "courant/integrators/boundary/boundary_solution.hpp"
 #include "courant/integrators/certificate/constraint_ladder.hpp"
-#include "courant/integrators/methods/divided_integrator.hpp"
 #include "courant/reading/model.hpp"
+#include "courant/reading/time_span.hpp"
 
 namespace courant {
 
@@ -86,42 +86,5 @@ struct Expectations {
   bool imbalance = false;     // of energy has a bound
   std::vector<std::string> violations;  // pointers of bounds of constraints, which there must be
 };
-
-// The times of a run: start + k step for k = 0 … steps. With a transformation of time the step is one in
-// τ, dt/dτ = rate, and the run goes on until t = `until`; how many steps that takes is not known before:
-// `steps` is then 0, or more than any run makes.
-struct TimeSpan {
-  double start = 0.0;
-  double step = 0.0;
-  long steps = 0;
-  std::optional<WrittenFormula> rate = {};
-  double until = 0.0;
-  std::optional<DividedIntegrator::Options> division = {};
-  // By which the step is to be chosen, or was.
-  std::optional<double> tolerance = {};
-  bool is_chosen = true;  // otherwise `step` is the longest that may be chosen
-
-  bool is_transformed() const { return rate.has_value(); }
-  // Of t, or of τ.
-  double time(long k) const { return (rate ? 0.0 : start) + static_cast<double>(k) * step; }
-  double end() const { return rate ? until : time(steps); }
-  // The k with time(k) = t up to round-off; nothing in transformed time.
-  std::optional<long> step_at(double t) const;
-  // Whether the run knows the state at t: at its steps, or at any time between its ends if these are of
-  // varying size.
-  bool is_known_at(double t) const;
-};
-
-// Reads the array `expect`; `quantities` are the names of coordinates and observables, `events` those
-// of events; `is_run` where there are to be steps, though `time` is nothing if it cannot be read; `has_boundary` if it is
-// sought by conditions at both ends; `has_ensemble` if there are many of them;
-// `has_powers` if the system is an EnergySystem. What would
-// pass or fail whatever the run does is a problem: drifts where there is no trajectory, bounds below
-// zero of what cannot be, values that are not finite.
-Expectations read_expectations(const JsonReader& expect, const Vocabulary& vocabulary,
-                               const std::vector<std::string>& quantities,
-                               const std::vector<std::string>& events,
-                               const std::optional<TimeSpan>& time, bool is_run, bool has_boundary,
-                               bool has_ensemble, bool has_powers);
 
 }  // namespace courant

@@ -108,6 +108,15 @@ Takes joint() {
            {"required", {"ports"}},
            {"additionalProperties", false}}};
 }
+Takes boundary_conditions() {
+  return {"an object of conditions by region",
+          {{"type", "object"},
+           {"patternProperties", {{"^//", true}}},
+           {"additionalProperties",
+            {{"type", "object"},
+             {"patternProperties", {{"^//", true}}},
+             {"additionalProperties", reference("formulas")}}}}};
+}
 Takes repetition() { return {"an object of [first, last]", reference("repetition")}; }
 Takes nodes() {
   return {"names, and {\"repeat\": …, \"name\": \"n{i}\"}",

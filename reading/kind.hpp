@@ -46,14 +46,15 @@ Takes tables();
 Takes definitions();
 Takes systems();  // an object of systems
 Takes joint();
-Takes repetition();  // indices with their first and last values
-Takes nodes();       // names, and patterns of names that are repeated
+Takes boundary_conditions();  // an object of objects of formulas by region
+Takes repetition();           // indices with their first and last values
+Takes nodes();                // names, and patterns of names that are repeated
 // One of the kinds of a noun: "manifold", "structure", "discretization", "projector", "method",
 // "system".
 Takes kind(const std::string& noun);
 Takes array_of(const Takes& entry, std::size_t least = 0, std::optional<std::size_t> most = {});
-// Parts of a mechanism: objects with the keys of a kind without a type, one, by name or in a list; true or false; a pose,
-// an object of positions, a point of a body.
+// Parts of a mechanism: objects with the keys of a kind without a type, one, by name or in a list; true or false; a
+// pose, an object of positions, a point of a body.
 Takes one(const KindDescription& part);
 Takes named(const KindDescription& part);
 Takes list_of(const KindDescription& part);
@@ -75,6 +76,7 @@ struct Key {
   Json otherwise = nullptr;
 };
 
+// A key without which there is an error; one of which nothing is said if it is missing; one that then has a default.
 Key required_key(std::string name, Takes takes, std::string summary);
 Key optional_key(std::string name, Takes takes, std::string summary);
 Key default_key(std::string name, Takes takes, Json otherwise, std::string summary);

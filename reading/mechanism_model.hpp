@@ -10,8 +10,8 @@
 
 namespace courant {
 
-// A written mechanism with its names: coordinates of joints are called as the joints, those of rotations in space R_<joint>[3][3],
-// of positions r_<joint>[3]; those of bodies that are free, as the bodies likewise.
+// A written mechanism with its names: coordinates of joints are called as the joints, those of rotations in space
+// R_<joint>[3][3], of positions r_<joint>[3]; those of bodies that are free, as the bodies likewise.
 class MechanismModel {
  public:
   // `constants` has the parameters alone.
@@ -25,8 +25,8 @@ class MechanismModel {
   std::vector<std::string> condition_names() const;
   ExprVector conditions(const ExprVector& q) const;  // their values, in the graph of q
 
-  // The q where a search for a start begins: joints have the coordinates that are given by name, others those of the pose in
-  // which nothing has moved, or what closes the loops from there, if that is found near.
+  // The q where a search for a start begins: joints have the coordinates that are given by name, others those of the
+  // pose in which nothing has moved, or what closes the loops from there, if that is found near.
   VectorXd reference(const std::vector<std::pair<std::string, double>>& given) const;
 
   // In the graph of q.
@@ -36,7 +36,8 @@ class MechanismModel {
   std::vector<Mechanism::Load> forces(const Mechanism& mechanism, const Mechanism::Motion& motion,
                                       const SymbolTable& symbols) const;
 
-  // Positions, velocities and energies as words; the argument x is q or (q, p), with momenta of `momentum_size` entries.
+  // Positions, velocities and energies as words; the argument x is q or (q, p), with momenta of `momentum_size`
+  // entries.
   std::vector<Vocabulary::Derived> quantities() const;
   // f_<joint>[3], m_<joint>[3], once the words of all other formulas are known.
   Vocabulary::Derived reactions(std::shared_ptr<const PhaseWords> words) const;

@@ -10,48 +10,19 @@
 #include "courant/core/words/message.hpp"
 #include "courant/core/words/spelling.hpp"
 #include "courant/reading/mechanism_keys.hpp"
+#include "courant/reading/mechanism_values.hpp"
 
 namespace courant {
 namespace {
 
-using Formulas = std::vector<WrittenFormula>;
-
-WrittenFormula literal(const char* text) { return {text, ""}; }
-Formulas zeros() { return {literal("0"), literal("0"), literal("0")}; }
-
-VectorXd value_of(const Formulas& formulas, const SymbolTable& constants) {
-  return values(evaluate({{}, formulas}, constants));
-}
-
-// R = R_z(yaw) R_y(pitch) R_x(roll), entry by entry: the language knows that cos(pi/2) is 0.
-Formulas rotation_formulas(const Formulas& rpy) {
-  const auto part = [&](const char* function, std::size_t i) {
-    return std::string(function) + "((" + rpy[i].text + "))";
-  };
-  const std::string cr = part("cos", 0), sr = part("sin", 0), cp = part("cos", 1),
-                    sp = part("sin", 1), cy = part("cos", 2), sy = part("sin", 2);
-  const std::array<std::string, 9> entries{cy + "*" + cp,
-                                           cy + "*" + sp + "*" + sr + "-" + sy + "*" + cr,
-                                           cy + "*" + sp + "*" + cr + "+" + sy + "*" + sr,
-                                           sy + "*" + cp,
-                                           sy + "*" + sp + "*" + sr + "+" + cy + "*" + cr,
-                                           sy + "*" + sp + "*" + cr + "-" + cy + "*" + sr,
-                                           "-" + sp,
-                                           cp + "*" + sr,
-                                           cp + "*" + cr};
-  Formulas formulas;
-  for (const std::string& entry : entries) formulas.push_back({entry, rpy.front().pointer});
-  return formulas;
-}
-
 // The parts of one mechanism, with what is known while they are read.
-class Reader {
+class MechanismReader : private MechanismValues {
  public:
-  Reader(const SymbolTable& constants, Findings& findings)
-      : constants_(constants), findings_(findings) {}
+  using MechanismValues::MechanismValues;
 
   std::optional<WrittenMechanism> read(ObjectReader& system) {
     mechanism_.is_plane = flag(system, "plane");
+    set_plane(mechanism_.is_plane);
     mechanism_.is_absolute = system.word("coordinates") == "absolute";
     const auto gravity = system.optional("gravity");
     mechanism_.gravity = gravity ? vector(*gravity) : zeros();
@@ -61,117 +32,13 @@ class Reader {
     if (joints) read_joints(*joints);
     if (springs) read_springs(*springs);
     if (forces) read_forces(*forces);
-    if (!right_) return std::nullopt;
+    if (!is_right()) return std::nullopt;
     check_child_origins();
     check_mimics();
-    return right_ ? std::optional(mechanism_) : std::nullopt;
+    return is_right() ? std::optional(mechanism_) : std::nullopt;
   }
 
  private:
-  void problem(const JsonReader& place, std::string what) {
-    place.problem(std::move(what));
-    right_ = false;
-  }
-
-  bool flag(ObjectReader& object, const std::string& key) {
-    const auto value = object.optional(key);
-    if (!value) {
-      object.default_value(key, false);
-      return false;
-    }
-    if (!value->value().is_boolean()) {
-      value->expected("true or false");
-      right_ = false;
-      return false;
-    }
-    return value->value().get<bool>();
-  }
-
-  // Formulas of constants that are right at the values of the parameters.
-  bool constant(const Formulas& formulas) {
-    for (const WrittenFormula& formula : formulas)
-      if (!evaluate_constants({{}, {formula}}, constants_, findings_)) return right_ = false;
-    return true;
-  }
-
-  // Components in space, or in the plane; the third one is 0 then, and may be written.
-  std::optional<Formulas> components(const JsonReader& value) {
-    const auto formulas = read_formula_vector(value);
-    if (!formulas) {
-      right_ = false;
-      return std::nullopt;
-    }
-    Formulas all = formulas->formulas;
-    if (mechanism_.is_plane && all.size() == 2) all.push_back(literal("0"));
-    if (all.size() != 3) {
-      problem(value, "has " + std::to_string(all.size()) + " numbers; expected " +
-                         (mechanism_.is_plane ? "2, in a plane" : "3"));
-      return std::nullopt;
-    }
-    if (mechanism_.is_plane && !is_zero(all[2])) {
-      problem(value, "leaves the plane; expected 2 numbers, or 0 as the third");
-      return std::nullopt;
-    }
-    return all;
-  }
-  bool is_zero(const WrittenFormula& formula) const {
-    Findings findings;
-    const auto value = evaluate_constants({{}, {formula}}, constants_, findings);
-    return value && (*value)[0] == 0.0;
-  }
-  // An axis, or angles, along z alone where all is in a plane.
-  Formulas along_z(const JsonReader& value) {
-    const auto formulas = read_formula_vector(value);
-    if (!formulas || !constant(formulas->formulas)) {
-      right_ = false;
-      return zeros();
-    }
-    const Formulas& f = formulas->formulas;
-    if (f.size() == 3 && is_zero(f[0]) && is_zero(f[1])) return f;
-    value.expected("[0, 0, z], in a plane");
-    right_ = false;
-    return zeros();
-  }
-  Formulas vector(const JsonReader& value) {
-    const auto formulas = components(value);
-    return formulas && constant(*formulas) ? *formulas : zeros();
-  }
-
-  WrittenFormula number_at_least_0(ObjectReader& object, const std::string& key) {
-    const auto value = object.optional(key);
-    const auto formula = value ? read_formula(*value) : std::nullopt;
-    if (value && !formula) right_ = false;
-    if (!formula || !constant({*formula})) return literal("0");
-    if (!(evaluate(*formula, constants_).value() >= 0.0)) {
-      problem(*value,
-              "is " + exact_text(evaluate(*formula, constants_).value()) + "; expected at least 0");
-    }
-    return *formula;
-  }
-
-  WrittenMechanism::Pose read_pose(ObjectReader& object, const std::string& key) {
-    WrittenMechanism::Pose result{zeros(), rotation_formulas(zeros())};
-    const auto value = object.optional(key);
-    if (!value) return result;
-    if (mechanism_.is_plane && !value->value().is_object()) {
-      const auto formulas = read_formula_vector(*value);
-      if (formulas && formulas->formulas.size() == 3) {
-        if (!constant(formulas->formulas)) return result;
-        const Formulas& f = formulas->formulas;
-        return {{f[0], f[1], literal("0")}, rotation_formulas({literal("0"), literal("0"), f[2]})};
-      }
-      if (formulas) value->expected("[x, y, angle], in a plane");
-      right_ = false;
-      return result;
-    }
-    ObjectReader entries(*value);
-    if (!value->value().is_object()) right_ = false;
-    if (const auto xyz = entries.optional("xyz")) result.xyz = vector(*xyz);
-    if (const auto rpy = entries.optional("rpy"))
-      result.rotation = rotation_formulas(mechanism_.is_plane ? along_z(*rpy) : vector(*rpy));
-    return result;
-  }
-
   bool is_new_part(const std::string& name, const JsonReader& value) {
     try {
       if (!parse_declaration(name).shape.empty()) throw FormulaError(1, "has a size");
@@ -187,23 +54,23 @@ class Reader {
   void read_bodies(const JsonReader& key) {
     const auto entries = key.entries();
     if (!entries) {
-      right_ = false;
+      fail();
       return;
     }
     if (entries->empty()) {
       key.expected("at least one body");
-      right_ = false;
+      fail();
     }
     for (const auto& [name, value] : *entries) {
       is_new_part(name, value);
       ObjectReader object(value, body_keys());
       if (!value.value().is_object()) {
-        right_ = false;
+        fail();
         continue;
       }
       WrittenMechanism::Body body{name, value.pointer(), number_at_least_0(object, "mass"), zeros(),
                                   Formulas(6, literal("0"))};
-      if (!value.value().contains("mass")) right_ = false;
+      if (!value.value().contains("mass")) fail();
       if (const auto center = object.optional("center")) body.center = vector(*center);
       if (const auto inertia = object.optional("inertia")) read_inertia(*inertia, body);
       if (const auto points = object.optional("points")) read_points(*points, body);
@@ -214,7 +81,7 @@ class Reader {
   void read_points(const JsonReader& key, WrittenMechanism::Body& body) {
     const auto entries = key.entries();
     if (!entries) {
-      right_ = false;
+      fail();
       return;
     }
     for (const auto& [name, value] : *entries) {
@@ -231,17 +98,17 @@ class Reader {
   void read_inertia(const JsonReader& value, WrittenMechanism::Body& body) {
     const auto formulas = read_formulas(value);
     if (!formulas) {
-      right_ = false;
+      fail();
       return;
     }
     const Formulas& f = formulas->formulas;
     const Shape& shape = formulas->shape;
-    if (mechanism_.is_plane && shape.empty()) {
+    if (is_plane() && shape.empty()) {
       if (!constant(f)) return;
       body.inertia[2] = f[0];
-      if (!(evaluate(f[0], constants_).value() >= 0.0))
+      if (!(evaluate(f[0], constants()).value() >= 0.0))
         problem(value,
-                "is " + exact_text(evaluate(f[0], constants_).value()) + "; expected at least 0");
+                "is " + exact_text(evaluate(f[0], constants()).value()) + "; expected at least 0");
       return;
     }
     if (shape == Shape{6}) {
@@ -249,18 +116,18 @@ class Reader {
     } else if (shape == Shape{3, 3}) {
       body.inertia = {f[0], f[4], f[8], f[1], f[2], f[5]};
     } else {
-      value.expected(mechanism_.is_plane ? "a number, about the axis of z"
-                                         : "[xx, yy, zz, xy, xz, yz], or a 3 x 3 matrix");
-      right_ = false;
+      value.expected(is_plane() ? "a number, about the axis of z"
+                                : "[xx, yy, zz, xy, xz, yz], or a 3 x 3 matrix");
+      fail();
       return;
     }
     if (!constant(f)) return;
     if (shape.size() == 2) {
-      const VectorXd all = value_of(f, constants_);
+      const VectorXd all = value_of(f);
       if (all[1] != all[3] || all[2] != all[6] || all[5] != all[7])
         return problem(value, "is not symmetric; expected a matrix of inertia");
     }
-    check_inertia(value, value_of(body.inertia, constants_));
+    check_inertia(value, value_of(body.inertia));
   }
 
   // Principal moments are at least 0, and none is larger than the sum of the others, as for any distribution of mass.
@@ -294,7 +161,7 @@ class Reader {
   Index read_body(const std::optional<JsonReader>& value) {
     const auto name = value ? value->text() : std::nullopt;
     if (!name) {
-      right_ = false;
+      fail();
       return Mechanism::ground;
     }
     if (*name == "ground") return Mechanism::ground;
@@ -311,14 +178,14 @@ class Reader {
   void read_joints(const JsonReader& key) {
     const auto entries = key.entries();
     if (!entries) {
-      right_ = false;
+      fail();
       return;
     }
     for (const auto& [name, value] : *entries) {
       is_new_part(name, value);
       ObjectReader object(value, joint_keys());
       if (!value.value().is_object()) {
-        right_ = false;
+        fail();
         continue;
       }
       read_joint(name, value, object);
@@ -329,7 +196,7 @@ class Reader {
   void read_mimic(const JsonReader& value, WrittenMechanism::Joint& joint) {
     ObjectReader object(value, mimic_keys());
     if (!value.value().is_object()) {
-      right_ = false;
+      fail();
       return;
     }
     WrittenMechanism::Mimic mimic{0, literal("1"), literal("0")};
@@ -337,13 +204,13 @@ class Reader {
          {std::pair("multiplier", &mimic.multiplier), {"offset", &mimic.offset}}) {
       const auto given = object.optional(key);
       const auto read = given ? read_formula(*given) : std::nullopt;
-      if (given && !read) right_ = false;
+      if (given && !read) fail();
       if (read && constant({*read})) *formula = *read;
     }
     const auto named = object.required("joint");
     const auto name = named ? named->text() : std::nullopt;
     if (!name) {
-      right_ = false;
+      fail();
       return;
     }
     const auto of = std::ranges::find(mechanism_.joints, *name, &WrittenMechanism::Joint::name);
@@ -368,9 +235,9 @@ class Reader {
     const auto word = type ? type->word(joint_words()) : std::nullopt;
     joint.parent = read_body(object.required("parent"));
     joint.child = read_body(object.required("child"));
-    joint.origin = read_pose(object, "origin");
+    joint.origin = pose(object, "origin");
     joint.has_child_origin = value.value().contains("child_origin");
-    joint.child_origin = read_pose(object, "child_origin");
+    joint.child_origin = pose(object, "child_origin");
     const auto axis = object.optional("axis"), axis2 = object.optional("axis2");
     const auto damping = object.optional("damping"), stiffness = object.optional("stiffness"),
                rest = object.optional("rest");
@@ -378,16 +245,15 @@ class Reader {
                              object.optional("effort")};
     const auto mimic = object.optional("mimic");
     if (!word) {
-      right_ = false;
+      fail();
       return;
     }
-    if (right_ && joint.parent == joint.child)
+    if (is_right() && joint.parent == joint.child)
       problem(value, "connects a body with itself; expected two bodies");
     const JointWord& kind = *std::ranges::find_if(
         joint_types(), [&](const JointWord& one) { return *word == one.word; });
     joint.type = kind.type;
-    const Index n =
-        mechanism_.is_plane ? plane_type(joint, *type, *word) : degrees_of_freedom(joint.type);
+    const Index n = is_plane() ? plane_type(joint, *type, *word) : degrees_of_freedom(joint.type);
     read_axes(axis, axis2, *word, joint);
     if (damping) joint.damping = coefficients(*damping, n);
     if (stiffness) joint.stiffness = coefficients(*stiffness, n);
@@ -404,7 +270,7 @@ class Reader {
                                  (n == 0 ? "nothing there" : "the key " + in_quotes(kind.effort)));
         continue;
       }
-      joint.effort = formulas_of(*efforts[i], n, false);
+      joint.effort = formulas(*efforts[i], n, false);
     }
     if (mimic) mimics_.emplace_back(mechanism_.joints.size(), *mimic);
     mechanism_.joints.push_back(std::move(joint));
@@ -424,16 +290,16 @@ class Reader {
 
   void read_axes(const std::optional<JsonReader>& axis, const std::optional<JsonReader>& axis2,
                  const std::string& word, WrittenMechanism::Joint& joint) {
-    const bool in_plane = mechanism_.is_plane && joint.type == JointType::prismatic;
-    if (mechanism_.is_plane && !in_plane) {
+    const bool in_plane = is_plane() && joint.type == JointType::prismatic;
+    if (is_plane() && !in_plane) {
       joint.axis = axis ? along_z(*axis) : Formulas{literal("0"), literal("0"), literal("1")};
     } else if (axis) {
       joint.axis = vector(*axis);
     } else {
       joint.axis = {literal("1"), literal("0"), literal("0")};
     }
-    if (!right_) return;
-    const VectorXd a = value_of(joint.axis, constants_);
+    if (!is_right()) return;
+    const VectorXd a = value_of(joint.axis);
     if (a.isZero(0.0)) return problem(*axis, "is zero; expected a direction");
     a.cwiseAbs().maxCoeff(&joint.largest);
     if (joint.type != JointType::universal) {
@@ -444,8 +310,8 @@ class Reader {
     }
     if (!axis2) return;
     joint.axis2 = vector(*axis2);
-    if (!right_) return;
-    const VectorXd u = value_of(joint.axis2, constants_);
+    if (!is_right()) return;
+    const VectorXd u = value_of(joint.axis2);
     if (u.isZero(0.0)) return problem(*axis2, "is zero; expected a direction");
     // Directions are typed with some digits.
     constexpr double rounding = 1e-6;
@@ -453,29 +319,10 @@ class Reader {
       problem(*axis2, "is not perpendicular to the axis; expected a right angle");
   }
 
-  Formulas formulas_of(const JsonReader& value, Index n, bool repeats) {
-    const auto formulas = read_formulas(value);
-    if (!formulas) {
-      right_ = false;
-      return {};
-    }
-    if (formulas->shape.empty() && repeats) return Formulas(as_size(n), formulas->formulas.front());
-    if (formulas->shape.size() > 1 || std::ssize(formulas->formulas) != n) {
-      problem(value, "has " + std::to_string(formulas->formulas.size()) + " formulas; expected " +
-                         std::to_string(n) + ", one for each degree of freedom");
-      return {};
-    }
-    return formulas->formulas;
-  }
-  Formulas coefficients(const JsonReader& value, Index n) {
-    Formulas formulas = formulas_of(value, n, true);
-    return constant(formulas) ? formulas : Formulas();
-  }
-
   WrittenMechanism::Place read_place(const std::optional<JsonReader>& value) {
     WrittenMechanism::Place place{Mechanism::ground, zeros()};
     if (!value) {
-      right_ = false;
+      fail();
       return place;
     }
     if (value->value().is_array()) {
@@ -484,7 +331,7 @@ class Reader {
     }
     const auto text = value->text();
     if (!text) {
-      right_ = false;
+      fail();
       return place;
     }
     if (*text == "ground") return place;
@@ -515,13 +362,13 @@ class Reader {
   void read_springs(const JsonReader& key) {
     const auto entries = key.entries();
     if (!entries) {
-      right_ = false;
+      fail();
       return;
     }
     for (const auto& [name, value] : *entries) {
       ObjectReader object(value, spring_keys());
       if (!value.value().is_object()) {
-        right_ = false;
+        fail();
         continue;
       }
       WrittenMechanism::Spring spring{name,
@@ -530,7 +377,7 @@ class Reader {
                                       number_at_least_0(object, "stiffness"),
                                       number_at_least_0(object, "rest"),
                                       number_at_least_0(object, "damping")};
-      if (right_ && spring.from.body == spring.to.body)
+      if (is_right() && spring.from.body == spring.to.body)
         problem(value, "is between two points of one body; expected two bodies, or one and ground");
       mechanism_.springs.push_back(std::move(spring));
     }
@@ -539,13 +386,13 @@ class Reader {
   void read_forces(const JsonReader& key) {
     const auto list = key.elements();
     if (!list) {
-      right_ = false;
+      fail();
       return;
     }
     for (const JsonReader& value : *list) {
       ObjectReader object(value, force_keys());
       if (!value.value().is_object()) {
-        right_ = false;
+        fail();
         continue;
       }
       const auto at = object.required("at");
@@ -553,11 +400,11 @@ class Reader {
                                     zeros()};
       const auto components_of = object.optional("force"), torque = object.optional("torque");
       if (components_of) force.force = components(*components_of).value_or(zeros());
-      if (torque && mechanism_.is_plane) {
+      if (torque && is_plane()) {
         if (const auto formula = read_formula(*torque))
           force.torque[2] = *formula;
         else
-          right_ = false;
+          fail();
       } else if (torque) {
         force.torque = components(*torque).value_or(zeros());
       }
@@ -565,7 +412,7 @@ class Reader {
         problem(
             value,
             "is neither a force nor a torque; expected one of the keys \"force\" and \"torque\"");
-      if (right_ && force.at.body == Mechanism::ground)
+      if (is_right() && force.at.body == Mechanism::ground)
         problem(*at, "is on the ground, which no force moves; expected a body");
       mechanism_.forces.push_back(std::move(force));
     }
@@ -573,20 +420,20 @@ class Reader {
 
   // The child of a joint in a tree has its frame where the joint is.
   void check_child_origins() {
-    const Mechanism built = mechanism_.at(constants_);
+    const Mechanism built = mechanism_.at(constants());
     for (const Mechanism::Branch& branch : built.branches()) {
       if (branch.joint < 0) continue;
       const WrittenMechanism::Joint& joint = mechanism_.joints[as_size(branch.joint)];
       if (!joint.has_child_origin || is_identity(joint.child_origin)) continue;
-      findings_.problem(joint.pointer + "/child_origin",
-                        "is of a joint that closes no loop, whose frame is that of the child; "
-                        "expected none");
-      right_ = false;
+      findings().problem(joint.pointer + "/child_origin",
+                         "is of a joint that closes no loop, whose frame is that of the child; "
+                         "expected none");
+      fail();
     }
   }
   // What mimics and what it mimics are numbers among the coordinates.
   void check_mimics() {
-    const Mechanism built = mechanism_.at(constants_);
+    const Mechanism built = mechanism_.at(constants());
     const auto is_number = [&](Index joint) {
       return degrees_of_freedom(mechanism_.joints[as_size(joint)].type) == 1 &&
              std::ranges::find(built.branches(), joint, &Mechanism::Branch::joint) !=
@@ -597,35 +444,32 @@ class Reader {
       if (!joint.mimic) continue;
       for (const Index one : {j, joint.mimic->of}) {
         if (is_number(one)) continue;
-        findings_.problem(
+        findings().problem(
             joint.pointer + "/mimic",
             "is about " + in_quotes(mechanism_.joints[as_size(one)].name) +
                 (mechanism_.is_absolute ? ", and coordinates are those of bodies; expected joint "
                                           "coordinates"
                                         : ", whose coordinate is not one of the system; expected "
                                           "revolute or prismatic joints that close no loop"));
-        right_ = false;
+        fail();
         break;
       }
     }
   }
   bool is_identity(const WrittenMechanism::Pose& pose) const {
-    const VectorXd R = value_of(pose.rotation, constants_), one{{1, 0, 0, 0, 1, 0, 0, 0, 1}};
-    return value_of(pose.xyz, constants_).isZero(0.0) && R == one;
+    const VectorXd R = value_of(pose.rotation), one{{1, 0, 0, 0, 1, 0, 0, 0, 1}};
+    return value_of(pose.xyz).isZero(0.0) && R == one;
   }
 
-  const SymbolTable& constants_;
-  Findings& findings_;
   WrittenMechanism mechanism_;
   std::vector<std::pair<std::size_t, JsonReader>> mimics_;  // by the number of the joint
-  bool right_ = true;
 };
 
 }  // namespace
 
 std::optional<WrittenMechanism> read_mechanism_parts(ObjectReader& system,
                                                      const SymbolTable& constants) {
-  return Reader(constants, system.place().findings()).read(system);
+  return MechanismReader(constants, system.place().findings()).read(system);
 }
 
 }  // namespace courant

@@ -1,8 +1,6 @@
 #include "courant/running/run_underway.hpp"
 
 #include <algorithm>
-#include <chrono>
-#include <ctime>
 #include <limits>
 #include <map>
 #include <new>
@@ -20,15 +18,16 @@
 #include "courant/running/left_constraints.hpp"
 #include "courant/running/observer_elsewhere.hpp"
 #include "courant/running/other_values.hpp"
-#include "courant/running/restart.hpp"
 #include "courant/running/run_backend.hpp"
 #include "courant/running/run_clock.hpp"
 #include "courant/running/run_failure.hpp"
+#include "courant/running/run_jumps.hpp"
 #include "courant/running/run_results.hpp"
 #include "courant/running/run_steps.hpp"
 #include "courant/running/run_watchers.hpp"
 #include "courant/running/start_moves.hpp"
 #include "courant/running/step_watch.hpp"
+#include "courant/running/stopwatch.hpp"
 #include "courant/running/symmetry_check.hpp"
 #include "courant/running/tangent_of_run.hpp"
 #include "courant/running/trajectory_rows.hpp"
@@ -36,27 +35,8 @@
 namespace courant {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // Fewer steps are made while a thread begins.
 constexpr long kWorthAThread = 1000;
-
-// What passes by the clock, and what the processor spends on all threads of this process.
-class Stopwatch {
- public:
-  double wall_seconds() const {
-    return std::chrono::duration<double>(Clock::now() - begin_).count();
-  }
-  double cpu_seconds() const { return processor() - processor_begin_; }
-
- private:
-  static double processor() {
-    return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
-  }
-
-  Clock::time_point begin_ = Clock::now();
-  double processor_begin_ = processor();
-};
 
 SolverStatistics operator+(const SolverStatistics& a, const SolverStatistics& b) {
   return {.steps = a.steps + b.steps,
@@ -339,8 +319,6 @@ class RunUnderway {
         },
         from ? from->event_watch : std::nullopt);
     results_.event_watch = &*event_watch_;
-    if (std::ranges::any_of(experiment_.events, &Event::sets))
-      resets_.emplace(experiment_, observer_.first_reset());
   }
 
   void watch_ladder() {
@@ -404,8 +382,8 @@ class RunUnderway {
   // All steps, or those after a checkpoint.
   void integrate(const PreparedMethod& method, const Checkpoint* from) {
     const TimeSpan& time = *experiment_.time;
-    RunSteps::Start start{.state = method.initial};
-    if (from) start = {.k = from->k, .state = from->state, .motion = from->motion};
+    RunSteps::Start start{.state = method.initial, .nodes = nodes_of_run(experiment_)};
+    if (from) start.k = from->k, start.state = from->state, start.motion = from->motion;
     const bool ahead = may_make_ahead() && time.steps - start.k >= kWorthAThread;
     RunSteps steps(*method.integrator, time, experiment_.output.epoch, std::move(start), ahead);
     if (!ahead) look_at(steps.stepper());
@@ -420,7 +398,7 @@ class RunUnderway {
         going = goes_on(steps.ended(), 0);
       while (going && steps.k() < time.steps) {
         std::optional<Step> jump = next(steps, *method.integrator);
-        const bool is_reset = !jump && resets_ && (jump = over_resets(steps, *method.integrator));
+        const bool is_reset = !jump && (jump = over_resets(steps, *method.integrator));
         if (jump) {
           going = goes_on(*jump, steps.k(), is_reset);
         } else {
@@ -471,7 +449,7 @@ class RunUnderway {
       return std::nullopt;
     } catch (const SolveError&) {
       if (!experiment_.time->division || experiment_.time->division->corners.empty()) throw;
-      std::optional<Step> jump = over_corners(steps, integrator);
+      std::optional<Step> jump = jumps_.over_corners(steps.state(), steps.k(), integrator);
       if (!jump) throw;
       steps.skip_to(jump->after);
       observer_.restart(jump->before);
@@ -479,116 +457,20 @@ class RunUnderway {
     }
   }
 
-  std::optional<Step> over_corners(RunSteps& steps, const Integrator& integrator) {
-    // A corner is as far from what is evaluated beside it.
-    constexpr double beside = 1e-9, near = 1e-3;
-    const TimeSpan& time = *experiment_.time;
-    const State before = steps.state();
-    const double begin = time.time(steps.k()), end = time.time(steps.k() + 1), h = time.step;
-    State state = before;
-    bool jumped = false;
-    for (const double corner : DividedIntegrator::corners_within(
-             time.division->corners, begin - near * h, (1.0 + 2.0 * near) * h)) {
-      if (const double way = corner - state.t - beside * h; way > near * h)
-        state = integrator.advance(state, way, 1);
-      const std::optional<State> there = beyond(state, corner);
-      if (!there) return std::nullopt;
-      state = *there;
-      jumped = true;
-    }
-    if (!jumped) return std::nullopt;
-    if (const double way = end - state.t; way > near * h) state = integrator.advance(state, way, 1);
-    state.t = end;
-    return Step{.h = h, .before = before, .after = state, .stage = state};
-  }
-
-  // The consistent state that impulses lead to on the other side of a corner; nothing where there is none.
-  std::optional<State> beyond(const State& before, double corner) {
-    std::optional<Restart> behind = restart(experiment_, before, corner);
-    if (!behind) return std::nullopt;
-    tell_of_jump("At the corner t = " + number_text(corner) + " there is a jump: ", *behind);
-    return std::move(behind->state);
-  }
-
-  void tell_of_jump(const std::string& where, const Restart& behind) {
-    if (!behind.moves.empty() && ++jumps_ <= kMostJumpsTold)
-      results_.warnings.push_back(where + behind.moves +
-                                  (behind.is_impulse ? ", as an impulse makes it." : "."));
-  }
-
-  // The last step, where events in it set something: up to the first of these, the state behind it, the way on from
-  // there with all that comes then. Nothing where none does.
+  // The last step, where events in it set something.
   std::optional<Step> over_resets(RunSteps& steps, const Integrator& integrator) {
-    // Less of a step is none, and what comes again after less accumulates.
-    constexpr double no_way = 1e-12, no_pause = 1e-9;
+    if (!jumps_.are_set_by_events()) return std::nullopt;
     const Step whole = steps.stepper().last();
-    const double h = experiment_.time->step, end = experiment_.time->time(steps.k());
     elsewhere_.begin_step();
-    std::unique_ptr<Stepper> way;
-    Step part = whole;
-    State after;
-    std::vector<Step> ways;
-    std::map<std::size_t, double> last;  // of each event
-    bool is_over = false;
-    for (std::optional<EventWatch::Reset> reset; !is_over && (reset = reset_in(part, steps.k()));) {
-      const double t = reset->step.after.t;
-      const auto before = last.find(reset->event);
-      if (std::ssize(ways) >= kMostResets ||
-          (before != last.end() && std::abs(t - before->second) < no_pause * std::abs(h)))
-        throw std::domain_error("The times of the event " + experiment_.events[reset->event].name +
-                                " accumulate at t = " + number_text(t) + ": it has set something " +
-                                std::to_string(std::ssize(ways)) + " times within a step.");
-      last[reset->event] = t;
-      ways.push_back(reset->step);
-      way = integrator.stepper();
-      tell_parts_to(*way);
-      after = behind(*reset, *way);
-      is_over = std::abs(end - t) < no_way * std::abs(h);
-      if (is_over) continue;
-      way->step(after, end - t, end);
-      part = way->last();
-    }
-    if (ways.empty()) return std::nullopt;
-    if (!is_over) ways.push_back(part);
+    std::optional<Step> jump =
+        jumps_.over_resets(whole, steps.k(), integrator, *event_watch_,
+                           [this](Stepper& stepper) { tell_parts_to(stepper); });
+    if (!jump) return std::nullopt;
     // The curve of the next step is that of the run again.
     look_at(steps.stepper());
-    after.t = end;
-    steps.replace(after);
-    observer_.restart(whole.before);
-    return Step{.h = h,
-                .before = whole.before,
-                .after = after,
-                .stage = ways.back().stage,
-                .effort = ways.back().effort,
-                .parts = std::move(ways)};
-  }
-
-  // The first reset of a part of a step, whose other events are told.
-  std::optional<EventWatch::Reset> reset_in(const Step& part, long k) {
-    if (part.h == 0.0) return std::nullopt;
-    const VectorXd row = elsewhere_.row_within(part);
-    event_watch_->watch({.k = k, .steps = k, .t = part.after.t, .row = row, .step = part});
-    return event_watch_->take_reset();
-  }
-
-  // The state behind a reset, and behind those that its jump leads to.
-  State behind(EventWatch::Reset reset, Stepper& way) {
-    for (int count = 0; count < kMostResets; ++count) {
-      const State& at = reset.step.after;
-      const std::string name = experiment_.events[reset.event].name;
-      const std::optional<Restart> there = (*resets_)(reset.event, at, reset.row);
-      if (!there)
-        throw std::domain_error("Nothing goes on from what the event " + name + " sets at t = " +
-                                number_text(at.t) + ": there is no consistent state near it.");
-      tell_of_jump("At t = " + number_text(at.t) + " the event " + name + " moves also ", *there);
-      std::optional<EventWatch::Reset> next =
-          event_watch_->go_on_behind(reset, elsewhere_.row(there->state), way);
-      if (!next) return there->state;
-      next->step.after = there->state;
-      reset = *std::move(next);
-    }
-    throw std::domain_error("Events set something over and over at t = " +
-                            number_text(reset.step.after.t) + ": each leads to the next.");
+    steps.replace(jump->after);
+    observer_.restart(jump->before);
+    return jump;
   }
 
   void tell_parts_to(Stepper& stepper) const {
@@ -665,11 +547,9 @@ class RunUnderway {
                       .ladder_report = ladder_report_,
                       .symmetries = symmetries_,
                       .observer = observer_};
+  RunJumps jumps_{experiment_, observer_.first_reset(), elsewhere_, results_.warnings};
   std::string place_;  // in the experiment, of what is being made ready: "/examine: "
   std::optional<NotFinite> not_finite_;
-  static constexpr int kMostJumpsTold = 3;
-  static constexpr int kMostResets = 30;  // within a step
-  int jumps_ = 0;
   RunClock clock_{experiment_.time};
   std::optional<LadderWatch> ladder_watch_;
   std::optional<EnergyWatch> energy_watch_;
@@ -677,7 +557,6 @@ class RunUnderway {
   std::optional<GradientWatch> gradient_watch_;
   TrajectoryRows rows_{experiment_, observer_, clock_, results_.rows_at_times};
   std::optional<EventWatch> event_watch_;
-  std::optional<EventResets> resets_;  // where events set something
   std::vector<std::unique_ptr<RunWatcher>> watchers_;
 };
 

@@ -23,8 +23,8 @@ namespace courant {
 struct RunOptions {
   std::filesystem::path folder;
   Backend backend = Backend::automatic;
-  // What solves the equations of the steps; null: this process. All else is done here: the constraint algorithm, what is
-  // observed, the files.
+  // What solves the equations of the steps; null: this process. All else is done here: the constraint algorithm, what
+  // is observed, the files.
   std::shared_ptr<const EquationEngine> engine = nullptr;
   ExistingRun existing = ExistingRun::refuse;  // a run that is in the folder already
   const std::atomic<bool>* stop = nullptr;     // set by someone else: the run is interrupted

@@ -5,9 +5,9 @@
 
 namespace courant::robots {
 
-// The system that a robot is, in joint coordinates. Links that fixed joints connect are one body; the frame of a body is that
-// of the joint by which it hangs on its parent, at rest. Throws LineError, where a link moves that has no mass, and nothing
-// hangs on it. Adds notes to those of the robot.
+// The system that a robot is, in joint coordinates. Links that fixed joints connect are one body; the frame of a body
+// is that of the joint by which it hangs on its parent, at rest. Throws LineError, where a link moves that has no mass,
+// and nothing hangs on it. Adds notes to those of the robot.
 struct MechanismOfRobot {
   Json system;
   std::map<std::string, Place> bodies,
