@@ -7,31 +7,44 @@
 #include "courant/integrators/certificate/constraint_algorithm.hpp"
 #include "courant/integrators/certificate/ladder_in_units.hpp"
 #include "courant/integrators/methods/integrator_in_units.hpp"
-#include "courant/integrators/step/kinetic_metric.hpp"
+#include "courant/integrators/step/kinetic_units.hpp"
 #include "courant/integrators/step/natural_units.hpp"
 
 namespace courant {
 
 namespace {
 
-// Whether the masses of a kinetic energy, or the step, are so far from 1 that numbers may be far apart. Where there is
-// no kinetic energy, the numbers of the start have to tell.
-bool may_be_far_apart(const MethodSetting& at) {
+using Masses = std::optional<VectorXd>;  // of a kinetic energy
+
+// Whether the masses, or the step, are so far from 1 that numbers may be far apart. Where there is no kinetic energy,
+// the numbers of the start have to tell.
+bool may_be_far_apart(const Masses& masses, double step) {
   constexpr double far = 1e6, brief = 1e-9;
-  const auto bundle = std::dynamic_pointer_cast<const CotangentBundle>(at.system->manifold());
-  if (!bundle) return true;
-  const auto metric =
-      kinetic_metric(at.system, MomentumProjector::momenta_of(*bundle), at.ladder.point.x);
-  if (!metric) return true;
-  const VectorXd masses = values(metric->lower(constants(at.ladder.point.x))).diagonal();
-  return masses.maxCoeff() > far || masses.minCoeff() < 1.0 / far || std::fabs(at.step) < brief ||
-         std::fabs(at.step) > 1.0 / brief;
+  if (!masses) return true;
+  return masses->maxCoeff() > far || masses->minCoeff() < 1.0 / far || std::fabs(step) < brief ||
+         std::fabs(step) > 1.0 / brief;
 }
 
-// The units of steps: those that are given, of the rest those that are needed; empty where both are none.
+// Units by the kinetic energy, where its sizes are so far apart that constraints on positions are not seen beside large
+// momenta, or the other way round (docs/steps.md has measurements).
+std::optional<Units> units_by_kinetic_energy(const MethodSetting& at, const Masses& masses) {
+  constexpr double far = 4096.0;
+  if (at.ladder.constraints.empty() || !masses) return std::nullopt;
+  const State& point = at.ladder.point;
+  const VectorXd sizes = kinetic_sizes(*at.system->manifold(), *masses, point.x, at.step);
+  if (!(sizes.minCoeff() > 0.0 && spread(sizes) > far)) return std::nullopt;
+  return kinetic_units(at.system, point, sizes, at.step);
+}
+
+// The units of steps: those that are given, of the rest those that the numbers of the start need. Where none are given,
+// those of the kinetic energy come before. Empty where all are none.
 std::optional<Units> units_of_steps(const MethodSetting& at) {
   if (at.own || at.extension || at.ladder.point.x.size() == 0) return std::nullopt;
-  auto needed = may_be_far_apart(at) ? needed_units(at.system, at.ladder.point) : std::nullopt;
+  const Masses masses = kinetic_masses(at.system, at.ladder.point.x);
+  if (!at.nominal)
+    if (auto units = units_by_kinetic_energy(at, masses)) return units;
+  auto needed =
+      may_be_far_apart(masses, at.step) ? needed_units(at.system, at.ladder.point) : std::nullopt;
   if (!at.nominal) return needed;
   VectorXd unknowns = VectorXd::Zero(at.system->auxiliary_size());
   unknowns.head(at.nominal->unknowns.size()) = at.nominal->unknowns;

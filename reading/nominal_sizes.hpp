@@ -7,8 +7,8 @@ namespace courant {
 
 using Eigen::VectorXd;
 
-// Sizes that norms measure by, 0 where none is given: the weights of steps, and what it costs to move a value that is not
-// consistent. No decision knows them.
+// Sizes that norms measure by, 0 where none is given: the weights of steps, and what it costs to move a value that is
+// not consistent. No decision knows them.
 struct NominalSizes {
   VectorXd coordinates = {};  // N
   VectorXd unknowns = {};     // m, where unknowns have names

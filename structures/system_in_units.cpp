@@ -21,14 +21,14 @@ void check_units(const char* what, const VectorXd& units, Index size) {
 }
 
 // That what M has no unit for is a number, and that what has one unit has it.
-void check_dilation(const Manifold& M, const Units& units) {
-  const Manifold::Dilations dilations = M.dilations();
-  VectorXd unit = VectorXd::Zero(Manifold::Dilations::after(dilations.point));
+void check_scaling_symmetry(const Manifold& M, const Units& units) {
+  const Manifold::ScalingSymmetries scaling = M.scaling_symmetries();
+  VectorXd unit = VectorXd::Zero(Manifold::ScalingSymmetries::after(scaling.point));
   const auto fit = [&](const std::vector<Index>& numbers, const VectorXd& sizes) {
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       const double size = sizes[static_cast<Index>(i)];
       double number = 1.0;
-      if (numbers[i] != Manifold::Dilations::none) {
+      if (numbers[i] != Manifold::ScalingSymmetries::none) {
         if (unit[numbers[i]] == 0.0) unit[numbers[i]] = size;
         number = unit[numbers[i]];
       }
@@ -36,9 +36,10 @@ void check_dilation(const Manifold& M, const Units& units) {
     }
     return true;
   };
-  if (!fit(dilations.point, units.coordinates) || !fit(dilations.tangent, units.tangent))
+  if (!fit(scaling.point, units.coordinates) || !fit(scaling.tangent, units.tangent))
     throw std::invalid_argument(
-        "SystemInUnits::SystemInUnits: the units are not those of a dilation of " + M.name() + ".");
+        "SystemInUnits::SystemInUnits: the units are not those of a scaling symmetry of " +
+        M.name() + ".");
 }
 
 void check_vectors(const ImplicitSystem& system, const VectorXd& equations) {
@@ -132,7 +133,7 @@ SystemInUnits::SystemInUnits(std::shared_ptr<const ImplicitSystem> system, Units
       units_(std::move(units)) {
   check_units("coordinates", units_.coordinates, manifold()->ambient_dimension());
   check_units("tangent vectors", units_.tangent, manifold()->tangent_dimension());
-  check_dilation(*manifold(), units_);
+  check_scaling_symmetry(*manifold(), units_);
   check_units("auxiliary unknowns", units_.auxiliary, auxiliary_size());
   check_units("equations", units_.equations, equation_count());
   check_units("time", VectorXd::Constant(1, units_.time), 1);

@@ -32,15 +32,17 @@ VectorXd chart_units(const Units& units, const Manifold& M, const VectorXd& x);
 //
 //   F̂(x̂, v̂, ẑ, t̂) = F(u x̂, u v̂ / T, w ẑ, T t̂) / r
 //
-// for u, w, r, T as Units has them; u of tangent vectors where v is one. An electron's position in metres and its momentum are 10²⁰ apart, and an
-// iteration that measures changes of a vector by its largest entry does not see the smaller one.
+// for u, w, r, T as Units has them; u of tangent vectors where v is one. An electron's position in metres and its
+// momentum are 10²⁰ apart, and an iteration that measures changes of a vector by its largest entry does not see the
+// smaller one.
 //
-// Names stay. is_lagrangian() is that of the other system, with the form that its own coordinates have; there
-// is no structure() here. Units are those of dilations of M, so that M is the same: see Manifold::dilations().
+// Names stay. is_lagrangian() is that of the other system, with the form that its own coordinates have; there is no
+// structure() here. Units are those of scaling symmetries of M, so that M is the same: see
+// Manifold::scaling_symmetries().
 class SystemInUnits final : public ImplicitSystem {
  public:
-  // Throws std::invalid_argument unless all units are powers of two, as many as there are coordinates, unknowns
-  // and equations, those of the coordinates are of dilations of M, and the equations that are components of one
+  // Throws std::invalid_argument unless all units are powers of two, as many as there are coordinates, unknowns and
+  // equations, those of the coordinates are of scaling symmetries of M, and the equations that are components of one
   // vector or covector share theirs.
   SystemInUnits(std::shared_ptr<const ImplicitSystem> system, Units units);
 

@@ -17,9 +17,9 @@ struct KineticMetric {
   Projector::MatrixFormula raise;  // g^{ij}
 };
 
-// Of `momenta`, entries of tangent vectors of M: g^{ij} = ∂²H/∂p² where the system has an energy H for which that does
-// not depend on these momenta, on unknowns or on t; g_{ij} = ∂²L/∂w² where it is that of a Lagrangian on T*Q for which
-// that depends on q alone. Nothing where neither is positive definite at x.
+// The metric of `momenta`, which are entries of tangent vectors of M. If the system has an energy H, it is g^{ij} =
+// ∂²H/∂p², unless this depends on these momenta, on unknowns or on t. If it is that of a Lagrangian on T*Q, it is
+// g_{ij} = ∂²L/∂w², if this depends on q alone. Nothing where neither is positive definite at x.
 std::optional<KineticMetric> kinetic_metric(const std::shared_ptr<const ImplicitSystem>& system,
                                             const std::vector<Index>& momenta, const VectorXd& x);
 

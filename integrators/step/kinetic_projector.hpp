@@ -6,9 +6,9 @@
 
 namespace courant {
 
-// For points (q, p) of T*Q: q moves to the positions of M_f, as little as possible in the metric g of the kinetic energy;
-// then p moves into the fibre of M_f over the new q, as little as possible in g⁻¹. No unit is common to q and p, so none
-// is needed: a change of units of length, mass or time changes nothing.
+// For points (q, p) of T*Q: q moves to the positions of M_f, as little as possible in the metric g of the kinetic
+// energy; then p moves into the fibre of M_f over the new q, as little as possible in g⁻¹. No unit is common to q and
+// p, so none is needed: a change of units of length, mass or time changes nothing.
 //
 //   W = {(g⁻¹ ν, 0)} ⊕ {(0, g β)},   ν: conormals (ν, 0) of M_f,   β: momentum parts of all its conormals
 //
@@ -22,8 +22,8 @@ namespace courant {
 // Section 8.2.
 class KineticProjector final : public Projector {
  public:
-  // For the M_f of a ladder. Nothing where M is no T*Q or M_f all of it, where the system has no kinetic energy, or where
-  // conditions on q alone follow from the equations that none of them says.
+  // For the M_f of a ladder. Nothing where M is no T*Q or M_f all of it, where the system has no kinetic energy, or
+  // where conditions on q alone follow from the equations that none of them says.
   static std::shared_ptr<const KineticProjector> of(
       const std::shared_ptr<const ImplicitSystem>& system, const ConstraintLadder& ladder);
 
@@ -53,8 +53,8 @@ class KineticProjector final : public Projector {
   VectorXd balance_;  // sizes that V is balanced by; empty: 1
 };
 
-// The projector that Method 2 takes where none is asked for: that of the kinetic energy, else to the nearest point in the
-// numbers themselves. The same in every run of a system.
+// The projector that Method 2 takes where none is asked for: that of the kinetic energy, else to the nearest point in
+// the numbers themselves. The same in every run of a system.
 std::shared_ptr<const Projector> usual_projector(
     const std::shared_ptr<const ImplicitSystem>& system, const ConstraintLadder& ladder);
 

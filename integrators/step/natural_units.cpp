@@ -9,8 +9,8 @@
 
 #include "courant/core/numbers/power_of_two.hpp"
 #include "courant/integrators/certificate/derivative_array.hpp"
+#include "courant/integrators/certificate/dimensionless_arguments.hpp"
 #include "courant/integrators/certificate/natural_scaling.hpp"
-#include "courant/integrators/step/dimensionless_arguments.hpp"
 #include "courant/integrators/step/unit_equations.hpp"
 
 namespace courant {
@@ -60,7 +60,7 @@ using Numbering = UnitNumbering;
 // (x, v, z, t).
 VectorXd column_units(const SparseMatrixXd& magnitude, const NaturalScaling& natural, double least,
                       const VectorXd& constants, const DimensionlessArguments* arguments,
-                      const VectorXd& point, const Numbering& numbering, const VectorXd& reach) {
+                      const VectorXd& point, const Numbering& numbering, const VectorXd& nominal) {
   UnitEquations equations(numbering, magnitude.rows(), magnitude.cols());
   for (Index j = 0; j < magnitude.cols(); ++j)
     for (SparseMatrixXd::InnerIterator it(magnitude, j); it; ++it)
@@ -69,13 +69,14 @@ VectorXd column_units(const SparseMatrixXd& magnitude, const NaturalScaling& nat
   for (Index i = 0; i < constants.size(); ++i)
     if (constants[i] > 0.0) equations.add_constant(i, constants[i]);
   if (arguments)
-    for (const auto& [unknown, size] : arguments->slopes(point)) equations.add_slope(unknown, size);
-  return equations.columns(reach);
+    for (const auto& slope : arguments->slopes(point))
+      equations.add_slope(slope.unknown, slope.size);
+  return equations.columns(nominal);
 }
 
 // What tells units.
 enum class Evidence {
-  typical,  // entries and sizes that are no small part of others
+  usual,  // entries and sizes that are no small part of others
   all,  // small entries too that are more than rounding errors, and what equations contain besides
 };
 
@@ -107,9 +108,9 @@ SparseMatrixXd magnitude_near(const DerivativeArray& array, const VectorXd& y,
 }
 
 // |F_i| at y, 0 where that is a small part of the terms of F_i.
-VectorXd constants_at(const DerivativeArray& array, const VectorXd& y, const VectorXd& reach) {
+VectorXd constants_at(const DerivativeArray& array, const VectorXd& y, const VectorXd& nominal) {
   const Linearization at = array.linearize(y);
-  const VectorXd least = kZero * (at.jacobian.cwiseAbs() * reach) + at.value_error;
+  const VectorXd least = kZero * (at.jacobian.cwiseAbs() * nominal) + at.value_error;
   return (at.value.array().abs() > least.array()).select(at.value.cwiseAbs(), 0.0);
 }
 
@@ -131,7 +132,7 @@ JoinedComponents components_with_rates(const NaturalScaling& natural, Index n) {
 // Nothing tells the factor of units of what has no connection with any known size or constant, as of a second
 // particle at rest: that of its largest coordinate becomes that of the others.
 void align_components(VectorXd& units, const NaturalScaling& natural, const VectorXd& constants,
-                      const Numbering& numbering, const VectorXd& reach) {
+                      const Numbering& numbering, const VectorXd& nominal) {
   const Index n = std::ssize(numbering);
   const auto [columns, rows] = components_with_rates(natural, n);
   const auto of = [](const std::vector<Index>& components, Index i) {
@@ -141,9 +142,9 @@ void align_components(VectorXd& units, const NaturalScaling& natural, const Vect
   for (Index i = 0; i < constants.size(); ++i)
     if (constants[i] > 0.0) known[of(rows, i)] = 1.0;
   for (Index j = 0; j < units.size(); ++j)
-    if (reach[j] > 0.0) known[of(columns, j)] = 1.0;
+    if (nominal[j] > 0.0) known[of(columns, j)] = 1.0;
   for (Index j = 0; j < n; ++j)
-    if (numbering[static_cast<std::size_t>(j)] == Manifold::Dilations::none)
+    if (numbering[static_cast<std::size_t>(j)] == Manifold::ScalingSymmetries::none)
       known[of(columns, j)] = 1.0;
   for (Index j = 0; j < n; ++j)
     largest[of(columns, j)] = std::max(largest[of(columns, j)], units[j]);
@@ -155,21 +156,21 @@ void align_components(VectorXd& units, const NaturalScaling& natural, const Vect
   }
 }
 
-// Units of all unknowns of level 0, near the jet y. `reach`: their sizes, 0 where they are zero but for
+// Units of all unknowns of level 0, near the jet y. `nominal`: their sizes, 0 where they are zero but for
 // round-off. What vanishes at y is as large as it is nearby: numbers differ by parts of their sizes,
 // and zeros by parts of their units, which is why there are several rounds. Where those of all evidence do not settle,
 // as where a unit is made of nothing but itself, they are empty, or the first ones beside coordinates without a unit.
-VectorXd units_near(const DerivativeArray& array, const VectorXd& y, const VectorXd& reach,
+VectorXd units_near(const DerivativeArray& array, const VectorXd& y, const VectorXd& nominal,
                     const Numbering& numbering, Evidence evidence,
                     const DimensionlessArguments* arguments) {
   constexpr double settled = 0.1;  // a small part of a power of two
   const bool is_all = evidence == Evidence::all;
   const int rounds = is_all ? 60 : 4;
   const double least = is_all ? 0.0 : kLeastEntry;
-  const VectorXd at = (reach.array() > 0.0).select(y, 0.0);
+  const VectorXd at = (nominal.array() > 0.0).select(y, 0.0);
   const VectorXd constants =
-      is_all ? constants_at(array, at, reach) : VectorXd(VectorXd::Zero(array.equation_count()));
-  VectorXd moves = 0.1 * reach, units, first;
+      is_all ? constants_at(array, at, nominal) : VectorXd(VectorXd::Zero(array.equation_count()));
+  VectorXd moves = 0.1 * nominal, units, first;
   // (x, v, z, t) a little away, where M has coordinates of its own.
   const auto point_nearby = [&] {
     VectorXd point(y.size() + 1);
@@ -180,23 +181,24 @@ VectorXd units_near(const DerivativeArray& array, const VectorXd& y, const Vecto
   for (int round = 0; round < rounds; ++round) {
     const SparseMatrixXd magnitude = magnitude_near(array, at, moves, evidence);
     const bool is_large = magnitude.rows() + magnitude.cols() > kExact;
-    const NaturalScaling natural({VectorXd::Zero(magnitude.rows()), magnitude}, reach, least,
+    const NaturalScaling natural({VectorXd::Zero(magnitude.rows()), magnitude}, nominal, least,
                                  1e-10);
     const VectorXd before = std::exchange(
-        units, is_large ? natural.column_scale
-                        : column_units(magnitude, natural, least, constants, arguments,
-                                       arguments ? point_nearby() : VectorXd(), numbering, reach));
-    if (is_all) align_components(units, natural, constants, numbering, reach);
+        units, is_large
+                   ? natural.column_scale
+                   : column_units(magnitude, natural, least, constants, arguments,
+                                  arguments ? point_nearby() : VectorXd(), numbering, nominal));
+    if (is_all) align_components(units, natural, constants, numbering, nominal);
     if (round == 0) first = units;
     if (array.has_constant_jacobian()) return units;
     if (is_all && round > 0 && (units.array() / before.array()).log().abs().maxCoeff() < settled)
       return units;
-    moves = (reach.array() > 0.0).select(0.1 * reach, units);
+    moves = (nominal.array() > 0.0).select(0.1 * nominal, units);
   }
   if (!is_all) return units;
   // Of a body that nothing but its inertia acts on, rounds make velocities smaller and smaller. Where coordinates are
   // numbers without a unit these tell enough at first.
-  return std::ranges::count(numbering, Manifold::Dilations::none) > 0 ? first : VectorXd();
+  return std::ranges::count(numbering, Manifold::ScalingSymmetries::none) > 0 ? first : VectorXd();
 }
 
 // Each coordinate has a unit of its own.
@@ -206,10 +208,11 @@ Numbering each(const DerivativeArray& array) {
   return numbers;
 }
 
-// Those of the dilations of M. Empty where a coordinate of the chart is along tangent vectors of several units.
-Numbering of_dilations(const Manifold& M, const DerivativeArray& array) {
+// Those of the scaling symmetries of M. Empty where a coordinate of the chart is along tangent vectors of several
+// units.
+Numbering of_scaling_symmetries(const Manifold& M, const DerivativeArray& array) {
   constexpr double nothing = 1e-12;
-  const std::vector<Index> tangent = M.dilations().tangent;
+  const std::vector<Index> tangent = M.scaling_symmetries().tangent;
   const MatrixXd basis = array.basis().matrix();
   Numbering numbers(static_cast<std::size_t>(basis.cols()));
   for (Index j = 0; j < basis.cols(); ++j) {
@@ -246,12 +249,12 @@ struct Level0 {
     std::optional<DimensionlessArguments> known;
     if (evidence == Evidence::all && is_its_own_chart(*system->manifold())) known.emplace(*system);
     const DimensionlessArguments* arguments = known ? &*known : nullptr;
-    const VectorXd reach = known_sizes(array, y);
-    units = units_near(array, y, reach, numbering, evidence, arguments);
+    const VectorXd nominal = known_sizes(array, y);
+    units = units_near(array, y, nominal, numbering, evidence, arguments);
     if (units.size() == 0) return;
-    const VectorXd seen = without_zeros(reach.cwiseQuotient(units)).cwiseProduct(units);
-    if ((seen.array() > 0.0).count() < (reach.array() > 0.0).count())
-      units = units_near(array, y, (seen.array() > 0.0).select(reach, 0.0), numbering, evidence,
+    const VectorXd seen = without_zeros(nominal.cwiseQuotient(units)).cwiseProduct(units);
+    if ((seen.array() > 0.0).count() < (nominal.array() > 0.0).count())
+      units = units_near(array, y, (seen.array() > 0.0).select(nominal, 0.0), numbering, evidence,
                          arguments);
   }
 };
@@ -264,31 +267,18 @@ VectorXd without_round_off(const VectorXd& numbers) {
   return (numbers.array().abs() > least).select(numbers, 0.0);
 }
 
-// 1 for what is no size.
-double power_of_two(double unit) {
-  return unit > 0.0 && std::isfinite(unit) ? nearest_power_of_two(unit) : 1.0;
-}
-
-// The sizes of the largest terms of equations.
-VectorXd equation_units(const ImplicitSystem& system, const SparseMatrixXd& terms) {
-  const Manifold& M = *system.manifold();
-  VectorXd largest = VectorXd::Zero(terms.rows());
-  for (Index j = 0; j < terms.outerSize(); ++j)
-    for (SparseMatrixXd::InnerIterator it(terms, j); it; ++it)
-      largest[it.row()] = std::max(largest[it.row()], it.value());
-  // Vectors and covectors stay what they are.
-  const std::vector<Index> mixed = M.mixed_components();
-  const Index entries = M.tangent_dimension();
-  for (Index first = 0; first < system.tangent_blocks() * entries; first += entries) {
-    VectorXd shared = VectorXd::Zero(entries);
-    for (Index i = 0; i < entries; ++i) {
-      double& size = shared[mixed[static_cast<std::size_t>(i)]];
-      size = std::max(size, largest[first + i]);
-    }
-    for (Index i = 0; i < entries; ++i)
-      largest[first + i] = shared[mixed[static_cast<std::size_t>(i)]];
-  }
-  return largest.unaryExpr(&power_of_two);
+// Takes these sizes of coordinates for units; 0 is none.
+void measure_coordinates(const Manifold& M, const VectorXd& coordinates, Units& units) {
+  const Manifold::ScalingSymmetries scaling = M.scaling_symmetries();
+  const VectorXd unit = largest_by_number(scaling.point, coordinates,
+                                          Manifold::ScalingSymmetries::after(scaling.point));
+  const auto measure = [&](const Numbering& numbers, VectorXd& sizes) {
+    const VectorXd given = by_number(numbers, unit, 0.0);
+    for (Index i = 0; i < given.size(); ++i)
+      if (given[i] > 0.0) sizes[i] = unit_next_to(given[i]);
+  };
+  measure(scaling.point, units.coordinates);
+  measure(scaling.tangent, units.tangent);
 }
 
 }  // namespace
@@ -326,7 +316,7 @@ VectorXd natural_units(const std::shared_ptr<const ImplicitSystem>& system,
   const Manifold& M = *system->manifold();
   const Index n = M.dimension(), size = M.tangent_dimension();
   if (ladder.point.x.size() == 0 || n == 0) return VectorXd::Ones(size);
-  const Level0 level(system, ladder.point, Evidence::typical, each);
+  const Level0 level(system, ladder.point, Evidence::usual, each);
   const DerivativeArray& array = level.array;
   VectorXd units = level.units.head(n);
   if (n == size) return units;
@@ -349,68 +339,106 @@ VectorXd natural_units(const std::shared_ptr<const ImplicitSystem>& system,
 std::optional<Units> units_of_all_terms(const std::shared_ptr<const ImplicitSystem>& system,
                                         const State& point) {
   const Manifold& M = *system->manifold();
-  const Manifold::Dilations dilations = M.dilations();
+  const Manifold::ScalingSymmetries scaling = M.scaling_symmetries();
   const Index unknowns = 2 * M.dimension() + system->auxiliary_size();
-  if (Manifold::Dilations::after(dilations.point) == 0 || point.x.size() == 0 ||
+  if (Manifold::ScalingSymmetries::after(scaling.point) == 0 || point.x.size() == 0 ||
       unknowns + system->equation_count() > kExact)
     return std::nullopt;
   const Level0 level(system, point, Evidence::all,
-                     [&](const DerivativeArray& array) { return of_dilations(M, array); });
+                     [&](const DerivativeArray& array) { return of_scaling_symmetries(M, array); });
   if (level.units.size() == 0) return std::nullopt;
   const SparseMatrixXd terms =
       magnitude_near(level.array, level.y, 0.1 * level.units, Evidence::all) *
       level.units.asDiagonal();
   const Index n = level.array.base_size();
   // By number; 1 of what none of the n coordinates has.
-  VectorXd unit = VectorXd::Ones(Manifold::Dilations::after(dilations.point));
+  VectorXd unit = VectorXd::Ones(Manifold::ScalingSymmetries::after(scaling.point));
   for (Index j = 0; j < n; ++j)
     if (const Index number = level.numbering[static_cast<std::size_t>(j)];
-        number != Manifold::Dilations::none)
-      unit[number] = power_of_two(level.units[j]);
-  const auto units_of = [&](const Numbering& of) {
-    VectorXd units(std::ssize(of));
-    for (std::size_t i = 0; i < of.size(); ++i)
-      units[static_cast<Index>(i)] = of[i] == Manifold::Dilations::none ? 1.0 : unit[of[i]];
-    return units;
-  };
-  return Units{.coordinates = units_of(dilations.point),
-               .tangent = units_of(dilations.tangent),
-               .auxiliary = level.units.tail(system->auxiliary_size()).unaryExpr(&power_of_two),
+        number != Manifold::ScalingSymmetries::none)
+      unit[number] = unit_next_to(level.units[j]);
+  return Units{.coordinates = by_number(scaling.point, unit, 1.0),
+               .tangent = by_number(scaling.tangent, unit, 1.0),
+               .auxiliary = level.units.tail(system->auxiliary_size()).unaryExpr(&unit_next_to),
                .equations = equation_units(*system, terms),
-               .time = power_of_two(level.units[0] / level.units[n])};
+               .time = unit_next_to(level.units[0] / level.units[n])};
+}
+
+double unit_next_to(double size) {
+  return size > 0.0 && std::isfinite(size) ? nearest_power_of_two(size) : 1.0;
+}
+
+VectorXd largest_by_number(const std::vector<Index>& numbers, const VectorXd& sizes, Index count) {
+  VectorXd largest = VectorXd::Zero(count);
+  for (Index i = 0; i < sizes.size(); ++i)
+    if (const Index number = numbers[static_cast<std::size_t>(i)];
+        number != Manifold::ScalingSymmetries::none && sizes[i] > largest[number])
+      largest[number] = sizes[i];
+  return largest;
+}
+
+VectorXd by_number(const std::vector<Index>& numbers, const VectorXd& of_number, double without) {
+  VectorXd entries(std::ssize(numbers));
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    entries[static_cast<Index>(i)] =
+        numbers[i] == Manifold::ScalingSymmetries::none ? without : of_number[numbers[i]];
+  return entries;
+}
+
+VectorXd largest_of_rows(const SparseMatrixXd& matrix) {
+  VectorXd largest = VectorXd::Zero(matrix.rows());
+  for (Index j = 0; j < matrix.outerSize(); ++j)
+    for (SparseMatrixXd::InnerIterator it(matrix, j); it; ++it)
+      largest[it.row()] = std::max(largest[it.row()], it.value());
+  return largest;
+}
+
+VectorXd equation_units(const ImplicitSystem& system, const SparseMatrixXd& terms) {
+  const Manifold& M = *system.manifold();
+  VectorXd largest = largest_of_rows(terms);
+  // Vectors and covectors stay what they are.
+  const std::vector<Index> mixed = M.mixed_components();
+  const Index entries = M.tangent_dimension();
+  for (Index first = 0; first < system.tangent_blocks() * entries; first += entries) {
+    VectorXd shared = VectorXd::Zero(entries);
+    for (Index i = 0; i < entries; ++i) {
+      double& size = shared[mixed[static_cast<std::size_t>(i)]];
+      size = std::max(size, largest[first + i]);
+    }
+    for (Index i = 0; i < entries; ++i)
+      largest[first + i] = shared[mixed[static_cast<std::size_t>(i)]];
+  }
+  return largest.unaryExpr(&unit_next_to);
+}
+
+Units units_by_sizes(const Manifold& M, const VectorXd& coordinates) {
+  Units units{.coordinates = VectorXd::Ones(M.ambient_dimension()),
+              .tangent = VectorXd::Ones(M.tangent_dimension()),
+              .auxiliary = {},
+              .equations = {}};
+  measure_coordinates(M, coordinates, units);
+  return units;
 }
 
 Units units_by_sizes(const std::shared_ptr<const ImplicitSystem>& system, const State& point,
                      const VectorXd& coordinates, const VectorXd& unknowns,
                      std::optional<Units> others) {
   const Manifold& M = *system->manifold();
-  const Manifold::Dilations dilations = M.dilations();
   Units units = others ? *std::move(others)
                        : Units{.coordinates = VectorXd::Ones(M.ambient_dimension()),
                                .tangent = VectorXd::Ones(M.tangent_dimension()),
                                .auxiliary = VectorXd::Ones(system->auxiliary_size()),
                                .equations = VectorXd::Ones(system->equation_count())};
-  VectorXd unit = VectorXd::Zero(Manifold::Dilations::after(dilations.point));
-  for (Index i = 0; i < coordinates.size(); ++i)
-    if (const Index number = dilations.point[static_cast<std::size_t>(i)];
-        number != Manifold::Dilations::none && coordinates[i] > unit[number])
-      unit[number] = coordinates[i];
-  const auto measure = [&](const Numbering& numbers, VectorXd& sizes) {
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-      if (numbers[i] != Manifold::Dilations::none && unit[numbers[i]] > 0.0)
-        sizes[static_cast<Index>(i)] = power_of_two(unit[numbers[i]]);
-  };
-  measure(dilations.point, units.coordinates);
-  measure(dilations.tangent, units.tangent);
+  measure_coordinates(M, coordinates, units);
   for (Index i = 0; i < unknowns.size(); ++i)
-    if (unknowns[i] > 0.0) units.auxiliary[i] = power_of_two(unknowns[i]);
+    if (unknowns[i] > 0.0) units.auxiliary[i] = unit_next_to(unknowns[i]);
 
   const DerivativeArray array(system, point.t, point.x);
   const VectorXd chart = chart_units(units, M, point.x);
   VectorXd columns(2 * array.base_size() + array.auxiliary_size());
   columns << chart, chart / units.time, units.auxiliary;
   const SparseMatrixXd terms =
-      magnitude_near(array, array.jet(point.v, point.z), 0.1 * columns, Evidence::typical) *
+      magnitude_near(array, array.jet(point.v, point.z), 0.1 * columns, Evidence::usual) *
       columns.asDiagonal();
   units.equations = equation_units(*system, terms);
   return units;

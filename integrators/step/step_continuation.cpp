@@ -78,13 +78,13 @@ StepContinuation::StepContinuation(Function equations, const Layout& layout)
 }
 
 bool StepContinuation::shrinks(Index i) const {
-  return i < layout_.displacements || i >= y_.size() - layout_.shifts;
+  return i < layout_.displacements || i >= y_.size() - layout_.multipliers;
 }
 
 void StepContinuation::set(const VectorXd& u, double sigma, VectorXd& y) const {
   y = u;
   y.head(layout_.displacements) *= sigma;
-  y.tail(layout_.shifts) *= sigma;
+  y.tail(layout_.multipliers) *= sigma;
 }
 
 void StepContinuation::evaluate(double sigma, bool with_jacobian) {

@@ -14,30 +14,30 @@ namespace courant {
 // the end of the curve σ ↦ y(σ), G(y(σ); σ h) = 0, that begins at the state for σ → 0. This follows
 // the curve up to σ = 1, or to where it turns back or ends.
 //
-// It begins at a thousandth of the step or less, with a solution from which Newton's method, its matrix
-// made afresh in each iteration, contracts to a quarter after the first one, if need be after damped
-// steps, and goes on along the tangent. A prediction must be right to a tenth, Newton's method has to contract at once, the sign of
-// the determinant stays the same, and the tangents of both ends have to say by how much the prediction
-// was wrong: those of two branches do not, so that turning points are not stepped over, nor pairs of
-// them. Else the step in σ is shortened; the first one tried leads to σ = 1.
+// It begins at a thousandth of the step or less, with a solution from which Newton's method, its matrix made afresh in
+// each iteration, contracts to a quarter after the first one, if need be after damped steps, and goes on along the
+// tangent. A prediction must be right to a tenth, Newton's method has to contract at once, the sign of the determinant
+// stays the same, and the tangents of both ends have to say by how much the prediction was wrong: those of two branches
+// do not, so that turning points are not stepped over, nor pairs of them. Else the step in σ is shortened; the first
+// one tried leads to σ = 1.
 //
-// Where the state does not obey all equations, as after a step of Method 1 with constraints,
-// displacements do not vanish for σ → 0: the curve begins with a jump to where they hold. Where they have
-// no limit either, as velocities that grow like 1/σ and multipliers like 1/σ², what the state predicts is carried to the
-// solution at the step itself, along
+// Where the state does not obey all equations, as after a step of Method 1 with constraints, displacements do not
+// vanish for σ → 0: the curve begins with a jump to where they hold. Where they have no limit either, as velocities
+// that grow like 1/σ and multipliers like 1/σ², what the state predicts is carried to the solution at the step itself,
+// along
 //
 //   G(y; h) = (1 - τ) G(y₀; h),   τ from 0 to 1
 //
-// by arcs like those above, and last the curve begins at a tenth of the step, with any solution that Newton's method finds. So near
-// the state that the matrix loses rank to round-off, which that of the step itself has, nothing is seen, and
-// no curve begins. One object a trajectory.
+// by arcs like those above, and last the curve begins at a tenth of the step, with any solution that Newton's method
+// finds. So near the state that the matrix loses rank to round-off, which that of the step itself has, nothing is seen,
+// and no curve begins. One object a trajectory.
 class StepContinuation {
  public:
   // Group 0 of `equations` is y, whose first `displacements` entries are displacements from the
-  // state: they are measured, and zero for h → 0. As are the last `shifts` entries, which are not
+  // state: they are measured, and zero for h → 0. As are the last `multipliers` entries, which are not
   // measured. Group `h` is the step size.
   struct Layout {
-    Index displacements = 0, shifts = 0;
+    Index displacements = 0, multipliers = 0;
     Index h = 0;
   };
   StepContinuation(Function equations, const Layout& layout);
@@ -92,7 +92,7 @@ class StepContinuation {
   bool is_determined_ = true;         // whether the matrix of the step has full rank
   bool vanishes_ = true;              // as in Attempt
   Point point_;                       // the last one
-  // Unknowns of this σ with displacements and shifts divided by σ, and their derivative by σ.
+  // Unknowns of this σ with displacements and multipliers divided by σ, and their derivative by σ.
   VectorXd u_, tangent_;
   VectorXd predicted_;
   VectorXd given_;     // G(y₀; h) where the prediction is carried, else empty

@@ -15,12 +15,13 @@ constexpr double kNoPart = 1e-9;
 
 UnitEquations::UnitEquations(const UnitNumbering& numbering, Index rows, Index columns)
     : rows_(rows) {
-  const Index n = std::ssize(numbering), own = Manifold::Dilations::after(numbering);
+  const Index n = std::ssize(numbering), own = Manifold::ScalingSymmetries::after(numbering);
   const Index unknowns = rows + own + columns - 2 * n + 1;  // logarithms of r, units of ξ, z, T
   C_ = MatrixXd::Zero(columns, unknowns);
   for (Index j = 0; j < n; ++j) {
     const Index unit = numbering[static_cast<std::size_t>(j)];
-    if (unit != Manifold::Dilations::none) C_(j, rows + unit) = C_(n + j, rows + unit) = 1.0;
+    if (unit != Manifold::ScalingSymmetries::none)
+      C_(j, rows + unit) = C_(n + j, rows + unit) = 1.0;
     C_(n + j, unknowns - 1) = -1.0;
   }
   for (Index j = 2 * n; j < columns; ++j) C_(j, rows + own + j - 2 * n) = 1.0;

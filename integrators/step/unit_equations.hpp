@@ -7,7 +7,7 @@
 
 namespace courant {
 
-// The unit of each of the n coordinates ξ, numbered, or Manifold::Dilations::none for a number without one.
+// The unit of each of the n coordinates ξ, numbered, or Manifold::ScalingSymmetries::none for a number without one.
 using UnitNumbering = std::vector<Index>;
 
 // The units c of the columns (ξ, ξ', z), where those of ξ' are those of ξ divided by a unit of time T,

@@ -22,8 +22,8 @@ using namespace courant;
 
 namespace {
 
-// u' = (e^(5-u) - 1)/10 + cos(t)/3 and q' = -q²/a from q = a, by the midpoint rule. Because of the exponential no units are
-// looked for.
+// u' = (e^(5-u) - 1)/10 + cos(t)/3 and q' = -q²/a from q = a, by the midpoint rule. Because of the exponential no units
+// are looked for.
 Json charge_beside_a_voltage(double a, const Json& nominal) {
   Json document = {{"system",
                     {{"type", "implicit"},
@@ -37,7 +37,8 @@ Json charge_beside_a_voltage(double a, const Json& nominal) {
   return document;
 }
 
-// The largest relative error of q in a row as a step of the one before: s₁ - s₀ = -h ((s₀ + s₁)/2)², solved for s₁ = q₁/a.
+// The largest relative error of q in a row as a step of the one before: s₁ - s₀ = -h ((s₀ + s₁)/2)², solved for s₁ =
+// q₁/a.
 double error_of_steps(const Json& document, double a) {
   constexpr double h = 0.25;
   const RunInMemory run = run_in_memory(read_experiment_document(document));
@@ -148,12 +149,13 @@ BOOST_AUTO_TEST_CASE(no_decision_knows_them) {
     const Experiment plain = read_experiment_document(document);
     const std::string expected = in_words(consistent_start(plain));
     const ImplicitSystem& system = *plain.model.system;
-    const std::vector<Index> units = system.manifold()->dilations().point;
+    const std::vector<Index> units = system.manifold()->scaling_symmetries().point;
     for (const int turn : {0, 1}) {
       Json nominal = Json::object();
       int k = turn;
       for (std::size_t i = 0; i < units.size(); ++i)
-        if (units[i] != Manifold::Dilations::none && std::ranges::count(units, units[i]) == 1)
+        if (units[i] != Manifold::ScalingSymmetries::none &&
+            std::ranges::count(units, units[i]) == 1)
           nominal[system.names().coordinates[i]] = k++ % 2 == 0 ? 1e6 : 1e-6;
       for (Index i = 0; i < plain.initial.z.values.size(); ++i)
         if (const std::string& unknown = system.names().auxiliary[static_cast<std::size_t>(i)];

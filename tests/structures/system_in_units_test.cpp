@@ -109,7 +109,7 @@ bool are_taken(const std::shared_ptr<const Manifold>& M, const VectorXd& coordin
 
 // Positions in the plane have a unit each, points of a sphere and angles none; momenta of a sphere share one, those
 // of angles do not.
-BOOST_AUTO_TEST_CASE(units_are_those_of_dilations) {
+BOOST_AUTO_TEST_CASE(units_are_those_of_scaling_symmetries) {
   const auto plane = std::make_shared<Euclidean>(2);
   BOOST_TEST(are_taken(plane, numbers({2.0, 4.0}), numbers({2.0, 4.0})));
   BOOST_TEST(!are_taken(plane, numbers({2.0, 4.0}), numbers({2.0, 2.0})));

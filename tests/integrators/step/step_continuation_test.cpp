@@ -15,7 +15,7 @@ StepContinuation continuation(const Rate& f) {
   const ExprVector y = graph.variables("y", 1), h = graph.variables("h", 1);
   const ExprVector G = ExprVector::Constant(1, y[0] - h[0] * f(y[0]));
   return {Function("G", {{"y", y}, {"h", h}}, G, {.differentiate = {"y"}}),
-          {.displacements = 1, .shifts = 0, .h = 1}};
+          {.displacements = 1, .multipliers = 0, .h = 1}};
 }
 
 struct Followed {

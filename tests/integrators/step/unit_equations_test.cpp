@@ -68,7 +68,7 @@ BOOST_AUTO_TEST_CASE(slopes_of_numbers_tell_units) {
 
 // An angle has the unit 1, and its rate that of 1/T.
 BOOST_AUTO_TEST_CASE(numbers_without_a_unit_stay) {
-  UnitEquations equations({Manifold::Dilations::none}, 0, 2);
+  UnitEquations equations({Manifold::ScalingSymmetries::none}, 0, 2);
   equations.add_slope(2, 0.5);
   const VectorXd c = equations.columns(VectorXd{{7.0, 0.0}});
   BOOST_TEST(std::abs(c[0] - 1.0) < 1e-14);
