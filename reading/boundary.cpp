@@ -14,9 +14,7 @@ namespace {
 // What a condition may be made of: the words of the model, H, and what has a name besides.
 SymbolTable words_at_end(const Model& model, const NamedFormulas& named, const ExprVector& x,
                          const ExprVector& v, const ExprVector& z, const Expr& t) {
-  SymbolTable symbols = model.symbols(x, v, z, t);
-  if (symbols.find("H") == nullptr)
-    if (const auto energy = model.system->energy(x, z, t)) symbols.add("H", *energy);
+  SymbolTable symbols = model.symbols_with_energy(x, v, z, t);
   for (const auto& [name, formula] : named)
     if (symbols.find(name) == nullptr) symbols.add(name, evaluate(formula, symbols));
   return symbols;
@@ -180,14 +178,14 @@ EndConditions end_conditions(const Boundary& boundary, const Model& model, bool 
               ExprVector{{variables.t}});
   const auto control = controlled_end(model);
   const bool adds = boundary.has_transversality(model, at_end);
-  const bool of_states = adds && !are_given(conditions, model, control->states());
   const bool of_time = adds && at_end && boundary.has_free_time;
+  const bool moves = of_time && contains_time;  // then E is that of ν, which p determines
+  const bool of_states = adds && (moves || !are_given(conditions, model, control->states()));
   if (!of_states && !of_time) {
     if (!conditions.empty()) result.formula = given;
     return result;
   }
-  const bool has_multipliers = of_states || contains_time;
-  result.multipliers = has_multipliers ? std::ssize(conditions) : 0;
+  result.multipliers = of_states ? std::ssize(conditions) : 0;
   const Manifold& Q = *control->bundle->base();
   const auto& names = model.system->names().coordinates;
   if (of_states)

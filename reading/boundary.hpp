@@ -43,12 +43,12 @@ struct Boundary {
 std::optional<Boundary> read_boundary(const JsonReader& value, const Model& model,
                                       NamedFormulas named);
 
-// The conditions at the end, or at the beginning. Where the system is one of optimal control, and conditions g(q, t) = 0 are on
-// states and the time alone, with those of transversality, the multipliers ν of g as unknowns:
+// The conditions at the end, or at the beginning. Where the system is one of optimal control, and conditions g(q, t) =
+// 0 are on states and the time alone, with those of transversality, the multipliers ν of g as unknowns:
 //
 //   p + E(q)ᵀ Dg(q)ᵀ ν = 0,   and at a free end of the time E(q, p, u) = ν · ∂g/∂t
 //
-// If all states are given the first are left out; ν is too where g does not contain t.
+// If all states are given, and not as functions of a free time, the first are left out with ν.
 EndConditions end_conditions(const Boundary& boundary, const Model& model, bool at_end);
 
 }  // namespace courant

@@ -1,10 +1,14 @@
 #include "courant/reading/initial_values.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "courant/core/expressions/derivative.hpp"
+#include "courant/reading/cell_formulas.hpp"
 #include "courant/reading/repetition.hpp"
+#include "courant/structures/stokes_dirac/cell_forms.hpp"
 
 namespace courant {
 namespace {
@@ -31,9 +35,9 @@ class Observables {
   explicit Observables(const Model& model) {
     const ImplicitSystem& system = *model.system;
     const Manifold& M = *system.manifold();
-    symbols_ = model.symbols(graph_.variables("x", M.ambient_dimension()),
-                             graph_.variables("v", M.tangent_dimension()),
-                             graph_.variables("z", system.auxiliary_size()), graph_.variable("t"));
+    symbols_ = model.symbols_with_energy(
+        graph_.variables("x", M.ambient_dimension()), graph_.variables("v", M.tangent_dimension()),
+        graph_.variables("z", system.auxiliary_size()), graph_.variable("t"));
   }
   // Whether the name is that of a quantity which depends on the state.
   bool has(const std::string& name) const {
@@ -99,6 +103,40 @@ void read_entry(const std::string& key, const JsonReader& value, const SymbolTab
   target.vector->values.segment(target.first, target.count) = *numbers;
 }
 
+// The entry `"q": {"form": "cos(pi*x)"}` of coordinates that are the integrals of a form over cells.
+void read_form_entry(const std::string& key, const JsonReader& entry, const SymbolTable& constants,
+                     const Model& model, InitialValues& values) {
+  ObjectReader object(entry);
+  const JsonReader value = *object.required("form");
+  Target target{};
+  try {
+    target = find(parse_reference(key), model.vocabulary, values);
+  } catch (const FormulaError& error) {
+    return value.problem(std::string("key, ") + error.what());
+  }
+  const std::vector<CellForm> forms = cell_forms(*model.system);
+  const auto form = std::ranges::find_if(forms, [&](const CellForm& one) {
+    return target.vector == &values.x && one.first == target.first &&
+           one.sizes.size() == target.count;
+  });
+  if (form == forms.end())
+    return value.problem("is of " + key + ", which has no numbers of cells; expected a value");
+  const auto formulas = read_form(value, *form);
+  SymbolTable sample = constants;
+  add_place(sample, form->positions, 0);
+  if (!formulas || !check(*formulas, sample, value.findings())) return;
+  std::vector<Index> cells(static_cast<std::size_t>(target.count));
+  std::iota(cells.begin(), cells.end(), Index{0});
+  const ExprVector numbers = integrated(*form, cells, *formulas, constants);
+  for (Index i = 0; i < target.count; ++i) {
+    if (!numbers[i].is_constant() || !std::isfinite(numbers[i].value()))
+      return value.problem("is not a finite number at the cell " + std::to_string(i) +
+                           "; expected one everywhere");
+    target.vector->values[target.first + i] = numbers[i].value();
+  }
+  target.vector->given.segment(target.first, target.count) = true;
+}
+
 // The entry `"q_C{i}": {"repeat": {"i": [1, "n"]}, "value": "C*{i}"}` for each i.
 void read_entries(const std::string& key, const JsonReader& entry, const SymbolTable& constants,
                   const Model& model, InitialValues& values) {
@@ -108,6 +146,7 @@ void read_entries(const std::string& key, const JsonReader& entry, const SymbolT
       read_entry(*name, entry, constants, model, values);
     return;
   }
+  if (entry.value().contains("form")) return read_form_entry(key, entry, constants, model, values);
   ObjectReader object(entry);
   const auto repeat = object.required("repeat"), value = object.required("value");
   const auto repetition = repeat && value ? Repetition::read(*repeat, constants) : std::nullopt;
@@ -157,10 +196,10 @@ void read_weight(const std::string& key, const JsonReader& value, const Model& m
 // A coordinate that M has no unit for, or one unit for several, cannot be measured by any size.
 void check_sizes(const JsonReader& value, const std::string& key, const Model& model,
                  const VectorXd& sizes, Index first, Index count) {
-  const std::vector<Index> units = model.system->manifold()->dilations().point;
+  const std::vector<Index> units = model.system->manifold()->scaling_symmetries().point;
   const auto unit = [&](Index i) { return units[static_cast<std::size_t>(i)]; };
   for (Index i = first; i < first + count; ++i) {
-    if (unit(i) == Manifold::Dilations::none)
+    if (unit(i) == Manifold::ScalingSymmetries::none)
       return value.problem("is the size of " + key + ", which has none on " +
                            model.system->manifold()->name() + "; expected no size of it");
     for (Index j = 0; j < sizes.size(); ++j)
@@ -253,7 +292,7 @@ bool rest(const Model& model, InitialValues& values) {
     const auto [first, momenta] = names.find(Reference{momentum, {}});
     const auto given = values.x.given.segment(first, momenta);
     // Of a matrix of rotation the momentum has fewer entries: all of its rates are 0, or none is said to be.
-    if (momenta != count && (given.any() || is_given("v_" + declaration.name))) continue;
+    if ((momenta != count && given.any()) || is_given("v_" + declaration.name)) continue;
     for (Index i = 0; i < count; ++i)
       if (momenta != count || !given[i]) set(values.velocity, position + i);
   }

@@ -48,8 +48,8 @@ struct InitialValues {
 // pointers of what is wrong are those of the entries. Every quantity that can be observed may be given.
 //
 // "rest", or `"rest": true` in the object: velocities that are not given are 0. Those are dx/dt of the base of a
-// cotangent bundle, of a matrix of rotation where neither an entry of its momentum nor its angular velocity is given, and
-// coordinates v that an equation `x' - v` says to be velocities. Of a model that starts at 0 nothing has to be one.
+// cotangent bundle, of a matrix of rotation where neither an entry of its momentum nor its angular velocity is given,
+// and coordinates v that an equation `x' - v` says to be velocities. Of a model that starts at 0 nothing has to be one.
 std::optional<InitialValues> read_initial_values(const JsonReader& initial,
                                                  const std::optional<JsonReader>& hold,
                                                  const std::optional<JsonReader>& weights,

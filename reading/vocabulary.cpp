@@ -1,8 +1,11 @@
 #include "courant/reading/vocabulary.hpp"
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include "courant/core/expressions/derivative.hpp"
+#include "courant/core/expressions/expr_vectors.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/core/words/spelling.hpp"
 
@@ -53,38 +56,64 @@ Graph graph_in(const Vocabulary::Arguments& arguments) {
   return arguments.t ? graph_of(ExprVector{{*arguments.t}}) : Graph::none();
 }
 
-// The time derivatives of definitions, one after the other, where there is a velocity.
+// The time derivatives of definitions, one after the other, where there is a velocity. In a later definition an earlier
+// one is a variable, and its rate another: a chain of definitions takes the work of its links, and not of their square.
 class DefinitionRates {
  public:
-  DefinitionRates(const Vocabulary& vocabulary, const Vocabulary::Arguments& arguments)
-      : arguments_(arguments) {
+  DefinitionRates(const Vocabulary& vocabulary, const Vocabulary::Arguments& arguments) {
     if (!arguments.x || !arguments.velocity || !arguments.t) return;
-    graph_ = fresh_graph({*arguments.x, *arguments.velocity, ExprVector{{*arguments.t}}});
-    at_ = graph_.variables("at", vocabulary.coordinates.size() + 1);
-    velocity_ = graph_.variables("velocity", vocabulary.coordinates.size());
+    const ExprVector t{{*arguments.t}}, one{{Expr(1.0)}};
+    graph_ = fresh_graph({*arguments.x, *arguments.velocity, t});
+    extended_ = quantity(joined(*arguments.x, t), joined(*arguments.velocity, one));
     Vocabulary plain = vocabulary;
     plain.definitions.clear();
-    known_ = plain.symbols({.x = at_.head(at_.size() - 1), .t = at_[at_.size() - 1]});
+    const Index n = vocabulary.coordinates.size();
+    known_ = plain.symbols({.x = extended_.at.head(n), .t = extended_.at[n]});
   }
-  // Adds name' to the table, if the definition is one of coordinates and t.
+  // Adds name' to the table, which has the definition, if this is one of coordinates and t.
   void add(const Definition& definition, SymbolTable& symbols) {
-    if (at_.size() == 0 || !is_available(definition, known_)) return;
-    const ExprVector value = value_of(definition, known_);
-    known_.add(definition.name, definition.formulas.shape, value);
-    const Index n = at_.size() - 1;
-    ExprVector direction(n + 1), variables(2 * n + 1), replacement(2 * n + 1);
-    direction << velocity_, Expr(1.0);
-    variables << at_, velocity_;
-    replacement << *arguments_.x, *arguments_.t, *arguments_.velocity;
-    symbols.add_velocity(definition.name, definition.formulas.shape,
-                         substitute(tangent(value, at_, direction), variables, replacement));
+    if (extended_.at.size() == 0 || !is_available(definition, known_)) return;
+    const ExprVector formulas = value_of(definition, known_);
+    std::vector<ExprVector> at{extended_.at}, along{extended_.along}, value{extended_.value},
+        rate{extended_.rate};
+    for (const std::string& name : earlier_in(definition)) {
+      const Quantity& used = earlier_.at(name);
+      at.push_back(used.at);
+      along.push_back(used.along);
+      value.push_back(used.value);
+      rate.push_back(used.rate);
+    }
+    const ExprVector derivative = tangent(formulas, joined(at), joined(along));
+    const Quantity here = quantity(symbols.find(definition.name)->values,
+                                   substitute(derivative, joined(joined(at), joined(along)),
+                                              joined(joined(value), joined(rate))));
+    symbols.add_velocity(definition.name, definition.formulas.shape, here.rate);
+    known_.add(definition.name, definition.formulas.shape, here.at);
+    earlier_.emplace(definition.name, here);
   }
 
  private:
-  Vocabulary::Arguments arguments_;
+  // A value and its rate, and the variables that stand for these.
+  struct Quantity {
+    ExprVector value, rate, at, along;
+  };
+  Quantity quantity(const ExprVector& value, const ExprVector& rate) {
+    return {value, rate, graph_.variables("at", value.size()),
+            graph_.variables("along", value.size())};
+  }
+  // The earlier definitions that one is made of, each once.
+  std::set<std::string> earlier_in(const Definition& definition) const {
+    std::set<std::string> names;
+    for (const WrittenFormula& formula : definition.formulas.formulas)
+      for (const std::string& name : names_used(formula.text))
+        if (earlier_.contains(name)) names.insert(name);
+    return names;
+  }
+
   Graph graph_;
-  ExprVector at_, velocity_;  // (x, t) and dx/dt, as variables
-  SymbolTable known_;         // at these
+  Quantity extended_;  // (x, t)
+  std::map<std::string, Quantity> earlier_;
+  SymbolTable known_;  // at the variables
 };
 
 // Whether the formulas consist of words that formulas have; a problem for each that does not.
@@ -284,6 +313,14 @@ SymbolTable Vocabulary::symbols(const Arguments& arguments) const {
   return symbols;
 }
 
+Vocabulary Vocabulary::of_time() const {
+  Vocabulary result;
+  result.parameters = parameters;
+  result.parameter_formulas = parameter_formulas;
+  result.tables = tables;
+  return result;
+}
+
 std::vector<Parameter> Vocabulary::numbers() const {
   std::vector<Parameter> found;
   for (const auto& [name, symbol] : parameters) {
@@ -335,6 +372,19 @@ bool read_names(const JsonReader& value, SymbolTable& taken, NameList& names) {
     }
   }
   return right;
+}
+
+bool take_new_names(const NameList& names, const std::string& whose, SymbolTable& taken,
+                    const JsonReader& place) {
+  for (const Declaration& declaration : names.declarations()) {
+    if (taken.find(declaration.name)) {
+      place.problem(whose + " have the name \"" + declaration.name +
+                    "\", which has a meaning already; expected another name in its place");
+      return false;
+    }
+    taken.add(declaration.name, declaration.shape, ExprVector::Ones(declaration.size()));
+  }
+  return true;
 }
 
 Vocabulary read_vocabulary(ObjectReader& system, const std::vector<std::string>& reserved) {

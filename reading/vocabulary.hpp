@@ -94,6 +94,8 @@ struct Vocabulary {
   // Throws FormulaError if a definition is wrong, std::invalid_argument if a name repeats or a size
   // is wrong.
   SymbolTable symbols(const Arguments& arguments) const;
+  // Parameters and tables alone, without names of a system: what a formula of t may contain.
+  Vocabulary of_time() const;
   // Parameters element by element, as numbers with names: what add_parameters() may make variables of a graph.
   std::vector<Parameter> numbers() const;
   // The part of it that formulas of x, t and these names need, and maybe more: quick where there are many
@@ -109,6 +111,10 @@ struct Vocabulary {
 // The declarations of an array such as ["x", "r[n][3]"] are appended to `names`; `taken` has the
 // names that may not be used again, and gets the new ones.
 bool read_names(const JsonReader& value, SymbolTable& taken, NameList& names);
+// Adds the names that something brings, such as "the ports", to those that are taken. Whether none of them has a meaning
+// already; a problem at the place for the first that has one.
+bool take_new_names(const NameList& names, const std::string& whose, SymbolTable& taken,
+                    const JsonReader& place);
 // The keys `parameters`, `tables` and `definitions` of a system. No parameter or table may have one of
 // the `reserved` names. Each is evaluated at once; one that is wrong is a problem and stands for 1, so that
 // formulas with it are not problems too. What definitions mean is not looked into before

@@ -6,6 +6,7 @@
 #include "courant/core/words/message.hpp"
 #include "courant/integrators/step/solve_error.hpp"
 #include "courant/running/consistent_start.hpp"
+#include "courant/running/varied_system.hpp"
 
 namespace courant {
 namespace {
@@ -55,11 +56,10 @@ BoundarySolution solved(const Experiment& experiment, const std::atomic<bool>* s
   const BoundaryOptions options{.stop = stop};
   const auto& continuation = experiment.boundary->continuation;
   if (!continuation) return solve_boundary_problem(boundary_problem(experiment), options);
-  const auto at = [&](double c) {
-    Json document = experiment.document;
-    document["system"]["parameters"][continuation->parameter] = c;
-    return boundary_problem(read_experiment_document(document));
-  };
+  const Sensitivities::Variable parameter{.name = continuation->parameter,
+                                          .pointer = kBoundary + "/continuation/parameter",
+                                          .parameter = continuation->parameter};
+  const auto at = [&](double c) { return boundary_problem(with_number(experiment, parameter, c)); };
   BoundarySolution solution =
       continue_boundary_problem(at, continuation->from, continuation->to, options);
   if (!solution.reason.empty())
@@ -131,6 +131,15 @@ std::shared_ptr<const Experiment> with_boundary_solved(const Experiment& experim
   return result;
 }
 
+std::map<long, VectorXd> nodes_of_run(const Experiment& experiment) {
+  std::map<long, VectorXd> nodes;
+  const auto& solution = experiment.solution;
+  if (!solution || !solution->needs_nodes) return nodes;
+  for (std::size_t i = 1; i < solution->nodes.size(); ++i)
+    nodes[solution->steps_before(i)] = solution->nodes[i].x;
+  return nodes;
+}
+
 bool is_unsolved(const Experiment& experiment) {
   return experiment.solution && experiment.solution->verdict == BoundarySolution::Verdict::unsolved;
 }
@@ -141,6 +150,7 @@ Json boundary_summary(const BoundarySolution& solution) {
             {"conditions", Json::object()},           {"jump", solution.jump}};
   for (const auto& [name, residual] : solution.conditions) json["conditions"][name] = residual;
   if (solution.closure) json["closure"] = *solution.closure;
+  if (solution.needs_nodes) json["needs_nodes"] = true;
   if (!solution.reason.empty()) json["reason"] = solution.reason;
   if (solution.verdict == BoundarySolution::Verdict::unsolved) return json;
   const VectorXd& values = solution.rank.singular_values;
@@ -162,10 +172,17 @@ std::vector<std::string> boundary_in_words(const BoundarySolution& solution) {
   double greatest = solution.closure.value_or(0.0);
   for (const auto& condition : solution.conditions)
     greatest = std::fmax(greatest, std::fabs(condition.residual));
-  lines.push_back("The motion meets its conditions to " + number_text(greatest, 2) + ", after " +
-                  std::to_string(solution.iterations) +
+  const bool is_whole = !solution.needs_nodes;
+  lines.push_back("The motion meets its conditions " +
+                  (is_whole ? "to " + number_text(greatest, 2)
+                            : "with jumps of " + number_text(solution.jump, 2) + " at its nodes") +
+                  ", after " + std::to_string(solution.iterations) +
                   (solution.iterations == 1 ? " iteration" : " iterations") +
                   " of Newton's method. It takes " + number_text(solution.duration(), 10) + ".");
+  if (!is_whole)
+    lines.push_back("From its initial values alone it would miss them by " +
+                    number_text(greatest, 2) +
+                    ", so fast does round-off grow: the run goes on from node to node.");
   const RankDecision& rank = solution.rank;
   const std::string ranks = "the shooting matrix has rank " + std::to_string(rank.rank) + " of " +
                             std::to_string(rank.columns) + " unknowns, with a gap of " +

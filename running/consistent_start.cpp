@@ -138,11 +138,13 @@ std::vector<std::string> undetermined(const Experiment& experiment,
   return names;
 }
 
-// The components of v = C ẋ that a part of the velocities ẋ determines.
-Flags components_of(const Flags& velocities, const Manifold& M, const LinearMap<double>& coframe) {
-  if (M.tangent_dimension() == M.ambient_dimension()) return velocities;  // v = ẋ
+// The components of v = C ẋ that a part of the velocities ẋ determines; `are_velocities`: those that are one of them.
+Flags components_of(const Flags& velocities, const Flags& are_velocities,
+                    const LinearMap<double>& coframe) {
+  if (are_velocities.all()) return velocities;
   const double negligible = 1e-9 * coframe.entries().cwiseAbs().maxCoeff();
   return Flags::NullaryExpr(coframe.rows(), [&](Index i) {
+    if (are_velocities[i]) return velocities[i];
     bool any = false;
     for (Index j = 0; j < coframe.cols(); ++j) {
       if (std::fabs(coframe(i, j)) <= negligible) continue;
@@ -299,6 +301,8 @@ class StartSearch {
       : experiment_(experiment),
         initial_(experiment.initial),
         coframe_(manifold_near_start().coframe(initial_.x.values)),
+        are_velocities_(
+            experiment.model.system->manifold()->velocities_among_components(initial_.x.values)),
         guess_(first_guess()),
         weight_(
             initial_.x.given.cast<double>().matrix().cwiseProduct(initial_.cost_of_coordinates())),
@@ -362,9 +366,8 @@ class StartSearch {
 
   InitialGuess holding(InitialGuess guess, const Flags& x, const Flags& velocities,
                        const Flags& unknowns) const {
-    const Manifold& M = *experiment_.model.system->manifold();
     guess.hold_x = indices(x);
-    guess.hold_v = indices(components_of(velocities, M, coframe_));
+    guess.hold_v = indices(components_of(velocities, are_velocities_, coframe_));
     guess.hold_z = indices(unknowns);
     return guess;
   }
@@ -532,6 +535,7 @@ class StartSearch {
   const Experiment& experiment_;
   const InitialValues& initial_;
   LinearMap<double> coframe_;
+  Flags are_velocities_;  // of the components of v
   InitialGuess guess_;
   VectorXd weight_;  // of the coordinates that are given
   Decider decider_;

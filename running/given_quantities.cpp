@@ -50,7 +50,7 @@ struct Equations {
     const ExprVector equations = system.residual(x, v, z, t);
     residual = joined(equations, M.constraint(x), rates(equations, M.frame(x) * v, x, v, z, t));
     residual = substitute(residual, ExprVector::Constant(1, t), ExprVector::Constant(1, start));
-    const SymbolTable symbols = experiment.model.symbols(x, v, z, start);
+    const SymbolTable symbols = experiment.model.symbols_with_energy(x, v, z, start);
     const auto& given = experiment.initial.quantities;
     quantities.resize(std::ssize(given));
     for (Index i = 0; i < quantities.size(); ++i)
@@ -257,6 +257,37 @@ Flags moved(const VectorXd& y, const VectorXd& from, const MatrixXd& jacobian) {
   return (y - from).array().abs() > round_off * units.column_scale.array();
 }
 
+// A quantity that has another value and no derivative, as a kinetic energy at rest, tells no way to a state that has it: the
+// first such one, by its row, else none. `rest` and J of the equations and the quantities, which come last.
+std::optional<std::size_t> without_way(const InitialValues& initial, const Chosen& open,
+                                       const VectorXd& rest, const MatrixXd& J) {
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    const Index row = rest.size() - std::ssize(open) + static_cast<Index>(k);
+    const double given = quantity_at(initial, open[k]).value;
+    const double size = std::fabs(given) + std::fabs(given + rest[row]);
+    if (J.row(row).isZero(0.0) && std::fabs(rest[row]) > kSameValue * size) return k;
+  }
+  return std::nullopt;
+}
+
+void check_way(const InitialValues& initial, const Chosen& open, const VectorXd& rest,
+               const MatrixXd& J) {
+  const auto found = without_way(initial, open, rest, J);
+  if (!found) return;
+  const GivenQuantity& quantity = quantity_at(initial, open[*found]);
+  const double here =
+      quantity.value + rest[rest.size() - std::ssize(open) + static_cast<Index>(*found)];
+  throw ExperimentError(quantity.formula.pointer,
+                        "is given as " + number_text(quantity.value) + " and is " +
+                            number_text(here) +
+                            " at the initial values, where it does not change to first order with "
+                            "anything that is not given; expected coordinates or velocities that "
+                            "have it");
+}
+
+// Which columns the rows of J determine and the first r of them do not: those that quantities tell, a velocity of 0 too.
+Flags told(const MatrixXd& J, Index r) { return determined(J) && !determined(J.topRows(r)); }
+
 }  // namespace
 
 InitialValues with_quantities(const Experiment& experiment) {
@@ -270,9 +301,12 @@ InitialValues with_quantities(const Experiment& experiment) {
   const Index r = equations.residual.size(), q = std::ssize(open);
   const ExprVector both = joined(equations.residual, ExprVector(equations.quantities(open)));
   const Function map("given quantities", {{"y", equations.all}}, both, {.differentiate = {"y"}});
-  // What is given stays; velocities and other unknowns move as they like, and coordinates as little as they can.
+  // What is given stays; velocities, from those that are given, and other unknowns move as they like, and coordinates as
+  // little as they can.
   VectorXd y = VectorXd::Zero(N + n + m), moves = VectorXd::Ones(y.size());
   y.head(N) = initial.x.values;
+  y.segment(N, n) =
+      experiment.model.system->manifold()->coframe(initial.x.values) * initial.velocity.values;
   y.tail(m) = experiment.model.system->auxiliary_guess(initial.x.values, VectorXd());
   for (Index i = 0; i < initial.z.given.size(); ++i)
     if (initial.z.given[i]) {
@@ -282,6 +316,16 @@ InitialValues with_quantities(const Experiment& experiment) {
   moves.head(N) = (!initial.x.given).cast<double>();
   VectorXd target = VectorXd::Zero(r + q);
   target.tail(q) = given_values(initial, open);
+  // Of momenta that nobody gave an energy says nothing until they follow from the velocities that were given.
+  if (without_way(initial, open, map({y}) - target, map.jacobian({y}) * moves.asDiagonal())) {
+    const Function of_equations("equations", {{"y", equations.all}}, equations.residual,
+                                {.differentiate = {"y"}});
+    VectorXd beside = moves;
+    beside.segment(N, n).setZero();
+    if (const auto follows = zero_near(of_equations, VectorXd::Zero(r), y, beside, N))
+      y = follows->y;
+    check_way(initial, open, map({y}) - target, map.jacobian({y}) * moves.asDiagonal());
+  }
   const auto found = zero_near(map, target, y, moves, N);
   if (!found)
     throw ExperimentError(quantity_at(initial, open.front()).formula.pointer,
@@ -289,10 +333,18 @@ InitialValues with_quantities(const Experiment& experiment) {
                           "looked for");
   const bool held =
       std::ranges::any_of(open, [&](Index i) { return quantity_at(initial, i).held; });
-  const Flags is_moved = moved(found->y, y, map.jacobian({found->y}));
+  const MatrixXd J = map.jacobian({found->y});
+  const Flags is_moved = moved(found->y, y, J), is_told = told(J * moves.asDiagonal(), r);
+  // What did not move stays what it was, where quantities are no farther off with it.
+  const VectorXd stays = is_moved.select(found->y, y);
+  const auto missed = [&](const VectorXd& at) {
+    return (map({at}) - target).tail(q).cwiseAbs().eval();
+  };
+  const VectorXd& point =
+      (missed(stays).array() <= missed(found->y).array()).all() ? stays : found->y;
   for (Index i = 0; i < N; ++i) {
-    if (initial.x.given[i] || !is_moved[i]) continue;
-    initial.x.values[i] = found->y[i];
+    if (initial.x.given[i] || !(is_moved[i] || is_told[i])) continue;
+    initial.x.values[i] = point[i];
     initial.x.given[i] = true;
     initial.x.held[i] = initial.x.held[i] || held;
   }

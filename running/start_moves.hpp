@@ -15,16 +15,17 @@ struct StartMoves {
   // One sentence for each kind that moved by more than rounding explains, and one where the start was not shown to be
   // the nearest; empty if there is nothing to say.
   std::string warning;
-  // Why the start is no start of a run: an impasse, or a kind that moved by more than a tenth of itself, though nothing says that its
-  // values may move ("start": "nearest", or "hold" for those that must not). Unknowns choose branches and may always.
+  // Why the start is no start of a run: an impasse, or a kind that moved by more than a tenth of itself, though nothing
+  // says that its values may move ("start": "nearest", or "hold" for those that must not). Unknowns choose branches and
+  // may always.
   std::string refusal;
 };
 
 // `ladder`: the consistent start of the experiment.
 StartMoves start_moves(const Experiment& experiment, const ConsistentStart& ladder);
 
-// consistent_start, for a run that begins there. Throws ExperimentError where it moved too far for one: without a method
-// nothing begins.
+// consistent_start, for a run that begins there. Throws ExperimentError where it moved too far for one: without a
+// method nothing begins.
 ConsistentStart start_of_run(const Experiment& experiment);
 
 }  // namespace courant

@@ -86,10 +86,13 @@ class MotionStage {
  private:
   // The components of v = C ẋ of which something is given.
   static Chosen given_components(const InitialValues& initial, const Manifold& M) {
-    if (M.tangent_dimension() == M.ambient_dimension()) return initial.velocity.given;
+    const Chosen& given = initial.velocity.given;
+    if (M.has_identity_frame()) return given;
+    const Chosen are_velocities = M.velocities_among_components(initial.x.values);
     const MatrixXd C = M.coframe(initial.x.values).entries().cwiseAbs();
-    const VectorXd of_given = C * initial.velocity.given.cast<double>().matrix();
-    return of_given.array() > 0.0;
+    const VectorXd of_given = C * given.cast<double>().matrix();
+    return Chosen::NullaryExpr(
+        of_given.size(), [&](Index i) { return are_velocities[i] ? given[i] : of_given[i] > 0.0; });
   }
 
   // g at the positions; empty where there is none.

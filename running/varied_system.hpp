@@ -13,14 +13,14 @@
 
 namespace courant {
 
-// S with the p parameters that are varied as coordinates (ParameterExtension), near the start of a run; S itself where p = 0.
-// Points are (x, θ). Immutable.
+// S with the p parameters that are varied as coordinates (ParameterExtension), near the start of a run; S itself where
+// p = 0. Points are (x, θ). Immutable.
 class VariedSystem {
  public:
-  // `ladder`: of the experiment, at its start. Throws ExperimentError at /sensitivities where the system is not regular, and at
-  // the name of a parameter that cannot be varied: where an experiment with another number there has other sizes, other
-  // times or no meaning; where equations, energy or space take the number when they are read, so that their
-  // derivative by it is not known; where near it the certificate is another one.
+  // `ladder`: of the experiment, at its start. Throws ExperimentError at /sensitivities where the system is not
+  // regular, and at the name of a parameter that cannot be varied: where an experiment with another number there has
+  // other sizes, other times or no meaning; where equations, energy or space take the number when they are read, so
+  // that their derivative by it is not known; where near it the certificate is another one.
   VariedSystem(const Experiment& experiment, const ConstraintLadder& ladder);
 
   Index count() const { return extension_ ? extension_->count() : 0; }  // p
@@ -50,8 +50,8 @@ class VariedSystem {
   std::shared_ptr<const Field> field_;
 };
 
-// The experiment with another number in the place of one that is varied: read again for a parameter. Throws ExperimentError
-// as reading does.
+// The experiment with another number in the place of one that is varied: read again for a parameter. Throws
+// ExperimentError as reading does.
 Experiment with_number(const Experiment& experiment, const Sensitivities::Variable& variable,
                        double value);
 

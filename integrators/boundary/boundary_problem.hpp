@@ -21,8 +21,8 @@ struct EndPoint {
   const ExprVector& multipliers;
 };
 
-// r(x, v, z, t, ν) = 0 at one end. The multipliers ν are unknowns that stand nowhere else: with conditions g(x) = 0 on the
-// states of an optimal control problem, p + Dg(x)ᵀ ν = 0 are its transversality conditions.
+// r(x, v, z, t, ν) = 0 at one end. The multipliers ν are unknowns that stand nowhere else: with conditions g(x) = 0 on
+// the states of an optimal control problem, p + Dg(x)ᵀ ν = 0 are its transversality conditions.
 struct EndConditions {
   std::function<ExprVector(const EndPoint&)> formula = {};  // empty: no conditions
   std::vector<std::string> names = {};  // of the conditions, for messages; empty: numbered
@@ -33,8 +33,8 @@ struct EndConditions {
 //
 //   r_0(x_0, t_0) = 0,   r_T(x_n, t_0 + n h) = 0,   x_n = x_0 if periodic,   x_{j+1} = Φ_h(x_j)
 //
-// for the steps Φ_h of a method: the discrete motion itself meets the conditions, not an approximation of another one. With a
-// free time the number of steps n stays and their size changes.
+// for the steps Φ_h of a method: the discrete motion itself meets the conditions, not an approximation of another one.
+// With a free time the number of steps n stays and their size changes.
 struct BoundaryProblem {
   std::shared_ptr<const Integrator> method;
   ConstraintLadder ladder;  // of the method's system near the guess; regular

@@ -23,15 +23,18 @@ constexpr double kLeastDamping = 1e-6;
 constexpr double kHolds = 1e-8;
 // Where ‖Δ‖ is below this part of the states, round-off may keep it from falling further.
 constexpr double kNearRoundOff = 1e-7;
+// Of the size of states: what a run without a break may miss.
 constexpr double kCloses = 1e-6;
 // The cosine of the angle between the velocity of a motion and what is free: discrete motions turn it by the order of the method.
 constexpr double kIsPhase = 0.999;
+// Next to states that become smaller and smaller, on the way to a motion that is 0, no change is ever small.
+constexpr double kLeastSize = 1e-100;
 
 double size_of_states(const Shooting::Motion& motion) {
   double size = 0.0;
   for (const State& node : motion.nodes)
     if (node.x.size() > 0) size = std::max(size, node.x.lpNorm<Eigen::Infinity>());
-  return size > 0.0 ? size : 1.0;
+  return size > 0.0 ? std::max(size, kLeastSize) : 1.0;
 }
 
 // One unit for all rows: what is round-off in one is not scaled up.
@@ -58,6 +61,7 @@ class MotionSearch {
     const bool ended = iterate();
     BoundarySolution solution = told();
     if (ended && holds()) {
+      solution.needs_nodes = !is_run(solution);
       take_rank(solution);
       take_second_order(solution);
     } else {
@@ -221,6 +225,18 @@ class MotionSearch {
     return solution;
   }
 
+  // Whether the run from the start, without a break, comes to the end.
+  bool is_run(const BoundarySolution& solution) const {
+    const double most = kCloses * size_of_states(motion_);
+    const Index first = shooting_.initial_count(), all = std::ssize(solution.conditions);
+    for (Index i = 0; i < all; ++i) {
+      const double weight = weights_[i < first ? i : weights_.size() - all + i];
+      if (!(std::fabs(weight * solution.conditions[static_cast<std::size_t>(i)].residual) <= most))
+        return false;
+    }
+    return !solution.closure || *solution.closure <= most;
+  }
+
   // Velocity and unknowns, which say what branch is meant where there are several.
   void take_rates(State& at) const {
     try {
@@ -269,7 +285,8 @@ class MotionSearch {
         solution.floquet = shooting_.flow()
                                .over(motion_.h, problem_.steps)
                                .multipliers(solution.start, V, kCloses * size_of_states(motion_));
-      } else if (!problem_.has_free_time && shooting_.multiplier_count() == 0) {
+      } else if (!problem_.has_free_time && shooting_.multiplier_count() == 0 &&
+                 !solution.needs_nodes) {
         solution.conjugate_times =
             conjugate_times(shooting_, solution.start, motion_.h, problem_.steps);
       }

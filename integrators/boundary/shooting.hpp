@@ -15,11 +15,11 @@ namespace courant {
 //
 //   r_0(s_0, t_0, ν_0) = 0,   Bᵀ (Φ(s_{i-1}) - s_i) = 0 for i = 1, …, m-1,   r_T(Φ(s_{m-1}), t_n, ν_T) = 0
 //
-// and of a periodic one Bᵀ (Φ(s_{m-1}) - s_0) = 0, with an orthonormal basis B of the tangent space of M_f at the node. Unknowns
-// are ξ_i, with which s_i moves to P(R(B ξ_i)), τ = log(h/h₀) if the time is free, and the multipliers.
+// and of a periodic one Bᵀ (Φ(s_{m-1}) - s_0) = 0, with an orthonormal basis B of the tangent space of M_f at the node.
+// Unknowns are ξ_i, with which s_i moves to P(R(B ξ_i)), τ = log(h/h₀) if the time is free, and the multipliers.
 //
-// The matrix has the tangent maps of DiscreteFlow, exact to round-off; its column of τ is a difference of order 4, exact to some
-// ten digits. Immutable.
+// The matrix has the tangent maps of DiscreteFlow, exact to round-off; its column of τ is a difference of order 4,
+// exact to some ten digits. Immutable.
 class Shooting {
  public:
   // Throws std::invalid_argument as ConsistentPoints and DiscreteFlow do.
@@ -31,7 +31,8 @@ class Shooting {
     double h = 0.0;
     VectorXd multipliers = {};  // ν_0, then ν_T
   };
-  // That of the guess; nodes after a step that cannot be made are where it began. Throws SolveError where the first step fails.
+  // That of the guess; nodes after a step that cannot be made are where it began. Throws SolveError where the first
+  // step fails.
   Motion guess() const;
 
   using Bases = std::vector<MatrixXd>;
@@ -42,8 +43,8 @@ class Shooting {
   struct Linear {
     VectorXd residual;
     MatrixXd matrix;
-    // Of each row: 1 of those of jumps; of a condition the norm of its gradient by all that it may depend on, which, other
-    // than its slopes along M_f, is not small because the condition follows from others.
+    // Of each row: 1 of those of jumps; of a condition the norm of its gradient by all that it may depend on, which,
+    // other than its slopes along M_f, is not small because the condition follows from others.
     VectorXd sizes;
   };
   Linear linear(const Motion& motion, const Bases& bases) const;

@@ -1,7 +1,10 @@
 #include "courant/integrators/certificate/binary_scales.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+
+#include "courant/integrators/certificate/dimensionless_arguments.hpp"
 
 namespace courant {
 namespace {
@@ -87,10 +90,39 @@ void complete_sizes(const std::vector<SizedEntry>& entries, BinaryScales& scales
     scales.row[i] = of_row[i] == no_exponent ? 0 : -of_row[i];
 }
 
+// Of each unknown, whether it is below 2^limit of 1 in what a sine, an exponential or another function of numbers is of:
+// such arguments are of the size of 1, whatever else stands beside them. Arguments that are linear in the unknowns alone:
+// of a product nothing tells which factor is small.
+std::vector<bool> small_angles(const JetEquations& equations, const Jet& jet, std::int64_t limit) {
+  std::vector<bool> found(jet.y.size(), false);
+  const ImplicitSystem& system = equations.system();
+  const Index N = equations.point_size(), m = equations.auxiliary_size();
+  VectorXd point = VectorXd::Zero(N + system.manifold()->tangent_dimension() + m + 1);
+  for (Index j = 0; j < N; ++j) point[j] = static_cast<double>(jet.y[static_cast<std::size_t>(j)]);
+  const double least = std::ldexp(1.0, static_cast<int>(limit));
+  if (!point.head(N).unaryExpr([](double x) { return x != 0.0 && std::fabs(x) < 1.0; }).any())
+    return found;
+  const DimensionlessArguments arguments(system);
+  const auto here = arguments.slopes(point), there = arguments.slopes(point.array() + 1.0);
+  const auto is_constant = [&](const DimensionlessArguments::Slope& slope) {
+    return std::ranges::any_of(there, [&](const auto& other) {
+      return other.argument == slope.argument && other.unknown == slope.unknown &&
+             other.size == slope.size;
+    });
+  };
+  for (const auto& slope : here)
+    if (slope.unknown < N && is_constant(slope)) {
+      const double part = slope.size * std::fabs(point[slope.unknown]);
+      if (part > 0.0 && part < least) found[static_cast<std::size_t>(slope.unknown)] = true;
+    }
+  return found;
+}
+
 }  // namespace
 
 std::vector<Index> rounded_unknowns(const JetEquations& equations, const Jet& jet) {
   constexpr std::int64_t rounding = -50;
+  const std::vector<bool> is_small_angle = small_angles(equations, jet, rounding);
   const auto at = equations.at(jet.t, jet.y, jet.k);
   BinaryScales sizes(equations, jet.k);
   for (std::size_t j = 0; j < jet.y.size(); ++j) {
@@ -104,7 +136,8 @@ std::vector<Index> rounded_unknowns(const JetEquations& equations, const Jet& je
   for (const SizedEntry& a : entries) stands[a.column] = true;
   std::vector<Index> found;
   for (std::size_t j = 0; j < jet.y.size(); ++j)
-    if (sizes.is_known[j] && stands[j] && !counts[j]) found.push_back(static_cast<Index>(j));
+    if (sizes.is_known[j] && stands[j] && (!counts[j] || is_small_angle[j]))
+      found.push_back(static_cast<Index>(j));
   return found;
 }
 

@@ -33,8 +33,8 @@ struct BinaryScales {
   void update(const std::vector<JetEquations::Entry>& places, const std::vector<Digits>& entries);
 };
 
-// The unknowns of a jet that are below 2⁻⁵⁰ of other terms in every equation in which they stand, and not zero: what is
-// left where an angle was typed as a double.
+// The unknowns of a jet that are not zero, and below 2⁻⁵⁰ of other terms in every equation in which they stand, or of 1 in
+// what a sine or another function of numbers is of: what is left of a zero that was typed or computed as a double.
 std::vector<Index> rounded_unknowns(const JetEquations& equations, const Jet& jet);
 
 }  // namespace courant

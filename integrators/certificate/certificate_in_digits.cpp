@@ -301,31 +301,47 @@ std::optional<Doubt> doubt_of_sides(const Certifier& certifier, const Constraint
       "A switch (abs, sign, min, max or a comparison) is at its edge at this point:" + sides + ".");
 }
 
+// What is found with the coordinates as they were given, and with 0 for those that look like the rounding of a zero.
+struct Certified {
+  ConstraintLadder result;
+  std::optional<ConstraintLadder> without_rounding = std::nullopt;
+};
+
+Certified certified(const JetEquations& equations, const InitialGuess& guess,
+                    const ConstraintAlgorithm::Options& options, Decider decider) {
+  Certifier certifier(equations, guess, options, decider);
+  Certified found{.result = certifier.run()};
+  ConstraintLadder& result = found.result;
+  if (decider == Decider::proof && !result.proof)
+    result.proof =
+        LadderProof{.missing = "Only ladders that are regular or gauge are proved; this one is " +
+                               to_string(result.verdict) + "."};
+  if (const std::optional<InitialGuess> rounded = certifier.without_rounding())
+    found.without_rounding = Certifier(equations, *rounded, options).run();
+  if (certifier.is_at_edge())
+    if (const auto doubt = doubt_of_sides(certifier, result, equations, guess, options))
+      result.doubts.push_back(*doubt);
+  return found;
+}
+
+// Doubts a ladder that is another one without the rounding of zeros.
+void doubt_rounding(ConstraintLadder& ladder, const Certified& found) {
+  if (!found.without_rounding || are_alike(*found.without_rounding, ladder)) return;
+  ladder.doubts.emplace_back(Doubt::Kind::near_singular,
+                             "With 0 for what looks like the rounding of a zero among the given "
+                             "coordinates the ladder is " +
+                                 to_string(found.without_rounding->verdict) + " " +
+                                 dimensions_in_words(found.without_rounding->levels) + ".");
+}
+
 }  // namespace
 
 ConstraintLadder certificate_in_digits(const JetEquations& equations, const InitialGuess& guess,
                                        const ConstraintAlgorithm::Options& options,
                                        Decider decider) {
-  Certifier certifier(equations, guess, options, decider);
-  const std::optional<InitialGuess> rounded = certifier.without_rounding();
-  ConstraintLadder result = certifier.run();
-  if (decider == Decider::proof && !result.proof)
-    result.proof =
-        LadderProof{.missing = "Only ladders that are regular or gauge are proved; this one is " +
-                               to_string(result.verdict) + "."};
-  if (rounded) {
-    const ConstraintLadder other = Certifier(equations, *rounded, options).run();
-    if (!are_alike(other, result))
-      result.doubts.emplace_back(
-          Doubt::Kind::near_singular,
-          "With 0 for what looks like the rounding of a zero among the given "
-          "coordinates the ladder is " +
-              to_string(other.verdict) + " " + dimensions_in_words(other.levels) + ".");
-  }
-  if (!certifier.is_at_edge()) return result;
-  if (const auto doubt = doubt_of_sides(certifier, result, equations, guess, options))
-    result.doubts.push_back(*doubt);
-  return result;
+  Certified found = certified(equations, guess, options, decider);
+  doubt_rounding(found.result, found);
+  return std::move(found.result);
 }
 
 std::shared_ptr<const JetEquations> equations_in_digits(
@@ -344,16 +360,16 @@ ConstraintLadder decided_together(ConstraintLadder by_bounds, const JetEquations
   const bool is_sure = !by_bounds.is_ambiguous();
   if (is_sure && equations.point_size() + equations.auxiliary_size() > most_unknowns)
     return by_bounds;
-  ConstraintLadder by_digits = certificate_in_digits(equations, guess, options);
+  Certified found = certified(equations, guess, options, Decider::digits);
+  ConstraintLadder& by_digits = found.result;
   const auto is_of_point = [](const Doubt& doubt) {
     return doubt.kind == Doubt::Kind::near_singular || doubt.kind == Doubt::Kind::at_switch;
   };
   // The given values may be a singular point, as the fold of an impasse, whatever holds at the point next to them.
   if (std::ranges::any_of(by_bounds.doubts, is_of_point)) return by_bounds;
-  if (std::ranges::any_of(by_digits.doubts, is_of_point)) {
-    std::ranges::copy_if(by_digits.doubts, std::back_inserter(by_bounds.doubts), is_of_point);
-    return by_bounds;
-  }
+  doubt_rounding(by_bounds, found);
+  std::ranges::copy_if(by_digits.doubts, std::back_inserter(by_bounds.doubts), is_of_point);
+  if (std::ranges::any_of(by_bounds.doubts, is_of_point)) return by_bounds;
   if (by_digits.is_ambiguous()) return by_bounds;
   const bool alike = are_alike(by_bounds, by_digits);
   const bool has_solutions =

@@ -36,8 +36,8 @@ std::shared_ptr<const JetEquations> equations_in_digits(
 //               other ranks
 //   otherwise                                       that of bounds
 //
-// A search of digits that ended nowhere, or at a singular point, says nothing against bounds that are sure; and bounds that
-// are sure of systems of more than 60 coordinates and unknowns are not asked about.
+// A search of digits that ended nowhere, or at a singular point, says nothing against bounds that are sure; and bounds
+// that are sure of systems of more than 60 coordinates and unknowns are not asked about.
 ConstraintLadder decided_together(ConstraintLadder by_bounds, const JetEquations& equations,
                                   const InitialGuess& guess,
                                   const ConstraintAlgorithm::Options& options);

@@ -59,6 +59,16 @@ Deviation change_at(const LeastChange& change, const DerivativeArray& array, con
           (change.root * change.given).norm() + (change.root * there).norm()};
 }
 
+// Whether no F_i changes by more than its terms do to first order; one without any may change.
+bool changes_by_its_terms(const LinearizableMap& F, const VectorXd& from, const VectorXd& to) {
+  const Linearization at = F(from), there = F(to);
+  if (!is_finite(at)) return true;
+  if (!is_finite(there)) return false;
+  const VectorXd terms = at.jacobian.cwiseAbs() * (to - from).cwiseAbs();
+  const auto change = (there.value - at.value).array().abs();
+  return (change <= terms.array() || terms.array() == 0.0).all();
+}
+
 // The largest number of each part (ξ_0, ξ_1, z_0, ξ_2, …) of a jet, for every entry of it.
 VectorXd sizes_of_parts(const ConsistentJet& jet, Index unknowns) {
   const Index n = jet.array().base_size();
@@ -119,18 +129,18 @@ void ConsistentPoint::drop_round_off() {
   constexpr double round_off = 8.0 * std::numeric_limits<double>::epsilon();
   const Index n = array_->base_size();
   const VectorXd y = array_->jet(guess_.v, guess_.z);
-  VectorXd reach = y.cwiseAbs();
-  reach.head(n) = array_->origin_size();
+  VectorXd nominal = y.cwiseAbs();
+  nominal.head(n) = array_->origin_size();
   Linearization at = array_->linearize(y);
   if (!is_finite(at)) return;
   const SparseMatrixXd magnitude = generic_magnitude(
-      [&](const VectorXd& there) { return array_->linearize(there); }, y, reach, at);
+      [&](const VectorXd& there) { return array_->linearize(there); }, y, nominal, at);
   at.value.setZero();
   // Where all numbers are small the largest is a unit, so that it stays.
-  const NaturalScaling units({at.value, magnitude}, reach, 0.0);
+  const NaturalScaling units({at.value, magnitude}, nominal, 0.0);
   // Round-off is small next to other numbers too. Units alone do not tell: those of a circuit whose
   // currents grow like exp (v/25 mV) may be 10¹⁶ of what flows.
-  const double given = reach.size() == 0 ? 0.0 : reach.maxCoeff();
+  const double given = nominal.size() == 0 ? 0.0 : nominal.maxCoeff();
   const auto drop = [&](VectorXd& values, Index first) {
     for (Index i = 0; i < values.size(); ++i)
       if (std::fabs(values[i]) <= round_off * std::min(units.column_scale[first + i], given))
@@ -145,16 +155,16 @@ void ConsistentPoint::drop_round_off() {
 ConsistentJet::ConsistentJet(DerivativeArray array, Zero zero)
     : array_(std::move(array)), zero_(std::move(zero)) {
   level_ = array_.level_of(zero_.y);
-  if (zero_.reach.size() != zero_.y.size() || zero_.uncertainty.size() != zero_.y.size())
+  if (zero_.nominal.size() != zero_.y.size() || zero_.uncertainty.size() != zero_.y.size())
     throw std::invalid_argument(
-        "ConsistentJet::ConsistentJet: y, reach and uncertainty have " +
-        std::to_string(zero_.y.size()) + ", " + std::to_string(zero_.reach.size()) + " and " +
+        "ConsistentJet::ConsistentJet: y, nominal and uncertainty have " +
+        std::to_string(zero_.y.size()) + ", " + std::to_string(zero_.nominal.size()) + " and " +
         std::to_string(zero_.uncertainty.size()) + " entries, expected as many of each.");
 }
 
 ConsistentJet ConsistentJet::at_level(Index k) const {
   Zero there = zero_;
-  for (VectorXd* numbers : {&there.y, &there.reach, &there.uncertainty})
+  for (VectorXd* numbers : {&there.y, &there.nominal, &there.uncertainty})
     *numbers = array_.resized(*numbers, k);
   return {array_, std::move(there)};
 }
@@ -204,9 +214,9 @@ Mobility ConsistentPoint::mobility(const ConsistentJet& from, bool x_is_free) co
   // the guess chooses between branches.
   if (z_is_given_ && guess_.v.size() == 0)
     result.cost.segment(2 * n, guess_.z.size()).setConstant(0.3);
-  result.typical = from.array().resized(from.zero().reach, from.array().level_of(from.zero().y));
+  result.nominal = from.array().resized(from.zero().nominal, from.array().level_of(from.zero().y));
   result.offset = from.array().origin_size();
-  result.typical.head(n) = result.typical.head(n).cwiseMax(result.offset);
+  result.nominal.head(n) = result.nominal.head(n).cwiseMax(result.offset);
   if (x_is_free)
     result.admits = [extent = system_->manifold()->extent_at(from.array().origin()),
                      basis = from.array().basis()](const VectorXd& y) {
@@ -214,7 +224,7 @@ Mobility ConsistentPoint::mobility(const ConsistentJet& from, bool x_is_free) co
     };
   const double radius = system_->manifold()->injectivity_radius(from.array().origin());
   if (std::isfinite(radius))  // angles
-    result.typical.head(n) = result.typical.head(n).cwiseMax(radius / std::numbers::pi);
+    result.nominal.head(n) = result.nominal.head(n).cwiseMax(radius / std::numbers::pi);
   return result;
 }
 
@@ -286,8 +296,10 @@ std::optional<ConsistentJet> ConsistentPoint::find_beyond(const ConsistentJet& e
 ConsistentJet ConsistentPoint::find(const ConsistentJet& from) const {
   const LinearizableMap F = conditions(from.array(), held_);
   const Index n = from.array().base_size();
-  Zero zero = find_zero(F, from.zero().y, mobility(from, false));
   const bool has_exponentials = from.array().has_exponentials();
+  if (has_exponentials)
+    if (const auto above = find_above(from, F)) return {from.array(), *above};
+  Zero zero = find_zero(F, from.zero().y, mobility(from, false));
   if (zero.found && !(has_exponentials && !is_met(F(zero.y)))) return {from.array(), zero};
   if (const auto start = from.array().beyond_exponentials(from.zero().y))
     if (const Zero other = find_zero(F, *start, mobility(from, false));
@@ -300,7 +312,7 @@ ConsistentJet ConsistentPoint::find(const ConsistentJet& from) const {
   // At a point where equations have no linear part, as x² + y² = 1 at 0, no step leads anywhere.
   if (!zero.found && zero.is_finite) {
     TangentDisplacement displacements(from.array(), from.zero().y,
-                                      free.typical.cwiseMax(from.zero().y.cwiseAbs()));
+                                      free.nominal.cwiseMax(from.zero().y.cwiseAbs()));
     for (const double size : {0.1, 0.3, 1.0, 1e2, 1e4, 1e6, 1e8}) {
       VectorXd displacement = displacements.next();
       displacement.head(n) *= size;
@@ -315,6 +327,23 @@ ConsistentJet ConsistentPoint::find(const ConsistentJet& from) const {
   zero = least_zero(
       F, [&](const VectorXd& y) { return displacement(from.array(), y); }, zero, free);
   return recentred(from.array(), zero, held_);
+}
+
+// The equations of a level are linear in its own unknowns. Where these, or these and those of the levels before, solve
+// them, no lower ones have to move: on the way to such a zero the voltage of a diode may move by volts, which is far for
+// exp (v/25 mV).
+std::optional<Zero> ConsistentPoint::find_above(const ConsistentJet& from,
+                                                const LinearizableMap& F) const {
+  for (Index level = from.level() - 1; level >= 0; --level) {
+    Mobility above = mobility(from, false);
+    above.frozen = from.array().unknown_count(level);
+    Zero zero = find_zero(F, from.zero().y, above);
+    if (!zero.found || !is_met(F(zero.y))) continue;
+    zero.uncertainty.head(above.frozen) =
+        zero.uncertainty.head(above.frozen).cwiseMax(from.zero().uncertainty.head(above.frozen));
+    return zero;
+  }
+  return std::nullopt;
 }
 
 bool ConsistentPoint::is_contradiction(const ConsistentJet& jet) const {
@@ -415,13 +444,19 @@ ConsistentPoint::Neighbour ConsistentPoint::find_around(const ConsistentJet& fro
                                                         const VectorXd& displacement,
                                                         const SparseMatrixXd& magnitude) const {
   Mobility free = mobility(from, true);
+  const LinearizableMap F = conditions(array, {});
   VectorXd y = start + displacement;
-  // Units of 10⁹ are none of angles.
-  for (double part = 0.1; free.admits && !free.admits(y) && part > 1e-20; part *= 0.1)
-    y = start + part * displacement;
+  // Units of 10⁹ are none of angles, and volts none where exp (v/25 mV) is.
+  const auto is_near = [&] {
+    return (!free.admits || free.admits(y)) &&
+           (!free.has_exponentials || changes_by_its_terms(F, start, y));
+  };
+  for (double part = 0.1; !is_near() && part > 1e-20; part *= 0.1) y = start + part * displacement;
   free.magnitude = magnitude;
   free.noise *= 1e-3;  // of displacements that are thousandths of natural units
-  const Zero zero = find_zero(conditions(array, {}), y, free);
+  Zero zero = is_near() ? find_zero(F, y, free) : Zero(y);
+  // Among exponentials it has to be one by its terms, as in find_confirmed.
+  if (free.has_exponentials && zero.found && !is_met(F(zero.y))) zero.found = false;
   if (!zero.found) return {{array, zero}, VectorXd::Zero(y.size())};
   return {{array, zero}, zero.y - y};
 }

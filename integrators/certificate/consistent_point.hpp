@@ -10,8 +10,8 @@
 namespace courant {
 
 // A jet y that solves F^[k] = 0 (if zero().found) in the chart of array(), whose origin is its point
-// (ξ_0 = 0) unless it is a neighbour of one. zero().reach has the sizes of the unknowns on the way there.
-// y, its reach and its uncertainty are always of one level of that array.
+// (ξ_0 = 0) unless it is a neighbour of one. zero().nominal has the largest sizes of the unknowns on the way there.
+// y, its nominal values and its uncertainty are always of one level of that array.
 class ConsistentJet {
  public:
   // Throws std::invalid_argument if they are not.
@@ -71,8 +71,8 @@ class ConsistentPoint {
   // The jet of a ladder that has a point, as a zero: whether it is one, is_met_at says.
   ConsistentJet jet_of(const ConstraintLadder& ladder) const;
   // Whether each equation of F^[k], and each held value, vanishes at the jet next to the terms that it is the sum of
-  // there, or, as the product of a velocity of 10⁻¹⁷ with a coordinate, next to 1 and the terms that numbers of the sizes
-  // there may make. A search has units of its own, which may be those of what it met on its way.
+  // there, or, as the product of a velocity of 10⁻¹⁷ with a coordinate, next to 1 and the terms that numbers of the
+  // sizes there may make. A search has units of its own, which may be those of what it met on its way.
   bool is_met_at(const ConsistentJet& jet, double unseen = 1e-9, double nothing = 1e-12) const;
   // Whether the linear parts of the equations contradict each other at a jet that is no zero: whether
   // rank (J | F) exceeds rank J. Elsewhere a search that ended has merely not converged.
@@ -105,6 +105,8 @@ class ConsistentPoint {
   // From where a search ended at the edge of a chart, as that of the sphere does on T*S², the zero
   // that it was on the way to, in charts farther on; empty if there is none or no edge.
   std::optional<ConsistentJet> find_beyond(const ConsistentJet& ended) const;
+  // By the unknowns of as few levels as solve the equations, the last ones; none if those of the first have to move.
+  std::optional<Zero> find_above(const ConsistentJet& from, const LinearizableMap& F) const;
   ConsistentJet recentred(const DerivativeArray& array, const Zero& zero, const Values& held) const;
 
   Neighbour find_around(const ConsistentJet& from, const DerivativeArray& array,

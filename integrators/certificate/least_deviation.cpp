@@ -79,7 +79,7 @@ class DeviationDescent {
   // where momenta are of no degree in velocities, as w / |w| is, entries vanish on the way.
   NaturalScaling scaling(const Linearization& here) {
     constexpr double most_growth = 1e3, round_off = 1e-10;
-    NaturalScaling units(here, best_.zero.reach, NaturalScaling::kUsualNoise, round_off);
+    NaturalScaling units(here, best_.zero.nominal, NaturalScaling::kUsualNoise, round_off);
     if (largest_units_.size() == 0) largest_units_ = most_growth * units.column_scale;
     units.column_scale = units.column_scale.cwiseMin(largest_units_);
     return units;
@@ -173,10 +173,10 @@ class DeviationDescent {
     const auto size = [&](const VectorXd& step) { return step.cwiseQuotient(units_).norm(); };
     // Unknowns that r does not see are not to leave the sizes that they have: velocities that may be as long as one likes.
     constexpr double most = 3.0;
-    const double reach = most * (size(best_.zero.reach) + size(whole));
+    const double farthest = most * (size(best_.zero.nominal) + size(whole));
     for (double length = length_; length > 1e-3 * length_; length *= 0.5) {
       Zero next = find_zero(map_, best_.zero.y + length * whole, mobility_);
-      if (!next.found || size(next.y - best_.zero.y) > reach) continue;
+      if (!next.found || size(next.y - best_.zero.y) > farthest) continue;
       const double change = deviation_(next.y).value.squaredNorm() / value - 1.0;
       if (!(change <= kRounding)) continue;
       next.iterations += best_.zero.iterations;

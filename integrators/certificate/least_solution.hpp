@@ -8,9 +8,10 @@
 
 namespace courant {
 
-// x of least norm, of those that leave the least of A x - b, for a matrix whose entries are alike. What is below 10⁻¹¹ of
-// the largest pivot is not divided by. Up to 200 rows and columns by an orthogonal factorisation; others by a sparse
-// one of A Aᵀ + 10⁻¹⁶, which is exact to 10⁻¹⁶ / σ² in the direction of a singular value σ: an iteration makes that good.
+// x of least norm, of those that leave the least of A x - b, for a matrix whose entries are alike. What is below 10⁻¹¹
+// of the largest pivot is not divided by. Up to 200 rows and columns by an orthogonal factorisation; others by a sparse
+// one of A Aᵀ + 10⁻¹⁶, which is exact to 10⁻¹⁶ / σ² in the direction of a singular value σ: an iteration makes that
+// good.
 class LeastSolution {
  public:
   explicit LeastSolution(const SparseMatrixXd& A);

@@ -61,7 +61,7 @@ class Descent {
   // w / |w| is, entries vanish on the way to the nearest one, and units that follow them lead to velocities of 10¹⁷.
   NaturalScaling units(const Linearization& here) {
     constexpr double most_growth = 1e3;
-    NaturalScaling scaling(here, best_.reach);
+    NaturalScaling scaling(here, best_.nominal);
     if (largest_units_.size() == 0) largest_units_ = most_growth * scaling.column_scale;
     scaling.column_scale = scaling.column_scale.cwiseMin(largest_units_);
     return scaling;

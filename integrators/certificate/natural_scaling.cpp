@@ -35,7 +35,7 @@ VectorXd significant(const Linearization& at) {
   return (at.value.array().abs() <= at.value_error.array()).select(0.0, at.value);
 }
 
-NaturalScaling::NaturalScaling(const Linearization& at, const VectorXd& reach, double noise,
+NaturalScaling::NaturalScaling(const Linearization& at, const VectorXd& nominal, double noise,
                                double least_size) {
   Equilibration<SparseMatrixXd> equilibrated = equilibrate(at.jacobian, noise);
   scaled = std::move(equilibrated.scaled);
@@ -59,8 +59,8 @@ NaturalScaling::NaturalScaling(const Linearization& at, const VectorXd& reach, d
            rounding = size;
   for (Index j = 0; j < n; ++j) {
     const Index component = column_component[static_cast<std::size_t>(j)];
-    size[component] = std::max(size[component], reach[j] / column_scale[j]);
-    number_in[component] = std::max(number_in[component], reach[j]);
+    size[component] = std::max(size[component], nominal[j] / column_scale[j]);
+    number_in[component] = std::max(number_in[component], nominal[j]);
   }
   const VectorXd value = significant(at);
   for (Index i = 0; i < m; ++i) {
@@ -74,7 +74,7 @@ NaturalScaling::NaturalScaling(const Linearization& at, const VectorXd& reach, d
   constexpr double least = 1e-290;
   // Round-off of zeros is small next to the numbers of other components, or to what its equations lack. Lengths that are
   // small in the units of equilibration alone, whose factor nothing tells, may be all that there is.
-  const double largest = n == 0 ? 0.0 : reach.maxCoeff();
+  const double largest = n == 0 ? 0.0 : nominal.maxCoeff();
   const auto is_zero = [&](Index component) {
     const bool is_round_off = number_in[component] <= least_size * largest ||
                               size[component] <= least_size * inverse_residual[component];
@@ -93,9 +93,9 @@ NaturalScaling::NaturalScaling(const Linearization& at, const VectorXd& reach, d
     column_scale[j] *= factor(column_component[static_cast<std::size_t>(j)]);
 }
 
-double NaturalScaling::defect(const VectorXd& value, const VectorXd& reach) const {
+double NaturalScaling::defect(const VectorXd& value, const VectorXd& nominal) const {
   const VectorXd residual = row_scale.cwiseProduct(value).cwiseAbs();
-  const VectorXd made_of = scaled.cwiseAbs() * reach.cwiseQuotient(column_scale);
+  const VectorXd made_of = scaled.cwiseAbs() * nominal.cwiseQuotient(column_scale);
   VectorXd largest = VectorXd::Zero(component_count), scale = VectorXd::Zero(component_count);
   for (Index i = 0; i < residual.size(); ++i) {
     const Index component = row_component[static_cast<std::size_t>(i)];
@@ -109,7 +109,7 @@ double NaturalScaling::defect(const VectorXd& value, const VectorXd& reach) cons
 }
 
 SparseMatrixXd generic_magnitude(const LinearizableMap& map, const VectorXd& y,
-                                 const VectorXd& reach, const Linearization& at) {
+                                 const VectorXd& nominal, const Linearization& at) {
   constexpr double vanishing = 1e-4;  // in natural units
   SparseMatrixXd magnitude = at.jacobian.cwiseAbs();
   std::mt19937 generator(20250613);
@@ -122,22 +122,22 @@ SparseMatrixXd generic_magnitude(const LinearizableMap& map, const VectorXd& y,
       if (!std::isfinite(there.valuePtr()[k])) return;
     magnitude = SparseMatrixXd(magnitude.cwiseMax(there));
   };
-  for (int sample = 0; sample < 2; ++sample) include(reach);
+  for (int sample = 0; sample < 2; ++sample) include(nominal);
   // An unknown that vanishes at y moves by the unit that the others give it: as many of its column
   // scales as they have on average. Two rounds: entries that vanish at y tell units too.
   for (int round = 0; round < 2; ++round) {
-    const NaturalScaling units({at.value, magnitude, at.value_error}, reach, 1e-9, 1e-10);
+    const NaturalScaling units({at.value, magnitude, at.value_error}, nominal, 1e-9, 1e-10);
     VectorXd count = VectorXd::Zero(units.component_count), logarithm = count;
     const auto component = [&](Index j) {
       return units.column_component[static_cast<std::size_t>(j)];
     };
-    const VectorXd size = reach.cwiseQuotient(units.column_scale);
+    const VectorXd size = nominal.cwiseQuotient(units.column_scale);
     for (Index j = 0; j < y.size(); ++j) {
       if (size[j] < vanishing) continue;
       count[component(j)] += 1.0;
       logarithm[component(j)] += std::log(size[j]);
     }
-    VectorXd move = reach;
+    VectorXd move = nominal;
     for (Index j = 0; j < y.size(); ++j) {
       const Index c = component(j);
       if (size[j] < vanishing)
@@ -149,14 +149,24 @@ SparseMatrixXd generic_magnitude(const LinearizableMap& map, const VectorXd& y,
   return magnitude;
 }
 
+void keep_what_is_here(SparseMatrixXd& magnitude, const Linearization& at) {
+  constexpr double steep = 1e3;
+  for (Index j = 0; j < magnitude.outerSize(); ++j)
+    for (SparseMatrixXd::InnerIterator it(magnitude, j); it; ++it) {
+      const double here = std::fabs(at.jacobian.coeff(it.row(), j));
+      const double error = at.error.size() > 0 ? at.error.coeff(it.row(), j) : 0.0;
+      if (here > error && it.value() > steep * here) it.valueRef() = here;
+    }
+}
+
 GenericScaling::GenericScaling(const Prolongation& array, const VectorXd& y,
-                               const VectorXd& reach) {
+                               const VectorXd& nominal) {
   Linearization at = array.linearize(y);
   at.value.setZero();  // y is a zero; what is left of the value is no size of anything
   magnitude = array.has_constant_jacobian()
                   ? SparseMatrixXd(at.jacobian.cwiseAbs())
                   : generic_magnitude([&](const VectorXd& there) { return array.linearize(there); },
-                                      y, reach, at);
+                                      y, nominal, at);
   Equilibration<SparseMatrixXd> equilibrated = equilibrate(magnitude, 0.0);
   row_scale = std::move(equilibrated.row_scale);
   column_scale = std::move(equilibrated.column_scale);

@@ -30,24 +30,28 @@ struct NaturalScaling {
 
   static constexpr double kUsualNoise = 1.5e-14;
 
-  // `reach`: sizes of the unknowns, ≥ 0. Entries of the Jacobian that are at most `noise` times the
+  // `nominal`: sizes of the unknowns, ≥ 0. Entries of the Jacobian that are at most `noise` times the
   // others of their row and column count as zero, and so do sizes up to `least_size` in the units
   // of equilibration, where they are as small next to the numbers of other components or to the value.
-  NaturalScaling(const Linearization& at, const VectorXd& reach, double noise = kUsualNoise,
+  NaturalScaling(const Linearization& at, const VectorXd& nominal, double noise = kUsualNoise,
                  double least_size = 0.0);
 
   // max over components of ‖F‖_∞ / ‖ |S| |y| ‖_∞ in these units: the distance from a zero, next to
   // what the equations are made of.
-  double defect(const VectorXd& value, const VectorXd& reach) const;
+  double defect(const VectorXd& value, const VectorXd& nominal) const;
 };
+
+// Among exponentials: what a diode conducts by elsewhere is no size of what it blocks by. Entries of `magnitude` that are
+// more than 1000 times what they are at a point, and not round-off there, become what they are there.
+void keep_what_is_here(SparseMatrixXd& magnitude, const Linearization& at);
 
 // The largest |J_ij| at y and at points whose unknowns differ from y by up to a tenth of their
 // size, or of their natural unit where they vanish at y. An entry that vanishes at y by accident,
 // and is 10⁻¹⁷ because of rounding, is small next to that, whatever the units of equations and
-// unknowns; at y alone a small number and a large unit could not be told from each other. `reach`:
+// unknowns; at y alone a small number and a large unit could not be told from each other. `nominal`:
 // sizes of the unknowns, at least |y|; `at`: the map at y.
 SparseMatrixXd generic_magnitude(const LinearizableMap& map, const VectorXd& y,
-                                 const VectorXd& reach, const Linearization& at);
+                                 const VectorXd& nominal, const Linearization& at);
 
 // The Jacobian of a prolongation at y in units of what its entries are around y: diag(r) J(y)
 // diag(c), where diag(r) G diag(c) is equilibrated for G its generic magnitude; y is a zero.
@@ -55,7 +59,7 @@ struct GenericScaling {
   SparseMatrixXd scaled, magnitude;
   VectorXd row_scale, column_scale;
 
-  GenericScaling(const Prolongation& array, const VectorXd& y, const VectorXd& reach);
+  GenericScaling(const Prolongation& array, const VectorXd& y, const VectorXd& nominal);
 };
 
 }  // namespace courant

@@ -133,13 +133,13 @@ Jet NearestJet::jet_of(const ConsistentJet& rough, Index k) const {
   const Index N = equations_.point_size(), m = equations_.auxiliary_size();
   const DerivativeArray& array = rough.array();
   const Manifold& M = *equations_.system().manifold();
-  const VectorXd &y = rough.zero().y, &reach = rough.zero().reach;
+  const VectorXd &y = rough.zero().y, &nominal = rough.zero().nominal;
   Jet jet{.k = k, .t = Digits::written(guess_.t), .y = {}};
   jet.y.resize(static_cast<std::size_t>(equations_.unknown_count(k)));
   // What a search leaves in unknowns that vanish is round-off of what they were on the way.
   constexpr double round_off = 1e-12;
   const auto number = [&](Index j) {
-    const double unit = j < reach.size() ? reach[j] : 0.0;
+    const double unit = j < nominal.size() ? nominal[j] : 0.0;
     return std::fabs(y[j]) <= round_off * unit ? 0.0 : y[j];
   };
   const auto set = [&](Index j, double value) { jet.y[static_cast<std::size_t>(j)] = value; };

@@ -23,14 +23,15 @@ bool is_rounded(const Linearization& at) {
          (at.value.cwiseAbs().array() <= at.value_error.array()).all();
 }
 
-// Whether every F_i that is more than rounding is small next to its own terms, of numbers as large as `reach` and with
+// Whether every F_i that is more than rounding is small next to its own terms, of numbers as large as `nominal` and with
 // derivatives of this size: those of other equations, which units of a component are made of, say nothing of
 // x² + y² = l² of nanometres beside a weight. Numbers that are round-off in these units are as large as those; the point
 // only where it vanishes.
 bool is_small_next_to_terms(const Linearization& at, const SparseMatrixXd& derivatives,
-                            const NaturalScaling& units, const VectorXd& reach, Index point_size) {
+                            const NaturalScaling& units, const VectorXd& nominal,
+                            Index point_size) {
   constexpr double round_off = 1e-9;
-  VectorXd sizes = reach;
+  VectorXd sizes = nominal;
   for (Index j = 0; j < sizes.size(); ++j) {
     const double vanishing = j < point_size ? 0.0 : round_off * units.column_scale[j];
     if (sizes[j] <= vanishing) sizes[j] = units.column_scale[j];
@@ -60,17 +61,19 @@ class ZeroSearch {
 
   Zero run() {
     zero_ = Zero(start_);
-    if (mobility_.typical.size() > 0) zero_.reach = zero_.reach.cwiseMax(mobility_.typical);
+    if (mobility_.nominal.size() > 0) zero_.nominal = zero_.nominal.cwiseMax(mobility_.nominal);
     zero_.defect = std::numeric_limits<double>::infinity();
     at_ = map_(start_);
     zero_.is_finite = is_finite(at_);
     if (!zero_.is_finite) return zero_;
-    units_at_.emplace(map_, mobility_, start_, zero_.reach, at_);
+    units_at_.emplace(map_, mobility_, start_, zero_.nominal, at_);
     Place here = place();
     while (moves(here)) here = place();
     if (!zero_.found) return zero_;
     zero_.uncertainty = uncertainty(here);
-    forget_noise(here.units);
+    // Of numbers that leave the range of doubles no error is known.
+    zero_.found = zero_.uncertainty.allFinite();
+    if (zero_.found) forget_noise(here.units);
     return zero_;
   }
 
@@ -80,30 +83,30 @@ class ZeroSearch {
     NaturalScaling units;
     SparseMatrixXd S;
     VectorXd g;
-    bool is_exact = false;   // up to the bounds of rounding errors
-    bool is_curbed = false;  // in units that exponentials need
+    bool is_exact = false;         // up to the bounds of rounding errors
+    bool has_step_limits = false;  // in units that exponentials need
   };
 
   Place place() {
-    NaturalScaling units = (*units_at_)(at_, zero_.reach);
+    NaturalScaling units = (*units_at_)(at_, zero_.nominal);
     const VectorXd value = significant(at_);
     const VectorXd g = units.row_scale.cwiseProduct(value);
     zero_.scaled_value = g;
-    zero_.defect = units.defect(value, zero_.reach);
+    zero_.defect = units.defect(value, zero_.nominal);
     const bool rounded = is_rounded(at_);
     const SparseMatrixXd here = at_.jacobian.cwiseAbs();
     derivatives_ = derivatives_.size() == 0 ? here : SparseMatrixXd(derivatives_.cwiseMax(here));
     zero_.found = rounded || (zero_.defect <= kAccepted &&
-                              is_small_next_to_terms(at_, derivatives_, units, zero_.reach,
+                              is_small_next_to_terms(at_, derivatives_, units, zero_.nominal,
                                                      mobility_.offset.size()));
     zero_.history.push_back(zero_.defect);
-    const bool is_curbed =
+    const bool has_step_limits =
         mobility_.has_exponentials && !zero_.found && is_factored_dense(at_.jacobian);
-    if (is_curbed) units = curbed(std::move(units), map_, zero_.y, at_, mobility_);
+    if (has_step_limits) units = with_step_limits(std::move(units), map_, zero_.y, at_, mobility_);
     SparseMatrixXd S =
         units.row_scale.asDiagonal() * at_.jacobian * units.column_scale.asDiagonal();
     S.prune([&](Index, Index column, double) { return column >= mobility_.frozen; });
-    return {std::move(units), std::move(S), g, rounded, is_curbed};
+    return {std::move(units), std::move(S), g, rounded, has_step_limits};
   }
 
   // Makes the least damped step that helps, if there is one.
@@ -121,7 +124,7 @@ class ZeroSearch {
     // At the level of rounding a step that does not help is the end; far from it, too long.
     const double most = zero_.found ? damping_ : most_damping;
     for (double mu = damping_; mu <= most;
-         mu = std::max((here.is_curbed ? 10.0 : 100.0) * mu, least_damping)) {
+         mu = std::max((here.has_step_limits ? 10.0 : 100.0) * mu, least_damping)) {
       const DampedInverse inverse(S, mobility_.cost, mu);
       const VectorXd delta = inverse.step(g);
       if (delta.size() == 0 || !delta.allFinite()) continue;
@@ -139,7 +142,7 @@ class ZeroSearch {
       if (!helps(inverse, delta, residual, g)) continue;
       if (has_crept(mu == 0.0 && !is_factored_dense(S), residual, g)) return false;
       zero_.y = y;
-      zero_.reach = zero_.reach.cwiseMax(y.cwiseAbs());
+      zero_.nominal = zero_.nominal.cwiseMax(y.cwiseAbs());
       ++zero_.iterations;
       at_ = std::move(next);
       // A large μ was one for the ‖F‖ of that point.
@@ -161,7 +164,7 @@ class ZeroSearch {
            0.5 * mobility_.cost.cwiseProduct(delta).norm();
   }
 
-  // Sparse factors reach what is seen through singular values below 10⁻⁵ only little by little. Where
+  // Sparse factors get to what is seen through singular values below 10⁻⁵ only little by little. Where
   // curvature can no longer be why, so many steps in a row that leave nearly all of the residual end it.
   bool has_crept(bool is_sparse, const VectorXd& residual, const VectorXd& g) {
     constexpr double straight = 1e-5, nearly_all = 0.9;

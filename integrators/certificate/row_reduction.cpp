@@ -98,7 +98,8 @@ class RowElimination {
                             ? std::numeric_limits<double>::infinity()
                             : largest_relative_bound),
         rows_(static_cast<std::size_t>(A.rows())),
-        rows_of_column_(static_cast<std::size_t>(A.cols())) {
+        rows_of_column_(static_cast<std::size_t>(A.cols())),
+        is_changed_(rows_.size(), false) {
     for (Index j = 0; j < A.cols(); ++j) {
       SparseMatrixXd::InnerIterator value(A.value, j), error(A.error, j);
       while (value || error) {
@@ -147,12 +148,12 @@ class RowElimination {
       Working& pivot = rows_[static_cast<std::size_t>(best.row)];
       pivot.done = true;
       pivot.row.pivot = best.column;
-      std::vector<Index> changed = clear_column(pivot, best.column);
-      changed.push_back(best.row);
-      std::sort(changed.begin(), changed.end());
-      changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-      for (const Index i : changed)
+      clear_column(pivot, best.column);
+      note_change(best.row);
+      for (const Index i : std::exchange(changed_, {})) {
+        is_changed_[static_cast<std::size_t>(i)] = false;
         if (is_candidate[static_cast<std::size_t>(i)]) look_at(i);
+      }
       found.push_back(&pivot);
     }
   }
@@ -200,14 +201,21 @@ class RowElimination {
     return (static_cast<double>(row.size()) - 1.0) * (static_cast<double>(rows.size()) - 1.0);
   }
 
-  // Eliminates `column` from all rows that come later: of the level of the pivot or above. Returns
-  // the rows whose best pivot may have changed.
-  std::vector<Index> clear_column(const Working& pivot, Index column) {
+  // Another pivot of this row may be its best one now.
+  void note_change(Index i) {
+    if (is_changed_[static_cast<std::size_t>(i)]) return;
+    is_changed_[static_cast<std::size_t>(i)] = true;
+    changed_.push_back(i);
+  }
+
+  // Eliminates `column` from all rows that come later: of the level of the pivot or above.
+  void clear_column(const Working& pivot, Index column) {
     const Uncertain pivot_value = entry(pivot.entries, column);
     const std::vector<Index> targets = std::move(rows_of_column_[static_cast<std::size_t>(column)]);
     rows_of_column_[static_cast<std::size_t>(column)].clear();
-    std::vector<Index> changed = targets, filled;
+    std::vector<Index> filled;
     for (const Index i : targets) {
+      note_change(i);
       Working& target = rows_[static_cast<std::size_t>(i)];
       if (target.done || target.row.level < pivot.row.level) continue;
       const Uncertain value = entry(target.entries, column);
@@ -235,11 +243,8 @@ class RowElimination {
     // The count of a column matters to all rows that have an entry in it.
     std::sort(filled.begin(), filled.end());
     filled.erase(std::unique(filled.begin(), filled.end()), filled.end());
-    for (const Index j : filled) {
-      const std::vector<Index>& rows = rows_of_column_[static_cast<std::size_t>(j)];
-      changed.insert(changed.end(), rows.begin(), rows.end());
-    }
-    return changed;
+    for (const Index j : filled)
+      for (const Index i : rows_of_column_[static_cast<std::size_t>(j)]) note_change(i);
   }
 
   const std::vector<Index>& column_group_;
@@ -247,6 +252,8 @@ class RowElimination {
   double relative_bound_;
   std::vector<Working> rows_;
   std::vector<std::vector<Index>> rows_of_column_;  // those that have, or had, an entry there
+  std::vector<Index> changed_;                      // see note_change()
+  std::vector<bool> is_changed_;
 };
 
 // The same rows with the pivot columns of the other rows eliminated too, each with 1 in its pivot.

@@ -7,37 +7,32 @@
 namespace courant {
 
 SearchUnits::SearchUnits(const LinearizableMap& map, const Mobility& mobility, const VectorXd& y,
-                         const VectorXd& reach, const Linearization& at)
+                         const VectorXd& nominal, const Linearization& at)
     : mobility_(mobility), magnitude_(mobility.magnitude) {
-  if (magnitude_.size() == 0) magnitude_ = generic_magnitude(map, y, reach, at);
+  if (magnitude_.size() == 0) magnitude_ = generic_magnitude(map, y, nominal, at);
 }
 
-NaturalScaling SearchUnits::operator()(const Linearization& at, const VectorXd& reach) {
+NaturalScaling SearchUnits::operator()(const Linearization& at, const VectorXd& nominal) {
   magnitude_ = SparseMatrixXd(magnitude_.cwiseMax(SparseMatrixXd(at.jacobian.cwiseAbs())));
-  if (mobility_.has_exponentials) heed(at);
-  return NaturalScaling({at.value, magnitude_, at.value_error}, reach);
+  if (mobility_.has_exponentials) keep_exponentials_here(at);
+  return NaturalScaling({at.value, magnitude_, at.value_error}, nominal);
 }
 
-// What a diode conducts by elsewhere is no size of what it blocks by: entries that are not round-off here
-// are what they are here. Frozen unknowns are no matter of equations that others are in.
-void SearchUnits::heed(const Linearization& at) {
-  constexpr double steep = 1e3;
+// Frozen unknowns are no matter of equations that others are in.
+void SearchUnits::keep_exponentials_here(const Linearization& at) {
+  keep_what_is_here(magnitude_, at);
   std::vector<bool> moves(static_cast<std::size_t>(magnitude_.rows()), false);
   for (Index j = 0; j < magnitude_.outerSize(); ++j)
-    for (SparseMatrixXd::InnerIterator it(magnitude_, j); it; ++it) {
-      const double here = std::fabs(at.jacobian.coeff(it.row(), j));
-      const double error = at.error.size() > 0 ? at.error.coeff(it.row(), j) : 0.0;
-      if (here > error && it.value() > steep * here) it.valueRef() = here;
+    for (SparseMatrixXd::InnerIterator it(magnitude_, j); it; ++it)
       if (j >= mobility_.frozen && it.value() > 0.0)
         moves[static_cast<std::size_t>(it.row())] = true;
-    }
   magnitude_.prune([&](Index i, Index j, double) {
     return j >= mobility_.frozen || !moves[static_cast<std::size_t>(i)];
   });
 }
 
-NaturalScaling curbed(NaturalScaling units, const LinearizableMap& map, const VectorXd& y,
-                      const Linearization& at, const Mobility& mobility) {
+NaturalScaling with_step_limits(NaturalScaling units, const LinearizableMap& map, const VectorXd& y,
+                                const Linearization& at, const Mobility& mobility) {
   constexpr double most = 1e3;
   const SparseMatrixXd here = at.jacobian.cwiseAbs();
   VectorXd largest = VectorXd::Zero(here.rows());  // of a row, in units

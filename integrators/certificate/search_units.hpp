@@ -11,16 +11,16 @@ namespace courant {
 // exponentials those of each point.
 class SearchUnits {
  public:
-  // At the point y where a search begins. `reach`: sizes of the unknowns; `at`: the map at y. The mobility has to
+  // At the point y where a search begins. `nominal`: sizes of the unknowns; `at`: the map at y. The mobility has to
   // outlive the units.
   SearchUnits(const LinearizableMap& map, const Mobility& mobility, const VectorXd& y,
-              const VectorXd& reach, const Linearization& at);
+              const VectorXd& nominal, const Linearization& at);
 
   // At the next point.
-  NaturalScaling operator()(const Linearization& at, const VectorXd& reach);
+  NaturalScaling operator()(const Linearization& at, const VectorXd& nominal);
 
  private:
-  void heed(const Linearization& at);
+  void keep_exponentials_here(const Linearization& at);
 
   const Mobility& mobility_;
   SparseMatrixXd magnitude_;
@@ -28,7 +28,7 @@ class SearchUnits {
 
 // `units`, smaller where a step by one of them would change a derivative to more than 1000 times the largest one
 // of its equation: an exponential leads out of the range of numbers, when a unit is what a diode blocks by.
-NaturalScaling curbed(NaturalScaling units, const LinearizableMap& map, const VectorXd& y,
-                      const Linearization& at, const Mobility& mobility);
+NaturalScaling with_step_limits(NaturalScaling units, const LinearizableMap& map, const VectorXd& y,
+                                const Linearization& at, const Mobility& mobility);
 
 }  // namespace courant

@@ -60,22 +60,24 @@ Expr JunctionCharge::energy(const Expr& v) const {
 }
 
 Expr JunctionCharge::about_voltage(const Expr& q) const {
-  const double diffused = transit * saturation, leaking = transit * leak, m = grading;
-  const Expr positive = max(q, Expr(0.0));
-  const Expr curved = diffused == 0.0 ? Expr(0.0) : Expr(scale * log(1.0 + positive / diffused));
-  // Beside exp the leak is straight, alone below 0 and side by side above it.
-  const auto beside_curved = [&](const Expr& straight) {
-    constexpr double least = 1e-300;  // V, for 0/0
-    return diffused == 0.0 ? straight : straight * curved / (straight + curved + least);
-  };
-  if (capacitance == 0.0)
-    return select(q <= Expr(0.0), q / (diffused / scale + leaking),
-                  leaking == 0.0 ? curved : beside_curved(positive / leaking));
-  // Below 0 by (1 - v/v_j)^(1-m); above it, side by side, by v = q/C₀ and v = scale log (1 + q/(τ saturation)).
-  const double part = capacitance / (capacitance + diffused / scale);
-  const Expr root = 1.0 - min(q, Expr(0.0)) * (1.0 - m) / (capacitance * junction);
-  const Expr below = part * junction * (1.0 - pow(root, Expr(1.0 / (1.0 - m))));
-  return select(q <= Expr(0.0), below, beside_curved(positive / capacitance));
+  const double diffused = transit * saturation, m = grading;
+  const double straight = capacitance == 0.0 ? transit * leak : capacitance;
+  Expr linear = q;  // straight times the voltage of a junction without the diffusion of charge
+  if (capacitance != 0.0) {
+    // The inverse of the depletion up to a tenth of v_j, and its tangent beyond.
+    const double last = std::pow(0.9, m);
+    const double top = capacitance * junction / (1.0 - m) * (1.0 - 0.9 / last);
+    const Expr below = min(q, Expr(top));
+    const Expr root = 1.0 - below * (1.0 - m) / (capacitance * junction);
+    linear = capacitance * junction * (1.0 - pow(root, Expr(1.0 / (1.0 - m)))) + last * (q - below);
+  }
+  if (diffused == 0.0) return linear / straight;
+  // Diffused charge beside it: v = q/straight and v = scale log (1 + q/diffused) side by side, where q > 0. The rounded
+  // part of `linear` above 0 has no edge at 0, where many a junction starts, and its logarithm no zero.
+  const double width = 2.0 * (straight * scale + diffused);
+  const Expr above = (linear + sqrt(square(linear) + width * width)) / 2.0;
+  const Expr part = 1.0 + above / diffused;
+  return linear / (straight + diffused / scale * part / log(1.0 + part));
 }
 
 }  // namespace courant::elements

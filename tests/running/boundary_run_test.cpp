@@ -12,6 +12,8 @@ namespace courant {
 //  * a run does not begin at the solution, or takes another time
 //  * conditions of transversality are added where costates are given, or are missing
 //  * what is not solved is run, or completes
+//  * the solution 0 has no size, and is never near enough
+//  * a run whose round-off grows leaves the motion that was found
 //  * a parameter of a continuation does not come to its own value
 BOOST_AUTO_TEST_SUITE(boundary_run)
 
@@ -42,6 +44,18 @@ Json cart(const Json& boundary, double k = 0.0) {
           {"boundary", boundary},
           {"method", {{"type", "discretize-first"}, {"order", 4}}},
           {"time", {{"step", 0.1}, {"end", 2}}}};
+}
+
+// y'' = 10⁴ y, y = e^(-100 t): round-off at the beginning has grown by e^100 at the end.
+Json layer() {
+  return {{"system",
+           {{"type", "implicit"},
+            {"coordinates", {"y", "v"}},
+            {"equations", {"y' - v", "v' - 1e4*y"}}}},
+          {"initial", {{"y", 1}, {"v", -10}}},
+          {"boundary", {{"initial", {{"y", 1}}}, {"final", {{"y", 0}}}, {"segments", 40}}},
+          {"method", {{"type", "discretize-first"}}},
+          {"time", {{"step", 0.001}, {"end", 1}}}};
 }
 
 RunInMemory ran(const Json& document) { return run_in_memory(read_experiment_document(document)); }
@@ -92,6 +106,25 @@ BOOST_AUTO_TEST_CASE(what_is_not_solved_fails_and_says_how_far_it_came) {
   BOOST_TEST((ran(document).outcome.status == RunStatus::completed));
 }
 
+// Parameters of systems of the catalogue stand beside their type, or are not said.
+BOOST_AUTO_TEST_CASE(a_continuation_goes_along_a_parameter_of_the_catalogue) {
+  Json document{{"system", {{"type", "pendulum"}, {"l", 2}}},
+                {"initial", {{"q", 0}, {"p_q", 4}}},
+                {"boundary",
+                 {{"initial", {{"q", 0}}},
+                  {"final", {{"q", 1}}},
+                  {"continuation", {{"parameter", "l"}, {"from", 1}}}}},
+                {"method", "discretize-first"},
+                {"time", {{"step", 0.01}, {"end", 0.4}}}};
+  const RunInMemory run = ran(document);
+  BOOST_TEST_REQUIRE((run.outcome.status == RunStatus::completed), run.outcome.message);
+  document["boundary"].erase("continuation");
+  const double p = ran(document).rows.column("p_q").front();
+  BOOST_TEST(std::abs(run.rows.column("p_q").front() - p) < 1e-9);
+  document["boundary"]["continuation"] = {{"parameter", "m"}, {"from", 2}};
+  BOOST_TEST((ran(document).outcome.status == RunStatus::completed));
+}
+
 // From rest at 0 to the place 1 in the time 2, with any speed: v is free, so p_v = 0 at the end, and x = (3 T t² - t³)/(2 T³).
 BOOST_AUTO_TEST_CASE(a_free_end_has_the_conditions_of_transversality) {
   const Json start{{"x", 0}, {"v", 0}};
@@ -118,6 +151,13 @@ BOOST_AUTO_TEST_CASE(a_free_end_has_the_conditions_of_transversality) {
   BOOST_TEST_REQUIRE((run.outcome.status == RunStatus::completed), run.outcome.message);
   BOOST_TEST(std::abs(run.rows.column("H").back() + run.rows.column("p_x").back()) < 1e-9);
   BOOST_TEST(std::abs(run.rows.column("x").back() + run.rows.column("t").back() - 3.0) < 1e-9);
+  // The same target where it is written as values of the states: ν is that of p all the same.
+  const double met = run.rows.column("t").back();
+  run =
+      ran(cart({{"initial", start}, {"final", {{"x", "3 - t"}, {"v", 0}}}, {"free", {"T"}}}, 2.0));
+  BOOST_TEST_REQUIRE((run.outcome.status == RunStatus::completed), run.outcome.message);
+  BOOST_TEST(run.outcome.summary.boundary["verdict"] == "isolated");
+  BOOST_TEST(std::abs(run.rows.column("t").back() - met) < 1e-9);
 }
 
 BOOST_AUTO_TEST_CASE(conditions_may_name_observables_velocities_and_arrays) {
@@ -143,11 +183,37 @@ BOOST_AUTO_TEST_CASE(conditions_may_name_observables_velocities_and_arrays) {
   BOOST_TEST(std::abs(px * px + py * py - 9.0) < 1e-9);
 }
 
+// Of y'' = 10⁴ y between 0 and 0, and from any guess.
+BOOST_AUTO_TEST_CASE(the_motion_that_is_zero_is_found) {
+  Json document = layer();
+  document["boundary"] = {{"initial", {{"y", 0}}}, {"final", {{"y", 0}}}};
+  document["time"]["end"] = 0.1;
+  const RunInMemory run = ran(document);
+  BOOST_TEST_REQUIRE((run.outcome.status == RunStatus::completed), run.outcome.message);
+  BOOST_TEST(run.outcome.summary.boundary["verdict"] == "isolated");
+  BOOST_TEST(std::abs(run.rows.column("v").front()) < 1e-99);
+}
+
+BOOST_AUTO_TEST_CASE(a_run_on_which_round_off_grows_goes_on_from_node_to_node) {
+  const RunInMemory run = ran(layer());
+  BOOST_TEST_REQUIRE((run.outcome.status == RunStatus::completed), run.outcome.message);
+  BOOST_TEST(run.outcome.summary.boundary["verdict"] == "isolated");
+  BOOST_TEST(run.outcome.summary.boundary.value("needs_nodes", false));
+  BOOST_TEST(!run.outcome.summary.boundary.contains("conjugate_times"));
+  const auto y = run.rows.column("y");
+  const double factor = 0.95 / 1.05;  // of the midpoint rule
+  for (const std::size_t k : {10u, 100u, 500u, 1000u})
+    BOOST_TEST(std::abs(y[k] - std::pow(factor, k)) < 1e-12, "step " << k);
+}
+
 BOOST_AUTO_TEST_CASE(a_run_that_was_stopped_goes_on_with_the_same_bytes) {
   Json document = bratu(1.0);
   document["time"]["step"] = 0.02;
   document["output"]["epoch"] = 7;
   check_resumption(document, {5, 30}, "boundary values");
+  document = layer();
+  document["output"]["epoch"] = 10;
+  check_resumption(document, {60, 505}, "from node to node");
 }
 
 BOOST_AUTO_TEST_CASE(what_is_no_boundary_problem_is_refused_at_its_place) {

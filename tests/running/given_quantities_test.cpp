@@ -277,6 +277,74 @@ BOOST_AUTO_TEST_CASE(all_angles_of_a_loop_may_be_given) {
   BOOST_TEST((q - VectorXd{{1.2, -1.2, 1.25}}).norm() < 0.05);
 }
 
+namespace {
+
+// A particle of mass 2, also on a circle, with its velocities and the square of its speed by names.
+Json particle(const Json& initial, bool is_on_circle) {
+  Json document = {{"system",
+                    {{"type", "mechanical"},
+                     {"coordinates", {"x", "y"}},
+                     {"metric", 2},
+                     {"potential", "19.62*y"},
+                     {"definitions", {{"vx", "x'"}, {"vy", "y'"}, {"square", "x'^2 + y'^2"}}}}},
+                   {"initial", initial}};
+  if (is_on_circle) document["system"]["holonomic"] = "x^2 + y^2 - 1";
+  return document;
+}
+
+ConstraintLadder start_of_particle(Json initial, bool is_on_circle) {
+  initial["x"] = 0.6;
+  initial["y"] = -0.8;
+  return consistent_start(read_experiment_document(particle(initial, is_on_circle)));
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_velocity_of_zero_is_a_value) {
+  for (const double vx : {0.0, 1e-17}) {
+    const VectorXd x = start_of_particle({{"vx", vx}, {"vy", 1}}, false).point.x;
+    BOOST_TEST(x == Eigen::Vector4d(0.6, -0.8, 2.0 * vx, 2.0), vx);
+  }
+  BOOST_TEST(start_of_particle({{"vx", 0}}, true).point.x == Eigen::Vector4d(0.6, -0.8, 0, 0));
+}
+
+// (1, 0.75) along the circle, with the length that the square of the speed has.
+BOOST_AUTO_TEST_CASE(a_speed_is_met_near_given_velocities) {
+  const VectorXd p =
+      start_of_particle({{"x'", 1}, {"y'", 0.75}, {"square", 1.6}}, true).point.x.tail(2);
+  BOOST_TEST((p - std::sqrt(1.6) * Eigen::Vector2d(1.6, 1.2)).norm() < 1e-9);
+}
+
+// H is a quantity as others: it is met near the velocities that are given, and without any it tells no way.
+BOOST_AUTO_TEST_CASE(an_energy_is_met) {
+  const auto point = [](const Json& system, const Json& initial) {
+    return consistent_start(read_experiment_document({{"system", system}, {"initial", initial}}))
+        .point.x;
+  };
+  const Json by_angle = {
+      {"type", "mechanical"}, {"coordinates", {"q"}}, {"potential", "1 - cos(q)"}};
+  const VectorXd p =
+      start_of_particle({{"x'", 1}, {"y'", 0.75}, {"H", 1.6 - 0.8 * 19.62}}, true).point.x.tail(2);
+  BOOST_TEST((p - std::sqrt(1.6) * Eigen::Vector2d(1.6, 1.2)).norm() < 1e-9);
+  BOOST_CHECK_THROW(point(by_angle, {{"q", 0.5}, {"H", 2}}), ExperimentError);
+  // A word of the system's own comes first, and an equation has no energy.
+  const Json own = {{"type", "implicit"}, {"coordinates", {"H"}}, {"equations", {"H' + H"}}};
+  BOOST_TEST(point(own, {{"H", 3}})[0] == 3.0);
+  const Json none = {{"type", "implicit"}, {"coordinates", {"x"}}, {"equations", {"x' + x"}}};
+  BOOST_CHECK_THROW(point(none, {{"x", 3}, {"H", 3}}), ExperimentError);
+}
+
+// At rest nothing tells which way a speed is.
+BOOST_AUTO_TEST_CASE(a_speed_at_rest_is_an_error) {
+  for (const bool is_on_circle : {false, true})
+    for (const Json& initial : {Json{{"square", 2}}, Json{{"square", 2}, {"rest", true}}})
+      BOOST_CHECK_EXCEPTION(
+          start_of_particle(initial, is_on_circle), ExperimentError, [](const auto& error) {
+            return std::string(error.what()).find("does not change to first order") !=
+                   std::string::npos;
+          });
+}
+
 BOOST_AUTO_TEST_SUITE_END()
 
 }  // namespace courant

@@ -8,7 +8,7 @@ namespace courant {
 //  * what a diode conducts by elsewhere measures what it blocks by
 //  * frozen unknowns measure equations that others are in
 //  * steps lead exponentials out of the range of numbers
-//  * frozen unknowns are curbed too
+//  * steps of frozen unknowns are limited too
 BOOST_AUTO_TEST_SUITE(search_units_test)
 
 namespace {
@@ -33,10 +33,10 @@ Mobility mobility(bool has_exponentials) {
 
 // The unit of y₁ for the one of y₀ at y₁ = -1, after a search was at y₁ = 0.5.
 double unit_of_voltage(const Mobility& mobility) {
-  const VectorXd first{{1.0, 0.5}}, second{{2.0, -1.0}}, reach{{2.0, 1.0}};
-  SearchUnits units(diode, mobility, first, reach, diode(first));
-  units(diode(first), reach);
-  const NaturalScaling at = units(diode(second), reach);
+  const VectorXd first{{1.0, 0.5}}, second{{2.0, -1.0}}, nominal{{2.0, 1.0}};
+  SearchUnits units(diode, mobility, first, nominal, diode(first));
+  units(diode(first), nominal);
+  const NaturalScaling at = units(diode(second), nominal);
   return at.column_scale[1] / at.column_scale[0];
 }
 
@@ -50,20 +50,20 @@ BOOST_AUTO_TEST_CASE(units_are_those_of_the_largest_derivatives_but_for_exponent
 }
 
 // A step by one unit of the voltage by which the diode blocks would leave the range of numbers.
-BOOST_AUTO_TEST_CASE(units_are_curbed_where_derivatives_grow) {
+BOOST_AUTO_TEST_CASE(steps_are_limited_where_derivatives_grow) {
   const VectorXd y{{2.0, -1.0}};
   const Mobility both = mobility(true);
   NaturalScaling units(diode(y), VectorXd{{2.0, 1.0}});
   units.column_scale = VectorXd{{1.0, 1e3}};
   const double largest = 40.0 * std::exp(-40.0) * 1e3;  // of the row, next to y₀ by 1
   BOOST_TEST(largest < 1.0);
-  const NaturalScaling shorter = curbed(units, diode, y, diode(y), both);
+  const NaturalScaling shorter = with_step_limits(units, diode, y, diode(y), both);
   BOOST_TEST(shorter.column_scale[0] == 1.0);
   BOOST_TEST(shorter.column_scale[1] < 2.0);
   BOOST_TEST(shorter.column_scale[1] > 0.1);
   Mobility frozen = both;
   frozen.frozen = 2;
-  BOOST_TEST(curbed(units, diode, y, diode(y), frozen).column_scale[1] == 1e3);
+  BOOST_TEST(with_step_limits(units, diode, y, diode(y), frozen).column_scale[1] == 1e3);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

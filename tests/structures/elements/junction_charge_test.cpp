@@ -3,6 +3,9 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "courant/core/expressions/derivative.hpp"
+#include "courant/core/expressions/function.hpp"
+
 namespace courant::elements {
 BOOST_AUTO_TEST_SUITE(junction_charge_test)
 
@@ -56,6 +59,32 @@ BOOST_AUTO_TEST_CASE(charges_as_voltages) {
         if (transit == 0.0 && v <= 0.0) BOOST_TEST(std::abs(at(v) - v) < 1e-12 * (1.0 - v));
       }
     }
+}
+
+// A junction without charge is at no edge, and derivatives are numbers for charges of any size.
+BOOST_AUTO_TEST_CASE(no_charge_is_no_edge) {
+  for (const double transit : {0.0, 2e-8}) {
+    const JunctionCharge junction{
+        .capacitance = 3e-12, .junction = 0.7, .grading = 0.35, .transit = transit};
+    Graph graph;
+    const ExprVector q = graph.variables("q", 1);
+    ExprVector formulas(3);
+    formulas[0] = junction.about_voltage(q[0]);
+    for (Index k = 1; k < 3; ++k) formulas[k] = gradient(formulas[k - 1], q)[0];
+    const Function function("about", {{"q", q}}, formulas);
+    const auto at = [&](double charge) {
+      VectorXd result(3);
+      const double* in = &charge;
+      function.value(&in, result.data());
+      return result;
+    };
+    for (const double size : {1e-300, 1e-162, 1e-40, 1e-20, 1e-12, 1e-6, 1e3})
+      for (const double charge : {-size, size}) BOOST_TEST(at(charge).allFinite(), charge);
+    constexpr double little = 1e-20;
+    BOOST_TEST(at(0.0).allFinite());
+    for (Index k = 1; k < 3; ++k)
+      BOOST_TEST(at(-little)[k] == at(little)[k], boost::test_tools::tolerance(1e-5));
+  }
 }
 
 // Far below 0, where exp is less than the round-off of 1, the charge of a leak tells the voltage all the same.
