@@ -25,8 +25,8 @@ struct NetworkNodes {
 // of current no cut-set. Otherwise false, and problems in the words of the network.
 bool check_topology(const NetworkNodes& nodes, const std::vector<NetworkElement>& elements,
                     Findings& findings);
-// No element needs its own results by way of others. `words` has the currents and voltages, `assembly` the elements at the same
-// places.
+// No element needs its own results by way of others. `words` has the currents and voltages, `assembly` the elements at
+// the same places.
 bool check_circles(const std::vector<NetworkElement>& elements, const NetworkWords& words,
                    const elements::NetworkAssembly& assembly, Findings& findings);
 

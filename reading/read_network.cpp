@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <stdexcept>
 
 #include "courant/core/language/declaration.hpp"
 #include "courant/core/language/formula.hpp"
 #include "courant/core/numbers/as_size.hpp"
+#include "courant/core/words/message.hpp"
 #include "courant/reading/coupled_inductors.hpp"
 #include "courant/reading/network_branches.hpp"
 #include "courant/reading/network_quantities.hpp"
@@ -113,7 +115,9 @@ Registry<NetworkElement, NetworkSite>& element_kinds() {
   return kinds;
 }
 
-std::optional<Model> read_network(ObjectReader& system) {
+namespace {
+
+std::optional<Model> read_elements_and_nodes(ObjectReader& system) {
   Findings& findings = system.place().findings();
   Model model;
   model.vocabulary = read_vocabulary(system);
@@ -153,6 +157,18 @@ std::optional<Model> read_network(ObjectReader& system) {
   model.system = network;
   model.starts_at_zero = true;
   return model;
+}
+
+}  // namespace
+
+std::optional<Model> read_network(ObjectReader& system) {
+  try {
+    return read_elements_and_nodes(system);
+  } catch (const std::length_error& error) {  // of loops and ways through the network
+    system.place().findings().problem(system.place().pointer() + "/elements",
+                                      without_place(error.what()));
+    return std::nullopt;
+  }
 }
 
 }  // namespace courant

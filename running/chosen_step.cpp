@@ -28,9 +28,12 @@ constexpr double kLeastWayCompared = 1e-9;
 // What a trial leaves: the coordinates at the ends of the longest steps, as columns, and those at which an event stopped it;
 // and when events stopped it or set something, by their names.
 struct Trial {
-  MatrixXd x;
+  MatrixXd x = {};
   std::map<std::string, std::vector<double>> jumps = {};
-  VectorXd stopped_at = {};  // empty where it came to its end
+  VectorXd stopped_at = {};  // empty where no event did
+  double last_time = 0.0;
+  // From where a step could not be made to the end of that step.
+  std::optional<std::pair<double, double>> failed_in = std::nullopt;
 };
 
 // Whether steps by themselves do not know how the run goes on behind it.
@@ -49,7 +52,9 @@ class TrialKeeper final : public RunKeeper {
   void see(const RunMoment& moment) override {
     constexpr double round_off = 1e-9;
     const double end = time_.time(moment.k / parts_);
+    if (!moment.step.after.x.allFinite()) return;
     last_ = moment.step.after.x;
+    last_t_ = moment.t;
     // An event may have stopped the run within the step.
     if (moment.k % parts_ == 0 && std::fabs(moment.t - end) <= round_off * std::fabs(time_.step))
       states_.push_back(last_);
@@ -58,7 +63,7 @@ class TrialKeeper final : public RunKeeper {
   void tell(const RunSummary&) override {}
 
   Trial trial(const std::vector<Event>& events) const {
-    Trial trial{.x = MatrixXd(last_.size(), std::ssize(states_))};
+    Trial trial{.x = MatrixXd(last_.size(), std::ssize(states_)), .last_time = last_t_};
     for (Index k = 0; k < trial.x.cols(); ++k)
       trial.x.col(k) = states_[static_cast<std::size_t>(k)];
     for (const Event& event : events) {
@@ -77,10 +82,11 @@ class TrialKeeper final : public RunKeeper {
   const TimeSpan& time_;
   std::vector<VectorXd> states_;
   VectorXd last_;
+  double last_t_ = time_.start;
   std::map<std::string, std::vector<double>> events_;
 };
 
-// Runs with steps that are tried; nothing where a step cannot be made.
+// Runs with steps that are tried.
 class Trials {
  public:
   Trials(const Experiment& experiment, Backend backend, const std::atomic<bool>* stop)
@@ -92,15 +98,19 @@ class Trials {
     if (!jumps_) start_ = consistent_start(experiment);
   }
 
-  std::optional<Trial> run(long parts) const {
-    return jumps_ ? with_events(parts) : steps_alone(parts);
+  Trial run(long parts) const {
+    const TimeSpan& time = *experiment_.time;
+    const double h = time.step / static_cast<double>(parts);
+    Trial trial = jumps_ ? with_events(h, parts) : steps_alone(h, parts);
+    if (trial.x.cols() <= time.steps && trial.stopped_at.size() == 0)
+      trial.failed_in = {trial.last_time, trial.last_time + h};
+    return trial;
   }
 
  private:
-  std::optional<Trial> with_events(long parts) const {
+  Trial with_events(double h, long parts) const {
     const TimeSpan& time = *experiment_.time;
-    const auto whole =
-        with_chosen_step(experiment_, {.step = time.step / static_cast<double>(parts)});
+    const auto whole = with_chosen_step(experiment_, {.step = h});
     TrialKeeper keeper(parts, time);
     RunOptions options;
     options.backend = backend_;
@@ -108,14 +118,14 @@ class Trials {
     options.explains_start = false;
     const RunOutcome outcome = carry_out(*whole, keeper, options);
     if (outcome.status == RunStatus::interrupted) throw std::runtime_error("interrupted");
-    const Trial trial = keeper.trial(experiment_.events);
-    if (outcome.status == RunStatus::failed || !trial.x.allFinite()) return std::nullopt;
-    return trial;
+    return keeper.trial(experiment_.events);
   }
 
-  std::optional<Trial> steps_alone(long parts) const {
+  Trial steps_alone(double h, long parts) const {
     const TimeSpan& time = *experiment_.time;
-    const double h = time.step / static_cast<double>(parts);
+    State state = start_.point;
+    MatrixXd x(state.x.size(), time.steps + 1);
+    Index reached = 0;  // columns
     try {
       const PreparedMethod method =
           experiment_.method->prepare({.system = experiment_.model.system,
@@ -125,22 +135,20 @@ class Trials {
                                        .backend = backend_,
                                        .vocabulary = &experiment_.model.vocabulary});
       const auto stepper = method.integrator->stepper();
-      State state = method.initial;
-      MatrixXd x(state.x.size(), time.steps + 1);
-      x.col(0) = state.x;
+      state = method.initial;
+      x.col(reached++) = state.x;
       stepper->prepare(state, h);
       for (long k = 0; k < time.steps; ++k) {
         for (long i = 1; i <= parts; ++i)
           stepper->step(state, h, time.time(k) + static_cast<double>(i) * h);
-        if (!state.x.allFinite()) return std::nullopt;
         if (stop_ && *stop_) throw std::runtime_error("interrupted");
-        x.col(k + 1) = state.x;
+        if (!state.x.allFinite()) break;
+        x.col(reached++) = state.x;
       }
-      return Trial{.x = std::move(x)};
     } catch (const SolveError&) {
     } catch (const std::domain_error&) {
     }
-    return std::nullopt;
+    return {.x = x.leftCols(reached), .last_time = state.t};
   }
 
   const Experiment& experiment_;
@@ -151,7 +159,7 @@ class Trials {
 };
 
 // The times from an occurrence of an event in one trial to the same one in the other, or to the end where that has none:
-// one has jumped then, and the other has not.
+// one has jumped then, and the other has not. Likewise those between the ends of trials that failed.
 std::vector<std::pair<double, double>> times_between_jumps(const TimeSpan& time, const Trial& a,
                                                            const Trial& b) {
   std::vector<std::pair<double, double>> result;
@@ -161,6 +169,11 @@ std::vector<std::pair<double, double>> times_between_jumps(const TimeSpan& time,
       result.push_back(std::minmax(i < of_a.size() ? of_a[i] : time.end(),
                                    i < of_b.size() ? of_b[i] : time.end()));
   }
+  const std::pair<double, double> whole{time.end(), time.end()};
+  const auto [a_from, a_to] = a.failed_in.value_or(whole);
+  const auto [b_from, b_to] = b.failed_in.value_or(whole);
+  if (a_to < b_from) result.emplace_back(a_to, b_from);
+  if (b_to < a_from) result.emplace_back(b_to, a_from);
   return result;
 }
 
@@ -189,13 +202,15 @@ std::pair<MatrixXd, MatrixXd> comparable(const TimeSpan& time, const Trial& a, c
 
 // The greatest of coordinates where they can be compared, next to their ways, and the part of the time in which they
 // cannot.
-double difference(const TimeSpan& time, const std::optional<Trial>& coarse,
-                  const std::optional<Trial>& fine) {
-  if (!coarse || !fine) return kNoEstimate;
+double difference(const TimeSpan& time, const Trial& coarse, const Trial& fine) {
+  const auto has_no_way = [](const Trial& trial) {
+    return trial.x.cols() < 2 && trial.stopped_at.size() == 0;
+  };
+  if (has_no_way(coarse) || has_no_way(fine)) return kNoEstimate;
   double greatest = 0.0;
-  const auto between = times_between_jumps(time, *coarse, *fine);
+  const auto between = times_between_jumps(time, coarse, fine);
   for (const auto& [from, to] : between) greatest += (to - from) / (time.end() - time.start);
-  const auto [of_coarse, of_fine] = comparable(time, *coarse, *fine, between);
+  const auto [of_coarse, of_fine] = comparable(time, coarse, fine, between);
   for (Index i = 0; i < of_fine.rows() && of_fine.cols() > 0; ++i) {
     const auto row = of_fine.row(i);
     const double way = row.maxCoeff() - row.minCoeff();
@@ -203,6 +218,26 @@ double difference(const TimeSpan& time, const std::optional<Trial>& coarse,
     greatest = std::max(greatest, (of_coarse.row(i) - row).cwiseAbs().maxCoeff() / way);
   }
   return greatest;
+}
+
+// What there is to say of a step beside itself.
+std::string remark_on(const ChosenStep& chosen, double tolerance) {
+  const std::string step = number_text(chosen.step, 3);
+  if (!std::isfinite(chosen.estimate))
+    return "is " + number_text(tolerance) +
+           ", but no step that was tried leads to a second row: the run has the least, " + step;
+  std::string text;
+  if (chosen.ended_at)
+    text = "is " + number_text(tolerance) +
+           ", but no step that was tried leads to the end of the run: with the half of " + step +
+           " it ends at t = " + number_text(*chosen.ended_at, 4);
+  if (chosen.estimate <= tolerance) return text;
+  if (!text.empty())
+    return text + ", and coordinates differ by " + number_text(chosen.estimate, 2) +
+           " of their ways up to there";
+  return "is " + number_text(tolerance) +
+         ", which no step reaches that was tried: with the half of " + number_text(chosen.step) +
+         " coordinates differ by " + number_text(chosen.estimate, 2) + " of their ways";
 }
 
 }  // namespace
@@ -213,15 +248,17 @@ ChosenStep chosen_step(const Experiment& experiment, Backend backend,
   const double tolerance = *time.tolerance;
   const Trials trials(experiment, backend, stop);
   long parts = 1;
-  std::optional<Trial> coarse = trials.run(parts);
+  Trial coarse = trials.run(parts);
   ChosenStep best{time.step, kNoEstimate};
   int in_vain = 0;  // halvings that left the estimate as it was
   double before = kNoEstimate;
   while (in_vain < kMostInVain &&
          static_cast<double>(parts) * static_cast<double>(time.steps) <= kMostStepsTried) {
-    const std::optional<Trial> fine = trials.run(2 * parts);
+    Trial fine = trials.run(2 * parts);
     const double estimate = difference(time, coarse, fine);
-    if (estimate < best.estimate) best = {time.step / static_cast<double>(parts), estimate};
+    if (estimate < best.estimate)
+      best = {time.step / static_cast<double>(parts), estimate,
+              fine.failed_in ? std::optional(fine.failed_in->first) : std::nullopt};
     if (estimate <= tolerance) return best;
     if (std::isfinite(estimate) && estimate > kFalls * before) ++in_vain;
     before = estimate;
@@ -230,13 +267,11 @@ ChosenStep chosen_step(const Experiment& experiment, Backend backend,
         std::isfinite(estimate) ? std::floor(0.5 * std::log2(estimate / tolerance)) : 1.0;
     const int further = static_cast<int>(std::clamp(halves, 1.0, 4.0));
     parts *= 1L << further;
-    coarse = further == 1 ? fine : trials.run(parts);
+    coarse = further == 1 ? std::move(fine) : trials.run(parts);
   }
+  // What stands in the way of the first step, the run with the least of them says.
   if (!std::isfinite(best.estimate))
-    throw ExperimentError("/time/tolerance",
-                          "cannot be reached: with no step that was tried, the least of them " +
-                              number_text(time.step / static_cast<double>(parts), 3) +
-                              ", the run comes to its end; expected a step");
+    best = {time.step / static_cast<double>(parts), kNoEstimate, time.start};
   return best;
 }
 
@@ -246,13 +281,8 @@ std::shared_ptr<const Experiment> with_chosen_step(const Experiment& experiment,
   document["time"]["step"] = chosen.step;
   auto result = std::make_shared<Experiment>(read_experiment_document(document));
   result->remarks = experiment.remarks;
-  const double tolerance = *experiment.time->tolerance;
-  if (chosen.estimate > tolerance)
-    result->remarks.push_back(
-        {"/time/tolerance", "is " + number_text(tolerance) +
-                                ", which no step reaches that was tried: with the half of " +
-                                number_text(chosen.step) + " coordinates differ by " +
-                                number_text(chosen.estimate, 2) + " of their ways"});
+  if (const std::string remark = remark_on(chosen, *experiment.time->tolerance); !remark.empty())
+    result->remarks.push_back({"/time/tolerance", remark});
   return result;
 }
 

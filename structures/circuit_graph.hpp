@@ -1,15 +1,11 @@
 // CircuitGraph: which elements connect which nodes.
 #pragma once
 
-#include <boost/graph/adjacency_list.hpp>
+#include <cstddef>
 #include <string>
+#include <vector>
 
 namespace courant {
-
-// A vertex of the graph of a circuit.
-struct CircuitNode {
-  std::string name;
-};
 
 // An edge of the graph of a circuit.
 struct CircuitElement {
@@ -26,7 +22,20 @@ struct CircuitElement {
 //
 //   CircuitGraph graph(2);
 //   add_edge(0, 1, CircuitElement{"C1"}, graph);
-using CircuitGraph = boost::adjacency_list<boost::vecS, boost::vecS, boost::bidirectionalS,
-                                           CircuitNode, CircuitElement>;
+struct CircuitGraph {
+  struct Edge {
+    std::size_t source = 0, target = 0;
+    CircuitElement element = {};
+  };
+
+  explicit CircuitGraph(std::size_t nodes) : node_count(nodes) {}
+
+  std::size_t node_count;
+  std::vector<Edge> edges = {};
+};
+
+// Adds an element. Nodes that the graph does not have yet are added up to the larger of these two.
+void add_edge(std::size_t source, std::size_t target, CircuitElement element, CircuitGraph& graph);
+void add_edge(std::size_t source, std::size_t target, CircuitGraph& graph);
 
 }  // namespace courant

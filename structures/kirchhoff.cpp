@@ -1,11 +1,14 @@
 #include "courant/structures/kirchhoff.hpp"
 
 #include <algorithm>
+#include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/breadth_first_search.hpp>
 #include <boost/graph/filtered_graph.hpp>
 #include <boost/graph/kruskal_min_spanning_tree.hpp>
 #include <cstdint>
 #include <iterator>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "courant/core/numbers/as_size.hpp"
@@ -23,6 +26,17 @@ SparseMatrixXd sparse(Index rows, Index columns, const Triplets& triplets) {
 
 void add(Triplets& triplets, Index row, Index column, double value) {
   triplets.emplace_back(static_cast<int>(row), static_cast<int>(column), value);
+}
+
+// Loops of a chain of n elements have n²/2 elements in all, which take all memory before n is 10⁵. So many take 2 GB
+// with the copies that products of them make.
+void require_few(Index elements, const std::string& function, const std::string& what) {
+  constexpr Index most = 60'000'000;
+  if (elements > most)
+    throw std::length_error("Kirchhoff::" + function + ": the " + what + " have more than " +
+                            std::to_string(most) +
+                            " elements in all; expected a smaller network, or one with shorter "
+                            "ways from node to node.");
 }
 
 // A bijection that scatters consecutive numbers (the finaliser of SplitMix64).
@@ -101,15 +115,15 @@ SparseMatrixXd embedded(const SparseMatrixXd& block, Index row, Index column, In
 }  // namespace
 
 Kirchhoff::Kirchhoff(const CircuitGraph& graph)
-    : node_count_(static_cast<Index>(num_vertices(graph))) {
-  Skeleton skeleton(num_vertices(graph));
-  for (const auto& edge : boost::make_iterator_range(edges(graph))) {
+    : node_count_(static_cast<Index>(graph.node_count)) {
+  Skeleton skeleton(graph.node_count);
+  for (const auto& [source, target, properties] : graph.edges) {
     const Index element = element_count();
-    source_.push_back(static_cast<Index>(source(edge, graph)));
-    target_.push_back(static_cast<Index>(target(edge, graph)));
+    source_.push_back(static_cast<Index>(source));
+    target_.push_back(static_cast<Index>(target));
     add_edge(
-        source(edge, graph), target(edge, graph),
-        Connection{element, {graph[edge].weight, scattered(static_cast<std::uint64_t>(element))}},
+        source, target,
+        Connection{element, {properties.weight, scattered(static_cast<std::uint64_t>(element))}},
         skeleton);
   }
 
@@ -163,6 +177,7 @@ SparseMatrixXd Kirchhoff::reduced_incidence() const {
 SparseMatrixXd Kirchhoff::loops() const {
   SparseMatrixXd result(element_count(), static_cast<Index>(links_.size()));
   std::vector<std::pair<Index, double>> loop;
+  Index entries = 0;
   for (Index column = 0; column < result.cols(); ++column) {
     const Index link = links_[as_size(column)];
     loop.assign(1, {link, 1.0});
@@ -178,6 +193,7 @@ SparseMatrixXd Kirchhoff::loops() const {
         a = parent_[as_size(a)];
       }
     }
+    require_few(entries += static_cast<Index>(loop.size()), "loops", "loops");
     std::ranges::sort(loop);
     result.startVec(column);
     for (const auto& [element, sign] : loop) result.insertBack(element, column) = sign;
@@ -197,6 +213,7 @@ SparseMatrixXd Kirchhoff::cut_sets() const {
 SparseMatrixXd Kirchhoff::potentials() const {
   Triplets triplets;
   for (Index node = 0; node < node_count_; ++node) {
+    require_few(static_cast<Index>(triplets.size()), "potentials", "ways to the nodes");
     for (Index at_node = node; parent_[as_size(at_node)] != at_node;
          at_node = parent_[as_size(at_node)]) {
       const Index element = parent_element_[as_size(at_node)];

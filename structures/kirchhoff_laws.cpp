@@ -7,15 +7,6 @@
 namespace courant {
 namespace {
 
-double largest(const SparseMatrixXd& matrix) {
-  double result = 0.0;
-  for (Index j = 0; j < matrix.outerSize(); ++j) {
-    for (SparseMatrixXd::InnerIterator it(matrix, j); it; ++it)
-      result = std::max(result, std::abs(it.value()));
-  }
-  return result;
-}
-
 // [A₁ B₂]: columns of A and then of B, by their numbers.
 SparseMatrixXd columns(const SparseMatrixXd& A, const std::vector<Index>& of_A,
                        const SparseMatrixXd& B, const std::vector<Index>& of_B) {
@@ -65,6 +56,14 @@ Index columns_after_peeling(const SparseMatrixXd& matrix) {
 
 }  // namespace
 
+double largest_entry(const SparseMatrixXd& matrix) {
+  double result = 0.0;
+  for (Index j = 0; j < matrix.outerSize(); ++j)
+    for (SparseMatrixXd::InnerIterator it(matrix, j); it; ++it)
+      result = std::max(result, std::abs(it.value()));
+  return result;
+}
+
 std::vector<LawResult> check_sparse_dirac(const std::string& subject,
                                           const KernelRepresentation<SparseMatrixXd>& kernel,
                                           const HybridRepresentation<SparseMatrixXd>& hybrid) {
@@ -79,10 +78,11 @@ std::vector<LawResult> check_sparse_dirac(const std::string& subject,
   const bool square = outputs.rows() == outputs.cols();
   const auto remaining =
       static_cast<double>(square ? columns_after_peeling(outputs) : outputs.cols());
-  return {law("K1 F Eᵀ + E Fᵀ = 0", largest(product + SparseMatrixXd(product.transpose()))),
+  return {law("K1 F Eᵀ + E Fᵀ = 0", largest_entry(product + SparseMatrixXd(product.transpose()))),
           law("K2 rank [F E] = n", remaining),
-          law("K3 M + Mᵀ = 0", largest(M + SparseMatrixXd(M.transpose()))),
-          law("K4 (f₁, e₂) = M (e₁, f₂) lies in D", largest(SparseMatrixXd(outputs * M) + inputs))};
+          law("K3 M + Mᵀ = 0", largest_entry(M + SparseMatrixXd(M.transpose()))),
+          law("K4 (f₁, e₂) = M (e₁, f₂) lies in D",
+              largest_entry(SparseMatrixXd(outputs * M) + inputs))};
 }
 
 std::vector<LawResult> check_kirchhoff(const Kirchhoff& structure) {

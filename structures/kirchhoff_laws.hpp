@@ -9,6 +9,9 @@
 
 namespace courant {
 
+// The largest absolute value of an entry; 0 of a matrix without any.
+double largest_entry(const SparseMatrixXd& matrix);
+
 // Whether D = {(f, e) : F f + E e = 0} is a Dirac structure, and has this hybrid representation:
 //
 //   K1  F Eᵀ + E Fᵀ = 0

@@ -134,8 +134,10 @@ class Network final : public PortSystem {
 class NetworkVariables {
  public:
   virtual ~NetworkVariables() = default;
+  // Of a branch by its number in Network::branches(): what flows through it, and what lies across it.
   virtual Expr current(Index branch) const = 0;
   virtual Expr voltage(Index branch) const = 0;
+  // The charges and fluxes of the network, and the time.
   virtual const ExprVector& x() const = 0;
   virtual const Expr& t() const = 0;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "courant/core/linear/sparse_lu.hpp"
 #include "courant/core/numbers/as_size.hpp"
@@ -116,12 +117,15 @@ class StaticEquations {
       balances_.push_back(std::move(balance));
     };
     const Kirchhoff whole(all), sources(ideal);
-    const SparseMatrixXd cut_sets = whole.cut_sets(), loops = sources.loops();
+    const SparseMatrixXd loops = sources.loops();
+    std::optional<SparseMatrixXd> cut_sets;  // which may be long, and are seldom asked for
     for (std::size_t k = 0; k < whole.tree().size(); ++k) {
       const std::size_t element = as_size(whole.tree()[k]);
-      if (element < circuit_.elements.size() &&
-          circuit_.elements[element].kind == StaticKind::capacitor)
-        add(element, cut_sets, static_cast<Index>(k), [](std::size_t member) { return member; });
+      if (element >= circuit_.elements.size() ||
+          circuit_.elements[element].kind != StaticKind::capacitor)
+        continue;
+      if (!cut_sets) cut_sets = whole.cut_sets();
+      add(element, *cut_sets, static_cast<Index>(k), [](std::size_t member) { return member; });
     }
     for (std::size_t k = 0; k < sources.links().size(); ++k) {
       const std::size_t element = of_ideal[as_size(sources.links()[k])];

@@ -6,7 +6,7 @@
 
 #include "courant/core/language/symbol_table.hpp"
 #include "courant/extensions/spice/netlist_text.hpp"
-#include "courant/integrators/methods/divided_integrator.hpp"
+#include "courant/integrators/methods/substepping_integrator.hpp"
 
 namespace courant::netlist {
 

@@ -13,9 +13,9 @@ namespace courant::elements {
 //   1/q₁ = 1 - v_c/early_forward - v_e/early_reverse
 //   q_b = q₁/2 (1 + √(1 + 4 (i_f/knee_forward + i_r/knee_reverse)))
 //
-// the current (i_f - i_r)/q_b goes through from the collector to the emitter of an npn, and i_f/β_f and i_r/β_r with those
-// of two leaking junctions go through the base. Currents in A, voltages in V. With early and knee values of 0, which stand
-// for infinite ones, that is the model of Ebers and Moll (1954).
+// the current (i_f - i_r)/q_b goes through from the collector to the emitter of an npn, and i_f/β_f and i_r/β_r with
+// those of two leaking junctions go through the base. Currents in A, voltages in V. With early and knee values of 0,
+// which stand for infinite ones, that is the model of Ebers and Moll (1954).
 // Source: Gummel, Poon, An integral charge control model of bipolar transistors (1970).
 struct BipolarTransistor {
   double saturation = 1e-16;
@@ -26,10 +26,11 @@ struct BipolarTransistor {
   double knee_forward = 0.0, knee_reverse = 0.0;    // A; 0: infinite
   double leak = 0.0;                                // a conductance beside each junction, S
 
-  // The Early voltage widens the base of a transistor whose collector blocks, and what is stored in it: the charge τ i_f at the emitter
-  // becomes τ i_f (1 + g), g = -v_c/early_forward, as τ i_f/q_b of SPICE without knee and early_reverse. With ∫ i_f dv_e g'
-  // at the collector, which is as small as 25 mV is beside early_forward, both charges are slopes of one function, and there is
-  // an energy. g is 0 for v_c > 0, and a parabola on the way, from -0.2 V on, so that charges tell both voltages.
+  // The Early voltage widens the base of a transistor whose collector blocks, and what is stored in it: the charge τ
+  // i_f at the emitter becomes τ i_f (1 + g), g = -v_c/early_forward, as τ i_f/q_b of SPICE without knee and
+  // early_reverse. With ∫ i_f dv_e g' at the collector, which is as small as 25 mV is beside early_forward, both
+  // charges are slopes of one function, and there is an energy. g is 0 for v_c > 0, and a parabola on the way, from
+  // -0.2 V on, so that charges tell both voltages.
   struct Widening {
     Expr at_emitter, at_collector, energy;
   };

@@ -5,8 +5,8 @@
 
 namespace courant::elements {
 
-// A pair of a through and an across variable whose product is a power, and the first letters of names: of these two, and of
-// the across variable of a node against the ground.
+// A pair of a through and an across variable whose product is a power, and the first letters of names: of these two,
+// and of the across variable of a node against the ground.
 struct Domain {
   std::string name;
   std::string through, across, node;

@@ -37,9 +37,9 @@ Element current_source(Law current);
 // `on` Ω where `closed` is not 0, else `off` Ω.
 Element electrical_switch(Law closed, double on, double off);
 
-// The charge of a junction beside branch `beside` of an element, between its terminals `from` and `to`: a state q_<name>, or
-// q_<part>_<name>, which q = q(v) ties to the voltage of that branch. Where it is tied, the voltage of the charge is that of
-// the branch, as it is side by side. `more` is added to q(v), and `more_energy` to what is stored.
+// The charge of a junction beside branch `beside` of an element, between its terminals `from` and `to`: a state
+// q_<name>, or q_<part>_<name>, which q = q(v) ties to the voltage of that branch. Where it is tied, the voltage of the
+// charge is that of the branch, as it is side by side. `more` is added to q(v), and `more_energy` to what is stored.
 struct MoreCharge {
   Law charge = {}, energy = {};
 };

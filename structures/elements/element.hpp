@@ -19,6 +19,7 @@ class Variables {
   Variables(const NetworkVariables& network, Index first_branch, const std::vector<Index>& states)
       : network_(network), first_(first_branch), states_(states) {}
 
+  // By the numbers of branches and states in the element.
   Expr current(Index branch) const { return network_.current(first_ + branch); }
   Expr voltage(Index branch) const { return network_.voltage(first_ + branch); }
   const Expr& state(Index state) const {
@@ -43,10 +44,10 @@ inline Law constant(double value) {
   return [value](const Variables&) { return Expr(value); };
 }
 
-// What a part of a network is, wherever it is. Branches are those of NetworkBranch, from one terminal to another, in the
-// variables of a domain each; those that are charges or fluxes are the states of the element, in this order. Elements of
-// all domains are made by the functions beside this file (electrical.hpp …); NetworkAssembly makes a network of them. A
-// value.
+// What a part of a network is, wherever it is. Branches are those of NetworkBranch, from one terminal to another, in
+// the variables of a domain each; those that are charges or fluxes are the states of the element, in this order.
+// Elements of all domains are made by the functions beside this file (electrical.hpp …); NetworkAssembly makes a
+// network of them. A value.
 struct Element {
   static constexpr Index ground = -1;
 

@@ -5,8 +5,8 @@
 
 namespace courant::elements {
 
-// ½ φᵀ 𝓛⁻¹ φ, 𝓛_ii = L_i, 𝓛_ij = M_ij: of n inductors. Numbers are kept as couplings M_ij/√(L_i L_j), so that inductances may
-// differ by powers of ten.
+// ½ φᵀ 𝓛⁻¹ φ, 𝓛_ii = L_i, 𝓛_ij = M_ij: of n inductors. Numbers are kept as couplings M_ij/√(L_i L_j), so that
+// inductances may differ by powers of ten.
 class MutualInductance {
  public:
   // L (n), in H, positive.
@@ -16,8 +16,8 @@ class MutualInductance {
   // One more, coupled to none. Returns its number.
   Index add(double inductance);
 
-  // Adds a coupling between -1 and 1 of two different inductors; false, and nothing is done, where both together would be
-  // coupled wholly or more.
+  // Adds a coupling between -1 and 1 of two different inductors; false, and nothing is done, where both together would
+  // be coupled wholly or more.
   bool add(Index i, Index j, double coupling);
   // Whether 𝓛 is positive definite: each pair may be coupled so, and all together not.
   bool is_definite() const;

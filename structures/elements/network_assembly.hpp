@@ -36,11 +36,12 @@ class NetworkAssembly {
   void add(const std::string& name, Element element, const std::vector<Index>& nodes);
   // A branch that no element has.
   void add_branch(NetworkBranch branch) { branches_.push_back(std::move(branch)); }
-  // Couples two inductors that are given by their inductances, by M/√(L₁ L₂). False, and nothing is done, where all couplings
-  // of both together are not between -1 and 1. Throws std::invalid_argument where a name is none of such an inductor, or both
-  // are one.
+  // Couples two inductors that are given by their inductances, by M/√(L₁ L₂). False, and nothing is done, where all
+  // couplings of both together are not between -1 and 1. Throws std::invalid_argument where a name is none of such an
+  // inductor, or both are one.
   bool couple(const std::string& first, const std::string& second, double coupling);
-  // Whether the energy of the inductors that are coupled is positive: each pair may be coupled so, and all together not.
+  // Whether the energy of the inductors that are coupled is positive: each pair may be coupled so, and all together
+  // not.
   bool has_positive_inductances() const { return coupled_.is_definite(); }
 
   const std::vector<Place>& places() const { return places_; }
@@ -48,7 +49,8 @@ class NetworkAssembly {
   Index state_count() const { return states_; }
   // H of all states.
   Network::Energy energy() const;
-  // Throws std::invalid_argument where Network does, and where inductors are coupled so that their energy is not positive.
+  // Throws std::invalid_argument where Network does, and where inductors are coupled so that their energy is not
+  // positive.
   std::shared_ptr<const Network> network() const;
 
  private:

@@ -20,8 +20,8 @@ Element flow_source(Law flow);          // m³/s
 // One terminal. An entropy S_<name> in J/K, 0 at the temperature T₀: U(S) = C T₀ exp(S/C), so that T = T₀ exp(S/C) and
 // dU = C dT.
 Element heat_capacity(double capacity, double reference);
-// The heat G (T₁ - T₂) takes the entropy G (T₁ - T₂)/T₁ from one side and gives G (T₁ - T₂)/T₂ to the other, which is more;
-// no energy is lost.
+// The heat G (T₁ - T₂) takes the entropy G (T₁ - T₂)/T₁ from one side and gives G (T₁ - T₂)/T₂ to the other, which is
+// more; no energy is lost.
 Element thermal_conductor(Law conductance);   // W/K
 Element temperature_source(Law temperature);  // K
 // One terminal. Heat at the rate P is the entropy flow P/T.

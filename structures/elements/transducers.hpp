@@ -9,8 +9,8 @@ namespace courant::elements {
 // motor, K in V·s/rad) or domains::translation (a voice coil, K in V·s/m). Winding and rotor are elements besides.
 Element motor(double constant, const Domain& domain);
 
-// Terminals: from, to, armature. A flux phi_<name> in Wb and the position x_<name> of the armature in m, with the energy
-// phi²/(2 L(x)); L in H, of own[1].
+// Terminals: from, to, armature. A flux phi_<name> in Wb and the position x_<name> of the armature in m, with the
+// energy phi²/(2 L(x)); L in H, of own[1].
 Element electromagnet(StateLaw inductance);
 
 }  // namespace courant::elements

@@ -7,8 +7,9 @@
 
 namespace courant::elements {
 
-// Terminals: collector, base, emitter. Branches <name>_be and <name>_bc, and charges q_be_<name> and q_bc_<name> where a
-// junction has any. `joined`: nodes of the terminals, of which two may be the same, which have no branch between them.
+// Terminals: collector, base, emitter. Branches <name>_be and <name>_bc, and charges q_be_<name> and q_bc_<name> where
+// a junction has any. `joined`: nodes of the terminals, of which two may be the same, which have no branch between
+// them.
 Element bipolar_transistor(const BipolarTransistor& law, const JunctionCharge& at_emitter,
                            const JunctionCharge& at_collector, bool is_pnp,
                            const std::vector<Index>& joined = {0, 1, 2});

@@ -1,42 +1,20 @@
 // Netlists of SPICE: whole commands that read any text as one.
 #include <cstddef>
 #include <cstdint>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "importing.hpp"
 #include "mutation.hpp"
+#include "words_in_lines.hpp"
 
 namespace courant::fuzz {
 
 namespace {
 
-using Lines = std::vector<std::vector<std::string>>;  // of words
-
-Lines lines_of(const std::string& text) {
-  Lines lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) {
-    std::istringstream of_line(line);
-    lines.emplace_back();
-    for (std::string word; of_line >> word;) lines.back().push_back(word);
-  }
-  return lines;
-}
-
-std::string text_of(const Lines& lines) {
-  std::string text;
-  for (const auto& line : lines) {
-    for (std::size_t i = 0; i < line.size(); ++i) text += (i > 0 ? " " : "") + line[i];
-    text += '\n';
-  }
-  return text;
-}
-
 // A word, or a line, is replaced by another one of the netlist or of the language, left out or doubled.
-void mutate_lines(Lines& lines, Generator& generator) {
+void mutate_netlist(Lines& lines, Generator& generator) {
   static const std::vector<std::string> words = {"0",
                                                  "-1",
                                                  "1e308",
@@ -127,25 +105,11 @@ void mutate_lines(Lines& lines, Generator& generator) {
     default:
       break;
   }
-  std::vector<std::string>& line = lines[at];
-  if (line.empty()) return;
-  std::string& word = line[below(line.size(), generator)];
-  const std::vector<std::string>& other = lines[below(lines.size(), generator)];
-  switch (below(4, generator)) {
-    case 0:
-      if (!other.empty()) word = std::string(other[below(other.size(), generator)]);
-      return;
-    case 1:
-      line.push_back(words[below(words.size(), generator)]);
-      return;
-    case 2: {  // another kind of element
-      constexpr std::string_view kinds = "RCLKVIEFGHBDQMSWTXJAOU.+*";
-      word[0] = kinds[below(kinds.size(), generator)];
-      return;
-    }
-    default:
-      word = words[below(words.size(), generator)];
-  }
+  // Another kind of element.
+  mutate_word(lines, at, words, generator, [&](std::vector<std::string>&, std::string& word) {
+    constexpr std::string_view kinds = "RCLKVIEFGHBDQMSWTXJAOU.+*";
+    word[0] = kinds[below(kinds.size(), generator)];
+  });
 }
 
 }  // namespace
@@ -155,14 +119,7 @@ void mutate_lines(Lines& lines, Generator& generator) {
 // Three of four executions change the lines and words of the netlist rather than its letters.
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
                                                std::size_t most, unsigned seed) {
-  using namespace courant::fuzz;
-  return mutate_text(data, size, most, seed,
-                     [](const std::string& text, std::size_t times, Generator& generator) {
-                       Lines lines = lines_of(text);
-                       if (lines.size() < 2) return std::string();
-                       for (; times > 0 && !lines.empty(); --times) mutate_lines(lines, generator);
-                       return text_of(lines);
-                     });
+  return courant::fuzz::mutate_lines(data, size, most, seed, courant::fuzz::mutate_netlist);
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -101,6 +101,53 @@ BOOST_AUTO_TEST_CASE(trials_end_where_an_event_stops_them) {
   BOOST_TEST(chosen.step > chosen_step(read_experiment_document(whole)).step);
 }
 
+// x x' = -1/2 has an impasse at t = 1, where x = √(1 - t) is 0: no step leads beyond it, with an event or without.
+BOOST_AUTO_TEST_CASE(runs_that_all_end_at_an_impasse_are_compared_up_to_there) {
+  Json impasse = Json::parse(R"json({
+    "system": { "type": "implicit", "coordinates": ["x", "s"], "equations": ["x*x' + 1/2", "s'"] },
+    "initial": { "x": 1, "s": 0 },
+    "method": "discretize-first",
+    "time": { "tolerance": 0.05, "end": 2 },
+    "output": { "interval": 0.04 }
+  })json");
+  for (const bool has_event : {false, true}) {
+    if (has_event)
+      impasse["events"] = {
+          {"half", {{"zero", "x-1/2"}, {"direction", "falling"}, {"set", {{"s", 1}}}}}};
+    const Experiment experiment = read_experiment_document(impasse);
+    const ChosenStep chosen = chosen_step(experiment);
+    BOOST_TEST(chosen.estimate <= 0.05);
+    BOOST_TEST_REQUIRE(chosen.ended_at.has_value());
+    BOOST_TEST(std::abs(*chosen.ended_at - 1.0) <= 1.5 * chosen.step);
+    const auto whole = with_chosen_step(experiment, chosen);
+    BOOST_TEST_REQUIRE(whole->remarks.size() == 1u);
+    BOOST_TEST(whole->remarks[0].what.find("leads to the end of the run") != std::string::npos,
+               whole->remarks[0].what);
+    const TemporaryFolder folder;
+    const RunOutcome outcome = run_in(folder, impasse);
+    BOOST_TEST((outcome.status == RunStatus::failed));
+    BOOST_TEST(read_run(folder / "run").trajectory.rows() >= 24u);
+  }
+}
+
+// √(-x) is no number: not even one step can be made, and the run says so, not the choice of its step.
+BOOST_AUTO_TEST_CASE(what_ends_the_first_step_the_run_says) {
+  const Json document = Json::parse(R"json({
+    "system": { "type": "implicit", "coordinates": ["x"], "equations": ["x' - if(t > 0, sqrt(-x), 0)"] },
+    "initial": { "x": 1 },
+    "method": "discretize-first",
+    "time": { "tolerance": 1e-3, "end": 1 }
+  })json");
+  const Experiment experiment = read_experiment_document(document);
+  const ChosenStep chosen = chosen_step(experiment);
+  BOOST_TEST(!std::isfinite(chosen.estimate));
+  BOOST_TEST(chosen.step > 0.0);
+  const TemporaryFolder folder;
+  const RunOutcome outcome = run_in(folder, document);
+  BOOST_TEST((outcome.status == RunStatus::failed));
+  BOOST_TEST(outcome.message.find("/time/tolerance") == std::string::npos, outcome.message);
+}
+
 BOOST_AUTO_TEST_CASE(what_cannot_be_chosen_is_told) {
   Json document = oscillator;
   // Where the best of the steps that were tried is not good enough, that is said.

@@ -12,7 +12,7 @@ namespace {
 //  * of many equations only those that give an unknown explicitly are kept
 //    (integrators/step/vector_field.cpp)
 //  * equations that no conormal contains take others with them
-//    (integrators/step/moving_conormals.cpp)
+//    (integrators/step/transported_conormals.cpp)
 //  * charges that are not given are asked for (running/consistent_start.cpp)
 BOOST_AUTO_TEST_SUITE(large_networks)
 

@@ -40,12 +40,11 @@ CircuitGraph grid(std::size_t rows, std::size_t columns) {
 
 // F ⊕ F° with F = ker A, A made from the graph without Kirchhoff's help.
 LinearDirac dense_structure(const CircuitGraph& graph) {
-  const auto n = static_cast<Index>(num_edges(graph));
-  MatrixXd A = MatrixXd::Zero(static_cast<Index>(num_vertices(graph)), n);
-  Index element = 0;
-  for (const auto& edge : boost::make_iterator_range(edges(graph))) {
-    A(static_cast<Index>(source(edge, graph)), element) += 1.0;
-    A(static_cast<Index>(target(edge, graph)), element++) -= 1.0;
+  MatrixXd A = MatrixXd::Zero(static_cast<Index>(graph.node_count), std::ssize(graph.edges));
+  Index column = 0;
+  for (const auto& [source, target, element] : graph.edges) {
+    A(static_cast<Index>(source), column) += 1.0;
+    A(static_cast<Index>(target), column++) -= 1.0;
   }
   return LinearDirac::annihilator_sum(kernel(A));
 }
@@ -123,6 +122,23 @@ BOOST_AUTO_TEST_CASE(currents_and_voltages_of_a_small_circuit) {
   BOOST_TEST((loops - MatrixXd{{-1, 1, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}).norm() == 0.0);
   const MatrixXd cut_sets = structure.cut_sets();
   BOOST_TEST((cut_sets - MatrixXd{{1}, {1}, {-1}, {0}}).norm() == 0.0);
+}
+
+// A chain of 11000 elements with one from each node to the first: loops of more than 6·10⁷ elements in all.
+BOOST_AUTO_TEST_CASE(loops_that_would_take_all_memory_are_refused) {
+  constexpr std::size_t nodes = 11001;
+  CircuitGraph graph(nodes);
+  for (std::size_t k = 1; k < nodes; ++k) {
+    add_edge(k - 1, k, CircuitElement{"", 0.0}, graph);
+    add_edge(k, 0, CircuitElement{"", 1.0}, graph);
+  }
+  const Kirchhoff structure(graph);
+  for (const auto& ask : {+[](const Kirchhoff& K) { return K.loops(); },
+                          +[](const Kirchhoff& K) { return K.cut_sets(); },
+                          +[](const Kirchhoff& K) { return K.potentials(); }})
+    BOOST_CHECK_EXCEPTION(ask(structure), std::length_error, [](const std::length_error& error) {
+      return std::string(error.what()).find("more than 60000000 elements") != std::string::npos;
+    });
 }
 
 BOOST_AUTO_TEST_CASE(the_tree_takes_small_weights_first) {
