@@ -27,13 +27,35 @@ bool is_same(const fs::path& path, int descriptor) {
          named.st_dev == open.st_dev && named.st_ino == open.st_ino;
 }
 
+fs::path absolute_path(const fs::path& path) {
+  std::error_code ignored;
+  return fs::absolute(path, ignored).lexically_normal();
+}
+
+// The folders of a path that are not there, the innermost first.
+std::vector<fs::path> missing_folders(const fs::path& path) {
+  std::error_code ignored;
+  std::vector<fs::path> missing;
+  for (fs::path at = absolute_path(path); !fs::exists(at, ignored) && at.has_relative_path();
+       at = at.parent_path())
+    missing.push_back(at);
+  return missing;
+}
+
+// Those that are empty, or become so by this; the innermost are the first.
+void remove_empty(const std::vector<fs::path>& folders) {
+  std::error_code not_empty;
+  for (const fs::path& folder : folders) fs::remove(folder, not_empty);
+}
+
 }  // namespace
 
 void refuse_folder(const fs::path& path, const std::string& what) {
   throw UnusableFolder(path.string() + ": " + what);
 }
 
-LockedFolder::LockedFolder(fs::path path, const std::string& in_use) : path_(std::move(path)) {
+LockedFolder::LockedFolder(fs::path path, const std::string& in_use)
+    : path_(std::move(path)), made_(missing_folders(path_)) {
   try {
     make_folder(path_);
   } catch (const OutputError& error) {
@@ -50,7 +72,9 @@ LockedFolder::LockedFolder(fs::path path, const std::string& in_use) : path_(std
 }
 
 LockedFolder::~LockedFolder() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+  if (descriptor_ < 0) return;
+  if (is_same(path_, descriptor_)) remove_empty(made_);
+  ::close(descriptor_);
 }
 
 void LockedFolder::require_still_there() const {
@@ -69,23 +93,16 @@ bool LockedFolder::is_in_use(const fs::path& path) {
 
 void LockedFolder::check_place(const fs::path& path) {
   // Only the attempt tells of names that are too long, and of file systems without folders.
+  std::vector<fs::path> missing = missing_folders(path), made;
+  const fs::path nearest = missing.empty() ? absolute_path(path) : missing.back().parent_path();
   std::error_code error;
-  std::vector<fs::path> missing;
-  fs::path nearest = fs::absolute(path, error).lexically_normal();
-  for (; !fs::exists(nearest, error) && nearest.has_relative_path();
-       nearest = nearest.parent_path())
-    missing.push_back(nearest);
   error = fs::is_directory(nearest, error) ? std::error_code()
                                            : make_error_code(std::errc::not_a_directory);
-  std::vector<fs::path> made;
-  while (!error && !missing.empty()) {
-    if (fs::create_directory(missing.back(), error)) made.push_back(missing.back());
-    missing.pop_back();
-  }
-  for (std::error_code ignored; !made.empty(); made.pop_back()) fs::remove(made.back(), ignored);
+  for (; !error && !missing.empty(); missing.pop_back())
+    if (fs::create_directory(missing.back(), error)) made.insert(made.begin(), missing.back());
+  remove_empty(made);
   if (error) refuse_folder(path, "the folder cannot be made: " + error.message());
-  if (nearest == fs::absolute(path, error).lexically_normal() &&
-      access(nearest.c_str(), W_OK | X_OK) != 0)
+  if (nearest == absolute_path(path) && access(nearest.c_str(), W_OK | X_OK) != 0)
     refuse_folder(path, "cannot be written: " + std::generic_category().message(errno));
 }
 

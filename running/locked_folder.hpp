@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "courant/core/files/output_file.hpp"
 
@@ -18,7 +19,7 @@ class UnusableFolder : public RefusedOutput {
 [[noreturn]] void refuse_folder(const std::filesystem::path& path, const std::string& what);
 
 // A folder that is made if it was not there, and locked while the object lives. What a kill left
-// half-written in it is gone.
+// half-written in it is gone. One that was made and is empty at the end goes, with those above it that were made.
 class LockedFolder {
  public:
   // Throws UnusableFolder, with the words `in_use` if it is locked.
@@ -40,6 +41,7 @@ class LockedFolder {
 
  private:
   std::filesystem::path path_;
+  std::vector<std::filesystem::path> made_;  // the innermost is the first
   int descriptor_ = -1;
 };
 

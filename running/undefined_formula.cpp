@@ -1,9 +1,11 @@
 #include "courant/running/undefined_formula.hpp"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <unordered_set>
 #include <vector>
 
 #include "courant/core/expressions/subgraph.hpp"
@@ -21,7 +23,7 @@ class Formulas {
     const Manifold& M = *system_.manifold();
     for (const std::string& name : names.coordinates) add(name);
     const ExprVector x = variables_;
-    const bool plain = M.tangent_dimension() == M.ambient_dimension();
+    const bool plain = M.has_velocities_as_vectors();
     for (Index i = 0; i < M.tangent_dimension(); ++i)
       add(plain ? names.coordinates[static_cast<std::size_t>(i)] + "'"
                 : "v[" + std::to_string(i) + "]");
@@ -113,6 +115,31 @@ std::string corner_in_words(const std::string& message, const ImplicitSystem& sy
              equation_in_words(system, i) +
              " has a corner (if, min, max, abs); expected discretize-first, or steps that end "
              "there.";
+  }
+  return "";
+}
+
+std::string condition_on_time_in_words(const ImplicitSystem& system) {
+  const Manifold& M = *system.manifold();
+  Graph graph;
+  const Expr t = graph.variable("t");
+  const ExprVector equations = system.residual(graph.variables("x", M.ambient_dimension()),
+                                               graph.variables("v", M.tangent_dimension()),
+                                               graph.variables("z", system.auxiliary_size()), t);
+  for (Index i = 0; i < equations.size(); ++i) {
+    const Subgraph part(equations.segment(i, 1));
+    std::unordered_set<std::uint32_t> of_time;
+    for (const std::uint32_t number : part.nodes()) {  // operands come first
+      const Node node = part.graph().node(number);
+      if (node.op == Op::select && of_time.contains(node.a))
+        return " The solution jumps where a condition on t changes that " +
+               equation_in_words(system, i) + " has; expected its times in /time/corners.";
+      const std::array operands = {node.a, node.b, node.c};
+      const auto last = operands.begin() + arity(node.op);
+      if (t.node() == number ||
+          std::any_of(operands.begin(), last, [&](auto of) { return of_time.contains(of); }))
+        of_time.insert(number);
+    }
   }
   return "";
 }

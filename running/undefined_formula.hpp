@@ -32,4 +32,8 @@ std::string undefined_ahead(const Experiment& experiment, const ConstraintLadder
 std::string corner_in_words(const std::string& message, const ImplicitSystem& system,
                             const ConstraintLadder& ladder);
 
+// Why no solution may be connected to a state, as words to go on with: the first equation that has a condition on t. Empty
+// where none has.
+std::string condition_on_time_in_words(const ImplicitSystem& system);
+
 }  // namespace courant

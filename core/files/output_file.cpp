@@ -110,6 +110,21 @@ void OutputFile::close() {
   if (::close(descriptor) != 0) fail();
 }
 
+ReservedSpace::ReservedSpace(const fs::path& folder, std::size_t bytes) {
+  const fs::path name = unfinished_name(folder / "reserved");
+  descriptor_ = ::open(name.c_str(), O_CLOEXEC | O_WRONLY | O_CREAT | O_EXCL, 0600);
+  if (descriptor_ < 0) return;
+  ::unlink(name.c_str());
+  if (::posix_fallocate(descriptor_, 0, static_cast<off_t>(bytes)) != 0) {
+    ::close(descriptor_);  // what there is stays free
+    descriptor_ = -1;
+  }
+}
+
+ReservedSpace::~ReservedSpace() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
 void write_file(const fs::path& path, std::string_view content) {
   std::error_code error;
   const fs::file_status there = fs::status(path, error);

@@ -56,6 +56,21 @@ class OutputFile {
   int descriptor_;
 };
 
+// Bytes of a disk that nobody else can fill: for a last word on why a run ends, such as a full disk. They belong to
+// the process, have no name, and are free again when it ends, however it ends. Where there is no room for them, or
+// the file system cannot promise any, none are reserved, and that is no error.
+class ReservedSpace {
+ public:
+  // On the disk of `folder`, which is there.
+  ReservedSpace(const std::filesystem::path& folder, std::size_t bytes);
+  ~ReservedSpace();
+  ReservedSpace(const ReservedSpace&) = delete;
+  ReservedSpace& operator=(const ReservedSpace&) = delete;
+
+ private:
+  int descriptor_;
+};
+
 // Writes a file whole: under another name in its folder first, which is synced, then moved to its
 // name. A loss of power leaves the former file or this one. Where links lead to the file they stay;
 // a device or a pipe is written to as it is. Whose the former file is asks FileMark. Throws

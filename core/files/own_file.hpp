@@ -39,7 +39,8 @@ class OwnFiles {
   // nobody's. To be asked before anything is computed.
   void check(const std::filesystem::path& file) const;
 
-  // Checks, then writes the file with a mark. `beside`: the content of a file that belongs to it and has no place for a mark.
+  // Checks, then writes the file with a mark. `beside`: the content of a file that belongs to it and has no place for a
+  // mark.
   void write(const std::filesystem::path& file, const std::string& content,
              const std::string& beside = "") const;
 

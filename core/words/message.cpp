@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <optional>
 
 namespace courant {
 namespace {
@@ -32,6 +33,31 @@ bool is_place(std::string_view head) {
          (names_only || has_parameters || head.find("::") != std::string_view::npos);
 }
 
+struct Letter {
+  std::optional<unsigned> code;  // none of bytes that are not UTF-8
+  std::size_t bytes = 1;
+};
+
+// The letter that a text begins with, in UTF-8 of at most three bytes.
+Letter first_letter(std::string_view text) {
+  const auto byte = [&](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
+  };
+  const auto goes_on = [&](std::size_t i) { return (byte(i) & 0xC0) == 0x80; };
+  if (byte(0) < 0x80) return {byte(0), 1};
+  if ((byte(0) & 0xE0) == 0xC0 && goes_on(1)) return {(byte(0) & 0x1F) << 6 | (byte(1) & 0x3F), 2};
+  if ((byte(0) & 0xF0) == 0xE0 && goes_on(1) && goes_on(2))
+    return {(byte(0) & 0xF) << 12 | (byte(1) & 0x3F) << 6 | (byte(2) & 0x3F), 3};
+  return {};
+}
+
+// Whether a terminal obeys a letter in the place of showing it: control characters; separators of lines and
+// paragraphs; and marks that turn the direction of the text, behind which a line reads as another one.
+bool is_obeyed(unsigned code) {
+  return code < 0x20 || (code >= 0x7F && code < 0xA0) || code == 0x61C || code == 0x200E ||
+         code == 0x200F || (code >= 0x2028 && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);
+}
+
 }  // namespace
 
 std::string number_text(double value, int digits) {
@@ -50,19 +76,15 @@ std::string without_place(std::string_view message) {
 
 std::string printable(std::string_view text) {
   std::string result;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto c = static_cast<unsigned char>(text[i]);
-    // C1, U+0080 … U+009F, is C2 80 … C2 9F.
-    const bool is_c1 =
-        c == 0xC2 && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xA0;
-    if (c >= 0x20 && c != 0x7F && !is_c1) {
-      result += text[i];
-      continue;
+  while (!text.empty()) {
+    const auto [code, bytes] = first_letter(text);
+    if (code && is_obeyed(*code)) {
+      result += "\\u";
+      for (const int bits : {12, 8, 4, 0}) result += "0123456789abcdef"[*code >> bits & 0xF];
+    } else {
+      result += text.substr(0, bytes);
     }
-    const unsigned code = is_c1 ? static_cast<unsigned char>(text[++i]) : c;
-    result += "\\u00";
-    result += "0123456789abcdef"[code >> 4];
-    result += "0123456789abcdef"[code & 0xF];
+    text.remove_prefix(bytes);
   }
   return result;
 }

@@ -28,7 +28,8 @@ std::string without_place(std::string_view message);
 // The text between quotation marks.
 std::string in_quotes(std::string_view text);
 
-// Without what would command a terminal: control characters as \u001b, everything else as it is.
+// Without what would command a terminal: control characters, separators of lines and marks of direction as
+// \u001b, everything else as it is.
 std::string printable(std::string_view text);
 
 }  // namespace courant

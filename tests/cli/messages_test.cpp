@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(starts_without_derivatives_are_answered) {
     if (answer.status == 2) check_errors(answer, file, file);
     ++files;
   }
-  BOOST_TEST(files == 90);
+  BOOST_TEST(files == 108);
 }
 
 // Nothing is written where the experiment is wrong, and a summary where the numerics failed.

@@ -17,7 +17,8 @@ inline std::size_t below(std::size_t bound, Generator& generator) {
 }
 
 // What LLVMFuzzerCustomMutator does: `change` makes one to three changes that the format knows; every fourth time, and
-// where it leaves nothing (an empty text: it cannot be changed so) or too much, letters are changed. Returns the new size.
+// where it leaves nothing (an empty text: it cannot be changed so) or too much, letters are changed. Returns the new
+// size.
 std::size_t mutate_text(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed,
                         const std::function<std::string(const std::string& text, std::size_t times,
                                                         Generator&)>& change);

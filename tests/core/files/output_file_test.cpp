@@ -70,6 +70,14 @@ BOOST_AUTO_TEST_CASE(a_file_that_was_removed_meanwhile_is_said) {
   BOOST_CHECK_THROW(file.sync(), OutputError);
 }
 
+BOOST_AUTO_TEST_CASE(reserved_space_has_no_name_and_more_than_there_is_is_not_reserved) {
+  const TemporaryFolder folder;
+  const ReservedSpace some(folder.path(), 1000);
+  const ReservedSpace endless(folder.path(), std::size_t{1} << 62);
+  const ReservedSpace nowhere(folder / "none", 1000);
+  BOOST_TEST(std::filesystem::is_empty(folder.path()));
+}
+
 BOOST_AUTO_TEST_CASE(only_what_a_kill_left_half_written_is_removed) {
   const TemporaryFolder folder;
   for (const char* name :

@@ -53,6 +53,13 @@ BOOST_AUTO_TEST_CASE(a_terminal_gets_no_commands) {
   BOOST_TEST(printable("caf\xC3\xA9 \xC2\x9B"
                        "31m \x7F") == "caf\xC3\xA9 \\u009b31m \\u007f");
   BOOST_TEST(printable("\xC2") == "\xC2");
+  // Marks of direction (U+202E) and separators of lines (U+2028); other letters of two and three bytes, and what is
+  // not UTF-8, stay.
+  BOOST_TEST(printable("txt\xE2\x80\xAE"
+                       "fdp\xE2\x80\xA8"
+                       "x\xD8\x9C") == "txt\\u202efdp\\u2028x\\u061c");
+  BOOST_TEST(printable("\xE2\x82\x80 \xE2\x89\xA4 \xCF\x84 \xE2\x80 \xFF") ==
+             "\xE2\x82\x80 \xE2\x89\xA4 \xCF\x84 \xE2\x80 \xFF");
 }
 
 BOOST_AUTO_TEST_SUITE_END()
