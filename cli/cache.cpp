@@ -33,7 +33,7 @@ void print_entries(const Console& console, const NativeCache& cache) {
       table.add({entries[i].name, size_in_words(entries[i].bytes), age_in_words(entries[i].used)});
   }
   const NativeCache::Limits limits;
-  console.out << cache.folder().string() << ": " << entries.size()
+  console.out << shown_name(cache.folder()) << ": " << entries.size()
               << (entries.size() == 1 ? " entry, " : " entries, ") << size_in_words(bytes)
               << "; kept up to " << size_in_words(limits.bytes) << " and "
               << limits.age.count() / 24 << " days\n";

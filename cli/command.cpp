@@ -11,6 +11,7 @@
 #include "courant/core/files/output_file.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/core/words/spelling.hpp"
+#include "courant/core/words/text_layout.hpp"
 #include "courant/core/words/version.hpp"
 #include "courant/running/run_files.hpp"
 
@@ -72,7 +73,9 @@ std::string table(const std::string& title, const std::vector<Term>& terms) {
 }  // namespace
 
 void print_error(const Console& console, const std::string& what) {
-  console.err << "courant: " << printable(what) << '\n';
+  // It may quote what somebody has written, which may have megabytes. Its place is in the beginning, what was expected in the end.
+  constexpr std::size_t most = 4000, ending = 500;
+  console.err << "courant: " << printable(shortened_between(what, most, ending)) << '\n';
 }
 
 int command(const std::vector<std::string>& arguments, const Console& console) {

@@ -12,9 +12,11 @@
 #include "courant/cli/waiting.hpp"
 #include "courant/core/files/own_file.hpp"
 #include "courant/core/words/message.hpp"
+#include "courant/reporting/branch_words.hpp"
 #include "courant/reporting/ladder_diagram.hpp"
 #include "courant/reporting/ladder_explanation.hpp"
 #include "courant/reporting/ladder_page.hpp"
+#include "courant/running/branch_report.hpp"
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/discrete_ladder.hpp"
 #include "courant/running/ladder_report.hpp"
@@ -58,13 +60,17 @@ void print_levels(const Console& console, const Experiment& experiment,
 }
 
 void print_ladder(const Console& console, const Experiment& experiment, const LadderReport& ladder,
-                  const std::optional<ConstraintBrackets>& brackets) {
+                  const std::optional<ConstraintBrackets>& brackets,
+                  const std::vector<BranchReport>& branches) {
   std::ostream& out = console.out;
   print_levels(console, experiment, ladder);
   const bool is_stopped = ladder.reason.starts_with("Stopped");
   if (!is_stopped) print_wrapped(console, verdict_in_words(ladder), "  ");
   if (!ladder.reason.empty()) print_wrapped(console, ladder.reason, "  ");
   out << '\n';
+  const std::vector<Prose> of_branches = branches_in_words(branches);
+  for (const Prose& line : of_branches) print_wrapped(console, line.str(), "  ");
+  if (!of_branches.empty()) out << '\n';
   for (const Prose& line : ladder_explanation(ladder, brackets))
     print_wrapped(console, line.str(), "  ");
 }
@@ -111,7 +117,7 @@ PageWriter page_writer(const std::filesystem::path& path) {
 void write_page(const Console& console, const OwnFiles& files, const std::filesystem::path& path,
                 const LadderPage& page) {
   files.write(path, page_writer(path)(page));
-  console.out << path.string() << '\n';
+  console.out << shown_name(path) << '\n';
 }
 
 }  // namespace
@@ -222,6 +228,10 @@ void add_constraints(CLI::App& app, Session& session) {
                                         : arguments->level >= 0
                                             ? up_to_level(whole, arguments->level)
                                             : whole;
+            const bool is_by_page = as_page || arguments->latex || arguments->markdown;
+            const std::vector<BranchReport> branches = is_by_page || arguments->discrete
+                                                           ? std::vector<BranchReport>()
+                                                           : branch_reports(experiment);
             waiting.reset();
             if (as_page)
               write_page(console, files, arguments->output,
@@ -231,11 +241,13 @@ void add_constraints(CLI::App& app, Session& session) {
             else if (arguments->markdown)
               console.out << to_markdown(ladder_page(experiment, ladder, brackets));
             else if (arguments->json)
-              console.out << with_brackets(to_json(ladder), brackets).dump(2) << '\n';
+              console.out
+                  << with_branches(with_brackets(to_json(ladder), brackets), branches).dump(2)
+                  << '\n';
             else if (arguments->discrete)
               print_discrete(console, experiment, ladder, whole);
             else
-              print_ladder(console, experiment, ladder, brackets);
+              print_ladder(console, experiment, ladder, brackets, branches);
             return done;
           },
           arguments->settings);

@@ -20,8 +20,8 @@ struct EnsembleTask {
   bool quiet = false;
 };
 
-// Runs the members on all cores, with a line of progress on a terminal, and shows how they are spread at the end. The exit
-// status is 0 if all completed and came out as expected, 3 if not, 130 if it was interrupted.
+// Runs the members on all cores, with a line of progress on a terminal, and shows how they are spread at the end. The
+// exit status is 0 if all completed and came out as expected, 3 if not, 130 if it was interrupted.
 int run_members(const Console& console, const EnsembleTask& task, const Experiment& experiment);
 
 }  // namespace courant::cli

@@ -88,6 +88,7 @@ int reporting_errors(const Console& console, const std::string& file,
     print_error(console, file + ": takes more memory than there is");
   } catch (const std::exception& error) {
     print_error(console, file + ": " + without_place(error.what()));
+    if (console.stop && *console.stop) return interrupted;  // it gave up what it was asked to
   }
   return failed;
 }
@@ -95,6 +96,13 @@ int reporting_errors(const Console& console, const std::string& file,
 int with_document(const Console& console, const std::string& file,
                   const std::function<int(const Json&)>& action,
                   const std::vector<std::string>& settings, TableFiles tables) {
+  // One of a stranger is a file: a pipe might never end, nor ever begin.
+  if (std::error_code error; tables == TableFiles::beside && file != "-" &&
+                             std::filesystem::exists(file, error) &&
+                             !std::filesystem::is_regular_file(file, error)) {
+    print_error(console, file + ": cannot be read: is no file");
+    return wrong;
+  }
   const auto text = read_input(console, file, "an experiment");
   if (!text) return wrong;
   if (is_to_be_imported(file, *text) && !Json::accept(*text)) {

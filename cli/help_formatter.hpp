@@ -1,4 +1,4 @@
-// What `--help` prints, in lines of at most 100 columns, or those of a narrower terminal.
+// HelpFormatter: folds the lines that `--help` prints.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -6,8 +6,9 @@
 
 namespace courant::cli {
 
-// The formatter of CLI11, whose long lines go on below: descriptions where descriptions begin, any other
-// line six columns in. Lines end between words, or behind the | of a list of words.
+// Prints help as CLI11 does, and folds lines that are longer than the given number of columns. The rest of a
+// description goes below its beginning; the rest of any other line begins in column six. Lines are folded between
+// words, or after the | in a list such as json|csv.
 class HelpFormatter : public CLI::Formatter {
  public:
   static constexpr std::size_t kMostColumns = 100;

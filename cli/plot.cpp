@@ -8,6 +8,7 @@
 
 #include "courant/cli/command.hpp"
 #include "courant/cli/force.hpp"
+#include "courant/cli/text.hpp"
 #include "courant/core/files/own_file.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/core/words/spelling.hpp"
@@ -120,9 +121,9 @@ int plot_figure(const Console& console, const PlotArguments& arguments) {
                  .title = arguments.title});
   write_figure(figure, arguments.output, arguments.force);
   std::filesystem::path numbers = arguments.output;
-  console.out << figure.caption << '\n'
-              << arguments.output.string() << ", its numbers in "
-              << numbers.replace_extension(".csv").string() << '\n';
+  console.out << printable(figure.caption) << '\n'
+              << shown_name(arguments.output) << ", its numbers in "
+              << shown_name(numbers.replace_extension(".csv")) << '\n';
   return done;
 }
 

@@ -60,7 +60,7 @@ void print_comparison(const Console& console, const std::vector<Run>& runs) {
   table.print(console.out, "", console.columns);
   for (const Run& run : runs)
     if (run.summary.status == RunStatus::running)
-      console.out << printable(run.name) << ": " << run.summary.message << '\n';
+      console.out << printable(run.name) << ": " << printable(run.summary.message) << '\n';
 }
 
 // The energy errors of the runs that have an energy.
@@ -73,7 +73,7 @@ void print_energies(const Console& console, const std::vector<Run>& runs) {
     if (!error || error->values.size() < 2) continue;
     const auto t = runs[i].trajectory.column("t");
     if (error->is_balance) name = "H - H(0) - supplied + dissipated";
-    series.push_back({labels[i], {t.begin(), t.end()}, std::move(error->values), i});
+    series.push_back({printable(labels[i]), {t.begin(), t.end()}, std::move(error->values), i});
   }
   if (series.empty()) return;
   console.out << '\n'
@@ -113,7 +113,7 @@ void add_report(CLI::App& app, Session& session) {
       print_comparison(console, runs);
       print_energies(console, runs);
       write_report(runs, page, arguments->force);
-      console.out << "\nThe report is " << page.string() << '\n';
+      console.out << "\nThe report is " << shown_name(page) << '\n';
       return done;
     };
   });

@@ -173,9 +173,9 @@ void print_outcome(const Console& console, const Experiment& experiment, const R
   }
   print_expectations(console, outcome);
   if (!summary.stopped_by.empty())
-    console.out << "\n  ended by the event " << summary.stopped_by
+    console.out << "\n  ended by the event " << printable(summary.stopped_by)
                 << " at t = " << shown(summary.time ? summary.time->end : 0.0) << '\n';
-  console.out << "\n  " << to_string(summary.status) << "; files in " << folder.string() << '\n'
+  console.out << "\n  " << to_string(summary.status) << "; files in " << shown_name(folder) << '\n'
               << std::flush;
 }
 
@@ -204,7 +204,7 @@ void print_ensemble(const Console& console, const EnsembleOutcome& outcome,
                 << shown(summary["member_steps_per_cpu_second"], 3)
                 << " steps of members a second of the processor\n";
   print_expectations(console, {outcome.status, outcome.message, {}, outcome.expectations});
-  console.out << "\n  " << to_string(outcome.status) << "; files in " << folder.string() << '\n'
+  console.out << "\n  " << to_string(outcome.status) << "; files in " << shown_name(folder) << '\n'
               << std::flush;
 }
 

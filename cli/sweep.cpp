@@ -155,8 +155,8 @@ int sweep_of(const Console& console, const SweepTask& task, const Json& document
     print_table(console, task, table);
   if (folder && !task.quiet && !task.json)
     console.out << "\n  " << cases.size() << (cases.size() == 1 ? " case" : " cases") << "; "
-                << folder->file("csv").string() << (figure ? ", and a figure: " : "")
-                << (figure ? folder->file("svg").filename().string() : "") << '\n';
+                << shown_name(folder->file("csv")) << (figure ? ", and a figure: " : "")
+                << (figure ? shown_name(folder->file("svg").filename()) : "") << '\n';
   print_messages(console, task, table);
   return status_of_sweep(table);
 }

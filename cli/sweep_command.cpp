@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "courant/cli/command.hpp"
+#include "courant/cli/text.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/reporting/figure_file.hpp"
 #include "courant/reporting/sweep_figure.hpp"
@@ -82,7 +83,7 @@ int merge(const Console& console, const MergeArguments& arguments) {
     copy_runs(arguments.folders[i], parts[i], folder.path());
   folder.write(table, csv, svg);
   console.out << table.at("runs").size() << " cases of " << parts.size() << " parts; "
-              << folder.file("csv").string() << '\n';
+              << shown_name(folder.file("csv")) << '\n';
   return done;
 }
 

@@ -1,5 +1,5 @@
-// What the command takes, as data: read from the application that prints --help, so that manual pages and completion have
-// no text of their own.
+// What the command takes, as data: read from the application that prints --help, so that manual pages and completion
+// have no text of their own.
 #pragma once
 
 #include <string>

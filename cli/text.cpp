@@ -77,6 +77,8 @@ std::string shown(const Json& value, int digits) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
+std::string shown_name(const std::filesystem::path& file) { return printable(file.string()); }
+
 std::string shown_if_known(double value, int digits) {
   return std::isnan(value) ? "–" : shown(value, digits);
 }

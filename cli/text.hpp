@@ -1,6 +1,7 @@
 // Numbers and tables for a terminal.
 #pragma once
 
+#include <filesystem>
 #include <iosfwd>
 #include <optional>
 #include <string>
@@ -18,6 +19,9 @@ std::string shown(const Json& value, int digits = 6);
 // "–" for a number that is not known, and a dimension that there is not.
 std::string shown_if_known(double value, int digits = 6);
 std::string shown_if_known(std::optional<Index> value);
+
+// The name of a file, as printable.
+std::string shown_name(const std::filesystem::path& file);
 
 // `text` on console.out in lines of at most console.columns characters, each after `indent`. A text that is
 // indented itself, a formula, goes on four columns further in.

@@ -206,7 +206,7 @@ void write_chapter(const Console& console, std::size_t number, const std::filesy
   for (const auto& [ending, content] : contents) {
     const std::filesystem::path file = folder / (chapter.file + ending);
     files.write(file, content);
-    console.out << file.string() << '\n';
+    console.out << shown_name(file) << '\n';
   }
 }
 

@@ -33,7 +33,7 @@ const charts = {
   name: 'charts',
   setup(build) {
     build.onLoad({filter: /page\/charts\.js$/}, ({path: file}) => {
-      const parts = ['text', 'axis', 'curve', 'chart', 'plane_curve', 'plane_chart', 'space_chart', 'moment'];
+      const parts = ['text', 'axis', 'curve', 'chart', 'plane_curve', 'plane_chart', 'space_chart', 'instant'];
       return {contents: parts.map((part) => read(root, 'reporting/page', part + '.js')).join('\n') + read(file)};
     });
   },

@@ -23,6 +23,7 @@ class CotangentBundle final : public VectorBundle {
   explicit CotangentBundle(std::shared_ptr<const Manifold> base)
       : VectorBundle("CotangentBundle", std::move(base)) {}
 
+  // p of a point (q, p).
   template <class X>
   auto momentum(const Eigen::MatrixBase<X>& x) const {
     return fibre_part(x);

@@ -15,7 +15,7 @@ ExprMatrix Euclidean::do_coframe(const ExprVector& x) const {
   return ExprMatrix::Identity(x.size(), x.size());
 }
 
-Manifold::Dilations Euclidean::do_dilations() const {
+Manifold::ScalingSymmetries Euclidean::do_scaling_symmetries() const {
   std::vector<Index> each(static_cast<std::size_t>(dimension()));
   std::iota(each.begin(), each.end(), Index{0});
   return {.point = each, .tangent = each, .fibre = each};

@@ -19,7 +19,7 @@ class Euclidean final : public Manifold {
     return y - x;
   }
   std::optional<VectorXd> do_unit() const override { return VectorXd::Zero(dimension()); }
-  Dilations do_dilations() const override;
+  ScalingSymmetries do_scaling_symmetries() const override;
   ExprVector do_velocity_along(const ExprVector&, const ExprVector& v, const Expr&) const override {
     return v;
   }

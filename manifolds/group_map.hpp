@@ -32,11 +32,13 @@ struct GroupMap {
 //
 //   v̂ = S + (φ - sin φ)/sin³ φ · (-S³)      for k ≤ 3 and eigenvalues that are balanced,
 //
-// the finite sum of the logarithm for nilpotent algebras, and λ/(e^λ - 1) (Y - 1) where v̂² = λ v̂ with a linear
-// form λ, as for the affine maps of the line. Without a power law exp v̂ = r(v̂/16)^16 with the
-// diagonal Padé approximant r of degree 6: within 1e-15 of it, next to the size of the factors, for ‖v̂‖ ≤ 8, and in G at any
-// length where G leaves forms invariant, as sp(2n); without a formula for the inverse, and with an injectivity radius that is no
-// more than Newton's method finds.
+// the finite sum of the logarithm for nilpotent algebras, and λ/(e^λ - 1) (Y - 1) where v̂² = λ v̂ with a linear form
+// λ, as for the affine maps of the line.
+//
+// Without a power law it is r(v̂/16)^16 with the diagonal Padé approximant r of degree 6. For ‖v̂‖ ≤ 8 this is within
+// 1e-15 of exp v̂, next to the size of the factors. It is in G at any length where G leaves forms invariant, as sp(2n).
+// There is no formula for the inverse, and the injectivity radius is no more than Newton's method finds.
+//
 // Injective where every eigenvalue of v̂ has |Im λ| < π.
 GroupMap exponential_map(const MatrixAlgebra& g);
 

@@ -16,11 +16,11 @@ namespace courant {
 // Retraction (orthographic): R_x(v) = R^M_x(v + W(x) λ) with the λ ∈ R^k for which c is zero there.
 // Its inverse is closed, Π(x) applied to the inverse on M. λ itself is the solution of an equation
 // that no formula solves in general: on expressions as on numbers it is what six steps of Newton's
-// method from λ = 0 give. M1 and M2 hold exactly, M3 and M4 to an error that squares with each step
-// (about ε^64 where the first guess is off by a fraction ε of the radius of curvature): below 1e-14
-// within the injectivity radius, which is given as half the radius of curvature of S at x in M, and
-// at most half that of M: an estimate from one point, right where the curvature does not grow much
-// over that distance. Beyond, the result may be off S (point_defect tells) or not a number.
+// method from λ = 0 give. M1 and M2 hold exactly. The error of M3 and M4 squares with each step: it is
+// about ε^64 where the first guess is off by a fraction ε of the radius of curvature, and below 1e-14
+// within the injectivity radius. That is half the radius of curvature of S at x in M, and at most half
+// the injectivity radius of M. It is an estimate from one point, right where the curvature does not grow
+// much over that distance. Beyond it the result may be off S (point_defect tells) or not a number.
 //
 // projection(y) is P: M → S on expressions, near S: six Gauss–Newton steps
 //

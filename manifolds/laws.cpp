@@ -34,7 +34,7 @@ class ManifoldLaws {
             geodesics(),
             left_invariance(),
             velocities_along(),
-            dilations(),
+            scaling_symmetries(),
             sources(),
             points_and_vectors()};
   }
@@ -286,22 +286,23 @@ class ManifoldLaws {
   }
 
   // With factors that differ for all of them.
-  LawResult dilations() const {
-    const Manifold::Dilations units = M_.dilations();
-    if (Manifold::Dilations::after(units.point) == 0) {
-      auto measured = law("M11 dilations() are not claimed", 0.0);
+  LawResult scaling_symmetries() const {
+    const Manifold::ScalingSymmetries units = M_.scaling_symmetries();
+    if (Manifold::ScalingSymmetries::after(units.point) == 0) {
+      auto measured = law("M11 scaling_symmetries() are not claimed", 0.0);
       measured.add(0.0, "");
       return measured.result();
     }
     const auto factors = [](const std::vector<Index>& of) {
       VectorXd result(std::ssize(of));
       for (std::size_t i = 0; i < of.size(); ++i)
-        result[static_cast<Index>(i)] =
-            of[i] == Manifold::Dilations::none ? 1.0 : 2.0 + 0.3 * static_cast<double>(of[i]);
+        result[static_cast<Index>(i)] = of[i] == Manifold::ScalingSymmetries::none
+                                            ? 1.0
+                                            : 2.0 + 0.3 * static_cast<double>(of[i]);
       return result;
     };
     const VectorXd d = factors(units.point), d_v = factors(units.tangent);
-    auto measured = law("M11 R(D x, D v) = D R(x, v) for dilations D", 1e-12);
+    auto measured = law("M11 R(D x, D v) = D R(x, v) for scaling symmetries D", 1e-12);
     for_vectors(samples_, [&](const LawSample& s, const VectorXd& v) {
       measured.add(
           [&] {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <random>
 #include <stdexcept>
 #include <typeinfo>
@@ -25,6 +26,15 @@ Matrix with_size(Matrix result, const std::string& name, const char* function, I
                                 size_text(result.rows(), result.cols()) + ", expected " +
                                 size_text(rows, columns) + ".");
   return result;
+}
+
+// Whether all components of tangent vectors are velocities, or none; no value where E has to be measured. That is a matrix
+// of N² entries: of points of many numbers it is not made.
+std::optional<bool> has_velocities_without_measuring(const Manifold& M) {
+  constexpr Index most_measured = 200;
+  if (M.ambient_dimension() != M.tangent_dimension()) return false;
+  if (M.has_identity_frame() || M.ambient_dimension() > most_measured) return true;
+  return std::nullopt;
 }
 
 VectorXd normal_vector(Index size, std::mt19937& generator) {
@@ -155,31 +165,31 @@ LinearMap<double> Manifold::tangent_basis(const VectorXd& x) const {
   return MatrixXd((basis.array().abs() < 1e-15).select(0.0, basis));
 }
 
-Index Manifold::Dilations::after(const std::vector<Index>& units) {
+Index Manifold::ScalingSymmetries::after(const std::vector<Index>& units) {
   return units.empty() ? 0 : *std::ranges::max_element(units) + 1;
 }
 
-void Manifold::Dilations::append(const std::vector<Index>& units, Index first,
-                                 std::vector<Index>& all) {
+void Manifold::ScalingSymmetries::append(const std::vector<Index>& units, Index first,
+                                         std::vector<Index>& all) {
   for (const Index unit : units) all.push_back(unit == none ? none : first + unit);
 }
 
-Manifold::Dilations Manifold::dilations() const {
-  Dilations all = do_dilations();
-  check_size("dilations", "point", std::ssize(all.point), ambient_dimension_,
+Manifold::ScalingSymmetries Manifold::scaling_symmetries() const {
+  ScalingSymmetries all = do_scaling_symmetries();
+  check_size("scaling_symmetries", "point", std::ssize(all.point), ambient_dimension_,
              "ambient_dimension()");
-  check_size("dilations", "tangent", std::ssize(all.tangent), tangent_dimension_,
+  check_size("scaling_symmetries", "tangent", std::ssize(all.tangent), tangent_dimension_,
              "tangent_dimension()");
-  check_size("dilations", "fibre", std::ssize(all.fibre), tangent_dimension_,
+  check_size("scaling_symmetries", "fibre", std::ssize(all.fibre), tangent_dimension_,
              "tangent_dimension()");
   return all;
 }
 
-Manifold::Dilations Manifold::do_dilations() const {
+Manifold::ScalingSymmetries Manifold::do_scaling_symmetries() const {
   const auto points = static_cast<std::size_t>(ambient_dimension_);
   const auto vectors = static_cast<std::size_t>(tangent_dimension_);
-  return {.point = std::vector<Index>(points, Dilations::none),
-          .tangent = std::vector<Index>(vectors, Dilations::none),
+  return {.point = std::vector<Index>(points, ScalingSymmetries::none),
+          .tangent = std::vector<Index>(vectors, ScalingSymmetries::none),
           .fibre = std::vector<Index>(vectors, 0)};
 }
 
@@ -271,6 +281,23 @@ VectorXd Manifold::do_project(const VectorXd& start) const {
 
 VectorXd Manifold::random_point(std::mt19937& generator) const {
   return with_size(do_random_point(generator), name_, "random_point", ambient_dimension_, 1);
+}
+
+bool Manifold::has_velocities_as_vectors() const {
+  if (const auto known = has_velocities_without_measuring(*this)) return *known;
+  std::mt19937 generator(1);
+  return velocities_among_components(random_point(generator)).all();
+}
+
+Eigen::Array<bool, Eigen::Dynamic, 1> Manifold::velocities_among_components(
+    const VectorXd& x) const {
+  constexpr double round_off = 1e-9;
+  using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
+  if (const auto known = has_velocities_without_measuring(*this))
+    return Flags::Constant(tangent_dimension_, *known);
+  const MatrixXd projector = tangent_projector(x);
+  const MatrixXd turned = (frame(x) * projector) - projector;
+  return turned.rowwise().lpNorm<Eigen::Infinity>().array() <= round_off;
 }
 
 VectorXd Manifold::do_random_point(std::mt19937& generator) const {

@@ -34,7 +34,7 @@ namespace courant {
 //   M8  random_point, project and tangent_basis are on M  tangent_basis orthonormal, of n columns
 //   M9  R⁻¹(R(x, v), R(x, w)) is the same at every x      where unit() claims a group
 //   M10  velocity_along(x, v, s) = C(y) dy/ds             of the curve y = R(x, s v)
-//   M11  R(D x, D v) = D R(x, v)                          for the dilations D of dilations()
+//   M11  R(D x, D v) = D R(x, v)                          for D of scaling_symmetries()
 //   M12  R(source(y, v), v) = y                           where has_source() claims it
 //
 // Every formula is written once, on Expr; given numbers, the same functions return numbers
@@ -45,9 +45,9 @@ namespace courant {
 // docs/tutorial-new-manifold.md.
 class Manifold {
  public:
-  // Dilations of M: what may be measured in a unit of its own, since multiplying it changes nothing of M. A
+  // Scaling symmetries of M: what may be measured in a unit of its own, since multiplying it changes nothing of M. A
   // position in Rⁿ, each coordinate by itself; no angle, and no point of a sphere.
-  struct Dilations {
+  struct ScalingSymmetries {
     static constexpr Index none = -1;
     std::vector<Index> point;    // N: the number of the unit of each coordinate, or none
     std::vector<Index> tangent;  // Ñ: those of the components of tangent vectors
@@ -106,6 +106,12 @@ class Manifold {
   // Whether E(x) and C(x) are the identity at every x, as on Rⁿ: frame and coframe then return it as
   // such (LinearMap), which takes no memory. A claim that check_manifold measures (M2).
   bool has_identity_frame() const { return do_has_identity_frame(); }
+  // Which entries of the tangent vectors at x are those of their velocities in R^N, (E(x) v)_i = v_i on T_xM (Ñ): all on Rⁿ
+  // and on spheres, some on Heisenberg's group, where N = Ñ too, none where N is not Ñ. Of more than 200 numbers, whose E is
+  // a large matrix, all where N = Ñ.
+  Eigen::Array<bool, Eigen::Dynamic, 1> velocities_among_components(const VectorXd& x) const;
+  // Whether all of them are, at a random point.
+  bool has_velocities_as_vectors() const;
 
   // Π(x) = C(x) E(x), Ñ × Ñ: the identity where n = Ñ, since no vector needs projecting there.
   template <class X>
@@ -146,7 +152,7 @@ class Manifold {
 
   // Numbered from 0, those of fibre by themselves. By default M has none, and momenta have one unit, which is always
   // right; a claim that check_manifold measures (M11).
-  Dilations dilations() const;
+  ScalingSymmetries scaling_symmetries() const;
 
   // C(y) dy/ds of the curve y = R_x(s v), as a tangent vector at y; on expressions.
   ExprVector velocity_along(const ExprVector& x, const ExprVector& v, const Expr& s) const;
@@ -204,7 +210,7 @@ class Manifold {
   virtual ExprVector do_source(const ExprVector& y,
                                const ExprVector& v) const;  // and has_source() → true
   virtual std::optional<VectorXd> do_unit() const { return std::nullopt; }
-  virtual Dilations do_dilations() const;
+  virtual ScalingSymmetries do_scaling_symmetries() const;
   // Π, where n < Ñ: C E, or what is equal on M and does not mix more off it.
   virtual ExprMatrix do_tangent_projector(const ExprVector& x) const;
   // Where there is a shorter formula than the one by differentiation:

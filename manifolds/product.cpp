@@ -171,16 +171,16 @@ VectorXd Product::do_random_point(std::mt19937& generator) const {
   return result;
 }
 
-Manifold::Dilations Product::do_dilations() const {
-  Dilations all;
+Manifold::ScalingSymmetries Product::do_scaling_symmetries() const {
+  ScalingSymmetries all;
   Index units = 0, fibre_units = 0;
   for (const auto& factor : factors_) {
-    const Dilations of = factor->dilations();
-    Dilations::append(of.point, units, all.point);
-    Dilations::append(of.tangent, units, all.tangent);
-    Dilations::append(of.fibre, fibre_units, all.fibre);
-    units = Dilations::after(all.point);
-    fibre_units = Dilations::after(all.fibre);
+    const ScalingSymmetries of = factor->scaling_symmetries();
+    ScalingSymmetries::append(of.point, units, all.point);
+    ScalingSymmetries::append(of.tangent, units, all.tangent);
+    ScalingSymmetries::append(of.fibre, fibre_units, all.fibre);
+    units = ScalingSymmetries::after(all.point);
+    fibre_units = ScalingSymmetries::after(all.fibre);
   }
   return all;
 }

@@ -35,7 +35,7 @@ class Product final : public Manifold {
   ExprVector do_inverse_retract(const ExprVector& x, const ExprVector& y) const override;
   bool do_has_identity_frame() const override;
   std::optional<VectorXd> do_unit() const override;
-  Dilations do_dilations() const override;
+  ScalingSymmetries do_scaling_symmetries() const override;
   ExprMatrix do_tangent_projector(const ExprVector& x) const override;
   ExprMatrix do_frame(const ExprVector& x) const override;
   ExprMatrix do_coframe(const ExprVector& x) const override;

@@ -29,8 +29,8 @@ VectorXd Torus::do_random_point(std::mt19937& generator) const {
   return VectorXd::NullaryExpr(dimension(), [&] { return angle(generator); });
 }
 
-Manifold::Dilations Torus::do_dilations() const {
-  const std::vector<Index> angles(static_cast<std::size_t>(dimension()), Dilations::none);
+Manifold::ScalingSymmetries Torus::do_scaling_symmetries() const {
+  const std::vector<Index> angles(static_cast<std::size_t>(dimension()), ScalingSymmetries::none);
   std::vector<Index> each(angles.size());
   std::iota(each.begin(), each.end(), Index{0});
   return {.point = angles, .tangent = angles, .fibre = each};

@@ -21,7 +21,7 @@ class Torus final : public Manifold {
   ExprVector do_retract(const ExprVector& x, const ExprVector& v) const override { return x + v; }
   ExprVector do_inverse_retract(const ExprVector& x, const ExprVector& y) const override;
   std::optional<VectorXd> do_unit() const override { return VectorXd::Zero(dimension()); }
-  Dilations do_dilations() const override;
+  ScalingSymmetries do_scaling_symmetries() const override;
   ExprVector do_velocity_along(const ExprVector&, const ExprVector& v, const Expr&) const override {
     return v;
   }

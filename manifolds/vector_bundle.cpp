@@ -78,8 +78,8 @@ ExprMatrix VectorBundle::do_coframe(const ExprVector& x) const {
   return result;
 }
 
-// Without F dF(x; v) u below the diagonal, which is zero where u = F u. A momentum of 10⁶ that is normal by rounding, or
-// in a stage of a Runge–Kutta method, would make positions of momenta.
+// Without F dF(x; v) u below the diagonal, which is zero where u = F u. A momentum of 10⁶ that is normal by rounding,
+// or in a stage of a Runge–Kutta method, would make positions of momenta.
 ExprMatrix VectorBundle::do_tangent_projector(const ExprVector& x) const {
   const Index n = base_->tangent_dimension();
   const ExprMatrix F = fibre_projector(position(x)).matrix();
@@ -150,13 +150,13 @@ VectorXd VectorBundle::do_random_point(std::mt19937& generator) const {
                                                    [&] { return normal(generator); }));
 }
 
-Manifold::Dilations VectorBundle::do_dilations() const {
-  Dilations all = base_->dilations();
+Manifold::ScalingSymmetries VectorBundle::do_scaling_symmetries() const {
+  ScalingSymmetries all = base_->scaling_symmetries();
   const std::vector<Index> fibre = all.fibre;
-  const Index units = Dilations::after(all.point);
-  Dilations::append(fibre, units, all.point);
-  Dilations::append(fibre, units, all.tangent);
-  Dilations::append(fibre, Dilations::after(fibre), all.fibre);
+  const Index units = ScalingSymmetries::after(all.point);
+  ScalingSymmetries::append(fibre, units, all.point);
+  ScalingSymmetries::append(fibre, units, all.tangent);
+  ScalingSymmetries::append(fibre, ScalingSymmetries::after(fibre), all.fibre);
   return all;
 }
 

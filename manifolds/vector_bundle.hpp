@@ -56,7 +56,7 @@ class VectorBundle : public Manifold {
   virtual LinearMap<Expr> fibre_projector(const ExprVector& x) const = 0;  // F, Ñ × Ñ, at x ∈ M
 
   bool do_has_identity_frame() const override { return base_->has_identity_frame(); }
-  Dilations do_dilations() const override;
+  ScalingSymmetries do_scaling_symmetries() const override;
   ExprMatrix do_tangent_projector(const ExprVector& x) const override;
   bool do_equals(const Manifold& other) const override {
     return *base_ == *static_cast<const VectorBundle&>(other).base_;

@@ -36,8 +36,8 @@ struct Space {
   double radius = 0;  // of the sphere; 0: there is none
 };
 
-// A rod between the points of two curves, or between that of one and the origin: drawn by the script of a page at the moment that
-// it shows.
+// A rod between the points of two curves, or between that of one and the origin: drawn by the script of a page at the
+// moment that it shows.
 struct Rod {
   std::size_t from = 0;                // a series
   std::optional<std::size_t> to = {};  // another one; nothing: the origin

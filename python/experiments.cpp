@@ -10,6 +10,7 @@
 #include "courant/reporting/ladder_diagram.hpp"
 #include "courant/reporting/ladder_explanation.hpp"
 #include "courant/reporting/ladder_page.hpp"
+#include "courant/running/branch_report.hpp"
 #include "courant/running/check.hpp"
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/ladder_report.hpp"
@@ -21,8 +22,10 @@ namespace {
 
 // The certificate of an experiment: the one place that knows which engine finds it.
 Json certificate(const Experiment& experiment, bool prove) {
-  return courant::to_json(report_of_start(
-      experiment, consistent_start(experiment, prove ? Decider::proof : Decider::both)));
+  const ConsistentStart start =
+      consistent_start(experiment, prove ? Decider::proof : Decider::both);
+  return with_branches(courant::to_json(report_of_start(experiment, start)),
+                       branch_reports(experiment));
 }
 
 Json described(const KindDescription& kind) {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "courant/integrators/methods/wrapping_integrator.hpp"
+#include "courant/integrators/methods/integrator_adaptor.hpp"
 #include "courant/integrators/step/step_parts.hpp"
 #include "courant/reading/findings.hpp"
 
@@ -25,10 +25,10 @@ constexpr double kNoiseOfState = 1e-14;
 // of which only the last is known, would be of order 1 with a function in them.
 constexpr double kOffMiddle = 1e-6;
 
-class IntegratorWithInputs final : public WrappingIntegrator {
+class IntegratorWithInputs final : public IntegratorAdaptor {
  public:
   IntegratorWithInputs(const std::shared_ptr<const Integrator>& method, const StepInputs& inputs)
-      : WrappingIntegrator("IntegratorWithInputs", method->system(), method->system(), method) {
+      : IntegratorAdaptor("IntegratorWithInputs", method->system(), method->system(), method) {
     const std::vector<std::string>& coordinates = system()->names().coordinates;
     for (const std::string& name : inputs.names) {
       const auto found = std::find(coordinates.begin(), coordinates.end(), name);

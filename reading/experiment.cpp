@@ -6,11 +6,13 @@
 
 #include "courant/core/language/declaration.hpp"
 #include "courant/core/words/message.hpp"
-#include "courant/reading/divided_steps.hpp"
+#include "courant/reading/branch.hpp"
 #include "courant/reading/energy_words.hpp"
+#include "courant/reading/expectation_entries.hpp"
 #include "courant/reading/json_document.hpp"
 #include "courant/reading/method_in_units.hpp"
 #include "courant/reading/repetition.hpp"
+#include "courant/reading/substepping.hpp"
 #include "courant/reading/system_kinds.hpp"
 #include "courant/reading/transformed_time.hpp"
 #include "courant/reading/unused_parameters.hpp"
@@ -361,9 +363,11 @@ Experiment read_document(const Json& written, const Model* given) {
     experiment.title = object.text("title", "");
     if (const auto description = object.optional("description")) description->text();
     const auto system = given ? std::nullopt : object.required("system");
-    const auto model = given    ? std::optional(*given)
-                       : system ? system_kinds().read(*system)
-                                : std::nullopt;
+    auto model = given    ? std::optional(*given)
+                 : system ? system_kinds().read(*system)
+                          : std::nullopt;
+    const auto branch = object.optional("branch");
+    if (model && branch) choose_branch(*branch, *model);
     const auto initial = object.required("initial");
     const auto hold = object.optional("hold");
     if (const auto start = object.optional("start")) start->word({"nearest"});
@@ -416,8 +420,7 @@ Experiment read_document(const Json& written, const Model* given) {
     if (model && experiment.time && experiment.time->rate)
       transform_time(*experiment.time->rate, *model, findings, experiment);
     if (experiment.method && experiment.time && experiment.time->division)
-      experiment.method =
-          in_divided_steps(std::move(*experiment.method), *experiment.time->division);
+      experiment.method = with_substeps(std::move(*experiment.method), *experiment.time->division);
     if (model) {
       experiment.model = *model;
       if (initial)

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "courant/core/words/message.hpp"
 #include "courant/core/words/spelling.hpp"
+#include "courant/core/words/text_layout.hpp"
 
 namespace courant {
 namespace {
@@ -16,10 +18,7 @@ std::string shown(const Json& value) {
   if (value.is_object()) return "an object";
   if (value.is_array()) return value.empty() ? "an empty array" : "an array";
   const std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
-  if (text.size() <= kLongestShown) return text;
-  std::size_t end = kLongestShown;
-  while ((text[end] & 0xC0) == 0x80) --end;  // whole characters
-  return text.substr(0, end) + "…";
+  return text.size() <= kLongestShown ? text : beginning(text, kLongestShown) + "…";
 }
 
 std::string alternatives(const std::vector<std::string>& words) {
@@ -75,14 +74,17 @@ std::optional<double> JsonReader::positive_number() const {
 }
 
 std::optional<Index> JsonReader::integer(Index least) const {
-  // Up to 2⁵³, as 1e6 is as good as 1000000.
-  if (value_->is_number()) {
-    const double number = value_->get<double>();
-    if (number == std::floor(number) && number >= static_cast<double>(least) &&
-        std::abs(number) <= 9007199254740992.0)
-      return static_cast<Index>(number);
-  }
-  expected("an integer, at least " + std::to_string(least));
+  // 2⁵³, as 1e6 is as good as 1000000, or what an Index holds: 32 bits in a browser.
+  constexpr double greatest =
+      std::min(9007199254740992.0, static_cast<double>(std::numeric_limits<Index>::max()));
+  const double number = value_->is_number() ? value_->get<double>() : 0.5;
+  const bool is_integer = number == std::floor(number);
+  if (is_integer && number >= static_cast<double>(least) && std::abs(number) <= greatest)
+    return static_cast<Index>(number);
+  if (is_integer && number > greatest)
+    expected("an integer, at most " + std::to_string(static_cast<Index>(greatest)));
+  else
+    expected("an integer, at least " + std::to_string(least));
   return std::nullopt;
 }
 

@@ -28,6 +28,7 @@ class JsonReader {
   const std::string& pointer() const { return pointer_; }
   Findings& findings() const { return *findings_; }
 
+  // Adds the problem `what` at the pointer of this value. It is a sentence without its subject: "is negative".
   void problem(std::string what) const { findings_->problem(pointer_, std::move(what)); }
   // The problem `is <the value>; expected <expected>`.
   void expected(const std::string& expected) const;
@@ -35,6 +36,8 @@ class JsonReader {
   // problem here. Rethrows what is a fault of the program.
   void refused() const;
 
+  // The value as what is asked for; a problem, and nothing, if it is something else: a number, one above 0, a
+  // whole one of at least `least`, a text, the elements of an array.
   std::optional<double> number() const;
   std::optional<double> positive_number() const;
   std::optional<Index> integer(Index least) const;

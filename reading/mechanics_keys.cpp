@@ -145,8 +145,7 @@ PhaseWords::PhaseWords(const Space& space, Vocabulary& vocabulary, SymbolTable& 
       bundle_(std::dynamic_pointer_cast<const CotangentBundle>(manifold_)) {
   const auto& declarations = space.coordinates.declarations();
   const std::size_t half = bundle_ ? declarations.size() / 2 : declarations.size();
-  const bool named =
-      bundle_ && bundle_->base()->ambient_dimension() != bundle_->base()->tangent_dimension();
+  const bool named = bundle_ && !bundle_->base()->has_velocities_as_vectors();
   for (std::size_t i = half; i < declarations.size(); ++i) {
     const Declaration& momentum = declarations[i];
     momenta_.append(momentum);

@@ -11,9 +11,9 @@
 #include "courant/integrators/methods/discrete_gradient.hpp"
 #include "courant/integrators/methods/discretize_first.hpp"
 #include "courant/integrators/methods/explicit_runge_kutta.hpp"
-#include "courant/integrators/methods/matched_start.hpp"
 #include "courant/integrators/methods/reduced_map.hpp"
 #include "courant/integrators/methods/staggering.hpp"
+#include "courant/integrators/methods/starting_procedure.hpp"
 #include "courant/integrators/methods/verlet.hpp"
 #include "courant/integrators/step/projector_in_units.hpp"
 #include "courant/reading/method_in_units.hpp"
@@ -40,7 +40,7 @@ State start_of_method_1(const MethodSetting& at, const DiscretizationMap& map) {
     throw std::invalid_argument(
         "the start \"rk2\" is for cotangent bundles, but the system is on " +
         at.system->manifold()->name() + "; expected \"on-manifold\"");
-  return matched_start(*at.system, map, at.initial, bundle->position(next.x), at.step);
+  return starting_procedure(*at.system, map, at.initial, bundle->position(next.x), at.step);
 }
 
 const std::vector<int> kOrders = {2, 4, 6, 8};

@@ -50,6 +50,14 @@ NameList declared_list(const std::vector<std::string>& names) {
 
 }  // namespace
 
+SymbolTable Model::symbols_with_energy(const ExprVector& x, const ExprVector& v,
+                                       const ExprVector& z, const Expr& t) const {
+  SymbolTable words = symbols(x, v, z, t);
+  if (words.find("H") == nullptr)
+    if (const auto energy = system->energy(x, z, t)) words.add("H", *energy);
+  return words;
+}
+
 Model model_of(std::shared_ptr<const ImplicitSystem> system, std::string description) {
   if (!system) throw std::invalid_argument("model_of: system is null.");
   Model model;

@@ -34,7 +34,8 @@ struct Model {
   // systems they have to be given.
   bool starts_at_zero = false;
 
-  // Where the search for coordinates that are not given begins, by what else is given of the start, by name; 0 if empty.
+  // Where the search for coordinates that are not given begins, by what else is given of the start, by name; 0 if
+  // empty.
   std::function<VectorXd(const std::vector<std::pair<std::string, double>>& given)> reference;
 
   // Whether the point is (state, costate) of a problem of optimal control, with Pontryagin's function as energy.
@@ -46,6 +47,9 @@ struct Model {
     return vocabulary.symbols(
         {.x = x, .velocity = (system->manifold()->frame(x) * v).eval(), .z = z, .t = t});
   }
+  // The same with the energy, H, where there is one and no word of the model has that name.
+  SymbolTable symbols_with_energy(const ExprVector& x, const ExprVector& v, const ExprVector& z,
+                                  const Expr& t) const;
   // The same at the stage of a step, with its effort.
   SymbolTable symbols(const ExprVector& x, const ExprVector& v, const ExprVector& z, const Expr& t,
                       const ExprVector& effort) const {

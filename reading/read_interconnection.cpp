@@ -35,7 +35,8 @@ std::optional<std::vector<Part>> read_parts(const JsonReader& value) {
     auto system = std::dynamic_pointer_cast<const PortSystem>(model->system);
     if (!system)
       entry.problem(
-          "has no ports; expected a port-hamiltonian system, a network or an interconnection");
+          "has no ports; expected a port-hamiltonian or stokes-dirac system, a network or an "
+          "interconnection");
     else
       parts.push_back({name, std::move(system), model->vocabulary});
   }

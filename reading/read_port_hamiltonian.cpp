@@ -52,19 +52,6 @@ bool is_free(const NameList& names, const SymbolTable& taken,
   return true;
 }
 
-// Adds names to those that are taken; a problem if one of them has a meaning already.
-bool take(const NameList& names, SymbolTable& taken, const JsonReader& place) {
-  for (const Declaration& declaration : names.declarations()) {
-    if (taken.find(declaration.name)) {
-      place.problem("the ports have the name \"" + declaration.name +
-                    "\", which has a meaning already; expected another name in its place");
-      return false;
-    }
-    taken.add(declaration.name, declaration.shape, ExprVector::Ones(declaration.size()));
-  }
-  return true;
-}
-
 // The m names of the ports, or none.
 std::optional<std::vector<std::string>> read_port_names(const std::optional<JsonReader>& key,
                                                         Index m) {
@@ -129,7 +116,7 @@ std::optional<Model> read_port_hamiltonian(ObjectReader& system) {
   const bool right = !R || is_resistive(*space->manifold, *R, *R_key);
   const JsonReader& ports_place = B_key ? *B_key : system.place();
   vocabulary.unknowns = port_variables("u", m, *port_names);
-  if (!take(vocabulary.unknowns, taken, ports_place)) return std::nullopt;
+  if (!take_new_names(vocabulary.unknowns, "the ports", taken, ports_place)) return std::nullopt;
   check_definitions(vocabulary, findings);
 
   Graph graph;
@@ -150,12 +137,9 @@ std::optional<Model> read_port_hamiltonian(ObjectReader& system) {
       inputs_right = false;
     }
     const NameList outputs = port_variables("y", m, *port_names);
-    Vocabulary words;
-    words.parameters = vocabulary.parameters;
-    words.parameter_formulas = vocabulary.parameter_formulas;
-    words.tables = vocabulary.tables;
+    const Vocabulary words = vocabulary.of_time();
     SymbolTable known = words.symbols({.t = Expr(0.0)});
-    if (!take(outputs, known, *inputs_key)) return std::nullopt;
+    if (!take_new_names(outputs, "the ports", known, *inputs_key)) return std::nullopt;
     const auto table = [words, outputs](const Expr& t, const ExprVector& y) {
       SymbolTable result = words.symbols({.t = t});
       outputs.add_to(result, y);

@@ -211,9 +211,7 @@ std::vector<std::string> Sensitivities::columns() const {
 SymbolTable words_of_state(const Model& model, const std::vector<DeclaredSymmetry>& symmetries,
                            const std::vector<Observable>& observables, const ExprVector& x,
                            const ExprVector& v, const ExprVector& z, const Expr& t) {
-  SymbolTable symbols = model.symbols(x, v, z, t);
-  if (symbols.find("H") == nullptr)
-    if (const auto energy = model.system->energy(x, z, t)) symbols.add("H", *energy);
+  SymbolTable symbols = model.symbols_with_energy(x, v, z, t);
   for (const DeclaredSymmetry& declared : symmetries)
     if (symbols.find(declared.name) == nullptr)
       symbols.add(declared.name, declared.symmetry.momentum(x));

@@ -17,8 +17,8 @@ namespace courant {
 //
 //   {"by": ["L", "x"], "of": ["H", "x"], "lyapunov": true}
 //
-// Derivatives of each quantity in `of`, at each state of the run, by each number in `by`: an element of a parameter, or a
-// value that `initial` has. They are those of the run of the experiment with another number in its place.
+// Derivatives of each quantity in `of`, at each state of the run, by each number in `by`: an element of a parameter, or
+// a value that `initial` has. They are those of the run of the experiment with another number in its place.
 struct Sensitivities {
   // A number that is varied. `index`: of the entry of x, of the velocity or of z, of InitialValues::quantities, or of
   // the elements of the parameter.
@@ -51,8 +51,8 @@ SymbolTable words_of_state(const Model& model, const std::vector<DeclaredSymmetr
                            const std::vector<Observable>& observables, const ExprVector& x,
                            const ExprVector& v, const ExprVector& z, const Expr& t);
 
-// Reads it. Names of arrays mean their elements; `of` is by default all coordinates. What has no name, or is not given in
-// `initial`, is a problem.
+// Reads it. Names of arrays mean their elements; `of` is by default all coordinates. What has no name, or is not given
+// in `initial`, is a problem.
 std::optional<Sensitivities> read_sensitivities(const JsonReader& value, const Model& model,
                                                 const InitialValues& initial,
                                                 const std::vector<DeclaredSymmetry>& symmetries,

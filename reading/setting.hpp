@@ -42,8 +42,8 @@ ValueRange read_range(const std::string& text, const std::string& option = "--sw
 // "C1/value" of /system/elements/2/value and /system/elements/4/value.
 std::vector<std::string> short_names(std::span<const std::string> pointers, const Json& document);
 
-// The columns of a table of cases (comma-separated values, RFC 4180): its head has a JSON pointer for each
-// column, a row a value for each, as in a setting. The ranges after the first are tied to it. `name` is that of the file, for
+// The columns of a table of cases (comma-separated values, RFC 4180): its head has a JSON pointer for each column, a
+// row a value for each, as in a setting. The ranges after the first are tied to it. `name` is that of the file, for
 // messages. Throws ExperimentError.
 std::vector<ValueRange> read_cases(std::string_view text, const std::string& name,
                                    const std::string& option = "--sweep");

@@ -14,9 +14,9 @@ namespace courant {
 Registry<std::shared_ptr<const DiracStructure>, StructureSite>& structure_kinds();
 
 // The keys `coordinates` and `manifold` of an object with a `structure`, see read_space. The
-// manifold is by default T*Rⁿ for the canonical structure and Rⁿ for others; a product or composed
-// structure has one made of its parts, so none may be given, and that of the space is only as large
-// as the coordinates: take DiracStructure::manifold() once the structure is read.
+// manifold is by default T*Rⁿ for the canonical structure and Rⁿ for others. A product or composed
+// structure has a manifold made of its parts, so none may be given. The space then has one that is only
+// as large as the coordinates; take DiracStructure::manifold() once the structure is read.
 std::optional<Space> read_structure_space(ObjectReader& object, const Vocabulary& vocabulary,
                                           SymbolTable& taken);
 

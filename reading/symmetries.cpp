@@ -14,7 +14,7 @@ struct ConfigurationWords {
     vocabulary.coordinates = vocabulary.unknowns = NameList();
     const auto& declarations = whole.coordinates.declarations();
     const std::size_t half = declarations.size() / 2;
-    const bool named = Q.ambient_dimension() != Q.tangent_dimension();
+    const bool named = !Q.has_velocities_as_vectors();
     for (std::size_t i = 0; i < half; ++i) {
       vocabulary.coordinates.append(declarations[i]);
       const Shape& shape = declarations[half + i].shape;

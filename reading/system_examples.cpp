@@ -82,6 +82,18 @@ constexpr const char* kExamples = R"json({
   "observe": { "power": "u*p - c*p^2" },
   "expect": [ { "verdict": "regular" },
     { "state": { "q": "0.8*sin(t) - 0.4*cos(t)", "p": "0.8*cos(t) + 0.4*sin(t)" }, "tolerance": 1e-3 } ] },
+"stokes-dirac": {
+  "title": "A wave on a string that is held at its left end and free at the right one",
+  "system": { "type": "stokes-dirac", "parameters": { "N": 20, "rho": 2, "E": 8, "w": "pi*sqrt(E/rho)/2" },
+    "complex": { "interval": { "length": 1, "cells": "N" } },
+    "states": ["p", "q"], "efforts": ["v", "F"], "energy": { "p": "p^2/(2*rho)", "q": "E*q^2/2" },
+    "boundary": { "left": { "v": 0 }, "right": { "F": 0 } } },
+  "initial": { "p": { "form": "rho*sin(pi*x/2)" }, "q": { "form": "0" } },
+  "method": { "type": "discretize-first", "discretization": "midpoint" },
+  "time": { "step": 0.005, "end": 2 },
+  "observe": { "end": "v[N-1]" },
+  "expect": [ { "verdict": "regular" }, { "max_imbalance": 1e-12 },
+    { "state": { "end": "cos(w*t)" }, "tolerance": 0.01 } ] },
 "interconnection": {
   "title": "A mass on a spring, and a coil that brakes it",
   "system": { "type": "interconnection", "parameters": { "k": 1 },

@@ -1,6 +1,7 @@
 #include "courant/reading/system_kinds.hpp"
 
 #include "courant/reading/catalogue_system.hpp"
+#include "courant/reading/complex_keys.hpp"
 #include "courant/reading/lie_algebra_keys.hpp"
 #include "courant/reading/mechanics_keys.hpp"
 #include "courant/reading/mechanism_keys.hpp"
@@ -159,9 +160,34 @@ Registry<Model>& system_kinds() {
                           "of open ports: m formulas in t, the parameters and the outputs y (with "
                           "several ports y[0], …)")})},
        read_port_hamiltonian},
+      {{"stokes-dirac",
+        "two conservation laws on a cell complex, dp/dt + d e_q = 0 and dq/dt + d e_p = 0: waves, "
+        "lines, Maxwell's equations; with a conductivity one law",
+        system_keys(
+            {required_key("complex", takes::one(complex_keys()), "the cells"),
+             default_key("degree", takes::integer(0), 0,
+                         "k, of e_p: p has a number for each k-cell, q for each (k+1)-cell"),
+             required_key("states", takes::names(),
+                          "of p and q; of p alone where there is a conductivity"),
+             required_key("efforts", takes::names(), "of e_p and e_q"),
+             required_key("energy", takes::definitions(),
+                          "densities by state, in the densities of the states, x, y, z and t"),
+             optional_key("resistance", takes::definitions(),
+                          "r by state: r times the square of the component of its effort is lost"),
+             optional_key("conductivity", takes::formula(),
+                          "of e_q = -conductivity grad e_p, which dissipates"),
+             optional_key("heat_conductivity", takes::formula(),
+                          "the same for the temperature e_p of the entropy p: energy is conserved"),
+             optional_key("regions", takes::definitions(),
+                          "more parts of the boundary: by name a condition on x, y, z"),
+             optional_key("boundary", takes::boundary_conditions(),
+                          "by region: an effort, an impedance, or a port; by default nothing flows "
+                          "in")})},
+       read_stokes_dirac},
       {{"interconnection", "systems that are joined at their ports",
         system_keys({required_key("systems", takes::systems(),
-                                  "by name: of type port-hamiltonian, network or interconnection"),
+                                  "by name: of type port-hamiltonian, stokes-dirac, network or "
+                                  "interconnection"),
                      required_key("joints", takes::array_of(takes::joint()),
                                   "what ports have in common")})},
        read_interconnection},

@@ -23,6 +23,7 @@ std::optional<Model> read_morse_family(ObjectReader& system);
 std::optional<Model> read_optimal_control(ObjectReader& system);
 std::optional<Model> read_euler_poincare(ObjectReader& system);
 std::optional<Model> read_port_hamiltonian(ObjectReader& system);
+std::optional<Model> read_stokes_dirac(ObjectReader& system);
 std::optional<Model> read_interconnection(ObjectReader& system);
 std::optional<Model> read_implicit(ObjectReader& system);
 std::optional<Model> read_network(ObjectReader& system);

@@ -13,8 +13,8 @@ namespace courant {
 MethodChoice in_transformed_time(MethodChoice choice, WrittenFormula rate);
 
 // What a method is made of, for a setting in its own time, in another one, or with parameters as coordinates: the
-// discretization map on the manifold of its system; a projector that leaves time and parameters as they are; and sizes of
-// the Ñ components of tangent vectors, those that are given, else 1, but of time, which has none; empty for 1.
+// discretization map on the manifold of its system; a projector that leaves time and parameters as they are; and sizes
+// of the Ñ components of tangent vectors, those that are given, else 1, but of time, which has none; empty for 1.
 std::shared_ptr<const DiscretizationMap> map_at(const DiscretizationChoice& choice,
                                                 const MethodSetting& at);
 ProjectorChoice::Made projector_at(const ProjectorChoice& choice, const MethodSetting& at);

@@ -192,7 +192,7 @@ class CProgram {
          .elimination = of.formulas.eliminates ? &of.formulas.elimination : nullptr});
     ends_predicted_ = sought;
     if (of.turning) add_turning(*of.turning);
-    if (of.shifts == 0 || of.turning) {  // then all unknowns that are found are predicted
+    if (of.multipliers == 0 || of.turning) {  // then all unknowns that are found are predicted
       ends_predicted_.clear();
       for (Index i = 0; i < of.formulas.inputs[0].variables.size(); ++i)
         if (!std::ranges::binary_search(left, i)) ends_predicted_.push_back(i);
@@ -207,7 +207,8 @@ class CProgram {
     const StepProgram::Solve& solve = *step_.solve;
     const Index n = solve.displacements;
     if (!solve.projection) return {n, solve.auxiliaries};
-    return {n, n, (solve.tangent_blocks - 2) * n + solve.auxiliaries, solve.projection->shifts};
+    return {n, n, (solve.tangent_blocks - 2) * n + solve.auxiliaries,
+            solve.projection->multipliers};
   }
   // The unknowns that are predicted, in a group of their own up to `end`.
   static std::string places(const std::string& name, const std::vector<Index>& at, Index end) {
@@ -303,7 +304,7 @@ class CProgram {
                       c_define("SPACE_EQUATIONS", solve.space.constraint.outputs.size());
     if (has_basis || turns)
       all += c_define("DIMENSION", dimension_) +
-             c_define("MOST_COLUMNS", has_basis ? dimension_ : solve.projection->shifts);
+             c_define("MOST_COLUMNS", has_basis ? dimension_ : solve.projection->multipliers);
     all += "\n";
     if (has_basis || has_equations) all += text::longest_column();
     if (has_equations) all += text::round_off();
@@ -359,8 +360,8 @@ class CProgram {
              "#define IS_EXPLICIT (projection_equations.size == 0 && !TURNS && !HAS_BASIS)\n";
     if (!projects) all += contained_coordinates(solve.formulas.contained(1));
     if (projects)
-      all += c_define("SHIFTS", solve.projection->shifts) +
-             c_define("DIRECTIONS", n * solve.projection->shifts);
+      all += c_define("MULTIPLIERS", solve.projection->multipliers) +
+             c_define("DIRECTIONS", n * solve.projection->multipliers);
     if (turns) all += turning_sizes(*solve.projection->turning);
     all += "\n" + std::string(text::predictor()) + places("step", predicted_, tangent);
     if (projects) {

@@ -25,15 +25,15 @@ namespace courant {
 // take more than 10⁵ steps times coordinates: then H from steps of a third has to agree to a hundredth of its change.
 // Large systems, and what is late in a run, are not made again.
 //
-// Where H of a system without ports has changed by more than it was the sum of at the start, as from -1 to 16, the run up to there is made again in
-// steps of a third too: where these change it by less than half as much, the change is an error of the method, and
-// is said, though its order explains it.
+// Where H of a system without ports has changed by more than it was the sum of at the start, as from -1 to 16, the run
+// up to there is made again in steps of a third too: where these change it by less than half as much, the change is an
+// error of the method, and is said, though its order explains it.
 //
 // Where the parts of a step lead to values of H that differ by more than H is the sum of, before the step and after the
-// parts, the step has no digits: so it is at a collision, a pole. The run ends there. Where energy goes through ports, what
-// was supplied and dissipated since the beginning are among what H is the sum of: a circuit that is switched on stores
-// nothing beside them at first. From rest, where H is the sum of nothing, and where ports account for the change,
-// nothing is said.
+// parts, the step has no digits: so it is at a collision, a pole. The run ends there. Where energy goes through ports,
+// what was supplied and dissipated since the beginning are among what H is the sum of: a circuit that is switched on
+// stores nothing beside them at first. From rest, where H is the sum of nothing, and where ports account for the
+// change, nothing is said.
 //
 // H need not be conserved; what is round-off of its terms, which may cancel, is not looked at. Nor is a run that stands
 // still, whose coordinates have not left the start but by rounding: velocities that round-off makes have an energy that

@@ -14,10 +14,10 @@
 
 namespace courant {
 
-// Keeps an ensemble as files (docs/ensembles.md has them): experiment.json, ensemble.npy with columns.json, members.jsonl,
-// events.csv where there are events, summary.json and statistics.csv. A kill at any moment leaves whole members, and one
-// that goes on leaves the bytes of one that was never stopped, but for times in the summary. Nothing is written before
-// begin().
+// Keeps an ensemble as files (docs/ensembles.md has them): experiment.json, ensemble.npy with columns.json,
+// members.jsonl, events.csv where there are events, summary.json and statistics.csv. A kill at any moment leaves whole
+// members, and one that goes on leaves the bytes of one that was never stopped, but for times in the summary. Nothing
+// is written before begin().
 class EnsembleFolder final : public EnsembleKeeper {
  public:
   EnsembleFolder(std::filesystem::path path, ExistingRun existing);

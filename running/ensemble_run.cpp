@@ -1,9 +1,7 @@
 #include "courant/running/ensemble_run.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <ctime>
 #include <map>
 #include <mutex>
 #include <new>
@@ -15,6 +13,7 @@
 #include "courant/reading/ensemble_members.hpp"
 #include "courant/running/ensemble_statistics.hpp"
 #include "courant/running/run_in_memory.hpp"
+#include "courant/running/stopwatch.hpp"
 
 namespace courant {
 namespace {
@@ -126,8 +125,7 @@ class EnsembleUnderway {
 
   EnsembleOutcome operator()() {
     keeper_.check(experiment_);
-    const auto begin = std::chrono::steady_clock::now();
-    const std::clock_t cpu = std::clock();
+    const Stopwatch watch;
     std::map<Index, EnsembleMember> first = first_members();
     if (first.empty()) return interrupted_before();
     require_room();
@@ -156,8 +154,8 @@ class EnsembleUnderway {
                   EnsembleMember member = there != first.end() ? std::move(there->second) : run(i);
                   if (member.status != RunStatus::interrupted) append(std::move(member));
                 });
-    wall_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    cpu_seconds_ = static_cast<double>(std::clock() - cpu) / static_cast<double>(CLOCKS_PER_SEC);
+    wall_seconds_ = watch.wall_seconds();
+    cpu_seconds_ = watch.cpu_seconds();
     return conclude();
   }
 

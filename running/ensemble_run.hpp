@@ -61,9 +61,9 @@ struct EnsembleOutcome {
 inline constexpr double kMostEnsembleNumbers = 2e9;
 
 // Runs the members of an experiment's ensemble on all cores. Each starts at the consistent point of its own values, by
-// a constraint algorithm of its own, and has the bits of its own run, whatever the number of members and of threads. One that
-// cannot be run, or not to its end, is told of with its number and the reason, and stops no other one; so is one whose start
-// has another ladder than the first one.
+// a constraint algorithm of its own, and has the bits of its own run, whatever the number of members and of threads.
+// One that cannot be run, or not to its end, is told of with its number and the reason, and stops no other one; so is
+// one whose start has another ladder than the first one.
 //
 // Throws ExperimentError where no member can be run, and where they are more than kMostEnsembleNumbers; and as the
 // keeper does. Then nothing was written.

@@ -64,8 +64,8 @@ class EventWatch final : public RunWatcher {
   };
   // That of the step that was watched last, once: the first. Zeros behind it were not looked for.
   std::optional<Reset> take_reset() { return std::exchange(reset_, std::nullopt); }
-  // Goes on behind a reset, where this is measured; the curve is that of the way on. Zeros that the jump itself passes, and
-  // those at the same time, count at its time: if such an event sets something, it is the one that is returned.
+  // Goes on behind a reset, where this is measured; the curve is that of the way on. Zeros that the jump itself passes,
+  // and those at the same time, count at its time: if such an event sets something, it is the one that is returned.
   std::optional<Reset> go_on_behind(const Reset& reset, const VectorXd& row, Stepper& way);
 
   // Where an event stopped the run, within the step that was watched last.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "courant/core/words/text_layout.hpp"
 #include "courant/reading/json_reader.hpp"
 
 namespace courant {
@@ -10,11 +11,8 @@ namespace {
 
 std::string in_short(const Json& value) {
   constexpr std::size_t most = 40;
-  std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
-  if (text.size() <= most) return text;
-  std::size_t end = most;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
-  return text.substr(0, end) + "…";
+  const std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return text.size() <= most ? text : beginning(text, most) + "…";
 }
 
 bool is_free(const std::string& pointer) { return pointer == "/time/end" || pointer == "/$run"; }

@@ -9,15 +9,15 @@
 
 namespace courant {
 
-// At the tip of a cone, x² + y² = z², the gradient of the constraint vanishes, and equations do not say how a solution goes
-// on. A step across it has points of M_f at both of its ends. Gradients of equations c(x, t) = 0, rows J of rank d, are
-// those of one piece of a submanifold as long as they turn little by little:
+// At the tip of a cone, x² + y² = z², the gradient of the constraint vanishes, and equations do not say how a solution
+// goes on. A step across it has points of M_f at both of its ends. Gradients of equations c(x, t) = 0, rows J of rank
+// d, are those of one piece of a submanifold as long as they turn little by little:
 //
 //   det(J(x₀) J(x₁)ᵀ) > 0
 //
 // Where that fails the step is made again in nine parts, along which gradients that turn far do not turn at once. A run
-// ends where it fails for one of the parts, or where such a part cannot be made. Up to 200 coordinates and 50 equations, which are
-// independent at the start.
+// ends where it fails for one of the parts, or where such a part cannot be made. Up to 200 coordinates and 50
+// equations, which are independent at the start.
 class GradientWatch final : public RunWatcher {
  public:
   GradientWatch(std::shared_ptr<const Integrator> integrator, const State& initial);

@@ -127,8 +127,8 @@ LadderReport ladder_report(const ConstraintLadder& ladder, const ImplicitSystem&
 LadderReport ladder_report(const ConstraintLadder& ladder, const ImplicitSystem& system,
                            const ConstraintFormulas& formulas);
 
-// Verdict, levels and the point alone, without formulas: all there is of a DiscreteConstraintAlgorithm, where it is the first
-// point of the chain.
+// Verdict, levels and the point alone, without formulas: all there is of a DiscreteConstraintAlgorithm, where it is the
+// first point of the chain.
 LadderReport discrete_ladder_report(const ConstraintLadder& ladder, const ImplicitSystem& system);
 
 // What of a ladder is known when the algorithm stops at this level; the ladder itself if it ends

@@ -21,10 +21,10 @@ namespace courant {
 std::string left_constraints(Observer& observer, const QuantityStatistics& statistics,
                              const State& start, const State& end);
 
-// Empty, or a sentence about the constraint[i] that is more than 10⁻⁴ of its terms where the run ended, and is no smaller
-// when the run is made again in steps of h/3 and of h/9: in each of them more than 3/5 of what it was before. An error
-// of order 1 has a third. So it is where a method does not converge for a system. For runs of up to 10⁵ steps times
-// coordinates, all parts together.
+// Empty, or a sentence about the constraint[i] that is more than 10⁻⁴ of its terms where the run ended, and is no
+// smaller when the run is made again in steps of h/3 and of h/9: in each of them more than 3/5 of what it was before.
+// An error of order 1 has a third. So it is where a method does not converge for a system. For runs of up to 10⁵ steps
+// times coordinates, all parts together.
 struct StepsOfRun {
   double h = 0.0;
   long steps = 0;
@@ -41,8 +41,8 @@ std::string kept_violation(const Integrator& integrator, Observer& observer,
 // lost in it, though each constraint may be a small part of its terms, which have grown as well.
 // For up to 500 coordinates.
 //
-// With `field`, the same of velocities and unknowns that nobody asks for, for up to 60 coordinates that
-// nothing constrains: more than a fifth of the largest they are in these steps, since what they were before is not known.
+// With `field`, the same of velocities and unknowns that nobody asks for, for up to 60 coordinates that nothing
+// constrains: more than a fifth of the largest they are in these steps, since what they were before is not known.
 std::string alternation(const Integrator& integrator, Observer& observer,
                         const QuantityStatistics& statistics, State end, double h,
                         const ConstraintLadder* field = nullptr);

@@ -29,10 +29,10 @@ struct EnergySizes {
 // experiment's observables, its sensitivities, the constraints, and (not written to files) the quantities of its events
 // and the deviations that its expectations need.
 //
-// `supplied` and `dissipated` are since the beginning, `balance` that of the step which ended at the
-// state, as of PowerAccount. Observables at the stage of that step are evaluated with its effort; at
-// the first state, before any step, they are those of the state. Defects are those of the map from the
-// first state to the one that the last step led to; before follow() there is none, and they are 0. So are sensitivities.
+// `supplied` and `dissipated` are since the beginning, `balance` that of the step which ended at the state, as of
+// PowerAccount. Observables at the stage of that step are evaluated with its effort; at the first state, before any
+// step, they are those of the state. Defects are those of the map from the first state to the one that the last step
+// led to; before follow() there is none, and they are 0. So are sensitivities.
 //
 // constraint[i] are the equations of the system that contain nothing but x and t, and the total
 // time derivatives of those which the constraint algorithm differentiated more than once: zero on

@@ -17,7 +17,8 @@ namespace courant {
 // 50 unknowns.
 std::vector<Movement> other_values(const Experiment& experiment, const ConstraintLadder& ladder);
 
-// What the report of a ladder does not know of the start that it is of: these as its choices, and whether it was an impulse.
+// What the report of a ladder does not know of the start that it is of: these as its choices, and whether it was an
+// impulse.
 void tell_of_start(const Experiment& experiment, const ConsistentStart& start,
                    LadderReport& report);
 

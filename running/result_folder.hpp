@@ -39,8 +39,8 @@ class ResultFolder {
   // <kind>.<extension> in the folder.
   std::filesystem::path file(const std::string& extension) const;
 
-  // Both files, and the figure if there is one. `result` is an object; "kind" becomes its first key. The folders of runs are those
-  // of its entries "runs", each with a "folder". Throws OutputError.
+  // Both files, and the figure if there is one. `result` is an object; "kind" becomes its first key. The folders of
+  // runs are those of its entries "runs", each with a "folder". Throws OutputError.
   void write(const Json& result, const std::string& csv, const std::string& svg = "") const;
 
  private:

@@ -12,7 +12,14 @@ std::string failure_in_words(const SolveError& error, const Experiment& experime
                              const ConstraintLadder& ladder, const State& state) {
   const std::string what = error.what();
   const std::string why = undefined_ahead(experiment, ladder, state, experiment.time->step);
-  if (why.empty()) return what + corner_in_words(what, *experiment.model.system, ladder);
+  if (why.empty()) {
+    const ImplicitSystem& system = *experiment.model.system;
+    const std::string corner = corner_in_words(what, system, ladder);
+    const bool has_corners =
+        experiment.time->division && !experiment.time->division->corners.empty();
+    const bool is_cut_off = error.reason() == SolveError::Reason::disconnected && !has_corners;
+    return what + (corner.empty() && is_cut_off ? condition_on_time_in_words(system) : corner);
+  }
   // What it expected is not to be had; what it advises is.
   const std::size_t expected = what.rfind("; ");
   return (expected == std::string::npos ? what + " The cause: " : what.substr(0, expected) + ": ") +

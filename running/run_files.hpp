@@ -62,10 +62,9 @@ struct Run {
   std::string axis_label(const std::string& quantity) const;
 };
 
-// Reads trajectory.csv, or trajectory.npy with columns.json (an array of names), summary.json,
-// experiment.json and, if there is one, events.csv. Of a run that did not end, which was killed or goes on, the rows that are whole
-// are read, and the summary has a message that says so. Throws RunFileError, also where the files are
-// of several runs.
+// Reads trajectory.csv, or trajectory.npy with columns.json (an array of names), summary.json, experiment.json and, if
+// there is one, events.csv. Of a run that did not end, which was killed or goes on, the rows that are whole are read,
+// and the summary has a message that says so. Throws RunFileError, also where the files are of several runs.
 Run read_run(const std::filesystem::path& directory);
 
 // Whether a folder has an ensemble, which read_run() refuses.

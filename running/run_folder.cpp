@@ -22,8 +22,8 @@ constexpr std::array kFiles = {"checkpoint.json", "summary.json",  "trajectory.c
                                "events.csv",      "report.html",   "ensemble.npy",
                                "members.jsonl",   "statistics.csv"};
 
-void write_json(const fs::path& file, const Json& json) {
-  write_file(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+std::string json_text(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 Json json_in(const fs::path& file) {
@@ -148,7 +148,7 @@ RunFolder::RunFolder(fs::path path, ExistingRun existing_run, const Experiment& 
     }
     Json document = experiment.document;
     document["$run"] = run_.id;
-    write_json(there / "experiment.json", document);
+    write_file(there / "experiment.json", json_text(document));
   } catch (const RefusedOutput&) {
     throw;
   } catch (const OutputError& error) {
@@ -163,11 +163,21 @@ void RunFolder::write_checkpoint(const Checkpoint& checkpoint) const {
   courant::write_checkpoint(checkpoint_file(), checkpoint);
 }
 
-void RunFolder::write_summary(const RunSummary& summary) const { write_summary(to_json(summary)); }
+void RunFolder::write_summary(const RunSummary& summary) { write_summary(to_json(summary)); }
 
-void RunFolder::write_summary(const Json& summary) const {
+void RunFolder::write_summary(const Json& summary) {
+  constexpr std::size_t message = 1 << 14;  // more than a summary says of how a run ended
   folder_.require_still_there();
-  write_json(path() / "summary.json", summary);
+  const fs::path file = path() / "summary.json";
+  const std::string text = json_text(summary);
+  try {
+    write_file(file, text);
+  } catch (const OutputError&) {
+    if (!last_word_) throw;
+    last_word_.reset();
+    return write_file(file, text);
+  }
+  if (!last_word_) last_word_.emplace(path(), text.size() + message);
 }
 
 }  // namespace courant

@@ -46,15 +46,16 @@ class RunFolder {
   // Where a run goes on; nothing if it begins.
   const std::optional<Checkpoint>& checkpoint() const { return run_.checkpoint; }
   std::filesystem::path checkpoint_file() const;
-  // Throw OutputError, also where another folder has its name by now.
+  // Throw OutputError, also where another folder has its name by now. The first summary reserves room on the disk
+  // for one that says why the run ended, which is written even when all else is full.
   void write_checkpoint(const Checkpoint& checkpoint) const;
-  void write_summary(const RunSummary& summary) const;
-  void write_summary(
-      const Json& summary) const;  // of an ensemble, which has what a run has, and more
+  void write_summary(const RunSummary& summary);
+  void write_summary(const Json& summary);  // of an ensemble, which has what a run has, and more
 
  private:
   LockedFolder folder_;
   UnfinishedRun run_;
+  std::optional<ReservedSpace> last_word_;
 };
 
 }  // namespace courant

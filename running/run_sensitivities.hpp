@@ -23,8 +23,8 @@ namespace courant {
 // One object a trajectory; copies go on by themselves.
 class RunSensitivities {
  public:
-  // `ladder`: of the experiment at its start; `method`: of the run. Throws ExperimentError as VariedSystem and varied_start
-  // do, and at /sensitivities where the method does not know its differential, also by parameters.
+  // `ladder`: of the experiment at its start; `method`: of the run. Throws ExperimentError as VariedSystem and
+  // varied_start do, and at /sensitivities where the method does not know its differential, also by parameters.
   RunSensitivities(const Experiment& experiment, const ConstraintLadder& ladder,
                    const PreparedMethod& method);
 
@@ -70,8 +70,8 @@ class RunSensitivities {
   Memory memory_;
 };
 
-// Nothing unless the experiment asks for sensitivities. The first step is tried, so that what has no derivative is known before a
-// file is written.
+// Nothing unless the experiment asks for sensitivities. The first step is tried, so that what has no derivative is
+// known before a file is written.
 std::optional<RunSensitivities> sensitivities_of_run(const Experiment& experiment,
                                                      const ConstraintLadder& ladder,
                                                      const PreparedMethod& method);

@@ -202,6 +202,11 @@ void RunSteps::begin() {
 }
 
 void RunSteps::next() {
+  if (const auto node = start_.nodes.find(k_); node != start_.nodes.end()) {
+    State from = state();
+    from.x = node->second;
+    replace(from);
+  }
   if (ahead_)
     ahead_->take(k_ + 1);
   else if (goes_on_)

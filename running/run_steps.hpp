@@ -1,6 +1,7 @@
 // RunSteps: the steps of a run, one after the other.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -12,9 +13,9 @@ namespace courant {
 // Makes the steps of a run, and after each epoch forgets those before: what goes on from a checkpoint makes the
 // same ones.
 //
-// Where nobody looks into steps they may be made ahead, by a thread of their own, up to some thousand of them: what a run
-// does with its states then takes no time of its steps. Steps, and what is known after each of them, are the
-// same either way; next() waits for what is not there yet, and throws where it would be.
+// Where nobody looks into steps they may be made ahead, by a thread of their own, up to some thousand of them: what a
+// run does with its states then takes no time of its steps. Steps, and what is known after each of them, are the same
+// either way; next() waits for what is not there yet, and throws where it would be.
 class RunSteps {
  public:
   // After step k, which ended at `state`; the motion is that of the epoch which ended there, none for the start
@@ -23,6 +24,8 @@ class RunSteps {
     long k = 0;
     State state = {};
     std::optional<Motion> motion = {};
+    // Points from which the next step begins after step k, instead of where that ended.
+    std::map<long, VectorXd> nodes = {};
   };
   // `integrator` and `time` are to live as long as this.
   RunSteps(const Integrator& integrator, const TimeSpan& time, long epoch, Start start, bool ahead);

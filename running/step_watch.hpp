@@ -13,9 +13,9 @@ namespace courant {
 // Explicit methods go through what no solution goes through: a collision, a pole, a point at which the velocity is not
 // determined. Where x turns or lengthens its step at once, by half of it or more, the step is made again in one, three
 // and nine parts. A run ends where their ends differ by more than the step is long, or by half of that and no less for
-// nine parts than for three: such a step has no digits. It ends, too, where these parts cannot be made, since no velocity is
-// found on the way: one long step may go on from there on another branch of the solutions. Looks only where x turns more than twice as much as where it was
-// looked at last, so that there are few of them.
+// nine parts than for three: such a step has no digits. It ends, too, where these parts cannot be made, since no
+// velocity is found on the way: one long step may go on from there on another branch of the solutions. Looks only where
+// x turns more than twice as much as where it was looked at last, so that there are few of them.
 class StepWatch final : public RunWatcher {
  public:
   // `kinds`: the first entry and the count of coordinates that have a unit in common, as positions and momenta.

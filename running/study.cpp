@@ -11,7 +11,7 @@
 
 #include "courant/core/words/message.hpp"
 #include "courant/core/words/spelling.hpp"
-#include "courant/reading/divided_steps.hpp"
+#include "courant/reading/substepping.hpp"
 #include "courant/reading/transformed_time.hpp"
 #include "courant/running/observer.hpp"
 #include "courant/running/start_moves.hpp"
@@ -226,7 +226,7 @@ ReferenceMethod reference_method(const StudiedProblem& problem) {
   auto choice = method_kinds().read(JsonReader(word, "/method", findings));
   findings.require_clean();
   if (time.rate) choice = in_transformed_time(std::move(*choice), *time.rate);
-  if (time.division) choice = in_divided_steps(std::move(*choice), *time.division);
+  if (time.division) choice = with_substeps(std::move(*choice), *time.division);
   try {
     return with_order(std::move(*choice));
   } catch (const std::invalid_argument&) {  // no vector field

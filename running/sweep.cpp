@@ -62,8 +62,9 @@ Json settings_json(const SweepCase& one) {
   return json;
 }
 
-// What the action gives, or what it throws.
-Json outcome(const SweepCase& one, const std::function<Json(const SweepCase&)>& action) {
+// What the action gives, or what it throws: as an interrupt makes it do, behind which --resume makes the case again.
+Json outcome(const SweepCase& one, const std::function<Json(const SweepCase&)>& action,
+             const std::atomic<bool>* stop) {
   const auto ended = [](const char* status, std::string message) {
     return Json{{"status", status}, {"message", std::move(message)}, {"values", Json::object()}};
   };
@@ -77,7 +78,7 @@ Json outcome(const SweepCase& one, const std::function<Json(const SweepCase&)>& 
   } catch (const std::bad_alloc&) {
     return ended("failed", "takes more memory than there is");
   } catch (const std::exception& error) {
-    return ended("failed", without_place(error.what()));
+    return ended(stop && *stop ? "interrupted" : "failed", without_place(error.what()));
   }
 }
 
@@ -233,7 +234,7 @@ Json sweep(const Json& head, std::span<const SweepCase> cases,
   in_parallel(left.size(), options.threads, [&](std::size_t k) {
     if (options.stop && *options.stop) return;
     const std::size_t i = left[k];
-    Json entry = outcome(cases[i], action);
+    Json entry = outcome(cases[i], action, options.stop);
     const std::scoped_lock lock(mutex);
     Json& row = table["runs"][i];
     row["folder"] = "";

@@ -1,4 +1,4 @@
-// UnfinishedRun: a run that can go on, by its files.
+// UnfinishedRun: what `run --resume` goes on with.
 #pragma once
 
 #include <filesystem>
@@ -11,17 +11,18 @@
 
 namespace courant {
 
-// A run that can go on, and from where.
+// A run that did not reach its end, and the checkpoint that it goes on from.
 struct UnfinishedRun {
   std::string id;
-  std::optional<Checkpoint> checkpoint;  // nothing: from the start, no epoch was reached
+  // Nothing where the run ended before its first checkpoint: it begins anew.
+  std::optional<Checkpoint> checkpoint;
 };
 
-// The run in a folder that goes on with this experiment: one that was killed, interrupted or failed,
-// or one that is complete when the experiment ends later. Reads, changes nothing.
+// Reads from a folder the run that goes on with this experiment. That is a run that was killed, interrupted or failed,
+// or a complete one if the experiment now ends at a later time. Changes no file.
 //
-// Throws UnusableFolder if there is no run, it is complete, or its files are not those that it
-// wrote; ExperimentError, with all changes, if it was begun with another experiment.
+// Throws UnusableFolder if the folder has no run, if its run is complete, or if its files are not as the run wrote
+// them. Throws ExperimentError, which names all changes, if the run was begun with another experiment.
 UnfinishedRun unfinished_run(const std::filesystem::path& folder, const Experiment& experiment);
 
 }  // namespace courant

@@ -25,9 +25,9 @@ namespace courant {
 // (Theorem 2.4), nonholonomic mechanics. For g = ⟨α, X(x)⟩ it is the vector (X, 0): with D the graph
 // of a bivector a closed port (Theorem 2.5, equation (23)).
 //
-// Power is supplied by "forces", the sources, by "constraints" that move and, where D is no Dirac
-// structure, by its "ports"; it is dissipated by "damping", the sources that damp. A Dirac structure is isotropic, so ⟨α, v⟩ is what is left of the pairing with
-// sources and reactions.
+// Power is supplied by "forces", the sources, by "constraints" that move and, where D is no Dirac structure, by its
+// "ports"; it is dissipated by "damping", the sources that damp. A Dirac structure is isotropic, so ⟨α, v⟩ is what is
+// left of the pairing with sources and reactions.
 class DiracSystem final : public EnergySystem {
  public:
   // A function of a point x (N), v and α (Ñ each) and t.

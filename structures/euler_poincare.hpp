@@ -38,8 +38,8 @@ struct EulerPoincare {
   std::shared_ptr<const Manifold> group = nullptr;
 };
 
-// On Euclidean(n + d), or on its product with the group. Auxiliary unknowns: ξ with a Lagrangian, then multipliers. `names` has those
-// of the coordinates (μ, a) and of ξ; it may be empty. Throws std::invalid_argument unless there is
+// On Euclidean(n + d), or on its product with the group. Auxiliary unknowns: ξ with a Lagrangian, then multipliers.
+// `names` has those of the coordinates (μ, a) and of ξ; it may be empty. Throws std::invalid_argument unless there is
 // either a Lagrangian or a Hamiltonian, and as LiePoisson does.
 struct EulerPoincareNames {
   std::vector<std::string> coordinates = {}, velocities = {};

@@ -65,11 +65,11 @@ Lagrangian::Lagrangian(std::shared_ptr<const CotangentBundle> phase_space, Formu
     : GeneratingFamily(phase_space, phase_space ? phase_space->base()->tangent_dimension() : 0),
       phase_space_(std::move(phase_space)),
       lagrangian_(std::move(lagrangian)),
-      normal_masses_(typical_masses()) {}
+      normal_masses_(nominal_masses()) {}
 
 // For each component of w the largest |∂_w L| of some vectors w of length 1, over the components that are mixed with
 // it; to powers of two, and 1 where that is no number or 0.
-VectorXd Lagrangian::typical_masses() const {
+VectorXd Lagrangian::nominal_masses() const {
   const Manifold& Q = *phase_space_->base();
   VectorXd masses = VectorXd::Ones(Q.tangent_dimension());
   if (Q.dimension() == Q.tangent_dimension()) return masses;

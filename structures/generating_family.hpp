@@ -102,7 +102,7 @@ class Lagrangian final : public GeneratingFamily {
   Expr do_value(const ExprVector& x, const ExprVector& w, const Expr& t) const override;
   Expr do_energy(const ExprVector& x, const ExprVector& w, const Expr& t) const override;
   VectorXd do_parameter_guess(const VectorXd& x, const VectorXd& v) const override;
-  VectorXd typical_masses() const;
+  VectorXd nominal_masses() const;
 
   std::shared_ptr<const CotangentBundle> phase_space_;
   Formula lagrangian_;

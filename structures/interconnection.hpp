@@ -62,6 +62,7 @@ class Interconnection final : public PortSystem {
   Interconnection(std::vector<Part> parts, std::vector<Joint> joints);
   ~Interconnection() override;
 
+  const std::vector<Part>& parts() const { return parts_; }
   Index tangent_blocks() const override;
 
  private:

@@ -10,8 +10,8 @@
 
 namespace courant {
 
-// A frame C moves in a frame P. With the axes (a, u, v) of the joint, orthonormal and right-handed, in P where nothing has
-// moved, Rot(a, φ) the rotation about a by φ, and n degrees of freedom:
+// A frame C moves in a frame P. With the axes (a, u, v) of the joint, orthonormal and right-handed, in P where nothing
+// has moved, Rot(a, φ) the rotation about a by φ, and n degrees of freedom:
 //
 //   fixed        n = 0   C = P
 //   revolute     n = 1   Rot(a, x)
@@ -22,8 +22,8 @@ namespace courant {
 //   spherical    n = 3   any rotation about the origin of P
 //   floating     n = 6   any displacement and rotation
 //
-// With coordinates the rotations of the last two are points of SO(3), with their angular velocity in C as velocity. As a
-// constraint a joint is 6 - n equations. A value.
+// With coordinates the rotations of the last two are points of SO(3), with their angular velocity in C as velocity. As
+// a constraint a joint is 6 - n equations. A value.
 enum class JointType {
   fixed,
   revolute,
@@ -53,15 +53,16 @@ struct JointPlace {
   Pose P, C;
 };
 
-// A force f at the origin of C and a torque m (3 each, in the world): what the parent gives the child, which gives the opposite
-// back at the same place.
+// A force f at the origin of C and a torque m (3 each, in the world): what the parent gives the child, which gives the
+// opposite back at the same place.
 struct Wrench {
   ExprVector force = ExprVector::Zero(3), torque = ExprVector::Zero(3);
 };
 Wrench operator+(const Wrench& a, const Wrench& b);
 Wrench operator*(const Expr& factor, const Wrench& wrench);
 
-// The pose of C in P at coordinates x: n numbers; of spherical joints R (9, row after row), of floating ones r (3), then R.
+// The pose of C in P at coordinates x: n numbers; of spherical joints R (9, row after row), of floating ones r (3),
+// then R.
 Pose joint_motion(JointType type, const ExprMatrix& axes, const ExprVector& x);
 
 // The n directions of relative motion: for velocities w of the degrees of freedom
@@ -69,12 +70,13 @@ Pose joint_motion(JointType type, const ExprMatrix& axes, const ExprVector& x);
 // and a generalised force τ acts on the child by Σ τ_k (f_k, m_k): directions are orthonormal.
 std::vector<Wrench> joint_directions(const JointPlace& place);
 
-// The coordinates of the degrees of freedom, from the poses alone: angles in (-π, π], displacements; of spherical joints the
-// rotation vector (the axis times the angle, at most π), of floating ones the displacement in P, then that. n numbers.
+// The coordinates of the degrees of freedom, from the poses alone: angles in (-π, π], displacements; of spherical
+// joints the rotation vector (the axis times the angle, at most π), of floating ones the displacement in P, then that.
+// n numbers.
 ExprVector joint_displacement(const JointPlace& place);
 
-// A constraint φ = 0 of a joint, and (f, m) with dφ/dt = ⟨f, relative velocity at the origin of C⟩ + ⟨m, ω_C - ω_P⟩ where all
-// of them hold.
+// A constraint φ = 0 of a joint, and (f, m) with dφ/dt = ⟨f, relative velocity at the origin of C⟩ + ⟨m, ω_C - ω_P⟩
+// where all of them hold.
 struct JointCondition {
   std::string name;  // "x" of the position, "turn about y", in the words of the joint
   Expr value;

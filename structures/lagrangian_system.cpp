@@ -1,5 +1,6 @@
 #include "courant/structures/lagrangian_system.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "courant/structures/canonical_symplectic.hpp"
@@ -36,7 +37,7 @@ std::shared_ptr<const DiracSystem> lagrangian_system(
     std::shared_ptr<const DiracStructure> structure) {
   ImplicitSystem::Names names{coordinates, {}, {}};
   const Manifold& Q = *phase_space->base();
-  const bool same = Q.ambient_dimension() == Q.tangent_dimension();
+  const bool same = Q.has_velocities_as_vectors();
   const auto N = static_cast<std::size_t>(Q.ambient_dimension());
   const auto n = static_cast<std::size_t>(Q.tangent_dimension());
   const bool canonical = structure == nullptr;
@@ -45,9 +46,11 @@ std::shared_ptr<const DiracSystem> lagrangian_system(
   for (std::size_t i = 0; i < n; ++i) {
     const std::string& p = coordinates[N + i];
     // p_R[0] is the momentum of the velocity v_R[0].
-    const std::string velocity = same                  ? coordinates[i] + "'"
-                                 : p.starts_with("p_") ? "v_" + p.substr(2)
-                                                       : "v[" + std::to_string(i) + "]";
+    const bool has_word = p.starts_with("p_") &&
+                          std::ranges::find(coordinates, "v_" + p.substr(2)) == coordinates.end();
+    const std::string velocity = same       ? coordinates[i] + "'"
+                                 : has_word ? "v_" + p.substr(2)
+                                            : "v[" + std::to_string(i) + "]";
     names.auxiliary.push_back(velocity);
     names.equations.push_back("velocity of " + (same ? coordinates[i] : p));
     momentum_rates.push_back(p + "' = dL/d" + (same ? coordinates[i] : "q along " + velocity));

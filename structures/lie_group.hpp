@@ -14,9 +14,9 @@ namespace courant {
 // components: [v, w] = -T(v, w), with the torsion of the frame as in CotangentBundle, up to 1e-12.
 bool is_group_of(const std::shared_ptr<const Manifold>& G, const LieAlgebra& g);
 
-// A group of g, with the exponential as retraction where there is one: that of the matrices that g was made of; else SO(3), SE(3),
-// Rⁿ or SO(n) if g is the algebra of one of them; else that of the matrices ad(e_i). Null where the matrices are dependent, as ad(e_i)
-// of an algebra with a centre, and where equations of their group are not found.
+// A group of g, with the exponential as retraction where there is one: that of the matrices that g was made of; else
+// SO(3), SE(3), Rⁿ or SO(n) if g is the algebra of one of them; else that of the matrices ad(e_i). Null where the
+// matrices are dependent, as ad(e_i) of an algebra with a centre, and where equations of their group are not found.
 std::shared_ptr<const Manifold> group_of(const LieAlgebra& g);
 
 // The matrices A(x) (d × d) with A(x y) = A(x) A(y) whose differential at the unit is ρ, as polynomials

@@ -60,6 +60,7 @@ class LinearDirac : public PairedSubspace {
   BivectorOnSubspace bivector() const;
   MatrixXd scattering() const;  // O
 
+  // D as the kernel and as the image of matrices, and with the constraints on v apart (dirac_representations.hpp).
   KernelRepresentation<MatrixXd> kernel_representation() const;
   ImageRepresentation<MatrixXd> image_representation() const;
   ConstrainedRepresentation<MatrixXd> constrained_representation() const;

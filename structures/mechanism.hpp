@@ -10,8 +10,8 @@
 
 namespace courant {
 
-// Rigid bodies that joints connect to each other and to the ground, in SI units: what a Lagrangian, constraints and forces
-// need. Frames of bodies are right-handed; the world is the frame of the ground, which has the number -1.
+// Rigid bodies that joints connect to each other and to the ground, in SI units: what a Lagrangian, constraints and
+// forces need. Frames of bodies are right-handed; the world is the frame of the ground, which has the number -1.
 //
 // Joint coordinates: joints whose child nothing holds yet make trees, which grow from the ground; a body that is no
 // joint's child is the root of another one, free. With
@@ -19,8 +19,8 @@ namespace courant {
 //   q     coordinates of the joints of the trees, and of the free bodies: a point of Q, a product of Rⁿ and SO(3)
 //   w     their velocities, in the representation of Q
 //
-// every other joint closes a loop and is constraints. In absolute coordinates all bodies are free, with the centre of mass as
-// their position, and all joints are constraints.
+// every other joint closes a loop and is constraints. In absolute coordinates all bodies are free, with the centre of
+// mass as their position, and all joints are constraints.
 //
 // Numbers are expressions, so that masses and lengths may be parameters of a graph; every function here is then in that
 // graph. A value.

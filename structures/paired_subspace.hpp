@@ -94,6 +94,7 @@ class PairedSubspace {
   double data_error_;
 };
 
+// U ∩ W and U + W, of subspaces of one V ⊕ V*.
 PairedSubspace intersection(const PairedSubspace& U, const PairedSubspace& W);
 PairedSubspace sum(const PairedSubspace& U, const PairedSubspace& W);
 

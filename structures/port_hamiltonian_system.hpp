@@ -16,9 +16,9 @@ namespace courant {
 //   open     v = (J(x) - R(x)) dH + B(x) u,   y = B(x)ᵀ dH + D(x) u,   u = input(t, y)
 //   closed   v = (J(x) - R(x)) dH + B(x) u,   y = B(x)ᵀ dH + D(x) u,   0 = y
 //
-// Auxiliary unknowns z = u ∈ R^m. Along solutions dH/dt = ⟨y, u⟩ - dHᵀ R dH - uᵀ D u (and ⟨y, u⟩ = 0
-// if closed): each port supplies y_a u_a, "resistance" and "feedthrough" dissipate. J: Ñ × Ñ, skew, with range in T_xM; R: Ñ × Ñ, symmetric, likewise; B: Ñ × m;
-// D, the feedthrough, m × m, in which the ports are passive where D + Dᵀ ⪰ 0. The Dirac
+// Auxiliary unknowns z = u ∈ R^m. Along solutions dH/dt = ⟨y, u⟩ - dHᵀ R dH - uᵀ D u (and ⟨y, u⟩ = 0 if closed): each
+// port supplies y_a u_a, "resistance" and "feedthrough" dissipate. J: Ñ × Ñ, skew, with range in T_xM; R: Ñ × Ñ,
+// symmetric, likewise; B: Ñ × m; D, the feedthrough, m × m, in which the ports are passive where D + Dᵀ ⪰ 0. The Dirac
 // structure behind it, without R, is ClosedPortHamiltonian(J, B), or OpenPortHamiltonian(J, B).
 class PortHamiltonianSystem final : public PortSystem {
  public:

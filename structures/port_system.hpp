@@ -14,8 +14,8 @@ namespace courant {
 //
 //   inner(x, v, α, z, t) = 0,   relation(t, u, y) = 0
 //
-// A port is free if relation a says that it is closed, 0 = y_a, and no other says anything of it: a joint may
-// say something else in its place. To subclass: as EnergySystem, with the functions below in the place of do_equations and
+// A port is free if relation a says that it is closed, 0 = y_a, and no other says anything of it: a joint may say
+// something else in its place. To subclass: as EnergySystem, with the functions below in the place of do_equations and
 // do_powers.
 class PortSystem : public EnergySystem {
  public:

@@ -42,6 +42,7 @@ struct RankProfile {
   bool is_smooth() const { return jumps.empty(); }
 };
 
+// The ranks at the given points, and which of these points are not generic.
 RankProfile rank_profile(const DiracStructure& structure, std::span<const VectorXd> points);
 
 // One line for each point that is not generic, and one for the rest.

@@ -58,6 +58,7 @@ struct SymmetryReport {
   // equations, whose reactions do.
   std::vector<std::string> acting;
 
+  // Whether ξ is a symmetry, and whether its momentum is conserved: then nothing acts along it from outside.
   bool holds() const { return all_passed(laws); }
   bool is_conserved() const { return holds() && acting.empty(); }
 };

@@ -69,8 +69,9 @@ class TransformedFamily final : public GeneratingFamily {
 // Immutable.
 class TimeTransformation {
  public:
+  // The first of the two systems above, for any S.
   static TimeTransformation plain(std::shared_ptr<const ImplicitSystem> system, TimeRate rate);
-  // Throws std::invalid_argument unless is_possible.
+  // The second. Throws std::invalid_argument unless is_possible.
   static TimeTransformation symplectic(const std::shared_ptr<const ImplicitSystem>& system,
                                        TimeRate rate);
   // Whether the system is Lagrangian by its family on T*Q, with the canonical structure.

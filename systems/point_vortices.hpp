@@ -23,6 +23,7 @@ class PointVortices {
   explicit PointVortices(VectorXd strengths);
 
   Index count() const { return strengths_.size(); }
+  // H(q), and α(q) by its 2n components.
   Expr hamiltonian(const ExprVector& q) const;
   ExprVector alpha(const ExprVector& q) const;
 

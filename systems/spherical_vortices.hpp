@@ -26,6 +26,7 @@ class SphericalVortices {
   explicit SphericalVortices(VectorXd strengths);
 
   Index count() const { return strengths_.size(); }
+  // H(x), of n points x_i ∈ R³ one after the other.
   Expr hamiltonian(const ExprVector& x) const;
   // Σ Γ_i x_i, size 3.
   ExprVector moment(const ExprVector& x) const;

@@ -30,14 +30,15 @@ struct SparseExprMatrix {
   std::vector<Index> col;
   ExprVector values;
 
+  // The same matrix with its zeros.
   ExprMatrix dense() const;
 };
 
 // ∂y/∂x (m × n), by forward mode on sparse rows.
 SparseExprMatrix jacobian(const ExprVector& y, const ExprVector& x);
 
-// Whether y is written as an affine map of x: sums of terms each of which has one x, to the first power, times or over what
-// has none. What jumps is not, though its derivative is constant, as that of sign is.
+// Whether y is written as an affine map of x: sums of terms each of which has one x, to the first power, times or over
+// what has none. What jumps is not, though its derivative is constant, as that of sign is.
 bool is_affine(const ExprVector& y, const ExprVector& x);
 
 // y with the variables x replaced, all at once, by `replacement` (same size), which may be in

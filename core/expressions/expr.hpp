@@ -152,7 +152,8 @@ Expr square(const Expr& a);
 Expr atan2(const Expr& y, const Expr& x);
 Expr min(const Expr& a, const Expr& b);
 Expr max(const Expr& a, const Expr& b);
-// What exponentials and logarithms need to be smooth at the zero section, to every order (core/numbers/special_functions.hpp):
+// What exponentials and logarithms need to be smooth at the zero section, to every order
+// (core/numbers/special_functions.hpp):
 //   c_k(s) = Σ_{i≥0} (-s)^i / (2i+k)!,  k ≥ 0:  c_0(θ²) = cos θ, c_1(θ²) = sin θ / θ, c_2(θ²) = (1 - cos θ) / θ²
 Expr stumpff(int k, const Expr& s);
 //   the k-th derivative of g(c) = arccos(c) / √(1 - c²), c > -1:  g(cos θ) = θ / sin θ

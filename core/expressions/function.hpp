@@ -63,6 +63,7 @@ class Function {
   // What its entries are made of, where it is by the first group alone.
   const MatrixNumbers& matrix_numbers() const { return matrix_numbers_; }
 
+  // Whether compiled C code evaluates it; how many operations an evaluation has.
   bool is_native() const { return native_->value != nullptr; }
   Index instruction_count() const { return value_->instruction_count(); }
 

@@ -11,8 +11,9 @@ namespace courant {
 // do not fit, std::domain_error if a pivot is identically zero.
 ExprMatrix solve(ExprMatrix A, ExprMatrix b);
 
-// An x with A x = b for a symmetric semidefinite A (n × n) that has a solution, b n × m: rows of x are 0 where a pivot of the
-// elimination is identically zero. What A maps to zero otherwise (a pivot that vanishes at some points) is divided by.
+// An x with A x = b for a symmetric semidefinite A (n × n) that has a solution, b n × m: rows of x are 0 where a pivot
+// of the elimination is identically zero. What A maps to zero otherwise (a pivot that vanishes at some points) is
+// divided by.
 // Throws std::invalid_argument if the sizes do not fit.
 ExprMatrix solve_semidefinite(ExprMatrix A, ExprMatrix b);
 

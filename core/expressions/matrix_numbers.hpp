@@ -1,4 +1,4 @@
-// MatrixNumbers: what the matrix of affine equations is made of.
+// MatrixNumbers: whether the Jacobian of equations is the one that was made with earlier parameters.
 #pragma once
 
 #include <optional>
@@ -8,22 +8,25 @@
 
 namespace courant {
 
-// Whether equations F(y; p) = 0, solved again with other parameters, have the matrix ∂F/∂y that they had. It is known of
-// equations that are affine in y and whose matrix is made of parameters that are one number each, as h is: these are
-// compared. Points and bases change with each step.
+// Equations F(y; p) = 0 are solved again and again, with other parameters p each time. This class tells whether their
+// matrix ∂F/∂y is still the one that was made before, so that its factors can be used again.
+//
+// It knows this of equations that are affine in y and whose matrix contains no parameters but single numbers, such as
+// the step h. These numbers are compared. A matrix that contains points or bases changes with each step, so nothing is
+// kept of it.
 class MatrixNumbers {
  public:
   MatrixNumbers() = default;  // nothing is known
-  // groups: y, then those of p. entries: those of ∂F/∂y.
+  // `groups`: the unknowns y, then the groups of parameters. `entries`: those of ∂F/∂y.
   MatrixNumbers(const ExprVector& F, const ExprVector& entries,
                 const std::vector<ExprVector>& groups);
 
-  // The places of these groups, ascending; without a value: nothing is known.
+  // Which of the groups the matrix contains, ascending. No value: the equations are not of that kind.
   const std::optional<std::vector<Index>>& groups() const { return groups_; }
 
-  // The matrix is made with these parameters.
+  // Remembers the parameters with which the matrix is made now.
   void keep(const Inputs& in);
-  // Whether it would be the same with these. False where nothing is known.
+  // Whether the matrix would be the same with these parameters. False where that is not known.
   bool are_kept(const Inputs& in) const { return groups_ && agree(in); }
 
  private:

@@ -11,9 +11,9 @@
 
 namespace courant {
 
-// C source of several functions, for one run of the compiler. What is long goes into a module of
-// its own, because compilers are told to optimise that less. Functions that differ in their constants alone, as those of
-// the cases of a sweep do, have one source, which a compiler with a cache is given once.
+// C source of several functions, for one run of the compiler. What is long goes into a module of its own, because
+// compilers are told to optimise that less. Functions that differ in their constants alone, as those of the cases of a
+// sweep do, have one source, which a compiler with a cache is given once.
 class NativeModule {
  public:
   // The machine code of a function; null before the module is compiled, and of what is not in it.

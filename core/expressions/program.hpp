@@ -50,9 +50,9 @@ class Program {
   // The same with 113 bits; constants are the doubles that they are.
   void run_taylor(const Quadruple* const* in, Index order, Quadruple* out) const;
 
-  // `void <symbol>(const double *const *in, double *out)` in C, which gives the same bits as run(). Constants are written
-  // in it; or those that are no small powers of two are passed, `(in, const double *constants, out)`: then programs that
-  // differ in these alone have one source.
+  // `void <symbol>(const double *const *in, double *out)` in C, which gives the same bits as run(). Constants are
+  // written in it; or those that are no small powers of two are passed, `(in, const double *constants, out)`: then
+  // programs that differ in these alone have one source.
   enum class Constants { written, passed };
   std::string c_source(const std::string& symbol, Constants how = Constants::written) const;
   // What is passed.

@@ -26,8 +26,9 @@ class CholeskyDecomposition {
   bool is_positive_definite_ = false;
 };
 
-// A⁻¹ B for a symmetric positive semidefinite A (n × n, of which the lower triangle is read) by L D Lᵀ with pivots, B of size n × k. Along
-// directions that A does not see the solution is 0. Throws std::invalid_argument if A is not square or B has not n rows.
+// A⁻¹ B for a symmetric positive semidefinite A (n × n, of which the lower triangle is read) by L D Lᵀ with pivots, B
+// of size n × k. Along directions that A does not see the solution is 0. Throws std::invalid_argument if A is not
+// square or B has not n rows.
 MatrixXd semidefinite_solution(const Eigen::Ref<const MatrixXd>& A,
                                const Eigen::Ref<const MatrixXd>& B);
 

@@ -7,12 +7,11 @@
 
 namespace courant {
 
-// For small systems that are solved many times with one matrix: the inverse is kept (of a matrix
-// that is singular or not square the pseudo-inverse), and multiplied with in a loop whose length
-// the compiler knows, for up to 8 unknowns. Where each matrix serves one or two right sides, the factors of a regular one
-// are kept instead, a third of the work. Regular matrices of up to 63 rows are factorised and inverted without
-// allocation. Whether a matrix is singular does not depend on the units
-// of its rows and columns.
+// For small systems that are solved many times with one matrix: the inverse is kept (of a matrix that is singular or
+// not square the pseudo-inverse), and multiplied with in a loop whose length the compiler knows, for up to 8 unknowns.
+// Where each matrix serves one or two right sides, the factors of a regular one are kept instead, a third of the work.
+// Regular matrices of up to 63 rows are factorised and inverted without allocation. Whether a matrix is singular does
+// not depend on the units of its rows and columns.
 class DenseSolver final : public LinearSolver {
  public:
   enum class Keeps { inverse, factors };  // of a regular matrix

@@ -8,10 +8,11 @@
 
 namespace courant {
 
-// The rows of a matrix, made orthogonal one after the other (Gram and Schmidt, modified), the one with the largest entry
-// first. Rows of which no entry exceeds `negligible` are dependent on the others: entries are to be about 1.
+// The rows of a matrix, made orthogonal one after the other (Gram and Schmidt, modified), the one with the largest
+// entry first. Rows of which no entry exceeds `negligible` are dependent on the others: entries are to be about 1.
 //
-// Step by step of an iteration this divides by what double takes for round-off: by pivots down to some 10⁻²⁰ of the largest.
+// Step by step of an iteration this divides by what double takes for round-off: by pivots down to some 10⁻²⁰ of the
+// largest.
 class OrthogonalRows {
  public:
   using Rows = std::vector<std::vector<DoubleDouble>>;

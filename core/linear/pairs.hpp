@@ -73,7 +73,8 @@ class PairMaximum {
   Pair parts_ = Pair::Zero();
 };
 
-// Whether all of them are: 0 · ±∞ and 0 · NaN are NaN. Many are added up in several sums, which do not wait for each other.
+// Whether all of them are: 0 · ±∞ and 0 · NaN are NaN. Many are added up in several sums, which do not wait for each
+// other.
 inline bool are_finite(const double* numbers, Index count) {
   PairSum sum;
   Index i = 0;

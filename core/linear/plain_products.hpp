@@ -7,8 +7,8 @@
 
 namespace courant {
 
-// C = A B, column by column: A is rows × inner, B inner × columns, or square and of n columns where n is known. Each entry
-// is the sum of its terms in their order, as programs in C add them up too, to the last bit.
+// C = A B, column by column: A is rows × inner, B inner × columns, or square and of n columns where n is known. Each
+// entry is the sum of its terms in their order, as programs in C add them up too, to the last bit.
 template <int n = Eigen::Dynamic>
 inline void plain_product(const double* A, Index rows, const double* B, Index inner, Index columns,
                           double* C) {

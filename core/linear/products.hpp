@@ -94,8 +94,8 @@ concept Factors = Factor<A>::kind != Kind::other&& Factor<B>::kind != Kind::othe
 
 }  // namespace products
 
-// Of this project's own code alone (cmake/CourantSettings.cmake): what A * B is in a program that uses the library is not
-// ours to say, even where it says `using namespace courant`.
+// Of this project's own code alone (cmake/CourantSettings.cmake): what A * B is in a program that uses the library is
+// not ours to say, even where it says `using namespace courant`.
 #ifdef COURANT_CALLS_PRODUCTS
 template <class A, class B>
 requires products::Factors<A, B>

@@ -5,8 +5,8 @@
 
 namespace courant {
 
-// Increasing, of the symmetric matrix with the lower triangle of A (n × n, n ≥ 0). Both throw std::invalid_argument if A is not
-// square.
+// Increasing, of the symmetric matrix with the lower triangle of A (n × n, n ≥ 0). Both throw std::invalid_argument if
+// A is not square.
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::Ref<const Eigen::MatrixXd>& A);
 
 // A = Q diag(values) Qᵀ, values increasing, Q (n × n) orthogonal.

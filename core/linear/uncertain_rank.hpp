@@ -22,11 +22,11 @@ namespace courant {
 //      entries and 10⁸ times their errors heeds errors. Where these do not settle it, the pivots of an
 //      UncertainElimination may prove more: there each entry has its own error, and no unit.
 //
-// Singular values, `above`, `below` and `threshold` of the result are in units of ε of their block,
-// so that the threshold is 1; gap = σ_r / max(σ_{r+1}, 1), with pivots among the σ by how many times
-// they are their error, also those of an elimination that proves more. Ambiguous where a σ counted is hardly more than the threshold, or one
-// that does not count is not far below it: a zero comes out at a small part of the bound.
-// An error that is not finite makes the decision ambiguous with gap 0.
+// Singular values, `above`, `below` and `threshold` of the result are in units of ε of their block, so that the
+// threshold is 1; gap = σ_r / max(σ_{r+1}, 1), with pivots among the σ by how many times they are their error, also
+// those of an elimination that proves more. Ambiguous where a σ counted is hardly more than the threshold, or one that
+// does not count is not far below it: a zero comes out at a small part of the bound. An error that is not finite makes
+// the decision ambiguous with gap 0.
 //
 // Laws: R1 the rank of PAQ is that of A, for permutations P, Q. R2 the rank of D₁AD₂ is that of A,
 // for diagonal D₁, D₂ > 0, of powers of two. R3 rank Aᵀ = rank A. R4 the rank falls only where

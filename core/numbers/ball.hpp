@@ -8,10 +8,10 @@
 
 namespace courant {
 
-// A midpoint and a radius, in 512 bits. The result of an operation contains the results of the operation on all numbers of
-// the balls that it is given: rounding only widens it. What is not defined on all of them is the whole line, which is not
-// finite. So "does not contain 0" is a proof that a number is not 0; that a number is 0 no ball can prove, unless nothing in it
-// was rounded (is_zero).
+// A midpoint and a radius, in 512 bits. The result of an operation contains the results of the operation on all numbers
+// of the balls that it is given: rounding only widens it. What is not defined on all of them is the whole line, which
+// is not finite. So "does not contain 0" is a proof that a number is not 0; that a number is 0 no ball can prove,
+// unless nothing in it was rounded (is_zero).
 //
 // The arithmetic is that of Arb. A build without it has the type, and is_available() says no.
 class Ball {

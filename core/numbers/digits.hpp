@@ -18,7 +18,8 @@ namespace courant {
 // smaller than its rounding; and what is below some 2⁻¹²⁸ of the numbers that cancelled in it counts as zero
 // where nothing is left of the coarse part.
 //
-// Both parts must come from equal formulas of equal data. Exponents have 32 bits: products of many units do not leave the range.
+// Both parts must come from equal formulas of equal data. Exponents have 32 bits: products of many units do not leave
+// the range.
 class Digits {
  public:
   Digits();  // 0

@@ -17,9 +17,10 @@ using LongNumber = boost::multiprecision::number<
                                          std::int32_t>,
     boost::multiprecision::et_off>;
 
-// a + b, a - b and a * b, rounded to the nearest, ties to even. Boost, which is written for integers of any length, takes several
-// times as long for the same bits (but where one number is 2^(bits + 1) times the other: there its difference may be that of
-// the next bit). Zeros, infinities, what is no number and exponents at the ends of their range are left to Boost.
+// a + b, a - b and a * b, rounded to the nearest, ties to even. Boost, which is written for integers of any length,
+// takes several times as long for the same bits (but where one number is 2^(bits + 1) times the other: there its
+// difference may be that of the next bit). Zeros, infinities, what is no number and exponents at the ends of their
+// range are left to Boost.
 template <unsigned bits>
 LongNumber<bits> sum(const LongNumber<bits>& a, const LongNumber<bits>& b);
 template <unsigned bits>
@@ -137,8 +138,8 @@ LongNumber<bits> sum(const LongNumber<bits>& a, const LongNumber<bits>& b, bool 
   const std::int32_t shift = large.exponent - small.exponent;
   if (shift > static_cast<std::int32_t>(bits) + 1) return number(large);
 
-  // A word more than is kept. What the shift loses of the small number beyond that becomes its last bit: there are lost bits only
-  // where the sum has its highest bit in the first two places, so they decide nothing but what is a tie.
+  // A word more than is kept. What the shift loses of the small number beyond that becomes its last bit: there are lost
+  // bits only where the sum has its highest bit in the first two places, so they decide nothing but what is a tie.
   Words<count> result{}, shifted{};
   const auto words = static_cast<std::size_t>(shift / 64);
   const int rest = shift % 64;

@@ -6,9 +6,9 @@
 
 namespace courant {
 
-// The exact number behind a double that was typed: the shortest decimal that reads as that double, so that 0.6 and -0.8 lie
-// on the circle; or, where the decimal is long, a fraction or a fraction of π whose terms are small and that reads as the
-// same double, so that 1/3 is a third. A value.
+// The exact number behind a double that was typed: the shortest decimal that reads as that double, so that 0.6 and -0.8
+// lie on the circle; or, where the decimal is long, a fraction or a fraction of π whose terms are small and that reads
+// as the same double, so that 1/3 is a third. A value.
 struct MeantNumber {
   // p/q · π^power_of_pi.
   struct Fraction {

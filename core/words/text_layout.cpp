@@ -72,4 +72,17 @@ std::string shortened(const std::string& text, std::size_t width) {
   return result + "…";
 }
 
+std::string beginning(const std::string& text, std::size_t most) {
+  if (text.size() <= most) return text;
+  while (most > 0 && !begins_character(text[most])) --most;
+  return text.substr(0, most);
+}
+
+std::string shortened_between(const std::string& text, std::size_t most, std::size_t ending) {
+  if (text.size() <= most) return text;
+  std::size_t last = text.size() - ending;
+  while (last < text.size() && !begins_character(text[last])) ++last;
+  return beginning(text, most - ending) + " … " + text.substr(last);
+}
+
 }  // namespace courant

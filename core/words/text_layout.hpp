@@ -29,5 +29,9 @@ std::string padded(std::string text, std::size_t width);
 
 // Its beginning and "…", if it is wider.
 std::string shortened(const std::string& text, std::size_t width);
+// Its beginning of up to so many bytes, without a part of a character.
+std::string beginning(const std::string& text, std::size_t most);
+// Its beginning, " … " and so many bytes of its ending, if it has more bytes than `most`; without parts of characters.
+std::string shortened_between(const std::string& text, std::size_t most, std::size_t ending);
 
 }  // namespace courant

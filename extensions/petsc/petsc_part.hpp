@@ -11,17 +11,17 @@
 
 namespace courant {
 
-// Some rows of G(u; p) = 0 with the unknowns that they are matched with. All ranks make theirs, and call solve(), at the
-// same time.
+// Some rows of G(u; p) = 0 with the unknowns that they are matched with. All ranks make theirs, and call solve(), at
+// the same time.
 //
-// Convergence is that of Newton: changes relative to the sizes of groups of unknowns, and their contraction. The matrix is
-// kept, its factorisation with it, as long as changes contract by it, beyond one solution where the caller says so.
+// Convergence is that of Newton: changes relative to the sizes of groups of unknowns, and their contraction. The matrix
+// is kept, its factorisation with it, as long as changes contract by it, beyond one solution where the caller says so.
 class PetscPart {
  public:
   static constexpr std::size_t kMostGroups = 8;
 
-  // `message`: the name of the system; the kind of back end; the number of the first unknown that is owned, among all rank
-  // by rank; how many are owned; the numbers of the others that the rows read; the rows, as EquationRows.
+  // `message`: the name of the system; the kind of back end; the number of the first unknown that is owned, among all
+  // rank by rank; how many are owned; the numbers of the others that the rows read; the rows, as EquationRows.
   PetscPart(MPI_Comm team, Message& message);
   ~PetscPart();
   PetscPart(const PetscPart&) = delete;

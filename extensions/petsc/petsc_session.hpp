@@ -21,9 +21,9 @@ namespace courant {
 // For each system of equations that the steps of a method solve the first rank sends every rank, itself included, the
 // equations that are its own: the graph of their instructions, and no more. Unknowns are divided by PETSc's
 // MatPartitioning, see BlockGraph. A rank compiles its equations and their rows of the Jacobian, and evaluates them;
-// SNES iterates, with the KSP and PC of the options, by default LU factorisation by MUMPS. For a
-// solution a rank gets its part of the first iterate and the parameters that its equations read, such as coordinates before the
-// step, exchanges with its neighbours what they read of each other in each iteration, and returns its part.
+// SNES iterates, with the KSP and PC of the options, by default LU factorisation by MUMPS. For a solution a rank gets
+// its part of the first iterate and the parameters that its equations read, such as coordinates before the step,
+// exchanges with its neighbours what they read of each other in each iteration, and returns its part.
 //
 // All that is not the solution of equations the first rank does alone: what is predicted, x₁ from the solution,
 // projections onto a manifold, what is observed, files.
@@ -35,9 +35,9 @@ class PetscSession {
   // Empty where this build has PETSc; else what is missing, in a sentence.
   static std::string missing();
 
-  // `options`: of PETSc, "-ksp_type", "gmres", …, which come after those in PETSC_OPTIONS. `stop`: set by someone else when
-  // the run is to end; solve() of the engine throws EngineStopped where it does not come to its own end then, within
-  // half a second.
+  // `options`: of PETSc, "-ksp_type", "gmres", …, which come after those in PETSC_OPTIONS. `stop`: set by someone else
+  // when the run is to end; solve() of the engine throws EngineStopped where it does not come to its own end then,
+  // within half a second.
   // Throws std::runtime_error if MPI or PETSc cannot begin.
   PetscSession(const std::vector<std::string>& options, const std::atomic<bool>* stop);
   // The first rank ends the others. Where is_lost(), nothing of MPI is ended.

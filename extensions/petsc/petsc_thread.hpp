@@ -13,8 +13,8 @@
 
 namespace courant {
 
-// Does jobs, one at a time, for whoever waits for them; and whoever waits can be told that it is in vain, as where a rank
-// that MPI waits for is gone.
+// Does jobs, one at a time, for whoever waits for them; and whoever waits can be told that it is in vain, as where a
+// rank that MPI waits for is gone.
 class PetscThread {
  public:
   // `stop` lives as long, and may be null.

@@ -7,7 +7,8 @@
 
 namespace courant::robots {
 
-// `root` is the element <mujoco>. Of several joints of a body each but the last moves a link without mass. Throws LineError.
+// `root` is the element <mujoco>. Of several joints of a body each but the last moves a link without mass. Throws
+// LineError.
 Robot read_mjcf(const Element& root, const IncludedText& included);
 
 }  // namespace courant::robots

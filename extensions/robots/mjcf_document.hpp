@@ -11,6 +11,8 @@
 
 namespace courant::robots {
 
+// A model as its file has it, after <include>: elements with the attributes that classes of defaults give them, and what
+// <compiler> says of angles and poses.
 class MjcfDocument {
  public:
   // `root` is the element <mujoco>. Throws LineError.

@@ -31,8 +31,8 @@ Vector3d rpy_of(const Matrix3d& rotation);
 // Of a quaternion (w, x, y, z) of any length but 0.
 Matrix3d of_quaternion(double w, double x, double y, double z);
 
-// Three angles about axes `sequence` ("xyz", "ZYX", …): of the turned frame where letters are small, of the fixed one where they are
-// capitals.
+// Three angles about axes `sequence` ("xyz", "ZYX", …): of the turned frame where letters are small, of the fixed one
+// where they are capitals.
 Matrix3d of_euler(const std::string& sequence, const Vector3d& angles);
 // The least turn that takes the z axis to a direction of length 1.
 Matrix3d z_to(const Vector3d& direction);

@@ -19,6 +19,7 @@ struct Place {
   std::string origin = {};
 };
 
+// A rigid body of a robot, with a frame of its own.
 struct Link {
   std::string name;
   Place place;
@@ -28,8 +29,10 @@ struct Link {
   std::optional<std::pair<Place, std::string>> unknown = {};
 };
 
+// What a joint leaves free, as URDF, SDF and MJCF have it.
 enum class JointType { fixed, revolute, prismatic, planar, universal, ball, floating };
 
+// What connects a link to its parent.
 struct Joint {
   std::string name;
   Place place;
@@ -66,6 +69,7 @@ class Notes {
   std::map<std::string, Note> notes_;
 };
 
+// What is read of a file, whichever of the formats it has. Lengths in m, masses in kg, angles in radians.
 struct Robot {
   std::string title;
   Vector3d gravity = {0.0, 0.0, -9.81};
@@ -80,7 +84,8 @@ struct Robot {
 [[noreturn]] void fail(const Place& place, const std::string& what);
 // Throws LineError unless the mass and the principal moments of inertia are at least 0.
 void check_inertia(const Inertia& inertia, const Place& place, const std::string& of);
-// Throws LineError where two links, or two joints, have one name, or there are more than 1000 links. Names may be empty.
+// Throws LineError where two links, or two joints, have one name, or there are more than 1000 links. Names may be
+// empty.
 void require_different_names(const Robot& robot);
 // Throws LineError unless there is one of that name, which the ground has not.
 std::size_t link_named(const Robot& robot, const std::string& name, const Place& place);

@@ -15,6 +15,7 @@ namespace courant::robots {
 // The pose that the text of an element <pose> is: x y z and roll, pitch and yaw, or a quaternion. Throws LineError.
 Pose sdf_pose(const Element& pose);
 
+// The frames of models, links, joints and <frame> elements, which name each other in `relative_to` and `attached_to`.
 class SdfFrames {
  public:
   struct Frame {

@@ -10,6 +10,7 @@
 
 namespace courant::robots {
 
+// An element of a document, with all that it contains.
 struct Element {
   std::string name;
   int line = 0;        // in the file that is imported: of an included one, where it is included
@@ -26,8 +27,8 @@ struct Element {
   [[noreturn]] void fail(const std::string& what) const;
   // The value of an attribute that must be there and not empty. Throws LineError.
   const std::string& required(std::string_view of) const;
-  // The numbers of an attribute, of which there must be `count`; nothing where there is no attribute. They are finite, and
-  // at most 1e15; those below 1e-30 are 0. Throws LineError.
+  // The numbers of an attribute, of which there must be `count`; nothing where there is no attribute. They are finite,
+  // and at most 1e15; those below 1e-30 are 0. Throws LineError.
   std::optional<std::vector<double>> numbers(std::string_view of, std::size_t count) const;
   std::optional<double> number(std::string_view of) const;
   std::optional<Eigen::Vector3d> vector(std::string_view of) const;
@@ -42,8 +43,9 @@ struct Element {
 std::vector<double> numbers_in(const Element& element, std::string_view text,
                                const std::string& what);
 
-// The root element. Entities other than the five of XML stay as they are written, since no document type is read. Throws
-// LineError where the text is not well-formed, is nested deeper than 1000 elements or has more than a million of them.
+// The root element. Entities other than the five of XML stay as they are written, since no document type is read.
+// Throws LineError where the text is not well-formed, is nested deeper than 1000 elements or has more than a million of
+// them.
 Element parse_xml(std::string_view text);
 
 }  // namespace courant::robots

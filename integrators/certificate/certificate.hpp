@@ -8,7 +8,8 @@
 
 namespace courant {
 
-// Verdict, levels, index, degrees of freedom, gauge dimension, the consistent point and what moved to reach it, doubts.
+// Verdict, levels, index, degrees of freedom, gauge dimension, the consistent point and what moved to get there,
+// doubts.
 using Certificate = ConstraintLadder;
 
 // The constraint algorithm at the guess. Throws std::invalid_argument on wrong sizes.

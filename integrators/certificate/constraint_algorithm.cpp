@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "courant/integrators/certificate/branching.hpp"
+#include "courant/integrators/certificate/bifurcation.hpp"
 #include "courant/integrators/certificate/consistent_point.hpp"
 #include "courant/integrators/certificate/ladder_ascent.hpp"
 #include "courant/integrators/certificate/ladder_evidence.hpp"
@@ -15,10 +15,10 @@ namespace {
 
 // Counts what other points of the final constraint set need as well, now and a moment later: a
 // multiplier that is zero at this point, as x₁ of a rod in the plane x₁ = 0, is not along a motion
-// that leaves it, nor that of a rope that hangs straight until its crane begins to move. Sizes are those of the jet, `reach`.
+// that leaves it, nor that of a rope that hangs straight until its crane begins to move. Sizes are those of the jet, `nominal`.
 void count_differentiations_nearby(ConstraintLadder& ladder, const ConsistentPoint& consistent,
-                                   const ConsistentJet& at, const VectorXd& reach) {
-  TangentDisplacement tangents(at.array(), at.zero().y, reach);
+                                   const ConsistentJet& at, const VectorXd& nominal) {
+  TangentDisplacement tangents(at.array(), at.zero().y, nominal);
   constexpr double nearby = 1e-2;
   const int looks = at.array().depends_on_time() ? 4 : 2;
   for (int i = 0; i < looks; ++i) {
@@ -40,12 +40,12 @@ void count_differentiations_nearby(ConstraintLadder& ladder, const ConsistentPoi
                                    const ConsistentJet& at) {
   const Index n = at.array().base_size();
   if (at.array().has_constant_jacobian() || n == 0) return;
-  VectorXd reach = at.zero().reach;
-  count_differentiations_nearby(ladder, consistent, at, reach);
-  if (reach.head(n).minCoeff() == reach.head(n).maxCoeff()) return;
+  VectorXd nominal = at.zero().nominal;
+  count_differentiations_nearby(ladder, consistent, at, nominal);
+  if (nominal.head(n).minCoeff() == nominal.head(n).maxCoeff()) return;
   for (const Index first : {Index{0}, n})
-    reach.segment(first, n).setConstant(reach.segment(first, n).maxCoeff());
-  count_differentiations_nearby(ladder, consistent, at, reach);
+    nominal.segment(first, n).setConstant(nominal.segment(first, n).maxCoeff());
+  count_differentiations_nearby(ladder, consistent, at, nominal);
 }
 
 // Why the levels did not end.
@@ -58,9 +58,9 @@ std::string reason_to_go_on(const LadderAscent& ascent) {
 }
 
 // Takes the index back where solutions branch at the point; whether they do.
-bool is_branching(ConstraintLadder& ladder, const ConsistentPoint& consistent,
-                  const ConsistentJet& at, const LadderEvidence& evidence) {
-  Branching branches = branching(consistent, at, ladder);
+bool is_bifurcation(ConstraintLadder& ladder, const ConsistentPoint& consistent,
+                    const ConsistentJet& at, const LadderEvidence& evidence) {
+  Bifurcation branches = bifurcation(consistent, at, ladder);
   if (branches.reason.empty()) return false;
   ladder.verdict = Verdict::rank_change;
   ladder.index = -1;
@@ -111,7 +111,7 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
   ladder.index = last.k - 1;
   ladder.verdict = ladder.gauge_dimension == 0 ? Verdict::regular : Verdict::gauge;
   describe(ladder, jet.array(), jet.zero().y, jet.zero().uncertainty);
-  if (!is_branching(ladder, consistent, jet, evidence))
+  if (!is_bifurcation(ladder, consistent, jet, evidence))
     count_differentiations_nearby(ladder, consistent, jet);
   return ladder;
 }

@@ -37,7 +37,9 @@ struct LadderLevel {
   //   dim S_k = 2n - rank J + rank J_S,   dim M_k = n - rank J + rank J_M
   RankDecision all, without_tangent, without_point;
 
+  // The dimension of the velocities in S_k at a point of M_k.
   Index fibre() const { return dim_S - dim_M; }
+  // The least gap of the three decisions, and whether any of them is in doubt.
   double gap() const { return std::min({all.gap, without_tangent.gap, without_point.gap}); }
   bool is_ambiguous() const {
     return all.ambiguous() || without_tangent.ambiguous() || without_point.ambiguous();
@@ -100,17 +102,17 @@ struct PointConstraint {
   VectorXd gradient_error;  // bounds, entry by entry (Ñ)
 };
 
-// What of a ladder is proved, by arithmetic with balls, at a consistent jet y of level k and of the ranks that were decided
-// there:
+// What of a ladder is proved, by arithmetic with balls, at a consistent jet y of level k and of the ranks that were
+// decided there:
 //
 //   has_point   in a ball around y there is exactly one zero of as many equations of F^[k] as there are pivots,
 //               for all other unknowns as they are (Newton's method maps the ball into itself)
 //   not_zero    that many numbers, the pivots, are nowhere zero in this ball
 //   zero        that many numbers that count as zero could not be proved to be: they shrink when the digits double
 //
-// Ranks are thus at least what the ladder says. Where `zero` is 0 they are what the ladder says at every point of the ball, so
-// that they are constant around the point, which is the hypothesis of the constraint algorithm: dimensions, index and verdict
-// are proved. A value.
+// Ranks are thus at least what the ladder says. Where `zero` is 0 they are what the ladder says at every point of the
+// ball, so that they are constant around the point, which is the hypothesis of the constraint algorithm: dimensions,
+// index and verdict are proved. A value.
 struct LadderProof {
   bool has_point = false;
   double radius = 0.0;  // the largest of the ball's, of a coordinate

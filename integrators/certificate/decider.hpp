@@ -5,10 +5,13 @@
 
 namespace courant {
 
-// What decides whether a number is zero: bounds of errors in doubles; whether it shrinks when its digits double
-// (docs/constraint-algorithm.md); or both, of systems with up to 120 coordinates and unknowns, where each settles what the
-// other doubts, and where both are sure and differ there is a doubt. Larger systems are decided by bounds alone. A proof is
-// decided by digits, and balls prove that what is not zero for these is not (LadderProof).
+// What decides whether a number is zero.
+//
+// * bounds: bounds of errors in doubles.
+// * digits: whether the number shrinks when its digits double (docs/constraint-algorithm.md).
+// * both: each settles what the other doubts; where both are sure and differ there is a doubt. This is for systems with
+//   up to 120 coordinates and unknowns. Larger systems are decided by bounds alone.
+// * proof: digits, and balls prove that what is not zero for these is not (LadderProof).
 enum class Decider : std::uint8_t { both, digits, bounds, proof };
 
 inline bool is_of_digits_alone(Decider decider) {

@@ -20,14 +20,14 @@ VectorXd longer(const ChainArray& chain, const VectorXd& y, const VectorXd& step
   return result;
 }
 
-Zero nearest(const ChainArray& chain, const VectorXd& start, const VectorXd& typical) {
+Zero nearest(const ChainArray& chain, const VectorXd& start, const VectorXd& nominal) {
   const Index n = chain.base_size();
   const LinearizableMap F = [&](const VectorXd& y) { return chain.linearize(y); };
   Mobility mobility{.cost = VectorXd::Constant(start.size(), 0.03), .frozen = n};
   mobility.cost.head(n).setOnes();
-  mobility.typical = VectorXd::Zero(start.size());
+  mobility.nominal = VectorXd::Zero(start.size());
   for (Index i = 0; i <= chain.level_of(start) + 1; ++i)
-    mobility.typical.segment(chain.x_offset(i), n) = typical;
+    mobility.nominal.segment(chain.x_offset(i), n) = nominal;
   Zero zero = find_zero(F, start, mobility);
   if (zero.found) return zero;
   mobility.frozen = 0;
@@ -54,14 +54,14 @@ ConstraintLadder DiscreteConstraintAlgorithm::run(
   const Index n = chain.base_size();
   const VectorXd step = guess.v.size() > 0 ? VectorXd(h * (chain.basis().transpose() * guess.v))
                                            : VectorXd(VectorXd::Zero(n));
-  const VectorXd typical = (chain.basis().transpose() * (M.coframe(guess.x) * guess.x)).cwiseAbs();
+  const VectorXd nominal = (chain.basis().transpose() * (M.coframe(guess.x) * guess.x)).cwiseAbs();
   VectorXd y = VectorXd::Zero(n);
   ConstraintLadder ladder;
   bool stopped = false;
   for (Index k = 0; k <= options_.max_level && !stopped; ++k) {
     VectorXd start = longer(chain, y, step, k);
     if (k == 0 && guess.z.size() > 0) start.segment(chain.z_offset(0), guess.z.size()) = guess.z;
-    const Zero zero = nearest(chain, start, typical);
+    const Zero zero = nearest(chain, start, nominal);
     if (!zero.found) {
       LadderLevel empty;
       empty.k = k;

@@ -39,7 +39,7 @@ bool is_known_well(const ConsistentJet& at) {
   const VectorXd& y = at.zero().y;
   Linearization here =
       at.array().linearize(y, at.zero().uncertainty.cwiseMax(Prolongation::rounding(y)));
-  const SparseMatrixXd nearby = GenericScaling(at.array(), y, at.zero().reach).magnitude;
+  const SparseMatrixXd nearby = GenericScaling(at.array(), y, at.zero().nominal).magnitude;
   // Of what vanishes around the point too, as sin² + cos² - 1 does, the uncertainty of the point makes
   // nothing.
   const SparseMatrixXd rounding = at.array().linearize(y).error;
@@ -47,7 +47,7 @@ bool is_known_well(const ConsistentJet& at) {
     for (SparseMatrixXd::InnerIterator it(here.error, j); it; ++it)
       if (nearby.coeff(it.row(), j) == 0.0)
         it.valueRef() = std::min(it.value(), rounding.coeff(it.row(), j));
-  const NaturalScaling units({VectorXd::Zero(here.value.size()), nearby}, at.zero().reach, 1e-9,
+  const NaturalScaling units({VectorXd::Zero(here.value.size()), nearby}, at.zero().nominal, 1e-9,
                              1e-10);
   // Of one measure alone too little is known: units come from equations whose entries may vanish, sizes
   // from unknowns that may.
@@ -61,7 +61,7 @@ bool is_known_well(const ConsistentJet& at) {
     };
     return largest_by_row(here.error).array() <= certain * largest_by_row(nearby).array();
   };
-  return (is_small(units.column_scale) || is_small(at.zero().reach)).all();
+  return (is_small(units.column_scale) || is_small(at.zero().nominal)).all();
 }
 
 }  // namespace

@@ -221,19 +221,20 @@ void describe(ConstraintLadder& ladder, const DerivativeArray& array, const Vect
   }
 }
 
-TangentDisplacement::TangentDisplacement(const Prolongation& array, const VectorXd& y,
-                                         const VectorXd& reach)
+TangentDisplacement::TangentDisplacement(const DerivativeArray& array, const VectorXd& y,
+                                         const VectorXd& nominal)
     : generator_(1) {
   const Linearization at = array.linearize(y);
-  magnitude_ = GenericScaling(array, y, reach).magnitude;
-  const NaturalScaling scaling({VectorXd::Zero(at.value.size()), magnitude_}, reach, 0.0, 1e-10);
+  magnitude_ = GenericScaling(array, y, nominal).magnitude;
+  if (array.has_exponentials()) keep_what_is_here(magnitude_, at);
+  const NaturalScaling scaling({VectorXd::Zero(at.value.size()), magnitude_}, nominal, 0.0, 1e-10);
   units_ = scaling.column_scale;
   const Index n = array.base_size();
   if (n > 0)
     time_unit_ = std::exp((units_.head(n).array() / units_.segment(n, n).array()).log().mean());
   // What was met on the way to y is no size of it; a point in the chart is one next to its origin.
   sizes_ = y.cwiseAbs();
-  sizes_.head(n) = reach.head(n);
+  sizes_.head(n) = nominal.head(n);
   jacobian_ = scaling.row_scale.asDiagonal() * at.jacobian;
 }
 

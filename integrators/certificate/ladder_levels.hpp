@@ -40,7 +40,7 @@ void describe(ConstraintLadder& ladder, const DerivativeArray& array, const Vect
 // Random tangent vectors of the zeros at y: δ with J δ = 0, entries of up to a natural unit each.
 class TangentDisplacement {
  public:
-  TangentDisplacement(const Prolongation& array, const VectorXd& y, const VectorXd& reach);
+  TangentDisplacement(const DerivativeArray& array, const VectorXd& y, const VectorXd& nominal);
   // Nothing tells units for certain: equations do not where unknowns vanish, and sizes do not either.
   enum class Units {
     natural,           // of the equations

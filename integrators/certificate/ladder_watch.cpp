@@ -26,7 +26,7 @@ std::string dimensions(const ConstraintLadder& ladder) {
 }
 
 // Sizes of the unknowns of a jet: that of the point for the chart coordinates, which are 0.
-VectorXd reach(const DerivativeArray& array, const VectorXd& y) {
+VectorXd nominal_sizes(const DerivativeArray& array, const VectorXd& y) {
   VectorXd size = y.cwiseAbs();
   size.head(array.base_size()) = array.origin_size();
   return size;
@@ -39,7 +39,7 @@ LadderWatch::LadderWatch(std::shared_ptr<const ImplicitSystem> system,
     : system_(std::move(system)),
       start_(start),
       array_(std::make_shared<const DerivativeArray>(system_, start.point.t, start.point.x)) {
-  const GenericScaling scaling(*array_, start.jet, reach(*array_, start.jet));
+  const GenericScaling scaling(*array_, start.jet, nominal_sizes(*array_, start.jet));
   row_scale_ = scaling.row_scale;
   column_scale_ = scaling.column_scale;
 }

@@ -69,7 +69,8 @@ void settle(std::vector<LadderLevel>& levels) {
 
 bool are_ranks_of_pattern(const ConsistentJet& at, const std::vector<LadderLevel>& levels) {
   if (!are_proven(levels)) return false;
-  const SparseMatrixXd pattern = GenericScaling(at.array(), at.zero().y, at.zero().reach).magnitude;
+  const SparseMatrixXd pattern =
+      GenericScaling(at.array(), at.zero().y, at.zero().nominal).magnitude;
   const Index n = at.array().base_size();
   return std::ranges::all_of(levels, [&](const LadderLevel& level) {
     const Index rows = at.array().row_count(level.k), columns = at.array().unknown_count(level.k);

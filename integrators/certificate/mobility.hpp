@@ -1,4 +1,4 @@
-// What a search for a zero may move, and how much of it.
+// Mobility: which unknowns a search for a zero moves, and at what cost.
 #pragma once
 
 #include <functional>
@@ -7,22 +7,25 @@
 
 namespace courant {
 
-// What to move by preference.
+// A search for a zero of F may have many to choose from. It goes to the one that it reaches at the least cost.
 struct Mobility {
-  VectorXd cost;  // of a step by one natural unit of each unknown: a step δ minimises ‖cost ∘ δ‖
-                  // among those that do as well
-  Index frozen = 0;               // so many leading unknowns do not move at all
-  VectorXd typical = VectorXd();  // sizes |y_j| below which a change of y_j is round-off in the
-                                  // map; may be 0
-  VectorXd offset = VectorXd();   // sizes of what the map adds to leading unknowns
-  double noise = 1e-11;           // natural units below which what is left of an unknown is noise
-  // The generic magnitude of the derivatives around the start, where it is known; may be empty.
+  // What it costs to move each unknown by one of its natural units. Of all steps δ that do as well, the search makes
+  // the one with the least ‖cost ∘ δ‖.
+  VectorXd cost;
+  // So many leading unknowns do not move at all.
+  Index frozen = 0;
+  // Sizes of the unknowns. A change of y_j that is round-off next to its size is round-off in F. May be 0.
+  VectorXd nominal = VectorXd();
+  // F adds leading unknowns, those of a chart, to something as large as this: the coordinates of its origin.
+  VectorXd offset = VectorXd();
+  // What is left of an unknown below so many of its natural units is noise.
+  double noise = 1e-11;
+  // The sizes of the derivatives at points around the start (generic_magnitude); empty: the search finds them.
   SparseMatrixXd magnitude = SparseMatrixXd();
-  // Whether derivatives grow as those of exp (v/25 mV) do: they are measured by what they are at each point, not
-  // around it, and steps are as short as they have to be for derivatives to stay of their size. Heeded
-  // for up to 200 unknowns.
+  // Whether derivatives grow as those of exp (v/25 mV) do. Their sizes are then taken at each point, not around it, and
+  // steps are so short that derivatives keep their size. The latter is for up to 200 unknowns.
   bool has_exponentials = false;
-  // Whether y may be gone to, as the domain of a chart allows; empty: anything may.
+  // Whether the search may go to y, as the domain of a chart allows. Empty: it may go anywhere.
   std::function<bool(const VectorXd& y)> admits = {};
 };
 

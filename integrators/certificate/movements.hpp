@@ -9,8 +9,8 @@
 
 namespace courant {
 
-// The numbers of a guess that are others at a point, but for rounding, by name: coordinates, velocities, unknowns. Velocities
-// that are not those of coordinates are v[0], v[1], …
+// The numbers of a guess that are others at a point, but for rounding, by name: coordinates, velocities, unknowns.
+// Velocities that are not those of coordinates are v[0], v[1], …
 std::vector<Movement> movements(const ImplicitSystem& system, const InitialGuess& guess,
                                 const State& point);
 

@@ -1,49 +1,60 @@
-// Whether solutions exist in all directions in which linearized equations have them.
+// Obstruction: whether equations have solutions in a direction in which their linearization has them.
 #pragma once
 
 #include "courant/integrators/certificate/ladder_levels.hpp"
 
 namespace courant {
 
-// How the part of F^[k] that its Jacobian J at a zero y does not see grows along a direction d of the
-// zeros, J d = 0:
+// At a zero y of F = F^[k] with the Jacobian J, the linearized equations have solutions in each direction d ∈ ker J.
+// The equations themselves need not have any there: z² = 0 allows every direction at 0 when it is linearized, and has
+// no zero but 0.
 //
-//   g(ε) = ‖Wᵀ F^[k](y + ε d)‖,   the columns of W a basis of {w : wᵀJ = 0}
+// What tells is how the part of F grows that J does not see:
 //
-// Where the zeros near y are a manifold with tangent space ker J, there is a zero within O(ε²) of
-// y + ε d; there the equations unseen by J vanish, and so do their derivatives unseen by J, so that
-// g(ε) = O(ε³). Where the zeros are singular, as for z² = 0 at 0, g falls like ε²: a combination of
-// the equations has no linear part and does not vanish either.
+//   g(ε) = ‖Wᵀ F(y + ε d)‖,   the columns of W a basis of {w : wᵀJ = 0}
+//
+// If the zeros near y are a manifold with tangent space ker J, there is a zero within O(ε²) of y + ε d. F vanishes
+// there, and Wᵀ times the Jacobian there is O(ε), so g(ε) = O(ε³). If the zeros are singular, a combination wᵀF has no
+// linear part at y and does not vanish along d. Then g falls like ε².
 class Obstruction {
  public:
-  // `rank`: of the Jacobian at y; `magnitude`: what its entries are around y. Dense: for up to a few hundred
-  // unknowns. `blurred`: the part of all of F that W, which has 53 bits, may mix into what it does not see. It counts
-  // where F is known better than that.
+  // `rank`: of the Jacobian at y. `magnitude`: the sizes of its entries around y. Matrices are dense, so this is for up
+  // to a few hundred unknowns. `blurred`: W has 53 bits, so Wᵀ F may contain up to this part of all of F by error; it
+  // matters where F itself is known with more digits.
   Obstruction(const Prolongation& array, const VectorXd& y, const VectorXd& uncertainty, Index rank,
               const SparseMatrixXd& magnitude, double blurred = 0.0);
 
-  // yes: g falls like a power below 2.5 at the smallest three ε at which it is measurable, and all of F
-  // grows as along a tangent there. likely: the bounds are too large to tell, but the numbers are squares at
-  // five ε. unknown: round-off hides either, or W is not known, or the squares may be what errors of W make of
-  // all of F. beside: all of F grows as it does beside a
-  // tangent, where g is of second order everywhere.
-  enum class Answer { no, yes, likely, unknown, beside };
+  // Whether there is an obstruction.
+  enum class Answer {
+    no,
+    // g falls like a power below 2.5 at the smallest three ε at which it can be measured, and all of F grows there as
+    // it does along a tangent.
+    yes,
+    // The bounds of errors are too large to say yes, but g grows like ε² over five ε in a row.
+    likely,
+    // Round-off hides how g grows, or W is not known, or g may consist of errors of W.
+    unknown,
+    // All of F grows as it does in a direction that is not tangent to the zeros. g is then of second order always.
+    beside
+  };
+  // The answer for a direction d with J d = 0.
   Answer is_seen_along(const VectorXd& direction) const;
 
  private:
-  // The row scales of the Jacobian. Rows that vanish at y have none there: theirs are of what they are around
-  // y, in the units of the direction.
+  // The row scales of the Jacobian. A row that vanishes at y has none; its scale is that of its entries around y, for
+  // unknowns as large as those of the direction.
   VectorXd row_scale_along(const VectorXd& direction) const;
-  // What of g need not be seen: a part of ε², in comparable units, or of what bends the unseen equations on
-  // this step, by the change of their derivatives. Where all unknowns are 0 nothing tells their units.
+  // A size below which g counts as nothing: a part of ε² in comparable units, or of the curvature of the unseen
+  // equations along this step, by the change of their derivatives. The smaller one counts; where all unknowns are 0
+  // nothing tells their units.
   double least_seen(const MatrixXd& unseen, const Linearization& there, const VectorXd& step,
                     double epsilon) const;
   // Whether g is far below ε² in this direction, and above rounding errors.
   bool is_small_along(const VectorXd& direction) const;
-  // What the bounds of errors say.
+  // The answer by the bounds of errors alone.
   Answer by_bounds_along(const VectorXd& direction) const;
-  // Whether the numbers themselves grow like ε² and are more than this part of all of F, which grows as along a
-  // tangent.
+  // Whether g, computed without regard to errors, grows like ε² and is more than this part of all of F, while all of F
+  // grows as it does along a tangent.
   bool is_square_along(const VectorXd& direction, double part) const;
 
   const Prolongation& array_;

@@ -19,7 +19,7 @@ std::optional<RefinedArray> RefinedArray::at(const DerivativeArray& array, const
   constexpr double solved = 10.0;       // times the bound of rounding errors
   if (!zero.found || zero.y.size() > dense_limit) return std::nullopt;
   RefinedArray result(array, zero.y.size());
-  const GenericScaling units(array, zero.y, zero.reach);
+  const GenericScaling units(array, zero.y, zero.nominal);
   if (!units.scaled.coeffs().isFinite().all()) return std::nullopt;
   const CompleteOrthogonalDecomposition inverse(MatrixXd(units.scaled), negligible);
   for (int step = 0; step < most_steps; ++step) {

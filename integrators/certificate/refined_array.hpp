@@ -34,8 +34,8 @@ class RefinedArray final : public Prolongation {
 
   const DerivativeArray* array_;
   std::vector<Quadruple> correction_;  // δ
-  // Errors of y whose parts by 2⁶⁰ are those of y + δ: |δ|, its rounding, and 2⁶⁰ times the step of Newton's method that was not
-  // made.
+  // Errors of y whose parts by 2⁶⁰ are those of y + δ: |δ|, its rounding, and 2⁶⁰ times the step of Newton's method
+  // that was not made.
   VectorXd rounded_;
 };
 

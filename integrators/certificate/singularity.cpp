@@ -148,7 +148,7 @@ Singularity singularity(const ConsistentPoint& consistent, const ConsistentJet& 
   if (at.array().has_constant_jacobian()) return {.is_confirmed = true};
   constexpr Index dense_limit = 200;
   const bool is_small = at.zero().y.size() <= dense_limit;
-  TangentDisplacement tangents(at.array(), at.zero().y, at.zero().reach);
+  TangentDisplacement tangents(at.array(), at.zero().y, at.zero().nominal);
   std::optional<RefinedObstruction> obstruction;
   if (follow && is_small) obstruction.emplace(at, levels, tangents.magnitude());
   using Units = TangentDisplacement::Units;

@@ -1,4 +1,4 @@
-// The order that an integrator claims.
+// ClaimedOrder: whether errors have the order that an integrator states.
 #pragma once
 
 #include <functional>
@@ -10,31 +10,36 @@
 
 namespace courant {
 
-// How far the order that is measured at a setting misses order(): by the step of the setting, or else by
-// one that is shorter by up to 8⁵ or, where round-off hides the order, longer by up to 8². An order is
-// one of short steps: that of the setting may be too long for it where a system is stiff, and such a
-// system may not go back by more than its shortest time.
+// Compares the order that an integrator states, Integrator::order(), with the order that its errors have at a setting.
+//
+// The order is measured with the step of the setting first. An order is a statement about short steps, and that step
+// may be too long to show it, as for a stiff system. Then steps that are shorter by 8, 8², …, 8⁵ are tried, until one
+// shows the order. Where the errors are no more than round-off, steps that are longer by 8 and 8² are tried too.
+//
+// With the step of the setting a higher order than the stated one is no defect, unless options.both_ways. With another
+// step it is one: there the stated order itself has to be seen.
 class ClaimedOrder {
  public:
-  // The order may be off by so much.
+  // A measured order that differs by no more than this is the stated one.
   static constexpr double kTolerance = 0.15;
 
   // All arguments have to outlive it.
   ClaimedOrder(const Integrator& integrator, const IntegratorSetting& setting,
                const IntegratorLawOptions& options, const StateSeparation& separation);
 
-  // With the step of the setting; infinite where steps are exact. Throws what a step throws.
+  // The order that is measured with the step of the setting; infinite where steps are exact. Throws what a step throws.
   double order() { return orders_.errors(setting_.step).order; }
 
   struct Defect {
     double value = 0.0;
-    // The order with the other step that shows the claim, where it is another one.
+    // The order that was measured with another step than that of the setting, where only that one shows it.
     std::optional<double> order = std::nullopt;
   };
-  // How far the order is from the claim (below it, unless both_ways). Throws what the first step throws,
-  // if there is no step with which it can be measured.
+  // By how much the order misses the stated one. Throws what the first step throws, if the order can be measured with
+  // no step.
   Defect defect();
-  // The same with steps back in time, each of which has to lead back: infinite if it does not.
+  // The same with steps back in time. A step forward again has to lead back to the start; the defect is infinite if it
+  // does not. A stiff system can go back by no more than its shortest time, so shorter steps are tried here too.
   double backward_defect();
 
  private:

@@ -40,10 +40,10 @@ class Composition final : public Integrator, public Programmed {
   // γ_1 … γ_s of order 4, 6 or 8; throws std::invalid_argument for others.
   static std::span<const double> coefficients(int order);
 
-  // For each of some steps that make one of size 1 the two others whose last steps are nearest to its own in time, at `part` of them
-  // (1/2 in the middle, 1 at the end): those before it in this step, itself and those after it in the
-  // one before. What belongs to such times and is smooth is extrapolated by a straight line if it is
-  // taken so many times.
+  // `steps` make one step of size 1. For each of them, the two that were made last at times nearest to its own: from
+  // this step those before it, from the step before itself and those after it. The time of each is at `part` of it, 1/2
+  // in the middle or 1 at the end. What is smooth and belongs to these times is extrapolated by a straight line, by
+  // adding both so many `times`.
   struct NearbyStage {
     std::size_t stage;
     double times;

@@ -34,7 +34,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
         solver_(functions_.equations,
                 {n_, n_, (functions_.blocks - 2) * n_ + functions_.auxiliaries, d_},
                 functions_.scheme.name(), functions_.whole,
-                {.displacements = n_, .shifts = d_, .h = 4}),
+                {.displacements = n_, .multipliers = d_, .h = 4}),
         predictor_(ConstrainFirstProjection::predicted_groups(functions_, solver_.unknown().size()),
                    solver_.predicted()),
         round_off_projection_(functions_.constraint),
@@ -240,7 +240,7 @@ class ConstrainFirst::Trajectory final : public Stepper {
   StepSolver solver_;
   Predictor predictor_;  // of the unknowns of the step
   RoundOffProjection round_off_projection_;
-  MovingBasis basis_;  // B at x_k
+  TransportedFrame basis_;  // B at x_k
   ConstrainFirstProjection projection_;
   VectorXd start_;  // what the state alone predicts
   VectorXd near_, advanced_;
@@ -304,7 +304,7 @@ StepProgram ConstrainFirst::program() const {
                    .stage_is_advanced = true,
                    .projection = StepProgram::Solve::Projection{
                        .formulas = trace.projection,
-                       .shifts = scheme.codimension(),
+                       .multipliers = scheme.codimension(),
                        .projected = trace.projected,
                        .shift_inputs = {{"near", trace.near}, {"s", trace.s}},
                        .correction_inputs =

@@ -128,7 +128,7 @@ class ConstrainFirst::Differential final : public StepDifferential {
   }
 
   // W at a point, as tangent vectors (Ñ × d).
-  MatrixXd shifts(const VectorXd& x, double t, const Site& at) const {
+  MatrixXd projection_directions(const VectorXd& x, double t, const Site& at) const {
     const LinearMap<double>& B = at.evaluation.basis();
     const MatrixXd basis = B.matrix();
     if (scheme_.fixed_directions.size() > 0) return basis * scheme_.fixed_directions;
@@ -151,7 +151,7 @@ class ConstrainFirst::Differential final : public StepDifferential {
     const MatrixXd R = retraction_.jacobian({state.x, shift});
     const auto by_point = R.leftCols(state.x.size());
     const auto by_shift = R.rightCols(shift.size());
-    const MatrixXd W = shifts(state.x, state.t, at);
+    const MatrixXd W = projection_directions(state.x, state.t, at);
     MatrixXd A(y.size(), at.velocities.cols() + W.cols());
     A << by_point * at.velocities + by_shift * turning(state, at, shift), by_shift * W;
     return at.velocities * implicit_derivative("ConstrainFirst", A, -velocities, A.cols())
@@ -170,7 +170,7 @@ class ConstrainFirst::Differential final : public StepDifferential {
     const auto in_W = [&](const VectorXd& direction) -> VectorXd {
       State moved = state;
       moved.x = M_.retract(state.x, direction);
-      const MatrixXd W = shifts(moved.x, moved.t, site(moved));
+      const MatrixXd W = projection_directions(moved.x, moved.t, site(moved));
       return W * (W.transpose() * shift);
     };
     for (Index k = 0; k < along.cols(); ++k) {

@@ -4,8 +4,8 @@
 
 #include "courant/core/linear/qr_decomposition.hpp"
 #include "courant/integrators/methods/constrain_first_trace.hpp"
-#include "courant/integrators/step/moving_basis.hpp"
 #include "courant/integrators/step/round_off_projection.hpp"
+#include "courant/integrators/step/transported_frame.hpp"
 
 namespace courant {
 
@@ -40,11 +40,11 @@ ConstrainFirstFunctions::ConstrainFirstFunctions(ConstrainFirstScheme of, const 
     MatrixXd normals = scheme.ladder->conormals().transpose();
     if (const VectorXd sizes = scheme.projector->conormal_sizes(); sizes.size() > 0)
       normals = (sizes.cwiseInverse().asDiagonal() * normals).eval();
-    references = MovingConormals::references(orthonormalized(normals));
+    references = TransportedConormals::references(orthonormalized(normals));
     span =
         Function("directions", scheme.projector->span_formulas(M, scheme.codimension()), compiled);
   }
-  basis = MovingBasis::projection(M, backend);
+  basis = TransportedFrame::projection(M, backend);
   constraint = RoundOffProjection::constraint(M, backend);
   backend.compile();
 }

@@ -6,7 +6,7 @@
 
 #include "courant/core/solve/equation_system.hpp"
 #include "courant/integrators/methods/constrain_first_scheme.hpp"
-#include "courant/integrators/step/moving_conormals.hpp"
+#include "courant/integrators/step/transported_conormals.hpp"
 
 namespace courant {
 
@@ -29,13 +29,13 @@ struct ConstrainFirstFunctions {
   // The same ↦ equations that steps do without, with their Jacobian; what is held of z, by its place.
   Function redundant;
   std::vector<std::pair<Index, double>> held_z;
-  Function basis;            // of MovingBasis
+  Function basis;            // of TransportedFrame
   Function constraint;       // of RoundOffProjection
   Function shift;            // (near, s) ↦ R_near(Π s)
   Function corrected_shift;  // (near, s, x₀, x) ↦ what leads to x if s leads to x₀, to first order
-  MovingConormals::Functions conormals;
+  TransportedConormals::Functions conormals;
   std::vector<MatrixXd> references;  // of the conormals, the first those at the ladder's point
-  Function span;                     // of MovingDirections
+  Function span;                     // of TransportedDirections
 };
 
 }  // namespace courant

@@ -28,7 +28,7 @@ constexpr double kNoDistance = 1e-10;
 }  // namespace
 
 ConstrainFirstProjection::ConstrainFirstProjection(const ConstrainFirstFunctions& functions,
-                                                   MovingBasis& basis)
+                                                   TransportedFrame& basis)
     : functions_(functions),
       n_(functions.scheme.manifold().dimension()),
       d_(functions.scheme.codimension()),

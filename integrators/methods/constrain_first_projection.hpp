@@ -5,11 +5,11 @@
 #include <limits>
 
 #include "courant/integrators/methods/constrain_first_functions.hpp"
-#include "courant/integrators/step/moving_basis.hpp"
-#include "courant/integrators/step/moving_conormals.hpp"
-#include "courant/integrators/step/moving_directions.hpp"
 #include "courant/integrators/step/predictor.hpp"
 #include "courant/integrators/step/step_solver.hpp"
+#include "courant/integrators/step/transported_conormals.hpp"
+#include "courant/integrators/step/transported_directions.hpp"
+#include "courant/integrators/step/transported_frame.hpp"
 
 namespace courant {
 
@@ -23,7 +23,7 @@ namespace courant {
 class ConstrainFirstProjection {
  public:
   // `functions` and `basis` outlive this object.
-  ConstrainFirstProjection(const ConstrainFirstFunctions& functions, MovingBasis& basis);
+  ConstrainFirstProjection(const ConstrainFirstFunctions& functions, TransportedFrame& basis);
 
   // A step that leads to a point near M_f.
   struct Approach {
@@ -55,8 +55,8 @@ class ConstrainFirstProjection {
   void take_over(const ConstrainFirstProjection& other, bool goes_on);
   // As of Stepper, at the ends of steps.
   void learn_from(const ConstrainFirstProjection& other, const Stepper::Companion& companion);
-  // For each unknown of a step, or of a projection, what `times` becomes for steps of this ratio; so many of the first are
-  // displacements.
+  // For each unknown of a step, or of a projection, what `times` becomes for steps of this ratio; so many of the first
+  // are displacements.
   VectorXd times_of(double times, double ratio, Index displacements) const;
   void discard();        // back to the last accept()
   void forget_motion();  // what was recorded
@@ -88,10 +88,10 @@ class ConstrainFirstProjection {
   bool gives_all_;    // and that is all there is
   Predictor end_;     // of its unknowns; of all that are found where W depends on them
   Predictor shift_;   // of the vector at near_ that leads to x
-  MovingBasis& basis_;
-  MovingConormals conormals_;
-  MovingDirections directions_;  // W
-  bool is_turned_ = false;       // the basis was made afresh
+  TransportedFrame& basis_;
+  TransportedConormals conormals_;
+  TransportedDirections directions_;  // W
+  bool is_turned_ = false;            // the basis was made afresh
   // ‖ΔW‖ / ‖Δx‖ of the last steps; unknown before the first
   double turning_ = std::numeric_limits<double>::infinity();
   VectorXd jets_;   // of the last accept(), with any ξ and μ

@@ -206,9 +206,10 @@ void ConstrainFirstTrace::describe(const ConstrainFirstScheme& scheme,
   redundant = tried(tests);
 }
 
-MovingConormals::Formulas ConstrainFirstTrace::conormals() const {
-  return MovingConormals::trace(step.graph, constraints, jets, dimension, codimension,
-                                {{"x0", x0}, {"basis", basis_entries}, {"t", t}}, conormal_sizes);
+TransportedConormals::Formulas ConstrainFirstTrace::conormals() const {
+  return TransportedConormals::trace(step.graph, constraints, jets, dimension, codimension,
+                                     {{"x0", x0}, {"basis", basis_entries}, {"t", t}},
+                                     conormal_sizes);
 }
 
 ConstrainFirstTrace::ConstrainFirstTrace(const ConstrainFirstScheme& scheme,

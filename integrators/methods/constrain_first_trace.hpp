@@ -3,8 +3,8 @@
 
 #include "courant/integrators/certificate/local_formulation.hpp"
 #include "courant/integrators/methods/constrain_first_scheme.hpp"
-#include "courant/integrators/step/moving_conormals.hpp"
 #include "courant/integrators/step/step_formulas.hpp"
+#include "courant/integrators/step/transported_conormals.hpp"
 
 namespace courant {
 
@@ -30,7 +30,7 @@ struct ConstrainFirstTrace {
   Index dimension, codimension;
   VectorXd conormal_sizes;  // of the projector
 
-  MovingConormals::Formulas conormals() const;
+  TransportedConormals::Formulas conormals() const;
 
  private:
   Omissions omissions(const ConstrainFirstScheme& scheme, const LocalFormulation& local) const;

@@ -42,7 +42,7 @@ class DiscreteDifferential {
   // α(x̄, -v) = α(x̄, v) with a symmetric map: the method is its own adjoint.
   virtual bool is_symmetric() const = 0;
 
-  // α, size Ñ; `units`: typical sizes of the components of v, which a correction along v is measured
+  // α, size Ñ; `units`: nominal sizes of the components of v, which a correction along v is measured
   // by.
   ExprVector operator()(const EnergyDifference& difference, const VectorXd& units) const {
     return do_value(difference, units);

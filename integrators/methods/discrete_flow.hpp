@@ -62,13 +62,14 @@ class DiscreteFlow {
   Gradient pull_back(const State& start, const Slopes& slopes) const;
 
   // log of the growth of k-dimensional volumes, by time, in descending order: of orthonormal directions that are made
-  // orthonormal again after each `every` steps (Benettin, Galgani, Giorgilli, Strelcyn, 1980). They tend to the Lyapunov
-  // exponents as steps · h does to infinity, the error like its reciprocal. V: as many directions as exponents are asked
-  // for. Throws std::invalid_argument unless there are steps and every > 0.
+  // orthonormal again after each `every` steps (Benettin, Galgani, Giorgilli, Strelcyn, 1980). They tend to the
+  // Lyapunov exponents as steps · h does to infinity, the error like its reciprocal. V: as many directions as exponents
+  // are asked for. Throws std::invalid_argument unless there are steps and every > 0.
   VectorXd lyapunov_exponents(const State& start, const MatrixXd& V, long every = 1) const;
 
   // The eigenvalues of TΦ on the span of V, of an orbit that closes after the n steps: its Floquet multipliers, by
-  // descending modulus. Throws std::domain_error if x_n is farther than `tolerance` from x₀, or TΦ leads out of the span.
+  // descending modulus. Throws std::domain_error if x_n is farther than `tolerance` from x₀, or TΦ leads out of the
+  // span.
   Eigen::VectorXcd multipliers(const State& start, const MatrixXd& V,
                                double tolerance = 1e-8) const;
 

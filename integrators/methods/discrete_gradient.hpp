@@ -32,7 +32,7 @@ class DiscreteGradient final : public Integrator, public Programmed {
  public:
   struct Options {
     Backend backend = Backend::automatic;
-    // Typical sizes of the Ñ components of tangent vectors (natural_units); empty: all 1.
+    // Nominal sizes of the Ñ components of tangent vectors (natural_units); empty: all 1.
     VectorXd units = VectorXd();
   };
 

@@ -22,9 +22,11 @@ class Integrator {
 
   const std::shared_ptr<const ImplicitSystem>& system() const { return system_; }
 
+  // The method with its maps and parameters, as messages say it.
   virtual std::string name() const = 0;
   // The order on smooth problems within the method's hypotheses.
   virtual int order() const = 0;
+  // Whether Φ_{-h} is the inverse of Φ_h.
   virtual bool is_symmetric() const = 0;
   // Whether the step preserves the symplectic form of its phase space; no value: unknown.
   virtual std::optional<bool> is_symplectic() const { return std::nullopt; }
@@ -40,10 +42,12 @@ class Integrator {
   // no formulas to show.
   std::vector<StepFormulas> formulas() const { return do_formulas(); }
 
+  // What makes steps along one trajectory, with workspace of its own.
   std::unique_ptr<Stepper> stepper() const { return do_stepper(); }
 
-  // T_xΦ_h of the steps that a stepper of this method makes, exactly; traced when this is called. Null for
-  // a method that does not know it. Throws std::domain_error where its steps are no function of the state, as with gauge freedom.
+  // T_xΦ_h of the steps that a stepper of this method makes, exactly; traced when this is called. Null for a method
+  // that does not know it. Throws std::domain_error where its steps are no function of the state, as with gauge
+  // freedom.
   std::shared_ptr<const StepDifferential> differential() const { return do_differential(); }
 
   // Φ_h applied `count` times, by a stepper of its own. Throws as Stepper::step does.

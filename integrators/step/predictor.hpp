@@ -32,7 +32,7 @@ namespace courant {
 // better.
 //
 // Nothing is allocated after construction. Coordinates of tangent vectors are to be those in a
-// basis that moves smoothly (MovingBasis).
+// basis that moves smoothly (TransportedFrame).
 class Predictor {
  public:
   static constexpr int kMaxDegree = 8;

@@ -59,9 +59,9 @@ class Projector {
   // (x, B, C, t) ↦ these vectors, column by column, for conormals s C. Nothing where W is C.
   Function::Formulas span_formulas(const Manifold& manifold, Index codimension) const;
 
-  // An orthonormal W(x) with the span of V, which is what span() gives for this basis and these conormals, an orthonormal
-  // basis of the annihilator of T_xM_f. Throws std::domain_error if it is no complement of T_xM_f, as seen in
-  // the units.
+  // An orthonormal W(x) with the span of V, which is what span() gives for this basis and these conormals, an
+  // orthonormal basis of the annihilator of T_xM_f. Throws std::domain_error if it is no complement of T_xM_f, as seen
+  // in the units.
   MatrixXd orthonormal_directions(const MatrixXd& V, const LinearMap<double>& basis,
                                   const MatrixXd& conormals) const;
   // The same at the point x and the time t.
@@ -69,14 +69,14 @@ class Projector {
                       double t = 0.0) const;
 
  protected:
-  // `units`: typical sizes of the Ñ numbers of a tangent vector, all positive, or empty for 1.
+  // `units`: nominal sizes of the Ñ numbers of a tangent vector, all positive, or empty for 1.
   // Throws std::invalid_argument where one is not.
   explicit Projector(std::string name, VectorXd units = {});
   const VectorXd& units() const { return units_; }
 
  private:
-  // Tangent vectors at x (Ñ × d) that span the directions. tangents: Π, the orthogonal projector onto T_xM, the identity
-  // where n = Ñ; conormals: d covectors at x (Ñ × d), independent, with C = Πᵀ C.
+  // Tangent vectors at x (Ñ × d) that span the directions. tangents: Π, the orthogonal projector onto T_xM, the
+  // identity where n = Ñ; conormals: d covectors at x (Ñ × d), independent, with C = Πᵀ C.
   virtual ExprMatrix do_directions(const ExprVector& x, const Expr& t,
                                    const LinearMap<Expr>& tangents,
                                    const ExprMatrix& conormals) const = 0;

@@ -37,6 +37,7 @@ class SolveError : public std::runtime_error {
   double time() const { return time_; }  // of the state that the step began at
   double step_size() const { return h_; }
   const std::vector<double>& residuals() const { return residuals_; }  // ‖F‖_∞ of the iterates
+  // Where the solution ends that is connected to the state, if that was found.
   const std::optional<Reach>& reach() const { return reach_; }
 
  private:

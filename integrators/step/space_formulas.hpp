@@ -6,7 +6,7 @@
 
 namespace courant {
 
-// As MovingBasis and RoundOffProjection evaluate it, and programs in other languages.
+// As TransportedFrame and RoundOffProjection evaluate it, and programs in other languages.
 struct SpaceFormulas {
   explicit SpaceFormulas(const Manifold& M);
 

@@ -5,8 +5,8 @@
 #include "courant/core/expressions/expr_vectors.hpp"
 #include "courant/integrators/certificate/local_formulation.hpp"
 #include "courant/integrators/step/displacement_stepper.hpp"
-#include "courant/integrators/step/moving_basis.hpp"
 #include "courant/integrators/step/step_names.hpp"
+#include "courant/integrators/step/transported_frame.hpp"
 
 namespace courant {
 
@@ -81,7 +81,7 @@ class StageStep::Trajectory final : public DisplacementStepper {
 
   const StageStep method_;  // its functions are shared, not copied
   Index n_, blocks_;
-  MovingBasis basis_;  // at the state
+  TransportedFrame basis_;  // at the state
 };
 
 // The formulas of a step.
@@ -188,7 +188,7 @@ StageStep::StageStep(std::string name, std::shared_ptr<const ImplicitSystem> sys
     const ExprVector end = trace.formulas.graph.variables("x1", M.ambient_dimension());
     stage_ = Function("stage", {{"x0", x0}, {"x1", end}}, map_->inverse(x0, end).x);
   }
-  basis_ = MovingBasis::projection(M, backend);
+  basis_ = TransportedFrame::projection(M, backend);
   constraint_ = RoundOffProjection::constraint(M, backend);
   backend.compile();
 }

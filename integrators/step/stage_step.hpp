@@ -66,7 +66,7 @@ class StageStep {
   Function whole_;                // the same without elimination, unless it is affine
   Function advance_;          // the same ↦ x₁, v, x̄ unless the map has an inverse, the effort
   Function stage_;            // x₀, x₁ ↦ x̄ where it has
-  Function basis_;            // of MovingBasis
+  Function basis_;            // of TransportedFrame
   Function constraint_;       // of RoundOffProjection
   Index tangent_blocks_ = 1;  // leading blocks of y that are coordinates of tangent vectors at x₀
   Index efforts_ = 0;         // numbers of the effort

@@ -22,6 +22,7 @@ struct Step {
   // By how much h of a TransformedIntegrator advances the time, next to h.
   double rate = 1.0;
 
+  // By how much the time advances.
   double duration() const { return rate * h; }
 };
 

@@ -23,9 +23,9 @@ class StepDifferential {
   // and on wrong sizes; std::domain_error where the end of the step is not a function of its beginning.
   MatrixXd operator()(const Step& step, const MatrixXd& V) const;
 
-  // The adjoint: covectors (T_xΦ_h)ᵀ Λ at step.before.x for the columns of Λ (N × m), covectors at step.after.x. Covectors
-  // are ambient, and known where they are paired with vectors that have an image: ⟨pull_back(Λ), V⟩ = ⟨Λ, images of V⟩.
-  // Costs one linear solve, but of methods that say otherwise where they define it. Throws as above.
+  // The adjoint: covectors (T_xΦ_h)ᵀ Λ at step.before.x for the columns of Λ (N × m), covectors at step.after.x.
+  // Covectors are ambient, and known where they are paired with vectors that have an image: ⟨pull_back(Λ), V⟩ = ⟨Λ,
+  // images of V⟩. Costs one linear solve, but of methods that say otherwise where they define it. Throws as above.
   MatrixXd pull_back(const Step& step, const MatrixXd& Lambda) const;
 
  protected:
@@ -38,13 +38,13 @@ class StepDifferential {
   virtual MatrixXd do_pull_back(const Step& step, const MatrixXd& Lambda) const = 0;
 };
 
-// X with A X + B = 0, where A (m × n) may be oblong or singular as redundant equations make it: the
-// solution of least norm in the units of an Equilibration. Throws std::domain_error, beginning with `place`, if there is none up to 1e-6
+// X with A X + B = 0, where A (m × n) may be oblong or singular as redundant equations make it: the solution of least
+// norm in the units of an Equilibration. Throws std::domain_error, beginning with `place`, if there is none up to 1e-6
 // of the terms of a row and 1e-12 of all terms, or if it leaves the first `determined` unknowns free.
 MatrixXd implicit_derivative(const char* place, const MatrixXd& A, const MatrixXd& B,
                              Index determined);
-// W (m × k) with Wᵀ B = Cᵀ X for the X of the above, whatever B is that has such an X: the adjoint, by the transposed matrix.
-// C: n × k.
+// W (m × k) with Wᵀ B = Cᵀ X for the X of the above, whatever B is that has such an X: the adjoint, by the transposed
+// matrix. C: n × k.
 MatrixXd implicit_adjoint(const char* place, const MatrixXd& A, const MatrixXd& C,
                           Index determined);
 

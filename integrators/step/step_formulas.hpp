@@ -32,8 +32,8 @@ struct StepFormulas {
   EquationSystem compile(Backend backend) const;
   // y; p ↦ F with its Jacobian by y, interpreted.
   Function whole() const;
-  // What shows whether a solution of these equations, which compile() made, is connected to the state: all equations for
-  // all unknowns; empty where they are affine, and have one solution at most, and where an engine solves them.
+  // What shows whether a solution of these equations, which compile() made, is connected to the state: all equations
+  // for all unknowns; empty where they are affine, and have one solution at most, and where an engine solves them.
   Function followed(const EquationSystem& compiled) const;
   // The variables of a group that equations contain, by their number in it, ascending.
   std::vector<Index> contained(std::size_t group) const;

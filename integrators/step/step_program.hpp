@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "courant/integrators/step/moving_conormals.hpp"
 #include "courant/integrators/step/space_formulas.hpp"
 #include "courant/integrators/step/step_formulas.hpp"
+#include "courant/integrators/step/transported_conormals.hpp"
 #include "courant/integrators/step/vector_field.hpp"
 #include "courant/structures/system_in_units.hpp"
 
@@ -22,8 +22,8 @@ class Integrator;
 //   explicit  a tableau of evaluations of a VectorField                       ExplicitRungeKutta
 //   direct    formulas for where it leads                                     Verlet, where it is explicit
 //
-// Where the space has equations of its own x₁ is kept to them as RoundOffProjection does, and where tangent vectors need
-// a basis it is that of MovingBasis.
+// Where the space has equations of its own x₁ is kept to them as RoundOffProjection does, and where tangent vectors
+// need a basis it is that of TransportedFrame.
 struct StepProgram {
   std::string method;
 
@@ -44,16 +44,16 @@ struct StepProgram {
     // Where steps end on M_f: y = (ξ, ξ', …, z, …, μ), in the inputs W after the basis, advanced = (R_d⁺, x̄, v).
     struct Projection {
       StepFormulas formulas;  // inputs y, x of the chart, basis, W, near, t
-      Index shifts = 0;       // the size of μ
+      Index multipliers = 0;  // the size of μ
       ExprVector projected;   // the same inputs ↦ x, v, z
       std::vector<Function::Input> shift_inputs, correction_inputs;  // near, s; near, s, x₀, x
       ExprVector shifted;                                            // R_near(s)
       ExprVector corrected;  // what leads to x if s leads to x₀
 
-      // Where W changes from point to point: as MovingConormals and MovingDirections find it. Elsewhere it is numbers in
-      // the formulas.
+      // Where W changes from point to point: as TransportedConormals and TransportedDirections find it. Elsewhere it is
+      // numbers in the formulas.
       struct Turning {
-        MovingConormals::Formulas conormals;
+        TransportedConormals::Formulas conormals;
         std::vector<MatrixXd> references;
         Function::Formulas span;  // of the projector
         bool is_always_complement = false;

@@ -57,12 +57,12 @@ class StepSolver {
     newton_.reset();
     fail(attempt);
   }
-  // The solution that is connected to the state. One close to what unknown() predicted is taken for
-  // it, every displacement right to a twentieth of its size, if the matrix of an earlier step led
-  // there, or the last step was predicted as well; right to a quarter after expect(); and to a
-  // thousandth where the equations of a step bend: where the last curve that was followed was neither
-  // one arc nor, of few, one that ended where the velocity of the state pointed to, or none was. Else it is the one that StepContinuation finds;
-  // `begin` puts into unknown() what the state alone predicts.
+  // The solution that is connected to the state. One close to what unknown() predicted is taken for it, every
+  // displacement right to a twentieth of its size, if the matrix of an earlier step led there, or the last step was
+  // predicted as well; right to a quarter after expect(); and to a thousandth where the equations of a step bend: where
+  // the last curve that was followed was neither one arc nor, of few, one that ended where the velocity of the state
+  // pointed to, or none was. Else it is the one that StepContinuation finds; `begin` puts into unknown() what the state
+  // alone predicts.
   template <class Begin>
   void solve_connected(const Inputs& in, const double* scales, const Begin& begin,
                        const Attempt& attempt, SolverStatistics& statistics) {

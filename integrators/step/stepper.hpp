@@ -57,11 +57,12 @@ class Stepper {
   void prepare(State& state, double h);
 
   // (t, x) ↦ (t + h, Φ_h(x)). `end`: t + h as the caller's clock has it, so that time does not
-  // collect round-off. (Where h is a step in another time, see TransformedIntegrator, the time is
-  // the method's.) Throws std::invalid_argument unless the state fits the system and h is
-  // finite and not zero, std::domain_error unless x is on the manifold up to 1e-6 (explicit methods,
-  // which leave it, do not ask) and has directions to project in, SolveError if the step cannot be
-  // made.
+  // collect round-off. Where h is a step in another time, see TransformedIntegrator, the time is the
+  // method's.
+  //
+  // Throws std::invalid_argument unless the state fits the system and h is finite and not zero. Throws
+  // std::domain_error unless x is on the manifold up to 1e-6, which explicit methods do not ask as they
+  // leave it, and has directions to project in. Throws SolveError if the step cannot be made.
   void step(State& state, double h, double end);
   void step(State& state, double h) { step(state, h, state.t + h); }
   // The same step. Where the state is that at which the last step of `other` ended, a stepper of the
@@ -126,6 +127,7 @@ class Stepper {
   Stepper& operator=(const Stepper&) = delete;
 
   const ImplicitSystem& system() const { return *system_; }
+  const std::shared_ptr<const ImplicitSystem>& shared_system() const { return system_; }
   const Manifold& manifold() const { return *system_->manifold(); }
   const std::string& method() const { return method_; }
   bool tells_parts() const { return tells_parts_; }

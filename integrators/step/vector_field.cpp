@@ -18,8 +18,8 @@
 #include "courant/core/solve/newton.hpp"
 #include "courant/core/words/message.hpp"
 #include "courant/integrators/certificate/local_formulation.hpp"
-#include "courant/integrators/step/moving_basis.hpp"
 #include "courant/integrators/step/step_solver.hpp"
+#include "courant/integrators/step/transported_frame.hpp"
 
 namespace courant {
 namespace {
@@ -87,7 +87,7 @@ VectorFieldFormulas::VectorFieldFormulas(std::shared_ptr<const ImplicitSystem> o
   inputs = {{"y", y}, {"x", x}, {"basis", basis_parameters(basis)}, {"t", t}};
 
   // Values at the ladder's point, by the jet's leading coefficients; the other jets start at zero.
-  const LinearMap<double> B = MovingBasis::at(M, ladder.point.x);
+  const LinearMap<double> B = TransportedFrame::at(M, ladder.point.x);
   start = VectorXd::Zero(y.size());
   start.head(n) = B.transpose() * ladder.point.v;
   z_offset = static_cast<Index>(local.xi.size() - 1) * n;
@@ -229,7 +229,7 @@ VectorField::VectorField(VectorFieldFormulas formulas, Backend backend)
       EquationSystem::Options{.backend = together, .eliminates = false});
   left_out_ = Function("left out", inputs, formulas_.left_out, {.backend = together});
   rate_ = Function("rate", inputs, formulas_.rate, {.backend = together});
-  basis_ = MovingBasis::projection(*formulas_.system->manifold(), together);
+  basis_ = TransportedFrame::projection(*formulas_.system->manifold(), together);
   together.compile();
 }
 
@@ -251,7 +251,7 @@ struct VectorField::Evaluation::Engine {
         basis(*field.formulas_.system->manifold(), field.basis_) {}
 
   Newton newton;
-  MovingBasis basis;
+  TransportedFrame basis;
 };
 
 VectorField::Evaluation::Evaluation(const VectorField& field)
@@ -311,7 +311,7 @@ void VectorField::Evaluation::operator()(const State& state, VectorXd& rate) {
 // At rest an unknown that is 0 has no size, and its round-off never becomes small next to itself. The
 // equations know one: units in which their derivatives are comparable with 1, times the largest residual or
 // unknown in these.
-void VectorField::Evaluation::take_natural_sizes(const Inputs& in) {
+void VectorField::Evaluation::take_nominal_sizes(const Inputs& in) {
   const Function& F = field_.equations_->left();
   VectorXd all(F.output_size() + F.nonzeros());
   F.value_and_jacobian(in.data(), all.data());
@@ -352,7 +352,7 @@ bool VectorField::Evaluation::is_solved(const Inputs& in) {
   sizes_.setConstant(largest(y_));
   if (is_found_again()) return true;
   begin_again();
-  take_natural_sizes(in);
+  take_nominal_sizes(in);
   if (is_found_again()) return true;
   begin_again();
   return engine_->newton.approach(in, sizes_.data()) && is_found_again();

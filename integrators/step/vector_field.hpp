@@ -97,7 +97,7 @@ class VectorField {
     void solve(const VectorXd& x, VectorXd& rate, double t);
     void take_rate(const Inputs& in, VectorXd& rate);
     [[noreturn]] void refuse(const VectorXd& x, double t) const;
-    void take_natural_sizes(const Inputs& in);
+    void take_nominal_sizes(const Inputs& in);
     bool holds(const Function& F, const Inputs& in, double solved) const;
     bool is_solved(const Inputs& in);
     bool is_solved_by_all(const Inputs& in, bool is_solved);
@@ -125,7 +125,7 @@ class VectorField {
   std::shared_ptr<const EquationSystem> equations_;
   Function rate_;      // the same ↦ ẋ, v, z
   Function left_out_;  // the same ↦ the equations of y that are not kept
-  Function basis_;     // of MovingBasis
+  Function basis_;     // of TransportedFrame
   std::shared_ptr<All> all_ = std::make_shared<All>();
 };
 

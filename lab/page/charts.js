@@ -1,15 +1,15 @@
 // The figures of runs: those of reports (reporting/page), one set at a time.
 
-let moment = new Moment();
+let instant = new Instant();
 let charts = [];
 let timeLabel = 't';
 let seen = null;
 
-// Brings the figures in an element to life; the bar with the moment goes before `first`.
+// Brings the figures in an element to life; the bar with the instant goes before `first`.
 export function startCharts(container, first) {
   if (seen) seen.disconnect();
-  moment.pause();
-  moment = new Moment();
+  instant.pause();
+  instant = new Instant();
   charts = [];
   timeLabel = 't';
   for (const panel of container.querySelectorAll('svg .panel')) {
@@ -18,7 +18,7 @@ export function startCharts(container, first) {
   }
   const overTime = charts.find((chart) => chart.overTime);
   if (overTime) timeLabel = overTime.x.label;
-  if (charts.length > 0) moment.build(first);
+  if (charts.length > 0) instant.build(first);
   seen = new IntersectionObserver((entries) => {
     for (const entry of entries) {
       const chart = charts.find((one) => one.frame === entry.target);
@@ -31,5 +31,5 @@ export function startCharts(container, first) {
 }
 
 export function playMotion() {
-  if (moment.button && !moment.playing) moment.play();
+  if (instant.button && !instant.playing) instant.play();
 }

@@ -74,8 +74,8 @@ def _at(document, pointer):
 
 
 # Those of an experiment, beside those of its system.
-KEYS = ("title", "description", "system", "initial", "start", "hold", "weights", "nominal", "method", "time", "symmetries", "defects",
-        "observe", "sensitivities", "events", "boundary", "ensemble", "expect", "output", "examine")
+KEYS = ("title", "description", "system", "branch", "initial", "start", "hold", "weights", "nominal", "method", "time", "symmetries",
+        "defects", "observe", "sensitivities", "events", "boundary", "ensemble", "expect", "output", "examine")
 
 
 def changed(document, settings) -> dict:

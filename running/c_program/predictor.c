@@ -55,16 +55,16 @@ static double extrapolated(const struct predictor *P, int i, int age, const doub
   return sum;
 }
 
-/* Those of `displacements` go like steps, which have this ratio, and those of the last `shifts` unknowns like their
+/* Those of `displacements` go like steps, which have this ratio, and those of the last `multipliers` unknowns like their
    squares. */
 static void accompany(struct predictor *P, int c, const struct predictor *other, const struct places *of,
-                      double times, double ratio, int displacements, int shifts, int unknowns) {
+                      double times, double ratio, int displacements, int multipliers, int unknowns) {
   int i;
   P->companion[c] = other;
   for (i = 0; i < of->count; ++i) {
     P->times[c][i] = times;
     if (of->at[i] < displacements) P->times[c][i] *= ratio;
-    if (of->at[i] >= unknowns - shifts) P->times[c][i] *= ratio * ratio;
+    if (of->at[i] >= unknowns - multipliers) P->times[c][i] *= ratio * ratio;
   }
 }
 

@@ -44,7 +44,7 @@ static void clear_places(double *y) {
 
 static void clear_shifts(double *y) {
   int i;
-  for (i = UNKNOWNS - SHIFTS; i < UNKNOWNS; ++i) y[i] = 0.0;
+  for (i = UNKNOWNS - MULTIPLIERS; i < UNKNOWNS; ++i) y[i] = 0.0;
 }
 
 /* The largest of the velocity before the step, of that in its middle and of that after it, extrapolated. */
@@ -100,13 +100,13 @@ static double change(const double *from, const double *to, int count) {
 /* Whether W of the last iterate was that of the point found; `moved` and the change before are those of the point. */
 static int is_aimed(const struct stepper *S, const double *aimed, double moved, double previous, int iteration,
                     int goes_on) {
-  const double size = largest(S->found, COORDINATES), *const mu = S->p + UNKNOWNS - SHIFTS;
+  const double size = largest(S->found, COORDINATES), *const mu = S->p + UNKNOWNS - MULTIPLIERS;
   if (iteration == 0) {
     /* Where steps begin the point moves with W not at all; but the next one begins along W. */
-    const double *const of_step = S->y + UNKNOWNS - SHIFTS;
-    const int rest = UNKNOWNS - SHIFTS - 2 * DISPLACEMENTS;
+    const double *const of_step = S->y + UNKNOWNS - MULTIPLIERS;
+    const int rest = UNKNOWNS - MULTIPLIERS - 2 * DISPLACEMENTS;
     const double length =
-        sqrt(largest_of(dot(mu, mu, SHIFTS), dot(of_step, of_step, SHIFTS)));
+        sqrt(largest_of(dot(mu, mu, MULTIPLIERS), dot(of_step, of_step, MULTIPLIERS)));
     const double of_jets = largest_of(change(aimed + DISPLACEMENTS, S->p + DISPLACEMENTS, DISPLACEMENTS),
                                       change(aimed + 2 * DISPLACEMENTS, S->p + 2 * DISPLACEMENTS, rest));
     return goes_on && 10.0 * S->directions.turning * length * largest_of(moved, size * of_jets) <= 1e-16 * size;
@@ -223,11 +223,11 @@ static void take_over(struct stepper *S, const struct stepper *other) {
 }
 
 static void learn_at_stage(struct stepper *S, int c, const struct stepper *other, double times, double ratio) {
-  accompany(&S->predictor, c, &other->predictor, &step_places, times, ratio, DISPLACEMENTS, SHIFTS, UNKNOWNS);
+  accompany(&S->predictor, c, &other->predictor, &step_places, times, ratio, DISPLACEMENTS, MULTIPLIERS, UNKNOWNS);
 }
 
 static void learn_at_end(struct stepper *S, int c, const struct stepper *other, double times, double ratio) {
-  accompany(&S->end, c, &other->end, &end_places, times, ratio, 0, SHIFTS, UNKNOWNS);
+  accompany(&S->end, c, &other->end, &end_places, times, ratio, 0, MULTIPLIERS, UNKNOWNS);
   accompany(&S->shift, c, &other->shift, &shift_places, times, ratio, 0, VELOCITIES, VELOCITIES);
 }
 

@@ -6,7 +6,7 @@
 struct directions {
   double conormals[DIRECTIONS], kept_conormals[DIRECTIONS];
   double W[DIRECTIONS], kept[DIRECTIONS];
-  double V[DIRECTIONS], combination[SHIFTS * SHIFTS], turned[DIRECTIONS]; /* W is nearest to V times the combination */
+  double V[DIRECTIONS], combination[MULTIPLIERS * MULTIPLIERS], turned[DIRECTIONS]; /* W is nearest to V times the combination */
   int are_kept;
   double turning; /* |change of W| / |change of x| of the last steps, INFINITY before the first */
 };
@@ -30,7 +30,7 @@ static void transposed_product(const double *A, int columns, const double *B, in
 /* Those covectors whose parts along the old ones are unit vectors, by linear equations. in[4]: the old ones. Zero where
    these are at right angles to them. */
 static int are_conormals_found(struct directions *D, const double *const *in) {
-  static double entries[CONORMAL_ENTRIES], A[CONORMAL_SIZE * CONORMAL_SIZE], u[CONORMAL_SIZE * SHIFTS];
+  static double entries[CONORMAL_ENTRIES], A[CONORMAL_SIZE * CONORMAL_SIZE], u[CONORMAL_SIZE * MULTIPLIERS];
   double covectors[DIRECTIONS];
   const int n = CONORMAL_SIZE;
   int j, k;
@@ -40,13 +40,13 @@ static int are_conormals_found(struct directions *D, const double *const *in) {
     if (!isfinite(entries[k])) return 0;
     A[conormal_row[k] + conormal_column[k] * n] = entries[k];
   }
-  if (!invert(A, u, n, SHIFTS)) return 0;
+  if (!invert(A, u, n, MULTIPLIERS)) return 0;
   memset(covectors, 0, sizeof covectors);
-  for (j = 0; j < SHIFTS; ++j)
+  for (j = 0; j < MULTIPLIERS; ++j)
     for (k = CONORMAL_OF_A; k < CONORMAL_ENTRIES; ++k)
       covectors[conormal_row[k] + j * DIMENSION] += entries[k] * u[conormal_column[k] + j * n];
-  return is_made_orthonormal(covectors, DIMENSION, SHIFTS, 0, D->conormals) ||
-         is_made_orthonormal_from_afar(covectors, DIMENSION, SHIFTS, D->conormals);
+  return is_made_orthonormal(covectors, DIMENSION, MULTIPLIERS, 0, D->conormals) ||
+         is_made_orthonormal_from_afar(covectors, DIMENSION, MULTIPLIERS, D->conormals);
 }
 
 static void find_conormals(struct directions *D, const double **in) {
@@ -56,10 +56,10 @@ static void find_conormals(struct directions *D, const double **in) {
     are_found = are_conormals_found(D, in);
   }
   for (k = 0; !D->are_kept && !are_found && k < REFERENCES; ++k) {
-    const double *const reference = references + k * VELOCITIES * SHIFTS;
+    const double *const reference = references + k * VELOCITIES * MULTIPLIERS;
 #if HAS_BASIS
     double first[DIRECTIONS];
-    transposed_product(in[2], DIMENSION, reference, SHIFTS, VELOCITIES, first);
+    transposed_product(in[2], DIMENSION, reference, MULTIPLIERS, VELOCITIES, first);
     in[4] = first;
 #else
     in[4] = reference;
@@ -72,22 +72,22 @@ static void find_conormals(struct directions *D, const double **in) {
 #if HAS_SPAN
 /* The combination of V that is nearest to W. */
 static void combine(struct directions *D, const double *W) {
-  double gram[SHIFTS * SHIFTS];
-  transposed_product(D->V, SHIFTS, D->V, SHIFTS, DIMENSION, gram);
-  transposed_product(D->V, SHIFTS, W, SHIFTS, DIMENSION, D->combination);
-  if (factor(gram, D->combination, SHIFTS, SHIFTS) == 0.0) fail("has dependent directions");
-  substitute(gram, D->combination, SHIFTS, SHIFTS);
-  product(D->V, DIMENSION, D->combination, SHIFTS, SHIFTS, D->turned);
+  double gram[MULTIPLIERS * MULTIPLIERS];
+  transposed_product(D->V, MULTIPLIERS, D->V, MULTIPLIERS, DIMENSION, gram);
+  transposed_product(D->V, MULTIPLIERS, W, MULTIPLIERS, DIMENSION, D->combination);
+  if (factor(gram, D->combination, MULTIPLIERS, MULTIPLIERS) == 0.0) fail("has dependent directions");
+  substitute(gram, D->combination, MULTIPLIERS, MULTIPLIERS);
+  product(D->V, DIMENSION, D->combination, MULTIPLIERS, MULTIPLIERS, D->turned);
 }
 
 static int is_nearest_to(struct directions *D, const double *W) {
   double far[DIRECTIONS];
   combine(D, W);
-  if (is_made_orthonormal(D->turned, DIMENSION, SHIFTS, 0, D->W)) return 1;
+  if (is_made_orthonormal(D->turned, DIMENSION, MULTIPLIERS, 0, D->W)) return 1;
   memcpy(far, D->turned, sizeof far);
-  if (!is_made_orthonormal_from_afar(far, DIMENSION, SHIFTS, D->W)) return 0;
+  if (!is_made_orthonormal_from_afar(far, DIMENSION, MULTIPLIERS, D->W)) return 0;
   combine(D, D->W);
-  return is_made_orthonormal(D->turned, DIMENSION, SHIFTS, 0, D->W);
+  return is_made_orthonormal(D->turned, DIMENSION, MULTIPLIERS, 0, D->W);
 }
 #endif
 
@@ -99,18 +99,18 @@ static void aim(struct directions *D, const double *x, const double *basis, cons
   {
     const double *at[INPUTS] = {x, basis, D->conormals, &t};
     span(at, D->V);
-    if (D->are_kept) product(D->V, DIMENSION, D->combination, SHIFTS, SHIFTS, D->turned);
-    if (!(D->are_kept && is_made_orthonormal(D->turned, DIMENSION, SHIFTS, 0, D->W)) &&
+    if (D->are_kept) product(D->V, DIMENSION, D->combination, MULTIPLIERS, MULTIPLIERS, D->turned);
+    if (!(D->are_kept && is_made_orthonormal(D->turned, DIMENSION, MULTIPLIERS, 0, D->W)) &&
         !is_nearest_to(D, D->are_kept ? D->kept : D->conormals))
       fail("has directions that turn too far");
   }
 #if !IS_ALWAYS_COMPLEMENT
   {
-    double seen[SHIFTS * SHIFTS], determinant = 1.0;
+    double seen[MULTIPLIERS * MULTIPLIERS], determinant = 1.0;
     int i;
-    transposed_product(D->conormals, SHIFTS, D->W, SHIFTS, DIMENSION, seen);
-    factor(seen, NULL, SHIFTS, 0);
-    for (i = 0; i < SHIFTS; ++i) determinant *= seen[i + i * SHIFTS];
+    transposed_product(D->conormals, MULTIPLIERS, D->W, MULTIPLIERS, DIMENSION, seen);
+    factor(seen, NULL, MULTIPLIERS, 0);
+    for (i = 0; i < MULTIPLIERS; ++i) determinant *= seen[i + i * MULTIPLIERS];
     if (!(fabs(determinant) > 1e-6)) fail("has directions along the constraints");
   }
 #endif
@@ -128,13 +128,13 @@ static void keep_directions(struct directions *D, const double *x, const double 
   }
 #if HAS_SPAN
   {
-    double next[SHIFTS * SHIFTS], before[SHIFTS * SHIFTS];
+    double next[MULTIPLIERS * MULTIPLIERS], before[MULTIPLIERS * MULTIPLIERS];
     int i;
-    transposed_product(D->turned, SHIFTS, D->W, SHIFTS, DIMENSION, next);
-    for (i = 0; i < SHIFTS * SHIFTS; ++i) next[i] = -next[i];
-    for (i = 0; i < SHIFTS * SHIFTS; i += SHIFTS + 1) next[i] += 2.0;
+    transposed_product(D->turned, MULTIPLIERS, D->W, MULTIPLIERS, DIMENSION, next);
+    for (i = 0; i < MULTIPLIERS * MULTIPLIERS; ++i) next[i] = -next[i];
+    for (i = 0; i < MULTIPLIERS * MULTIPLIERS; i += MULTIPLIERS + 1) next[i] += 2.0;
     memcpy(before, D->combination, sizeof before);
-    product(before, SHIFTS, next, SHIFTS, SHIFTS, D->combination);
+    product(before, MULTIPLIERS, next, MULTIPLIERS, MULTIPLIERS, D->combination);
   }
 #endif
   memcpy(D->kept, D->W, sizeof D->kept);

@@ -257,6 +257,17 @@ BOOST_AUTO_TEST_CASE(constraints_prints_the_ladder) {
   BOOST_TEST(ladder["consistent_point"]["p_y"] == 1.0);
 }
 
+BOOST_AUTO_TEST_CASE(an_interrupt_before_the_first_step_is_no_failure) {
+  const TemporaryFolder folder;
+  const std::atomic<bool> stop = true;
+  const std::string file = "experiments/boundary_lambert.json",
+                    out = (folder.path() / "run").string();
+  const Answer answer = courant_command({"run", "--quiet", "-o", out, file}, "", &stop);
+  BOOST_TEST(answer.status == 130);
+  BOOST_TEST(answer.err == "courant: " + file + ": interrupted\n");
+  BOOST_TEST(!std::filesystem::exists(out));
+}
+
 BOOST_AUTO_TEST_CASE(list_has_every_kind) {
   const Answer text = courant_command({"list"});
   BOOST_TEST(text.status == 0);

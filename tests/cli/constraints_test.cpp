@@ -14,6 +14,7 @@ namespace courant {
 //  * the ladder of pairs is taken for that of Method 2
 //  * runs begin with bounds of errors alone (running/consistent_start.hpp)
 //  * a run does not tell of the choices of its start (running/other_values.cpp)
+//  * branches are told on the screen and not on the page, or where there are none
 BOOST_AUTO_TEST_SUITE(constraints_test)
 
 namespace {
@@ -39,6 +40,29 @@ BOOST_AUTO_TEST_CASE(stops_at_a_level) {
   const Json json = Json::parse(constraints({pendulum, "--level", "0", "--json"}).out);
   BOOST_TEST(json.at("levels").size() == 1u);
   BOOST_TEST(constraints({pendulum, "--level", "-1"}).status == 2);
+}
+
+BOOST_AUTO_TEST_CASE(branches_are_listed_and_chosen) {
+  const std::string martinet = "experiments/martinet_abnormal.json",
+                    line = "experiments/martinet_singular_line.json";
+  const Answer answer = constraints({martinet});
+  BOOST_TEST(says(answer.out, "Branches: S is a union of 3"), answer.out);
+  BOOST_TEST(says(answer.out, "1: y = 0 (gauge, (5,3), (4,3), 3 degrees of freedom"), answer.out);
+  BOOST_TEST(says(answer.out, "2: p_z = 0 (gauge, (5,3), 3 degrees of freedom, 1 away)"),
+             answer.out);
+  BOOST_TEST(says(constraints({martinet, "--markdown"}).out, "## Branches"));
+  BOOST_TEST(says(constraints({line}).out, "This is branch 1 of 3."));
+  const Json json = Json::parse(constraints({line, "--json"}).out);
+  BOOST_TEST_REQUIRE(json.at("branches").size() == 3u);
+  BOOST_TEST(json.at("branches").at(0).at("chosen") == true);
+  BOOST_TEST(json.at("branches").at(1).at("chosen") == false);
+  const Answer refused = constraints({line, "--set", "/branch=7"});
+  BOOST_TEST(refused.status == 2);
+  BOOST_TEST(
+      says(refused.err, "/branch: is 7, and there are 3 branches; expected a number from 1 to 3"),
+      refused.err);
+  BOOST_TEST(!says(constraints({pendulum}).out, "ranch"));
+  BOOST_TEST(!Json::parse(constraints({pendulum, "--json"}).out).contains("branches"));
 }
 
 BOOST_AUTO_TEST_CASE(a_proof_is_told_in_words_and_json) {

@@ -7,8 +7,9 @@
 
 namespace courant::test {
 
-// The trials that this run makes: all of them; where COURANT_CAMPAIGN is "2/4" each fourth, from number 2 on, counted from 0.
-// What is drawn at random for a trial has to be drawn for those of other parts too, so that a trial is the same in each run.
+// The trials that this run makes: all of them; where COURANT_CAMPAIGN is "2/4" each fourth, from number 2 on, counted
+// from 0. What is drawn at random for a trial has to be drawn for those of other parts too, so that a trial is the same
+// in each run.
 class Campaign {
  public:
   // All trials.

@@ -48,8 +48,8 @@ Problem permuted(const Problem& problem, std::mt19937& generator);
 // Equation i times 10^±6, unknowns x_j = s_j x'_j and z_j = s_j z'_j with s = 10^±6 (x on Rⁿ only).
 // The metric goes along.
 Problem scaled(const Problem& problem, std::mt19937& generator);
-// On Rⁿ: x and z by a random change of coordinates, nonlinear in x, that is a diffeomorphism. The metric at the guess goes along. On other manifolds z and the equations are
-// replaced by random linear combinations.
+// On Rⁿ: x and z by a random change of coordinates, nonlinear in x, that is a diffeomorphism. The metric at the guess
+// goes along. On other manifolds z and the equations are replaced by random linear combinations.
 Problem transformed(const Problem& problem, std::mt19937& generator);
 
 // Expr entries as a vector.

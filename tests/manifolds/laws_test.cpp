@@ -24,7 +24,7 @@
 //  * M8 lets the projection move points
 //  * M9 never fails
 //  * M9 lets the unit be no point
-//  * a dilation may leave the manifold
+//  * a scaling symmetry may leave the manifold
 BOOST_AUTO_TEST_SUITE(manifold_laws)
 
 using namespace courant;
@@ -51,7 +51,7 @@ class Planted final : public Manifold {
     Index dimension = 2;
     std::optional<VectorXd> unit = std::nullopt;
     double velocity_factor = 1.0;
-    std::optional<Manifold::Dilations> dilations = std::nullopt;
+    std::optional<Manifold::ScalingSymmetries> scaling_symmetries = std::nullopt;
   };
   explicit Planted(Parts parts)
       : Manifold("Planted", parts.dimension, 3, 3), parts_(std::move(parts)) {}
@@ -73,9 +73,9 @@ class Planted final : public Manifold {
   ExprVector do_constraint(const ExprVector& x) const override { return parts_.constraint(x); }
   double do_injectivity_radius(const VectorXd&) const override { return parts_.radius; }
   std::optional<VectorXd> do_unit() const override { return parts_.unit; }
-  Dilations do_dilations() const override {
-    const std::vector<Index> none(3, Dilations::none);
-    return parts_.dilations.value_or(Dilations{none, none, {0, 0, 0}});
+  ScalingSymmetries do_scaling_symmetries() const override {
+    const std::vector<Index> none(3, ScalingSymmetries::none);
+    return parts_.scaling_symmetries.value_or(ScalingSymmetries{none, none, {0, 0, 0}});
   }
   ExprVector do_velocity_along(const ExprVector& x, const ExprVector& v,
                                const Expr& s) const override {
@@ -90,7 +90,7 @@ class Planted final : public Manifold {
 };
 
 // R² with the retraction y = x + v, y_1 moved by bend(x_0) v_0².
-enum class Claim { unit, dilations };
+enum class Claim { unit, scaling_symmetries };
 class Sheared final : public Manifold {
  public:
   Sheared(std::function<Expr(const Expr&)> bend, Claim claim)
@@ -113,9 +113,10 @@ class Sheared final : public Manifold {
     if (claim_ == Claim::unit) return VectorXd::Zero(2);
     return std::nullopt;
   }
-  Dilations do_dilations() const override {
-    const std::vector<Index> each = {0, 1}, none(2, Dilations::none);
-    return claim_ == Claim::dilations ? Dilations{each, each, each} : Dilations{none, none, {0, 0}};
+  ScalingSymmetries do_scaling_symmetries() const override {
+    const std::vector<Index> each = {0, 1}, none(2, ScalingSymmetries::none);
+    return claim_ == Claim::scaling_symmetries ? ScalingSymmetries{each, each, each}
+                                               : ScalingSymmetries{none, none, {0, 0}};
   }
   std::function<Expr(const Expr&)> bend_;
   Claim claim_;
@@ -345,18 +346,19 @@ BOOST_AUTO_TEST_CASE(m9_a_unit_that_is_none) {
 }
 
 // A sphere is not as large in another unit.
-BOOST_AUTO_TEST_CASE(m11_a_dilation_that_leaves_the_manifold) {
+BOOST_AUTO_TEST_CASE(m11_a_scaling_symmetry_that_leaves_the_manifold) {
   Planted::Parts parts;
-  parts.dilations = Manifold::Dilations{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  parts.scaling_symmetries = Manifold::ScalingSymmetries{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
   BOOST_TEST(fails(parts, "M11"));
-  parts.dilations = Manifold::Dilations{{-1, -1}, {-1, -1, -1}, {0, 0, 0}};
-  BOOST_CHECK_THROW(Planted(parts).dilations(), std::invalid_argument);
+  parts.scaling_symmetries = Manifold::ScalingSymmetries{{-1, -1}, {-1, -1, -1}, {0, 0, 0}};
+  BOOST_CHECK_THROW(Planted(parts).scaling_symmetries(), std::invalid_argument);
 }
 
 // Nor does a retraction that is not linear fit with units of its own for each coordinate, on the plane.
-BOOST_AUTO_TEST_CASE(m11_a_dilation_that_the_retraction_does_not_know) {
-  BOOST_TEST(broken_by(Sheared([](const Expr&) { return 0.0; }, Claim::dilations)).empty());
-  BOOST_TEST((broken_by(Sheared([](const Expr&) { return 0.3; }, Claim::dilations)) ==
+BOOST_AUTO_TEST_CASE(m11_a_scaling_symmetry_that_the_retraction_does_not_know) {
+  BOOST_TEST(
+      broken_by(Sheared([](const Expr&) { return 0.0; }, Claim::scaling_symmetries)).empty());
+  BOOST_TEST((broken_by(Sheared([](const Expr&) { return 0.3; }, Claim::scaling_symmetries)) ==
               std::vector<std::string>{"M11"}));
 }
 

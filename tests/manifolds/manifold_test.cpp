@@ -4,7 +4,12 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "courant/manifolds/cotangent_bundle.hpp"
 #include "courant/manifolds/euclidean.hpp"
+#include "courant/manifolds/matrix_group.hpp"
+#include "courant/manifolds/product.hpp"
+#include "courant/manifolds/special_orthogonal3.hpp"
+#include "courant/manifolds/sphere.hpp"
 
 // Mistakes that these cases have to notice:
 //  * velocities across the tangent space pass for tangent
@@ -109,6 +114,25 @@ BOOST_AUTO_TEST_CASE(remark_4_2_the_retraction_of_a_vector_space) {
   BOOST_TEST(VectorXd(space.inverse_retract(x, x + v)) == VectorXd(x + v - x));
   BOOST_TEST(space.frame(x).is_identity());
   BOOST_TEST(std::isinf(space.injectivity_radius(x)));
+}
+
+// On Heisenberg's group and on GL(n) tangent vectors have as many entries as points, and others than velocities.
+BOOST_AUTO_TEST_CASE(vectors_that_are_velocities) {
+  const auto line = std::make_shared<Euclidean>(1);
+  const auto heisenberg = std::make_shared<MatrixGroup>(MatrixAlgebra::heisenberg(1));
+  BOOST_TEST(Euclidean(3).has_velocities_as_vectors());
+  BOOST_TEST(Sphere(2).has_velocities_as_vectors());
+  // Along a fibre over a curved base they are not.
+  const CotangentBundle bundle(std::make_shared<Sphere>(2));
+  std::mt19937 generator(2);
+  const auto among = bundle.velocities_among_components(bundle.random_point(generator));
+  BOOST_TEST(among.head(3).all());
+  BOOST_TEST(!among.all());
+  BOOST_TEST(!heisenberg->has_velocities_as_vectors());
+  BOOST_TEST(!MatrixGroup(MatrixAlgebra::gl(2)).has_velocities_as_vectors());
+  BOOST_TEST(!SpecialOrthogonal3().has_velocities_as_vectors());
+  BOOST_TEST(!Product({line, heisenberg}).has_velocities_as_vectors());
+  BOOST_TEST(!CotangentBundle(heisenberg).has_velocities_as_vectors());
 }
 
 BOOST_AUTO_TEST_CASE(errors) {

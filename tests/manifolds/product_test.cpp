@@ -54,15 +54,16 @@ BOOST_AUTO_TEST_CASE(units_are_those_of_the_factors) {
   const auto M = std::make_shared<Product>(std::vector<std::shared_ptr<const Manifold>>{
       std::make_shared<Sphere>(2), std::make_shared<Torus>(1), std::make_shared<Euclidean>(2)});
   using Numbers = std::vector<Index>;
-  BOOST_TEST((M->dilations().point == Numbers{-1, -1, -1, -1, 0, 1}));
-  BOOST_TEST((M->dilations().tangent == Numbers{-1, -1, -1, -1, 0, 1}));
-  BOOST_TEST((M->dilations().fibre == Numbers{0, 0, 0, 1, 2, 3}));
+  BOOST_TEST((M->scaling_symmetries().point == Numbers{-1, -1, -1, -1, 0, 1}));
+  BOOST_TEST((M->scaling_symmetries().tangent == Numbers{-1, -1, -1, -1, 0, 1}));
+  BOOST_TEST((M->scaling_symmetries().fibre == Numbers{0, 0, 0, 1, 2, 3}));
   const auto phase_space = std::make_shared<CotangentBundle>(M);
   const Numbers units = {-1, -1, -1, -1, 0, 1, 2, 2, 2, 3, 4, 5};
-  BOOST_TEST((phase_space->dilations().point == units));
-  BOOST_TEST((phase_space->dilations().tangent == units));
-  BOOST_TEST((phase_space->dilations().fibre == Numbers{0, 0, 0, 1, 2, 3, 4, 4, 4, 5, 6, 7}));
-  BOOST_TEST((CotangentBundle(std::make_shared<SpecialOrthogonal3>()).dilations().point ==
+  BOOST_TEST((phase_space->scaling_symmetries().point == units));
+  BOOST_TEST((phase_space->scaling_symmetries().tangent == units));
+  BOOST_TEST(
+      (phase_space->scaling_symmetries().fibre == Numbers{0, 0, 0, 1, 2, 3, 4, 4, 4, 5, 6, 7}));
+  BOOST_TEST((CotangentBundle(std::make_shared<SpecialOrthogonal3>()).scaling_symmetries().point ==
               Numbers{-1, -1, -1, -1, -1, -1, -1, -1, -1, 0, 0, 0}));
   BOOST_TEST(std::ranges::all_of(check_manifold(*phase_space),
                                  [](const LawResult& result) { return result.passed(); }));

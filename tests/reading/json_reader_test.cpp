@@ -66,6 +66,19 @@ BOOST_AUTO_TEST_CASE(collects_every_problem_with_its_pointer) {
              "/at/metod: unknown key (did you mean \"method\"?)");
 }
 
+BOOST_AUTO_TEST_CASE(integers_beyond_those_that_a_number_holds_are_said_to_be_large) {
+  for (const double large : {1e16, 1e30}) {
+    Findings findings;
+    const Json json = large;
+    BOOST_TEST(!JsonReader(json, "/n", findings).integer(1).has_value());
+    BOOST_TEST(lines(findings).ends_with("; expected an integer, at most 9007199254740992"),
+               lines(findings));
+  }
+  Findings findings;
+  const Json largest = 9007199254740992.0;
+  BOOST_TEST((JsonReader(largest, "/n", findings).integer(1) == Index{9007199254740992}));
+}
+
 BOOST_AUTO_TEST_CASE(long_values_are_cut_in_messages_between_characters) {
   const Json json = std::string(39, 'a') + "ää" + std::string(100, 'a');
   Findings findings;

@@ -18,7 +18,8 @@ struct CRun {
   std::string out, err;
 };
 
-// As the program says that it is to be compiled, warnings being errors; a long one without effort, which changes no bit.
+// As the program says that it is to be compiled, warnings being errors; a long one without effort, which changes no
+// bit.
 inline CRun run_c(const TemporaryFolder& folder, const std::string& source) {
   const std::string chosen = environment_variable("COURANT_CC");
   const auto path = [&](const char* name) { return "'" + (folder / name).string() + "'"; };

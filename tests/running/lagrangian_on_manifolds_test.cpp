@@ -2,6 +2,7 @@
 // motions: their momenta are those of the given velocities, and the trajectories agree.
 #include <boost/test/unit_test.hpp>
 
+#include "courant/running/run_in_memory.hpp"
 #include "problems.hpp"
 
 namespace courant {
@@ -54,6 +55,11 @@ std::vector<Pair> pairs() {
            "dot(p_R, p_R)/4 + R[2][2]",
            {{"R", kTurned}, {"R'", {{-0.8, -0.6, -2.16}, {0.6, -0.8, -3.38}, {4, 0.3, 0}}}},
            {{"R", kTurned}, {"p_R", {0.6, -8, 2}}}),
+      // z' = v_z + x v_y.
+      pair("Heisenberg's group", "heisenberg", {"x", "y", "z"}, "(x'^2 + y'^2)/2 + v_z^2 - z",
+           "(p_x^2 + p_y^2)/2 + p_z^2/4 + z",
+           {{"x", 1.5}, {"y", 0}, {"z", 0.2}, {"x'", 1}, {"y'", 0.4}, {"z'", 0.7}},
+           {{"x", 1.5}, {"y", 0}, {"z", 0.2}, {"p_x", 1}, {"p_y", 0.4}, {"p_z", 0.2}}),
   };
 }
 
@@ -71,6 +77,28 @@ BOOST_AUTO_TEST_CASE(agree_with_hamiltonians) {
       BOOST_TEST((b - second.ladder.point.x).norm() > 0.1);
     }
   }
+}
+
+// Of velocities that are not the components of tangent vectors one alone says little, and is not taken for a component.
+BOOST_AUTO_TEST_CASE(velocities_are_not_components_where_both_are_as_many) {
+  Json document{
+      {"system",
+       {{"type", "mechanical"}, {"manifold", "heisenberg"}, {"coordinates", {"x", "y", "z"}}}},
+      {"initial", {{"x", 1}, {"y", 0}, {"z", 0}, {"v_x", 1}, {"v_y", 0.5}, {"v_z", 0.7}}},
+      {"observe", {{"rate", "z'"}}},
+      {"method", "discretize-first"},
+      {"time", {{"step", 0.1}, {"end", 0.1}}}};
+  const auto rate = [&] {
+    const Experiment experiment = read_experiment(document.dump());
+    return run_in_memory(experiment).rows.column("rate").front();
+  };
+  BOOST_TEST(std::abs(rate() - 1.2) < 1e-14);
+  document["initial"] = {{"x", 1}, {"y", 0}, {"z", 0}, {"p_x", 1}, {"p_y", 0.5}, {"z'", 0.7}};
+  BOOST_CHECK_EXCEPTION(rate(), ExperimentError, [](const ExperimentError& error) {
+    return std::string(error.what()).find("(z' from 0.7") != std::string::npos;
+  });
+  document["initial"] = {{"x", 1}, {"y", 0}, {"z", 0}, {"v_z", 0.7}, {"rest", true}};
+  BOOST_TEST(std::abs(rate() - 0.7) < 1e-14);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

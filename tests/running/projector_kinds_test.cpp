@@ -11,7 +11,7 @@
 namespace courant {
 // Mistakes that these cases have to notice:
 //  * round-off of a point off its manifold chooses units of conormals
-//    (integrators/step/moving_conormals.cpp)
+//    (integrators/step/transported_conormals.cpp)
 //  * on curved spaces nearest points in a metric are looked for off the space too
 //    (integrators/step/projector.cpp)
 BOOST_AUTO_TEST_SUITE(projector_kinds_test)

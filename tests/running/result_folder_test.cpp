@@ -19,7 +19,7 @@ const Json one_run = {
 void write_run(const std::filesystem::path& folder) {
   Experiment experiment;
   experiment.document = Json::object();
-  const RunFolder run(folder, ExistingRun::refuse, experiment);
+  RunFolder run(folder, ExistingRun::refuse, experiment);
   run.write_summary({.status = RunStatus::completed, .ladder = LadderReport()});
 }
 

@@ -48,7 +48,7 @@ BOOST_AUTO_TEST_CASE(a_run_is_replaced_only_if_it_may_be) {
   BOOST_TEST(!std::filesystem::exists(folder / "a"));
   std::string id;
   {
-    const RunFolder run(path, ExistingRun::refuse, experiment);
+    RunFolder run(path, ExistingRun::refuse, experiment);
     run.write_summary(summary);
     id = run.id();
     BOOST_TEST(Json::parse(read_text(path / "experiment.json"))["$run"] == id);
@@ -110,10 +110,10 @@ BOOST_AUTO_TEST_CASE(files_beside_a_run_that_it_did_not_write_are_kept) {
 BOOST_AUTO_TEST_CASE(a_folder_that_was_made_again_is_not_written_to) {
   const TemporaryFolder folder;
   const auto path = folder / "run";
-  const RunFolder first(path, ExistingRun::refuse, experiment);
+  RunFolder first(path, ExistingRun::refuse, experiment);
   std::filesystem::rename(path, folder / "moved");
   BOOST_CHECK_THROW(first.write_summary(summary), OutputError);
-  const RunFolder second(path, ExistingRun::refuse, experiment);
+  RunFolder second(path, ExistingRun::refuse, experiment);
   BOOST_CHECK_THROW(first.write_summary(summary), OutputError);
   BOOST_CHECK_THROW(first.write_checkpoint({.run = first.id()}), OutputError);
   BOOST_TEST(!std::filesystem::exists(path / "summary.json"));

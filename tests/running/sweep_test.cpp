@@ -137,6 +137,23 @@ BOOST_AUTO_TEST_CASE(an_interrupt_leaves_a_table) {
   BOOST_TEST(read_json(folder.file("json"))["status"] == "interrupted");
 }
 
+// What gives up because of an interrupt says so by an exception; --resume makes such a case again.
+BOOST_AUTO_TEST_CASE(a_case_that_an_interrupt_ends_before_its_first_step_is_no_failure) {
+  const Json document = Json::parse(R"({"initial": {"q": 1}})");
+  const std::vector<ValueRange> ranges = {{"/initial/q", {1, 2}}};
+  std::atomic<bool> stop{false};
+  const Json table =
+      sweep(sweep_head(document, ranges), sweep_cases(document, ranges),
+            [&](const SweepCase& one) -> Json {
+              stop = one.name.starts_with("2");
+              throw std::runtime_error(stop ? "interrupted" : "no solution was found");
+            },
+            {.threads = 1, .stop = &stop});
+  BOOST_TEST(table["runs"][0]["status"] == "failed");
+  BOOST_TEST(table["runs"][1]["status"] == "interrupted");
+  BOOST_TEST(table["status"] == "interrupted");
+}
+
 BOOST_AUTO_TEST_CASE(ladders_are_swept_too) {
   const Json pendulum = Json::parse(R"json({
     "system": { "type": "mechanical", "coordinates": ["x", "y"], "potential": "y", "holonomic": "x^2 + y^2 - l^2", "parameters": { "l": 1 } },

@@ -18,6 +18,7 @@
 #include "courant/structures/pushforward.hpp"
 #include "courant/structures/restricted_bivector.hpp"
 #include "courant/structures/restricted_two_form.hpp"
+#include "courant/structures/stokes_dirac/stokes_dirac.hpp"
 
 namespace courant::test {
 namespace {
@@ -249,6 +250,8 @@ std::vector<StructureEntry> make_catalogue() {
        object<Composed>(with_port([](const ExprVector&) { return 1.0; }), plane,
                         with_port([](const ExprVector& x) { return 2.0 + sin(x[0]); }), plane, 1),
        true, 3},
+      {"two conservation laws on two cells",
+       object<StokesDirac>(object<CellComplex>(CellComplex::interval(1.0, 2)), 0), true, 6},
       {"dx form pulled back to S²", object<Pullback>(inclusion, volume_part), true, 2},
       {"so(3)* pulled back to S²", object<Pullback>(inclusion, ball), true, 2},
       {"the plane pushed forward by a shear", object<Pushforward>(shear, unshear, symplectic_plane),

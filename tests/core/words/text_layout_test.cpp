@@ -41,6 +41,16 @@ BOOST_AUTO_TEST_CASE(terms_of_a_sum) {
   BOOST_TEST(sum == "-2 a + 0.3333 b - c");
 }
 
+BOOST_AUTO_TEST_CASE(long_texts_keep_their_beginning_and_their_ending) {
+  BOOST_TEST(beginning("α₁", 5) == "α₁");
+  BOOST_TEST(beginning("α₁", 4) == "α");  // of which the second has three bytes
+  BOOST_TEST(beginning("₁", 1) == "");
+  BOOST_TEST(shortened_between("0123456789", 10, 3) == "0123456789");
+  BOOST_TEST(shortened_between("0123456789a", 10, 3) == "0123456 … 89a");
+  BOOST_TEST(shortened_between("012345₀…………₀9", 10, 3) ==
+             "012345 … 9");  // in the middle of a character
+}
+
 BOOST_AUTO_TEST_CASE(columns_count_characters) {
   BOOST_TEST(text_width("") == 0U);
   BOOST_TEST(text_width("α = S₁") == 6U);

@@ -60,7 +60,7 @@ BOOST_AUTO_TEST_CASE(or_where_derivatives_are_not_finite) {
   BOOST_TEST(found.levels.size() == 1u);
   BOOST_TEST(found.reason.find("not finite") != std::string::npos, found.reason);
   BOOST_TEST(found.jet.level() == 0);
-  BOOST_TEST(found.jet.zero().reach.size() == found.jet.zero().y.size());
+  BOOST_TEST(found.jet.zero().nominal.size() == found.jet.zero().y.size());
   BOOST_TEST(found.jet.zero().uncertainty.size() == found.jet.zero().y.size());
 }
 

@@ -78,7 +78,7 @@ BOOST_AUTO_TEST_CASE(what_is_no_zero_is_not_refined) {
   });
   const DerivativeArray array(system, 0.0, Eigen::Vector2d(0.6, -0.8));
   Zero zero(VectorXd::Zero(4));
-  zero.reach = VectorXd::Ones(4);
+  zero.nominal = VectorXd::Ones(4);
   zero.found = true;
   BOOST_TEST(!RefinedArray::at(array, zero).has_value());
   const DerivativeArray circle(circle_twice(), 0.0, Eigen::Vector2d(0.6, -0.8));

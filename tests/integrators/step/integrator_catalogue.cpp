@@ -15,10 +15,10 @@
 #include "courant/integrators/methods/damped_composition.hpp"
 #include "courant/integrators/methods/discrete_gradient.hpp"
 #include "courant/integrators/methods/discretize_first.hpp"
-#include "courant/integrators/methods/divided_integrator.hpp"
 #include "courant/integrators/methods/explicit_runge_kutta.hpp"
 #include "courant/integrators/methods/integrator_in_units.hpp"
 #include "courant/integrators/methods/reduced_map.hpp"
+#include "courant/integrators/methods/substepping_integrator.hpp"
 #include "courant/integrators/methods/transformed_integrator.hpp"
 #include "courant/integrators/methods/verlet.hpp"
 #include "courant/integrators/step/projector.hpp"
@@ -97,9 +97,9 @@ class Site {
     add("constrain-first, damped", std::make_shared<DampedComposition>(with(0), with(1)));
   }
   void divided(const std::string& name, std::shared_ptr<const Integrator> method,
-               DividedIntegrator::Options options) const {
+               SubsteppingIntegrator::Options options) const {
     add(name + ", divided",
-        std::make_shared<DividedIntegrator>(std::move(method), std::move(options)));
+        std::make_shared<SubsteppingIntegrator>(std::move(method), std::move(options)));
   }
   void method_2(const std::string& map_name, const MapPointer& map,
                 std::shared_ptr<const Projector> projector) const {

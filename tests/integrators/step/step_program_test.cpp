@@ -7,8 +7,8 @@
 #include "courant/integrators/maps/theta.hpp"
 #include "courant/integrators/methods/composition.hpp"
 #include "courant/integrators/methods/discretize_first.hpp"
-#include "courant/integrators/methods/divided_integrator.hpp"
 #include "courant/integrators/methods/explicit_runge_kutta.hpp"
+#include "courant/integrators/methods/substepping_integrator.hpp"
 #include "courant/manifolds/euclidean.hpp"
 #include "courant/manifolds/sphere.hpp"
 #include "courant/tests/integrators/example_systems.hpp"
@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(a_composition_has_substeps) {
 }
 
 BOOST_AUTO_TEST_CASE(methods_without_a_program_are_named) {
-  const DividedIntegrator divided(midpoint(), {.halvings = 2});
+  const SubsteppingIntegrator divided(midpoint(), {.halvings = 2});
   BOOST_CHECK_EXCEPTION(
       courant::step_program(divided), std::invalid_argument,
       [](const std::invalid_argument& error) {

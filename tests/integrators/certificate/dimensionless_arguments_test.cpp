@@ -1,4 +1,4 @@
-#include "courant/integrators/step/dimensionless_arguments.hpp"
+#include "courant/integrators/certificate/dimensionless_arguments.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -31,7 +31,8 @@ BOOST_AUTO_TEST_CASE(slopes_of_what_sines_and_exponentials_are_of) {
   const DimensionlessArguments arguments(*system);
   const auto slopes = arguments.slopes(VectorXd{{2.0, 0.0, 7.0, 7.0, 0.5}});
   BOOST_TEST_REQUIRE(slopes.size() == 2u);
-  for (const auto& [unknown, size] : slopes) {
+  for (const auto& [argument, unknown, size] : slopes) {
+    BOOST_TEST(argument == (unknown == 1 ? 0 : 1));
     BOOST_TEST((unknown == 1 || unknown == 4));
     BOOST_TEST(size == (unknown == 1 ? 6.0 : 5.0));
   }

@@ -1,4 +1,4 @@
-#include "courant/integrators/step/dimensionless_arguments.hpp"
+#include "courant/integrators/certificate/dimensionless_arguments.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +58,8 @@ std::vector<DimensionlessArguments::Slope> DimensionlessArguments::slopes(const 
   std::vector<Slope> result;
   for (std::size_t k = 0; k < values_.pattern_row().size(); ++k) {
     const double size = std::fabs(jacobian[values_.output_size() + static_cast<Index>(k)]);
-    if (size > 0.0 && std::isfinite(size)) result.push_back({values_.pattern_col()[k], size});
+    if (size > 0.0 && std::isfinite(size))
+      result.push_back({values_.pattern_row()[k], values_.pattern_col()[k], size});
   }
   return result;
 }
