@@ -9,6 +9,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "courant/core/numbers/uncertain.hpp"
+
 namespace courant {
 namespace {
 
