@@ -13,6 +13,7 @@
 #include "courant/core/words/message.hpp"
 #include "courant/core/words/word_list.hpp"
 #include "courant/integrators/certificate/certificate_in_digits.hpp"
+#include "courant/integrators/certificate/chart_equations.hpp"
 #include "courant/integrators/certificate/consistent_point.hpp"
 #include "courant/integrators/certificate/ladder_in_units.hpp"
 #include "courant/integrators/certificate/nearest_start.hpp"
@@ -178,9 +179,9 @@ bool has_no_start(const ConstraintLadder& ladder) {
 // its own, which may be those of what it met on its way.
 enum class MetTo { all_digits, four_digits };
 bool is_met(const InitialGuess& held, const ConstraintLadder& ladder,
-            const std::shared_ptr<const ImplicitSystem>& system, MetTo digits) {
+            const std::shared_ptr<const ChartEquations>& equations, MetTo digits) {
   if (has_no_start(ladder) || ladder.levels.empty() || ladder.jet.size() == 0) return true;
-  const ConsistentPoint consistent(system, held, {});
+  const ConsistentPoint consistent(equations, held, {});
   constexpr double part = 1e-4;
   const ConsistentJet jet = consistent.jet_of(ladder);
   return digits == MetTo::all_digits ? consistent.is_met_at(jet)
@@ -214,18 +215,21 @@ std::vector<Movement> movements_of_given(const Experiment& experiment, const Sta
 // the experiment has another verdict about a point, a doubt.
 class LadderSearch {
  public:
-  LadderSearch(std::shared_ptr<const ImplicitSystem> system, const InitialGuess& guess,
+  LadderSearch(std::shared_ptr<const ChartEquations> equations,
+               std::shared_ptr<const JetEquations> in_digits, const InitialGuess& guess,
                const VectorXd& weight, Decider decider)
-      : system_(std::move(system)),
+      : equations_(std::move(equations)),
+        in_digits_(std::move(in_digits)),
         weight_(weight),
         decider_(decider),
-        equations_(equations_in_digits(system_, decider)),
         own_(algorithm(weight)) {
     if (is_of_digits_alone(decider)) return;
-    const VectorXd z = guess.z.size() > 0 ? guess.z : system_->auxiliary_guess(guess.x, guess.v);
-    const auto units = needed_units(system_, {.t = guess.t, .x = guess.x, .v = guess.v, .z = z});
+    const std::shared_ptr<const ImplicitSystem>& system = equations_->system();
+    const VectorXd z = guess.z.size() > 0 ? guess.z : system->auxiliary_guess(guess.x, guess.v);
+    const auto units = needed_units(equations_, {.t = guess.t, .x = guess.x, .v = guess.v, .z = z});
     if (!units) return;
-    measured_ = std::make_shared<SystemInUnits>(system_, *units);
+    measured_ = std::make_shared<SystemInUnits>(system, *units);
+    equations_in_units_ = std::make_shared<const ChartEquations>(measured_);
     // The metric of the experiment, up to a factor.
     length_ = units->coordinates.maxCoeff();
     const VectorXd parts = units->coordinates / length_;
@@ -237,23 +241,23 @@ class LadderSearch {
   std::optional<State> nearly_solved(const InitialGuess& guess) const {
     ConstraintAlgorithm::Options options;
     options.max_level = 0;
-    const ConstraintLadder ladder = ConstraintAlgorithm(options).run(system_, guess);
+    const ConstraintLadder ladder = ConstraintAlgorithm(options).run(equations_, guess);
     if (ladder.levels.empty() || !ladder.point.x.allFinite()) return std::nullopt;
     return ladder.point;
   }
 
   ConstraintLadder run(const InitialGuess& guess) const {
-    if (!equations_) return by_bounds(guess);
+    if (!in_digits_) return by_bounds(guess);
     ConstraintAlgorithm::Options options;
     options.metric = SparseMatrixXd(weight_.asDiagonal());
     return is_of_digits_alone(decider_)
-               ? certificate_in_digits(*equations_, guess, options, decider_)
-               : decided_together(by_bounds(guess), *equations_, guess, options);
+               ? certificate_in_digits(*in_digits_, guess, options, decider_)
+               : decided_together(by_bounds(guess), *in_digits_, guess, options);
   }
 
  private:
   ConstraintLadder by_bounds(const InitialGuess& guess) const {
-    ConstraintLadder own = own_.run(system_, guess);
+    ConstraintLadder own = own_.run(equations_, guess);
     if (!measured_) return own;
     const State start =
         measured_->units().measure({.t = guess.t, .x = guess.x, .v = guess.v, .z = guess.z});
@@ -262,7 +266,7 @@ class LadderSearch {
     there.x = start.x;
     there.v = start.v;
     there.z = start.z;
-    ConstraintLadder ladder = restored(in_units_->run(measured_, there), *measured_);
+    ConstraintLadder ladder = restored(in_units_->run(equations_in_units_, there), *measured_);
     // A search that comes to no point in one kind of units says nothing of what was found in the other.
     const bool is_lost = ladder.verdict == Verdict::not_reached && !has_no_start(own);
     if (ladder.levels.empty() || is_lost) return own;
@@ -282,12 +286,13 @@ class LadderSearch {
     return ConstraintAlgorithm(options);
   }
 
-  std::shared_ptr<const ImplicitSystem> system_;
+  std::shared_ptr<const ChartEquations> equations_;
+  std::shared_ptr<const JetEquations> in_digits_;  // null: decided by bounds
   VectorXd weight_;
   Decider decider_;
-  std::shared_ptr<const JetEquations> equations_;  // null: decided by bounds
   ConstraintAlgorithm own_;
   std::shared_ptr<const SystemInUnits> measured_;
+  std::shared_ptr<const ChartEquations> equations_in_units_;
   std::optional<ConstraintAlgorithm> in_units_;
   double length_ = 1.0;
 };
@@ -307,7 +312,9 @@ class StartSearch {
         weight_(
             initial_.x.given.cast<double>().matrix().cwiseProduct(initial_.cost_of_coordinates())),
         decider_(decider),
-        ladders_(experiment.model.system, guess_, weight_, decider) {}
+        equations_(std::make_shared<const ChartEquations>(experiment.model.system)),
+        in_digits_(equations_in_digits(equations_, decider)),
+        ladders_(equations_, in_digits_, guess_, weight_, decider) {}
 
   ConsistentStart find() const {
     ConsistentStart ladder = all_kept(guess_.x);
@@ -393,7 +400,7 @@ class StartSearch {
   }
   ConstraintLadder met(const InitialGuess& held, ConstraintLadder ladder,
                        MetTo digits = MetTo::all_digits) const {
-    if (is_met(held, ladder, experiment_.model.system, digits)) return ladder;
+    if (is_met(held, ladder, equations_, digits)) return ladder;
     ladder.verdict = Verdict::not_reached;
     ladder.reason = "The equations, and what was held, do not vanish where the search ended.";
     return ladder;
@@ -404,9 +411,9 @@ class StartSearch {
     constexpr int most_searches = 10;
     InitialGuess guess = holding(guess_, initial_.x.held, initial_.velocity.held, initial_.z.held);
     ConstraintLadder ladder = ladders_.run(guess);
-    for (int search = 1; search < most_searches &&
-                         !is_met(guess, ladder, experiment_.model.system, MetTo::four_digits) &&
-                         ladder.point.x.norm() < guess.x.norm();
+    for (int search = 1;
+         search < most_searches && !is_met(guess, ladder, equations_, MetTo::four_digits) &&
+         ladder.point.x.norm() < guess.x.norm();
          ++search) {
       guess.x = initial_.x.held.select(guess.x, ladder.point.x);
       ladder = ladders_.run(guess);
@@ -459,7 +466,7 @@ class StartSearch {
     ConstraintLadder ladder = nearest_to_given_unknowns([&](const InitialGuess& follows) {
       const InitialGuess guess =
           holding(follows, initial_.x.given, initial_.velocity.held, initial_.z.held);
-      return met(guess, LadderSearch(experiment_.model.system, guess, weight, decider_).run(guess));
+      return met(guess, LadderSearch(equations_, in_digits_, guess, weight, decider_).run(guess));
     });
     ladder.moved = 0.0;  // what is given of x stays
     return ladder;
@@ -489,8 +496,7 @@ class StartSearch {
     if (ladder.jet.size() == 0) return ladder;
     const InitialGuess guess = holding(more_is_given() ? with_what_follows() : guess_,
                                        initial_.x.held, initial_.velocity.held, initial_.z.held);
-    const NearestStart start(experiment_.model.system, guess, ladder,
-                             start_stages(experiment_, guess_));
+    const NearestStart start(equations_, guess, ladder, start_stages(experiment_, guess_));
     if (start.outcomes().empty()) return met(guess, ladder, MetTo::four_digits);
     if (!start.is_consistent()) {
       ConsistentStart there = met(guess, ladder, MetTo::four_digits);
@@ -539,6 +545,8 @@ class StartSearch {
   InitialGuess guess_;
   VectorXd weight_;  // of the coordinates that are given
   Decider decider_;
+  std::shared_ptr<const ChartEquations> equations_;
+  std::shared_ptr<const JetEquations> in_digits_;
   LadderSearch ladders_;
 };
 

@@ -1,11 +1,13 @@
 #include "courant/running/other_values.hpp"
 
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
 
 #include "courant/core/expressions/function.hpp"
+#include "courant/integrators/certificate/chart_equations.hpp"
 #include "courant/integrators/certificate/consistent_point.hpp"
 #include "courant/integrators/certificate/constraint_algorithm.hpp"
 #include "courant/integrators/certificate/ladder_in_units.hpp"
@@ -46,11 +48,11 @@ bool is_nonlinear(const Function& F, const VectorXd& z, Index i) {
 class OtherSolutions {
  public:
   OtherSolutions(const std::shared_ptr<const ImplicitSystem>& system, const State& at)
-      : system_(system), at_(at) {
-    if (const auto units = needed_units(system, at)) {
-      const auto measured = std::make_shared<SystemInUnits>(system, *units);
+      : equations_(std::make_shared<const ChartEquations>(system)), at_(at) {
+    if (const auto units = needed_units(equations_, at)) {
       units_ = units;
-      system_ = measured;
+      equations_ = std::make_shared<const ChartEquations>(
+          std::make_shared<const SystemInUnits>(system, *units));
       at_ = units->measure(at);
     }
   }
@@ -63,7 +65,7 @@ class OtherSolutions {
     guess.z[i] = -at_.z[i];
     guess.hold_x.resize(static_cast<std::size_t>(at_.x.size()));
     std::iota(guess.hold_x.begin(), guess.hold_x.end(), Index{0});
-    const ConstraintLadder found = ConstraintAlgorithm(options).run(system_, guess);
+    const ConstraintLadder found = ConstraintAlgorithm(options).run(equations_, guess);
     if (found.levels.empty()) return std::nullopt;
     const State& other = found.point;
     if (!other.v.allFinite() || !other.z.allFinite() || !is_solution(other)) return std::nullopt;
@@ -77,14 +79,14 @@ class OtherSolutions {
  private:
   // Whether each equation vanishes at the state next to its own terms.
   bool is_solution(const State& state) const {
-    const DerivativeArray array(system_, state.t, at_.x);
+    const DerivativeArray array(equations_, state.t, at_.x);
     Zero zero(array.jet(state.v, state.z));
     zero.found = true;
-    const ConsistentPoint point(system_, {.t = state.t, .x = at_.x}, {});
+    const ConsistentPoint point(equations_, {.t = state.t, .x = at_.x}, {});
     return point.is_met_at({array, std::move(zero)});
   }
 
-  std::shared_ptr<const ImplicitSystem> system_;
+  std::shared_ptr<const ChartEquations> equations_;
   State at_;
   std::optional<Units> units_;
 };

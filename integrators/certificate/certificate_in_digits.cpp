@@ -345,12 +345,13 @@ ConstraintLadder certificate_in_digits(const JetEquations& equations, const Init
 }
 
 std::shared_ptr<const JetEquations> equations_in_digits(
-    const std::shared_ptr<const ImplicitSystem>& system, Decider decider) {
+    const std::shared_ptr<const ChartEquations>& in_chart, Decider decider) {
   constexpr Index most_unknowns = 120;
-  if (!system || decider == Decider::bounds) return nullptr;
-  const Index unknowns = system->manifold()->ambient_dimension() + system->auxiliary_size();
+  if (decider == Decider::bounds) return nullptr;
+  const ImplicitSystem& system = *in_chart->system();
+  const Index unknowns = system.manifold()->ambient_dimension() + system.auxiliary_size();
   if (decider == Decider::both && unknowns > most_unknowns) return nullptr;
-  return std::make_shared<const JetEquations>(system);
+  return std::make_shared<const JetEquations>(in_chart);
 }
 
 ConstraintLadder decided_together(ConstraintLadder by_bounds, const JetEquations& equations,

@@ -24,7 +24,7 @@ ConstraintLadder certificate_in_digits(const JetEquations& equations, const Init
 
 // The equations for that; null where bounds of errors are to decide.
 std::shared_ptr<const JetEquations> equations_in_digits(
-    const std::shared_ptr<const ImplicitSystem>& system, Decider decider);
+    const std::shared_ptr<const ChartEquations>& in_chart, Decider decider);
 
 // The ladder by bounds with what digits say of the same guess:
 //

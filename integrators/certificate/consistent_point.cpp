@@ -87,10 +87,9 @@ VectorXd sizes_of_parts(const ConsistentJet& jet, Index unknowns) {
 
 }  // namespace
 
-ConsistentPoint::ConsistentPoint(std::shared_ptr<const ImplicitSystem> system, InitialGuess guess,
-                                 SparseMatrixXd metric)
-    : system_(std::move(system)), guess_(std::move(guess)), metric_(std::move(metric)) {
-  if (!system_) throw std::invalid_argument("ConstraintAlgorithm::run: system is null.");
+ConsistentPoint::ConsistentPoint(const std::shared_ptr<const ChartEquations>& equations,
+                                 InitialGuess guess, SparseMatrixXd metric)
+    : system_(equations->system()), guess_(std::move(guess)), metric_(std::move(metric)) {
   const Index N = system_->manifold()->ambient_dimension();
   const Index tangent = system_->manifold()->tangent_dimension();
   check_size("x", guess_.x.size(), N, false);
@@ -102,7 +101,7 @@ ConsistentPoint::ConsistentPoint(std::shared_ptr<const ImplicitSystem> system, I
   check_finite("z", guess_.z);
   check_finite("t", VectorXd::Constant(1, guess_.t));
   const auto M = system_->manifold();
-  array_.emplace(system_, guess_.t,
+  array_.emplace(equations, guess_.t,
                  M->point_defect(guess_.x) == 0.0 ? guess_.x : M->project(guess_.x));
   if (M->dimension() == N) drop_round_off();
   const auto hold = [&](const std::vector<Index>& components, const VectorXd& values, Index offset,

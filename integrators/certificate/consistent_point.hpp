@@ -1,6 +1,10 @@
 // Consistent points: zeros of a derivative array near given values.
 #pragma once
 
+#include <memory>
+#include <utility>
+
+#include "courant/integrators/certificate/chart_equations.hpp"
 #include "courant/integrators/certificate/constraint_ladder.hpp"
 #include "courant/integrators/certificate/derivative_array.hpp"
 #include "courant/integrators/certificate/initial_guess.hpp"
@@ -46,8 +50,13 @@ class ConsistentPoint {
  public:
   // Throws std::invalid_argument if sizes do not fit the system. `metric`: W, N × N, or empty
   // for 1.
-  ConsistentPoint(std::shared_ptr<const ImplicitSystem> system, InitialGuess guess,
+  ConsistentPoint(const std::shared_ptr<const ChartEquations>& equations, InitialGuess guess,
                   SparseMatrixXd metric);
+  // Of equations that are traced for it alone.
+  ConsistentPoint(const std::shared_ptr<const ImplicitSystem>& system, InitialGuess guess,
+                  SparseMatrixXd metric)
+      : ConsistentPoint(std::make_shared<const ChartEquations>(system), std::move(guess),
+                        std::move(metric)) {}
 
   // The given values as a jet of level 0; x is brought to the manifold. On Rⁿ given numbers that are
   // round-off next to the units of the problem, as the cosine of a right angle, are 0.

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "courant/integrators/certificate/bifurcation.hpp"
+#include "courant/integrators/certificate/chart_equations.hpp"
 #include "courant/integrators/certificate/consistent_point.hpp"
 #include "courant/integrators/certificate/ladder_ascent.hpp"
 #include "courant/integrators/certificate/ladder_evidence.hpp"
@@ -80,8 +82,15 @@ bool is_bifurcation(ConstraintLadder& ladder, const ConsistentPoint& consistent,
 
 ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSystem>& system,
                                           const InitialGuess& guess) const {
-  const ConsistentPoint consistent(system, guess, options_.metric);
-  LadderAscent ascent(consistent, *system, options_.max_level);
+  if (!system) throw std::invalid_argument("ConstraintAlgorithm::run: system is null.");
+  return run(std::make_shared<const ChartEquations>(system), guess);
+}
+
+ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ChartEquations>& equations,
+                                          const InitialGuess& guess) const {
+  const ImplicitSystem& system = *equations->system();
+  const ConsistentPoint consistent(equations, guess, options_.metric);
+  LadderAscent ascent(consistent, system, options_.max_level);
   const LadderEvidence evidence(ascent);
   const ConsistentJet& jet = ascent.jet;
 
@@ -90,7 +99,7 @@ ConstraintLadder ConstraintAlgorithm::run(const std::shared_ptr<const ImplicitSy
   ladder.point = jet.array().state(jet.zero().y);
   ladder.jet = jet.zero().y;
   ladder.moved = consistent.distance(ladder.point.x);
-  ladder.moves = movements(*system, guess, ladder.point);
+  ladder.moves = movements(system, guess, ladder.point);
   ladder.doubts = doubts(consistent, ascent, evidence);
   ladder.reason = ascent.is_singular() ? ascent.singular.reason : ascent.reason;
   if (!ascent.is_singular()) ladder.contradiction = ascent.contradiction;

@@ -10,6 +10,8 @@
 
 namespace courant {
 
+class ChartEquations;
+
 using SparseMatrixXd = Eigen::SparseMatrix<double>;
 
 // Near the point, by derivative arrays (DESIGN, section 5):
@@ -39,6 +41,9 @@ class ConstraintAlgorithm {
 
   // Throws std::invalid_argument on wrong sizes.
   ConstraintLadder run(const std::shared_ptr<const ImplicitSystem>& system,
+                       const InitialGuess& guess) const;
+  // The same of equations that are traced already, for who asks about several points.
+  ConstraintLadder run(const std::shared_ptr<const ChartEquations>& equations,
                        const InitialGuess& guess) const;
 
  private:

@@ -7,12 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "courant/core/expressions/derivative.hpp"
-#include "courant/core/expressions/expr_vectors.hpp"
-#include "courant/core/expressions/subgraph.hpp"
 #include "courant/core/numbers/quadruple.hpp"
 #include "courant/core/solve/limited_newton.hpp"
-#include "courant/integrators/certificate/local_formulation.hpp"
 
 namespace courant {
 namespace {
@@ -75,51 +71,17 @@ Uncertain direction(double entry) {
 
 }  // namespace
 
-DerivativeArray::DerivativeArray(std::shared_ptr<const ImplicitSystem> system, double t,
+DerivativeArray::DerivativeArray(std::shared_ptr<const ChartEquations> equations, double t,
                                  const VectorXd& x0)
-    : Prolongation(system->manifold()->dimension(), system->auxiliary_size(),
-                   system->equation_count()),
-      system_(std::move(system)) {
-  const Manifold& M = *system_->manifold();
-  Graph graph;
-  const ExprVector origin = graph.variables("x0", M.ambient_dimension());
-  const LinearMap<Expr> basis = basis_variables(graph, M);
-  const Expr time = graph.variable("t");
-  const LocalFormulation local(graph, *system_, origin, basis, time,
-                               std::vector<int>(static_cast<std::size_t>(equation_count()), 0));
-  const std::vector<Function::Input> inputs = {{"xi", local.xi[0]},
-                                               {"xi'", local.xi[1]},
-                                               {"z", local.z[0]},
-                                               {"x0", origin},
-                                               {"basis", basis_parameters(basis)},
-                                               {"t", ExprVector::Constant(1, time)}};
-  equations_ = Function("F", inputs, local.equations, {.differentiate = {"xi", "xi'", "z"}});
-  ExprVector state(local.x.size() + local.v.size());
-  state << local.x, local.v;
-  state_ = Function("state", inputs, state, {.differentiate = {"xi", "xi'"}});
-
-  ExprVector by(2 * base_size() + auxiliary_size());
-  by << local.xi[0], local.xi[1], local.z[0];
-  const SparseExprMatrix d_equations = courant::jacobian(local.equations, by);
-  constant_jacobian_ = std::all_of(d_equations.values.begin(), d_equations.values.end(),
-                                   [](const Expr& entry) { return entry.is_constant(); });
-  const Subgraph formulas(local.equations);
-  exponentials_ =
-      std::any_of(formulas.nodes().begin(), formulas.nodes().end(), [&](std::uint32_t index) {
-        const Op op = formulas.graph().node(index).op;
-        return op == Op::exp || op == Op::sinh || op == Op::cosh;
-      });
-  if (exponentials_)
-    of_rates_ = Exponentials("F",
-                             {{"rates", joined(local.xi[1], local.z[0])},
-                              {"xi", local.xi[0]},
-                              {"x0", origin},
-                              {"basis", basis_parameters(basis)},
-                              {"t", ExprVector::Constant(1, time)}},
-                             local.equations);
-  depends_on_time_ = depends(local.equations, ExprVector::Constant(1, time));
+    : Prolongation(equations->system()->manifold()->dimension(),
+                   equations->system()->auxiliary_size(), equations->system()->equation_count()),
+      equations_(std::move(equations)) {
   move_to(t, x0);
 }
+
+DerivativeArray::DerivativeArray(std::shared_ptr<const ImplicitSystem> system, double t,
+                                 const VectorXd& x0)
+    : DerivativeArray(std::make_shared<const ChartEquations>(std::move(system)), t, x0) {}
 
 DerivativeArray DerivativeArray::at(double t, const VectorXd& x0) const {
   DerivativeArray result(*this);
@@ -128,7 +90,7 @@ DerivativeArray DerivativeArray::at(double t, const VectorXd& x0) const {
 }
 
 void DerivativeArray::move_to(double t, const VectorXd& x0) {
-  const Manifold& M = *system_->manifold();
+  const Manifold& M = *system()->manifold();
   if (x0.size() != M.ambient_dimension())
     throw std::invalid_argument(
         "DerivativeArray::at: x0 has " + std::to_string(x0.size()) +
@@ -146,13 +108,13 @@ VectorXd DerivativeArray::jet(const VectorXd& v, const VectorXd& z) const {
 }
 
 std::optional<VectorXd> DerivativeArray::beyond_exponentials(const VectorXd& y) const {
-  if (of_rates_.count() == 0) return std::nullopt;
+  if (equations_->of_rates().count() == 0) return std::nullopt;
   const Index n = base_size(), m = auxiliary_size();
   VectorXd rates(n + m);
   rates << y.segment(x_offset(1), n), y.segment(z_offset(0), m);
   const VectorXd xi = y.head(n), basis = basis_entries();
   const Inputs in(rates.data(), {xi.data(), origin_.data(), basis.data(), &t_});
-  if (!LimitedNewton(of_rates_).solve(in)) return std::nullopt;
+  if (!LimitedNewton(equations_->of_rates()).solve(in)) return std::nullopt;
   VectorXd there = y;
   there.segment(x_offset(1), n) = rates.head(n);
   there.segment(z_offset(0), m) = rates.tail(m);
@@ -183,7 +145,7 @@ VectorXd DerivativeArray::carried(const VectorXd& y, double later) const {
 VectorXd DerivativeArray::basis_entries() const { return basis_.entries().reshaped(); }
 
 VectorXd DerivativeArray::origin_size() const {
-  const LinearMap<double> coframe = system_->manifold()->coframe(origin_);
+  const LinearMap<double> coframe = system()->manifold()->coframe(origin_);
   const VectorXd size = (basis_.transpose() * (coframe * origin_)).cwiseAbs();
   const VectorXd terms =
       absolute(basis_).transpose() * (absolute(coframe) * origin_.cwiseAbs().eval());
@@ -196,7 +158,7 @@ VectorXd DerivativeArray::do_residual(const VectorXd& y, Index k) const {
   const Arguments<double> in(
       *this, k, basis_entries(), [&](Index j) { return y[j]; }, as_it_is, as_it_is);
   SeriesTable<double> series(equation_count(), k);
-  equations_.taylor(in.pointers().data(), k, series.data());
+  equations_->equations().taylor(in.pointers().data(), k, series.data());
   VectorXd value(row_count(k));  // F_0 first
   for (Index i = 0; i <= k; ++i)
     for (Index e = 0; e < equation_count(); ++e) value[i * equation_count() + e] = series(e, i);
@@ -209,9 +171,9 @@ template <class Number, class Add>
 void DerivativeArray::each_entry(const std::vector<Number>& coefficients, Index k,
                                  const Add& add) const {
   const Index n = base_size(), r = equation_count();
-  for (Index e = 0; e < equations_.nonzeros(); ++e) {
-    const Index equation = equations_.pattern_row()[static_cast<std::size_t>(e)];
-    const Index variable = equations_.pattern_col()[static_cast<std::size_t>(e)];
+  for (Index e = 0; e < equations_->equations().nonzeros(); ++e) {
+    const Index equation = equations_->equations().pattern_row()[static_cast<std::size_t>(e)];
+    const Index variable = equations_->equations().pattern_col()[static_cast<std::size_t>(e)];
     const Number* series = coefficients.data() + (r + e) * (k + 1);
     for (Index i = 0; i <= k; ++i) {
       for (Index j = 0; j <= i; ++j) {
@@ -234,8 +196,8 @@ Linearization DerivativeArray::do_linearize(const VectorXd& y, const VectorXd& u
   const Arguments<Uncertain> in(
       *this, k, basis_entries(), [&](Index j) { return Uncertain(y[j], uncertainty[j]); },
       Uncertain::rounded, direction);
-  SeriesTable<Uncertain> series(r + equations_.nonzeros(), k);
-  equations_.taylor_with_jacobian(in.pointers().data(), k, series.data());
+  SeriesTable<Uncertain> series(r + equations_->equations().nonzeros(), k);
+  equations_->equations().taylor_with_jacobian(in.pointers().data(), k, series.data());
 
   Linearization result;
   result.value.resize(row_count(k));
@@ -260,8 +222,8 @@ Linearization DerivativeArray::linearize(const std::vector<Quadruple>& y) const 
   const Arguments<Quadruple> in(
       *this, k, basis_entries(), [&](Index j) { return y[static_cast<std::size_t>(j)]; }, as_it_is,
       as_it_is);
-  SeriesTable<Quadruple> series(r + equations_.nonzeros(), k);
-  equations_.taylor_with_jacobian(in.pointers().data(), k, series.data());
+  SeriesTable<Quadruple> series(r + equations_->equations().nonzeros(), k);
+  equations_->equations().taylor_with_jacobian(in.pointers().data(), k, series.data());
 
   Linearization result;
   result.value.resize(row_count(k));
@@ -286,8 +248,8 @@ Linearization DerivativeArray::state_map(const VectorXd& y) const {
   const VectorXd xi = y.head(n), rate = y.segment(n, n), z = y.segment(2 * n, m);
   const VectorXd time = VectorXd::Constant(1, t_);
   const std::vector<VectorXd> in = {xi, rate, z, origin_, basis_entries(), time};
-  const VectorXd point = state_(in);
-  const SparseMatrixXd d_point = state_.sparse_jacobian(in);
+  const VectorXd point = equations_->state()(in);
+  const SparseMatrixXd d_point = equations_->state().sparse_jacobian(in);
 
   Linearization result;
   result.value.resize(point.size() + m);
@@ -304,7 +266,7 @@ Linearization DerivativeArray::state_map(const VectorXd& y) const {
 }
 
 State DerivativeArray::state(const VectorXd& y) const {
-  const Manifold& M = *system_->manifold();
+  const Manifold& M = *system()->manifold();
   const VectorXd value = state_map(y).value;
   return {t_, value.head(M.ambient_dimension()),
           value.segment(M.ambient_dimension(), M.tangent_dimension()),

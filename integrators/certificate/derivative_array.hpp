@@ -4,8 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "courant/core/expressions/function.hpp"
-#include "courant/core/solve/exponentials.hpp"
+#include "courant/integrators/certificate/chart_equations.hpp"
 #include "courant/integrators/certificate/prolongation.hpp"
 #include "courant/structures/implicit_system.hpp"
 #include "courant/structures/state.hpp"
@@ -23,17 +22,19 @@ namespace courant {
 //   ∂F_i/∂ξ_j = (G_ξ)_{i-j} + j (G_ξ')_{i-j+1},      ∂F_i/∂z_j = (G_z)_{i-j}          (block
 //   Toeplitz).
 //
-// Traced once for a system, by the constructor; `at` moves the chart. Immutable.
+// `at` moves the chart. Immutable.
 // References: Campbell, Gear, The index of general nonlinear DAEs (1995); Kunkel, Mehrmann,
 // Differential-Algebraic Equations (2006), chapter 3.
 class DerivativeArray final : public Prolongation {
  public:
   // Throws std::invalid_argument if x0 does not have the size of a point. x0 is not checked for
   // being on M.
+  DerivativeArray(std::shared_ptr<const ChartEquations> equations, double t, const VectorXd& x0);
+  // Of equations that are traced for it alone.
   DerivativeArray(std::shared_ptr<const ImplicitSystem> system, double t, const VectorXd& x0);
   DerivativeArray at(double t, const VectorXd& x0) const;
 
-  const std::shared_ptr<const ImplicitSystem>& system() const { return system_; }
+  const std::shared_ptr<const ImplicitSystem>& system() const { return equations_->system(); }
   double t() const { return t_; }
   const VectorXd& origin() const { return origin_; }         // x₀
   const LinearMap<double>& basis() const { return basis_; }  // B, Ñ × n
@@ -60,11 +61,11 @@ class DerivativeArray final : public Prolongation {
   VectorXd carried(const VectorXd& y, double later) const;
 
   // Whether t stands in F.
-  bool depends_on_time() const { return depends_on_time_; }
+  bool depends_on_time() const { return equations_->depends_on_time(); }
   // F is affine in (x, v, z) with constant coefficients.
-  bool has_constant_jacobian() const override { return constant_jacobian_; }
+  bool has_constant_jacobian() const override { return equations_->has_constant_jacobian(); }
   // F contains exp, sinh or cosh, as of a diode: derivatives of any size are near each other.
-  bool has_exponentials() const { return exponentials_; }
+  bool has_exponentials() const { return equations_->has_exponentials(); }
   // y with ξ_1 and z_0 at which F vanishes at the same ξ_0, found from those of y with limits on
   // exponentials (LimitedNewton). Nothing if F has none, or if they are not found.
   std::optional<VectorXd> beyond_exponentials(const VectorXd& y) const;
@@ -78,11 +79,7 @@ class DerivativeArray final : public Prolongation {
   void move_to(double t, const VectorXd& x0);
   VectorXd basis_entries() const;  // column by column; empty where the basis is the identity
 
-  std::shared_ptr<const ImplicitSystem> system_;
-  Function equations_;     // (xi, xi', z; x0, basis, t) ↦ F, with Jacobian by the first three
-  Function state_;         // the same ↦ (x, v)
-  Exponentials of_rates_;  // of F as equations for (xi', z); xi, x0, basis, t
-  bool constant_jacobian_ = false, depends_on_time_ = false, exponentials_ = false;
+  std::shared_ptr<const ChartEquations> equations_;
   double t_ = 0.0;
   VectorXd origin_;
   LinearMap<double> basis_;

@@ -69,16 +69,19 @@ NamedConstants with_named_constants(const ExprVector& formulas) {
 }  // namespace
 
 JetEquations::JetEquations(std::shared_ptr<const ImplicitSystem> system)
-    : system_(std::move(system)),
-      N_(system_->manifold()->ambient_dimension()),
-      m_(system_->auxiliary_size()) {
-  const Manifold& M = *system_->manifold();
+    : JetEquations(std::make_shared<const ChartEquations>(std::move(system))) {}
+
+JetEquations::JetEquations(std::shared_ptr<const ChartEquations> in_chart)
+    : in_chart_(std::move(in_chart)),
+      N_(system().manifold()->ambient_dimension()),
+      m_(system().auxiliary_size()) {
+  const Manifold& M = *system().manifold();
   const Graph graph;
   const ExprVector x = graph.variables("x", N_), rate = graph.variables("x'", N_),
                    z = graph.variables("z", m_);
   const ExprVector time = ExprVector::Constant(1, graph.variable("t"));
   const ExprVector v = M.has_identity_frame() ? rate : ExprVector(M.coframe(x) * rate);
-  ExprVector equations = system_->residual(x, v, z, time[0]);
+  ExprVector equations = system().residual(x, v, z, time[0]);
   if (M.dimension() < N_) {
     const ExprVector c = M.constraint(x);
     equations = joined(equations, c, tangent(c, x, rate));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "courant/core/expressions/series_function.hpp"
+#include "courant/integrators/certificate/chart_equations.hpp"
 #include "courant/structures/implicit_system.hpp"
 
 namespace courant {
@@ -34,14 +35,16 @@ struct Jet {
 // Traced once for a system. Immutable.
 class JetEquations {
  public:
+  explicit JetEquations(std::shared_ptr<const ChartEquations> in_chart);
   explicit JetEquations(std::shared_ptr<const ImplicitSystem> system);
 
-  const ImplicitSystem& system() const { return *system_; }
-  const std::shared_ptr<const ImplicitSystem>& shared_system() const { return system_; }
+  const ImplicitSystem& system() const { return *in_chart_->system(); }
+  // The same system in charts, for doubles.
+  const std::shared_ptr<const ChartEquations>& in_chart() const { return in_chart_; }
   Index point_size() const { return N_; }
   Index auxiliary_size() const { return m_; }
   Index row_size() const { return rows_; }                         // r'
-  Index system_rows() const { return system_->equation_count(); }  // r: the first of each order
+  Index system_rows() const { return system().equation_count(); }  // r: the first of each order
   bool depends_on_time() const { return of_time_; }
   bool has_switches() const { return equations_.has_switches(); }
 
@@ -89,7 +92,7 @@ class JetEquations {
   bool run(const SeriesFunction& f, const Number& t, const std::vector<Number>& y, Index k,
            std::vector<Number>& out) const;
 
-  std::shared_ptr<const ImplicitSystem> system_;
+  std::shared_ptr<const ChartEquations> in_chart_;
   SeriesFunction values_;                   // (x, ẋ, z, t) ↦ the equations
   SeriesFunction equations_;                // and their derivatives at the places of jacobian_
   std::vector<std::vector<Place>> places_;  // by row of F: those of x, of z, of t

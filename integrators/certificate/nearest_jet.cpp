@@ -104,7 +104,7 @@ NearestJet::NearestJet(const JetEquations& equations, const InitialGuess& guess,
                        const SparseMatrixXd& metric)
     : equations_(equations),
       guess_(guess),
-      rough_search_(equations.shared_system(), guess, metric),
+      rough_search_(equations.in_chart(), guess, metric),
       rough_(rough_search_.start()),
       metric_(metric) {
   for (const double number : guess.x) given_x_.push_back(Digits::written(number));

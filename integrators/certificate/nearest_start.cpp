@@ -61,13 +61,14 @@ ConsistentPoint::Least best_of(const ConsistentPoint& consistent, const InitialG
 
 }  // namespace
 
-NearestStart::NearestStart(std::shared_ptr<const ImplicitSystem> system, const InitialGuess& guess,
-                           const ConstraintLadder& from, const std::vector<Stage>& stages) {
+NearestStart::NearestStart(const std::shared_ptr<const ChartEquations>& equations,
+                           const InitialGuess& guess, const ConstraintLadder& from,
+                           const std::vector<Stage>& stages) {
   if (from.levels.empty() || from.levels.back().is_empty)
     throw std::invalid_argument(
         "NearestStart::NearestStart: the ladder has no point, expected one that has.");
-  const ConsistentPoint consistent(system, guess, {});
-  const Index N = system->manifold()->ambient_dimension();
+  const ConsistentPoint consistent(equations, guess, {});
+  const Index N = equations->system()->manifold()->ambient_dimension();
   ConsistentJet jet = consistent.jet_of(from);
   if (!consistent.is_met_at(jet)) {
     const State far = state_of_jet(jet);

@@ -28,7 +28,7 @@ class NearestStart {
   // `from`: the ladder at some consistent point, whose last level says what consistent is. `guess` is what is known,
   // with what is held. Throws std::invalid_argument if the sizes of the guess do not fit the system, or the ladder has
   // no point.
-  NearestStart(std::shared_ptr<const ImplicitSystem> system, const InitialGuess& guess,
+  NearestStart(const std::shared_ptr<const ChartEquations>& equations, const InitialGuess& guess,
                const ConstraintLadder& from, const std::vector<Stage>& stages);
 
   const State& point() const { return point_; }

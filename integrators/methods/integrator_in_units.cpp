@@ -4,6 +4,7 @@
 #include <functional>
 #include <utility>
 
+#include "courant/integrators/certificate/chart_equations.hpp"
 #include "courant/integrators/step/natural_units.hpp"
 #include "courant/integrators/step/step_differential.hpp"
 #include "courant/integrators/step/step_parts.hpp"
@@ -137,14 +138,14 @@ std::shared_ptr<const StepDifferential> IntegratorInUnits::do_differential() con
   return std::make_shared<Differential>(units_, std::move(measured));
 }
 
-std::optional<Units> needed_units(const std::shared_ptr<const ImplicitSystem>& system,
+std::optional<Units> needed_units(const std::shared_ptr<const ChartEquations>& equations,
                                   const State& at) {
-  const State point = without_round_off(system, at);
+  const State point = without_round_off(equations, at);
   constexpr double comparable = 1e6, usual_time = 1e9;
   constexpr double most = 1e90;  // products of three have to be numbers
-  auto units = units_of_all_terms(system, point);
+  auto units = units_of_all_terms(equations, point);
   // Velocities of zero beside others may leave units open that equations tell alone.
-  if (!units) units = units_of_all_terms(system, {.t = point.t, .x = point.x});
+  if (!units) units = units_of_all_terms(equations, {.t = point.t, .x = point.x});
   if (!units || units->coordinates.size() == 0) return std::nullopt;
   const double smallest = units->coordinates.minCoeff(), largest = units->coordinates.maxCoeff();
   if (std::min(smallest, units->time) < 1.0 / most || std::max(largest, units->time) > most)
@@ -153,6 +154,11 @@ std::optional<Units> needed_units(const std::shared_ptr<const ImplicitSystem>& s
   if (are_comparable && units->time <= usual_time && units->time >= 1.0 / usual_time)
     return std::nullopt;
   return units;
+}
+
+std::optional<Units> needed_units(const std::shared_ptr<const ImplicitSystem>& system,
+                                  const State& point) {
+  return needed_units(std::make_shared<const ChartEquations>(system), point);
 }
 
 }  // namespace courant

@@ -238,16 +238,15 @@ struct Level0 {
   Numbering numbering;  // of the coordinates of the chart; without one there are no units
   VectorXd y, units;    // no units where all evidence tells none
 
-  Level0(const std::shared_ptr<const ImplicitSystem>& system, const State& point, Evidence evidence,
+  Level0(DerivativeArray at, const State& point, Evidence evidence,
          const std::function<Numbering(const DerivativeArray&)>& numbering_of)
       // The equations themselves: higher derivatives are not all determined, and what an iteration made
       // of those that are not has no units of its own.
-      : array(system, point.t, point.x),
-        numbering(numbering_of(array)),
-        y(array.jet(point.v, point.z)) {
+      : array(std::move(at)), numbering(numbering_of(array)), y(array.jet(point.v, point.z)) {
     if (numbering.empty() || (evidence == Evidence::all && array.has_exponentials())) return;
     std::optional<DimensionlessArguments> known;
-    if (evidence == Evidence::all && is_its_own_chart(*system->manifold())) known.emplace(*system);
+    const ImplicitSystem& system = *array.system();
+    if (evidence == Evidence::all && is_its_own_chart(*system.manifold())) known.emplace(system);
     const DimensionlessArguments* arguments = known ? &*known : nullptr;
     const VectorXd nominal = known_sizes(array, y);
     units = units_near(array, y, nominal, numbering, evidence, arguments);
@@ -283,16 +282,18 @@ void measure_coordinates(const Manifold& M, const VectorXd& coordinates, Units& 
 
 }  // namespace
 
-State without_round_off(const std::shared_ptr<const ImplicitSystem>& system, const State& point) {
+State without_round_off(const std::shared_ptr<const ChartEquations>& equations,
+                        const State& point) {
+  const ImplicitSystem& system = *equations->system();
   State zeroed = point;
   zeroed.x = without_round_off(point.x);
   zeroed.v = without_round_off(point.v);
-  const Manifold& M = *system->manifold();
-  const Index n = M.dimension(), unknowns = 2 * n + system->auxiliary_size();
+  const Manifold& M = *system.manifold();
+  const Index n = M.dimension(), unknowns = 2 * n + system.auxiliary_size();
   if ((zeroed.x == point.x && zeroed.v == point.v) || !M.has_identity_frame() ||
-      unknowns + system->equation_count() > kExact)
+      unknowns + system.equation_count() > kExact)
     return point;
-  const DerivativeArray array(system, zeroed.t, zeroed.x);
+  const DerivativeArray array(equations, zeroed.t, zeroed.x);
   VectorXd y = array.jet(zeroed.v, zeroed.z);
   const SparseMatrixXd terms = magnitude_at(array, y, Evidence::all);
   const NaturalScaling natural({VectorXd::Zero(terms.rows()), terms}, VectorXd::Zero(y.size()));
@@ -316,7 +317,7 @@ VectorXd natural_units(const std::shared_ptr<const ImplicitSystem>& system,
   const Manifold& M = *system->manifold();
   const Index n = M.dimension(), size = M.tangent_dimension();
   if (ladder.point.x.size() == 0 || n == 0) return VectorXd::Ones(size);
-  const Level0 level(system, ladder.point, Evidence::usual, each);
+  const Level0 level({system, ladder.point.t, ladder.point.x}, ladder.point, Evidence::usual, each);
   const DerivativeArray& array = level.array;
   VectorXd units = level.units.head(n);
   if (n == size) return units;
@@ -336,15 +337,16 @@ VectorXd natural_units(const std::shared_ptr<const ImplicitSystem>& system,
   return result;
 }
 
-std::optional<Units> units_of_all_terms(const std::shared_ptr<const ImplicitSystem>& system,
+std::optional<Units> units_of_all_terms(const std::shared_ptr<const ChartEquations>& equations,
                                         const State& point) {
-  const Manifold& M = *system->manifold();
+  const ImplicitSystem& system = *equations->system();
+  const Manifold& M = *system.manifold();
   const Manifold::ScalingSymmetries scaling = M.scaling_symmetries();
-  const Index unknowns = 2 * M.dimension() + system->auxiliary_size();
+  const Index unknowns = 2 * M.dimension() + system.auxiliary_size();
   if (Manifold::ScalingSymmetries::after(scaling.point) == 0 || point.x.size() == 0 ||
-      unknowns + system->equation_count() > kExact)
+      unknowns + system.equation_count() > kExact)
     return std::nullopt;
-  const Level0 level(system, point, Evidence::all,
+  const Level0 level({equations, point.t, point.x}, point, Evidence::all,
                      [&](const DerivativeArray& array) { return of_scaling_symmetries(M, array); });
   if (level.units.size() == 0) return std::nullopt;
   const SparseMatrixXd terms =
@@ -359,8 +361,8 @@ std::optional<Units> units_of_all_terms(const std::shared_ptr<const ImplicitSyst
       unit[number] = unit_next_to(level.units[j]);
   return Units{.coordinates = by_number(scaling.point, unit, 1.0),
                .tangent = by_number(scaling.tangent, unit, 1.0),
-               .auxiliary = level.units.tail(system->auxiliary_size()).unaryExpr(&unit_next_to),
-               .equations = equation_units(*system, terms),
+               .auxiliary = level.units.tail(system.auxiliary_size()).unaryExpr(&unit_next_to),
+               .equations = equation_units(system, terms),
                .time = unit_next_to(level.units[0] / level.units[n])};
 }
 

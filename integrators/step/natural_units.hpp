@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "courant/core/linear/uncertain_matrix.hpp"
+#include "courant/integrators/certificate/chart_equations.hpp"
 #include "courant/integrators/certificate/constraint_ladder.hpp"
 #include "courant/structures/system_in_units.hpp"
 
@@ -24,7 +25,7 @@ VectorXd natural_units(const std::shared_ptr<const ImplicitSystem>& system,
 // The point with 0 in place of the coordinates and velocities that are only what a run or a search left of a zero.
 // These are round-off next to the largest number, and no equation connects them with another one. A position of 10⁻⁶
 // beside a momentum of 10¹² stays.
-State without_round_off(const std::shared_ptr<const ImplicitSystem>& system, const State& point);
+State without_round_off(const std::shared_ptr<const ChartEquations>& equations, const State& point);
 
 // Units by the same least squares, in which all terms count, however small they are beside others. Terms without
 // unknowns count too: the weight of a body at rest tells the unit of time. Arguments of sines and exponentials have the
@@ -33,7 +34,7 @@ State without_round_off(const std::shared_ptr<const ImplicitSystem>& system, con
 //
 // Empty where exponentials let entries have any size, where a unit follows from nothing but itself, where M has no
 // scaling symmetries, and for systems of more than 500 equations and unknowns.
-std::optional<Units> units_of_all_terms(const std::shared_ptr<const ImplicitSystem>& system,
+std::optional<Units> units_of_all_terms(const std::shared_ptr<const ChartEquations>& equations,
                                         const State& point);
 
 // The power of two next to a size; 1 for what is no size.

@@ -38,7 +38,8 @@ NearestStart nearest(const InitialGuess& guess, const std::vector<LeastChange>& 
   std::vector<NearestStart::Stage> stages;
   for (const LeastChange& change : changes)
     stages.push_back([change](const State&) { return change; });
-  return NearestStart(ellipse(), guess, ConstraintAlgorithm().run(ellipse(), guess), stages);
+  return NearestStart(std::make_shared<const ChartEquations>(ellipse()), guess,
+                      ConstraintAlgorithm().run(ellipse(), guess), stages);
 }
 
 }  // namespace
