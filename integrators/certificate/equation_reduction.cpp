@@ -110,7 +110,7 @@ std::vector<Expr> EquationReduction::constraints() {
   std::vector<OpenEquation> kept;
   for (OpenEquation& equation : equations_) {
     if (equation.function.is_constant(0.0)) continue;
-    if (has_unknown(equation.function))
+    if (!slopes_of(equation).empty())
       kept.push_back(std::move(equation));
     else
       found.push_back(equation.function);
@@ -127,8 +127,10 @@ Expr EquationReduction::derivative(const Expr& function) const {
 }
 
 void EquationReduction::add(const Expr& equation) {
-  if (const Expr remainder = normal(equation); !is_zero(remainder))
-    equations_.push_back(opened(remainder));
+  OpenEquation open = opened(normal(equation));
+  const bool is_zero = open.function.is_constant(0.0) ||
+                       (slopes_of(open).empty() && simplified(open.function, on_points_) == "0");
+  if (!is_zero) equations_.push_back(std::move(open));
 }
 
 std::vector<Expr> EquationReduction::consequences() const {
@@ -219,11 +221,6 @@ std::string EquationReduction::short_enough(const std::optional<std::string>& te
   return text && text->size() <= longest ? *text : "";
 }
 
-bool EquationReduction::is_zero(const Expr& function) const {
-  return function.is_constant(0.0) ||
-         (!has_unknown(function) && simplified(function, on_points_) == "0");
-}
-
 const Simplification& EquationReduction::given(const Expr& function) const {
   return has_unknown(function) ? on_vectors_ : on_points_;
 }
@@ -309,12 +306,21 @@ OpenEquation EquationReduction::opened(const Expr& function) const {
   return {.function = function, .contained = contained(function)};
 }
 
+const std::vector<std::pair<Index, Expr>>& EquationReduction::slopes_of(
+    OpenEquation& equation) const {
+  if (!equation.slopes) {
+    equation.slopes = slopes(equation.function, unknowns_in(equation.contained));
+    std::erase_if(*equation.slopes,
+                  [](const auto& slope) { return slope.second.is_constant(0.0); });
+  }
+  return *equation.slopes;
+}
+
 void EquationReduction::weigh(OpenEquation& equation) const {
   equation.is_weighed = true;
   if (equation.function.is_constant()) return;
   if (is_too_long(equation.function)) return;
-  auto along = slopes(equation.function, unknowns_in(equation.contained));
-  std::erase_if(along, [](const auto& slope) { return slope.second.is_constant(0.0); });
+  const auto& along = slopes_of(equation);
   double largest = 0.0;
   for (const auto& slope : along) largest = std::max(largest, std::abs(value(slope.second)));
   for (const auto& [variable, slope] : along) {

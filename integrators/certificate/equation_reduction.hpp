@@ -27,6 +27,8 @@ ExprVector added_parameters(const Graph& graph, const std::vector<Parameter>& pa
 struct OpenEquation {
   Expr function;
   std::vector<Index> contained = {};  // variables in it, ascending
+  // Its derivatives by unknowns that are not identically 0, each with its variable; found when they are asked for.
+  std::optional<std::vector<std::pair<Index, Expr>>> slopes = {};
   bool is_weighed = false;
   double cost = 0.0;
   Index unknown = -1;  // none
@@ -97,7 +99,6 @@ class EquationReduction {
   // Nothing that could be written comes of it.
   static bool is_too_long(const Expr& function);
   static std::string short_enough(const std::optional<std::string>& text);
-  bool is_zero(const Expr& function) const;
 
   // Where the point and the velocity are on the manifold.
   Expr normal(const Expr& function) { return normal_form_ ? (*normal_form_)(function) : function; }
@@ -129,6 +130,7 @@ class EquationReduction {
                                              const std::vector<Index>& by) const;
 
   OpenEquation opened(const Expr& function) const;
+  const std::vector<std::pair<Index, Expr>>& slopes_of(OpenEquation& equation) const;
   // Chooses the unknown in which an equation is linear, if there is one: constant coefficients first.
   void weigh(OpenEquation& equation) const;
   // Solves the equation with fewest unknowns for one that is linear in it; `by_numbers`: with a number for its
