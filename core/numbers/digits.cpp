@@ -102,6 +102,9 @@ Digits& Digits::operator=(const Digits& other) {
 
 Digits Digits::written(double number) {
   if (!std::isfinite(number) || number == 0.0) return number;
+  // Its decimal says no other number: to read it would take as long as a hundred sums.
+  constexpr double grid = 1024.0, most = 1048576.0;
+  if (std::fabs(number) <= most && number * grid == std::floor(number * grid)) return number;
   const MeantNumber written = meant_number(number);
   return Digits(Pair{number_that_reads<Coarse>(written), number_that_reads<Fine>(written)});
 }
