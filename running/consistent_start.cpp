@@ -16,6 +16,7 @@
 #include "courant/integrators/certificate/chart_equations.hpp"
 #include "courant/integrators/certificate/consistent_point.hpp"
 #include "courant/integrators/certificate/ladder_in_units.hpp"
+#include "courant/integrators/certificate/movements.hpp"
 #include "courant/integrators/certificate/nearest_start.hpp"
 #include "courant/integrators/methods/integrator_in_units.hpp"
 #include "courant/running/given_quantities.hpp"
@@ -191,17 +192,17 @@ bool is_met(const InitialGuess& held, const ConstraintLadder& ladder,
 // The values that are given and are others at the point: coordinates, velocities dx/dt, unknowns, in the numbers of the
 // experiment.
 std::vector<Movement> movements_of_given(const Experiment& experiment, const State& point) {
-  constexpr double round_off = 1e-12;  // of the largest number of a kind
   const InitialValues& initial = experiment.initial;
   const ImplicitSystem::Names& names = experiment.model.system->names();
   std::vector<Movement> moves;
   const auto compare = [&](const PartialVector& given, const VectorXd& found,
                            const std::vector<std::string>& of, const char* mark) {
-    const double size =
-        std::max(given.values.lpNorm<Eigen::Infinity>(), found.lpNorm<Eigen::Infinity>());
-    for (Index i = 0; i < given.values.size(); ++i)
-      if (given.given[i] && std::fabs(found[i] - given.values[i]) > round_off * size)
-        moves.push_back({of[static_cast<std::size_t>(i)] + mark, given.values[i], found[i]});
+    add_movements(
+        given.values, found,
+        [&](Index i) {
+          return given.given[i] ? of[static_cast<std::size_t>(i)] + mark : std::string();
+        },
+        moves);
   };
   if (initial.x.given.any()) compare(initial.x, point.x, names.coordinates, "");
   if (initial.velocity.given.any())

@@ -1,6 +1,8 @@
 // What had to move to be consistent.
 #pragma once
 
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "courant/integrators/certificate/constraint_ladder.hpp"
@@ -13,5 +15,10 @@ namespace courant {
 // Velocities that are not those of coordinates are v[0], v[1], …
 std::vector<Movement> movements(const ImplicitSystem& system, const InitialGuess& guess,
                                 const State& point);
+
+// Of numbers of one kind: those that are others than what was given, by their names; an empty name is left out. What is
+// round-off next to the largest of them is 0.
+void add_movements(const VectorXd& given, const VectorXd& found,
+                   const std::function<std::string(Index)>& name, std::vector<Movement>& moves);
 
 }  // namespace courant

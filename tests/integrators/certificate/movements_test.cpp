@@ -41,6 +41,17 @@ BOOST_AUTO_TEST_CASE(what_moved_is_told_by_name) {
   BOOST_TEST(moves[2].from == 5.0);
 }
 
+// A search leaves round-off of a zero.
+BOOST_AUTO_TEST_CASE(round_off_is_zero) {
+  const InitialGuess guess{.x = VectorXd{{1.0, 0.4}}};
+  const State point{
+      .t = 0.0, .x = VectorXd{{1.0, 6e-19}}, .v = VectorXd{{0.0, 0.0}}, .z = VectorXd{{0.0}}};
+  const std::vector<Movement> moves =
+      movements(*with_two_coordinates_and_one_unknown(), guess, point);
+  BOOST_TEST_REQUIRE(moves.size() == 1u);
+  BOOST_TEST(moves[0].to == 0.0);
+}
+
 BOOST_AUTO_TEST_CASE(what_nobody_knew_has_not_moved) {
   const InitialGuess guess{.x = VectorXd{{1.0, 0.0}}};
   const State point{
