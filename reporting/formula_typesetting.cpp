@@ -130,9 +130,13 @@ struct MathMl {
   static Piece fenced(std::string_view left, const Piece& inner, std::string_view right) {
     return row(element("mo", {}, left) + inner + element("mo", {}, right));
   }
-  // Parentheses that are in two lines.
-  static Piece open() { return element("mo", {{"form", "prefix"}}, "("); }
-  static Piece close() { return element("mo", {{"form", "postfix"}}, ")"); }
+  // Parentheses that are in two lines, both of one size.
+  static Piece open() {
+    return element("mo", {{"form", "prefix"}, {"minsize", "1.7em"}, {"maxsize", "1.7em"}}, "(");
+  }
+  static Piece close() {
+    return element("mo", {{"form", "postfix"}, {"minsize", "1.7em"}, {"maxsize", "1.7em"}}, ")");
+  }
   static Piece comma() { return element("mo", {}, ","); }
   static Piece matrix(const std::vector<std::vector<Piece>>& rows) {
     Piece all;
@@ -164,13 +168,7 @@ struct MathMl {
 struct Latex {
   using Piece = std::string;
 
-  static Piece number(const std::string& text) {
-    const std::size_t e = text.find_first_of("eE");
-    if (e == std::string::npos) return text;
-    std::string exponent = text.substr(e + 1);
-    if (exponent.starts_with('+')) exponent.erase(0, 1);
-    return text.substr(0, e) + "\\cdot 10^{" + exponent + "}";
-  }
+  static Piece number(const std::string& text) { return text; }
   static Piece word(const std::string& text) {
     if (letter(text)) return "\\" + text;
     if (const Letter* found = typed_letter(text)) return "\\" + std::string(found->name);
@@ -236,6 +234,20 @@ struct Latex {
 
 constexpr double kLettersOfLine = 58.0;  // letters
 
+// 2.5e-06 is 2.5 · 10⁻⁶: a factor, "" where that is 1, and the exponent.
+struct PowerOfTen {
+  std::string factor, exponent;
+};
+std::optional<PowerOfTen> power_of_ten(const std::string& number) {
+  const std::size_t e = number.find_first_of("eE");
+  if (e == std::string::npos) return std::nullopt;
+  const std::string_view written = std::string_view(number).substr(e + 1);
+  const std::size_t digits = std::min(written.find_first_not_of("+-0"), written.size() - 1);
+  const std::string factor = number.substr(0, e);
+  return PowerOfTen{factor == "1" ? "" : factor,
+                    (written.starts_with('-') ? "-" : "") + std::string(written.substr(digits))};
+}
+
 bool is_sum(const FormulaTree& tree) {
   return tree.kind == FormulaTree::Kind::operation && (tree.text == "+" || tree.text == "-");
 }
@@ -256,6 +268,9 @@ double extent(const FormulaTree& tree) {
   double all = 0.0;
   switch (tree.kind) {
     case Kind::number:
+      if (const auto power = power_of_ten(tree.text))
+        return static_cast<double>(power->factor.size()) + 3.0 +
+               0.7 * static_cast<double>(power->exponent.size());
       return static_cast<double>(tree.text.size());
     case Kind::name: {
       const NameParts parts = parts_of(tree.text);
@@ -295,7 +310,7 @@ class Typesetter {
   Piece set(const FormulaTree& tree) const {
     switch (tree.kind) {
       case Kind::number:
-        return Out::number(tree.text);
+        return number(tree.text);
       case Kind::name:
         return name(parts_of(tree.text), {});
       case Kind::element:
@@ -384,7 +399,9 @@ class Typesetter {
     std::vector<Part> all = terms(*sum);
     if (before) {
       all.insert(all.begin(),
-                 {inside(*before, kProduct) + Out::times() + Out::open(), extent(*before) + 1});
+                 {inside(*before, kProduct) +
+                      (ends_with_argument(*before) ? Out::sign("*") : Out::times()) + Out::open(),
+                  extent(*before) + 1});
       all.back().piece = all.back().piece + Out::close();
     }
     return all;
@@ -395,6 +412,10 @@ class Typesetter {
 
   static Binding binding(const FormulaTree& tree) {
     if (tree.kind == Kind::sign) return tree.text == "!" ? kPower : kSum;
+    if (tree.kind == Kind::number) {
+      const auto power = power_of_ten(tree.text);
+      return !power ? kAtom : power->factor.empty() ? kPower : kProduct;
+    }
     if (tree.kind == Kind::call && (tree.text == "sum" || tree.text == "prod" || tree.text == "if"))
       return kSum;
     if (tree.kind == Kind::equation) return kWeakest;
@@ -406,6 +427,16 @@ class Typesetter {
 
   Piece inside(const FormulaTree& tree, Binding least) const {
     return binding(tree) < least ? Out::fenced("(", set(tree), ")") : set(tree);
+  }
+
+  static Piece number(const std::string& text) {
+    const auto power = power_of_ten(text);
+    if (!power) return Out::number(text);
+    const bool is_below_one = power->exponent.starts_with('-');
+    const Piece digits = Out::number(power->exponent.substr(is_below_one ? 1 : 0));
+    const Piece all =
+        Out::power(Out::number("10"), is_below_one ? Out::prefix("-") + digits : digits);
+    return power->factor.empty() ? all : Out::number(power->factor) + Out::sign("*") + all;
   }
 
   Piece name(NameParts parts, const std::vector<Piece>& indices) const {
@@ -457,8 +488,7 @@ class Typesetter {
     for (std::size_t i = 0; i < of.size(); ++i)
       arguments = i == 0 ? set(of[i]) : arguments + Out::comma() + set(of[i]);
     // sin x, but sin (x + y).
-    if (of.size() == 1 && binding(of[0]) == kAtom && of[0].kind != Kind::call)
-      return Out::function(function) + Out::space() + arguments;
+    if (has_bare_argument(tree)) return Out::function(function) + Out::space() + arguments;
     return Out::function(function) + Out::fenced("(", arguments, ")");
   }
 
@@ -475,10 +505,11 @@ class Typesetter {
           set(b));
     }
     if (tree.text == "*") {
+      // cos f · v, where cos f v could be read as the cosine of a product.
       const bool has_digit = begins_with_digit(b) && binding(b) >= kProduct;
-      const Piece between = has_digit             ? Out::sign("*")
-                            : begins_with_word(b) ? Out::space()
-                                                  : Out::times();
+      const Piece between = begins_with_word(b)                  ? Out::space()
+                            : has_digit || ends_with_argument(a) ? Out::sign("*")
+                                                                 : Out::times();
       return (a.kind == Kind::sign ? set(a) : inside(a, kProduct)) + between + later(b, kProduct);
     }
     return inside(a, binding(tree)) + Out::sign(tree.text) + last_term(tree);
@@ -514,11 +545,30 @@ class Typesetter {
     return tree;
   }
   // A function whose name is written out.
+  static bool is_word(const FormulaTree& tree) {
+    return tree.kind == Kind::call && tree.text != "sqrt" && tree.text != "abs" &&
+           tree.text != "norm" && tree.text != "pow" && tree.text != "dot";
+  }
   static bool begins_with_word(const FormulaTree& tree) {
     const FormulaTree* first = &tree;
     while (first->kind == Kind::operation && first->text == "*") first = &first->operands[0];
-    return first->kind == Kind::call && first->text != "sqrt" && first->text != "abs" &&
-           first->text != "norm" && first->text != "pow" && first->text != "dot";
+    return is_word(*first);
+  }
+  // sin x, without parentheses.
+  static bool has_bare_argument(const FormulaTree& tree) {
+    return is_word(tree) && tree.operands.size() == 1 && binding(tree.operands[0]) == kAtom &&
+           tree.operands[0].kind != Kind::call;
+  }
+  static bool ends_with_argument(const FormulaTree& tree) {
+    const FormulaTree* last = &tree;
+    while (true) {
+      if (last->kind == Kind::operation && last->text == "*")
+        last = &last->operands[1];
+      else if (last->kind == Kind::sign)
+        last = &last->operands[0];
+      else
+        return has_bare_argument(*last);
+    }
   }
   static bool begins_with_digit(const FormulaTree& tree) {
     const FormulaTree* first = &tree;

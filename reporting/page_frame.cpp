@@ -23,6 +23,7 @@ sub,sup{font-size:.72em;line-height:0}
 .model dd{margin:0;overflow-wrap:anywhere;min-width:0}
 .model .displayed{margin-left:0;padding:.1rem 0 .1rem 1.6rem}
 math{font-size:1.05em}
+.displayed math{margin-block:.14em}
 .displayed{margin:0 0 0 2rem;padding:.32rem 0 .32rem 1.6rem;text-indent:-1.6rem;overflow-x:auto;overflow-y:hidden}
 .brackets td,.brackets th{padding:.22rem 1rem .22rem 0;text-align:center}
 figure{margin:1.2rem 0 2.2rem}

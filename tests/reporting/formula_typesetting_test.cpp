@@ -16,14 +16,32 @@ BOOST_AUTO_TEST_CASE(latex_of_formulas) {
   BOOST_TEST(latex_math("theta1'") == "\\dot{\\theta}_{1}");
   BOOST_TEST(latex_math("sum(i, 0, n-1, x[i]^2)") == "\\sum_{i=0}^{n - 1} {x_{i}}^{2}");
   BOOST_TEST(latex_math("tension*x") == "\\mathrm{tension}\\,x");
-  BOOST_TEST(latex_math("1.5e-3*x") == "1.5\\cdot 10^{-3}\\,x");
-  BOOST_TEST(latex_math("x*sin(a)*(y - 1)") == "x \\sin a\\,\\left( y - 1\\right)");
+  BOOST_TEST(latex_math("1.5e-3*x") == "1.5 \\cdot {10}^{-3}\\,x");
+  BOOST_TEST(latex_math("x*sin(a)*(y - 1)") == "x \\sin a \\cdot \\left( y - 1\\right)");
+  BOOST_TEST(latex_math("sin(a)*cos(f)*v") == "\\sin a \\cos f \\cdot v");
+  BOOST_TEST(latex_math("sin(a + f)*v") == "\\sin\\left( a + f\\right)\\,v");
+  BOOST_TEST(latex_math("sin(a)*2*f") == "\\sin a \\cdot 2\\,f");
   BOOST_TEST(latex_math("-2*phi/9") == "-\\frac{2\\,\\phi}{9}");
   BOOST_TEST(latex_math("-(a + b)/c") == "-\\frac{a + b}{c}");
   BOOST_TEST(latex_math("(-a + b)/c") == "\\frac{-a + b}{c}");
   BOOST_TEST(latex_math("δp_x = ε*y") == "\\delta p_{x} = \\varepsilon\\,y");
   BOOST_TEST(latex_math("if(x < 0, -x, x)") ==
              "\\begin{cases}-x & \\text{if } x < 0 \\\\ x & \\text{otherwise}\\end{cases}");
+}
+
+// 1e-06 is a power of ten, not what a computer writes.
+BOOST_AUTO_TEST_CASE(powers_of_ten) {
+  BOOST_TEST(latex_math("1e-06") == "{10}^{-6}");
+  BOOST_TEST(latex_math("2.5E+07*k") == "2.5 \\cdot {10}^{7}\\,k");
+  BOOST_TEST(latex_math("k*1e3") == "k \\cdot {10}^{3}");
+  BOOST_TEST(latex_math("(2e-3)^2") == "{\\left( 2 \\cdot {10}^{-3}\\right)}^{2}");
+  BOOST_TEST(latex_math("1e-00") == "{10}^{-0}");
+  const std::string number = math("C = 2.5e-06").str();
+  BOOST_TEST(
+      number.find(
+          "<mn>2.5</mn><mo>·</mo><msup><mrow><mn>10</mn></mrow><mrow><mo>−</mo><mn>6</mn>") !=
+          std::string::npos,
+      number);
 }
 
 // Arrays of JSON, as parameters have them.
