@@ -89,11 +89,18 @@ Json with_brackets(Json ladder, const std::optional<ConstraintBrackets>& bracket
   if (!brackets || !brackets->missing.empty()) return ladder;
   Json& json = ladder["brackets"];
   json = {{"constraints", brackets->constraints},
-          {"matrix", brackets->matrix},
+          {"matrix", Json::array()},
           {"first_class", brackets->is_first_class},
           {"hamiltonian", brackets->hamiltonian},
           {"generators", Json::array()},
           {"dirac", Json::array()}};
+  for (const auto& row : brackets->matrix) {
+    Json& texts = json["matrix"].emplace_back(Json::array());
+    for (const ConstraintBrackets::Entry& entry : row) {
+      if (entry.is_at_point) json["at_point"].push_back({json["matrix"].size() - 1, texts.size()});
+      texts.push_back(entry.text);
+    }
+  }
   for (const auto& [constraint, moves] : brackets->generators) {
     json["generators"].push_back({{"constraint", constraint}, {"moves", Json::object()}});
     for (const auto& [coordinate, formula] : moves)

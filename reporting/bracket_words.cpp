@@ -25,16 +25,20 @@ Prose bracket(const std::string& a, const std::string& b, const std::string& val
   return "    {" + Prose::formula(a) + ", " + Prose::formula(b) + "} = " + Prose::formula(value);
 }
 
+constexpr const char* kAtThePoint = " here";
+
+bool has_numbers(const ConstraintBrackets& found) {
+  return std::ranges::any_of(found.matrix, [](const auto& row) {
+    return std::ranges::any_of(row, &ConstraintBrackets::Entry::is_at_point);
+  });
+}
+
 void tell(const Prose& head, const std::vector<Prose>& list, std::vector<Prose>& lines) {
   if (list.empty()) return;
   lines.push_back(head);
   for (std::size_t i = 0; i < shown_of(list.size()); ++i) lines.push_back(list[i]);
   tell_rest(list.size(), lines);
 }
-
-constexpr const char* kNumbersOfBrackets =
-    "Brackets whose formulas are longer than five lines are numbers here: their values at the "
-    "point.";
 
 std::string phi(std::size_t a) { return "phi_" + std::to_string(a + 1); }
 
@@ -47,16 +51,25 @@ std::vector<Prose> brackets_in_words(const ConstraintBrackets& found) {
   std::vector<Prose> brackets;
   for (std::size_t a = 0; a < found.matrix.size(); ++a)
     for (std::size_t b = a + 1; b < found.matrix.size(); ++b)
-      if (found.matrix[a][b] != "0")
-        brackets.push_back(bracket(phi(a), phi(b), found.matrix[a][b]));
+      if (const auto& entry = found.matrix[a][b]; !entry.is_zero())
+        brackets.push_back(bracket(phi(a), phi(b), entry.text) +
+                           (entry.is_at_point ? kAtThePoint : ""));
   if (brackets.empty()) return lines;
   std::vector<Prose> names;
   for (std::size_t a = 0; a < found.constraints.size(); ++a)
     names.push_back("    " + Prose::formula(phi(a) + " = " + found.constraints[a]));
-  tell("Brackets of the constraints", names, lines);
-  tell("that are not 0 on M_f:", brackets, lines);
-  if (found.has_numbers) lines.emplace_back(kNumbersOfBrackets);
+  tell("The constraints are", names, lines);
+  tell("Their brackets that are not 0 on M_f:", brackets, lines);
+  if (const std::string note = note_on_numbers(found); !note.empty()) lines.emplace_back(note);
   return lines;
+}
+
+std::string note_on_numbers(const ConstraintBrackets& found) {
+  if (!has_numbers(found)) return "";
+  return std::string("Numbers with \u201c") + (kAtThePoint + 1) +
+         "\u201d are values at the point of brackets whose formulas are longer than five lines, "
+         "and "
+         "that are not 0 around it.";
 }
 
 std::vector<Prose> dynamics_in_words(const ConstraintBrackets& found) {

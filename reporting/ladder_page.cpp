@@ -8,6 +8,7 @@
 
 #include "courant/core/words/message.hpp"
 #include "courant/core/words/text_layout.hpp"
+#include "courant/reporting/bracket_words.hpp"
 #include "courant/reporting/branch_words.hpp"
 #include "courant/reporting/formula_typesetting.hpp"
 #include "courant/reporting/ladder_diagram.hpp"
@@ -82,7 +83,7 @@ bool has_matrix(const LadderPage& page) {
   std::size_t width = 0;
   for (std::size_t b = 0; b < matrix.size(); ++b) {
     std::size_t widest = 0;
-    for (const auto& row : matrix) widest = std::max(widest, row[b].size());
+    for (const auto& row : matrix) widest = std::max(widest, row[b].text.size());
     width += widest;
   }
   return width <= letters;
@@ -124,7 +125,8 @@ Markup matrix(const ConstraintBrackets& brackets) {
     const std::string name = "phi_" + std::to_string(a + 1);
     head += element("th", {{"scope", "col"}}, math(name));
     Markup cells = element("th", {{"scope", "row"}}, math(name));
-    for (const std::string& entry : brackets.matrix[a]) cells += element("td", {}, math(entry));
+    for (const ConstraintBrackets::Entry& entry : brackets.matrix[a])
+      cells += element("td", {}, math(entry.text) + (entry.is_at_point ? " here" : ""));
     cells += element("td", {}, brackets.is_first_class[a] ? "first class" : "");
     rows += element("tr", {}, cells);
   }
@@ -201,6 +203,10 @@ std::string latex_diagram(const LadderReport& ladder) {
          "\n\\end{array} \\]\n";
 }
 
+std::string latex_entry(const ConstraintBrackets::Entry& entry) {
+  return latex_math(entry.text) + (entry.is_at_point ? "\\text{ here}" : "");
+}
+
 std::string latex_matrix(const ConstraintBrackets& brackets) {
   std::string all;
   for (std::size_t a = 0; a < brackets.constraints.size(); ++a)
@@ -209,7 +215,7 @@ std::string latex_matrix(const ConstraintBrackets& brackets) {
            " \\]\n";
   all += "\\[ \\bigl(\\{\\phi_a, \\phi_b\\}\\bigr) = \\begin{pmatrix}\n";
   for (const auto& row : brackets.matrix) {
-    for (std::size_t b = 0; b < row.size(); ++b) all += (b == 0 ? "" : " & ") + latex_math(row[b]);
+    for (std::size_t b = 0; b < row.size(); ++b) all += (b == 0 ? "" : " & ") + latex_entry(row[b]);
     all += " \\\\\n";
   }
   return all + "\\end{pmatrix} \\]\n";
@@ -244,7 +250,8 @@ std::string markdown_matrix(const ConstraintBrackets& brackets) {
   text += "\n";
   for (std::size_t a = 0; a < brackets.matrix.size(); ++a) {
     text += "| $\\phi_" + std::to_string(a + 1) + "$ |";
-    for (const std::string& entry : brackets.matrix[a]) text += " $" + latex_math(entry) + "$ |";
+    for (const ConstraintBrackets::Entry& entry : brackets.matrix[a])
+      text += " $" + latex_entry(entry) + "$ |";
     text += "\n";
   }
   text += "\n";
@@ -280,10 +287,13 @@ LadderPage ladder_page(const Experiment& experiment, const LadderReport& ladder,
   page.sections.push_back(section("Branches", branches_in_words(branch_reports(experiment))));
   page.sections.push_back(section("Level by level", words.levels));
   page.sections.push_back(section("Freedom and classes", words.freedom));
-  page.sections.push_back(section(kBrackets, !has_matrix(page) ? words.brackets
-                                             : page.brackets->has_numbers
-                                                 ? std::vector{words.brackets.back()}
-                                                 : std::vector<Prose>()));
+  std::vector<Prose> of_brackets = words.brackets;
+  if (has_matrix(page)) {
+    of_brackets.clear();
+    if (const std::string note = note_on_numbers(*page.brackets); !note.empty())
+      of_brackets.emplace_back(note);
+  }
+  page.sections.push_back(section(kBrackets, of_brackets));
   page.sections.push_back(section("Hamiltonian dynamics", words.dynamics));
   page.sections.push_back(section("Unknowns", words.unknowns));
   std::vector<Prose> certainty = words.certainty;

@@ -128,11 +128,10 @@ class Brackets {
       result.matrix.emplace_back();
       for (Index b = 0; b < count; ++b) {
         const Expr bracket = on_M_f(bracket_of(at(a), at(b)));
-        auto text = written(bracket);
+        const auto text = written(bracket);
         if (text != "0") C(a, b) = bracket;
-        result.has_numbers = result.has_numbers || !text;
-        if (!text) text = number_text(value(bracket), 6);
-        result.matrix.back().push_back(*text);
+        result.matrix.back().push_back(
+            {text.value_or(number_text(value(bracket), 6)), !text.has_value()});
       }
       result.is_first_class.push_back(vanishes(C.row(a)));
     }

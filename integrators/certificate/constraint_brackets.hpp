@@ -18,12 +18,16 @@ struct ConstraintBrackets {
   // Why there are no formulas, in words; "" where there are.
   std::string missing = {};
 
-  // φ_a, in the order of ConstraintFormulas but as functions, not as equations, which may be divided; {φ_a, φ_b} as
-  // rows.
+  // φ_a, in the order of ConstraintFormulas but as functions, not as equations, which may be divided.
   std::vector<std::string> constraints = {};
-  std::vector<std::vector<std::string>> matrix = {};
-  // Whether it has numbers, those at the point, in the place of formulas that are longer than five lines.
-  bool has_numbers = false;
+  // {φ_a, φ_b}: "0" where that is 0 on M_f around the point; the number at the point where the formula is longer than
+  // five lines, which may be 0 at the point alone.
+  struct Entry {
+    std::string text;
+    bool is_at_point = false;
+    bool is_zero() const { return !is_at_point && text == "0"; }
+  };
+  std::vector<std::vector<Entry>> matrix = {};  // as rows
   // Whether φ_a is first class as it stands: {φ_a, φ_b} = 0 on M_f for all b.
   std::vector<bool> is_first_class = {};
 

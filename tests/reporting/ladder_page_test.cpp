@@ -4,6 +4,7 @@
 #include <string>
 
 #include "courant/integrators/certificate/constraint_brackets.hpp"
+#include "courant/reporting/bracket_words.hpp"
 #include "courant/running/consistent_start.hpp"
 
 BOOST_AUTO_TEST_SUITE(ladder_page_test)
@@ -96,6 +97,21 @@ BOOST_AUTO_TEST_CASE(inconsistent_systems_have_pages) {
   BOOST_TEST(has(to_latex(page), "Inconsistent"), to_latex(page));
   BOOST_TEST(has(to_latex(page), "\\emptyset"), to_latex(page));
   BOOST_TEST(!has(to_html(page), "<table class=\"brackets\">"));
+}
+
+// {φ_1, φ_2} is too long for a formula and 0 at the point alone: it stands there as a number of the point. Of the other
+// entries, those on the diagonal, nothing is said.
+BOOST_AUTO_TEST_CASE(brackets_that_are_numbers_say_so) {
+  ConstraintBrackets brackets;
+  brackets.constraints = {"x", "y"};
+  brackets.matrix = {{{"0"}, {"0", true}}, {{"0", true}, {"0"}}};
+  brackets.is_first_class = {false, false};
+  const std::vector<Prose> words = brackets_in_words(brackets);
+  BOOST_TEST_REQUIRE(words.size() == 6u);
+  BOOST_TEST(words[4].str() == "    {phi_1, phi_2} = 0 here");
+  BOOST_TEST(has(words[5].str(), "values at the point"));
+  brackets.matrix[0][1] = brackets.matrix[1][0] = {"0"};
+  BOOST_TEST(brackets_in_words(brackets).empty());
 }
 
 // Equations that contradict each other are set, as equations.
