@@ -3,7 +3,8 @@ import {modify, parseTree} from 'jsonc-parser';
 import {element, mathematics} from './dom.js';
 
 const format = {formattingOptions: {insertSpaces: true, tabSize: 2, keepLines: true}};
-const mostSliders = 24;
+// So many at once: a page of thousands of sliders takes a browser seconds.
+const slidersAtOnce = 24;
 
 // Twelve digits: what is beyond is round-off of the certificate.
 export function typed(value) { return Number(value.toPrecision(12)); }
@@ -46,7 +47,7 @@ export function withCompactValue(text, path, value) {
 export function numbersOf(text) {
   const tree = parseTree(text), found = [];
   const visit = (node, path) => {
-    if (!node || found.length >= mostSliders) return;
+    if (!node) return;
     if (node.type === 'number' && path.length > 1) found.push({path, value: node.value});
     if (node.type === 'array') node.children.forEach((one, i) => visit(one, [...path, i]));
     if (node.type === 'object')
@@ -76,17 +77,22 @@ export class Values {
     this.rows = new Map();
     this.latest = null;
     this.moving = false;
+    this.most = slidersAtOnce;
   }
 
   // Shows the values of an experiment whose ladder is known.
   show(text, answer) {
     if (this.moving) return;
     const point = answer.ladder.consistent_point || {};
-    const names = Object.keys(point).slice(0, mostSliders);
+    const values = Object.keys(point), title = values.slice(0, slidersAtOnce).join();
+    if (title !== this.title) this.most = slidersAtOnce;
+    this.title = title;
+    this.last = {text, answer};
+    const names = values.slice(0, this.most);
     let document_;
     try { document_ = JSON.parse(text); } catch { return; }
     this.pinned = new Set((document_.hold || []).filter((name) => typeof name === 'string'));
-    const numbers = numbersOf(text);
+    const allNumbers = numbersOf(text), numbers = allNumbers.slice(0, this.most);
     const signature = JSON.stringify([names, numbers.map(({path}) => path)]);
     if (signature !== this.signature) this.build(names, numbers, text);
     this.signature = signature;
@@ -97,16 +103,25 @@ export class Values {
       pin.setAttribute('aria-pressed', String(this.isPinned(name)));
     }
     if (answer.ladder.verdict === 'inconsistent') this.parent.classList.add('none'); else this.parent.classList.remove('none');
-    if (names.length < Object.keys(point).length)
-      this.rest.textContent = 'The first ' + names.length + ' of ' + Object.keys(point).length + ' values; the others are in the text.';
-    else this.rest.textContent = '';
+    this.tellRest(this.restOfNames, names.length, values.length);
+    this.tellRest(this.restOfNumbers, numbers.length, allNumbers.length);
   }
 
   isPinned(name) { return this.pinned.has(name) || this.pinned.has(name.replace(/\[.*/, '')); }
 
+  tellRest(line, shown, count) {
+    line.replaceChildren();
+    if (shown >= count) return;
+    line.append('The first ' + shown + ' of ' + count + '. ', element('button', {type: 'button', class: 'more', onclick: () => {
+      this.most += slidersAtOnce;
+      this.show(this.last.text, this.last.answer);
+    }}, Math.min(slidersAtOnce, count - shown) + ' more'));
+  }
+
   build(names, numbers, text) {
     this.rows.clear();
-    this.rest = element('p', {class: 'hint'});
+    this.restOfNames = element('p', {class: 'hint'});
+    this.restOfNumbers = element('p', {class: 'hint'});
     const groups = [];
     // Where there is little room long lists are folded.
     const wide = matchMedia('(min-width: 62rem)').matches;
@@ -114,10 +129,10 @@ export class Values {
     if (names.length > 0)
       groups.push(group('Start', names.length,
         element('p', {class: 'hint'}, 'A slider moves its value; the others follow to the nearest point of ', element('i', {}, 'M'), element('sub', {}, element('i', {}, 'f')), '. A held value does not move.'),
-        ...names.map((name) => this.row('start ' + name, name, (value) => this.moveStart(name, value), () => this.pin(name))), this.rest));
+        ...names.map((name) => this.row('start ' + name, name, (value) => this.moveStart(name, value), () => this.pin(name))), this.restOfNames));
     if (numbers.length > 0)
       groups.push(group('Parameters', numbers.length,
-        ...numbers.map(({path}) => this.row('number ' + path.join('/'), nameOf(path, text), (value) => this.moveNumber(path, value)))));
+        ...numbers.map(({path}) => this.row('number ' + path.join('/'), nameOf(path, text), (value) => this.moveNumber(path, value))), this.restOfNumbers));
     this.parent.replaceChildren(...groups);
   }
 
