@@ -67,9 +67,6 @@ LadderPage::Section section(std::string title, const std::vector<Prose>& lines) 
   return made;
 }
 
-// What is longer is folded, or cut where nothing folds.
-constexpr std::size_t kMostLines = 12;
-
 // The section that has the matrix, where it is small.
 constexpr const char* kBrackets = "Brackets of the constraints";
 
@@ -101,21 +98,6 @@ Markup paragraphs(const std::vector<LadderPage::Paragraph>& list) {
   for (const LadderPage::Paragraph& one : list)
     all += one.is_displayed ? displayed_prose(one.text) : element("p", {}, typeset_prose(one.text));
   return all;
-}
-
-Markup model(const std::vector<LadderPage::Section>& entries) {
-  Markup all;
-  for (const LadderPage::Section& entry : entries) {
-    Markup lines;
-    for (const LadderPage::Paragraph& line : entry.paragraphs) lines += displayed_prose(line.text);
-    all += element("dt", {}, entry.title) + element("dd", {}, lines);
-  }
-  const Markup list = element("dl", {{"class", "model"}}, all);
-  std::size_t count = 0;
-  for (const LadderPage::Section& entry : entries) count += entry.paragraphs.size();
-  if (count <= kMostLines) return list;
-  return element("details", {},
-                 element("summary", {}, counted(static_cast<Index>(count), "formula")) + list);
 }
 
 Markup matrix(const ConstraintBrackets& brackets) {
@@ -273,13 +255,7 @@ LadderPage ladder_page(const Experiment& experiment, const LadderReport& ladder,
   page.system = capitalized(experiment.model.description);
   page.ladder = ladder;
   page.brackets = brackets;
-  for (const ModelEntry& entry : model_entries(experiment.document)) {
-    if (entry.formulas.empty()) continue;
-    LadderPage::Section lines{entry.name, {}};
-    for (const std::string& formula : entry.formulas)
-      lines.paragraphs.push_back({model_line(entry.name, formula)});
-    page.model.push_back(std::move(lines));
-  }
+  page.model = model_entries(experiment.document);
   std::vector<Prose> verdict = {verdict_in_words(ladder)};
   if (!ladder.reason.empty()) verdict.push_back(reason_in_words(ladder));
   page.sections.push_back(section("Verdict", verdict));
@@ -329,7 +305,7 @@ Markup ladder_in_words(const LadderReport& ladder,
 
 Markup to_markup(const LadderPage& page) {
   Markup body = element("p", {{"class", "lead"}}, typeset_manifolds(page.system));
-  body += model(page.model);
+  body += model_markup(page.model);
   for (const LadderPage::Section& one : page.sections) {
     Markup content = paragraphs(one.paragraphs);
     if (one.title == "Verdict")
@@ -375,10 +351,13 @@ std::string to_latex(const LadderPage& page) {
       "{" +
       latex_sentence(page.title) + "}\n" + latex_sentence(manifolds_in_unicode(page.system)) +
       "\n\n";
-  for (const LadderPage::Section& entry : page.model) {
-    text += latex_sentence(entry.title) + ":\n" + "\\begin{quote}\\raggedright\n";
-    for (const LadderPage::Paragraph& line : entry.paragraphs)
-      text += latex_prose(line.text) + "\\\\\n";
+  for (const ModelEntry& entry : page.model) {
+    text += latex_sentence(entry.name) + ":\n" + "\\begin{quote}\\raggedright\n";
+    for (const Prose& line : entry.lines) {
+      const bool is_long = is_formula(line) && is_long_formula(line.parts()[0].text);
+      text += is_long ? "$\\displaystyle " + latex_displayed(line.parts()[0].text) + "$\\\\\n"
+                      : latex_prose(line) + "\\\\\n";
+    }
     text += "\\end{quote}\n";
   }
   for (const LadderPage::Section& one : page.sections) {
@@ -399,10 +378,9 @@ std::string sections_in_markdown(const LadderPage& page) {
 std::string to_markdown(const LadderPage& page) {
   std::string text = "# " + markdown_text(page.title) + "\n\n" +
                      markdown_text(manifolds_in_unicode(page.system)) + "\n\n";
-  for (const LadderPage::Section& entry : page.model) {
-    text += markdown_text(entry.title) + ":\n\n";
-    for (const LadderPage::Paragraph& line : entry.paragraphs)
-      text += "* " + markdown_prose(line.text) + "\n";
+  for (const ModelEntry& entry : page.model) {
+    text += markdown_text(entry.name) + ":\n\n";
+    for (const Prose& line : entry.lines) text += "* " + markdown_prose(line) + "\n";
     text += "\n";
   }
   for (const LadderPage::Section& one : page.sections) {

@@ -9,6 +9,7 @@
 #include "courant/plotting/svg.hpp"
 #include "courant/reading/experiment.hpp"
 #include "courant/reporting/prose.hpp"
+#include "courant/reporting/report_head.hpp"
 #include "courant/running/ladder_report.hpp"
 
 namespace courant {
@@ -27,8 +28,8 @@ struct LadderPage {
   };
 
   std::string title;
-  std::string system;          // in words, with names of manifolds as the library writes them
-  std::vector<Section> model;  // the formulas of the system, a section each key
+  std::string system;             // in words, with names of manifolds as the library writes them
+  std::vector<ModelEntry> model;  // the formulas of the system
   LadderReport ladder;
   std::optional<ConstraintBrackets> brackets;
   std::vector<Section> sections;

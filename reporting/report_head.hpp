@@ -12,20 +12,20 @@
 
 namespace courant {
 
-// A key of an experiment's system, and its formulas as they are written.
+// A key of an experiment's system, and what it says in words and formulas.
 struct ModelEntry {
   std::string name;
-  std::vector<std::string> formulas;
+  std::vector<Prose> lines;
 };
 // Formulas of the system, then numbers and parameters: those of ready-made systems are members of
-// it. An entry without formulas in the end where something was left out.
+// it. Left out are formulas of more than 1,000 letters and what has more than forty lines; an entry in the end says
+// so.
 std::vector<ModelEntry> model_entries(const nlohmann::ordered_json& experiment);
-// A line of an entry: words, or a formula, with = 0 where it is an equation, or L = in front.
-Prose model_line(const std::string& key, const std::string& text);
+// These as a list of terms, folded where it is longer than twelve lines.
+plot::Markup model_markup(const std::vector<ModelEntry>& entries);
 
 // The systems and how many runs; their status; the equations and parameters of the experiment, where
-// all runs have the same, set as mathematics. Formulas of more than 300 characters, and what
-// comes after twelve of them, are left to the experiment at the end of the page.
+// all runs have the same, set as mathematics.
 plot::Markup report_head(std::span<const Run> runs);
 
 }  // namespace courant
